@@ -1,10 +1,12 @@
 //! Tables of results to be compared: two results a row, or one result a laboratory.
 
 use std::borrow::Cow;
+use std::cell::RefCell;
 use std::path::Path;
 
 use super::diagnostics::{Collector, Diagnostics};
 use super::open::{json_as_table, open_as};
+use super::separator::DecimalMarks;
 use super::source::{Place, SourceText};
 use super::text_table::TextTable;
 use super::{DiagnosticKind, answer, bytes, table, workbook};
@@ -73,7 +75,8 @@ pub fn read_comparison_text(
         return log.finish(None);
     }
     let table = TextTable::parse(&log, &source).and_then(|cells| {
-        let reader = Reader { log: &log, cells: &cells, options };
+        let marks = RefCell::new(cells.marks());
+        let reader = Reader { log: &log, cells: &cells, marks, options };
         if cells.column("x1").is_some() { reader.pairs() } else { reader.laboratories() }
     });
     log.finish(table)
@@ -92,6 +95,7 @@ fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, String> {
 struct Reader<'a> {
     log: &'a Collector,
     cells: &'a TextTable,
+    marks: RefCell<DecimalMarks>,
     options: ComparisonOptions<'a>,
 }
 
@@ -283,7 +287,16 @@ impl Reader<'_> {
     /// The number in a cell: `None` where there is no such column, `Some(None)` after a mistake.
     fn number(&self, row: usize, column: &str) -> Option<Option<f64>> {
         self.cells.column(column)?;
-        let text = self.cells.number(row, column);
+        let text = match self.marks.borrow_mut().with_point(self.cells.text(row, column)) {
+            Ok(text) => text,
+            Err(reason) => {
+                if self.log.is_clean() {
+                    let place = self.place(row, column);
+                    self.log.report_at(place, DiagnosticKind::Table { reason });
+                }
+                return Some(None);
+            }
+        };
         let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
         if value.is_none() {
             let (column, found) = (column.to_owned(), self.cells.text(row, column).to_owned());
@@ -310,7 +323,8 @@ impl Reader<'_> {
             self.log.report_at(self.place(row, k), diagnostic);
             return None;
         }
-        let rounding = [x, u].map(|column| half_unit(&self.cells.number(row, column)));
+        let rounding =
+            [x, u].map(|column| half_unit(&self.cells.text(row, column).replace(',', ".")));
         Some(StatedResult { value, expanded, factor, rounding })
     }
 

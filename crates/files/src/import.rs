@@ -12,10 +12,12 @@ mod suncal;
 mod yaml;
 
 use crate::open::{FileKind, are_results};
+use std::cell::RefCell;
 use std::path::Path;
 
 use super::diagnostics::{Collector, Diagnostics};
 use super::reader::read_text;
+use super::separator::DecimalMarks;
 use super::source::SourceText;
 use super::{DiagnosticKind, bytes};
 use columns::{Column, Header, HeaderCoverage};
@@ -89,7 +91,9 @@ pub fn import_budget_bytes(path: &Path, content: Vec<u8>) -> Result<ImportedBudg
     };
     let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let log = Collector::new(source(&text));
-    let mut budget = Budget { cells: &cells, log: &log, understood: vec![], guessed: vec![] };
+    let marks = RefCell::new(cells.marks());
+    let mut budget =
+        Budget { cells: &cells, marks, log: &log, understood: vec![], guessed: vec![] };
     let made = budget.model(&title.unwrap_or_default());
     let (understood, guessed) = (budget.understood, budget.guessed);
     log.finish(made.map(|text| ImportedBudget { text, understood, guessed }))
@@ -115,6 +119,7 @@ struct Row {
 
 struct Budget<'a> {
     cells: &'a grid::Cells,
+    marks: RefCell<DecimalMarks>,
     log: &'a Collector,
     understood: Vec<String>,
     guessed: Vec<String>,
@@ -408,6 +413,12 @@ impl Budget<'_> {
         let read = grid::number(text, self.cells.decimal_comma());
         if read.is_none() && !lenient {
             let reason = format!("`{text}` in the column of the {} is no number", column.name());
+            self.fail(line, reason);
+        }
+        if read.is_some()
+            && let Err(reason) = self.marks.borrow_mut().with_point(text)
+            && self.log.is_clean()
+        {
             self.fail(line, reason);
         }
         read
@@ -915,6 +926,7 @@ mod tests {
             ("", "no budget is found"),
             ("quantity,estimate,+-\n", "no row below"),
             ("quantity,estimate,+-\nx,one,2\n", "no number"),
+            ("quantity;estimate;+-\nx;1.234;0,5\n", "with the same decimal mark"),
             ("quantity,estimate,+-,divisor\nx,1,2,zero\n", "divisor"),
         ] {
             let error = import("x.csv", content.as_bytes()).unwrap_err().to_string();

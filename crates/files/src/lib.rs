@@ -59,6 +59,7 @@ mod results;
 mod samples;
 pub mod schema;
 mod scopes;
+mod separator;
 mod settings;
 mod shapes;
 mod shared_run;

@@ -274,6 +274,11 @@ impl<'a> Fields<'a> {
             }
             "beta" => {
                 let (alpha, beta) = (self.number("alpha"), self.number("beta"));
+                if self.unit.has_name() {
+                    // 0 and 1 in mm, or 0 and 1 m
+                    self.object.required("lower");
+                    self.object.required("upper")?;
+                }
                 let (lower, upper) = (self.limit_or("lower", 0.0), self.limit_or("upper", 1.0));
                 self.moved(Beta::between(alpha?, beta?, lower?, upper?))
             }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::diagnostics::Collector;
 use super::folder::Folder;
+use super::separator::{DecimalMarks, Separator, is_skipped};
 use super::source::{Place, SourceText};
 use super::{DiagnosticKind, bytes};
 
@@ -23,14 +24,14 @@ pub(super) struct Table {
     pub(super) rows: Vec<Vec<f64>>,
     /// Where each row stands in the text.
     lines: Vec<Range<usize>>,
-    semicolon: bool,
+    separator: Separator,
 }
 
 impl Table {
     /// The place of a cell.
     pub(super) fn place(&self, row: usize, column: usize) -> Place {
         let span = self.lines.get(row).cloned().unwrap_or(0..0);
-        place_of_cell(&Place { source: self.source.clone(), span }, column, self.semicolon)
+        place_of_cell(&Place { source: self.source.clone(), span }, column, self.separator)
     }
 }
 
@@ -68,8 +69,8 @@ pub(super) fn read(
     None
 }
 
-/// Reads a table: a header row of names, `,` or `;` (then with decimal commas), lines that begin
-/// with `#` skipped. All faulty cells are returned.
+/// Reads a table: a header row of names, cells between `,`, `;` or tabs (of the last two perhaps with
+/// decimal commas), lines that begin with `#` skipped. All faulty cells are returned.
 fn read_bytes(bytes: Vec<u8>, name: &str) -> Result<(Table, Vec<u8>), PlacedKinds> {
     let unreadable = |message: String| {
         let place = Place { source: SourceText::new(name, ""), span: 0..0 };
@@ -91,14 +92,14 @@ fn read_bytes(bytes: Vec<u8>, name: &str) -> Result<(Table, Vec<u8>), PlacedKind
 
 /// Whether some cell below the first line is a number; of an empty file nothing is to be hidden.
 fn has_numbers(text: &str) -> bool {
-    let mut lines = text.lines().filter(|line| !is_skipped(Some(line)));
+    let mut lines = text.lines().filter(|line| !is_skipped(line));
     let number = |cell: &str| {
         let cell = cell.trim().trim_matches('"');
         cell.parse::<f64>().is_ok() || cell.replace(',', ".").parse::<f64>().is_ok()
     };
     match lines.next() {
         None => true,
-        Some(_) => lines.any(|line| line.split([',', ';']).any(number)),
+        Some(_) => lines.any(|line| line.split([',', ';', '\t']).any(number)),
     }
 }
 
@@ -115,7 +116,8 @@ pub(super) fn parse(source: &Arc<SourceText>) -> Result<Table, PlacedKinds> {
     let mut text = String::with_capacity(source.text.len() + 1);
     let mut header = None;
     for (number, line) in source.text.lines().enumerate() {
-        let line = if line.trim_start().starts_with('#') { "" } else { line.trim_end() };
+        // empty last cells of a line of tabs are cells
+        let line = if is_skipped(line) { "" } else { line.trim_end_matches(['\r', ' ']) };
         if header.is_none() && !line.is_empty() {
             header = Some((number + 1, line));
         }
@@ -126,9 +128,10 @@ pub(super) fn parse(source: &Arc<SourceText>) -> Result<Table, PlacedKinds> {
         let reason = "the table is empty; a header row of names and rows of numbers are needed";
         return Err(vec![(at_line(1), DiagnosticKind::Table { reason: reason.to_owned() })]);
     };
-    let semicolon = header.contains(';');
+    let separator = Separator::of_header(header);
+    let mut marks = DecimalMarks::of(separator);
     let mut reader = csv::ReaderBuilder::new()
-        .delimiter(if semicolon { b';' } else { b',' })
+        .delimiter(separator.byte())
         .trim(csv::Trim::All)
         .flexible(true)
         .from_reader(text.as_bytes());
@@ -181,7 +184,9 @@ pub(super) fn parse(source: &Arc<SourceText>) -> Result<Table, PlacedKinds> {
         let mut line = record.position().map_or(number + 2, |p| p.line() as usize);
         let mut place = at_line(line);
         // the reader stood before the comments and empty lines that it skipped
-        while line < starts.len() && is_skipped(source.text.get(place.span.clone())) {
+        while line < starts.len()
+            && is_skipped(source.text.get(place.span.clone()).unwrap_or_default())
+        {
             line += 1;
             place = at_line(line);
         }
@@ -196,15 +201,22 @@ pub(super) fn parse(source: &Arc<SourceText>) -> Result<Table, PlacedKinds> {
         }
         let mut row = Vec::with_capacity(columns.len());
         for (number_of_cell, (cell, column)) in record.iter().zip(&columns).enumerate() {
-            let value = if semicolon { cell.replace(',', ".") } else { cell.to_owned() };
-            match value.parse::<f64>() {
-                Ok(value) if value.is_finite() => row.push(value),
-                _ => {
-                    let (column, found) = (column.clone(), cell.to_owned());
-                    let diagnostic = DiagnosticKind::Cell { row: number + 1, column, found };
-                    kinds.push((place_of_cell(&place, number_of_cell, semicolon), diagnostic));
+            let diagnostic = match marks.with_point(cell).map(|text| text.parse::<f64>()) {
+                Ok(Ok(value)) if value.is_finite() => {
+                    row.push(value);
+                    continue;
                 }
-            }
+                Ok(_) => {
+                    let (column, found) = (column.clone(), cell.to_owned());
+                    DiagnosticKind::Cell { row: number + 1, column, found }
+                }
+                // what every number after it would be told as well
+                Err(reason) => {
+                    let place = place_of_cell(&place, number_of_cell, separator);
+                    return Err(vec![(place, DiagnosticKind::Table { reason })]);
+                }
+            };
+            kinds.push((place_of_cell(&place, number_of_cell, separator), diagnostic));
         }
         rows.push(row);
         lines.push(place.span);
@@ -214,23 +226,17 @@ pub(super) fn parse(source: &Arc<SourceText>) -> Result<Table, PlacedKinds> {
         kinds.push((at_line(header_line), DiagnosticKind::Table { reason }));
     }
     if kinds.is_empty() {
-        Ok(Table { source: source.clone(), columns, rows, lines, semicolon })
+        Ok(Table { source: source.clone(), columns, rows, lines, separator })
     } else {
         Err(kinds)
     }
 }
 
-/// Whether a line is no record: empty, or a comment.
-fn is_skipped(line: Option<&str>) -> bool {
-    let line = line.unwrap_or("").trim();
-    line.is_empty() || line.starts_with('#')
-}
-
 /// The place of a cell in its line; the whole line where quotes make that uncertain. An empty cell is
 /// shown by the separator before or after it.
-pub(super) fn place_of_cell(line: &Place, number: usize, semicolon: bool) -> Place {
+pub(super) fn place_of_cell(line: &Place, number: usize, separator: Separator) -> Place {
     let text = line.source.text.get(line.span.clone()).unwrap_or("");
-    let separator = if semicolon { ';' } else { ',' };
+    let separator = separator.sign();
     if text.contains('"') {
         return line.clone();
     }

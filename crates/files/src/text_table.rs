@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
+use super::separator::{DecimalMarks, Separator, is_skipped};
 use super::source::{Place, SourceText};
 use super::table::place_of_cell;
 
@@ -18,40 +19,38 @@ pub(super) struct TextTable {
     columns: Vec<String>,
     rows: Vec<(Range<usize>, Vec<String>)>,
     header: Range<usize>,
-    semicolon: bool,
+    separator: Separator,
 }
 
 impl TextTable {
-    /// Reads a table: a header row of names, `,` or `;` (then with decimal commas), lines that begin
-    /// with `#` and empty ones skipped. Mistakes are reported.
+    /// Reads a table: a header row of names, cells between `,`, `;` or tabs, lines that begin with `#`
+    /// and empty ones skipped. Mistakes are reported.
     pub(super) fn parse(log: &Collector, source: &Arc<SourceText>) -> Option<Self> {
         let mut table: Option<Self> = None;
         let mut start = 0;
         while let Some(rest) = source.text.get(start..).filter(|rest| !rest.is_empty()) {
             let line = rest.split_inclusive('\n').next().unwrap_or(rest);
-            if line.trim().is_empty() || line.trim_start().starts_with('#') {
+            if is_skipped(line) {
                 start += line.len();
                 continue;
             }
             let separator = match &table {
-                Some(table) if table.semicolon => ';',
-                None if line.contains(';') => ';',
-                _ => ',',
+                Some(table) => table.separator,
+                None => Separator::of_header(line),
             };
             // a cell in quotes may go on over the end of the line (RFC 4180, 2.6)
-            let Some(length) = record(rest, separator) else {
+            let Some(length) = record(rest, separator.sign()) else {
                 let span = start..start + line.trim_end().len();
                 let reason = "a cell that begins with a quote has no quote at its end".to_owned();
                 let place = Place { source: source.clone(), span };
                 log.report_at(place, DiagnosticKind::Table { reason });
                 return None;
             };
-            let content = rest.get(..length).unwrap_or(rest).trim_end();
+            let content = rest.get(..length).unwrap_or(rest).trim_end_matches(['\n', '\r', ' ']);
             let span = start..start + content.len();
             start += length;
-            let semicolon = separator == ';';
             let place = Place { source: source.clone(), span: span.clone() };
-            let cells = match cells(content, semicolon) {
+            let cells = match cells(content, separator) {
                 Ok(cells) => cells,
                 Err(reason) => {
                     log.report_at(place, DiagnosticKind::Table { reason });
@@ -59,7 +58,7 @@ impl TextTable {
                 }
             };
             let Some(table) = &mut table else {
-                table = Some(Self::begin(log, source, span, cells, semicolon)?);
+                table = Some(Self::begin(log, source, span, cells, separator)?);
                 continue;
             };
             let (found, expected) = (cells.len(), table.columns.len());
@@ -89,7 +88,7 @@ impl TextTable {
         source: &Arc<SourceText>,
         header: Range<usize>,
         columns: Vec<String>,
-        semicolon: bool,
+        separator: Separator,
     ) -> Option<Self> {
         let twice = columns
             .iter()
@@ -100,7 +99,7 @@ impl TextTable {
             log.report(&header, DiagnosticKind::Table { reason });
             return None;
         }
-        Some(Self { source: source.clone(), columns, rows: Vec::new(), header, semicolon })
+        Some(Self { source: source.clone(), columns, rows: Vec::new(), header, separator })
     }
 
     pub(super) fn columns(&self) -> &[String] {
@@ -122,10 +121,9 @@ impl TextTable {
         cell.map_or("", String::as_str)
     }
 
-    /// The text of a number, with a decimal point.
-    pub(super) fn number(&self, row: usize, column: &str) -> String {
-        let text = self.text(row, column);
-        if self.semicolon { text.replace(',', ".") } else { text.to_owned() }
+    /// The decimal marks of its numbers.
+    pub(super) fn marks(&self) -> DecimalMarks {
+        DecimalMarks::of(self.separator)
     }
 
     /// Where the header stands.
@@ -138,7 +136,7 @@ impl TextTable {
         let span = self.rows.get(row).map_or(self.header.clone(), |(span, _)| span.clone());
         let line = Place { source: self.source.clone(), span };
         self.column(column)
-            .map_or(line.clone(), |place| place_of_cell(&line, place, self.semicolon))
+            .map_or(line.clone(), |place| place_of_cell(&line, place, self.separator))
     }
 }
 
@@ -167,9 +165,9 @@ fn record(text: &str, separator: char) -> Option<usize> {
 }
 
 /// The cells of a line.
-fn cells(line: &str, semicolon: bool) -> Result<Vec<String>, String> {
+fn cells(line: &str, separator: Separator) -> Result<Vec<String>, String> {
     let mut reader = csv::ReaderBuilder::new()
-        .delimiter(if semicolon { b';' } else { b',' })
+        .delimiter(separator.byte())
         .trim(csv::Trim::All)
         .has_headers(false)
         .from_reader(line.as_bytes());
@@ -209,7 +207,7 @@ mod tests {
         let log = Collector::new(source.clone());
         let table = TextTable::parse(&log, &source).unwrap();
         assert_eq!((table.rows(), table.text(0, "label")), (2, "two\r\nlines"));
-        assert_eq!(table.number(1, "x"), "2");
+        assert_eq!(table.text(1, "x"), "2");
         let place = table.place(1, "x");
         assert_eq!(source.position(place.span.start), (5, 3));
     }

@@ -66,7 +66,7 @@ impl Width {
             }
             match share(rest) {
                 Some((factor, "")) => {
-                    if unit.is_relative() || unit.is_celsius() {
+                    if unit.is_relative() || unit.is_celsius() || !unit.level_exponent().is_zero() {
                         return Err(format!(
                             "for an input in `{unit}` it is not clear what `{term}` is of: write \
                              `{term} of reading`, or a value with its unit"

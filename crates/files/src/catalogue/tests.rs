@@ -6,6 +6,7 @@ use super::super::effect_context::EffectContext;
 use super::super::{CaseFile, DiagnosticKind, FileReader};
 use super::{ANY_BENCH, Catalogue, TEXT, catalogue, fit};
 use gumption_engine::model::formula::is_name;
+use gumption_engine::task::Warning;
 
 /// A sim of a bench: its file without the last brace, and two rows of data.
 struct Bench {
@@ -192,7 +193,10 @@ fn every_effect_fits_its_bench_without_a_warning() {
             let file = bench.read(&[&entry.name]).unwrap_or_else(|kinds| {
                 panic!("{} on {}: {kinds:?}", entry.name, bench.name);
             });
-            assert!(file.warnings.is_empty(), "{}: {:?}", entry.name, file.warnings);
+            // an input of the bench that is there for other effects
+            let of_effect = |note: &&Warning| note.code != "unused-input";
+            let said: Vec<&Warning> = file.warnings.iter().filter(of_effect).collect();
+            assert!(said.is_empty(), "{}: {said:?}", entry.name);
             assert_eq!(file.case.candidates[0].effect.name, entry.name);
         }
     }

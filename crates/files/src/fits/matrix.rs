@@ -8,6 +8,7 @@ use super::super::json::{Json, Member, Node};
 use super::super::keys;
 use super::super::object::Object;
 use super::super::recording::npy_matrix;
+use super::super::separator::{DecimalMarks, Separator, is_skipped};
 use super::super::{DiagnosticKind, bytes};
 use gumption_engine::regression::Cross;
 
@@ -185,28 +186,31 @@ fn of_file(
 
 /// The numbers of a text, a line each row; a first line without a number is a header.
 fn lines(text: &str) -> Result<(usize, usize, Vec<f64>), String> {
-    let kept = |line: &&str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
-    let mut numbered = text.lines().enumerate().filter(|(_, line)| kept(line)).peekable();
-    let semicolon = numbered.peek().is_some_and(|(_, line)| line.contains(';'));
-    let cells = move |line: &str| {
-        let split = move |c: char| if semicolon { c == ';' } else { c == ',' };
-        line.split(split).map(str::trim).map(str::to_owned).collect::<Vec<_>>()
+    let mut numbered = text.lines().enumerate().filter(|(_, line)| !is_skipped(line)).peekable();
+    let separator =
+        numbered.peek().map_or(Separator::Comma, |(_, line)| Separator::of_line(line.trim()));
+    let cells = |line: &str| {
+        let cells = line.trim().split(separator.sign());
+        cells.map(str::trim).map(str::to_owned).collect::<Vec<_>>()
     };
-    let number = move |cell: &str| {
-        let parsed =
-            if semicolon { cell.replace(',', ".").parse::<f64>() } else { cell.parse::<f64>() };
-        parsed.ok().filter(|value| value.is_finite())
+    let number = |cell: &str, marks: &mut DecimalMarks| {
+        let parsed = marks.with_point(cell)?.parse::<f64>();
+        Ok::<_, String>(parsed.ok().filter(|value| value.is_finite()))
+    };
+    let is_text = |cell: &String| {
+        number(cell, &mut DecimalMarks::of(separator)).is_ok_and(|value| value.is_none())
     };
     if let Some((_, line)) = numbered.peek()
-        && cells(line).iter().all(|cell| number(cell).is_none())
+        && cells(line).iter().all(is_text)
     {
         numbered.next();
     }
+    let mut marks = DecimalMarks::of(separator);
     let (mut rows, mut columns, mut entries) = (0, 0, Vec::new());
     for (place, line) in numbered {
         let before = entries.len();
         for (column, cell) in cells(line).iter().enumerate() {
-            let value = number(cell).ok_or_else(|| {
+            let value = number(cell, &mut marks)?.ok_or_else(|| {
                 let found = if cell.is_empty() { "empty" } else { "no number" };
                 format!("line {}, column {} is {found}", place + 1, column + 1)
             })?;

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::open::json_as_table;
+use crate::separator::{DecimalMarks, Separator};
 use crate::source::SourceText;
 use crate::{DiagnosticKind, bytes, workbook};
 
@@ -15,7 +16,8 @@ pub(super) struct Cells {
     rows: Vec<Vec<String>>,
     /// Where each line stands in the text.
     spans: Vec<Range<usize>>,
-    decimal_comma: bool,
+    /// What separated them in a text; `None` in a workbook.
+    separator: Option<Separator>,
 }
 
 impl Cells {
@@ -40,7 +42,12 @@ impl Cells {
 
     /// Whether numbers have a decimal comma.
     pub(super) fn decimal_comma(&self) -> bool {
-        self.decimal_comma
+        self.separator != Some(Separator::Comma)
+    }
+
+    /// The decimal marks of its numbers; of a workbook, whose numbers have none, those of any text.
+    pub(super) fn marks(&self) -> DecimalMarks {
+        DecimalMarks::of(self.separator.unwrap_or(Separator::Comma))
     }
 }
 
@@ -60,15 +67,15 @@ pub(super) fn of_content(
     }
     let count = |sign: char| text.matches(sign).count();
     let separator = if count('\t') > count(';') && count('\t') > count(',') {
-        b'\t'
+        Separator::Tab
     } else if count(';') > 0 {
-        b';'
+        Separator::Semicolon
     } else {
-        b','
+        Separator::Comma
     };
     let mut rows = Vec::new();
     let mut reader = csv::ReaderBuilder::new()
-        .delimiter(separator)
+        .delimiter(separator.byte())
         .has_headers(false)
         .flexible(true)
         .from_reader(text.as_bytes());
@@ -89,7 +96,7 @@ pub(super) fn of_content(
         }
     }
     let (mut cells, text) = of_rows(rows);
-    cells.decimal_comma = separator != b',';
+    cells.separator = Some(separator);
     Ok((cells, text))
 }
 
@@ -103,7 +110,7 @@ fn of_rows(mut rows: Vec<Vec<String>>) -> (Cells, String) {
         spans.push(start..text.len());
         text.push('\n');
     }
-    (Cells { rows, spans, decimal_comma: true }, text)
+    (Cells { rows, spans, separator: None }, text)
 }
 
 /// A number as spreadsheets write them; `1,5` where commas are decimal ones.

@@ -7,7 +7,7 @@
 use super::columns::{Column, Header};
 use super::grid::number;
 use super::{Budget, Row, divisor_of};
-use gumption_engine::number::Shortest;
+use gumption_engine::number::{Shortest, elementary};
 use gumption_units::Unit;
 
 /// The model of a budget without an equation.
@@ -157,7 +157,7 @@ impl Budget<'_> {
             }
             Some(scale) if (c.abs() / scale - 1.0).abs() < 1e-6 => Some(c),
             // nearer to a plain factor than to the ratio of the two units
-            Some(scale) if c.abs().ln().abs() < (c.abs() / scale).ln().abs() => {
+            Some(scale) if far_from_one(c) < far_from_one(c / scale) => {
                 let fits = |c: f64| self.contribution(header, row, c, &whole).is_some_and(is_same);
                 match (fits(c), fits(c * scale)) {
                     (true, false) => return Some(c),
@@ -240,9 +240,14 @@ impl Budget<'_> {
 
 /// The difference of two numbers without the digits that only rounding makes.
 fn difference(a: f64, b: f64) -> f64 {
-    let decimals = 12 - a.abs().max(b.abs()).log10().ceil() as i32;
+    let decimals = 12 - elementary::log10(a.abs().max(b.abs())).ceil() as i32;
     let decimals = usize::try_from(decimals).unwrap_or_default().min(300);
     format!("{:.decimals$}", a - b).parse().unwrap_or(a - b)
+}
+
+/// A factor or its inverse, whichever is above 1.
+fn far_from_one(factor: f64) -> f64 {
+    factor.abs().max(1.0 / factor.abs())
 }
 
 fn is_blank(cell: &str) -> bool {

@@ -1,5 +1,5 @@
-//! Frames of a CSV file: `,` or `;` (then with decimal commas) or tabs, with or without a header,
-//! lines that begin with `#` skipped.
+//! Frames of a CSV file: cells between `,`, `;` or tabs (of the last two perhaps with decimal commas),
+//! with or without a header, lines that begin with `#` skipped.
 
 use std::io::{self, BufRead, BufReader, Cursor, Read};
 
@@ -7,6 +7,7 @@ use csv::{ByteRecord, Reader};
 
 use super::wide_text::NarrowText;
 use super::{BLOCK, ColumnName, Frames, Wanted, place};
+use crate::separator::{DecimalMarks, Separator};
 use gumption_units::nearest;
 
 /// Longer cells are cut in messages.
@@ -20,7 +21,7 @@ pub(super) struct CsvFrames<R> {
     record: ByteRecord,
     /// Whether `record` holds a frame that was not given yet.
     waiting: bool,
-    comma: bool,
+    marks: DecimalMarks,
     cells: usize,
     /// The place of each wanted column.
     places: Vec<usize>,
@@ -56,14 +57,9 @@ impl<R: Read> CsvFrames<R> {
         if line.contains(&0) {
             return Err("it is not a text; WAV and NumPy files end in `.wav` and `.npy`".to_owned());
         }
-        let comma = line.contains(&b';');
-        let delimiter = match (comma, line.contains(&b'\t')) {
-            (true, _) => b';',
-            (false, true) => b'\t',
-            _ => b',',
-        };
+        let separator = Separator::of_line(&String::from_utf8_lossy(&line));
         let reader = csv::ReaderBuilder::new()
-            .delimiter(delimiter)
+            .delimiter(separator.byte())
             .has_headers(false)
             .flexible(true)
             .comment(Some(b'#'))
@@ -73,7 +69,7 @@ impl<R: Read> CsvFrames<R> {
             reader,
             record: ByteRecord::new(),
             waiting: false,
-            comma,
+            marks: DecimalMarks::of(separator),
             cells: 0,
             places: Vec::new(),
             wanted,
@@ -88,7 +84,8 @@ impl<R: Read> CsvFrames<R> {
     fn begin(&mut self) -> Result<(), String> {
         self.next()?;
         self.cells = self.record.len();
-        let header = self.record.iter().any(|cell| number(cell, self.comma).is_none());
+        let number = |cell| number(cell, &mut self.marks.clone());
+        let header = self.record.iter().any(|cell| number(cell).is_ok_and(|cell| cell.is_none()));
         let names: Vec<String> = self
             .record
             .iter()
@@ -152,9 +149,10 @@ impl<R: Read> CsvFrames<R> {
         }
         for ((column, at), wanted) in columns.iter_mut().zip(&self.places).zip(&self.wanted) {
             let cell = self.record.get(*at).unwrap_or(b"");
-            match number(cell, self.comma).filter(|value| value.is_finite()) {
-                Some(value) => column.push(value),
-                None => {
+            match number(cell, &mut self.marks).map(|cell| cell.filter(|cell| cell.is_finite())) {
+                Ok(Some(value)) => column.push(value),
+                Err(reason) => return Err(format!("line {}: {reason}", self.line())),
+                Ok(None) => {
                     let (line, place) = (self.line(), place(self.samples, &wanted.channel));
                     let text = String::from_utf8_lossy(cell.trim_ascii()).into_owned();
                     return Err(if text.is_empty() {
@@ -190,12 +188,8 @@ impl<R: Read> Frames for CsvFrames<R> {
     }
 }
 
-/// The number in a cell.
-fn number(cell: &[u8], comma: bool) -> Option<f64> {
-    let text = std::str::from_utf8(cell).ok()?.trim();
-    if comma && text.contains(',') {
-        text.replace(',', ".").parse().ok()
-    } else {
-        text.parse().ok()
-    }
+/// The number in a cell, if it is one.
+fn number(cell: &[u8], marks: &mut DecimalMarks) -> Result<Option<f64>, String> {
+    let Ok(text) = std::str::from_utf8(cell) else { return Ok(None) };
+    Ok(marks.with_point(text.trim())?.parse().ok())
 }
