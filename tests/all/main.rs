@@ -24,6 +24,7 @@ mod fuzz;
 mod gap;
 mod gap_check;
 mod gap_examples;
+mod headings;
 mod integrity;
 mod interrupt;
 mod intervals;

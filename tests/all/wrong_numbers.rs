@@ -126,6 +126,16 @@ fn doubt_about_a_half_width_counts_in_the_trials() {
     assert!((0.05..0.075).contains(&high) && (low + high).abs() < 0.001, "{low} {high}");
 }
 
+/// 1/z with z ~ N(0, 1): no GUM evaluation, and trials without moments; only the former was said.
+#[test]
+fn an_output_without_a_gum_evaluation_has_notes_on_its_trials() {
+    let model = model(&json!({"z": normal("1", 0.0, 1.0)}), "1/z", "1");
+    let answer = answer(&model, &["--trials", "1000000"]);
+    let warnings = answer["warnings"].as_array().unwrap();
+    let codes: Vec<&str> = warnings.iter().map(|note| note["code"].as_str().unwrap()).collect();
+    assert!(["gum-undefined", "heavy-tails"].iter().all(|code| codes.contains(code)), "{codes:?}");
+}
+
 /// 1/z with z ~ N(1, 0.3) has neither expectation nor variance; the page printed "1 to 2".
 #[test]
 fn an_output_without_moments() {

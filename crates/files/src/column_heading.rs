@@ -19,6 +19,13 @@ pub(super) fn heading<'h>(log: &Collector, text: &'h str) -> Option<(&'h str, Un
     Some(known.filter(|(name, _)| !name.is_empty()).unwrap_or((text.trim(), Unit::one())))
 }
 
+/// The name of a column whose heading has a unit behind it; of every other one the whole.
+pub(super) fn bare(text: &str) -> &str {
+    let named = enclosed(text, '[', "]").or_else(|| enclosed(text, '(', ")"));
+    let named = named.or_else(|| after(text, " / "));
+    named.map(|(name, _)| name).filter(|name| !name.is_empty()).unwrap_or(text)
+}
+
 fn enclosed<'h>(text: &'h str, open: char, close: &str) -> Option<(&'h str, &'h str)> {
     let (name, unit) = text.trim_end().strip_suffix(close)?.rsplit_once(open)?;
     Some((name.trim(), unit.trim()))

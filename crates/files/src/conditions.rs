@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::folder::Folder;
 use super::json::{Json, Member};
@@ -11,9 +10,10 @@ use super::keys;
 use super::object::Object;
 use super::table::{self, Table};
 use super::value_text::ValueOf;
+use super::{DiagnosticKind, column_heading};
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{Formula, FormulaError, Scope};
-use gumption_units::{Unit, nearest};
+use gumption_units::Unit;
 
 /// At most so many rows: a sweep of a million.
 const MOST_ROWS: usize = 1_000_000;
@@ -53,7 +53,7 @@ impl Conditions {
         unit: Unit,
         named: &Range<usize>,
     ) {
-        let place = table.columns.iter().position(|column| column == name);
+        let place = table.column(name);
         self.places.push(named.clone());
         self.quantities.push(Quantity { name: name.to_owned(), unit, about: String::new() });
         self.reachable.push(None);
@@ -147,22 +147,17 @@ fn columns_of(object: &Object<'_>, data: &Table) -> Option<Conditions> {
             );
             log.report(&values.key_span, DiagnosticKind::Observation { reason });
         }
-        let place = data.columns.iter().position(|column| *column == member.key);
+        let place = data.column(&member.key);
         if place.is_none() {
-            let near = nearest(&member.key, data.columns.iter().map(String::as_str));
-            let reason = format!(
-                "`{}` has no column `{}` for this condition{}",
-                data.source.name,
-                member.key,
-                match near {
-                    Some(near) => format!("; did you mean `{near}`?"),
-                    None => format!("; its columns are {}", data.columns.join(", ")),
-                }
-            );
+            let reason = format!("for this condition {}", data.no_column(&member.key));
             log.report(&member.key_span, DiagnosticKind::Table { reason });
         }
         places.push(place);
         conditions.add(member, &condition);
+        let heading = place.and_then(|place| data.columns.get(place));
+        if let (Some(heading), Some(added)) = (heading, conditions.quantities.last()) {
+            column_heading::check(log, &member.key_span, heading, &added.unit);
+        }
     }
     conditions.rows = data
         .rows
@@ -253,15 +248,8 @@ fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<
     }
     if let Some(units) = &units {
         for member in units.members() {
-            if !table.columns.contains(&member.key) {
-                let known: Vec<String> = table.columns.clone();
-                let nearest = nearest(&member.key, known.iter().map(String::as_str));
-                let reason = format!(
-                    "`{}` has no column `{}`{}",
-                    table.source.name,
-                    member.key,
-                    nearest.map(|n| format!("; did you mean `{n}`?")).unwrap_or_default()
-                );
+            if table.column(&member.key).is_none() {
+                let reason = table.no_column(&member.key);
                 log.report(&member.key_span, DiagnosticKind::Table { reason });
             }
         }
@@ -275,14 +263,29 @@ fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<
         .columns
         .iter()
         .map(|column| {
-            let unit = match &units {
-                Some(units) => unit(units, column).unwrap_or_else(|| {
-                    without_unit.push(column.clone());
-                    Unit::one()
-                }),
-                None => Unit::one(),
+            let bare = column_heading::bare(column);
+            let (name, unit) = match units.as_ref().filter(|units| units.get(bare).is_some()) {
+                Some(units) => {
+                    let unit = unit(units, bare).inspect(|unit| {
+                        let place = units.get(bare).map_or(units.place(), |m| &m.value.span);
+                        column_heading::check(log, place, column, unit);
+                    });
+                    (bare, unit)
+                }
+                None => match column_heading::heading(log, column) {
+                    Some((name, unit)) => (name, Some(unit)),
+                    None => {
+                        let reason = format!("the heading `{column}` names no unit that is known");
+                        log.report(&file.value.span, DiagnosticKind::Table { reason });
+                        (bare, None)
+                    }
+                },
             };
-            Quantity { name: column.clone(), unit, about: String::new() }
+            let unit = unit.unwrap_or_else(|| {
+                without_unit.push(name.to_owned());
+                Unit::one()
+            });
+            Quantity { name: name.to_owned(), unit, about: String::new() }
         })
         .collect();
     let places = vec![file.value.span.clone(); table.columns.len()];
@@ -306,7 +309,7 @@ fn only(object: &Object<'_>, member: &Member, mut table: Table) -> Option<Table>
             object.log.report(&node.span, DiagnosticKind::WrongType { what, found, expected });
             return None;
         };
-        match table.columns.iter().position(|column| *column == *name) {
+        match table.column(name) {
             Some(place) if places.contains(&place) => {
                 let reason = format!("the column `{name}` is named twice");
                 object.log.report(&node.span, DiagnosticKind::Table { reason });
@@ -314,9 +317,7 @@ fn only(object: &Object<'_>, member: &Member, mut table: Table) -> Option<Table>
             }
             Some(place) => places.push(place),
             None => {
-                let near = nearest(name, table.columns.iter().map(String::as_str));
-                let near = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
-                let reason = format!("`{}` has no column `{name}`{near}", table.source.name);
+                let reason = table.no_column(name);
                 object.log.report(&node.span, DiagnosticKind::Table { reason });
                 return None;
             }

@@ -12,7 +12,6 @@ use super::source::Place;
 use super::table::{self, Table};
 use gumption_engine::linalg::packed;
 use gumption_gap::{MOST_GROUPS, ObservedOutput};
-use gumption_units::nearest;
 
 /// The data's table with the columns of the observed outputs.
 #[derive(Debug)]
@@ -70,16 +69,8 @@ fn replication(object: &Object<'_>, table: &Table) -> Option<String> {
     let report = |reason: String| {
         object.log.report(span, DiagnosticKind::Observation { reason });
     };
-    let Some(place) = table.columns.iter().position(|column| column == name) else {
-        let near = nearest(name, table.columns.iter().map(String::as_str));
-        report(format!(
-            "`{}` has no column `{name}`{}",
-            table.source.name,
-            match near {
-                Some(near) => format!("; did you mean `{near}`?"),
-                None => format!("; its columns are {}", table.columns.join(", ")),
-            }
-        ));
+    let Some(place) = table.column(name) else {
+        report(table.no_column(name));
         return None;
     };
     let mut groups: Vec<f64> =
@@ -153,7 +144,9 @@ impl Reader<'_> {
         }
         let headings = ["value", "standard_uncertainty", "sim", "sim_standard_uncertainty"];
         let headings = headings.into_iter().filter_map(|key| {
-            Some((object.text(key)?.to_owned(), object.get(key)?.value.span.clone()))
+            let named = object.text(key)?;
+            let heading = self.table.column(named).map(|place| self.table.columns[place].as_str());
+            Some((heading.unwrap_or(named).to_owned(), object.get(key)?.value.span.clone()))
         });
         Some(Column {
             headings: headings.collect(),
@@ -172,20 +165,12 @@ impl Reader<'_> {
     /// The column that `key` names.
     fn values(&self, object: &Object<'_>, key: &str) -> Option<Vec<f64>> {
         let name = object.text(key)?;
-        if let Some(place) = self.table.columns.iter().position(|column| column == name) {
+        if let Some(place) = self.table.column(name) {
             return Some(
                 self.table.rows.iter().filter_map(|row| row.get(place).copied()).collect(),
             );
         }
-        let near = nearest(name, self.table.columns.iter().map(String::as_str));
-        let reason = format!(
-            "`{}` has no column `{name}`{}",
-            self.table.source.name,
-            match near {
-                Some(near) => format!("; did you mean `{near}`?"),
-                None => format!("; its columns are {}", self.table.columns.join(", ")),
-            }
-        );
+        let reason = self.table.no_column(name);
         let span = object.get(key).map_or(object.place(), |member| &member.value.span);
         self.log.report(span, DiagnosticKind::Table { reason });
         None
@@ -218,7 +203,7 @@ impl Reader<'_> {
 
     /// The line of a row of the data.
     fn place_of(&self, column: &str, row: usize) -> Place {
-        let place = self.table.columns.iter().position(|name| name == column).unwrap_or(0);
+        let place = self.table.column(column).unwrap_or(0);
         self.table.place(row, place)
     }
 

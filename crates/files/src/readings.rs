@@ -68,7 +68,9 @@ pub(super) fn of_file(
         }
         let values = column(object, "column", &table)?;
         if let (Some(member), Some(column)) = (object.get("column"), object.text("column")) {
-            column_heading::check(object.log, &member.value.span, column, unit).then_some(())?;
+            let heading =
+                table.column(column).map_or(column, |place| table.columns[place].as_str());
+            column_heading::check(object.log, &member.value.span, heading, unit).then_some(())?;
         }
         if object.get("groups").is_none() {
             return Some(FileReadings { values, note: None });
@@ -82,16 +84,8 @@ pub(super) fn of_file(
 /// The numbers of the column that `key` names.
 fn column(object: &Object<'_>, key: &'static str, table: &Table) -> Option<Vec<f64>> {
     let name = object.text(key)?;
-    let Some(place) = table.columns.iter().position(|column| column == name) else {
-        let near = nearest(name, table.columns.iter().map(String::as_str));
-        let reason = format!(
-            "`{}` has no column `{name}`{}",
-            table.source.name,
-            match near {
-                Some(near) => format!("; did you mean `{near}`?"),
-                None => format!("; its columns are {}", table.columns.join(", ")),
-            }
-        );
+    let Some(place) = table.column(name) else {
+        let reason = table.no_column(name);
         let span = object.get(key).map_or(object.place(), |member| &member.value.span);
         object.log.report(span, DiagnosticKind::Table { reason });
         return None;

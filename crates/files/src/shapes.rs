@@ -699,6 +699,17 @@ impl<'a> Fields<'a> {
             return self.object.number("dof");
         };
         let (log, span) = (self.object.log, &member.value.span);
+        if ["inf", "infinity", "infinite", "∞"].contains(&text.trim().to_lowercase().as_str()) {
+            let diagnostic = DiagnosticKind::WrongType {
+                what: "`dof`".to_owned(),
+                found: "the word for infinity",
+                expected: "a number above 0; leave the key out where they are infinite",
+            };
+            if row == 0 {
+                log.report(span, diagnostic);
+            }
+            return None;
+        }
         let formula = log.formula(text).map_err(|error| DiagnosticKind::Formula { error });
         let formula = log.value(span, formula)?;
         let (unit, of) = (Unit::one(), ValueOf::Quantity);

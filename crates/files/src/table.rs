@@ -7,7 +7,8 @@ use super::diagnostics::Collector;
 use super::folder::Folder;
 use super::separator::{DecimalMarks, Separator, is_skipped};
 use super::source::{Place, SourceText};
-use super::{DiagnosticKind, bytes};
+use super::{DiagnosticKind, bytes, column_heading};
+use gumption_units::nearest;
 
 /// At most so many columns and rows.
 const MOST_COLUMNS: usize = 10_000;
@@ -28,6 +29,27 @@ pub(super) struct Table {
 }
 
 impl Table {
+    /// The column of that name: as it stands in the header, else the only one that has it with a unit
+    /// behind it, `f [Hz]` for `f`.
+    pub(super) fn column(&self, name: &str) -> Option<usize> {
+        let exact = self.columns.iter().position(|column| column == name);
+        exact.or_else(|| {
+            let named = |(_, column): &(usize, &String)| column_heading::bare(column) == name;
+            let mut places = self.columns.iter().enumerate().filter(named).map(|(place, _)| place);
+            places.next().filter(|_| places.next().is_none())
+        })
+    }
+
+    /// That there is no column of that name.
+    pub(super) fn no_column(&self, name: &str) -> String {
+        let near = nearest(name, self.columns.iter().map(String::as_str));
+        let hint = match near {
+            Some(near) => format!("; did you mean `{near}`?"),
+            None => format!("; its columns are {}", self.columns.join(", ")),
+        };
+        format!("`{}` has no column `{name}`{hint}", self.source.name)
+    }
+
     /// The place of a cell.
     pub(super) fn place(&self, row: usize, column: usize) -> Place {
         let span = self.lines.get(row).cloned().unwrap_or(0..0);

@@ -1,6 +1,7 @@
 //! Values as people write them: a number with a unit, `"100 ohm"`, `"20 degC"`.
 
 use super::width::number;
+use gumption_engine::number::Shortest;
 use gumption_units::Unit;
 
 /// What a number with a unit is about, which decides whether zeros of scales are counted from.
@@ -29,6 +30,21 @@ pub(super) fn with_unit(text: &str) -> Option<(f64, &str)> {
 fn is_comma(rest: &str) -> bool {
     let digits = rest.strip_prefix(',');
     digits.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+}
+
+/// What is wrong with a number that goes on with a comma and digits: a decimal fraction, or digits in
+/// groups of three.
+fn decimal_comma(whole: f64, rest: &str) -> String {
+    let digits: String = rest.chars().skip(1).take_while(char::is_ascii_digit).collect();
+    let whole = Shortest(whole);
+    if digits.len() == 3 {
+        format!(
+            "`{whole},{digits}` can be {whole}.{digits} or {whole}{digits}; a decimal fraction is \
+             written with a point, and digits are not grouped"
+        )
+    } else {
+        format!("a decimal fraction is written with a point, such as `{whole}.{digits}`")
+    }
 }
 
 /// What is wrong with a unit that begins with digits, as in `1 234 V`, where the number may have been
@@ -65,7 +81,7 @@ pub(super) fn converted(
     own: &[Unit],
 ) -> Result<f64, String> {
     if is_comma(text) {
-        return Err("a decimal fraction is written with a point, such as `5.01`".to_owned());
+        return Err(decimal_comma(value, text));
     }
     // also one that another file defines
     if text == unit.text().trim() {

@@ -475,6 +475,18 @@ pub struct UncertaintyFactor {
     pub probability: f64,
 }
 
+impl UncertaintyFactor {
+    /// The factors that are weighed.
+    pub const LIMITS: [f64; 2] = [0.25, 10.0];
+
+    /// Whether the estimate is as near to a limit as to be decided by it.
+    pub fn is_at_limit(&self) -> bool {
+        const NEAR: f64 = 1.15;
+        let [least, most] = Self::LIMITS;
+        self.estimate < least * NEAR || self.estimate * NEAR > most
+    }
+}
+
 /// The coefficient of correlation of the noise of neighbouring rows, in the order of the data.
 #[derive(Clone, Copy, Debug)]
 pub struct SerialCorrelation {

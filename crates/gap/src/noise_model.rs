@@ -17,13 +17,13 @@ use super::posterior::{self, Effort, MANY_VALUES, Posterior, WeighedHypothesis};
 use super::prior_widths::{self, Begun, OtherPriors, PriorWidths};
 use super::setup::Setup;
 use super::whitened::{self, WhitenedResiduals};
-use crate::{Case, Prior};
+use crate::{Case, Prior, UncertaintyFactor};
 use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::elementary;
 
 /// The factor on stated uncertainties is log-uniform between these.
-const FACTORS: [f64; 2] = [0.25, 10.0];
+const FACTORS: [f64; 2] = UncertaintyFactor::LIMITS;
 
 /// Prior probability that the noise and the priors are as they are stated. It and those of all else
 /// count relative to each other; what was not tried takes nothing from them.

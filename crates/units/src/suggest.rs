@@ -61,7 +61,13 @@ const SPELLED: &[(&str, &[&str])] = &[
     ("oc", &["degC"]), ("c°", &["degC"]), ("neper", &["Np"]),
     ("microstrain", &["um/m"]), ("ustrain", &["um/m"]), ("µε", &["um/m"]), ("με", &["um/m"]),
     ("strain", &["m/m"]), ("vdc", &["V"]), ("vac", &["V"]), ("vrms", &["V"]), ("vpp", &["V"]),
+    ("rms", &[]), ("pp", &[]), ("rdg", &[]), ("reading", &[]), ("nan", &[]),
+    ("cst", &["mm^2/s"]), ("centistokes", &["mm^2/s"]), ("nit", &["cd/m^2"]),
+    ("poise", &["0.1*Pa*s"]),
 ];
+
+/// Nobody means a prefix beyond these powers of ten who writes an abbreviation.
+const FARTHEST: i32 = 24;
 
 /// Products written without a sign, and the same with one. They take prefixes.
 const JOINED: &[(&str, &str)] = &[("As", "A*s"), ("Vs", "V*s"), ("Ws", "W*s"), ("Pas", "Pa*s")];
@@ -154,7 +160,8 @@ fn same_letters(a: &str, b: &str) -> bool {
 
 /// A prefix before a unit that takes none.
 fn bare_unit_with_prefix(name: &str, span: &Range<usize>) -> Option<UnitError> {
-    let found = prefixed(name).find(|found| !found.symbol.prefixes)?;
+    let near = |found: &Prefixed<'_>| found.prefix.decimal().abs() <= FARTHEST;
+    let found = prefixed(name).find(|found| !found.symbol.prefixes && near(found))?;
     let instead = match found.symbol.flavour {
         Flavour::Celsius => format!("{}K", found.spelling),
         _ => format!("1e{}*{}", found.prefix.decimal(), found.unit),
@@ -169,7 +176,8 @@ fn bare_unit_with_prefix(name: &str, span: &Range<usize>) -> Option<UnitError> {
 
 /// A prefix before a unit that has one already.
 fn two_prefixes(name: &str, span: &Range<usize>) -> Option<UnitError> {
-    prefix_spellings().find_map(|(spelling, outer)| {
+    let near = prefix_spellings().filter(|(_, outer)| outer.decimal().abs() <= FARTHEST);
+    near.into_iter().find_map(|(spelling, outer)| {
         let unit = name.strip_prefix(spelling)?;
         let inner = prefixed(unit).find(|inner| inner.symbol.prefixes)?;
         let decimal = outer.decimal() + inner.prefix.decimal();

@@ -27,6 +27,8 @@ pub struct PlanCheck {
     /// Variables that are drawn from a normal or t distribution of the planned standard uncertainty,
     /// because theirs has no width that could be changed alone.
     pub stood_in: Vec<usize>,
+    /// The fewest degrees of freedom that an input of the plan is drawn with.
+    pub drawn_dof: f64,
 }
 
 /// The trials of the planned row.
@@ -80,6 +82,7 @@ pub(super) fn of(
         numerical_standard_error: error,
         holds,
         stood_in,
+        drawn_dof: output.map_or(f64::INFINITY, |output| output.drawn_dof),
     })
 }
 

@@ -243,7 +243,12 @@ fn of_output(
             "`{name}`{at}: the estimate or a sensitivity coefficient is not finite at the inputs' \
              estimates, so there is no GUM evaluation"
         );
-        return push(found, Warning::new("gum-undefined", name, text));
+        push(found, Warning::new("gum-undefined", name, text));
+        if let Some(monte_carlo) = &output.monte_carlo {
+            of_extremes(name, &at, monte_carlo, found);
+            of_heavy_tails(name, &at, monte_carlo, found);
+        }
+        return;
     };
     if gum.dof == Dof::Undefined {
         let way = match gum.coverage_factor {
@@ -266,17 +271,7 @@ fn of_output(
         return;
     };
     of_extremes(name, &at, monte_carlo, found);
-    if monte_carlo.heavy_tailed {
-        let text = format!(
-            "`{name}`{at}: a few of the {} trials carry their standard uncertainty (excess kurtosis \
-             {}), so that its distribution may have no expectation and no standard deviation (JCGM \
-             101, 3.6, note 1): estimate and standard uncertainty of the trials are of these trials \
-             alone and have no numerical standard error; median and coverage intervals stand",
-            monte_carlo.trials,
-            significant(monte_carlo.excess_kurtosis.unwrap_or(f64::NAN), 1)
-        );
-        push(found, Warning::new("heavy-tails", name, text));
-    }
+    of_heavy_tails(name, &at, monte_carlo, found);
     let spread = monte_carlo.standard_uncertainty.unwrap_or(gum.standard_uncertainty);
     of_results(name, &at, row, (gum, spread), found);
     if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive
@@ -413,6 +408,21 @@ pub fn second_order_text(task: &Task, gum: &Gum, second: &SecondOrder) -> String
         text += &format!("; {}", products.join(", "));
     }
     text
+}
+
+/// Trials of which a few carry the standard uncertainty.
+fn of_heavy_tails(name: &str, at: &str, figures: &MonteCarlo, found: &mut Vec<Warning>) {
+    if figures.heavy_tailed {
+        let text = format!(
+            "`{name}`{at}: a few of the {} trials carry their standard uncertainty (excess kurtosis \
+             {}), so that its distribution may have no expectation and no standard deviation (JCGM \
+             101, 3.6, note 1): estimate and standard uncertainty of the trials are of these trials \
+             alone and have no numerical standard error; median and coverage intervals stand",
+            figures.trials,
+            significant(figures.excess_kurtosis.unwrap_or(f64::NAN), 1)
+        );
+        push(found, Warning::new("heavy-tails", name, text));
+    }
 }
 
 /// Intervals from the least to the greatest trial.

@@ -69,6 +69,35 @@ fn uncertainties_that_are_right_are_not_suspected() {
     assert!(suspects.iter().all(|suspect| suspect.probability < 0.15), "{suspects:?}");
 }
 
+/// Uncertainties that are 40 times too large: the factor ends at the limit of what is weighed.
+#[test]
+fn a_factor_at_its_limit_is_known_as_such() {
+    let found = |scale: f64| {
+        let residuals: Vec<f64> = normals(30, 3).into_iter().map(|z| scale * z).collect();
+        diagnosed(&line_with(&residuals), 1).noise[0].factor.unwrap()
+    };
+    let factor = found(0.0025);
+    assert!(factor.probability > 0.9 && factor.is_at_limit(), "{factor:?}");
+    assert!(!found(0.05).is_at_limit());
+}
+
+/// A row that was copied has a note; rows that share their conditions, or values of few digits, none.
+#[test]
+fn copied_rows_are_told() {
+    let residuals: Vec<f64> = normals(30, 4).into_iter().map(|z| 0.1 * z).collect();
+    let noted = |values: [f64; 2]| {
+        let mut case = line_with(&residuals);
+        case.task.rows[7] = case.task.rows[6].clone();
+        case.observed[0].as_mut().unwrap().values[6..8].copy_from_slice(&values);
+        let found = diagnosed(&case, 1);
+        found.notes.into_iter().find(|note| note.code == "copied-rows").map(|note| note.text)
+    };
+    let text = noted([4.012_34, 4.012_34]).unwrap();
+    assert!(text.starts_with("Row 8 has the conditions and, to all digits, the values of row 7."));
+    assert_eq!(noted([4.012_34, 4.012_35]), None);
+    assert_eq!(noted([4.01, 4.01]), None);
+}
+
 #[test]
 fn a_value_that_is_off_is_found_and_explains_nothing_else() {
     let mut residuals: Vec<f64> = normals(30, 5).into_iter().map(|z| 0.1 * z).collect();

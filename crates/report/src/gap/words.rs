@@ -5,8 +5,8 @@ use crate::number::{exact, position, rounded, significant, with_uncertainty};
 use crate::plain;
 use crate::statement::Measurement;
 use gumption_gap::{
-    Diagnosis, GapRegion, HypothesisKind, NamedQuantity, PriorConflict, ProposalKind,
-    ProposedMeasurement, Shrunk,
+    Diagnosis, GapRegion, Hypothesis, HypothesisKind, NamedQuantity, NoiseEstimate, PriorConflict,
+    ProposalKind, ProposedMeasurement, Shrunk, UncertaintyFactor,
 };
 
 /// What a hypothesis is called.
@@ -41,12 +41,21 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
             )
         }
         HypothesisKind::None if !noise_verdict(diagnosis).is_empty() => {
+            let sure = if noise_is_off(diagnosis) >= SURE { "" } else { "probably " };
             format!(
-                "There is no gap that an effect explains {how_sure}, but the noise is not as stated."
+                "There is no gap that an effect explains {how_sure}, but the noise is {sure}not as \
+                 stated."
             )
         }
         HypothesisKind::None => {
             format!("There is no gap: the uncertainties explain the data {how_sure}.")
+        }
+        HypothesisKind::Unexplained if explained(diagnosis) > verdict.probability => {
+            format!(
+                "There is a gap; that none of the candidate effects explains it is more probable than \
+                 any one of them {how_sure}, and that some of them do has the probability {}.",
+                probability(explained(diagnosis))
+            )
         }
         HypothesisKind::Unexplained => {
             format!("There is a gap, and none of the candidate effects explains it {how_sure}.")
@@ -63,6 +72,26 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
         }
     }
 }
+
+/// The probability that effects of the case explain the gap, whichever.
+fn explained(diagnosis: &Diagnosis) -> f64 {
+    let named = |h: &&Hypothesis| h.effects.as_ref().is_some_and(|effects| !effects.is_empty());
+    diagnosis.hypotheses.iter().filter(named).map(|h| h.probability).sum()
+}
+
+/// The probability of what is most likely wrong with the noise as stated.
+fn noise_is_off(diagnosis: &Diagnosis) -> f64 {
+    let of = |noise: &NoiseEstimate| {
+        let factor = noise.factor.map(|factor| factor.probability);
+        let serial = noise.serial.map(|serial| serial.probability);
+        let suspects = noise.suspects.iter().map(|suspect| suspect.probability);
+        suspects.chain(factor).chain(serial).fold(0.0, f64::max)
+    };
+    diagnosis.noise.iter().map(of).fold(0.0, f64::max)
+}
+
+/// From this probability on something is said without a "probably".
+const SURE: f64 = 0.95;
 
 /// Effects that are there with at least this probability are named in the headline.
 const WORTH_NAMING: f64 = 0.1;
@@ -135,6 +164,13 @@ pub(super) fn noise_verdict(diagnosis: &Diagnosis) -> Vec<String> {
                 significant(high, 2),
                 probability(factor.probability)
             ));
+            if factor.is_at_limit() {
+                let [least, most] = UncertaintyFactor::LIMITS.map(exact);
+                said.push(format!(
+                    "That is the limit of what is weighed ({least} to {most} times what is stated), so \
+                     that it may be more: look at how they were stated."
+                ));
+            }
         }
         if let Some(serial) = noise.serial.filter(|serial| serial.probability > LIKELY) {
             let [low, high] = serial.interval.map(|end| rounded(end, -2));
@@ -532,7 +568,7 @@ pub(super) fn place(diagnosis: &Diagnosis, proposal: &ProposedMeasurement) -> St
 
 /// The estimated noise of outputs, a sentence each.
 pub(super) fn noise(diagnosis: &Diagnosis) -> Vec<String> {
-    let sentence = |noise: &gumption_gap::NoiseEstimate| {
+    let sentence = |noise: &NoiseEstimate| {
         let named = diagnosis.outputs.get(noise.output)?;
         let estimated = noise.estimated?;
         let value = significant(estimated.standard_uncertainty, 2);

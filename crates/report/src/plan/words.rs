@@ -82,14 +82,21 @@ pub(super) fn notes(report: &PlanReport<'_>) -> Vec<String> {
     said
 }
 
+/// Below this, a t distribution is wider than the normal one by more than a tenth (JCGM 101, 6.4.9.4:
+/// the ratio of standard deviations is sqrt(dof/(dof - 2))).
+const FEW_DOF: f64 = 12.0;
+
 /// What the trials say.
 fn check(report: &PlanReport<'_>, found: &PlanCheck) -> Option<String> {
     let figure = value(report.output(), &significant(found.figure?, DIGITS));
     let verdict = match found.holds {
         Some(true) => "the target holds",
+        Some(false) if found.drawn_dof < FEW_DOF => {
+            "the target is missed: standard uncertainties of inputs have few degrees of freedom, which \
+             makes what is drawn for them wider, so aim lower"
+        }
         Some(false) => {
-            "the target is missed: the model is not linear enough for this plan, so aim \
-                        lower"
+            "the target is missed: the model is not linear enough for this plan, so aim lower"
         }
         None => "the target holds to within their scatter",
     };

@@ -15,7 +15,7 @@ use super::tie::Tie;
 use super::typing::{Scope, TableData, Typing};
 use crate::number::{Binary, Unary};
 use crate::regression::CurveFunction;
-use gumption_units::{Dimension, Exponent, Unit};
+use gumption_units::{Dimension, Exponent, Unit, Zero};
 
 /// The most mistakes reported of one formula.
 const MAX_ERRORS: usize = 50;
@@ -518,7 +518,9 @@ impl<'c> Checker<'c> {
         let span = self.tree.span(index);
         let text = excerpt(self.text, span.clone());
         let is_number = self.fractions.get(index).is_some_and(Option::is_some);
-        Box::new(Operand { text, span, dimension, is_number })
+        let celsius = matches!(self.tie(index), Tie::Sum { zero: Zero::Celsius, .. });
+        let is_celsius = celsius || self.typing(index).is_celsius();
+        Box::new(Operand { text, span, dimension, is_number, is_celsius })
     }
 
     pub(super) fn typing(&self, index: usize) -> Typing {

@@ -1,5 +1,6 @@
 //! What can be wrong with a formula: the facts. The sentences stand in `message.rs`.
 
+use std::borrow::Cow;
 use std::error::Error;
 use std::ops::Range;
 
@@ -59,7 +60,7 @@ pub enum FormulaError {
         /// What could stand there, in words.
         expected: &'static str,
         /// How that is written in a formula.
-        hint: Option<&'static str>,
+        hint: Option<Cow<'static, str>>,
         /// What may be meant by it and what stands before it.
         suggestion: Option<String>,
     },
@@ -294,6 +295,8 @@ pub struct Operand {
     pub dimension: Dimension,
     /// Whether it is a number written out.
     pub is_number: bool,
+    /// Whether it counts degrees Celsius from their zero.
+    pub is_celsius: bool,
 }
 
 /// What is wrong with a number.

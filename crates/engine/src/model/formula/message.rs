@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::error::{FormulaError, NumberFault, Operand};
 use super::function::Function;
-use super::name::Shown;
+use super::name::{Shown, is_name};
 use gumption_units::Dimension;
 
 /// The longest part of a formula that a message quotes, in characters.
@@ -85,7 +85,7 @@ impl fmt::Display for FormulaError {
             }
             Self::UnexpectedToken { found, expected, hint, suggestion, .. } => {
                 write!(f, "`{found}` cannot stand here; expected {expected}")?;
-                more(f, *hint, suggestion.as_deref())
+                more(f, hint.as_deref(), suggestion.as_deref())
             }
             Self::UnreadableNumber { text, fault, suggestion, .. } => {
                 write!(f, "`{}` is not a number that can be read: ", short(text))?;
@@ -158,13 +158,20 @@ impl fmt::Display for FormulaError {
                             other.text
                         );
                     }
+                    let unit = match other.is_celsius {
+                        true => "degC".to_owned(),
+                        false => other.dimension.usual_unit(),
+                    };
                     write!(
                         f,
                         " (a number other than 0 in a formula has no unit; write one behind it, \
-                         such as `{} [{}]`)",
+                         such as `{} [{unit}]`",
                         number.text,
-                        other.dimension.usual_unit()
                     )?;
+                    if other.is_celsius && is_name(&other.text) {
+                        write!(f, ", or take the number of the other, `{}/[degC]`", other.text)?;
+                    }
+                    f.write_str(")")?;
                 }
                 if left.text.contains("[h]") || right.text.contains("[h]") {
                     f.write_str(" (`[h]` is the Planck constant; the hour is `[hour]`)")?;

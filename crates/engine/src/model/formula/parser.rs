@@ -25,6 +25,7 @@
 //! tokens. The reader is a Pratt parser: every operator has a rank, and an operand goes to the
 //! neighbour of higher rank. It calls itself only for what is nested, and nesting is limited.
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -629,24 +630,43 @@ impl Parser<'_> {
             _ if expected == OPERAND => self.missing_operand(),
             _ if matches!(expected, TEXT | UNKNOWN | SOLVE) => (None, None),
             TokenKind::Close => {
-                (Some("this parenthesis closes nothing; remove it or add `(`"), None)
+                (Some("this parenthesis closes nothing; remove it or add `(`".into()), None)
             }
             TokenKind::Number(_) if self.last_is_number() => {
-                (Some("two numbers need an operator between them"), None)
+                (Some("two numbers need an operator between them".into()), None)
             }
             TokenKind::Name
                 if self.last_is_number()
                     && Unit::parse_among(self.slice(span), self.units).is_ok() =>
             {
                 let number = self.last.as_ref().map_or("", |last| self.slice(&last.span));
-                let suggestion = format!("{number} [{}]", self.slice(span));
-                (Some("the unit of a number stands in brackets"), Some(suggestion))
+                let unit = self.slice(span);
+                if self.last.as_ref().is_some_and(|last| last.span.end == span.start) {
+                    // `2V` may be two volts, or twice a quantity of that name
+                    let hint = format!(
+                        "the unit of a number stands in brackets, `{number} [{unit}]`, and a product \
+                         is written with `*`, `{number}*{unit}`"
+                    );
+                    (Some(hint.into()), None)
+                } else {
+                    let hint = "the unit of a number stands in brackets";
+                    (Some(hint.into()), Some(format!("{number} [{unit}]")))
+                }
             }
             TokenKind::Number(_) | TokenKind::Pi | TokenKind::Name | TokenKind::Open => {
                 let before = self.last.as_ref().map_or("", |last| self.slice(&last.span));
                 let here = self.slice(span);
-                let product = (before.len() + here.len() < 60).then(|| format!("{before}*{here}"));
-                (Some("a product is written with `*`"), product)
+                let short = before.len() + here.len() < 60;
+                // `V/2R` is meant as V/(2*R), and `V/2*R` is (V/2)*R
+                let divides = self.last.as_ref().is_some_and(|last| {
+                    let text = self.text.get(..last.span.start).unwrap_or_default();
+                    text.trim_end().ends_with(['/', '÷'])
+                });
+                let product = short.then(|| match divides {
+                    true => format!("({before}*{here})"),
+                    false => format!("{before}*{here}"),
+                });
+                (Some("a product is written with `*`".into()), product)
             }
             _ => (None, None),
         };
@@ -660,7 +680,7 @@ impl Parser<'_> {
     }
 
     /// What may be meant where an operand is missing: `<>`.
-    fn missing_operand(&self) -> (Option<&'static str>, Option<String>) {
+    fn missing_operand(&self) -> (Option<Cow<'static, str>>, Option<String>) {
         let before = self.last.as_ref().map(|last| (last.kind, last.span.end));
         let here = (self.token.kind, self.token.span.start);
         match (before, here) {

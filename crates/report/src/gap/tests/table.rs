@@ -58,6 +58,36 @@ fn what_is_hardly_there_has_a_page() {
     page(&many());
 }
 
+/// The headline does not say that nothing explains the gap where something more probably does, and not
+/// that the noise is off where that is not sure.
+#[test]
+fn headlines_are_no_surer_than_their_probabilities() {
+    let mut unsure = unexplained();
+    unsure.most_probable.probability = 0.454;
+    let explained: f64 = unsure
+        .hypotheses
+        .iter()
+        .filter(|of| of.effects.as_ref().is_some_and(|effects| !effects.is_empty()))
+        .map(|of| of.probability)
+        .sum();
+    assert!(explained > 0.454, "{explained}");
+    let text = page(&unsure).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("more probable than any one of them (probability 0.454)"), "{text}");
+    let mut off = bare();
+    off.outputs = vec![named("a_x", "m/s^2")];
+    for (probability, said) in
+        [(0.7, "the noise is probably not as"), (0.97, "the noise is not as")]
+    {
+        let mut noise = NoiseEstimate::new(0);
+        let factor = UncertaintyFactor { estimate: 0.26, interval: [0.25, 0.28], probability };
+        noise.factor = Some(factor);
+        off.noise = vec![noise];
+        let text = page(&off).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(text.contains(said), "{text}");
+        assert!(text.contains("limit of what is weighed (0.25 to 10 times"), "{text}");
+    }
+}
+
 #[test]
 fn a_small_gap_has_no_fraction() {
     let mut small = diagnosis();
