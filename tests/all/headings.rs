@@ -16,7 +16,8 @@ fn names_of_columns_have_their_units() {
         .expect("a file");
     let inputs = r#""inputs": {"V": {"unit": "mV", "distribution": "normal", "mean": 2, "std": 0.1}},
         "equations": {"y": "V*f/[kHz] + 0 [V/degC]*(t - t)"}, "outputs": {"y": {"unit": "mV"}}"#;
-    let model = format!(r#"{{{inputs}, "conditions": {{"file": "d.csv", "columns": ["f", "t"]}}}}"#);
+    let model =
+        format!(r#"{{{inputs}, "conditions": {{"file": "d.csv", "columns": ["f", "t"]}}}}"#);
     fs::write(at("m.json"), model).expect("a file");
     let said = command()
         .args(["run", "m.json", "--format", "json", "--quiet", "--trials", "0"])

@@ -1,6 +1,5 @@
 //! What can be wrong with a formula: the facts. The sentences stand in `message.rs`.
 
-use std::borrow::Cow;
 use std::error::Error;
 use std::ops::Range;
 
@@ -60,7 +59,7 @@ pub enum FormulaError {
         /// What could stand there, in words.
         expected: &'static str,
         /// How that is written in a formula.
-        hint: Option<Cow<'static, str>>,
+        hint: Option<Box<str>>,
         /// What may be meant by it and what stands before it.
         suggestion: Option<String>,
     },

@@ -25,7 +25,6 @@
 //! tokens. The reader is a Pratt parser: every operator has a rank, and an operand goes to the
 //! neighbour of higher rank. It calls itself only for what is nested, and nesting is limited.
 
-use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -680,7 +679,7 @@ impl Parser<'_> {
     }
 
     /// What may be meant where an operand is missing: `<>`.
-    fn missing_operand(&self) -> (Option<Cow<'static, str>>, Option<String>) {
+    fn missing_operand(&self) -> (Option<Box<str>>, Option<String>) {
         let before = self.last.as_ref().map(|last| (last.kind, last.span.end));
         let here = (self.token.kind, self.token.span.start);
         match (before, here) {
