@@ -223,6 +223,34 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{0+} hängen vielleicht voneinander ab, weil ihre Ergebnisse auf dieselbe Modelldatei zurückgehen; da eine der Größen keine endlichen Empfindlichkeitskoeffizienten hat, ist die Abhängigkeit nicht zu sagen; sie werden als unabhängig genommen",
     ),
     (
+        "in {}, {} is {} rad, as {} is given in {}; {} {} are written {}",
+        "in {0} ist {1} der Winkel {2} rad, denn {3} ist in {4} angegeben; {5} {6} werden {7} geschrieben",
+    ),
+    (
+        "in {}, {} is the number {}, that is {}, as {} is given in {}; {} {} are written {}",
+        "in {0} ist {1} die Zahl {2}, das sind {3}, denn {4} ist in {5} angegeben; {6} {7} werden {8} geschrieben",
+    ),
+    (
+        "{} converts to radians once more: formulas have an angle in {} in radians already, so that its name is enough",
+        "{0} rechnet noch einmal in Radiant um: Formeln haben einen Winkel in {1} schon in Radiant, so dass sein Name genügt",
+    ),
+    (
+        "{} in {} adds levels above a reference, or multiplies one, so that it is above no reference itself; the level of a sum of powers is {}, and gains are in dB",
+        "{0} in {1} addiert Pegel über einem Bezugswert oder vervielfacht einen und hat so selbst keinen Bezugswert; der Pegel einer Summe von Leistungen ist {2}, und Verstärkungen sind in dB",
+    ),
+    (
+        "{} is taken for an angular frequency, of which 2*pi radians are a revolution, as nothing says that it counts revolutions; if it does, write {}, or give it in {}",
+        "{0} gilt als Kreisfrequenz, von der 2*pi Radiant eine Umdrehung sind, denn nichts sagt, dass es Umdrehungen zählt; wenn es das tut, ist {1} zu schreiben oder die Einheit {2} anzugeben",
+    ),
+    (
+        "no equation uses the input {}: it contributes nothing to any uncertainty",
+        "keine Gleichung verwendet die Eingangsgröße {0}: Sie trägt zu keiner Unsicherheit bei",
+    ),
+    (
+        "the correlation of {} and {} has no effect, as {} has no uncertainty",
+        "die Korrelation von {0} und {1} hat keine Wirkung, denn {2} hat keine Unsicherheit",
+    ),
+    (
         "{} takes radians, and {} rad are more than a turn; an angle in degrees is written {}",
         "{0} nimmt Radiant, und {1} rad sind mehr als eine Umdrehung; ein Winkel in Grad wird {2} geschrieben",
     ),

@@ -295,3 +295,35 @@ fn names_of_a_file_stay_and_words_of_a_report_do_not() {
         "{markup}"
     );
 }
+
+/// The notes on what is right and seldom meant, as the readers write them.
+#[test]
+fn notes_on_formulas_are_in_german() {
+    let files = [
+        ("deg", "x + 90", "deg"),
+        ("%", "x + 2", "%"),
+        ("deg", "sin(x*pi/180)", "1"),
+        ("dBm", "2*x", "dBm"),
+        ("1/min", "x", "rpm"),
+    ];
+    let english = english();
+    for (unit, formula, result) in files {
+        let constant = json!({"unit": unit, "distribution": "constant", "value": 1});
+        let file = json!({
+            "inputs": {"x": {"unit": unit, "distribution": "normal", "mean": 1, "std": 0.1},
+                "z": constant, "v": constant},
+            "equations": {"y": formula, "w": "x + z"},
+            "outputs": {"y": {"unit": result}, "w": {"unit": unit}},
+            "correlations": [["x", "z", 0.5]]
+        });
+        let own: BTreeSet<String> = words_of(&file.to_string()).collect();
+        let foreign = |word: &str| english.contains(word) && !own.contains(word);
+        let notes = gumption_files::check_text("m.json", &file.to_string(), Path::new("")).unwrap();
+        assert!(notes.len() >= 3, "{notes:?}");
+        for text in notes.iter().map(|of| note(&of.text)) {
+            let left: Vec<String> =
+                words_of(&unquoted(&text)).filter(|word| foreign(word)).collect();
+            assert!(left.is_empty(), "{left:?} in {text}");
+        }
+    }
+}

@@ -104,7 +104,7 @@ impl Walk<'_> {
             }
         };
         let text = format!(
-            "in `{}` {written} is {is}, as `{}` is given in {unit}; {written} {unit} are written \
+            "in `{}`, {written} is {is}, as `{}` is given in {unit}; {written} {unit} are written \
              `{written} [{unit}]`",
             self.quoted(&node.span),
             self.quoted(&self.tree.span(name)),
