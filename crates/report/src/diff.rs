@@ -4,7 +4,9 @@ use serde::Serialize;
 
 use crate::answer::{in_order, pretty};
 use crate::document::{self, Document};
-use crate::number::{MISSING, exact, position, rounded, significant, to, with_uncertainty};
+use crate::number::{
+    MISSING, degrees_of_freedom, exact, position, rounded, significant, to, with_uncertainty,
+};
 use crate::sheet::Sheet;
 use crate::{Grid, plain, table::width, wrapped};
 use gumption_analysis::diff::{
@@ -282,7 +284,7 @@ fn known(part: &ChangePart, side: usize) -> String {
     }
     let (estimate, u) = with_uncertainty(*estimate, *u, DIGITS);
     let dof = if dof.is_finite() {
-        format!(", {} degrees of freedom", three_digits(*dof))
+        format!(", {}", degrees_of_freedom(&three_digits(*dof)))
     } else {
         String::new()
     };

@@ -17,6 +17,12 @@ pub fn to(value: f64, position: Option<i32>) -> String {
     position.map_or_else(|| exact(value), |position| rounded(value, position))
 }
 
+/// `1 degree of freedom`, `12 degrees of freedom`.
+pub(crate) fn degrees_of_freedom(number: &str) -> String {
+    let degrees = if number == "1" { "degree" } else { "degrees" };
+    format!("{number} {degrees} of freedom")
+}
+
 /// A figure from trials to a position, without the digits that its numerical standard error
 /// does not justify: those behind the position of the error's leading digit.
 ///

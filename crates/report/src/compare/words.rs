@@ -3,7 +3,7 @@
 use super::Compare;
 use super::sheets::probability;
 use crate::document::sentence;
-use crate::number::{rounded, significant, with_uncertainty};
+use crate::number::{degrees_of_freedom, rounded, significant, with_uncertainty};
 use crate::plain;
 use gumption_analysis::compare::laboratories::ReferenceValue;
 use gumption_analysis::compare::{Comparison, Estimator, FACTOR, consensus};
@@ -69,10 +69,10 @@ fn added(comparison: &Comparison) -> Option<String> {
             let (tau, of) = (significant(own.tau?, 2), own.hartung_knapp?);
             Some(format!(
                 "{name}: a standard deviation of {tau} between laboratories; by Hartung and Knapp U = \
-                 {} (k = {}, {} degrees of freedom)",
+                 {} (k = {}, {})",
                 significant(of.expanded(), 2),
                 rounded(of.coverage_factor, -2),
-                of.dof
+                degrees_of_freedom(&of.dof.to_string())
             ))
         }
     }
@@ -108,9 +108,9 @@ pub(super) fn verdict(compare: &Compare) -> Vec<String> {
 fn of_laboratories(comparison: &Comparison) -> Vec<String> {
     let chi = |of: &ReferenceValue| {
         format!(
-            "chi-squared {} with {} degrees of freedom, probability {}",
+            "chi-squared {} with {}, probability {}",
             rounded(of.chi_squared, -2),
-            of.dof,
+            degrees_of_freedom(&of.dof.to_string()),
             probability(of.p_value)
         )
     };

@@ -2,7 +2,7 @@
 
 use super::factor;
 use super::json::own_name;
-use crate::number::{exact, significant};
+use crate::number::{degrees_of_freedom, exact, significant};
 use crate::plain;
 use gumption_engine::regression::{Cross, Curve, CurveFunction, Spread};
 use gumption_engine::task::Coverage;
@@ -68,10 +68,10 @@ pub(super) fn agreement(curve: &CurveFunction) -> String {
     let fit = &*curve.fit;
     match (fit.is_valid(), fit.limit_of_chi2(), fit.factor) {
         (Some(valid), Some(limit), _) => format!(
-            "Chi-squared is {} with {} degrees of freedom, {} its 95 % quantile {} (p = {}): the points, \
+            "Chi-squared is {} with {}, {} its 95 % quantile {} (p = {}): the points, \
              the form of the curve and the stated uncertainties {}.",
             significant(fit.chi2, 4),
-            fit.dof,
+            degrees_of_freedom(&fit.dof.to_string()),
             if valid { "not above" } else { "above" },
             significant(limit, 4),
             significant(fit.p_value().unwrap_or(f64::NAN), 2),
@@ -80,18 +80,18 @@ pub(super) fn agreement(curve: &CurveFunction) -> String {
         (_, _, Some(factor)) if fit.points.of_y == Spread::None => {
             let unit = plain(curve.y.text());
             format!(
-                "The standard deviation of the residuals is {}{} with {} degrees of freedom; it stands \
+                "The standard deviation of the residuals is {}{} with {}; it stands \
                  for the uncertainty of y, so that nothing is left to test the form of the curve by.",
                 significant(factor, 3),
                 if unit.is_empty() || unit == "1" { String::new() } else { format!(" {unit}") },
-                fit.dof
+                degrees_of_freedom(&fit.dof.to_string())
             )
         }
         (_, _, Some(factor)) => format!(
-            "The residuals make the stated uncertainties {} times as large, with {} degrees of freedom; \
+            "The residuals make the stated uncertainties {} times as large, with {}; \
              nothing is left to test the form of the curve by.",
             significant(factor, 3),
-            fit.dof
+            degrees_of_freedom(&fit.dof.to_string())
         ),
         _ => "The curve goes through all points, so that nothing tests its form.".to_owned(),
     }

@@ -1,7 +1,7 @@
 //! The answer in sentences.
 
 use super::digits::{self, condition, p_equals, percent, probability, share, tenths};
-use crate::number::{exact, position, rounded, significant, with_uncertainty};
+use crate::number::{degrees_of_freedom, exact, position, rounded, significant, with_uncertainty};
 use crate::plain;
 use crate::statement::Measurement;
 use gumption_gap::{
@@ -293,18 +293,18 @@ pub(super) fn gap(diagnosis: &Diagnosis) -> String {
                 whether they are larger than it."
             .to_owned();
     };
-    let (chi2, dof) = (tenths(gap.chi2), exact(gap.dof));
+    let (chi2, dof) = (tenths(gap.chi2), degrees_of_freedom(&exact(gap.dof)));
     if diagnosis.noise.iter().all(|noise| noise.estimated.is_none()) {
         format!(
             "Chi-square test of all residuals together, in the metric of their covariance: chi-square \
-             {chi2} with {dof} degrees of freedom, {}, the probability of residuals as large as these \
+             {chi2} with {dof}, {}, the probability of residuals as large as these \
              without a gap.",
             p_equals(p)
         )
     } else {
         format!(
             "F test of lack of fit, means of repeated rows against their scatter: sum of squares \
-             {chi2} in variances of the repeats with {dof} degrees of freedom, {}, the probability of \
+             {chi2} in variances of the repeats with {dof}, {}, the probability of \
              means as far from the sim as these without a gap.",
             p_equals(p)
         )
