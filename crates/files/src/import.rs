@@ -19,6 +19,7 @@ use super::diagnostics::{Collector, Diagnostics};
 use super::reader::read_text;
 use super::separator::DecimalMarks;
 use super::source::SourceText;
+use super::value_text::grouped_digits;
 use super::{DiagnosticKind, bytes};
 use columns::{Column, Header, HeaderCoverage};
 use gumption_engine::model::formula::{Formula, Scope, Typing, check_name};
@@ -114,6 +115,8 @@ struct Row {
     distribution: Option<&'static str>,
     divisor: Option<f64>,
     sensitivity: Option<f64>,
+    /// As the sheet writes it; empty where it does not.
+    unit_of_sensitivity: String,
     dof: Option<f64>,
 }
 
@@ -318,11 +321,18 @@ impl Budget<'_> {
                 .any(|words| measurand.is_some_and(|name| columns::identifier(words) == name));
             let is_result = columns::is_result(&label) || is_measurand;
             row.unit = self.unit(header, line, is_result);
-            row.estimate = self.in_unit(header, line, (Column::Estimate, is_result), &row);
-            row.width = self.in_unit(header, line, (Column::Width, is_result), &row);
-            row.std = self.in_unit(header, line, (Column::Std, is_result), &row);
+            row.estimate = self.in_unit(header, line, (Column::Estimate, is_result), &mut row);
+            row.width = self.in_unit(header, line, (Column::Width, is_result), &mut row);
+            row.std = self.in_unit(header, line, (Column::Std, is_result), &mut row);
             let number = |column: Column| self.number(header, line, column, is_result);
-            row.sensitivity = number(Column::Sensitivity);
+            if let Some((c, unit)) = self.with_unit(header, line, Column::Sensitivity, is_result) {
+                row.sensitivity = Some(c);
+                unit.clone_into(&mut row.unit_of_sensitivity);
+            }
+            let stated = header.cell(self.cells, line, Column::UnitOfSensitivity).trim();
+            if row.unit_of_sensitivity.is_empty() && !matches!(stated, "-" | "–") {
+                stated.clone_into(&mut row.unit_of_sensitivity);
+            }
             row.divisor = self.divisor(header, line);
             row.dof = number(Column::Dof).filter(|dof| dof.is_finite() && *dof < 1e6);
             let of_shape = header.cell(self.cells, line, Column::Distribution).trim();
@@ -399,7 +409,14 @@ impl Budget<'_> {
         name
     }
 
-    fn number(&self, header: &Header, line: usize, column: Column, lenient: bool) -> Option<f64> {
+    /// The number in a cell and the unit behind it, which is empty where there is none.
+    fn with_unit<'c>(
+        &'c self,
+        header: &Header,
+        line: usize,
+        column: Column,
+        lenient: bool,
+    ) -> Option<(f64, &'c str)> {
         let text = header.cell(self.cells, line, column).trim();
         if text.is_empty() || matches!(text, "-" | "–" | "—") {
             return None;
@@ -410,13 +427,16 @@ impl Budget<'_> {
         {
             return None;
         }
-        let read = grid::number(text, self.cells.decimal_comma());
+        let read = grid::number_with_unit(text, self.cells.decimal_comma());
+        let is_unit = |unit: &str| grouped_digits(unit).is_none() && Unit::parse(unit).is_ok();
+        let read = read.filter(|(_, unit)| unit.is_empty() || is_unit(unit));
         if read.is_none() && !lenient {
             let reason = format!("`{text}` in the column of the {} is no number", column.name());
             self.fail(line, reason);
         }
-        if read.is_some()
-            && let Err(reason) = self.marks.borrow_mut().with_point(text)
+        if let Some((_, unit)) = read
+            && let digits = text.strip_suffix(unit).unwrap_or(text)
+            && let Err(reason) = self.marks.borrow_mut().with_point(digits)
             && self.log.is_clean()
         {
             self.fail(line, reason);
@@ -424,20 +444,36 @@ impl Budget<'_> {
         read
     }
 
-    /// A number in the unit of its row; per cent are a share of the estimate where the unit is neither
-    /// per cent nor one.
+    /// A number that has no unit.
+    fn number(&self, header: &Header, line: usize, column: Column, lenient: bool) -> Option<f64> {
+        let (value, unit) = self.with_unit(header, line, column, lenient)?;
+        if !unit.is_empty() && !lenient {
+            self.fail(
+                line,
+                format!("the {} has no unit, so that `{unit}` is too much", column.name()),
+            );
+        }
+        Some(value)
+    }
+
+    /// A number in the unit of its row, which is that of its first number where no column has one; per
+    /// cent are a share of the estimate where the unit is neither per cent nor one.
     fn in_unit(
         &mut self,
         header: &Header,
         line: usize,
         (column, lenient): (Column, bool),
-        row: &Row,
+        row: &mut Row,
     ) -> Option<f64> {
-        let value = self.number(header, line, column, lenient)?;
+        let (value, unit) = self.with_unit(header, line, column, lenient)?;
+        let unit = unit.to_owned();
         let text = header.cell(self.cells, line, column).trim();
         if column != Column::Estimate && value < 0.0 && !lenient {
             self.fail(line, format!("the {} `{text}` is below zero", column.name()));
             return None;
+        }
+        if !unit.is_empty() {
+            return self.converted((value, &unit), line, (column, lenient), row);
         }
         if !text.ends_with('%') || row.unit.is_empty() {
             return Some(value);
@@ -456,6 +492,34 @@ impl Budget<'_> {
             Shortest(estimate)
         ));
         Some(value * estimate.abs())
+    }
+
+    /// A number with a unit behind it, in that of its row.
+    fn converted(
+        &self,
+        (value, unit): (f64, &str),
+        line: usize,
+        (column, lenient): (Column, bool),
+        row: &mut Row,
+    ) -> Option<f64> {
+        if row.unit.is_empty() {
+            unit.clone_into(&mut row.unit);
+        }
+        let (from, to) = (Unit::parse(unit).ok()?, Unit::parse(&row.unit).ok()?);
+        let factor = Unit::conversion_factor(&from, &to).ok();
+        // of a temperature the size of the degree
+        let shifted = column == Column::Estimate && from.zero() != to.zero();
+        match factor.filter(|_| !shifted) {
+            Some(1.0) => Some(value),
+            Some(factor) => Some(value * factor),
+            None if lenient => None,
+            None => {
+                let reason =
+                    format!("the {} is in `{unit}`, but the row in `{}`", column.name(), row.unit);
+                self.fail(line, reason);
+                None
+            }
+        }
     }
 
     /// The coverage factor of a row from the header of its column.
@@ -883,6 +947,43 @@ mod tests {
         ] {
             let error = import("b.csv", table(rows).as_bytes()).unwrap_err().to_string();
             assert!(error.contains(part), "{error}");
+        }
+    }
+
+    /// EA-4/02, S2 as it is printed: units behind the numbers, in g and mg, and digits in groups.
+    /// Published: 10 000,025 g with u = 29,3 mg.
+    #[test]
+    fn numbers_with_units_in_their_cells() {
+        let text = "Größe;Schätzwert;Standardunsicherheit;Verteilung;Sensitivitätskoeffizient;Beitrag\n\
+            m_S;10 000,005 g;22,5 mg;Normal;1,0;22,5 mg\n\
+            dm_D;0,000 g;8,66 mg;Rechteck;1,0;8,66 mg\n\
+            dm;0,020 g;14,4 mg;Normal;1,0;14,4 mg\n\
+            dm_C;0,000 g;5,77 mg;Rechteck;1,0;5,77 mg\n\
+            dB;0,000 g;5,77 mg;Rechteck;1,0;5,77 mg\n\
+            m_X;10 000,025 g;;;;29,3 mg\n";
+        let (found, budget) = uncertainties(text);
+        let combined = found.iter().map(|u| u * u).sum::<f64>().sqrt();
+        // of published parts that are rounded to a tenth of a milligram
+        assert!((combined - 0.0293).abs() < 1e-4, "{found:?}");
+        assert!(budget.text.contains(r#""m_X":"m_S + dm_D + dm + dm_C + dB""#), "{}", budget.text);
+        assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "g");
+        assert!(!guesses(&budget, "contributes"), "{:?}", budget.guessed);
+        let text = "Quantity,Estimate,Standard uncertainty,Sensitivity coefficient\n\
+                    l,50.0002 mm,100 nm,1\ndt,0.1 K,50 mK,575 nm/K\n";
+        let (found, budget) = uncertainties(text);
+        assert!((found[0] - 1e-4).abs() < 1e-18 && (found[1] - 0.05).abs() < 1e-15, "{found:?}");
+        assert!(budget.text.contains(r#""y":"l + (0.000575)*dt""#), "{}", budget.text);
+        for (row, part) in [
+            ("l,50 mm,1 V,1", "the standard uncertainty is in `V`, but the row in `mm`"),
+            ("l,50 12 mm,1 mm,1", "`50 12 mm` in the column of the estimate is no number"),
+            ("t,20 degC,0.1 degF,1", ""),
+        ] {
+            let text =
+                format!("Quantity,Estimate,Standard uncertainty,Sensitivity coefficient\n{row}\n");
+            match import("b.csv", text.as_bytes()) {
+                Ok(_) => assert_eq!(part, "", "{row}"),
+                Err(error) => assert!(error.to_string().contains(part), "{error}"),
+            }
         }
     }
 

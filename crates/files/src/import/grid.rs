@@ -126,3 +126,31 @@ pub(super) fn number(text: &str, decimal_comma: bool) -> Option<f64> {
     };
     plain.or_else(with_comma).filter(|value| value.is_finite())
 }
+
+/// A number with the unit behind it, perhaps with digits in groups of three: `10 000,005 g`. The unit is
+/// empty where there is none, and not looked at.
+pub(super) fn number_with_unit(text: &str, decimal_comma: bool) -> Option<(f64, &str)> {
+    let text = text.trim();
+    if let Some(value) = number(text, decimal_comma) {
+        return Some((value, ""));
+    }
+    let ends = text.char_indices().map(|(at, c)| at + c.len_utf8());
+    ends.rev().find_map(|end| {
+        let (digits, unit) = text.split_at_checked(end)?;
+        let value = number(&ungrouped(digits.trim_end())?, decimal_comma)?;
+        Some((value, unit.trim()))
+    })
+}
+
+/// A number without the spaces between groups of three digits; `None` where there are others.
+fn ungrouped(digits: &str) -> Option<String> {
+    let mut groups = digits.split([' ', '\u{a0}', '\u{202f}']);
+    let first = groups.next()?;
+    groups.try_fold(first.to_owned(), |whole, group| {
+        let (head, rest) = group.split_at_checked(3)?;
+        let is_group = head.bytes().all(|b| b.is_ascii_digit())
+            && !rest.starts_with(|c: char| c.is_ascii_digit())
+            && whole.ends_with(|c: char| c.is_ascii_digit());
+        is_group.then(|| whole + group)
+    })
+}

@@ -5,7 +5,7 @@
 //! of its own, or leave it to the reader; where one row can be read in two ways, both are named.
 
 use super::columns::{Column, Header};
-use super::grid::number;
+use super::grid::number_with_unit;
 use super::{Budget, Row, divisor_of};
 use gumption_engine::number::{Shortest, elementary};
 use gumption_units::Unit;
@@ -49,9 +49,11 @@ impl Budget<'_> {
                 ));
             }
         }
-        let unit = self.unit_of_result(header, rows, result, measurand);
+        let unit = self.unit_of_result(rows, result, measurand);
+        // where a sheet states units of coefficients, one without is a plain number
+        let states_units = rows.iter().any(|row| !row.unit_of_sensitivity.is_empty());
         let factors: Vec<Option<f64>> =
-            rows.iter().map(|row| self.coefficient(header, row, &unit)).collect();
+            rows.iter().map(|row| self.coefficient(header, row, &unit, states_units)).collect();
         let factors: Vec<f64> = factors.into_iter().collect::<Option<_>>()?;
         for (row, factor) in rows.iter().zip(&factors) {
             self.compare_contribution(header, row, *factor, &unit);
@@ -82,20 +84,13 @@ impl Budget<'_> {
     }
 
     /// The unit of the result: that of its row, else that of the first row whose coefficient says it.
-    fn unit_of_result(
-        &mut self,
-        header: &Header,
-        rows: &[Row],
-        result: Option<&Row>,
-        measurand: &str,
-    ) -> String {
+    fn unit_of_result(&mut self, rows: &[Row], result: Option<&Row>, measurand: &str) -> String {
         if let Some(result) = result.filter(|result| !result.unit.is_empty()) {
             return result.unit.clone();
         }
         let of = |row: &Row| {
-            let stated = header.cell(self.cells, row.line, Column::UnitOfSensitivity).trim();
-            if !is_blank(stated) {
-                return of_coefficient(stated, &row.unit);
+            if !row.unit_of_sensitivity.is_empty() {
+                return of_coefficient(&row.unit_of_sensitivity, &row.unit);
             }
             let is_one = row.sensitivity.is_none_or(|c| c.abs() == 1.0);
             (is_one && !row.unit.is_empty()).then(|| row.unit.clone())
@@ -112,17 +107,21 @@ impl Budget<'_> {
     }
 
     /// What a row's numbers are multiplied by; `None` after a mistake.
-    fn coefficient(&mut self, header: &Header, row: &Row, unit: &str) -> Option<f64> {
+    fn coefficient(
+        &mut self,
+        header: &Header,
+        row: &Row,
+        unit: &str,
+        states_units: bool,
+    ) -> Option<f64> {
         let line = row.line + 1;
-        let stated = header.cell(self.cells, row.line, Column::UnitOfSensitivity).trim();
         let (of_row, of_result) = (Unit::parse(&row.unit).ok(), Unit::parse(unit).ok());
         let (own, whole) = of_row.zip(of_result)?;
-        // an empty cell of a column that states units is a plain number
-        let states_units = (0..self.cells.lines())
-            .filter(|line| *line > header.line)
-            .any(|line| !is_blank(header.cell(self.cells, line, Column::UnitOfSensitivity)));
         if let Some(c) = row.sensitivity.filter(|_| states_units) {
-            let stated = if is_blank(stated) { "1" } else { stated };
+            let stated = match row.unit_of_sensitivity.as_str() {
+                "" => "1",
+                stated => stated,
+            };
             let Ok(per) = Unit::parse(stated) else {
                 self.fail(row.line, format!("the unit `{stated}` of the coefficient is not known"));
                 return None;
@@ -212,8 +211,7 @@ impl Budget<'_> {
         of_result: &Unit,
     ) -> Option<[f64; 2]> {
         let text = header.cell(self.cells, row.line, Column::Contribution).trim();
-        let (digits, unit) = text.split_once(' ').unwrap_or((text, ""));
-        let stated = number(digits, self.cells.decimal_comma())?;
+        let (stated, unit) = number_with_unit(text, self.cells.decimal_comma())?;
         let scale = match unit.trim() {
             "" => 1.0,
             unit => Unit::conversion_factor(&Unit::parse(unit).ok()?, of_result).ok()?,
@@ -248,10 +246,6 @@ fn difference(a: f64, b: f64) -> f64 {
 /// A factor or its inverse, whichever is above 1.
 fn far_from_one(factor: f64) -> f64 {
     factor.abs().max(1.0 / factor.abs())
-}
-
-fn is_blank(cell: &str) -> bool {
-    matches!(cell.trim(), "" | "-" | "–")
 }
 
 /// Whether two contributions are the same number but for rounding.
