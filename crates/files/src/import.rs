@@ -333,7 +333,7 @@ impl Budget<'_> {
             if row.unit_of_sensitivity.is_empty() && !matches!(stated, "-" | "–") {
                 stated.clone_into(&mut row.unit_of_sensitivity);
             }
-            row.divisor = self.divisor(header, line);
+            row.divisor = self.divisor(header, line, is_result);
             row.dof = number(Column::Dof).filter(|dof| dof.is_finite() && *dof < 1e6);
             let of_shape = header.cell(self.cells, line, Column::Distribution).trim();
             let is_alone = row.width.is_none() && row.std.is_none() && row.sensitivity.is_none();
@@ -379,7 +379,7 @@ impl Budget<'_> {
             self.guessed.push(format!(
                 "line {}: `{}` {reason} and is taken for the result",
                 last.line + 1,
-                last.about
+                last.name
             ));
             result = Some(last);
         }
@@ -511,7 +511,8 @@ impl Budget<'_> {
         let shifted = column == Column::Estimate && from.zero() != to.zero();
         match factor.filter(|_| !shifted) {
             Some(1.0) => Some(value),
-            Some(factor) => Some(value * factor),
+            // each step rounded once
+            Some(_) => Some(to.from_si(from.to_si(value))),
             None if lenient => None,
             None => {
                 let reason =
@@ -561,9 +562,13 @@ impl Budget<'_> {
         }
     }
 
-    /// A divisor: a number, or a root such as `√3` or `sqrt(3)`.
-    fn divisor(&self, header: &Header, line: usize) -> Option<f64> {
+    /// A divisor: a number, a root such as `√3` or `sqrt(3)`, or a factor such as `k = 2`.
+    fn divisor(&self, header: &Header, line: usize, lenient: bool) -> Option<f64> {
         let text = header.cell(self.cells, line, Column::Divisor).trim().to_lowercase();
+        let text = match text.strip_prefix('k').map(str::trim_start) {
+            Some(rest) => rest.strip_prefix('=').map_or(text.as_str(), str::trim_start).to_owned(),
+            None => text,
+        };
         if text.is_empty() || matches!(text.as_str(), "-" | "–" | "—") {
             return None;
         }
@@ -579,6 +584,7 @@ impl Budget<'_> {
         };
         match read {
             Some(divisor) if divisor > 0.0 => Some(divisor),
+            _ if lenient => None,
             _ => {
                 self.fail(line, format!("the divisor `{text}` is no number above 0"));
                 None
@@ -985,6 +991,29 @@ mod tests {
                 Err(error) => assert!(error.to_string().contains(part), "{error}"),
             }
         }
+    }
+
+    /// A budget of half widths in cells with units, with the factor of its expanded uncertainty.
+    #[test]
+    fn half_widths_with_units_and_a_summary() {
+        let text = "Source of uncertainty,Value ±,Probability distribution,Divisor,ci,ui(y)\n\
+            Calibration,0.5 um,normal,2,1,0.25 um\n\
+            Resolution,0.5 um,rectangular,√3,1,0.29 um\n\
+            Temperature,1 degC,rectangular,sqrt(3),0.2 um/degC,0.12 um\n\
+            Combined standard uncertainty,,normal,,,0.40 um\n\
+            Expanded uncertainty,,,k = 2,,0.8 um\n";
+        let (found, budget) = uncertainties(text);
+        let right = [0.25, 0.5 / 3f64.sqrt(), 1.0 / 3f64.sqrt()];
+        assert!(found.iter().zip(right).all(|(u, right)| (u - right).abs() < 1e-15), "{found:?}");
+        let formula = r#""y":"Calibration + Resolution + (0.2)*Temperature""#;
+        assert!(budget.text.contains(formula), "{}", budget.text);
+        assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "um");
+        assert!(!guesses(&budget, "contributes"), "{:?}", budget.guessed);
+        let text = "Quantity,Estimate,Unit,Standard uncertainty,c_i\nV,5,V,15 uV,1\n\
+                    T,23,degC,0.5,10 uV/K\n";
+        let budget = import("b.csv", text.as_bytes()).unwrap();
+        assert!(budget.text.contains(r#""std":0.000015}"#), "{}", budget.text);
+        assert!(budget.text.contains("(1e-5)*T"), "{}", budget.text);
     }
 
     /// A result below its quantities that has an uncertainty, but neither a coefficient nor a shape.

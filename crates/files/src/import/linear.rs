@@ -140,7 +140,8 @@ impl Budget<'_> {
             }
             let scale = per.factor() * own.factor() / whole.factor();
             let is_one = (scale - 1.0).abs() < 1e-12;
-            return Some(if is_one { c } else { c * scale });
+            // each step rounded once
+            return Some(if is_one { c } else { whole.from_si(own.to_si(per.to_si(c))) });
         }
         let scale = Unit::conversion_factor(&own, &whole).ok();
         let shifted = own.offset() != whole.offset();

@@ -235,6 +235,10 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{0} rechnet noch einmal in Radiant um: Formeln haben einen Winkel in {1} schon in Radiant, so dass sein Name genügt",
     ),
     (
+        "{} converts from {} once more: formulas have a share in {} as a plain number already, so that its name is enough",
+        "{0} rechnet noch einmal aus {1} um: Formeln haben einen Anteil in {2} schon als Zahl, so dass sein Name genügt",
+    ),
+    (
         "{} in {} adds levels above a reference, or multiplies one, so that it is above no reference itself; the level of a sum of powers is {}, and gains are in dB",
         "{0} in {1} addiert Pegel über einem Bezugswert oder vervielfacht einen und hat so selbst keinen Bezugswert; der Pegel einer Summe von Leistungen ist {2}, und Verstärkungen sind in dB",
     ),

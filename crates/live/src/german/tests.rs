@@ -303,6 +303,7 @@ fn notes_on_formulas_are_in_german() {
         ("deg", "x + 90", "deg"),
         ("%", "x + 2", "%"),
         ("deg", "sin(x*pi/180)", "1"),
+        ("%", "x/100", "1"),
         ("dBm", "2*x", "dBm"),
         ("1/min", "x", "rpm"),
     ];

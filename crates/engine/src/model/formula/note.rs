@@ -58,6 +58,12 @@ impl Walk<'_> {
         excerpt(self.text, span.clone())
     }
 
+    /// Whether a number is written with pi, as of angles in radians.
+    fn has_pi(&self, index: usize) -> bool {
+        let text = self.text.get(self.tree.span(index)).unwrap_or_default();
+        text.contains("pi") || text.contains('π')
+    }
+
     /// `sin(30)`, which is of 30 rad.
     fn turns(&self, node: &Node) -> Option<FormulaNote> {
         let Kind::Call { function: Some(function), arguments, .. } = &node.kind else {
@@ -74,9 +80,12 @@ impl Walk<'_> {
              `{text} [deg]`",
             function.name()
         );
-        let meant = text.contains("pi") || text.contains('π');
         let span = node.span.clone();
-        (!meant).then_some(FormulaNote { code: "angle-of-turns", text: note, span })
+        (!self.has_pi(*argument)).then_some(FormulaNote {
+            code: "angle-of-turns",
+            text: note,
+            span,
+        })
     }
 
     /// `phi + 90` of an angle in degrees, `p < 5` of per cent.
@@ -86,14 +95,15 @@ impl Walk<'_> {
             return None;
         }
         let of = |index: usize| scaled.get(index).copied().flatten();
-        let (number, (unit, _), name) = match (self.constant(*left), self.constant(*right)) {
-            (Some(number), None) => (number, of(*right)?, *right),
-            (None, Some(number)) => (number, of(*left)?, *left),
+        let (at, name) = match (self.constant(*left), self.constant(*right)) {
+            (Some(_), None) => (*left, *right),
+            (None, Some(_)) => (*right, *left),
             _ => return None,
         };
-        // the whole beside a share of it
-        let is_whole = unit.is_relative() && number.abs() == 1.0;
-        if number == 0.0 || is_whole {
+        let (number, (unit, _)) = (self.constant(at)?, of(name)?);
+        // the whole beside a share of it, or the first term of an expansion
+        let is_whole = number.abs() == 1.0 && (unit.is_relative() || at == *left);
+        if number == 0.0 || is_whole || self.has_pi(at) {
             return None;
         }
         let written = Shortest(number);
@@ -112,8 +122,8 @@ impl Walk<'_> {
         Some(FormulaNote { code: "bare-number", text, span: node.span.clone() })
     }
 
-    /// What the numbers of a node are in, for the sums that it stands in; a note where pi/180 converts
-    /// what formulas have in radians already.
+    /// What the numbers of a node are in, for the sums that it stands in; a note where pi/180 or 1/100
+    /// converts what formulas have converted already.
     fn scaled<'u>(
         &self,
         node: &Node,
@@ -123,17 +133,23 @@ impl Walk<'_> {
         let of = |index: usize| scaled.get(index).copied().flatten();
         let times = |(unit, factor): (&'u Unit, f64), by: f64| {
             let factor = factor * by;
-            let converts = unit.turn() == Some(Turn::Angle)
-                && (factor.abs() / unit.factor() - 1.0).abs() < SAME_FACTOR;
-            let note = converts.then(|| FormulaNote {
-                code: "angle-converted-twice",
-                text: format!(
-                    "`{}` converts to radians once more: formulas have an angle in {unit} in radians \
-                     already, so that its name is enough",
-                    self.quoted(&node.span)
-                ),
-                span: node.span.clone(),
-            });
+            let converts = (factor.abs() / unit.factor() - 1.0).abs() < SAME_FACTOR;
+            let quoted = self.quoted(&node.span);
+            let (code, text) = if unit.is_relative() {
+                let text = format!(
+                    "`{quoted}` converts from {unit} once more: formulas have a share in {unit} as a \
+                     plain number already, so that its name is enough"
+                );
+                ("share-converted-twice", text)
+            } else {
+                let text = format!(
+                    "`{quoted}` converts to radians once more: formulas have an angle in {unit} in \
+                     radians already, so that its name is enough"
+                );
+                ("angle-converted-twice", text)
+            };
+            let span = node.span.clone();
+            let note = converts.then_some(FormulaNote { code, text, span });
             (Some((unit, factor)), note)
         };
         match &node.kind {
