@@ -122,6 +122,25 @@ impl Walk<'_> {
         Some(FormulaNote { code: "bare-number", text, span: node.span.clone() })
     }
 
+    /// `phi*pi/180` of an angle in degrees, `p/100` of per cent.
+    fn converted_twice(&self, node: &Node, unit: &Unit) -> FormulaNote {
+        let quoted = self.quoted(&node.span);
+        let (code, text) = if unit.is_relative() {
+            let text = format!(
+                "`{quoted}` converts from {unit} once more: formulas have a share in {unit} as a plain \
+                 number already, so that its name is enough"
+            );
+            ("share-converted-twice", text)
+        } else {
+            let text = format!(
+                "`{quoted}` converts to radians once more: formulas have an angle in {unit} in radians \
+                 already, so that its name is enough"
+            );
+            ("angle-converted-twice", text)
+        };
+        FormulaNote { code, text, span: node.span.clone() }
+    }
+
     /// What the numbers of a node are in, for the sums that it stands in; a note where pi/180 or 1/100
     /// converts what formulas have converted already.
     fn scaled<'u>(
@@ -134,22 +153,7 @@ impl Walk<'_> {
         let times = |(unit, factor): (&'u Unit, f64), by: f64| {
             let factor = factor * by;
             let converts = (factor.abs() / unit.factor() - 1.0).abs() < SAME_FACTOR;
-            let quoted = self.quoted(&node.span);
-            let (code, text) = if unit.is_relative() {
-                let text = format!(
-                    "`{quoted}` converts from {unit} once more: formulas have a share in {unit} as a \
-                     plain number already, so that its name is enough"
-                );
-                ("share-converted-twice", text)
-            } else {
-                let text = format!(
-                    "`{quoted}` converts to radians once more: formulas have an angle in {unit} in \
-                     radians already, so that its name is enough"
-                );
-                ("angle-converted-twice", text)
-            };
-            let span = node.span.clone();
-            let note = converts.then_some(FormulaNote { code, text, span });
+            let note = converts.then(|| self.converted_twice(node, unit));
             (Some((unit, factor)), note)
         };
         match &node.kind {
