@@ -10,6 +10,7 @@ use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
 use super::value_text::grouped_digits;
+use gumption_engine::special;
 
 /// What a text says of a quantity: numbers as written, without the unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,10 +20,21 @@ enum Stated {
     /// A value and its standard uncertainty.
     Standard(String, String),
     /// A value and its expanded uncertainty, which has a unit where it is not that of the value, with
-    /// `k` or `p` and its number.
-    Expanded { value: String, expanded: String, key: &'static str, factor: String },
+    /// what is said of it.
+    Expanded { value: String, expanded: String, coverage: Coverage },
     /// A most probable value, and standard uncertainties below and above it.
     Asymmetric { mode: String, low: String, high: String },
+}
+
+/// What stands behind an expanded uncertainty.
+#[derive(Clone, Debug, PartialEq)]
+struct Coverage {
+    /// `k` or `p`.
+    key: &'static str,
+    /// Its number.
+    factor: String,
+    /// Degrees of freedom.
+    dof: Option<String>,
 }
 
 /// Puts objects in the place of inputs and components that are written as texts or numbers.
@@ -31,22 +43,32 @@ pub(super) fn apply(log: &Collector, root: &mut Node) {
     let Some(inputs) = members.iter_mut().find(|member| member.key == "inputs") else { return };
     let Json::Object(inputs) = &mut inputs.value.value else { return };
     for input in inputs {
-        quantity(log, &input.key, &mut input.value);
+        quantity(log, &input.key, &mut input.value, None);
         let Json::Object(fields) = &mut input.value.value else { continue };
+        let unit = unit_of(fields).unwrap_or_default();
         let parts = fields.iter_mut().find(|field| field.key == "components");
         if let Some(Json::List(parts)) = parts.map(|parts| &mut parts.value.value) {
             for part in parts {
                 if let Json::Object(_) = part.value {
-                    quantity(log, &input.key, part);
+                    quantity(log, &input.key, part, Some(&unit));
                 }
             }
         }
     }
 }
 
+/// The unit that an object states.
+fn unit_of(fields: &[Member]) -> Option<String> {
+    let own = fields.iter().find(|field| field.key == "unit");
+    own.and_then(|field| match &field.value.value {
+        Json::Text(text) => Some(text.trim().to_owned()),
+        _ => None,
+    })
+}
+
 /// An input or a component that is a text or a number, or whose `value` is a text and which has no
-/// distribution.
-fn quantity(log: &Collector, name: &str, node: &mut Node) {
+/// distribution; a component has the `unit` of its input.
+fn quantity(log: &Collector, name: &str, node: &mut Node, input_unit: Option<&str>) {
     match &mut node.value {
         Json::Number(number) => {
             let number = number.clone();
@@ -76,11 +98,7 @@ fn quantity(log: &Collector, name: &str, node: &mut Node) {
             let (unit, stated) =
                 found.unwrap_or_else(|| (String::new(), Stated::Exact("1".to_owned())));
             fields.remove(place);
-            let own = fields.iter().find(|field| field.key == "unit");
-            let own = own.and_then(|field| match &field.value.value {
-                Json::Text(text) => Some(text.trim().to_owned()),
-                _ => None,
-            });
+            let own = unit_of(fields).or_else(|| input_unit.map(str::to_owned));
             let same = own.as_ref().is_none_or(|own| *own == unit);
             // numbers in another unit keep it, and are converted where they are read
             let behind = if same || unit.is_empty() { String::new() } else { format!(" {unit}") };
@@ -89,7 +107,7 @@ fn quantity(log: &Collector, name: &str, node: &mut Node) {
             if !behind.is_empty() {
                 for member in &mut made {
                     if let Json::Number(number) = &member.value.value
-                        && !matches!(member.key.as_str(), "k" | "p")
+                        && !matches!(member.key.as_str(), "k" | "p" | "dof")
                     {
                         member.value.value = Json::Text(format!("{number}{behind}"));
                     }
@@ -131,16 +149,20 @@ fn members(span: &Range<usize>, unit: Option<String>, stated: Stated) -> Vec<Mem
         Stated::Standard(mean, std) => {
             vec![text("distribution", "normal"), number("mean", mean), number("std", std)]
         }
-        Stated::Expanded { value, expanded, key, factor } => vec![
-            text("distribution", "normal"),
-            number("mean", value),
-            if expanded.contains(' ') {
+        Stated::Expanded { value, expanded, coverage: Coverage { key, factor, dof } } => {
+            let expanded = if expanded.contains(' ') {
                 text("expanded", &expanded)
             } else {
                 number("expanded", expanded)
-            },
-            number(key, factor),
-        ],
+            };
+            let stated = [
+                text("distribution", "normal"),
+                number("mean", value),
+                expanded,
+                number(key, factor),
+            ];
+            stated.into_iter().chain(dof.map(|dof| number("dof", dof))).collect()
+        }
         Stated::Asymmetric { mode, low, high } => vec![
             text("distribution", "split-normal"),
             number("mode", mode),
@@ -201,13 +223,13 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
                  `{value} % ± {expanded} %`, or the uncertainty in the unit of the value"
             ));
         }
-        let (key, factor) = coverage_of(coverage)?;
+        let coverage = coverage_of(coverage)?;
         if first.is_empty() || first == own {
-            return Ok((unit(own)?, Stated::Expanded { value, expanded, key, factor }));
+            return Ok((unit(own)?, Stated::Expanded { value, expanded, coverage }));
         }
         // a width that names its own unit, or per cent of the value
         let expanded = format!("{expanded} {}", unit(own)?);
-        return Ok((unit(first)?, Stated::Expanded { value, expanded, key, factor }));
+        return Ok((unit(first)?, Stated::Expanded { value, expanded, coverage }));
     }
     if rest.starts_with('+') || (rest.starts_with('-') && rest.contains('+')) {
         let (first, rest) = signed(rest).ok_or_else(|| FORMS.to_owned())?;
@@ -223,40 +245,65 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
 }
 
 /// What stands behind `±`: `(k=2)`, `(p=95 %)`, `(p=0.95)`, `(95 %)`; of `(k=2, p=95 %)`, as
-/// certificates have it, the factor.
-fn coverage_of(text: &str) -> Result<(&'static str, String), String> {
-    let inside = text.strip_prefix('(').and_then(|rest| rest.strip_suffix(')'));
-    let missing = || {
-        "what is behind `±` must be said: `(k=2)`, `(p=95 %)`, or `(k=1)` for a standard uncertainty"
-            .to_owned()
-    };
-    let inside = inside.ok_or_else(missing)?.trim();
-    let inside = match inside.split_once([',', ';']) {
-        Some((factor, probability)) if factor.trim_start().starts_with('k') => {
-            let probability = probability.trim_start();
-            if probability.starts_with(|c: char| c.is_ascii_digit()) && !probability.ends_with('%')
-            {
+/// certificates have it, the factor, which that probability must allow; degrees of freedom behind
+/// them, `(k=2.28, dof=10)`.
+fn coverage_of(text: &str) -> Result<Coverage, String> {
+    const MISSING: &str = "what is behind `±` must be said: `(k=2)`, `(p=95 %)`, or `(k=1)` for a \
+                           standard uncertainty; degrees of freedom behind it, `(k=2.28, dof=10)`";
+    let inside = text.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')).ok_or(MISSING)?;
+    let (mut k, mut p, mut dof) = (None, None, None);
+    for part in inside.split([',', ';']).map(str::trim) {
+        let (key, number) = part.split_once('=').unwrap_or(("p", part));
+        let number = number.trim();
+        let (percent, digits) = match number.strip_suffix('%') {
+            Some(percent) => (true, percent.trim()),
+            None => (false, number),
+        };
+        let place = match key.trim() {
+            "k" if !percent => &mut k,
+            "p" => &mut p,
+            "dof" | "veff" | "νeff" | "ν_eff" | "ν" if !percent => &mut dof,
+            _ => return Err(format!("`{part}` is not known there; {MISSING}")),
+        };
+        let found: f64 = match digits.parse() {
+            // `k=2,28` falls into two parts
+            Ok(found) if percent || part.contains('=') => found,
+            Ok(_) => {
                 return Err("a decimal fraction is written with a point, such as `k=2.28`".into());
             }
-            factor.trim()
+            Err(_) => return Err(format!("`{part}` is not known there; {MISSING}")),
+        };
+        let found = if percent {
+            (gumption_engine::decimal::exact(found / 100.0), found / 100.0)
+        } else {
+            (digits.to_owned(), found)
+        };
+        if place.replace(found).is_some() {
+            return Err(format!("`{}` is said twice; {MISSING}", key.trim()));
         }
-        _ => inside,
-    };
-    let (key, number) = match inside.split_once('=') {
-        Some((key, number)) if key.trim() == "k" => ("k", number.trim()),
-        Some((key, number)) if key.trim() == "p" => ("p", number.trim()),
-        Some(_) => return Err(missing()),
-        None => ("p", inside),
-    };
-    match number.strip_suffix('%') {
-        Some(percent) if key == "p" => {
-            let share: f64 = percent.trim().parse().map_err(|_| missing())?;
-            Ok((key, gumption_engine::decimal::exact(share / 100.0)))
+    }
+    let dof = dof.map(|(text, _)| text);
+    match (k, p) {
+        (Some((factor, k)), Some((_, p))) => {
+            // rounded to three digits, as certificates print it
+            if !(p > 0.0 && p < 1.0) {
+                return Err(format!("a probability of {p} is none: write `95 %` or `p=0.95`"));
+            }
+            let needed = special::normal::quantile(0.5 + 0.5 * p);
+            if k < 0.995 * needed {
+                return Err(format!(
+                    "k = {k} is less than the {} that {} % of a normal distribution need: if the \
+                     distribution is another one, name it (`\"distribution\": \"rectangular\"`, with \
+                     its `half_width`)",
+                    gumption_engine::decimal::significant(needed, 3),
+                    gumption_engine::decimal::exact(100.0 * p)
+                ));
+            }
+            Ok(Coverage { key: "k", factor, dof })
         }
-        _ => {
-            let _: f64 = number.parse().map_err(|_| missing())?;
-            Ok((key, number.to_owned()))
-        }
+        (Some((factor, _)), None) => Ok(Coverage { key: "k", factor, dof }),
+        (None, Some((factor, _))) => Ok(Coverage { key: "p", factor, dof }),
+        (None, None) => Err(MISSING.to_owned()),
     }
 }
 
@@ -344,11 +391,13 @@ mod tests {
     #[test]
     fn what_people_write() {
         let standard = |v: &str, u: &str| Stated::Standard(v.into(), u.into());
-        let expanded = |value: &str, expanded: &str, key, factor: &str| Stated::Expanded {
-            value: value.into(),
-            expanded: expanded.into(),
-            key,
-            factor: factor.into(),
+        let with = |value: &str, expanded: &str, key, factor: &str, dof: Option<&str>| {
+            let (value, expanded, factor) = (value.into(), expanded.into(), factor.into());
+            let coverage = Coverage { key, factor, dof: dof.map(str::to_owned) };
+            Stated::Expanded { value, expanded, coverage }
+        };
+        let expanded = |value: &str, expanded: &str, key, factor: &str| {
+            with(value, expanded, key, factor, None)
         };
         let table = [
             ("5.0112 V", "V", Stated::Exact("5.0112".into())),
@@ -367,6 +416,8 @@ mod tests {
             ("(5.01 ± 0.02) % (k=2)", "%", expanded("5.01", "0.02", "k", "2")),
             ("5.01 V ± 0.02 V (k=2, p=95 %)", "V", expanded("5.01", "0.02", "k", "2")),
             ("5.01 V ± 0.02 V (k = 2.28; 95 %)", "V", expanded("5.01", "0.02", "k", "2.28")),
+            ("5 V ± 0.1 V (k=2.28, dof=10)", "V", with("5", "0.1", "k", "2.28", Some("10"))),
+            ("5 V ± 0.1 V (95 %; νeff = 10)", "V", with("5", "0.1", "p", "0.95", Some("10"))),
             ("3 1/s", "1/s", Stated::Exact("3".into())),
         ];
         for (text, unit, expected) in table {
@@ -398,6 +449,11 @@ mod tests {
             ("5.01(x) V", "last digits"),
             ("5 +0.2 +0.1", "one below"),
             ("5.0112 V ± 0.0046 V (n=2)", "must be said"),
+            ("5.0 V ± 0.1 V (k=2, rectangular)", "`rectangular` is not known there"),
+            ("5.0 V ± 0.1 V (k=2, k=3)", "`k` is said twice"),
+            ("5.0 V ± 0.1 V (k=2, p=99 %)", "k = 2 is less than the 2.58"),
+            ("5.0 V ± 0.1 V (k=1.65, 95 %)", "name it"),
+            ("5.0 V ± 0.1 V (k=1.65, 95 %, rectangular)", "`rectangular` is not known there"),
         ] {
             let error = stated(text).unwrap_err();
             assert!(error.contains(part), "{text}: {error}");

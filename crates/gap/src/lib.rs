@@ -41,6 +41,7 @@ mod profile_path;
 mod reachable;
 mod replication;
 mod response_scan;
+mod row_drift;
 mod scan;
 mod search;
 mod selection;

@@ -53,8 +53,15 @@ const SERIAL: [f64; 4] = [0.3, 0.6, 0.8, 0.92];
 /// factor's logarithm: modes move with it.
 const MOVED: f64 = 2.0;
 
-/// The size of what is wrong with a value that is off, in standard uncertainties.
-const SUSPECT_SIZE: f64 = 10.0;
+/// The sizes of what is wrong with a value that is off, in standard uncertainties, with their prior
+/// probabilities: mostly a reading that went wrong a little; a digit or the decimal point that was
+/// typed wrong is off by any number of standard uncertainties.
+const SUSPECT_SIZES: [(f64, f64); 6] =
+    [(1e1, 0.9), (1e2, 0.02), (1e3, 0.02), (1e4, 0.02), (1e5, 0.02), (1e6, 0.02)];
+
+/// A value that still is off by more than this, in standard uncertainties with what is wrong with it
+/// included, is off by more than its size says.
+const STILL_OFF: f64 = 3.0;
 
 /// Values that are off, at most.
 const MOST_SUSPECTS: usize = 5;
@@ -66,11 +73,25 @@ pub(crate) const WORTH_TRYING: f64 = 0.02;
 /// Half the step of differences in the scores.
 const STEP: f64 = 1e-4;
 
-/// A measured value: a row of the case and an observed output.
+/// A measured value that may be off: a row of the case and an observed output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Suspect {
     pub(crate) id: usize,
     pub(crate) output: usize,
+    /// Place of the size of what is wrong with it.
+    size: usize,
+}
+
+impl Suspect {
+    /// Whether it is this value.
+    pub(crate) fn is_of(&self, id: usize, output: usize) -> bool {
+        (self.id, self.output) == (id, output)
+    }
+
+    /// The size of what is wrong with it, in standard uncertainties, and its prior probability.
+    fn size(&self) -> (f64, f64) {
+        SUSPECT_SIZES[self.size]
+    }
 }
 
 /// A noise that the data may have.
@@ -116,11 +137,8 @@ impl NoiseModel {
     /// What a value's standard uncertainty is multiplied by: a suspect is off by a normal quantity of
     /// its own.
     pub(crate) fn stretch(&self, id: usize, output: usize) -> f64 {
-        if self.suspects.contains(&Suspect { id, output }) {
-            elementary::hypot(1.0, SUSPECT_SIZE)
-        } else {
-            1.0
-        }
+        let suspect = self.suspects.iter().find(|suspect| suspect.is_of(id, output));
+        suspect.map_or(1.0, |suspect| elementary::hypot(1.0, suspect.size().0))
     }
 
     /// The unknown factor of an output's stated uncertainties.
@@ -187,9 +205,15 @@ impl NoiseModel {
         (MOST_SUSPECTS, PRIOR_ANOTHER)
     }
 
-    /// The size of what is wrong with a value that is off, in standard uncertainties.
-    pub(crate) fn suspect_size() -> f64 {
-        SUSPECT_SIZE
+    /// The size of what is wrong with a value that is off, in standard uncertainties, at a uniform
+    /// number between 0 and 1.
+    pub(crate) fn suspect_size(uniform: f64) -> f64 {
+        let mut below = 0.0;
+        let mut sizes = SUSPECT_SIZES.iter().map(|(size, prior)| {
+            below += prior;
+            (size, below)
+        });
+        sizes.find(|(_, below)| uniform < *below).map_or(SUSPECT_SIZES[0].0, |(size, _)| *size)
     }
 
     /// Its prior probability, for data of so many values.
@@ -209,7 +233,7 @@ impl NoiseModel {
             prior *= (more + 1) as f64 / values.saturating_sub(more).max(1) as f64;
             prior *= if more == 0 { 1.0 - PRIOR_ANOTHER } else { PRIOR_ANOTHER };
         }
-        prior
+        self.suspects.iter().fold(prior, |prior, suspect| prior * suspect.size().1)
     }
 }
 
@@ -297,11 +321,11 @@ pub(crate) fn weighings<'c>(
             weighings.push(Weighing { widths, ..begun(other, prior, &weighings, [0.7, 0.8]) });
         }
     }
-    for _ in 0..if few { MOST_SUSPECTS } else { 0 } {
-        if effort.is_stopped() {
+    while few && !effort.is_stopped() {
+        let Some(suspects) = more_suspects(&weighings) else { break };
+        if suspects.len() > MOST_SUSPECTS {
             break;
         }
-        let Some(suspects) = more_suspects(&weighings) else { break };
         let model = NoiseModel::with_suspects(suspects);
         let prior = model.prior(values);
         let setup = weighings[0].setup.with_noise(model);
@@ -430,48 +454,76 @@ fn more_suspects(weighings: &[Weighing<'_>]) -> Option<Vec<Suspect>> {
     let last = weighings.iter().rfind(is_known)?;
     let values = last.setup.data.len();
     let known = &last.setup.data.noise.suspects;
+    if let Some(larger) = larger_suspects(last) {
+        return Some(larger);
+    }
     let total = ln_total(weighings);
     let with = |suspect: Suspect| {
         let mut suspects = known.clone();
         suspects.push(suspect);
-        suspects
+        NoiseModel::with_suspects(suspects)
     };
-    let of_hypothesis = |hypothesis: &WeighedHypothesis| -> Vec<f64> {
+    let of_hypothesis = |hypothesis: &WeighedHypothesis| -> Vec<SizeGains> {
         let gains = gains(&last.setup, hypothesis);
         let ln = hypothesis.ln_weight() + ln_explained_away(&last.setup, hypothesis);
-        gains.into_iter().map(|gain| ln + gain).collect()
+        gains.into_iter().map(|gains| gains.map(|gain| ln + gain)).collect()
     };
-    let found: Vec<Vec<f64>> = last.posterior.hypotheses.par_iter().map(of_hypothesis).collect();
-    let sum = |value: usize| {
+    let found: Vec<Vec<SizeGains>> =
+        last.posterior.hypotheses.par_iter().map(of_hypothesis).collect();
+    let sum = |value: usize, size: usize| {
         found
             .iter()
             .filter_map(|of| of.get(value))
-            .fold(f64::NEG_INFINITY, |sum, ln| ln_add(sum, *ln))
+            .fold(f64::NEG_INFINITY, |sum, gains| ln_add(sum, gains[size]))
     };
     let outputs = last.setup.data.outputs.len();
-    let best = (0..values)
-        .map(|value| {
-            (
-                sum(value),
-                Suspect { id: last.setup.data.ids[value / outputs], output: value % outputs },
-            )
+    let (ln, model) = (0..values)
+        .map(|value| (value, last.setup.data.ids[value / outputs], value % outputs))
+        .filter(|&(_, id, output)| !known.iter().any(|suspect| suspect.is_of(id, output)))
+        .flat_map(|(value, id, output)| {
+            (0..SUSPECT_SIZES.len()).map(move |size| (value, Suspect { id, output, size }))
         })
-        .filter(|(_, suspect)| !known.contains(suspect))
+        .map(|(value, suspect)| {
+            let model = with(suspect);
+            (sum(value, suspect.size) + elementary::ln(model.prior(values)), model)
+        })
         .max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let suspects = with(best.1);
-    let model = NoiseModel::with_suspects(suspects);
-    let ln = best.0 + elementary::ln(model.prior(values));
     (ln - total > elementary::ln(WORTH_TRYING)).then_some(model.suspects)
 }
 
-/// By how much the logarithm of a hypothesis' evidence rises if each value is off, in the Gaussian
-/// approximation at its best mode.
+/// The same suspects with those of a larger size that still are off: without stated uncertainties a
+/// value that is far off hides in the scatter that it makes itself, until it is suspected.
+fn larger_suspects(weighing: &Weighing<'_>) -> Option<Vec<Suspect>> {
+    let Weighing { setup, posterior, .. } = weighing;
+    let hypotheses = posterior.hypotheses.iter();
+    let best = hypotheses.max_by(|a, b| a.probability.total_cmp(&b.probability))?;
+    let residuals = residuals_at_mode(setup, best);
+    let outputs = setup.data.outputs.len();
+    let is_off = |suspect: &Suspect| {
+        let row = setup.data.ids.iter().position(|&id| id == suspect.id)?;
+        let residual = residuals.get(row * outputs + suspect.output)?;
+        (residual.abs() > STILL_OFF && suspect.size + 1 < SUSPECT_SIZES.len()).then_some(())
+    };
+    let suspects = &setup.data.noise.suspects;
+    let larger = suspects.iter().map(|suspect| match is_off(suspect) {
+        Some(()) => Suspect { size: suspect.size + 1, ..*suspect },
+        None => *suspect,
+    });
+    let larger: Vec<Suspect> = larger.collect();
+    (larger != *suspects).then_some(larger)
+}
+
+/// A gain for each size of what is wrong with a value.
+type SizeGains = [f64; SUSPECT_SIZES.len()];
+
+/// By how much the logarithm of a hypothesis' evidence rises if each value is off by each size, in
+/// the Gaussian approximation at its best mode.
 ///
 /// There the data are normal with covariance C = V + H H', H being their derivatives by the scores,
 /// and inv(C) (y - E y) = inv(V) r with the residuals r at the mode. A variance s^2 added to value i
 /// changes the logarithm of the density by -ln(1 + s^2 c)/2 + s^2 g^2/(1 + s^2 c)/2 with the i-th
 /// diagonal element c of inv(C) and the i-th element g of inv(V) r (Sherman and Morrison).
-fn gains(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
+fn gains(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<SizeGains> {
     let Some(mode) = hypothesis.evidence.modes.first() else { return Vec::new() };
     let likelihood = setup.likelihood(&hypothesis.effects);
     let covariance = likelihood.covariance;
@@ -541,12 +593,16 @@ fn gains(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
             }
             let at = row * outputs;
             let along = DVector::from_fn(k, |i, _| dot(&columns[i][at..at + outputs], &unit));
-            let Some(half) = lower.solve_lower_triangular(&along) else { return 0.0 };
+            let Some(half) = lower.solve_lower_triangular(&along) else {
+                return [0.0; SUSPECT_SIZES.len()];
+            };
             let c = dot(&unit, &unit) - half.norm_squared();
             let g = dot(&unit, &adjusted[at..at + outputs]);
-            let s2 = (SUSPECT_SIZE * u).powi(2);
-            let growth = 1.0 + s2 * c.max(0.0);
-            0.5 * (s2 * g * g / growth - elementary::ln(growth))
+            SUSPECT_SIZES.map(|(size, _)| {
+                let s2 = (size * u).powi(2);
+                let growth = 1.0 + s2 * c.max(0.0);
+                0.5 * (s2 * g * g / growth - elementary::ln(growth))
+            })
         })
         .collect()
 }

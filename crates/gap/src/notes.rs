@@ -6,6 +6,7 @@ use super::diagnosis::{
 use super::evidence::DISAGREE;
 use super::goodness_of_fit::misfit;
 use super::posterior::Posterior;
+use super::row_drift;
 use super::setup::Setup;
 
 pub(crate) fn notes(
@@ -104,6 +105,24 @@ pub(crate) fn notes(
                  pattern that an effect or a smooth discrepancy would make: the stated noise is \
                  probably too small, or values are wrong one by one.",
                 (gap.chi2 / gap.dof).sqrt()
+            ),
+        );
+    }
+    if let Some((output, change)) = row_drift::drift(setup, winner) {
+        note(
+            "row-drift",
+            format!(
+                "What {} leaves of `{}` drifts along the rows, from the first to the last by {:.1} \
+                 times the standard deviation that its noise is found to have (so steep by chance in one \
+                 of 10 000 tables). If that is the order in which they were taken, something changes with \
+                 time: give the time as a condition, or an effect that drifts; sizes that are found \
+                 without it are means over the rows.",
+                match verdict.kind {
+                    HypothesisKind::Explained => "the verdict",
+                    _ => "the best hypothesis",
+                },
+                setup.case.model.outputs[setup.data.outputs[output]].quantity.name,
+                change
             ),
         );
     }

@@ -18,6 +18,9 @@ const FARTHEST: f64 = 8.0;
 
 const MOST_STEPS: usize = 30;
 
+/// A walker from which the cost would fall by less is where it was to come.
+const NEGLIGIBLE: f64 = 1e-4;
+
 /// Modes whose density is lower than the best's by this factor's logarithm are left out.
 const DEPTH: f64 = 14.0;
 
@@ -160,13 +163,22 @@ fn farthest(likelihood: &Likelihood<'_>) -> Vec<f64> {
 
 /// One step of all walkers that are not done; whether there were any.
 fn advance(likelihood: &Likelihood<'_>, walkers: &mut [Walker], farthest: &[f64]) -> bool {
-    let active: Vec<usize> = (0..walkers.len()).filter(|&w| !walkers[w].done).collect();
-    let proposals: Vec<Vec<f64>> = active.iter().map(|&w| walkers[w].proposal(farthest)).collect();
-    for ((&w, proposal), local) in active.iter().zip(&proposals).zip(locals(likelihood, &proposals))
-    {
-        walkers[w].decide(proposal, local);
+    let mut active = Vec::new();
+    let mut proposals = Vec::new();
+    for walker in walkers.iter_mut().filter(|walker| !walker.done) {
+        match walker.proposal(farthest) {
+            Some(proposal) => {
+                active.push(walker);
+                proposals.push(proposal);
+            }
+            None => walker.done = true,
+        }
     }
-    !active.is_empty()
+    let locals = locals(likelihood, &proposals);
+    for ((walker, proposal), local) in active.iter_mut().zip(&proposals).zip(locals) {
+        walker.decide(proposal, local);
+    }
+    !proposals.is_empty()
 }
 
 /// Sorts by cost and drops walkers that stand where a better one does.
@@ -208,23 +220,28 @@ impl Walker {
         Mode { scores: self.scores, cost, information }
     }
 
-    fn proposal(&self, farthest: &[f64]) -> Vec<f64> {
+    /// Where to go next; `None` where nothing is to be gained.
+    fn proposal(&self, farthest: &[f64]) -> Option<Vec<f64>> {
         let Local { gradient, information, .. } = &self.local;
         let mut gradient = gradient.clone();
-        let mut damped = match self.held {
-            Some(held) => {
-                gradient[held] = 0.0;
-                freed(information, held)
+        let mut damped = information.clone();
+        for (i, (score, most)) in self.scores.iter().zip(farthest).enumerate() {
+            // a score at an edge that it would cross stays, and the others move without it
+            let is_at_edge = score.abs() >= *most && score * gradient[i] < 0.0;
+            if is_at_edge || self.held == Some(i) {
+                gradient[i] = 0.0;
+                damped = freed(&damped, i);
             }
-            None => information.clone(),
-        };
+        }
         for i in 0..damped.nrows() {
             damped[(i, i)] *= 1.0 + self.damping;
         }
         let step = damped.cholesky().map(|root| root.solve(&gradient));
-        let step = step.unwrap_or(gradient);
+        let step = step.unwrap_or_else(|| gradient.clone());
+        // as the damping is, the decrease of the cost would be half of this or more
+        let is_there = step.dot(&gradient) < NEGLIGIBLE && self.damping < 1.0;
         let to = |((score, step), most): ((&f64, &f64), &f64)| (score - step).clamp(-most, *most);
-        self.scores.iter().zip(step.iter()).zip(farthest).map(to).collect()
+        (!is_there).then(|| self.scores.iter().zip(step.iter()).zip(farthest).map(to).collect())
     }
 
     fn decide(&mut self, proposal: &[f64], local: Local) {

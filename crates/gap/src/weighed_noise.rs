@@ -34,8 +34,9 @@ impl WeighedNoise {
         of.serial = serial(weighings);
         for weighing in weighings {
             for &suspect in &weighing.setup.data.noise.suspects {
-                match of.suspects.iter_mut().find(|(known, ..)| *known == suspect) {
-                    Some((_, probability)) => *probability += weighing.probability,
+                let Suspect { id, output, .. } = suspect;
+                match of.suspects.iter_mut().find(|(known, ..)| known.is_of(id, output)) {
+                    Some((_, known)) => *known = (*known + weighing.probability).min(1.0),
                     None => of.suspects.push((suspect, weighing.probability)),
                 }
             }

@@ -2,6 +2,11 @@
 //!
 //! A symmetric matrix and its Cholesky root L, with L L' the matrix, both fit such a triangle, and
 //! factoring, inverting and solving work in place. A slice's length gives the order.
+//!
+//! Left of the first entry of a row that is not zero the row of the Cholesky root is zero too (its
+//! envelope: George and Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981,
+//! chapter 4). Zeros there are passed over, so that blocks which have nothing to do with each other
+//! cost what each of them costs; no sum changes by it.
 
 use nalgebra::DMatrix;
 
@@ -47,8 +52,9 @@ pub fn to_matrix(lower: &[f64]) -> DMatrix<f64> {
 /// The first row whose pivot (the square of the root's diagonal entry) is not above `least`; rows
 /// before it are replaced.
 pub fn cholesky(matrix: &mut [f64], least: f64) -> Result<(), usize> {
-    for i in 0..order(matrix) {
-        let pivot = eliminate(matrix, i);
+    let firsts = firsts(matrix);
+    for i in 0..firsts.len() {
+        let pivot = eliminate(matrix, &firsts, i);
         if pivot <= least || pivot.is_nan() {
             return Err(i);
         }
@@ -60,21 +66,36 @@ pub fn cholesky(matrix: &mut [f64], least: f64) -> Result<(), usize> {
 /// The same for a matrix that is positive definite but for rounding, such as the identity plus
 /// products: a pivot that rounding leaves at zero or below is taken as the smallest normal number.
 pub fn cholesky_of_definite(matrix: &mut [f64]) {
-    for i in 0..order(matrix) {
-        matrix[triangle(i) + i] = eliminate(matrix, i).max(f64::MIN_POSITIVE).sqrt();
+    let firsts = firsts(matrix);
+    for i in 0..firsts.len() {
+        matrix[triangle(i) + i] = eliminate(matrix, &firsts, i).max(f64::MIN_POSITIVE).sqrt();
     }
 }
 
-/// Replaces row i of a matrix by that of its root, given the root's rows above; the pivot is given
-/// back and not stored.
-fn eliminate(matrix: &mut [f64], i: usize) -> f64 {
+/// Replaces row i of a matrix by that of its root, given the root's rows above and where each row
+/// begins; the pivot is given back and not stored.
+fn eliminate(matrix: &mut [f64], firsts: &[usize], i: usize) -> f64 {
     let (above, rest) = matrix.split_at_mut(triangle(i));
     let (row, diagonal) = rest.split_at_mut(i);
-    for j in 0..i {
+    for j in firsts[i]..i {
         let other = &above[triangle(j)..triangle(j + 1)];
-        row[j] = (row[j] - dot(&row[..j], other)) / other[j];
+        let first = firsts[i].max(firsts[j]);
+        row[j] = (row[j] - dot(&row[first..j], &other[first..])) / other[j];
     }
-    diagonal[0] - dot(row, row)
+    diagonal[0] - dot(&row[firsts[i]..], &row[firsts[i]..])
+}
+
+/// Where each row of a lower triangle begins: the place of its first entry that is not zero, or of
+/// its diagonal.
+fn firsts(lower: &[f64]) -> Vec<usize> {
+    let first = |(i, row): (usize, &[f64])| first_of(row).min(i);
+    rows(lower).enumerate().map(first).collect()
+}
+
+/// The place of the first value that is not zero; the number of values where all are.
+#[inline(always)]
+fn first_of(values: &[f64]) -> usize {
+    values.iter().position(|value| *value != 0.0).unwrap_or(values.len())
 }
 
 /// The sum of the logarithms of a triangle's diagonal: of a Cholesky root half the logarithm of the
@@ -129,17 +150,20 @@ impl Kernel for SolveMany<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let group = (order(self.lower) * TOGETHER).max(1);
+        let firsts = firsts(self.lower);
+        let group = (firsts.len() * TOGETHER).max(1);
         let groups = self.vectors.chunks_exact_mut(group);
         for (group, squares) in groups.zip(self.squares.chunks_exact_mut(TOGETHER)) {
             let mut lengths = [0.0; TOGETHER];
-            let mut start = 0;
-            for i in 0..group.len() / TOGETHER {
-                let row = &self.lower[start..start + i + 1];
-                start += i + 1;
+            // results before the first entries that are not zero are zero
+            let begin = first_of(group) / TOGETHER;
+            for i in begin..group.len() / TOGETHER {
+                let row = row(self.lower, i);
                 let (known, rest) = group.split_at_mut(i * TOGETHER);
                 let mut sums = [0.0; TOGETHER];
-                for (entry, known) in row.iter().zip(known.chunks_exact(TOGETHER)) {
+                let first = firsts[i].max(begin);
+                let known = known.chunks_exact(TOGETHER).skip(first);
+                for (entry, known) in row[first..].iter().zip(known) {
                     for (sum, known) in sums.iter_mut().zip(known) {
                         *sum += entry * known;
                     }
@@ -171,16 +195,15 @@ impl Kernel for AddSquares<'_> {
     #[inline(always)]
     fn run(self) {
         for row in self.rows.chunks_exact(order(self.matrix).max(1)) {
-            let mut start = 0;
-            for (i, &factor) in row.iter().enumerate() {
+            let first = first_of(row);
+            for (i, &factor) in row.iter().enumerate().skip(first) {
                 // rows hold features of one output each, so that many entries are zero
                 if factor != 0.0 {
-                    let sums = &mut self.matrix[start..start + i + 1];
-                    for (sum, other) in sums.iter_mut().zip(row) {
+                    let sums = &mut self.matrix[triangle(i)..triangle(i + 1)][first..];
+                    for (sum, other) in sums.iter_mut().zip(&row[first..]) {
                         *sum += factor * other;
                     }
                 }
-                start += i + 1;
             }
         }
     }

@@ -58,7 +58,8 @@ impl NoiseOfDraw {
                 loop {
                     let place = (scores.choice(rows), scores.choice(outputs));
                     if !of.off.iter().any(|&(row, output, _)| (row, output) == place) {
-                        of.off.push((place.0, place.1, NoiseModel::suspect_size() * scores.next()));
+                        let size = NoiseModel::suspect_size(scores.uniform());
+                        of.off.push((place.0, place.1, size * scores.next()));
                     }
                     if of.off.len() >= most.min(rows * outputs) || scores.uniform() >= another {
                         break;

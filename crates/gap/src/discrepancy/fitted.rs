@@ -16,11 +16,13 @@
 //! A form whose evidence at a few amplitudes is far below the leading hypothesis is left at these: its
 //! weight would be lost in rounding.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use super::form::Form;
 use super::{AMPLITUDES, Discrepancy, Unexplained, Weighted, weigh};
 use crate::latent::{EDGE, Role, ln_prior};
 use crate::logarithm::HALF_LN_TWO_PI;
@@ -43,6 +45,12 @@ const FLAT: f64 = std::f64::consts::PI / 6.0;
 /// A gain in the logarithm of the density that is not worth another step.
 const ENOUGH: f64 = 1e-3;
 
+/// An amplitude at which a discrepancy makes no difference, in standard uncertainties.
+const NEGLIGIBLE: f64 = 1e-6;
+
+/// Nor is one that is less than this share of what is missing to make a difference.
+const ROUGHLY: f64 = 0.02;
+
 /// Every so many-th amplitude is tried first.
 const COARSE: usize = 4;
 
@@ -63,40 +71,87 @@ pub(crate) fn evidence(
     floor: f64,
 ) -> Unexplained {
     let noise: Vec<&Role> = setup.roles.iter().filter(|role| role.is_noise()).collect();
-    // from the largest amplitude on, where the noise is least
-    let at = |place: usize, steps: &[usize]| -> Vec<(f64, Weighted)> {
+    // how far the density may rise between the amplitudes that are tried
+    let reach = |place: usize| {
+        let features = discrepancy.forms[place].nodes.rank() * setup.data.outputs.len();
+        PER_FEATURE * features as f64
+    };
+    let at = |place: usize, problem: &Problem<'_>, step: usize, start: &[f64]| {
+        let form = &discrepancy.forms[place];
+        let share = (step as f64 + 0.5) / STEPS as f64;
+        let amplitude = AMPLITUDES[0] * elementary::pow(AMPLITUDES[1] / AMPLITUDES[0], share);
+        let mut scores = start.to_vec();
+        let ln_share = form.ln_weight - elementary::ln(STEPS as f64);
+        let worth = floor - HOPELESS - reach(place) - ln_share;
+        let ln = problem.integrate(amplitude, &mut scores, worth) + ln_share;
+        let variances = problem.variances(&scores);
+        let own = problem.means.iter().map(|mean| variances[mean.value]);
+        let multiplier = amplitude * problem.scale(own);
+        let variances = Some(Arc::new(variances));
+        let kind = Weighted { form: place, multiplier, weight: 0.0, base: None, variances };
+        Part { step, ln, kind, scores }
+    };
+    let problem = |place: usize| {
         let form = &discrepancy.forms[place];
         let features = form.features(setup, &discrepancy.axes);
-        let problem = Problem::new(setup, &features, &noise, residuals);
-        let mut scores = vec![0.0; noise.len()];
-        let mut part = |step: &usize| {
-            let share = (*step as f64 + 0.5) / STEPS as f64;
-            let amplitude = AMPLITUDES[0] * elementary::pow(AMPLITUDES[1] / AMPLITUDES[0], share);
-            let ln = problem.integrate(amplitude, &mut scores);
-            let variances = problem.variances(&scores);
-            let own = problem.means.iter().map(|mean| variances[mean.value]);
-            let multiplier = amplitude * problem.scale(own);
-            let ln = ln + form.ln_weight - elementary::ln(STEPS as f64);
-            let variances = Some(Arc::new(variances));
-            (ln, Weighted { form: place, multiplier, weight: 0.0, base: None, variances })
-        };
-        steps.iter().rev().map(&mut part).collect()
+        Problem::new(setup, &features, &noise, residuals)
     };
+    let mut alone = vec![0.0; noise.len()];
+    if !discrepancy.forms.is_empty() {
+        problem(0).integrate(NEGLIGIBLE, &mut alone, f64::NEG_INFINITY);
+    }
     let is_coarse = |step: &usize| step % COARSE == 1;
-    let (coarse, fine): (Vec<usize>, Vec<usize>) = (0..STEPS).partition(is_coarse);
-    let mut parts: Vec<Vec<(f64, Weighted)>> =
-        (0..discrepancy.forms.len()).into_par_iter().map(|place| at(place, &coarse)).collect();
-    let best = |parts: &[(f64, Weighted)]| {
-        parts.iter().map(|(ln, _)| *ln).fold(f64::NEG_INFINITY, f64::max)
+    // forms of one term differ little: the noise beside one of them is where to look for that of the
+    // next
+    let terms: Vec<&[Form]> = discrepancy.forms.chunk_by(|a, b| a.term == b.term).collect();
+    let ends = terms.iter().scan(0, |end, forms| {
+        *end += forms.len();
+        Some(*end - forms.len()..*end)
+    });
+    let of_term = |places: Range<usize>| {
+        let mut found: Vec<Vec<Part>> = Vec::with_capacity(places.len());
+        for place in places {
+            let problem = problem(place);
+            let mut parts: Vec<Part> = Vec::new();
+            // from the largest amplitude on, where the noise is least
+            for step in (0..STEPS).rev().filter(is_coarse) {
+                let before = found.last().and_then(|parts| parts.iter().find(|p| p.step == step));
+                let start = before.or(parts.last()).map_or(&alone, |part| &part.scores);
+                parts.push(at(place, &problem, step, start));
+            }
+            found.push(parts);
+        }
+        found
     };
+    let ends: Vec<Range<usize>> = ends.collect();
+    let mut parts: Vec<Vec<Part>> =
+        ends.into_par_iter().map(of_term).collect::<Vec<_>>().into_iter().flatten().collect();
+    let best = |parts: &[Part]| parts.iter().map(|part| part.ln).fold(f64::NEG_INFINITY, f64::max);
     let leads = parts.iter().map(|parts| best(parts)).fold(floor, f64::max);
     parts.par_iter_mut().enumerate().for_each(|(place, parts)| {
-        let features = discrepancy.forms[place].nodes.rank() * setup.data.outputs.len();
-        if best(parts) + PER_FEATURE * features as f64 > leads - HOPELESS {
-            parts.extend(at(place, &fine));
+        if best(parts) + reach(place) <= leads - HOPELESS {
+            return;
+        }
+        let problem = problem(place);
+        for step in (0..STEPS).rev().filter(|step| !is_coarse(step)) {
+            let above = parts.iter().filter(|part| part.step > step).min_by_key(|part| part.step);
+            let start = above.or(parts.first()).map_or(&alone, |part| &part.scores);
+            let part = at(place, &problem, step, start);
+            parts.push(part);
         }
     });
-    weigh(parts.into_iter().flatten().collect())
+    let parts = parts.into_iter().flatten().map(|Part { ln, kind, .. }| (ln, kind));
+    weigh(parts.collect())
+}
+
+/// A form at an amplitude, with the logarithm of its share of the evidence.
+struct Part {
+    /// Which amplitude.
+    step: usize,
+    ln: f64,
+    kind: Weighted,
+    /// The most probable scores of the noise.
+    scores: Vec<f64>,
 }
 
 struct Problem<'p> {
@@ -276,19 +331,30 @@ impl<'p> Problem<'p> {
         Local { ln, gradient, information }
     }
 
-    /// The integral over the scores of the noise; `scores` are where to start, and become the most
-    /// probable ones.
-    fn integrate(&self, amplitude: f64, scores: &mut [f64]) -> f64 {
+    /// The logarithm of the integral over the scores of the noise; `scores` are where to start, and
+    /// become the most probable ones. What lies far below `worth` is found roughly.
+    fn integrate(&self, amplitude: f64, scores: &mut [f64], worth: f64) -> f64 {
         let mut here = self.local(amplitude, scores);
         let mut damping = 1e-4;
         for _ in 0..MOST_STEPS {
+            let enough = ENOUGH.max(ROUGHLY * (worth - here.ln));
             let mut damped = here.information.clone();
             for i in 0..scores.len() {
                 damped[(i, i)] = damped[(i, i)] * (1.0 + damping) + 1e-6;
             }
+            let mut gradient = here.gradient.clone();
+            for (i, score) in scores.iter().enumerate() {
+                // at an edge that it would cross it stays, and the others move without it
+                if score.abs() >= EDGE && score * gradient[i] > 0.0 {
+                    gradient[i] = 0.0;
+                    damped.row_mut(i).fill(0.0);
+                    damped.column_mut(i).fill(0.0);
+                    damped[(i, i)] = 1.0;
+                }
+            }
             let Some(root) = damped.cholesky() else { break };
-            let step = root.solve(&here.gradient);
-            if step.dot(&here.gradient) < 2.0 * ENOUGH {
+            let step = root.solve(&gradient);
+            if step.dot(&gradient) < 2.0 * enough {
                 break;
             }
             let next: Vec<f64> = scores
@@ -302,7 +368,7 @@ impl<'p> Problem<'p> {
                 scores.copy_from_slice(&next);
                 here = there;
                 damping *= 0.1;
-                if gain < ENOUGH {
+                if gain < enough {
                     break;
                 }
             } else {
@@ -329,8 +395,9 @@ fn means(setup: &Setup<'_>, residuals: &[f64]) -> Vec<Mean> {
             && linear.basis.iter().all(|column| column[a] == column[b])
     };
     let mut means: Vec<Mean> = Vec::new();
-    for point in &setup.data.points {
-        for output in 0..outputs {
+    // those of an output together, as features mostly are of one output each
+    for output in 0..outputs {
+        for point in &setup.data.points {
             let first = means.len();
             for &row in &point.rows {
                 let (value, residual) = (row * outputs + output, residuals[row * outputs + output]);

@@ -119,6 +119,49 @@ fn a_value_that_is_off_is_found_and_explains_nothing_else() {
     assert!((offset.estimate - 0.3).abs() < 5.0 * 0.1 / 29f64.sqrt(), "{offset:?}");
 }
 
+/// A digit or the decimal point typed wrong is off by hundreds of standard uncertainties and more, with
+/// stated uncertainties and without.
+#[test]
+fn a_value_that_was_typed_wrong_is_found() {
+    for (wrong, stated) in [(50.0, true), (4_500.0, true), (50.0, false), (4_500.0, false)] {
+        let mut residuals: Vec<f64> = normals(30, 5).into_iter().map(|z| 0.1 * z).collect();
+        residuals[6] = wrong;
+        let mut case = line_with(&residuals);
+        if !stated {
+            case.observed[0].as_mut().unwrap().standard_uncertainties = None;
+        }
+        let found = diagnosed(&case, 1);
+        assert_eq!(found.most_probable.kind, HypothesisKind::None, "{wrong} {stated}");
+        let suspect = found.noise[0].suspects.first().unwrap();
+        assert_eq!(suspect.row, 6, "{wrong} {stated}");
+        assert!(suspect.probability > 0.95 && suspect.probability <= 1.0, "{suspect:?}");
+    }
+}
+
+/// A departure that grows from row to row, while the condition goes up and down, is told; one that
+/// goes with the condition, and a table in the order of its condition, are not.
+#[test]
+fn a_drift_along_the_rows_is_told() {
+    let noted = |drift: f64, places: &dyn Fn(usize) -> usize| {
+        let residuals: Vec<f64> = normals(30, 4).into_iter().map(|z| 0.1 * z).collect();
+        let ordered = line_with(&residuals);
+        let mut case = ordered.clone();
+        for row in 0..30 {
+            let place = places(row);
+            case.task.rows[row] = ordered.task.rows[place].clone();
+            let value = ordered.observed[0].as_ref().unwrap().values[place];
+            case.observed[0].as_mut().unwrap().values[row] = value + drift * row as f64;
+        }
+        diagnosed(&case, 1).notes.into_iter().find(|note| note.code == "row-drift")
+    };
+    let mixed = |row: usize| row * 11 % 30;
+    let text = noted(0.05, &mixed).unwrap().text;
+    // the noise is found to be the scatter about the mean: 14.5 u over sqrt(12)
+    assert!(text.contains("drifts along the rows, from the first to the last by 3."), "{text}");
+    assert_eq!(noted(0.0, &mixed).map(|note| note.text), None);
+    assert_eq!(noted(0.05, &|row| row).map(|note| note.text), None);
+}
+
 #[test]
 fn noise_that_neighbours_share_is_no_effect() {
     let mut before = 0.0;
