@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
+use super::value_text::ValueOf;
 use gumption_units::Unit;
 
 /// The name of a column and its unit; a plain number without. `None` where brackets have no unit.
@@ -37,9 +38,14 @@ fn after<'h>(text: &'h str, sign: &str) -> Option<(&'h str, &'h str)> {
 }
 
 /// Reports, at the place that names the column, that its heading has another unit than `declared`,
-/// which its values are read in. Nothing where the heading has no unit: what stands behind a slash
+/// which its values (quantities, or widths) are read in. Nothing where the heading has no unit: what stands behind a slash
 /// without spaces may be the other half of a ratio, and a number alone counts something.
-pub(super) fn check(log: &Collector, place: &Range<usize>, column: &str, declared: &Unit) -> bool {
+pub(super) fn check(
+    log: &Collector,
+    place: &Range<usize>,
+    column: &str,
+    (declared, of): (&Unit, ValueOf),
+) -> bool {
     let named = enclosed(column, '[', "]").or_else(|| enclosed(column, '(', ")"));
     let Some((name, text)) = named.or_else(|| after(column, " / ")) else { return true };
     if name.is_empty() || text.parse::<f64>().is_ok() || text == declared.text() {
@@ -48,7 +54,7 @@ pub(super) fn check(log: &Collector, place: &Range<usize>, column: &str, declare
     let Ok(unit) = log.unit(text) else { return true };
     let is_same = unit.is_compatible(declared)
         && unit.factor() == declared.factor()
-        && unit.offset() == declared.offset();
+        && (of == ValueOf::Difference || unit.has_zero_of(declared));
     if !is_same {
         let (column, heading) = (column.to_owned(), text.to_owned());
         let declared = declared.text().to_owned();

@@ -156,7 +156,8 @@ fn columns_of(object: &Object<'_>, data: &Table) -> Option<Conditions> {
         conditions.add(member, &condition);
         let heading = place.and_then(|place| data.columns.get(place));
         if let (Some(heading), Some(added)) = (heading, conditions.quantities.last()) {
-            column_heading::check(log, &member.key_span, heading, &added.unit);
+            let of = (&added.unit, ValueOf::Quantity);
+            column_heading::check(log, &member.key_span, heading, of);
         }
     }
     conditions.rows = data
@@ -268,7 +269,7 @@ fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<
                 Some(units) => {
                     let unit = unit(units, bare).inspect(|unit| {
                         let place = units.get(bare).map_or(units.place(), |m| &m.value.span);
-                        column_heading::check(log, place, column, unit);
+                        column_heading::check(log, place, column, (unit, ValueOf::Quantity));
                     });
                     (bare, unit)
                 }

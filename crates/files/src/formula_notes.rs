@@ -25,7 +25,10 @@ pub(super) fn of_formulas(
     };
     let mut found = Vec::new();
     for (name, _, formula) in equations {
-        let notes = formula.iter().flat_map(|formula| formula.notes(unit_of));
+        let result = of.outputs.outputs.iter().map(|output| &output.quantity);
+        let result = result.filter(|result| of.check_units && result.name == *name);
+        let result = result.map(|result| &result.unit).next();
+        let notes = formula.iter().flat_map(|formula| formula.notes(unit_of, result));
         found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
     }
     if of.check_units {

@@ -388,9 +388,9 @@ impl<'a> ModelReader<'a> {
                 clean = false;
             }
             let own = sim.outputs.iter().find(|of| of.quantity.name == column.output);
-            for (heading, place) in &column.headings {
+            for (heading, place, kind) in &column.headings {
                 clean &= own.is_none_or(|of| {
-                    column_heading::check(self.root.log, place, heading, &of.quantity.unit)
+                    column_heading::check(self.root.log, place, heading, (&of.quantity.unit, *kind))
                 });
             }
         }

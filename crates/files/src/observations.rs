@@ -10,6 +10,7 @@ use super::keys;
 use super::object::Object;
 use super::source::Place;
 use super::table::{self, Table};
+use super::value_text::ValueOf;
 use gumption_engine::linalg::packed;
 use gumption_gap::{MOST_GROUPS, ObservedOutput};
 
@@ -27,8 +28,8 @@ pub(super) struct Observations {
 /// What the table says of one output.
 #[derive(Debug)]
 pub(super) struct Column {
-    /// The headings that are named, with their places.
-    pub(super) headings: Vec<(String, Range<usize>)>,
+    /// The headings that are named, with their places, and what their values are.
+    pub(super) headings: Vec<(String, Range<usize>, ValueOf)>,
     pub(super) output: String,
     pub(super) place: Range<usize>,
     pub(super) observed: ObservedOutput,
@@ -142,11 +143,16 @@ impl Reader<'_> {
             let (first, second) = ("sim_standard_uncertainty", "sim_covariance");
             self.log.report(&member.key_span, DiagnosticKind::Exclusive { first, second });
         }
-        let headings = ["value", "standard_uncertainty", "sim", "sim_standard_uncertainty"];
-        let headings = headings.into_iter().filter_map(|key| {
+        let headings = [
+            ("value", ValueOf::Quantity),
+            ("standard_uncertainty", ValueOf::Difference),
+            ("sim", ValueOf::Quantity),
+            ("sim_standard_uncertainty", ValueOf::Difference),
+        ];
+        let headings = headings.into_iter().filter_map(|(key, of)| {
             let named = object.text(key)?;
             let heading = self.table.column(named).map(|place| self.table.columns[place].as_str());
-            Some((heading.unwrap_or(named).to_owned(), object.get(key)?.value.span.clone()))
+            Some((heading.unwrap_or(named).to_owned(), object.get(key)?.value.span.clone(), of))
         });
         Some(Column {
             headings: headings.collect(),

@@ -70,7 +70,8 @@ pub(super) fn of_file(
         if let (Some(member), Some(column)) = (object.get("column"), object.text("column")) {
             let heading =
                 table.column(column).map_or(column, |place| table.columns[place].as_str());
-            column_heading::check(object.log, &member.value.span, heading, unit).then_some(())?;
+            let of = (unit, ValueOf::Quantity);
+            column_heading::check(object.log, &member.value.span, heading, of).then_some(())?;
         }
         if object.get("groups").is_none() {
             return Some(FileReadings { values, note: None });

@@ -88,7 +88,7 @@ pub(super) fn converted(
         return Ok(value);
     }
     let given = unit_behind_number(text, own)?;
-    if of == ValueOf::Either && given.zero() != unit.zero() {
+    if of == ValueOf::Either && !given.has_zero_of(unit) {
         return Err(format!(
             "nothing tells whether it is a temperature or a difference of temperatures; write it \
              in `{unit}`"
@@ -128,6 +128,7 @@ mod tests {
         assert_eq!(read("2 degC", "K", ValueOf::Difference), Ok(2.0));
         assert_eq!(read("2 degC", "degC", ValueOf::Either), Ok(2.0));
         assert!(read("2 degC", "K", ValueOf::Either).unwrap_err().contains("difference"));
+        assert!(read("0.36 degF", "degC", ValueOf::Either).unwrap_err().contains("difference"));
         assert!(read("60 rpm", "Hz", ValueOf::Quantity).unwrap_err().contains("periods"));
         assert!(read("5,01 V", "V", ValueOf::Quantity).unwrap_err().contains("point"));
         assert!(read("5 furlong", "m", ValueOf::Quantity).unwrap_err().contains("furlong"));

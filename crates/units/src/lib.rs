@@ -265,6 +265,13 @@ impl Unit {
         if is_fahrenheit { FAHRENHEIT_OFFSET } else { 0.0 }
     }
 
+    /// Whether values in both units count from the same zero, so that a quantity and a difference of
+    /// quantities are converted alike: those in `mm` and `m`, in `K` and `mK`; not those in `degC` and
+    /// `K`, nor in `degC` and `degF`.
+    pub fn has_zero_of(&self, other: &Self) -> bool {
+        self.zero() == other.zero() && self.offset() == other.offset()
+    }
+
     /// Whether the unit is `%`, `‰`, `ppm` or `ppb` on its own. `ppm/K` is not.
     pub fn is_relative(&self) -> bool {
         self.flavour == Flavour::Relative

@@ -119,8 +119,12 @@ struct Found {
 }
 
 impl Found {
-    /// Whether another's interval is the same to the digits of the certificate.
+    /// Whether another's interval is the same to the digits of the certificate, and not by rounding
+    /// alone: a coverage factor of 2 and the words "normally distributed" stand beside the digits.
     fn states_as(&self, other: &Self, wanted: Wanted<'_>) -> bool {
+        if (other.coverage_factor / self.coverage_factor - 1.0).abs() > ROUNDED_AWAY {
+            return false;
+        }
         let Wanted { digits, rounding, .. } = wanted;
         let Some(to) = rounding::expanded(self.expanded_uncertainty, digits, rounding) else {
             return false;
@@ -231,6 +235,9 @@ fn normal_factor(coverage: Coverage) -> f64 {
     let of_probability = || special::normal::quantile(0.5 + 0.5 * coverage.probability());
     coverage.nominal_factor().unwrap_or_else(of_probability)
 }
+
+/// Rounding may change an expanded uncertainty by this share (EA-4/02 M:2022, 6.3).
+const ROUNDED_AWAY: f64 = 0.05;
 
 /// A symmetric interval that is longer than the shortest one by less than this share is stated in its
 /// place.

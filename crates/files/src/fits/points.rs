@@ -86,8 +86,7 @@ pub(super) fn read(
             };
             let place = object.get("column").or(object.get("file"));
             let place = place.map_or(object.place(), |member| &member.value.span);
-            column_heading::check(log, place, column, &unit).then_some(())?;
-            column_of(log, table, column, place)?
+            column_of(log, table, (name, column, place), (&unit, ValueOf::Quantity))?
         }
         (None, _) => {
             object.required("values")?;
@@ -102,22 +101,19 @@ pub(super) fn read(
     Some(Side { values, unit, spread })
 }
 
-/// A column of a table.
+/// A column of a table, for the coordinate `name`; `of` is what its values are, and their unit.
 fn column_of(
     log: &Collector,
     table: &Table,
-    name: &str,
-    place: &std::ops::Range<usize>,
+    (name, column, place): (&str, &str, &std::ops::Range<usize>),
+    of: (&Unit, ValueOf),
 ) -> Option<Vec<f64>> {
-    let Some(column) = table.columns.iter().position(|column| column == name) else {
-        let reason = format!(
-            "`{}` has no column of that name; its columns are {}",
-            table.source.name,
-            table.columns.join(", ")
-        );
-        log.report(place, DiagnosticKind::Fit { name: name.to_owned(), reason });
+    let Some(column) = table.column(column) else {
+        let (name, reason) = (name.to_owned(), table.no_column(column));
+        log.report(place, DiagnosticKind::Fit { name, reason });
         return None;
     };
+    column_heading::check(log, place, &table.columns[column], of).then_some(())?;
     Some(table.rows.iter().filter_map(|row| row.get(column).copied()).collect())
 }
 
@@ -144,9 +140,7 @@ fn spread(
         }
         (Some(member), None) => {
             let squares = |of: Vec<f64>| Some(Spread::Each(of.iter().map(|u| u * u).collect()));
-            let column = |text: &str| {
-                table.filter(|table| table.columns.iter().any(|column| column == text))
-            };
+            let column = |text: &str| table.filter(|table| table.column(text).is_some());
             let each = match &member.value.value {
                 Json::List(_) => {
                     let each = side.values("standard_uncertainty", unit, ValueOf::Difference)?;
@@ -163,8 +157,8 @@ fn spread(
                     each
                 }
                 Json::Text(text) if column(text).is_some() => {
-                    column_heading::check(log, &member.value.span, text, unit).then_some(())?;
-                    column_of(log, column(text)?, text, &member.value.span)?
+                    let named = (name, text.as_str(), &member.value.span);
+                    column_of(log, column(text)?, named, (unit, ValueOf::Difference))?
                 }
                 _ => {
                     let width =

@@ -9,6 +9,7 @@ use super::super::json::Member;
 use super::super::keys;
 use super::super::object::Object;
 use super::super::recording::{ColumnName, Conversion, Wanted};
+use super::super::value_text::ValueOf;
 use super::column::column;
 use super::quantity::{of_member, positive, unit};
 use super::recordings::{RecordingFile, SearchFile};
@@ -61,7 +62,7 @@ fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Op
         // counts that are scaled may have any heading unless their unit is stated
         && (of.get("raw_unit").is_some() || !scaled)
     {
-        column_heading::check(log, &member.value.span, name, raw);
+        column_heading::check(log, &member.value.span, name, (raw, ValueOf::Quantity));
     }
     let scale = own.as_ref().zip(raw.as_ref()).and_then(|(own, raw)| scale(&of, own, raw));
     let zero = of.number("offset").unwrap_or(0.0);

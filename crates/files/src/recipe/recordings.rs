@@ -10,6 +10,7 @@ use super::super::json::{Json, Member};
 use super::super::keys;
 use super::super::object::Object;
 use super::super::recording::{Bytes, ColumnName, Conversion, Reading, Wanted};
+use super::super::value_text::ValueOf;
 use super::check_name;
 use super::column::column;
 use super::quantity::{positive, quantity, unit};
@@ -94,7 +95,8 @@ pub(super) fn read(root: &Object<'_>, folder: Folder<'_>) -> Option<Vec<Recordin
         if let (Some(member), Some(ColumnName::Name(name)), Some(unit)) =
             (of.get("time"), &time, &unit)
         {
-            column_heading::check(root.log, &member.value.span, name, unit);
+            let of = (unit, ValueOf::Quantity);
+            column_heading::check(root.log, &member.value.span, name, of);
         }
         let (from, to) = (seconds("from"), seconds("to"));
         check_part(&of, from, to);

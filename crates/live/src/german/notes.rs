@@ -239,6 +239,18 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{0} rechnet noch einmal aus {1} um: Formeln haben einen Anteil in {2} schon als Zahl, so dass sein Name genügt",
     ),
     (
+        "{} converts to radians per second once more: formulas have what is given in {} in radians per second already, so that its name is enough",
+        "{0} rechnet noch einmal in Radiant je Sekunde um: Formeln haben, was in {1} angegeben ist, schon in Radiant je Sekunde, so dass sein Name genügt",
+    ),
+    (
+        "{} converts to {}, and so does the output in {}, once more: formulas compute shares as plain numbers; leave the factor out, or give the output without a unit",
+        "{0} rechnet in {1} um, und die Ausgangsgröße in {2} noch einmal: Formeln rechnen mit Anteilen als Zahlen; der Faktor entfällt, oder die Ausgangsgröße hat keine Einheit",
+    ),
+    (
+        "{} converts to {}, and so does the output in {}, once more: formulas compute angles in radians; leave the factor out, or give the output without a unit",
+        "{0} rechnet in {1} um, und die Ausgangsgröße in {2} noch einmal: Formeln rechnen mit Winkeln in Radiant; der Faktor entfällt, oder die Ausgangsgröße hat keine Einheit",
+    ),
+    (
         "{} in {} adds levels above a reference, or multiplies one, so that it is above no reference itself; the level of a sum of powers is {}, and gains are in dB",
         "{0} in {1} addiert Pegel über einem Bezugswert oder vervielfacht einen und hat so selbst keinen Bezugswert; der Pegel einer Summe von Leistungen ist {2}, und Verstärkungen sind in dB",
     ),

@@ -177,9 +177,14 @@ impl Formula {
 
     /// What is right by the rules and seldom meant: `sin(30)`, which is of 30 rad, `phi + 90` of an
     /// angle in degrees. `unit_of` gives the unit that a name's values are given in where formulas have
-    /// them in coherent SI, else `None`.
-    pub fn notes<'u>(&self, unit_of: impl Fn(&str) -> Option<&'u Unit>) -> Vec<FormulaNote> {
-        note::notes(&self.text, &self.tree, unit_of)
+    /// them in coherent SI, else `None`; `result` is the unit that the formula's value is reported in,
+    /// if it is converted to that.
+    pub fn notes<'u>(
+        &self,
+        unit_of: impl Fn(&str) -> Option<&'u Unit>,
+        result: Option<&Unit>,
+    ) -> Vec<FormulaNote> {
+        note::notes(&self.text, &self.tree, unit_of, result)
     }
 
     fn checked(&self, scope: &Scope, units: bool) -> Result<Typing, Vec<FormulaError>> {

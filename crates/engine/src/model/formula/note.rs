@@ -23,15 +23,16 @@ pub struct FormulaNote {
 }
 
 /// The notes on a formula. `unit_of` gives the unit that a name's values are given in, which formulas
-/// compute with in coherent SI; `None` if they are not, or if it is not known.
+/// compute with in coherent SI; `None` if they are not, or if it is not known. `result` is the unit
+/// that the formula's value is reported in, if it is an output's.
 pub(super) fn notes<'u>(
     text: &str,
     tree: &Tree,
     unit_of: impl Fn(&str) -> Option<&'u Unit>,
+    result: Option<&Unit>,
 ) -> Vec<FormulaNote> {
     let walk = Walk { text, tree, constants: constants(tree) };
-    // the unit that the numbers of a node would be in, and the factor that has been put to it
-    let mut scaled: Vec<Option<(&Unit, f64)>> = Vec::with_capacity(tree.nodes.len());
+    let mut scaled: Vec<Scaled<'_>> = Vec::with_capacity(tree.nodes.len());
     let mut found = Vec::new();
     for node in &tree.nodes {
         found.extend(walk.turns(node));
@@ -40,7 +41,52 @@ pub(super) fn notes<'u>(
         found.extend(converts);
         scaled.push(of);
     }
+    let whole = tree.nodes.last().zip(scaled.last());
+    found.extend(whole.zip(result).and_then(|((node, of), unit)| walk.result(node, of, unit)));
     found
+}
+
+/// What numbers a node's value is made of.
+#[derive(Clone, Copy)]
+struct Scaled<'u> {
+    /// The unit of the one name among its factors whose values formulas have in another one.
+    unit: Option<&'u Unit>,
+    /// The product of the plain numbers among its factors.
+    factor: f64,
+    /// Whether there is no other factor, so that its numbers would be in the unit.
+    is_bare: bool,
+}
+
+impl<'u> Scaled<'u> {
+    const UNKNOWN: Self = Self { unit: None, factor: 1.0, is_bare: false };
+
+    /// Of a name with this unit.
+    fn of(unit: &'u Unit) -> Self {
+        let counts_turns = unit.turn() == Some(Turn::Angle);
+        let is_scaled = (unit.is_relative() || counts_turns)
+            && unit.factor() != 1.0
+            && (counts_turns || unit.dimension().is_none());
+        if is_scaled {
+            Self { unit: Some(unit), factor: 1.0, is_bare: true }
+        } else {
+            Self::UNKNOWN
+        }
+    }
+
+    /// The unit, of a share or an angle and not of a rate, where its numbers would be in it.
+    fn bare_unit(&self) -> Option<&'u Unit> {
+        self.unit.filter(|unit| self.is_bare && unit.dimension().is_none())
+    }
+
+    /// Whether its plain numbers convert from its unit to the one that formulas compute with.
+    fn converts(&self) -> bool {
+        let is = |factor: f64| (self.factor.abs() / factor - 1.0).abs() < SAME_FACTOR;
+        self.unit.is_some_and(|unit| {
+            // revolutions per second, or per minute, to radians per second
+            let is_rate = !unit.dimension().is_none();
+            is(unit.factor()) || (is_rate && is(std::f64::consts::TAU))
+        })
+    }
 }
 
 struct Walk<'t> {
@@ -89,18 +135,17 @@ impl Walk<'_> {
     }
 
     /// `phi + 90` of an angle in degrees, `p < 5` of per cent.
-    fn bare_number(&self, node: &Node, scaled: &[Option<(&Unit, f64)>]) -> Option<FormulaNote> {
+    fn bare_number(&self, node: &Node, scaled: &[Scaled<'_>]) -> Option<FormulaNote> {
         let Kind::Infix { operator, left, right, .. } = &node.kind else { return None };
         if matches!(operator, Operator::Multiply | Operator::Divide | Operator::Power) {
             return None;
         }
-        let of = |index: usize| scaled.get(index).copied().flatten();
         let (at, name) = match (self.constant(*left), self.constant(*right)) {
             (Some(_), None) => (*left, *right),
             (None, Some(_)) => (*right, *left),
             _ => return None,
         };
-        let (number, (unit, _)) = (self.constant(at)?, of(name)?);
+        let (number, unit) = (self.constant(at)?, scaled.get(name)?.bare_unit()?);
         // the whole beside a share of it, or the first term of an expansion
         let is_whole = number.abs() == 1.0 && (unit.is_relative() || at == *left);
         if number == 0.0 || is_whole || self.has_pi(at) {
@@ -131,6 +176,12 @@ impl Walk<'_> {
                  number already, so that its name is enough"
             );
             ("share-converted-twice", text)
+        } else if !unit.dimension().is_none() {
+            let text = format!(
+                "`{quoted}` converts to radians per second once more: formulas have what is given in \
+                 {unit} in radians per second already, so that its name is enough"
+            );
+            ("rate-converted-twice", text)
         } else {
             let text = format!(
                 "`{quoted}` converts to radians once more: formulas have an angle in {unit} in radians \
@@ -141,46 +192,122 @@ impl Walk<'_> {
         FormulaNote { code, text, span: node.span.clone() }
     }
 
-    /// What the numbers of a node are in, for the sums that it stands in; a note where pi/180 or 1/100
-    /// converts what formulas have converted already.
+    /// `(a - b)/b*100` that is reported in %.
+    fn result(&self, node: &Node, of: &Scaled<'_>, unit: &Unit) -> Option<FormulaNote> {
+        let is_product = matches!(
+            node.kind,
+            Kind::Infix { operator: Operator::Multiply | Operator::Divide, .. }
+        );
+        let is_scaled = unit.is_relative() || unit.turn() == Some(Turn::Angle);
+        let is_inverse = |factor: &f64| (factor.abs() * unit.factor() - 1.0).abs() < SAME_FACTOR;
+        // among other numbers one that is it, or all of them together
+        let is_once = is_inverse(&of.factor) || self.factors(node).iter().any(is_inverse);
+        if !is_product || !is_scaled || !unit.dimension().is_none() || unit.factor() == 1.0 {
+            return None;
+        }
+        let text = format!(
+            "`{}` converts to {unit}, and so does the output in {unit}, once more: formulas compute \
+             {}; leave the factor out, or give the output without a unit",
+            self.quoted(&node.span),
+            if unit.is_relative() { "shares as plain numbers" } else { "angles in radians" },
+        );
+        is_once.then(|| FormulaNote {
+            code: "result-converted-twice",
+            text,
+            span: node.span.clone(),
+        })
+    }
+
+    /// The plain numbers that a product is multiplied by.
+    fn factors(&self, node: &Node) -> Vec<f64> {
+        let mut found = Vec::new();
+        let mut rest = vec![node];
+        while let Some(Node { kind: Kind::Infix { operator, left, right, .. }, .. }) = rest.pop() {
+            let numerators: &[usize] = match operator {
+                Operator::Multiply => &[*left, *right],
+                Operator::Divide => &[*left],
+                _ => &[],
+            };
+            for &index in numerators {
+                match self.constant(index) {
+                    Some(value) => found.push(value),
+                    None => rest.extend(self.tree.nodes.get(index)),
+                }
+            }
+        }
+        found
+    }
+
+    /// What the numbers of a node are in; a note where pi/180, 1/100 or 2 pi converts what formulas
+    /// have converted already.
     fn scaled<'u>(
         &self,
         node: &Node,
-        scaled: &[Option<(&'u Unit, f64)>],
+        scaled: &[Scaled<'u>],
         unit_of: &impl Fn(&str) -> Option<&'u Unit>,
-    ) -> (Option<(&'u Unit, f64)>, Option<FormulaNote>) {
-        let of = |index: usize| scaled.get(index).copied().flatten();
-        let times = |(unit, factor): (&'u Unit, f64), by: f64| {
-            let factor = factor * by;
-            let converts = (factor.abs() / unit.factor() - 1.0).abs() < SAME_FACTOR;
-            let note = converts.then(|| self.converted_twice(node, unit));
-            (Some((unit, factor)), note)
+    ) -> (Scaled<'u>, Option<FormulaNote>) {
+        let of = |index: usize| scaled.get(index).copied().unwrap_or(Scaled::UNKNOWN);
+        let is_constant = |index: usize| self.constant(index).is_some();
+        let product = |left: Scaled<'u>, right: Scaled<'u>, bare: bool| {
+            if left.unit.is_some() && right.unit.is_some() {
+                return Scaled::UNKNOWN;
+            }
+            let unit = left.unit.or(right.unit);
+            Scaled { unit, factor: left.factor * right.factor, is_bare: bare && unit.is_some() }
         };
-        match &node.kind {
+        let found = match &node.kind {
             Kind::Name => {
                 let unit = self.text.get(node.span.clone()).and_then(unit_of);
-                let is_scaled = |unit: &&Unit| {
-                    (unit.is_relative() || unit.turn() == Some(Turn::Angle))
-                        && unit.dimension().is_none()
-                        && unit.factor() != 1.0
-                };
-                (unit.filter(is_scaled).map(|unit| (unit, 1.0)), None)
+                unit.map_or(Scaled::UNKNOWN, Scaled::of)
             }
-            Kind::Negate(x) => (of(*x), None),
+            Kind::Negate(x) => of(*x),
+            Kind::Unit(unit) => Scaled { factor: plain_factor(unit), ..Scaled::UNKNOWN },
+            // a quantity of its own is no factor
+            Kind::InUnit { unit, .. } if !unit.dimension().is_none() => Scaled::UNKNOWN,
+            Kind::InUnit { number, unit } => {
+                let number = of(*number);
+                Scaled { factor: number.factor * plain_factor(unit), ..number }
+            }
             Kind::Infix { operator, left, right, .. } => match operator {
-                Operator::Add | Operator::Subtract => (of(*left).or(of(*right)), None),
-                Operator::Multiply => match (self.constant(*left), self.constant(*right)) {
-                    (Some(by), None) => of(*right).map_or((None, None), |x| times(x, by)),
-                    (None, Some(by)) => of(*left).map_or((None, None), |x| times(x, by)),
-                    _ => (None, None),
-                },
-                Operator::Divide => match (of(*left), self.constant(*right)) {
-                    (Some(x), Some(by)) => times(x, 1.0 / by),
-                    _ => (None, None),
-                },
-                _ => (None, None),
+                Operator::Add | Operator::Subtract => {
+                    let sides = [of(*left), of(*right)].into_iter();
+                    sides.rev().rfind(|side| side.is_bare).unwrap_or(Scaled::UNKNOWN)
+                }
+                Operator::Multiply => {
+                    let (x, y) = (of(*left), of(*right));
+                    let bare =
+                        (x.is_bare && is_constant(*right)) || (y.is_bare && is_constant(*left));
+                    product(x, y, bare)
+                }
+                Operator::Divide => {
+                    let (x, y) = (of(*left), of(*right));
+                    let inverse = Scaled { factor: 1.0 / y.factor, ..y };
+                    match y.unit {
+                        Some(_) => Scaled::UNKNOWN,
+                        None => product(x, inverse, x.is_bare && is_constant(*right)),
+                    }
+                }
+                _ => Scaled::UNKNOWN,
             },
-            _ => (None, None),
-        }
+            _ => Scaled::UNKNOWN,
+        };
+        let found = match self.constant(scaled.len()) {
+            Some(value) => Scaled { factor: value, ..Scaled::UNKNOWN },
+            None => found,
+        };
+        let operands = match &node.kind {
+            Kind::Infix { left, right, .. } => vec![*left, *right],
+            Kind::InUnit { number, .. } => vec![*number],
+            _ => Vec::new(),
+        };
+        // one note for a chain of factors
+        let is_new = !operands.is_empty() && !operands.iter().any(|&index| of(index).converts());
+        let unit = found.unit.filter(|_| is_new && found.converts());
+        (found, unit.map(|unit| self.converted_twice(node, unit)))
     }
+}
+
+/// What a unit without a dimension is as a plain number.
+fn plain_factor(unit: &Unit) -> f64 {
+    if unit.dimension().is_none() { unit.factor() } else { 1.0 }
 }
