@@ -121,3 +121,30 @@ fn inputs_and_correlations() {
     file["inputs"]["b"] = json!({"unit": "V", "distribution": "constant", "value": 1});
     assert_eq!(codes(&file), ["correlation-with-constant"]);
 }
+
+/// A calibration function outside of its points; a little beyond them is common.
+#[test]
+fn curves_beyond_their_points() {
+    for (formula, unit, x, wanted) in [
+        ("line(x)", "mm", 3.0, false),
+        ("line(x)", "mm", 6.4, false),
+        ("line(x)", "mm", 7.0, true),
+        ("line(x)", "m", 0.003, false),
+        ("line(x)", "m", 3.0, true),
+        ("2*line(x - 1 [mm]) + line(x)", "mm", 1.0, true),
+        ("inverse(line, x)", "mV", 10.0, false),
+        ("inverse(line, x)", "mV", 40.0, true),
+    ] {
+        let file = json!({
+            "fits": {"line": {
+                "x": {"unit": "mm", "values": [1, 2, 3, 4, 5, 6]},
+                "y": {"unit": "mV", "values": [3.3, 5.6, 7.1, 9.3, 10.7, 12.1],
+                    "standard_uncertainty": 0.5}}},
+            "inputs": {"x": {"unit": unit, "distribution": "constant", "value": x}},
+            "equations": {"y": formula},
+            "outputs": {"y": {"unit": if formula.starts_with("inv") { "mm" } else { "mV" }}}
+        });
+        let expected: &[&str] = if wanted { &["extrapolation"] } else { &[] };
+        assert_eq!(codes(&file), expected, "{formula} {x} {unit}");
+    }
+}

@@ -218,6 +218,7 @@ impl<'a> ModelReader<'a> {
         let parts = Parts { title, source, statement, settings, fits, swept, correlations, curves };
         let mut task = task(parts, model.ok()?, of)?;
         task.regions = regions;
+        warnings.extend(fits::extrapolation::notes(root.log, &sim, &task, &task.curves));
         let source = root.log.source.clone();
         let file = ModelFile { task, warnings, source, files, output_places, evidence };
         let simulated = simulated.len();

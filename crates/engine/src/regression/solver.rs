@@ -27,6 +27,10 @@ const DEPENDENT: f64 = 1e-11;
 /// Most steps of a fit.
 const MOST_STEPS: usize = 500;
 
+/// Misfits within this share of the largest ordinate are rounding: the curve goes through the points,
+/// and sums of their squares fall and rise without end.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 /// The damping that the search of a formula's parameters begins with, and that it ends at.
 const FIRST_DAMPING: f64 = 1e-3;
 const MOST_DAMPING: f64 = 1e18;
@@ -110,7 +114,7 @@ impl<'p> Solver<'p> {
             )
             .map_err(|parameter| RegressionError::Dependent { parameter })?;
             let squares = self.left();
-            let ends = self.is_small(squares, tolerance);
+            let ends = self.is_small(squares, tolerance) || self.meets(y);
             for (parameter, step) in self.parameters.iter_mut().zip(&self.solution.parameters) {
                 *parameter += step;
             }
@@ -155,6 +159,12 @@ impl<'p> Solver<'p> {
         let steps = self.parameters.iter().zip(&self.solution.parameters);
         moved.sqrt() <= tolerance * scale
             || steps.into_iter().all(|(parameter, step)| step.abs() <= 1e-13 * parameter.abs())
+    }
+
+    /// Whether the curve meets the points but for rounding.
+    fn meets(&self, y: &[f64]) -> bool {
+        let largest = y.iter().fold(0.0_f64, |largest, y| largest.max(y.abs()));
+        self.misfits.iter().all(|misfit| misfit.abs() <= ROUNDING * largest)
     }
 
     /// Misfits, slopes and derivatives at the parameters and abscissae.
@@ -307,7 +317,7 @@ impl<'p> Solver<'p> {
                     let ends = squares - found <= 1e-12 * squares && moved <= 1e-10 * squares;
                     squares = found;
                     damping *= 0.1;
-                    if ends || squares == 0.0 {
+                    if ends || squares == 0.0 || self.meets(y) {
                         return Ok(());
                     }
                     break;

@@ -1,6 +1,7 @@
 //! Calibration functions of a file: points, the curve that is fitted to them, and its parameters as
 //! correlated inputs.
 
+pub(super) mod extrapolation;
 mod form;
 mod matrix;
 mod points;

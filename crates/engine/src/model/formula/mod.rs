@@ -187,6 +187,16 @@ impl Formula {
         note::notes(&self.text, &self.tree, unit_of, result)
     }
 
+    /// Where the formula calls calibration functions: each with the text of the x at which it is used,
+    /// its argument or, of `inverse(line, y)`, the whole call.
+    pub fn curve_calls(&self) -> impl Iterator<Item = (&Arc<CurveFunction>, &str)> {
+        self.tree.nodes.iter().filter_map(|node| {
+            let Kind::Curve { curve, inverse, argument } = &node.kind else { return None };
+            let span = if *inverse { node.span.clone() } else { self.tree.span(*argument) };
+            Some((curve, self.text.get(span)?))
+        })
+    }
+
     fn checked(&self, scope: &Scope, units: bool) -> Result<Typing, Vec<FormulaError>> {
         let dimension::Checked { typings, mut errors } =
             dimension::check(&self.text, &self.tree, scope, units);

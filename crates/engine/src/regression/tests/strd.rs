@@ -5,7 +5,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::super::{Curve, Points, Regression};
+use super::super::{Curve, Points, Regression, Spread};
 use super::worst;
 use crate::model::formula::{Formula, Scope, Typing};
 use crate::model::{Program, Recorder};
@@ -145,6 +145,25 @@ fn check_formula(
         // the Jacobian of the least well conditioned magnifies the 1e-8 of the estimates
         assert!(error < 2e-6, "{text} {start:?} {error}");
         assert!((fit.chi2 / squares - 1.0).abs() < 1e-9, "{text} {}", fit.chi2);
+    }
+}
+
+/// Points on the curve but for the rounding of their last bits, with stated uncertainties and without:
+/// sums of squares of rounding fall and rise without end, and are no reason to go on.
+#[test]
+fn formulas_that_meet_their_points() {
+    let x = [0.0, 50.0, 100.0, 150.0, 200.0];
+    let y = [100.0, 119.4, 138.51, 157.33, 175.86];
+    let curve = Curve::Program(program("a*(1 + b*x + c*x^2)", &["a", "b", "c"]));
+    let start = [100.0, 3.9083e-3, -5.775e-7];
+    let stated = Points::new(x.to_vec(), y.to_vec()).with_y(Spread::Each(vec![1e-4; 5]));
+    for points in [stated, Points::new(x.to_vec(), y.to_vec())] {
+        let fit = Regression::of("pt", &curve, &Arc::new(points), &start).unwrap();
+        // second differences of the values are -0.29 each
+        let expected = [100.0, 3.909e-3, -5.8e-7];
+        for (found, expected) in fit.estimates.iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 1e-10, "{found} {expected}");
+        }
     }
 }
 
