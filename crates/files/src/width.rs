@@ -57,14 +57,18 @@ impl Width {
         }
     }
 
-    fn specification(text: &str, unit: &Unit, own: &[Unit]) -> Result<Self, String> {
+    /// Reads a specification of a quantity in a unit; `own` are units of the file.
+    ///
+    /// # Errors
+    /// Why it is none, as a sentence without a capital.
+    pub(super) fn specification(text: &str, unit: &Unit, own: &[Unit]) -> Result<Self, String> {
         let mut width = Self { relative: 0.0, absolute: 0.0 };
         for term in terms(text) {
             let (value, rest) = number(term)?;
             if value.is_nan() || value < 0.0 || value.is_infinite() {
                 return Err(format!("`{term}` is not a positive share or value"));
             }
-            match share(rest) {
+            match share(rest).or_else(|| ratio(rest, unit, own)) {
                 Some((factor, "")) => {
                     if unit.is_relative() || unit.is_celsius() || !unit.level_exponent().is_zero() {
                         return Err(format!(
@@ -141,6 +145,14 @@ fn share(rest: &str) -> Option<(f64, &str)> {
     of.starts_with(char::is_whitespace).then(|| (factor, of.trim()))
 }
 
+/// The same of a ratio of like units, `um/m` or `mV/V`, of a quantity that is no plain number itself.
+fn ratio<'r>(rest: &'r str, unit: &Unit, own: &[Unit]) -> Option<(f64, &'r str)> {
+    let (text, of) = rest.split_once(" of ").unwrap_or((rest, ""));
+    let ratio = unit_behind_number(text.trim(), own).ok().filter(|_| text.contains('/'))?;
+    let is_share = ratio.dimension().is_none() && ratio.turn().is_none();
+    (is_share && !unit.dimension().is_none()).then(|| (ratio.factor(), of.trim()))
+}
+
 fn converted(
     value: f64,
     (text, own): (&str, &[Unit]),
@@ -178,6 +190,10 @@ mod tests {
         assert!(
             (read("50 ppm of reading + 1e-3 mV", "V").unwrap().at(2.0) - 1.01e-4).abs() < 1e-15
         );
+        let gauge = read("0.5 um + 5 um/m", "mm").unwrap();
+        assert!((gauge.at(100.0) - (0.5e-3 + 0.5e-3)).abs() < 1e-15);
+        let bridge = read("2 uV/V of reading + 1 uV/V of 10 V", "mV").unwrap();
+        assert!((bridge.at(5.0) - (1e-5 + 1e-2)).abs() < 1e-15);
         assert!((read("3", "").unwrap().at(7.0) - 3.0).abs() < 1e-15);
         assert!((read("1e+1 mV", "V").unwrap().at(7.0) - 0.01).abs() < 1e-15);
     }
@@ -187,6 +203,8 @@ mod tests {
         assert!(read("0.02 % + 3", "V").unwrap_err().contains("no unit"));
         assert!(read("1 %", "degC").unwrap_err().contains("of reading"));
         assert!(read("2 s", "V").unwrap_err().contains("converted"));
+        assert!(read("2 um/V", "m").unwrap_err().contains("converted"));
+        assert!(read("2 mm/m", "degC").unwrap_err().contains("of reading"));
         assert!(read("", "V").unwrap_err().contains("empty"));
         assert!(read("0 %", "V").unwrap_err().contains("zero"));
         assert!(read("1 % + ", "V").unwrap_err().contains("empty"));

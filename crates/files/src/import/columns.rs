@@ -1,7 +1,10 @@
-//! What the columns of a budget are called, in English and in German.
+//! What the columns of a budget are called, in English, German and French.
 
-use super::grid::{Cells, number as number_of_cell};
+use super::grid::Cells;
+use super::number::number as number_of_cell;
+use super::number::number_with_unit;
 use gumption_engine::special::normal;
+use gumption_units::Unit;
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +29,7 @@ pub(super) enum Column {
 
 /// The words of each column, without what stands in brackets.
 const WORDS: &[(Column, &[&str])] = &[
-    (Column::Symbol, &["symbol", "formelzeichen", "x_i", "xi", "zeichen"]),
+    (Column::Symbol, &["symbol", "formelzeichen", "x_i", "xi", "zeichen", "symbole"]),
     (
         Column::Quantity,
         &[
@@ -51,7 +54,11 @@ const WORDS: &[(Column, &[&str])] = &[
             "einflussgroesse",
             "bezeichnung",
             "beschreibung",
-            "unsicherheitsbeitrag",
+            "grandeur",
+            "grandeur d'entrée",
+            "source d'incertitude",
+            "composante",
+            "désignation",
         ],
     ),
     (
@@ -70,9 +77,15 @@ const WORDS: &[(Column, &[&str])] = &[
             "mittelwert",
             "nennwert",
             "bester schätzwert",
+            "estimation",
+            "valeur",
+            "valeur estimée",
+            "meilleure estimation",
+            "valeur nominale",
+            "moyenne",
         ],
     ),
-    (Column::Unit, &["unit", "units", "einheit", "einheiten"]),
+    (Column::Unit, &["unit", "units", "einheit", "einheiten", "unité", "unités"]),
     (
         Column::Width,
         &[
@@ -105,6 +118,13 @@ const WORDS: &[(Column, &[&str])] = &[
             "erw. messunsicherheit",
             "toleranz",
             "angegebene unsicherheit",
+            "incertitude",
+            "incertitude élargie",
+            "demi-largeur",
+            "demi-étendue",
+            "limite",
+            "limites",
+            "tolérance",
         ],
     ),
     (
@@ -122,6 +142,10 @@ const WORDS: &[(Column, &[&str])] = &[
             "std. unsicherheit",
             "standardabweichung",
             "standardmessunsicherheit",
+            "incertitude-type",
+            "incertitude type",
+            "écart-type",
+            "écart type",
         ],
     ),
     (
@@ -131,16 +155,38 @@ const WORDS: &[(Column, &[&str])] = &[
             "pdf",
             "probability distribution",
             "type of distribution",
+            "prob. distribution",
+            "prob. dist",
+            "prob dist",
+            "dist",
+            "distr",
             "shape",
             "verteilung",
             "wahrscheinlichkeitsverteilung",
             "verteilungsart",
             "verteilungsform",
+            "loi",
+            "loi de probabilité",
+            "distribution de probabilité",
         ],
     ),
     (
         Column::Divisor,
-        &["divisor", "k", "coverage factor", "factor", "teiler", "erweiterungsfaktor", "faktor"],
+        &[
+            "divisor",
+            "k",
+            "k factor",
+            "k-factor",
+            "coverage factor",
+            "factor",
+            "teiler",
+            "erweiterungsfaktor",
+            "überdeckungsfaktor",
+            "k-faktor",
+            "faktor",
+            "diviseur",
+            "facteur d'élargissement",
+        ],
     ),
     (
         Column::Sensitivity,
@@ -157,6 +203,11 @@ const WORDS: &[(Column, &[&str])] = &[
             "sensitivitaetskoeffizient",
             "empfindlichkeitskoeffizient",
             "empfindlichkeit",
+            "|ci|",
+            "|c_i|",
+            "sensitivity coeff",
+            "sens. coeff",
+            "coefficient de sensibilité",
         ],
     ),
     (
@@ -177,6 +228,8 @@ const WORDS: &[(Column, &[&str])] = &[
             "freiheitsgrade",
             "effective degrees of freedom",
             "effektive freiheitsgrade",
+            "degrés de liberté",
+            "ddl",
         ],
     ),
     (
@@ -187,6 +240,8 @@ const WORDS: &[(Column, &[&str])] = &[
             "u_i(y)",
             "ui(y)",
             "beitrag",
+            "unsicherheitsbeitrag",
+            "contribution à l'incertitude",
             "ci*ui",
             "c_i*u_i",
             "c*u",
@@ -245,6 +300,11 @@ const RESULTS: &[&str] = &[
 ];
 
 impl Column {
+    /// Whether its cells are numbers of a quantity, in units.
+    fn is_of_numbers(self) -> bool {
+        matches!(self, Self::Estimate | Self::Width | Self::Std | Self::Contribution)
+    }
+
     /// What messages call it.
     pub(super) fn name(self) -> &'static str {
         match self {
@@ -286,8 +346,15 @@ fn column(text: &str) -> Option<Column> {
     let compact: String = text.to_lowercase().split_whitespace().collect();
     match compact.as_str() {
         "u(xi)" | "u(x_i)" | "u(x)" => return Some(Column::Std),
-        "u_i(y)" | "ui(y)" | "u(y)" => return Some(Column::Contribution),
+        "u_i(y)" | "ui(y)" | "u(y)" | "|ci|u(xi)" | "|ci|·u(xi)" | "|c_i|u(x_i)" => {
+            return Some(Column::Contribution);
+        }
+        _ if is_dof(&compact) => return Some(Column::Dof),
         _ => {}
+    }
+    // `Value (±)` is no value
+    if compact.contains('±') || compact.contains("+/-") || compact.contains("+-") {
+        return Some(Column::Width);
     }
     let words = plain(text);
     if words.is_empty() {
@@ -312,15 +379,47 @@ fn column(text: &str) -> Option<Column> {
     exact.map(|(column, _)| *column).or_else(begins)
 }
 
+/// Whether a header without its spaces speaks of degrees of freedom: `νi`, `veff`, `vi or veff`.
+fn is_dof(compact: &str) -> bool {
+    let is_one = |part: &str| {
+        let part = part.replace(['_', '(', ')'], "");
+        matches!(part.as_str(), "νi" | "vi" | "nui" | "νeff" | "veff" | "nueff" | "ν" | "dof")
+    };
+    let parts: Vec<&str> = ["or", "oder", "ou", "/", ","]
+        .into_iter()
+        .find(|word| compact.contains(word))
+        .map_or_else(|| vec![compact], |word| compact.split(word).collect());
+    parts.into_iter().all(is_one)
+}
+
+/// The unit that a header's cell has behind its words, `Estimate (mm)`, `u / µV`, `Uncertainty [%]`;
+/// letters that are symbols of what the column holds are none: `Half-width (a)`.
+fn unit_of_header(text: &str) -> Option<String> {
+    let behind = |open: char, close: char| {
+        let (before, unit) = text.trim_end().strip_suffix(close)?.rsplit_once(open)?;
+        (!before.trim().is_empty()).then_some(unit.trim())
+    };
+    let unit = behind('[', ']').or_else(|| {
+        const SYMBOLS: [&str; 10] = ["a", "u", "U", "k", "c", "d", "s", "n", "A", "B"];
+        let unit = behind('(', ')').or_else(|| Some(text.rsplit_once(" / ")?.1.trim()))?;
+        (!SYMBOLS.contains(&unit)).then_some(unit)
+    })?;
+    (Unit::parse(unit).is_ok() && unit.parse::<f64>().is_err()).then(|| unit.to_owned())
+}
+
 /// The header of a budget.
 #[derive(Clone, Debug)]
 pub(super) struct Header {
-    /// Its line, from 0.
+    /// Its last line, from 0.
     pub(super) line: usize,
+    /// The line of its words.
+    pub(super) words: usize,
     /// Places of cells with what they hold.
     pub(super) columns: Vec<(usize, Column)>,
     /// Places of cells with other words.
     pub(super) unknown: Vec<usize>,
+    /// The units that columns of numbers state.
+    units: Vec<(Column, String)>,
 }
 
 impl Header {
@@ -331,7 +430,10 @@ impl Header {
             let mut columns: Vec<(usize, Column)> = Vec::new();
             let mut unknown = Vec::new();
             for (place, cell) in cells.row(line).iter().enumerate() {
-                match column(cell) {
+                // `X_i` and `x_i` side by side: the quantity and its estimate
+                let is_estimate = matches!(cell.trim(), "x_i" | "xi")
+                    && columns.iter().any(|(_, known)| *known == Column::Symbol);
+                match if is_estimate { Some(Column::Estimate) } else { column(cell) } {
                     Some(found) if !columns.iter().any(|(_, known)| *known == found) => {
                         columns.push((place, found));
                     }
@@ -339,20 +441,92 @@ impl Header {
                     _ => unknown.push(place),
                 }
             }
-            let has = |wanted: Column| columns.iter().any(|(_, column)| *column == wanted);
-            if !has(Column::Quantity)
-                && let Some((_, column)) =
-                    columns.iter_mut().find(|(_, column)| *column == Column::Symbol)
+            let place_of = |columns: &[(usize, Column)], wanted: Column| {
+                columns.iter().find(|(_, column)| *column == wanted).map(|(place, _)| *place)
+            };
+            // the names of the contributions may head the list of them
+            let list = [Column::Symbol, Column::Contribution];
+            if place_of(&columns, Column::Quantity).is_none()
+                && let Some(first) = list.into_iter().find_map(|of| {
+                    place_of(&columns, of).filter(|place| of == Column::Symbol || *place == 0)
+                })
+                && let Some((_, column)) = columns.iter_mut().find(|(place, _)| *place == first)
             {
                 *column = Column::Quantity;
+            }
+            // `u_i` behind the coefficients is what they make of the uncertainties
+            let of = |wanted| place_of(&columns, wanted);
+            if let (Some(c), Some(u)) = (of(Column::Sensitivity), of(Column::Std))
+                && u > c
+                && of(Column::Width).is_some()
+                && of(Column::Contribution).is_none()
+                && matches!(plain(&cells.row(line)[u]).as_str(), "ui" | "u_i")
+                && let Some((_, column)) = columns.iter_mut().find(|(place, _)| *place == u)
+            {
+                *column = Column::Contribution;
             }
             let has = |wanted: Column| columns.iter().any(|(_, column)| *column == wanted);
             let enough = has(Column::Quantity) && (has(Column::Width) || has(Column::Std));
             if enough && best.as_ref().is_none_or(|best| columns.len() > best.columns.len()) {
-                best = Some(Self { line, columns, unknown });
+                best = Some(Self { line, words: line, columns, unknown, units: Vec::new() });
             }
         }
-        best
+        let mut best = best?;
+        best.units = best
+            .columns
+            .iter()
+            .filter(|(_, column)| column.is_of_numbers())
+            .filter_map(|(place, column)| {
+                Some((*column, unit_of_header(cells.text(best.line, *place))?))
+            })
+            .collect();
+        best.units_below(cells);
+        Some(best)
+    }
+
+    /// A line of units right below the header, `;mm;µm;;;µm`, is part of it, and so is one of symbols.
+    fn units_below(&mut self, cells: &Cells) {
+        let line = self.line + 1;
+        let numbers = self.columns.iter().filter(|(_, column)| column.is_of_numbers());
+        let texts: Vec<(Column, &str)> = numbers
+            .map(|(place, column)| (*column, cells.text(line, *place).trim()))
+            .filter(|(_, text)| !text.is_empty())
+            .collect();
+        let comma = cells.decimal_comma();
+        let has_number = texts.iter().any(|(_, text)| {
+            number_with_unit(text, comma).is_some() || !text.contains(char::is_alphabetic)
+        });
+        let unit = |text: &str| text.trim_matches(['(', ')', '[', ']']).to_owned();
+        if texts.len() < 2 || has_number {
+            return;
+        }
+        let has_name = self.columns.iter().any(|(place, column)| {
+            *column == Column::Quantity && !cells.text(line, *place).trim().is_empty()
+        });
+        let are_units = texts.iter().all(|(_, text)| Unit::parse(&unit(text)).is_ok());
+        let are_symbols = texts.iter().all(|(_, text)| text.chars().count() <= 8);
+        if are_units && !has_name {
+            for (column, text) in texts {
+                if !self.units.iter().any(|(known, _)| *known == column) {
+                    self.units.push((column, unit(text)));
+                }
+            }
+            self.line = line;
+        } else if are_symbols {
+            self.line = line;
+        }
+    }
+
+    /// What the heading of a column says of the coverage of its numbers.
+    pub(super) fn coverage(&self, cells: &Cells, column: Column) -> HeaderCoverage {
+        let place = self.columns.iter().find(|(_, of)| *of == column);
+        let text = place.map(|(place, _)| cells.text(self.words, *place));
+        text.map_or(HeaderCoverage::None, HeaderCoverage::of)
+    }
+
+    /// The unit that a column states for its numbers.
+    pub(super) fn unit(&self, column: Column) -> Option<&str> {
+        self.units.iter().find(|(of, _)| *of == column).map(|(_, unit)| unit.as_str())
     }
 
     /// The cell of a line in a column; empty where there is none.
@@ -386,7 +560,20 @@ impl HeaderCoverage {
         if let Some(factor) = behind("k=").filter(|factor| *factor > 0.0) {
             return Self::Factor(factor);
         }
-        let share = behind("p=").map(|p| if p > 1.0 { p / 100.0 } else { p });
+        // `normal (2σ)`
+        let before = |sign: &str| {
+            let digits = compact.split_once(sign)?.0;
+            let start = digits.rfind(|c: char| !c.is_ascii_digit()).map_or(0, |at| at + 1);
+            number_of_cell(digits.get(start..)?, true)
+        };
+        if let Some(factor) = before("σ").or_else(|| before("sigma")).filter(|f| *f > 0.0) {
+            return Self::Factor(factor);
+        }
+        let bare = || {
+            let percent = compact.split_once('(')?.1.split_once("%)")?.0;
+            number_of_cell(percent, true)
+        };
+        let share = behind("p=").or_else(bare).map(|p| if p > 1.0 { p / 100.0 } else { p });
         if let Some(p) = share.filter(|p| *p > 0.0 && *p < 1.0) {
             return Self::Factor(normal::quantile(0.5 + 0.5 * p));
         }
@@ -419,10 +606,19 @@ pub(super) fn is_factor(words: &str) -> bool {
     FACTORS.iter().any(|of| words == *of || words == format!("{of} k"))
 }
 
+/// Whether a row's words are those of an expanded uncertainty.
+pub(super) fn is_expanded(words: &str) -> bool {
+    let words = plain(words);
+    ["expanded", "erweiterte", "élargie"].iter().any(|of| words.contains(of))
+        && !words.contains("factor")
+}
+
 /// Whether a row that is one of results holds an uncertainty and not the result's estimate.
 pub(super) fn is_of_uncertainty(words: &str) -> bool {
     let words = plain(words);
-    ["uncertainty", "unsicherheit", "freedom", "freiheitsgrad"].iter().any(|of| words.contains(of))
+    ["uncertainty", "unsicherheit", "incertitude", "freedom", "freiheitsgrad"]
+        .iter()
+        .any(|of| words.contains(of))
         || words == "combined"
         || is_factor(&words)
 }
@@ -431,28 +627,68 @@ pub(super) fn is_of_uncertainty(words: &str) -> bool {
 pub(super) fn is_result(words: &str) -> bool {
     let words = plain(words);
     RESULTS.iter().any(|of| words == *of)
-        || ["combined ", "expanded ", "kombinierte ", "erweiterte "]
-            .iter()
-            .any(|begin| words.starts_with(begin))
+        || [
+            "combined ",
+            "expanded ",
+            "kombinierte ",
+            "erweiterte ",
+            "incertitude composée",
+            "incertitude élargie",
+        ]
+        .iter()
+        .any(|begin| words.starts_with(begin))
 }
 
-/// The distribution that a text names.
-pub(super) fn distribution(text: &str) -> Option<&'static str> {
+/// What a text says of a distribution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum NamedShape {
+    /// One that a model file has.
+    Known(&'static str),
+    /// A t distribution, whose degrees of freedom must be said.
+    Student,
+    /// None that is known.
+    Unknown,
+}
+
+/// The distribution that a text names; `None` where it names none.
+pub(super) fn distribution(text: &str) -> Option<NamedShape> {
     let words = text.trim().to_lowercase();
     let begins = |all: &[&str]| all.iter().any(|word| words.starts_with(word));
-    if words.is_empty() {
-        None
-    } else if begins(&["norm", "gau", "student", "t-"]) || matches!(words.as_str(), "n" | "t") {
-        Some("normal")
-    } else if begins(&["rect", "uniform", "rechteck", "gleich"]) || words == "r" {
-        Some("rectangular")
-    } else if begins(&["triang", "dreieck"]) {
-        Some("triangular")
-    } else if begins(&["u-sh", "u sh", "arc", "u-f", "u sha"]) || words == "u" {
-        Some("arcsine")
-    } else {
-        None
+    if words.is_empty() || matches!(words.as_str(), "-" | "–" | "—") {
+        return None;
     }
+    let is = |letters: &[&str]| letters.contains(&words.as_str());
+    Some(if begins(&["norm", "gau"]) || is(&["n"]) {
+        NamedShape::Known("normal")
+    } else if begins(&["student", "t-", "t "]) || is(&["t"]) {
+        NamedShape::Student
+    } else if begins(&["rect", "uniform", "rechteck", "gleich"]) || is(&["r"]) {
+        NamedShape::Known("rectangular")
+    } else if begins(&["tri", "dreieck"]) {
+        NamedShape::Known("triangular")
+    } else if begins(&["u-sh", "u sh", "arc", "u-f", "u-v", "ushape"]) || is(&["u"]) {
+        NamedShape::Known("arcsine")
+    } else {
+        NamedShape::Unknown
+    })
+}
+
+/// Whether a text speaks of correlation.
+pub(super) fn is_of_correlation(text: &str) -> bool {
+    let words = text.to_lowercase();
+    let compact: String = words.split_whitespace().collect();
+    ["correl", "korrel", "corrél"].iter().any(|word| words.contains(word))
+        || compact.starts_with("r(") && compact.contains('=')
+        || compact.contains(":r=")
+}
+
+/// Whether a row at the end of a budget is of a summary by its symbol: `U`, `k`, `u_c`, `veff`.
+pub(super) fn is_summary_symbol(words: &str) -> bool {
+    const SYMBOLS: [&str; 12] =
+        ["U", "u", "k", "p", "uc", "u_c", "veff", "v_eff", "νeff", "ν_eff", "nu_eff", "dof"];
+    let compact: String =
+        words.split(['(', '=']).next().unwrap_or_default().split_whitespace().collect();
+    SYMBOLS.contains(&compact.as_str())
 }
 
 /// Words as a name of formulas: other signs become `_`.

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::columns::Header;
 use crate::open::json_as_table;
 use crate::separator::{DecimalMarks, Separator};
 use crate::source::SourceText;
@@ -18,6 +19,8 @@ pub(super) struct Cells {
     spans: Vec<Range<usize>>,
     /// What separated them in a text; `None` in a workbook.
     separator: Option<Separator>,
+    /// Whether cells of a text with commas between them have decimal commas, in quotes.
+    quoted_commas: bool,
 }
 
 impl Cells {
@@ -42,7 +45,7 @@ impl Cells {
 
     /// Whether numbers have a decimal comma.
     pub(super) fn decimal_comma(&self) -> bool {
-        self.separator != Some(Separator::Comma)
+        self.separator != Some(Separator::Comma) || self.quoted_commas
     }
 
     /// The decimal marks of its numbers; of a workbook, whose numbers have none, those of any text.
@@ -65,14 +68,30 @@ pub(super) fn of_content(
     if let Some((_, kind)) = json_as_table(&SourceText::new("", &text)) {
         return Err(kind);
     }
-    let count = |sign: char| text.matches(sign).count();
-    let separator = if count('\t') > count(';') && count('\t') > count(',') {
-        Separator::Tab
-    } else if count(';') > 0 {
-        Separator::Semicolon
-    } else {
-        Separator::Comma
+    // words may have any of the signs in them: the header tells which one separates
+    let order = [Separator::Semicolon, Separator::Tab, Separator::Comma];
+    let read = order.map(|separator| separated(&text, separator));
+    let columns = |read: &Result<(Cells, String), DiagnosticKind>| {
+        let found = read.as_ref().ok().and_then(|(cells, _)| Header::find(cells));
+        found.map_or(0, |header| header.columns.len())
     };
+    let most = read.iter().map(columns).max().unwrap_or(0);
+    let is_used = |sign: Separator| text.contains(sign.sign());
+    let best = match most {
+        // no header: what stands there is told in the words of the most likely one
+        0 => order.iter().position(|sign| is_used(*sign)).unwrap_or(2),
+        _ => read.iter().position(|read| columns(read) == most).unwrap_or(2),
+    };
+    let [semicolon, tab, comma] = read;
+    match best {
+        0 => semicolon,
+        1 => tab,
+        _ => comma,
+    }
+}
+
+fn separated(text: &str, separator: Separator) -> Result<(Cells, String), DiagnosticKind> {
+    let unreadable = |message| DiagnosticKind::Unreadable { message };
     let mut rows = Vec::new();
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(separator.byte())
@@ -83,7 +102,13 @@ pub(super) fn of_content(
     for record in reader.records() {
         let record = record.map_err(|error| unreadable(format!("it is no CSV: {error}")))?;
         // empty lines are no records, and count here
-        let line = record.position().map_or(last + 1, |place| place.line() as usize);
+        let line = record.position().map_or(last + 1, |place| {
+            // a record begins where the last one ended, before the empty lines
+            let before = text.get(place.byte() as usize..).unwrap_or_default();
+            let content = before.trim_start_matches(['\n', '\r']);
+            let skipped = before.get(..before.len() - content.len()).unwrap_or_default();
+            place.line() as usize + skipped.matches('\n').count()
+        });
         while last + 1 < line {
             rows.push(Vec::new());
             last += 1;
@@ -95,9 +120,31 @@ pub(super) fn of_content(
             return Err(unreadable(message));
         }
     }
-    let (mut cells, text) = of_rows(rows);
-    cells.separator = Some(separator);
-    Ok((cells, text))
+    let quoted_commas = separator == Separator::Comma && has_decimal_commas(&rows);
+    let (cells, text) = of_rows(rows);
+    Ok((Cells { separator: Some(separator), quoted_commas, ..cells }, text))
+}
+
+/// Whether numbers among cells that commas separate have decimal commas: there is one that cannot be
+/// a group of three digits, and none has a decimal point.
+fn has_decimal_commas(rows: &[Vec<String>]) -> bool {
+    let begins =
+        |cell: &&str| cell.starts_with(|c: char| c.is_ascii_digit() || "+-−–±".contains(c));
+    let cells = rows.iter().flatten().map(|cell| cell.trim()).filter(begins);
+    let (mut commas, mut points) = (false, false);
+    for cell in cells {
+        let digits =
+            cell.split(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | ',' | '+' | '-')));
+        let number = digits.max_by_key(|part| part.len()).unwrap_or_default();
+        points |= number.contains('.');
+        let fraction = number.split_once(',').map(|(_, fraction)| fraction);
+        // `50,000 2` has digits in groups behind the mark
+        let behind = cell.split_once(number).map_or("", |(_, behind)| behind).strip_prefix(' ');
+        let goes_on = behind.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+        commas |= fraction
+            .is_some_and(|f| (f.len() != 3 || goes_on) && !f.is_empty() && !f.contains(','));
+    }
+    commas && !points
 }
 
 fn of_rows(mut rows: Vec<Vec<String>>) -> (Cells, String) {
@@ -110,47 +157,5 @@ fn of_rows(mut rows: Vec<Vec<String>>) -> (Cells, String) {
         spans.push(start..text.len());
         text.push('\n');
     }
-    (Cells { rows, spans, separator: None }, text)
-}
-
-/// A number as spreadsheets write them; `1,5` where commas are decimal ones.
-pub(super) fn number(text: &str, decimal_comma: bool) -> Option<f64> {
-    let text = text.trim().replace(['\u{a0}', '\u{202f}'], "").replace('−', "-");
-    if let Some(percent) = text.strip_suffix('%') {
-        return number(percent, decimal_comma).map(|share| share / 100.0);
-    }
-    let plain = text.parse::<f64>().ok();
-    let with_comma = || {
-        let one = decimal_comma && text.matches(',').count() == 1 && !text.contains('.');
-        one.then(|| text.replace(',', ".").parse::<f64>().ok()).flatten()
-    };
-    plain.or_else(with_comma).filter(|value| value.is_finite())
-}
-
-/// A number with the unit behind it, perhaps with digits in groups of three: `10 000,005 g`. The unit is
-/// empty where there is none, and not looked at.
-pub(super) fn number_with_unit(text: &str, decimal_comma: bool) -> Option<(f64, &str)> {
-    let text = text.trim();
-    if let Some(value) = number(text, decimal_comma) {
-        return Some((value, ""));
-    }
-    let ends = text.char_indices().map(|(at, c)| at + c.len_utf8());
-    ends.rev().find_map(|end| {
-        let (digits, unit) = text.split_at_checked(end)?;
-        let value = number(&ungrouped(digits.trim_end())?, decimal_comma)?;
-        Some((value, unit.trim()))
-    })
-}
-
-/// A number without the spaces between groups of three digits; `None` where there are others.
-fn ungrouped(digits: &str) -> Option<String> {
-    let mut groups = digits.split([' ', '\u{a0}', '\u{202f}']);
-    let first = groups.next()?;
-    groups.try_fold(first.to_owned(), |whole, group| {
-        let (head, rest) = group.split_at_checked(3)?;
-        let is_group = head.bytes().all(|b| b.is_ascii_digit())
-            && !rest.starts_with(|c: char| c.is_ascii_digit())
-            && whole.ends_with(|c: char| c.is_ascii_digit());
-        is_group.then(|| whole + group)
-    })
+    (Cells { rows, spans, ..Cells::default() }, text)
 }

@@ -4,9 +4,10 @@
 //! Coefficients are in the unit of the result per unit of the quantity. Budgets state that in a column
 //! of its own, or leave it to the reader; where one row can be read in two ways, both are named.
 
+use super::Budget;
 use super::columns::{Column, Header};
-use super::grid::number_with_unit;
-use super::{Budget, Row, divisor_of};
+use super::number::number_with_unit;
+use super::rows::{Row, divisor_of};
 use gumption_engine::number::{Shortest, elementary};
 use gumption_units::Unit;
 
@@ -20,7 +21,7 @@ pub(super) struct Linear {
 
 /// From this ratio on, the sheet's contribution and that of the model are not the same number
 /// rounded: a single digit is 1.5 at worst.
-const CONTRIBUTIONS_DIFFER: f64 = 1.6;
+pub(super) const CONTRIBUTIONS_DIFFER: f64 = 1.6;
 
 impl Budget<'_> {
     /// The linear model of the sensitivity coefficients; `None` after a mistake.
@@ -65,7 +66,16 @@ impl Budget<'_> {
         let mut terms = Vec::new();
         match estimate {
             Some(estimate) if (estimate - sum).abs() > 1e-9 * estimate.abs().max(sum.abs()) => {
-                terms.push(written(difference(estimate, sum)));
+                let constant = written(difference(estimate, sum));
+                if with == 0 {
+                    self.guessed.push(format!(
+                        "the quantities add up to {}, and the sheet says {}: the constant {constant} is \
+                         added",
+                        written(sum),
+                        written(estimate)
+                    ));
+                }
+                terms.push(constant);
             }
             Some(_) => {}
             None if with > 0 => self.guessed.push(format!(
@@ -214,10 +224,13 @@ impl Budget<'_> {
         let text = header.cell(self.cells, row.line, Column::Contribution).trim();
         let (stated, unit) = number_with_unit(text, self.cells.decimal_comma())?;
         let scale = match unit.trim() {
-            "" => 1.0,
+            "" => match header.unit(Column::Contribution) {
+                None => 1.0,
+                Some(unit) => Unit::conversion_factor(&Unit::parse(unit).ok()?, of_result).ok()?,
+            },
             unit => Unit::conversion_factor(&Unit::parse(unit).ok()?, of_result).ok()?,
         };
-        let u = standard_uncertainty(row)?;
+        let u = standard_uncertainty(row).unwrap_or(0.0);
         (!text.ends_with('%')).then(|| [(stated * scale).abs(), (factor * u).abs()])
     }
 
@@ -270,6 +283,9 @@ fn of_coefficient(coefficient: &str, unit: &str) -> Option<String> {
 
 /// The standard uncertainty of a row, in its own unit.
 pub(super) fn standard_uncertainty(row: &Row) -> Option<f64> {
+    if row.width.is_none() {
+        return row.std.filter(|u| *u > 0.0);
+    }
     let divisor = || row.divisor.or_else(|| row.distribution.and_then(divisor_of)).unwrap_or(1.0);
     row.width.map(|width| width / divisor()).or(row.std).filter(|u| *u > 0.0)
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::{Map, Value, json};
 
 use super::ImportedBudget;
-use super::grid::number;
+use super::number::number;
 use crate::DiagnosticKind;
 use crate::diagnostics::{Collector, Diagnostics};
 use crate::reader::read_text;

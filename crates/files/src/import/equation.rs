@@ -1,0 +1,230 @@
+//! The equations of a sheet: lines such as `R = U/I`, and cells behind `equation`.
+
+use std::collections::HashMap;
+
+use super::Budget;
+use super::columns;
+use super::grid::Cells;
+use super::number::{expression, number_with_unit};
+use super::rows::Row;
+use gumption_engine::model::formula::{Formula, Scope, Typing, check_name};
+use gumption_units::Unit;
+
+/// An equation of the sheet.
+#[derive(Clone, Debug)]
+pub(super) struct Equation {
+    pub(super) line: usize,
+    pub(super) name: String,
+    pub(super) formula: String,
+}
+
+impl Equation {
+    /// The names that it needs.
+    fn names(&self) -> Vec<String> {
+        let formula = Formula::parse(&self.formula).ok();
+        formula.iter().flat_map(Formula::names).map(|(name, _)| name.to_owned()).collect()
+    }
+}
+
+/// A text that looks like an equation and cannot be read as one.
+#[derive(Clone, Debug)]
+pub(super) struct Unread {
+    pub(super) line: usize,
+    pub(super) text: String,
+    pub(super) reason: String,
+    /// Whether a label calls it the equation.
+    pub(super) is_labelled: bool,
+}
+
+/// The equations of a sheet, that of the result last, and what could not be read.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Equations {
+    pub(super) read: Vec<Equation>,
+    pub(super) unread: Vec<Unread>,
+}
+
+/// Words before an equation.
+const LABELS: [&str; 12] = [
+    "equation",
+    "formula",
+    "model",
+    "model equation",
+    "gleichung",
+    "formel",
+    "modell",
+    "modellgleichung",
+    "équation",
+    "formule",
+    "modèle",
+    "mathematical model",
+];
+
+impl Equations {
+    /// All that a sheet holds, in its order.
+    pub(super) fn of(cells: &Cells) -> Self {
+        let mut found = Self::default();
+        for line in 0..cells.lines() {
+            let row = cells.row(line);
+            for (place, cell) in row.iter().enumerate() {
+                let label = columns::plain(cell);
+                let is_label = LABELS.contains(&label.as_str());
+                let written = if is_label {
+                    row.iter().skip(place + 1).find(|cell| !cell.trim().is_empty())
+                } else {
+                    Some(cell).filter(|cell| cell.contains('='))
+                };
+                let Some(written) = written else { continue };
+                let behind_label = LABELS.iter().find_map(|label| {
+                    let lower = written.to_lowercase();
+                    lower.strip_prefix(label)?.trim_start().strip_prefix(':')?;
+                    written.get(written.find(':')? + 1..)
+                });
+                found.add(cells, line, behind_label.unwrap_or(written), is_label);
+            }
+        }
+        found
+    }
+
+    fn add(&mut self, cells: &Cells, line: usize, written: &str, is_labelled: bool) {
+        let Some((left, right)) = written.split_once('=') else { return };
+        let name = columns::identifier(left);
+        if check_name(&name).is_err() || self.read.iter().any(|known| known.name == name) {
+            return;
+        }
+        let right = right.trim();
+        let comma = cells.decimal_comma();
+        let formula = expression(&if comma { with_points(right) } else { right.to_owned() });
+        let formula = formula.replace(';', ",");
+        match Formula::parse(&formula) {
+            Ok(parsed) => {
+                if parsed.names().next().is_some() {
+                    self.read.push(Equation { line, name, formula });
+                }
+            }
+            Err(error) => {
+                let is_quantity = number_with_unit(right, comma)
+                    .is_some_and(|(_, unit)| unit.is_empty() || Unit::parse(unit).is_ok());
+                let has_operator = formula.contains(['*', '/', '^', '+', '-', '(']);
+                let is_short = left.split_whitespace().count() <= 2;
+                let is_one = has_operator && is_short && formula.contains(char::is_alphabetic);
+                if is_labelled || (is_one && !is_quantity) {
+                    let (text, reason) = (written.trim().to_owned(), error.to_string());
+                    self.unread.push(Unread { line, text, reason, is_labelled });
+                }
+            }
+        }
+    }
+
+    /// Leaves the equation of the result, last, and those that it needs.
+    ///
+    /// # Errors
+    /// The line and the reason where it is not clear which one is the result's.
+    pub(super) fn of_result(mut self, known: &[String]) -> Result<Self, (usize, String)> {
+        let names: Vec<Vec<String>> = self.read.iter().map(Equation::names).collect();
+        let is_known = |name: &String| {
+            known.contains(name) || self.read.iter().any(|equation| equation.name == *name)
+        };
+        let is_whole = |place: &usize| names[*place].iter().all(is_known);
+        let is_used = |place: &usize| {
+            names.iter().enumerate().any(|(other, of)| {
+                other != *place && is_whole(&other) && of.contains(&self.read[*place].name)
+            })
+        };
+        let all: Vec<usize> = (0..self.read.len()).collect();
+        let whole: Vec<usize> = all.iter().copied().filter(is_whole).collect();
+        let among = if whole.is_empty() { all } else { whole };
+        let last: Vec<usize> = among.iter().copied().filter(|place| !is_used(place)).collect();
+        let result = match (last.as_slice(), among.first()) {
+            ([one], _) => *one,
+            ([first, second, ..], _) => {
+                let [first, second] = [*first, *second].map(|place| &self.read[place]);
+                return Err((
+                    second.line,
+                    format!(
+                        "the result can be `{}` of line {} or `{}` of line {}: leave one equation, or \
+                         let one use the other",
+                        first.name,
+                        first.line + 1,
+                        second.name,
+                        second.line + 1
+                    ),
+                ));
+            }
+            ([], Some(first)) => {
+                let reason =
+                    format!("`{}` and another equation need each other", self.read[*first].name);
+                return Err((self.read[*first].line, reason));
+            }
+            ([], None) => return Ok(self),
+        };
+        let mut needed = vec![result];
+        let mut next = 0;
+        while let Some(&place) = needed.get(next) {
+            for name in &names[place] {
+                let by = self.read.iter().position(|equation| equation.name == *name);
+                if let Some(by) = by.filter(|by| !needed.contains(by) && !known.contains(name)) {
+                    needed.push(by);
+                }
+            }
+            next += 1;
+        }
+        needed.reverse();
+        self.read = needed.into_iter().map(|place| self.read[place].clone()).collect();
+        Ok(self)
+    }
+}
+
+/// Decimal commas of a formula as points; other commas separate arguments.
+pub(super) fn with_points(text: &str) -> String {
+    let characters: Vec<char> = text.chars().collect();
+    let is_digit = |place: Option<usize>| {
+        place.and_then(|place| characters.get(place)).is_some_and(char::is_ascii_digit)
+    };
+    let point = |(place, c): (usize, &char)| {
+        let is_mark = *c == ',' && is_digit(place.checked_sub(1)) && is_digit(Some(place + 1));
+        if is_mark { '.' } else { *c }
+    };
+    characters.iter().enumerate().map(point).collect()
+}
+
+impl Budget<'_> {
+    /// What the equations give the result, with the types of these names: nothing after a mistake.
+    pub(super) fn typing_of(equations: &[Equation], known: Scope) -> Option<Typing> {
+        let mut scope = known;
+        let mut last = None;
+        for equation in equations {
+            let formula = Formula::parse(&equation.formula).ok()?;
+            let typing = formula.check(&scope).ok()?;
+            scope.define(equation.name.as_str(), typing);
+            last = Some(typing);
+        }
+        last
+    }
+
+    /// Says which texts look like equations and could not be read; a mistake where nothing else tells
+    /// how the result is made.
+    pub(super) fn unread(&mut self, unread: &[Unread], has_other: bool) {
+        for Unread { line, text, reason, is_labelled } in unread {
+            let said = format!("`{text}` cannot be read as an equation: {reason}");
+            if has_other && !is_labelled {
+                self.guessed.push(format!("line {}: {said}; it is not taken", line + 1));
+            } else {
+                self.fail(*line, said);
+            }
+        }
+    }
+
+    /// Says which rows no equation names.
+    pub(super) fn unused(&mut self, rows: &[Row], equations: &[Equation]) {
+        let used: HashMap<String, ()> =
+            equations.iter().flat_map(Equation::names).map(|name| (name, ())).collect();
+        let measurand = equations.last().map(|equation| equation.name.clone()).unwrap_or_default();
+        for row in rows.iter().filter(|row| !used.contains_key(&row.name)) {
+            self.guessed.push(format!(
+                "line {}: `{}` is not in the equation of {measurand}: it contributes nothing",
+                row.line + 1,
+                row.name
+            ));
+        }
+    }
+}

@@ -1,0 +1,698 @@
+//! The rows of a budget: what their cells say, and what has to be guessed.
+
+use gumption_engine::decimal::significant;
+use gumption_engine::model::formula::check_name;
+use gumption_engine::number::Shortest;
+use gumption_units::Unit;
+
+use super::columns::{self, Column, Header, HeaderCoverage, NamedShape};
+use super::linear::{CONTRIBUTIONS_DIFFER, standard_uncertainty};
+use super::stated::Stated;
+use super::{Budget, equation, number};
+use crate::value_text::grouped_digits;
+use crate::width::Width;
+
+/// A row of the budget.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Row {
+    pub(super) line: usize,
+    /// The name in formulas.
+    pub(super) name: String,
+    /// The words of the sheet.
+    pub(super) about: String,
+    pub(super) estimate: Option<f64>,
+    pub(super) unit: String,
+    pub(super) width: Option<f64>,
+    pub(super) std: Option<f64>,
+    pub(super) distribution: Option<&'static str>,
+    pub(super) divisor: Option<f64>,
+    pub(super) sensitivity: Option<f64>,
+    /// As the sheet writes it; empty where it does not.
+    pub(super) unit_of_sensitivity: String,
+    pub(super) dof: Option<f64>,
+    /// Whether it is a figure of the result: `U`, `k`.
+    pub(super) is_summary: bool,
+}
+
+/// What a sheet holds below its header.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Table {
+    pub(super) rows: Vec<Row>,
+    pub(super) result: Option<Row>,
+    /// What it says of the result.
+    pub(super) stated: Vec<Stated>,
+    /// Its coverage factor.
+    pub(super) factor: Option<f64>,
+}
+
+/// Whether a row has no uncertainty, coefficient or shape.
+fn is_bare_of(row: &Row) -> bool {
+    row.width.is_none()
+        && row.std.is_none()
+        && row.sensitivity.is_none()
+        && row.distribution.is_none()
+}
+
+impl Budget<'_> {
+    /// The rows of the quantities, and what the sheet says of the result.
+    pub(super) fn rows(&mut self, header: &Header, measurand: Option<&str>) -> Table {
+        let mut table = Table::default();
+        let mut empty = 0;
+        for line in header.line + 1..self.cells.lines() {
+            let label = header.cell(self.cells, line, Column::Quantity).trim().to_owned();
+            let is_blank = self.cells.row(line).iter().all(|cell| cell.trim().is_empty());
+            if is_blank {
+                // a budget may have one empty line, not two
+                empty += 1;
+                continue;
+            }
+            let is_below = empty > 1 && !table.rows.is_empty();
+            if !is_below {
+                empty = 0;
+            }
+            let symbol = header.cell(self.cells, line, Column::Symbol).trim().to_owned();
+            let is_measurand = [&label, &symbol]
+                .into_iter()
+                .any(|words| measurand.is_some_and(|name| columns::identifier(words) == name));
+            let words = if symbol.is_empty() { &label } else { &symbol };
+            // a word of results may name a quantity: `U` of a voltage, which has an uncertainty
+            let is_symbol = columns::is_summary_symbol(words) && self.is_bare(header, line);
+            let is_result = columns::is_result(&label) || is_measurand;
+            let is_sentence = label.contains('=') && self.is_alone(header, line);
+            if is_below && !is_result && !is_symbol {
+                self.guessed.push(format!(
+                    "line {}: `{}` stands below the table and is not taken",
+                    line + 1,
+                    self.cells
+                        .row(line)
+                        .iter()
+                        .map(|cell| cell.trim())
+                        .find(|cell| !cell.is_empty())
+                        .unwrap_or_default()
+                ));
+                continue;
+            }
+            // told apart from the rows
+            let speaks = self.cells.row(line).iter().any(|cell| columns::is_of_correlation(cell));
+            if (is_sentence && !is_result) || speaks {
+                continue;
+            }
+            let row = self.row(header, line, label.clone(), is_result || is_symbol);
+            if columns::is_factor(words) && is_bare_of(&row) && row.unit.is_empty() {
+                let known = row.estimate.or(row.divisor);
+                table.factor = table.factor.or(known.filter(|factor| *factor > 0.0));
+                let text = format!("line {}: `{words}` is a coverage factor, not taken", line + 1);
+                self.understood.push(text);
+                continue;
+            }
+            let nothing = row.estimate.is_none() && row.width.is_none() && row.std.is_none();
+            if label.is_empty() && nothing {
+                continue;
+            }
+            if is_result || is_symbol {
+                table.stated.extend(self.stated(header, line, &row));
+                self.result_row(&mut table, row, is_symbol);
+                continue;
+            }
+            if nothing {
+                self.guessed.push(format!("line {}: `{label}` has no numbers; left out", line + 1));
+                continue;
+            }
+            let mut row = row;
+            row.name = self.name(words, &table.rows, line);
+            self.coverage(header, &mut row);
+            self.contradictions(&row);
+            table.rows.push(row);
+        }
+        // an equation names its result itself
+        if table.result.as_ref().is_none_or(|result| result.is_summary)
+            && let Some(reason) = last_is_result(&table.rows)
+            && (measurand.is_none() || reason == NO_UNCERTAINTY)
+            && let Some(last) = table.rows.pop()
+        {
+            self.guessed.push(format!(
+                "line {}: `{}` {reason} and is taken for the result",
+                last.line + 1,
+                last.name
+            ));
+            table.stated.extend(self.stated(header, last.line, &last));
+            table.result = Some(last);
+        }
+        if let Some(result) = &mut table.result
+            && (columns::is_result(&result.about) || result.is_summary)
+        {
+            result.name = String::new();
+        }
+        table
+    }
+
+    /// A line of the table as it stands there; where it is `lenient`, texts in the place of numbers are
+    /// no mistakes.
+    fn row(&mut self, header: &Header, line: usize, label: String, lenient: bool) -> Row {
+        let mut row = Row { line, about: label, ..Row::default() };
+        row.unit = self.unit(header, line, lenient);
+        row.estimate = self.in_unit(header, line, (Column::Estimate, lenient), &mut row);
+        row.width = self.in_unit(header, line, (Column::Width, lenient), &mut row);
+        row.std = self.in_unit(header, line, (Column::Std, lenient), &mut row);
+        if let Some((c, unit)) = self.with_unit(header, line, Column::Sensitivity, lenient) {
+            row.sensitivity = Some(c);
+            unit.clone_into(&mut row.unit_of_sensitivity);
+        }
+        let stated = header.cell(self.cells, line, Column::UnitOfSensitivity).trim();
+        if row.unit_of_sensitivity.is_empty() && !matches!(stated, "-" | "–") {
+            stated.clone_into(&mut row.unit_of_sensitivity);
+        }
+        row.divisor = self.divisor(header, line, lenient);
+        row.dof = self.dof(header, line, lenient);
+        row.distribution = self.distribution(header, &row, lenient);
+        row
+    }
+
+    /// Whether a line has no uncertainty, coefficient, shape or divisor.
+    fn is_bare(&self, header: &Header, line: usize) -> bool {
+        [Column::Width, Column::Std, Column::Sensitivity, Column::Distribution]
+            .iter()
+            .all(|column| header.cell(self.cells, line, *column).trim().is_empty())
+    }
+
+    /// Whether a line has one cell with something in it, of those that the header names.
+    fn is_alone(&self, header: &Header, line: usize) -> bool {
+        let cells = header.columns.iter().map(|(place, _)| self.cells.text(line, *place).trim());
+        cells.filter(|cell| !cell.is_empty()).count() < 2
+    }
+
+    /// Takes over what a row of results says beside its figures.
+    fn result_row(&mut self, table: &mut Table, mut row: Row, is_summary: bool) {
+        if columns::is_of_uncertainty(&row.about) || is_summary {
+            row.estimate = None;
+        }
+        // a sum of contributions names no quantity
+        row.is_summary = is_summary || (row.estimate.is_none() && columns::is_result(&row.about));
+        if is_summary {
+            self.understood.push(format!(
+                "line {}: `{}` is a figure of the result, not a quantity",
+                row.line + 1,
+                row.about
+            ));
+        }
+        match &mut table.result {
+            Some(known) if !known.is_summary || row.is_summary => {
+                known.estimate = known.estimate.or(row.estimate);
+                if known.unit.is_empty() {
+                    known.unit = row.unit;
+                }
+            }
+            result => *result = Some(row),
+        }
+    }
+
+    /// A name for formulas.
+    fn name(&mut self, words: &str, rows: &[Row], line: usize) -> String {
+        let mut name = columns::identifier(words);
+        if check_name(&name).is_err() {
+            name = format!("x_{}", rows.len() + 1);
+        }
+        let wanted = name.clone();
+        let mut number = 2;
+        while rows.iter().any(|row| row.name == name) {
+            name = format!("{wanted}_{number}");
+            number += 1;
+        }
+        if name != words {
+            self.guessed.push(format!("line {}: `{words}` is called `{name}`", line + 1));
+        }
+        name
+    }
+
+    /// The number in a cell and the unit behind it, which is empty where there is none.
+    fn with_unit<'c>(
+        &'c self,
+        header: &Header,
+        line: usize,
+        column: Column,
+        lenient: bool,
+    ) -> Option<(f64, &'c str)> {
+        let text = header.cell(self.cells, line, column).trim();
+        if is_empty(text) {
+            return None;
+        }
+        // an uncertainty may have its sign and its factor with it
+        let text = match column {
+            Column::Width | Column::Std => {
+                let text = text.trim_start_matches(['±', ' ']);
+                text.split_once('(')
+                    .filter(|_| is_factor_of(text))
+                    .map_or(text, |(of, _)| of.trim())
+            }
+            _ => text,
+        };
+        let comma = self.cells.decimal_comma();
+        let read = number::number_with_unit(text, comma);
+        let is_unit = |unit: &str| grouped_digits(unit).is_none() && Unit::parse(unit).is_ok();
+        let read = read.filter(|(_, unit)| unit.is_empty() || is_unit(unit)).or_else(|| {
+            let of_text = (column == Column::Sensitivity).then(|| number::constant(text, comma));
+            of_text.flatten().map(|value| (value, ""))
+        });
+        if read.is_none() && !lenient {
+            let groups = text.contains('.') && text.contains(',') || is_grouped(text);
+            let hint = if groups { ": digits are not grouped by points or commas" } else { "" };
+            let reason =
+                format!("`{text}` in the column of the {} is no number{hint}", column.name());
+            self.fail(line, reason);
+        }
+        if let Some((_, unit)) = read
+            && let digits = text.strip_suffix(unit).unwrap_or(text)
+            && let Err(reason) = self.marks.borrow_mut().with_point(digits)
+            && self.log.is_clean()
+        {
+            self.fail(line, reason);
+        }
+        read
+    }
+
+    /// Degrees of freedom; `None` where they are infinite, or not stated.
+    fn dof(&mut self, header: &Header, line: usize, lenient: bool) -> Option<f64> {
+        let text = header.cell(self.cells, line, Column::Dof).trim();
+        let infinite = ["inf", "infinity", "∞", "unendlich", "infinite", "infini"];
+        if infinite.contains(&text.to_lowercase().as_str()) {
+            return None;
+        }
+        let at_least = text.trim_start_matches(['>', '≥', '=', ' ']);
+        if at_least.len() < text.len() {
+            let dof = number::number(at_least, self.cells.decimal_comma());
+            if let Some(dof) = dof.filter(|_| !lenient) {
+                self.guessed.push(format!(
+                    "line {}: {} degrees of freedom are taken of `{text}`",
+                    line + 1,
+                    Shortest(dof)
+                ));
+            }
+            return dof.filter(|dof| *dof < 1e6);
+        }
+        let (value, unit) = self.with_unit(header, line, Column::Dof, lenient)?;
+        if !unit.is_empty() && !lenient {
+            let reason =
+                format!("the degrees of freedom have no unit, so that `{unit}` is too much");
+            self.fail(line, reason);
+        }
+        Some(value).filter(|dof| dof.is_finite() && *dof < 1e6)
+    }
+
+    /// A number in the unit of its row, which is that of its first number where no column has one; per
+    /// cent and ppm are a share of the estimate where the unit is none of them.
+    fn in_unit(
+        &mut self,
+        header: &Header,
+        line: usize,
+        (column, lenient): (Column, bool),
+        row: &mut Row,
+    ) -> Option<f64> {
+        let text = header.cell(self.cells, line, column).trim();
+        if column == Column::Width && text.contains(" + ") && !lenient {
+            return self.specification(text, line, row);
+        }
+        let (value, unit) = self.with_unit(header, line, column, lenient)?;
+        let unit = unit.to_owned();
+        if column != Column::Estimate && value < 0.0 && !lenient {
+            self.fail(line, format!("the {} `{text}` is below zero", column.name()));
+            return None;
+        }
+        let of_header = header.unit(column).unwrap_or_default();
+        let is_percent = text.contains('%') && unit.is_empty();
+        if !of_header.is_empty() && (is_percent || !unit.is_empty()) && !lenient {
+            let own = if is_percent { "%" } else { unit.as_str() };
+            if own != of_header {
+                let reason =
+                    format!("`{text}` stands in a column whose heading says `{of_header}`");
+                self.fail(line, reason);
+                return None;
+            }
+        }
+        let unit = match (unit.as_str(), is_percent) {
+            ("", true) => "%",
+            ("", false) => of_header,
+            (unit, _) => unit,
+        };
+        // the number of a cell in per cent is a share already
+        let value = if is_percent { 100.0 * value } else { value };
+        let share = Unit::parse(unit).ok().filter(Unit::is_relative);
+        let is_relative = Unit::parse(&row.unit).is_ok_and(|own| own.is_relative());
+        match share {
+            Some(share) if !is_relative => {
+                let share = (value * share.factor(), unit);
+                self.share(share, line, (column, lenient), row)
+            }
+            _ if unit.is_empty() => Some(value),
+            _ => self.converted((value, unit), line, (column, lenient), row),
+        }
+    }
+
+    /// A width as data sheets have it, `0.02 % + 2 mV`, at the estimate.
+    fn specification(&mut self, text: &str, line: usize, row: &Row) -> Option<f64> {
+        let written =
+            if self.cells.decimal_comma() { equation::with_points(text) } else { text.to_owned() };
+        let unit = Unit::parse(&row.unit).ok()?;
+        let width = Width::specification(&written, &unit, &[]);
+        match width.and_then(|width| Ok((width, row.estimate.ok_or("the estimate is missing")?))) {
+            Ok((width, estimate)) => {
+                let found = to_15_digits(width.at(estimate));
+                self.guessed.push(format!(
+                    "line {}: `{text}` is {} at the estimate {}",
+                    line + 1,
+                    unit.after(&Shortest(found).to_string()),
+                    Shortest(estimate)
+                ));
+                Some(found)
+            }
+            Err(reason) => {
+                self.fail(line, format!("`{text}`: {reason}"));
+                None
+            }
+        }
+    }
+
+    /// A share of the estimate in the unit of its row; `unit` is that of the share.
+    fn share(
+        &mut self,
+        (share, unit): (f64, &str),
+        line: usize,
+        (column, lenient): (Column, bool),
+        row: &mut Row,
+    ) -> Option<f64> {
+        let whole = Unit::parse(unit).map_or(1.0, |unit| unit.factor());
+        let text = format!("{} {unit}", Shortest(to_15_digits(share / whole)));
+        let reason = match row.estimate.filter(|_| column != Column::Estimate) {
+            // nothing else is said of the quantity: it is in per cent itself
+            None if row.unit.is_empty() => {
+                unit.clone_into(&mut row.unit);
+                return Some(to_15_digits(share / whole));
+            }
+            None => format!("`{text}` is a share, but the unit of this row is `{}`", row.unit),
+            Some(estimate) if estimate == 0.0 => format!(
+                "`{text}` of the estimate 0 is nothing: state the {} in the unit of the quantity, or what \
+                 it is a share of",
+                column.name()
+            ),
+            Some(estimate) if row.unit.is_empty() && (estimate.abs() - 1.0).abs() > 1e-9 => {
+                format!(
+                    "`{text}` of a quantity without a unit can be {text} of the estimate {}, or {} itself: \
+                 write that number",
+                    Shortest(estimate),
+                    Shortest(share)
+                )
+            }
+            Some(estimate) => {
+                self.guessed.push(format!(
+                    "line {}: `{text}` is taken of the estimate {}",
+                    line + 1,
+                    Shortest(estimate)
+                ));
+                return Some(to_15_digits(share * estimate.abs()));
+            }
+        };
+        if !lenient {
+            self.fail(line, reason);
+        }
+        None
+    }
+
+    /// A number with a unit behind it, in that of its row.
+    fn converted(
+        &self,
+        (value, unit): (f64, &str),
+        line: usize,
+        (column, lenient): (Column, bool),
+        row: &mut Row,
+    ) -> Option<f64> {
+        if row.unit.is_empty() {
+            unit.clone_into(&mut row.unit);
+        }
+        let (from, to) = (Unit::parse(unit).ok()?, Unit::parse(&row.unit).ok()?);
+        let factor = Unit::conversion_factor(&from, &to).ok();
+        // of a temperature the size of the degree
+        let shifted = column == Column::Estimate && from.zero() != to.zero();
+        match factor.filter(|_| !shifted) {
+            Some(1.0) => Some(value),
+            Some(_) => Some(to_15_digits(to.from_si(from.to_si(value)))),
+            None if lenient => None,
+            None => {
+                let reason =
+                    format!("the {} is in `{unit}`, but the row in `{}`", column.name(), row.unit);
+                self.fail(line, reason);
+                None
+            }
+        }
+    }
+
+    /// The coverage factor of a row: of its divisor, its distribution (`normal (k=2)`), its uncertainty
+    /// (`0.4 mV (k=2)`), or the header of its column.
+    fn coverage(&mut self, header: &Header, row: &mut Row) {
+        let Some(width) = row.width.filter(|width| *width > 0.0) else { return };
+        let cell = |column| HeaderCoverage::of(header.cell(self.cells, row.line, column));
+        let of_header = header.coverage(self.cells, Column::Width);
+        let is_normal = matches!(row.distribution, None | Some("normal"));
+        let mut stated: Vec<(f64, &str)> =
+            row.divisor.map(|k| (k, "the divisor")).into_iter().collect();
+        for (coverage, place) in [
+            (cell(Column::Distribution), "the distribution"),
+            (cell(Column::Width), "the uncertainty"),
+            (of_header, "the heading"),
+        ] {
+            // a heading speaks of the rows that say nothing else
+            let counts = place != "the heading" || (stated.is_empty() && is_normal);
+            if let HeaderCoverage::Factor(factor) = coverage
+                && counts
+            {
+                stated.push((factor, place));
+            }
+        }
+        if let [(first, of), rest @ ..] = stated.as_slice() {
+            if let Some((other, by)) = rest.iter().find(|(other, _)| !near(*first, *other)) {
+                let reason = format!(
+                    "{of} says {}, {by} {}: which factor is it?",
+                    Shortest(*first),
+                    Shortest(*other)
+                );
+                self.fail(row.line, reason);
+            }
+            row.divisor = Some(*first);
+            return;
+        }
+        if !is_normal {
+            return;
+        }
+        let line = row.line + 1;
+        if let Some(std) = row.std.filter(|std| *std > 0.0) {
+            row.divisor = Some(width / std);
+            return;
+        }
+        if of_header == HeaderCoverage::Expanded {
+            row.divisor = Some(2.0);
+            self.guessed.push(format!(
+                "line {line}: `{}` is expanded, and nothing says by which factor: k = 2 is taken",
+                row.name
+            ));
+        } else {
+            self.guessed.push(format!(
+                "line {line}: nothing says what the uncertainty of `{}` is divided by: k = 1 is taken, as \
+                 of a standard uncertainty",
+                row.name
+            ));
+        }
+    }
+
+    /// Says what a row's shape, uncertainty and divisor do not say together.
+    fn contradictions(&mut self, row: &Row) {
+        let line = row.line + 1;
+        let shape = row.distribution.filter(|shape| *shape != "normal");
+        let uncertain = row.std.or(row.width).is_some_and(|u| u > 0.0);
+        if let Some(shape) = row.distribution.filter(|_| !uncertain) {
+            self.guessed.push(format!(
+                "line {line}: `{}` is {shape} without an uncertainty; it is taken for a constant",
+                row.name
+            ));
+        } else if let (Some(shape), true) = (shape, is_normal_here(row)) {
+            self.guessed.push(format!(
+                "line {line}: `{}` is {shape}, but its uncertainty is not half a width: a normal \
+                 distribution of that standard uncertainty is taken",
+                row.name
+            ));
+        }
+        if let (Some(u), Some(std)) = (standard_uncertainty(row), row.std)
+            && row.width.is_some_and(|width| width > 0.0)
+            && std > 0.0
+        {
+            let ratio = (u / std).max(std / u);
+            let said = format!(
+                "`{}` has the standard uncertainty {} by its stated uncertainty and divisor, and {} in \
+                 the column of standard uncertainties",
+                row.name,
+                significant(u, 3),
+                Shortest(std)
+            );
+            if ratio > CONTRIBUTIONS_DIFFER {
+                self.fail(row.line, format!("{said}: which is right?"));
+            } else if ratio > 1.1 {
+                self.guessed.push(format!("line {line}: {said}: the former is taken"));
+            }
+        }
+    }
+
+    /// A divisor: a number, a root such as `√3` or `sqrt(3)`, or a factor such as `k = 2`.
+    fn divisor(&self, header: &Header, line: usize, lenient: bool) -> Option<f64> {
+        let text = header.cell(self.cells, line, Column::Divisor).trim();
+        if is_empty(text) {
+            return None;
+        }
+        match number::constant(text, self.cells.decimal_comma()) {
+            Some(divisor) if divisor >= 1.0 => Some(divisor),
+            _ if lenient => None,
+            Some(factor) if factor > 0.0 => {
+                let reason = format!(
+                    "the divisor `{text}` is below 1: does it multiply, as 1/{} would divide?",
+                    significant(1.0 / factor, 4)
+                );
+                self.fail(line, reason);
+                None
+            }
+            _ => {
+                self.fail(line, format!("the divisor `{text}` is no number above 0"));
+                None
+            }
+        }
+    }
+
+    fn unit(&mut self, header: &Header, line: usize, lenient: bool) -> String {
+        let text = header.cell(self.cells, line, Column::Unit).trim();
+        if text.is_empty() || matches!(text, "-" | "–" | "1") {
+            return String::new();
+        }
+        match Unit::parse(text) {
+            Ok(_) => text.to_owned(),
+            Err(_) if lenient => String::new(),
+            Err(error) => {
+                self.guessed.push(format!(
+                    "line {}: `{text}` is taken for a plain number, because it is no unit known \
+                     here ({error})",
+                    line + 1
+                ));
+                String::new()
+            }
+        }
+    }
+
+    fn distribution(&mut self, header: &Header, row: &Row, lenient: bool) -> Option<&'static str> {
+        let text = header.cell(self.cells, row.line, Column::Distribution).trim();
+        // a half width needs its shape, or what it is divided by
+        let needs = row.width.is_some_and(|width| width > 0.0)
+            && row.divisor.is_none()
+            && row.std.is_none()
+            && !matches!(HeaderCoverage::of(text), HeaderCoverage::Factor(_))
+            && !lenient;
+        match columns::distribution(text)? {
+            NamedShape::Known(name) => Some(name),
+            NamedShape::Student if needs && row.dof.is_none() => {
+                let reason = format!(
+                    "`{text}` needs a divisor or degrees of freedom: what is the stated uncertainty \
+                     divided by?"
+                );
+                self.fail(row.line, reason);
+                None
+            }
+            NamedShape::Student => Some("normal"),
+            NamedShape::Unknown if needs => {
+                let reason = format!(
+                    "the distribution `{text}` is not known, and there is no divisor; normal, \
+                     rectangular, triangular, U-shaped and t are known"
+                );
+                self.fail(row.line, reason);
+                None
+            }
+            NamedShape::Unknown => {
+                if !lenient {
+                    self.guessed.push(format!(
+                        "line {}: the distribution `{text}` is not known; the divisor decides",
+                        row.line + 1
+                    ));
+                }
+                None
+            }
+        }
+    }
+}
+
+/// Whether a cell says that there is nothing.
+fn is_empty(text: &str) -> bool {
+    matches!(text.to_lowercase().as_str(), "" | "-" | "–" | "—" | "n/a" | "na" | "n.a.")
+}
+
+/// Whether an uncertainty has its coverage factor behind it.
+fn is_factor_of(text: &str) -> bool {
+    matches!(HeaderCoverage::of(text), HeaderCoverage::Factor(_))
+}
+
+/// Whether a number may have its digits in groups, `1.234,5` or `1,500`.
+fn is_grouped(text: &str) -> bool {
+    let mut groups = text.split(',');
+    let is_first = groups.next().is_some_and(|first| !first.is_empty() && first.len() <= 4);
+    let mut rest = groups.peekable();
+    is_first && rest.peek().is_some() && rest.all(|group| group.len() == 3)
+}
+
+/// A number without the digits that only rounding makes.
+pub(super) fn to_15_digits(value: f64) -> f64 {
+    format!("{value:.14e}").parse().unwrap_or(value)
+}
+
+/// Why the last row of a budget is taken for its result.
+const NO_UNCERTAINTY: &str = "has no uncertainty of its own";
+
+/// Why the last row is the result and no quantity, if it is: it lacks what every other one has, or it
+/// is their sum with their combined uncertainty.
+fn last_is_result(rows: &[Row]) -> Option<&'static str> {
+    let (last, others) = rows.split_last().filter(|(_, others)| !others.is_empty())?;
+    let bare = |row: &Row| row.width.is_none() && row.std.is_none();
+    if bare(last) {
+        return others.iter().all(|row| !bare(row)).then_some(NO_UNCERTAINTY);
+    }
+    let is_alone = last.distribution.is_none() && last.sensitivity.is_none();
+    if is_alone && others.iter().all(|row| row.sensitivity.is_some()) {
+        return Some("has neither a sensitivity coefficient nor a distribution");
+    }
+    if last.sensitivity.is_some() {
+        return None;
+    }
+    // a sum of two rows may be a third one by chance, with its uncertainty as well hardly
+    let near = |a: f64, b: f64| (a - b).abs() <= 0.01 * a.abs().max(b.abs());
+    let of = |row: &Row| row.sensitivity.unwrap_or(1.0);
+    let sum: f64 = others.iter().map(|row| of(row) * row.estimate.unwrap_or(0.0)).sum();
+    let squares =
+        others.iter().filter_map(|row| Some((of(row) * standard_uncertainty(row)?).powi(2)));
+    let combined = squares.sum::<f64>().sqrt();
+    let stated = last.std.or(last.width)?;
+    let is_sum = last.estimate.is_some_and(|estimate| near(estimate, sum));
+    let is_combined = near(stated, combined) || near(stated, 2.0 * combined);
+    (others.len() > 1 && is_sum && is_combined)
+        .then_some("is the sum of the others with their combined uncertainty")
+}
+
+/// Shapes that are stated by a half width, and the square of what that is divided by.
+pub(super) const HALF_WIDTHS: [(&str, f64); 3] =
+    [("rectangular", 3.0), ("triangular", 6.0), ("arcsine", 2.0)];
+
+/// What a shape's half width is divided by.
+pub(super) fn divisor_of(shape: &str) -> Option<f64> {
+    HALF_WIDTHS.iter().find(|(name, _)| *name == shape).map(|(_, square)| square.sqrt())
+}
+
+pub(super) fn near(a: f64, b: f64) -> bool {
+    (a / b - 1.0).abs() < 0.01
+}
+
+/// Whether a row whose shape is not normal becomes a normal input: its uncertainty is divided by
+/// something else than the shape's divisor.
+fn is_normal_here(row: &Row) -> bool {
+    let usual = row.distribution.and_then(divisor_of);
+    row.width.is_some()
+        && row.divisor.zip(usual).is_some_and(|(divisor, usual)| !near(divisor, usual))
+}

@@ -1,0 +1,207 @@
+//! What a sheet says of its result, and what the model that was made of it says.
+//!
+//! A budget that was misread mostly gives another result than its sheet: comparing the two finds what
+//! no look at a single cell would.
+
+use std::path::Path;
+
+use super::Budget;
+use super::columns::{self, Column, Header, HeaderCoverage};
+use super::number::{constant, number_with_unit};
+use super::rows::Row;
+use crate::reader::read_text;
+use gumption_engine::decimal::significant;
+use gumption_engine::number::elementary;
+use gumption_engine::propagate::gum;
+use gumption_units::Unit;
+
+/// A figure of the result.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Figure {
+    Estimate,
+    StandardUncertainty,
+    /// With its coverage factor, if the sheet states it.
+    ExpandedUncertainty(Option<f64>),
+}
+
+/// A figure of the result as the sheet states it.
+#[derive(Clone, Debug)]
+pub(super) struct Stated {
+    line: usize,
+    figure: Figure,
+    /// As it is written.
+    text: String,
+    value: f64,
+    /// Half of a unit of its last digit.
+    half_digit: f64,
+    /// Empty where the sheet states none.
+    unit: String,
+}
+
+/// Figures differ from this share on where digits do not tell: parts of a budget are rounded too.
+const ROUNDED_PARTS: f64 = 0.02;
+
+/// Estimates differ from this share of the standard uncertainty on.
+const MATTERS: f64 = 0.1;
+
+impl Budget<'_> {
+    /// What a row of the result, or of a summary, states; `factor` is the coverage factor that the
+    /// sheet states elsewhere.
+    pub(super) fn stated(&self, header: &Header, line: usize, row: &Row) -> Vec<Stated> {
+        let label = header.cell(self.cells, line, Column::Quantity).trim();
+        let symbol = header.cell(self.cells, line, Column::Symbol).trim();
+        // what is summed there, nobody knows
+        if ["sum", "summe", "total", "somme"].contains(&columns::plain(label).as_str()) {
+            return Vec::new();
+        }
+        let is_symbol = |texts: &[&str]| {
+            [label, symbol].iter().any(|text| {
+                let compact: String =
+                    text.split('(').next().unwrap_or_default().split_whitespace().collect();
+                texts.contains(&compact.as_str())
+            })
+        };
+        let is_expanded = columns::is_expanded(label) || is_symbol(&["U"]);
+        let is_uncertainty =
+            is_expanded || columns::is_of_uncertainty(label) || is_symbol(&["u", "uc", "u_c"]);
+        let divisor = header.cell(self.cells, line, Column::Divisor);
+        let comma = self.cells.decimal_comma();
+        let factor = match HeaderCoverage::of(label) {
+            HeaderCoverage::Factor(factor) => Some(factor),
+            _ => constant(divisor, comma).filter(|factor| *factor > 0.0),
+        };
+        let columns = [Column::Estimate, Column::Width, Column::Std, Column::Contribution];
+        let mut found = Vec::new();
+        for column in columns {
+            let text = header.cell(self.cells, line, column).trim();
+            let digits = text.trim_start_matches(['±', ' ']);
+            let Some((value, unit)) = number_with_unit(digits, comma) else { continue };
+            let expanded = Figure::ExpandedUncertainty(factor);
+            let figure = match column {
+                Column::Estimate if !is_uncertainty => Figure::Estimate,
+                Column::Width if !is_expanded => {
+                    match (factor, header.coverage(self.cells, column)) {
+                        (Some(factor), _) | (None, HeaderCoverage::Factor(factor)) => {
+                            Figure::ExpandedUncertainty(Some(factor))
+                        }
+                        _ => continue,
+                    }
+                }
+                _ if is_expanded => expanded,
+                _ => Figure::StandardUncertainty,
+            };
+            if text.ends_with('%') || (value == 0.0 && figure != Figure::Estimate) {
+                continue;
+            }
+            let unit = match (unit, header.unit(column)) {
+                ("", Some(of_header)) => of_header,
+                ("", None) => row.unit.as_str(),
+                (unit, _) => unit,
+            };
+            found.push(Stated {
+                line,
+                figure,
+                text: text.to_owned(),
+                value,
+                half_digit: half_digit(digits),
+                unit: unit.to_owned(),
+            });
+        }
+        found
+    }
+
+    /// Tells where the sheet's figures of the result are not those of the model; `factor` is the
+    /// coverage factor that the sheet states for all.
+    pub(super) fn compare(&mut self, model: &str, stated: &[Stated], factor: Option<f64>) {
+        let Ok(file) = read_text("the model", model, Path::new(""), &[]) else { return };
+        let Some(row) = file.task.rows.first() else { return };
+        let evaluated = gum::evaluate(&file.task, row);
+        let found = evaluated.outputs.first().and_then(Option::as_ref);
+        let Some((gum, output)) = found.zip(file.task.model.outputs.first()) else { return };
+        let of_result = &output.quantity.unit;
+        for stated in stated {
+            let unit = match stated.unit.as_str() {
+                "" => Some(of_result.clone()),
+                unit => Unit::parse(unit).ok(),
+            };
+            let scale = unit
+                .filter(|unit| unit.has_zero_of(of_result) || stated.figure != Figure::Estimate);
+            let scale = scale.and_then(|unit| Unit::conversion_factor(&unit, of_result).ok());
+            let Some(scale) = scale else { continue };
+            let (value, half) = (stated.value * scale, stated.half_digit * scale.abs());
+            let u = gum.standard_uncertainty;
+            let near = |own: f64, slack: f64| (value - own).abs() <= 1.2 * half + slack;
+            let (own, is_same, what) = match stated.figure {
+                Figure::Estimate => (gum.estimate, near(gum.estimate, MATTERS * u), "the estimate"),
+                Figure::StandardUncertainty => {
+                    (u, near(u, ROUNDED_PARTS * u), "the standard uncertainty")
+                }
+                Figure::ExpandedUncertainty(own_factor) => {
+                    let k = own_factor.or(factor).or(gum.coverage_factor).unwrap_or(2.0);
+                    let is_same = near(k * u, ROUNDED_PARTS * k * u);
+                    (k * u, is_same, "the expanded uncertainty")
+                }
+            };
+            if is_same || !own.is_finite() {
+                continue;
+            }
+            // both in the unit of the sheet
+            let unit = if stated.unit.is_empty() { of_result.text() } else { stated.unit.as_str() };
+            let with_unit = |number: String| match unit {
+                unit if !number.ends_with(unit) => format!("{number} {unit}").trim_end().to_owned(),
+                _ => number,
+            };
+            let digits = digits_for(stated.figure, own, u);
+            let written = with_unit(significant(own / scale, digits));
+            let text = with_unit(stated.text.clone());
+            self.guessed.push(format!(
+                "line {}: the sheet says that {what} of the result is {text}, this model {written}",
+                stated.line + 1
+            ));
+        }
+    }
+}
+
+/// Digits of a figure of the model: an estimate to the place of the second digit of its uncertainty.
+fn digits_for(figure: Figure, own: f64, u: f64) -> u32 {
+    if figure != Figure::Estimate || own == 0.0 || u <= 0.0 {
+        return 3;
+    }
+    let places = elementary::log10(own.abs() / u).ceil();
+    (places + 2.0).clamp(3.0, 15.0) as u32
+}
+
+/// Half of a unit of the last digit of a number as it is written.
+fn half_digit(text: &str) -> f64 {
+    let end = text.find(['e', 'E', '·', '×', '*']).unwrap_or(text.len());
+    let (mantissa, rest) = text.split_at(end);
+    let digits: String =
+        mantissa.chars().filter(|c| c.is_ascii_digit() || matches!(c, '.' | ',')).collect();
+    let decimals = digits.rsplit_once(['.', ',']).map_or(0, |(_, decimals)| decimals.len());
+    let power: i32 = rest
+        .trim_start_matches(['e', 'E', '·', '×', '*', ' '])
+        .trim_start_matches("10^")
+        .split(|c: char| !(c.is_ascii_digit() || c == '-'))
+        .next()
+        .and_then(|power| power.parse().ok())
+        .unwrap_or(0);
+    0.5 * elementary::pow(10.0, f64::from(power) - decimals as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::half_digit;
+
+    #[test]
+    fn digits_of_numbers() {
+        for (text, half) in [
+            ("34,3 nm", 0.05),
+            ("12", 0.5),
+            ("0.0242", 5e-5),
+            ("1.5e-3", 5e-5),
+            ("10 000,025 g", 5e-4),
+        ] {
+            assert!((half_digit(text) / half - 1.0).abs() < 1e-12, "{text}");
+        }
+    }
+}

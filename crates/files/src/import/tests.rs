@@ -1,0 +1,519 @@
+//! Budgets as laboratories keep them.
+
+use super::*;
+
+fn import(name: &str, content: &[u8]) -> Result<ImportedBudget, Diagnostics> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, content).unwrap();
+    import_budget(&path)
+}
+
+fn task(budget: &ImportedBudget) -> gumption_engine::task::Task {
+    read_text("m", &budget.text, Path::new(""), &[])
+        .unwrap_or_else(|faults| panic!("{}\n{faults}", budget.text))
+        .task
+}
+
+/// EA-4/02, S2: calibration of a weight of 10 kg. Published: 10 000.025 g, u = 29.3 mg, of parts
+/// that are rounded to a tenth of a milligram.
+#[test]
+fn a_budget_with_sensitivities() {
+    let text = "Calibration of a weight\n\nQuantity,Estimate,Unit,Standard uncertainty,\
+        Distribution,Sensitivity coefficient c_i\n\
+        m_S,10000.005,g,0.0225,normal,1\n\
+        Delta m_D,0,g,0.00866,rectangular,1\n\
+        dm,0.020,g,0.0144,normal,1\n\
+        dm_C,0,g,0.00577,rectangular,1\n\
+        dB,0,g,0.00577,rectangular,1\n\n\
+        m_X,10000.025,g,,,\n";
+    let budget = import("S2.csv", text.as_bytes()).unwrap();
+    let task = task(&budget);
+    let of = &task.rows[0].distributions;
+    let variance: f64 = of.iter().map(|d| d.standard_uncertainty().powi(2)).sum();
+    assert!((variance.sqrt() - 0.0293).abs() < 1e-4);
+    assert!(budget.guessed.iter().any(|said| said.contains("Delta_m_D")));
+}
+
+/// A German sheet with semicolons, decimal commas, a formula and divisors as roots.
+#[test]
+fn a_german_budget_with_an_equation() {
+    let text = "R = U/I;;;;;;\n\nGröße;Schätzwert;Einheit;Halbbreite;Verteilung;Teiler;\
+        Freiheitsgrade\nU;5,0112;V;0,0046;Normal;2;50\nI;0,01;A;0,00001;Rechteck;√3;∞\n";
+    let budget = import("r.csv", text.as_bytes()).unwrap();
+    let task = task(&budget);
+    assert_eq!(task.model.outputs[0].quantity.name, "R");
+    let of = &task.rows[0].distributions;
+    assert_eq!([of[0].mean(), of[0].standard_uncertainty(), of[0].dof()], [5.0112, 0.0023, 50.0]);
+    assert_eq!(of[1].name(), "rectangular");
+    assert!(budget.text.contains(r#""R":"U/I""#), "{}", budget.text);
+}
+
+/// The standard uncertainties of a budget's inputs, in units of their own.
+fn uncertainties(text: &str) -> (Vec<f64>, ImportedBudget) {
+    let budget = import("b.csv", text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+    let found = task(&budget);
+    (found.rows[0].distributions.iter().map(|d| d.standard_uncertainty()).collect(), budget)
+}
+
+fn guesses(budget: &ImportedBudget, part: &str) -> bool {
+    budget.guessed.iter().any(|said| said.contains(part))
+}
+
+/// A header that names the factor of its uncertainties; before, they were taken for standard ones.
+#[test]
+fn expanded_uncertainties_have_the_factor_of_their_header() {
+    // u = U/k; the quantile of 0.975 is 1.959964
+    for (header, u) in [
+        ("Expanded uncertainty (k=2)", 2e-4),
+        ("U (k = 2.5)", 1.6e-4),
+        ("U (p=95 %)", 4e-4 / 1.959_963_984_540_054),
+        ("Erweiterte Messunsicherheit (k=2)", 2e-4),
+        ("Erw. Unsicherheit (k=2)", 2e-4),
+    ] {
+        let text = format!("Quantity,Estimate,Unit,{header},Distribution\nm,1,kg,0.0004,normal\n");
+        let (found, budget) = uncertainties(&text);
+        assert!((found[0] / u - 1.0).abs() < 1e-12, "{header}: {found:?}");
+        assert!(!guesses(&budget, "expanded"), "{:?}", budget.guessed);
+    }
+    for header in ["U", "Expanded uncertainty", "Erweiterte Unsicherheit"] {
+        let text = format!("Quantity,Estimate,Unit,{header}\nm,1,kg,0.0004\n");
+        let (found, budget) = uncertainties(&text);
+        assert_eq!(found, [2e-4], "{header}");
+        assert!(guesses(&budget, "k = 2 is taken"), "{:?}", budget.guessed);
+    }
+}
+
+/// Per cent of the estimate, but of a quantity in per cent per cent.
+#[test]
+fn per_cent_are_of_the_estimate() {
+    let text = "Quantity,Estimate,Unit,+-,Divisor,Distribution,c_i\n\
+                x,5,V,0.4 %,2,normal,1\nh,50,%,2 %,2,normal,0.02\n";
+    let (found, budget) = uncertainties(text);
+    assert!((found[0] - 0.01).abs() < 1e-15 && (found[1] - 1.0).abs() < 1e-15, "{found:?}");
+    assert!(guesses(&budget, "of the estimate 5"), "{:?}", budget.guessed);
+    let error = import("x.csv", b"quantity,estimate,unit,+-\nx,5,V,-0.1\n").unwrap_err();
+    assert!(error.to_string().contains("below zero"), "{error}");
+}
+
+/// The factor of a summary is no input, and what is printed beside it not the result's estimate.
+#[test]
+fn summaries_are_no_inputs() {
+    let text = "Quantity,Estimate,Unit,Standard uncertainty,Sensitivity coefficient\n\
+                U,5.01,V,0.01,1\nI,2,A,0.02,3\nCombined standard uncertainty,0.061,,,\n\
+                k,2,,,\nExpanded uncertainty,0.12,,,\n";
+    let budget = import("b.csv", text.as_bytes()).unwrap();
+    let found = task(&budget);
+    assert_eq!(found.variables.len(), 2);
+    assert!(budget.text.contains(r#""y":"U + (3)*I""#), "{}", budget.text);
+}
+
+/// A row that is named as the equation's left side is the result, with its unit.
+#[test]
+fn the_row_of_the_measurand_is_the_result() {
+    let text = "R = U/I,,,\n\nQuantity,Estimate,Unit,Standard uncertainty\n\
+                U,5.01,V,0.01\nI,1.25,mA,0.001\nR,4.01,kohm,\n";
+    let budget = import("b.csv", text.as_bytes()).unwrap();
+    let found = task(&budget);
+    let output = &found.model.outputs[0].quantity;
+    assert_eq!((output.name.as_str(), output.unit.text()), ("R", "kohm"));
+    assert_eq!(found.variables.len(), 2);
+    assert!(!guesses(&budget, "not checked"), "{:?}", budget.guessed);
+}
+
+/// What a shape does not say of its uncertainty is told.
+#[test]
+fn other_divisors_and_missing_uncertainties_are_told() {
+    let text = "Quantity,Estimate,Unit,+-,Divisor,Distribution\nb,1,V,,,normal\n\
+                a,1,V,0.1,2,rectangular\n";
+    let (found, budget) = uncertainties(text);
+    assert_eq!(found, [0.0, 0.05]);
+    assert!(guesses(&budget, "`a` is rectangular, but"), "{:?}", budget.guessed);
+    assert!(guesses(&budget, "`b` is normal without"), "{:?}", budget.guessed);
+}
+
+/// Quantities in units of one dimension are added in one of them; before, as bare numbers.
+#[test]
+fn sums_are_in_one_unit() {
+    let text = "Quantity,Estimate,Unit,Standard uncertainty\n\
+                a,5,V,0.002\nb,2,mV,1\n";
+    let (found, budget) = uncertainties(text);
+    assert_eq!(found, [0.002, 1.0]);
+    assert!(budget.text.contains(r#""y":"a + (0.001)*b""#), "{}", budget.text);
+    assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "V");
+    assert!(guesses(&budget, "`b` in mV is converted to V"), "{:?}", budget.guessed);
+    for (row, part) in [
+        ("b,2,A,1", "`b` is in `A`, the result in `V`"),
+        ("b,2,,1", "`b` is without a unit, the result in `V`"),
+    ] {
+        let text = format!("Quantity,Estimate,Unit,Standard uncertainty\na,5,V,0.002\n{row}\n");
+        let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains(part), "{error}");
+    }
+}
+
+/// A coefficient of a quantity in mV, of a result in V: with its unit, without it, and the same
+/// number in both readings.
+#[test]
+fn coefficients_have_units() {
+    let table = |rows: &str| {
+        let head = "Quantity,Estimate,Unit,Standard uncertainty,c_i,Unit of c_i";
+        format!("{head}\n{rows}\nResult,5.002,V,,,\n")
+    };
+    for rows in [
+        "a,5,V,0.002,1,V/V\nb,2,mV,1,1,V/V",
+        "a,5,V,0.002,1,1\nb,2,mV,1,0.001,V/mV",
+        "a,5,V,0.002,1,1\nb,2,mK,1,1,V/K",
+        "a,5,V,0.002,1,\nb,2,mV,1,0.001,",
+    ] {
+        let budget = import("b.csv", table(rows).as_bytes()).unwrap();
+        assert!(budget.text.contains(r#""y":"a + (0.001)*b""#), "{}", budget.text);
+    }
+    // the contribution tells which
+    let text = "Quantity,Estimate,Unit,Standard uncertainty,c_i,Contribution\n\
+                a,5,V,0.002,1,2 mV\nb,2,mV,1,1,1 mV\nResult,5.002,V,,,\n";
+    let budget = import("b.csv", text.as_bytes()).unwrap();
+    assert!(budget.text.contains(r#""y":"a + (0.001)*b""#), "{}", budget.text);
+    assert!(!guesses(&budget, "contributes"), "{:?}", budget.guessed);
+    for (rows, part) in [
+        ("a,5,V,0.002,1,\nb,2,mV,1,1,", "can be 1 V/mV or 1 V/V"),
+        ("a,5,V,0.002,1,1\nb,2,mV,1,1,V/A", "a coefficient in `V/A` times `mV`"),
+        ("a,5,V,0.002,1,1\nb,2,mV,1,1,V/foo", "`V/foo` of the coefficient is not known"),
+    ] {
+        let error = import("b.csv", table(rows).as_bytes()).unwrap_err().to_string();
+        assert!(error.contains(part), "{error}");
+    }
+}
+
+/// EA-4/02, S2 as it is printed: units behind the numbers, in g and mg, and digits in groups.
+/// Published: 10 000,025 g with u = 29,3 mg.
+#[test]
+fn numbers_with_units_in_their_cells() {
+    let text = "Größe;Schätzwert;Standardunsicherheit;Verteilung;Sensitivitätskoeffizient;Beitrag\n\
+        m_S;10 000,005 g;22,5 mg;Normal;1,0;22,5 mg\n\
+        dm_D;0,000 g;8,66 mg;Rechteck;1,0;8,66 mg\n\
+        dm;0,020 g;14,4 mg;Normal;1,0;14,4 mg\n\
+        dm_C;0,000 g;5,77 mg;Rechteck;1,0;5,77 mg\n\
+        dB;0,000 g;5,77 mg;Rechteck;1,0;5,77 mg\n\
+        m_X;10 000,025 g;;;;29,3 mg\n";
+    let (found, budget) = uncertainties(text);
+    let combined = found.iter().map(|u| u * u).sum::<f64>().sqrt();
+    // of published parts that are rounded to a tenth of a milligram
+    assert!((combined - 0.0293).abs() < 1e-4, "{found:?}");
+    assert!(budget.text.contains(r#""m_X":"m_S + dm_D + dm + dm_C + dB""#), "{}", budget.text);
+    assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "g");
+    assert!(!guesses(&budget, "contributes"), "{:?}", budget.guessed);
+    let text = "Quantity,Estimate,Standard uncertainty,Sensitivity coefficient\n\
+                l,50.0002 mm,100 nm,1\ndt,0.1 K,50 mK,575 nm/K\n";
+    let (found, budget) = uncertainties(text);
+    assert!((found[0] - 1e-4).abs() < 1e-18 && (found[1] - 0.05).abs() < 1e-15, "{found:?}");
+    assert!(budget.text.contains(r#""y":"l + (0.000575)*dt""#), "{}", budget.text);
+    for (row, part) in [
+        ("l,50 mm,1 V,1", "the standard uncertainty is in `V`, but the row in `mm`"),
+        ("l,50 12 mm,1 mm,1", "`50 12 mm` in the column of the estimate is no number"),
+        ("t,20 degC,0.1 degF,1", ""),
+    ] {
+        let text =
+            format!("Quantity,Estimate,Standard uncertainty,Sensitivity coefficient\n{row}\n");
+        match import("b.csv", text.as_bytes()) {
+            Ok(_) => assert_eq!(part, "", "{row}"),
+            Err(error) => assert!(error.to_string().contains(part), "{error}"),
+        }
+    }
+}
+
+/// A budget of half widths in cells with units, with the factor of its expanded uncertainty.
+#[test]
+fn half_widths_with_units_and_a_summary() {
+    let text = "Source of uncertainty,Value ±,Probability distribution,Divisor,ci,ui(y)\n\
+        Calibration,0.5 um,normal,2,1,0.25 um\n\
+        Resolution,0.5 um,rectangular,√3,1,0.29 um\n\
+        Temperature,1 degC,rectangular,sqrt(3),0.2 um/degC,0.12 um\n\
+        Combined standard uncertainty,,normal,,,0.40 um\n\
+        Expanded uncertainty,,,k = 2,,0.8 um\n";
+    let (found, budget) = uncertainties(text);
+    let right = [0.25, 0.5 / 3f64.sqrt(), 1.0 / 3f64.sqrt()];
+    assert!(found.iter().zip(right).all(|(u, right)| (u - right).abs() < 1e-15), "{found:?}");
+    let formula = r#""y":"Calibration + Resolution + (0.2)*Temperature""#;
+    assert!(budget.text.contains(formula), "{}", budget.text);
+    assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "um");
+    assert!(!guesses(&budget, "contributes"), "{:?}", budget.guessed);
+    let text = "Quantity,Estimate,Unit,Standard uncertainty,c_i\nV,5,V,15 uV,1\n\
+                T,23,degC,0.5,10 uV/K\n";
+    let budget = import("b.csv", text.as_bytes()).unwrap();
+    assert!(budget.text.contains(r#""std":0.000015}"#), "{}", budget.text);
+    assert!(budget.text.contains("(1e-5)*T"), "{}", budget.text);
+}
+
+/// A result below its quantities that has an uncertainty, but neither a coefficient nor a shape.
+#[test]
+fn the_last_row_may_be_the_result() {
+    for text in [
+        "Quantity,Estimate,Unit,Standard uncertainty,Distribution,c_i\n\
+         a,5,V,0.003,normal,1\nb,2,V,0.004,normal,1\nU_x,7,V,0.005,,\n",
+        "Quantity,Estimate,Unit,Standard uncertainty\na,5,V,0.003\nb,2,V,0.004\nU_x,7,V,0.005\n",
+        "Quantity,Estimate,Unit,U (k=2)\na,5,V,0.006\nb,2,V,0.008\nU_x,7,V,0.01\n",
+    ] {
+        let (found, budget) = uncertainties(text);
+        assert_eq!(found, [0.003, 0.004], "{}", budget.text);
+        assert!(guesses(&budget, "taken for the result"), "{:?}", budget.guessed);
+        assert_eq!(task(&budget).model.outputs[0].quantity.name, "U_x");
+    }
+}
+
+/// What the equation does not name, and contributions of the sheet that are others, are told.
+#[test]
+fn what_contributes_nothing_or_something_else_is_told() {
+    let text = "R = U/I,,,\n\nQuantity,Estimate,Unit,Standard uncertainty\n\
+                U,5.01,V,0.01\nI,1.25,mA,0.001\ndT,0,K,0.1\n";
+    let budget = import("b.csv", text.as_bytes()).unwrap();
+    assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "ohm");
+    assert!(guesses(&budget, "`ohm` is taken"), "{:?}", budget.guessed);
+    assert!(guesses(&budget, "`dT` is not in the equation of R"), "{:?}", budget.guessed);
+    let text = "Quantity,Estimate,Unit,Standard uncertainty,c_i,Contribution\n\
+                a,5,V,0.002,1,0.002\nb,2,K,0.5,3,0.5\n";
+    let (_, budget) = uncertainties(text);
+    assert!(guesses(&budget, "`b` contributes 0.5, this model 1.5 V"), "{:?}", budget.guessed);
+    assert!(!guesses(&budget, "`a` contributes"), "{:?}", budget.guessed);
+}
+
+#[test]
+fn what_is_no_budget() {
+    for (content, part) in [
+        ("a,b\n1,2\n", "no budget is found"),
+        ("label,x,U\nA,1,0.1\n", "gumption compare"),
+        ("", "no budget is found"),
+        ("quantity,estimate,+-\n", "no row below"),
+        ("quantity,estimate,+-\nx,one,2\n", "no number"),
+        ("quantity;estimate;+-\nx;1.234;0,5\n", "with the same decimal mark"),
+        ("quantity,estimate,+-,divisor\nx,1,2,zero\n", "divisor"),
+    ] {
+        let error = import("x.csv", content.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains(part), "{content}: {error}");
+    }
+    let error = import("x.xlsx", b"no workbook").unwrap_err().to_string();
+    assert!(error.contains("no workbook"), "{error}");
+}
+
+/// Factors that stand with the distribution or the uncertainty; before, k = 1 was taken without a word.
+#[test]
+fn factors_stand_with_distributions_and_uncertainties() {
+    for (distribution, width, u) in [
+        ("normal (k=2)", "0.0004", 2e-4),
+        ("Normal, k = 2", "0.0004", 2e-4),
+        ("normal (95 %)", "0.0004", 4e-4 / 1.959_963_984_540_054),
+        ("normal 2σ", "0.0004", 2e-4),
+        ("normal", "0.0004 V (k=2)", 2e-4),
+        ("rectangular", "±0.0003", 3e-4 / 3_f64.sqrt()),
+        ("Tri", "0.0006", 6e-4 / 6_f64.sqrt()),
+        ("U-shaped", "0.0002", 2e-4 / 2_f64.sqrt()),
+    ] {
+        let text = format!(
+            "Quantity;Estimate;Unit;Uncertainty;Distribution\nm;1;V;{width};{distribution}\n"
+        );
+        let (found, budget) = uncertainties(&text);
+        assert!((found[0] / u - 1.0).abs() < 1e-12, "{distribution} {width}: {found:?}");
+        assert!(!guesses(&budget, "k = 1"), "{:?}", budget.guessed);
+    }
+    let text = "Quantity,Estimate,Unit,Half-width,Distribution\nm,1,V,0.0004,normal\n";
+    let (found, budget) = uncertainties(text);
+    assert_eq!(found, [4e-4]);
+    assert!(guesses(&budget, "k = 1 is taken"), "{:?}", budget.guessed);
+    for (row, part) in [
+        ("m,1,V,0.1,normal (k=2),3", "the divisor says 3, the distribution 2"),
+        ("m,1,V,0.1,trapezoid,", "`trapezoid` is not known, and there is no divisor"),
+        ("m,1,V,0.1,t,", "`t` needs a divisor or degrees of freedom"),
+        ("m,1,V,0.1,rectangular,0.577", "is below 1: does it multiply, as 1/1.733"),
+    ] {
+        let text = format!("Quantity,Estimate,Unit,±,Distribution,Divisor\n{row}\n");
+        let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains(part), "{row}: {error}");
+    }
+}
+
+/// Units of headings, and of a line below them; before, mm and um were added as they stood.
+#[test]
+fn headings_state_units() {
+    let head = [
+        "Quantity;Estimate (mm);Standard uncertainty (µm);Distribution;Sensitivity coefficient",
+        "Quantity;Estimate [mm];u(xi) [µm];Distribution;c_i",
+        "Quantity;Estimate;Standard uncertainty;Distribution;c_i\n;mm;µm;;",
+    ];
+    for head in head {
+        let text = format!("{head}\nL;50,002;0,5;normal;1\nd;0,0010;0,2;normal;1\n");
+        let (found, budget) = uncertainties(&text);
+        assert_eq!(found, [0.0005, 0.0002], "{head}");
+        assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "mm");
+    }
+    // a share of the estimate; nothing else says of what it is
+    let text =
+        "R = U/I\nQuantity;Estimate;Unit;Standard uncertainty (%)\nU;10,05;V;0,02\nI;2;A;0,05\n";
+    let (found, budget) = uncertainties(text);
+    assert_eq!(found, [0.00201, 0.001]);
+    assert!(guesses(&budget, "`0.02 %` is taken of the estimate 10.05"), "{:?}", budget.guessed);
+    let (found, budget) = uncertainties("Source,Uncertainty (%),Divisor\na,0.35,1\nb,0.2,2\n");
+    assert_eq!(found, [0.35, 0.1]);
+    assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "%");
+    let (found, _) = uncertainties("Quantity,Estimate,Unit,±,Divisor\nR,100,ohm,500 ppm,2\n");
+    assert_eq!(found, [0.025]);
+    let (found, _) = uncertainties("Quantity;Estimate;Unit;±;Divisor\nU;10;V;0,02 % + 2 mV;2\n");
+    assert_eq!(found, [0.002]);
+    // symbols of what a column holds are no units, and half-widths in brackets no years
+    let (found, _) =
+        uncertainties("Quantity,Estimate,Unit,Half-width (a),Divisor\nR,100,ohm,2,2\n");
+    assert_eq!(found, [1.0]);
+    for (row, part) in
+        [("L;50;22 nm", "whose heading says `µm`"), ("L;50;2 %", "whose heading says `µm`")]
+    {
+        let text = format!("Quantity;Estimate (mm);u (µm)\n{row}\n");
+        let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains(part), "{row}: {error}");
+    }
+    for (row, part) in [
+        ("d;0;V;0,1 %", "`0.1 %` of the estimate 0 is nothing"),
+        ("h;0,5;;2 %", "can be 2 % of the estimate 0.5, or 0.02 itself"),
+    ] {
+        let text = format!("Quantity;Estimate;Unit;±\n{row}\n");
+        let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains(part), "{row}: {error}");
+    }
+}
+
+/// UKAS M3003's headings, with `Value (±)` and `νi or νeff`, the contributions `ui` behind the
+/// coefficients and a summary. Published for such a standard resistor: 0.41 ppm.
+#[test]
+fn a_budget_in_the_layout_of_ukas() {
+    let text = "Symbol,Source of uncertainty,Value (±),Probability distribution,Divisor,ci,ui (ppm),\
+        vi or veff\nRS,Calibration,0.5 ppm,Normal,2,1,0.25,∞\n\
+        dRD,Drift,0.5 ppm,Rectangular,√3,1,0.289,∞\nV,Repeatability,0.15 ppm,Normal,1,1,0.15,4\n\
+        uc(Rx),Combined standard uncertainty,,Normal,,,0.41,>200\n\
+        U,Expanded uncertainty,,Normal (k=2),,,0.82,>200\n";
+    let (found, budget) = uncertainties(text);
+    assert!((found.iter().map(|u| u * u).sum::<f64>().sqrt() - 0.41).abs() < 0.005, "{found:?}");
+    assert_eq!(known_dof(&budget), [f64::INFINITY, f64::INFINITY, 4.0]);
+    assert!(!guesses(&budget, "the sheet says"), "{:?}", budget.guessed);
+}
+
+fn known_dof(budget: &ImportedBudget) -> Vec<f64> {
+    task(budget).rows[0].distributions.iter().map(|d| d.dof()).collect()
+}
+
+/// What the sheet says of its result is compared with the model: EA-4/02, S4, where the combined
+/// uncertainty is 36.4 nm, once with a wrong one.
+#[test]
+fn the_sheet_s_result_is_compared() {
+    let table = |u: &str, estimate: &str| {
+        format!(
+            "Quantity;Estimate;Standard uncertainty;Probability distribution;Sensitivity coefficient\n\
+             lS;50,000020 mm;15 nm;normal;1,0\ndlD;0 mm;17,3 nm;rectangular;1,0\n\
+             dl;-0,000094 mm;5,37 nm;normal;1,0\ndlC;0 mm;18,5 nm;rectangular;1,0\n\
+             dt;0 °C;0,0289 °C;rectangular;-575 nm/°C\nda;0;0,236·10⁻⁶;special;-50 mm\n\
+             dlV;0 mm;3,87 nm;rectangular;–1,0\nlX;{estimate} mm;{u};;\n"
+        )
+    };
+    let told = |u: &str, estimate: &str| {
+        let budget = import("S4.csv", table(u, estimate).as_bytes()).unwrap();
+        guesses(&budget, "the sheet says that")
+    };
+    assert!(!told("36,4 nm", "49,999926"));
+    assert!(told("34,3 nm", "49,999926"));
+    for (rows, part) in [
+        ("E;11,1;%;;", "the estimate of the result is 11,1 %, this model 1111"),
+        ("E;1111,1;%;0,5;2", "the expanded uncertainty of the result is 0,5 %, this model 0."),
+        ("E;1111,1;%;;\nExpanded uncertainty (k=3);5;%;;", "is 5 %, this model 0."),
+    ] {
+        let text = format!(
+            "E = (m1-m2)/m2*100\nQuantity;Estimate;Unit;±;Divisor\n\
+             m1;10;g;0,0004;2\nm2;9;g;0,0004;2\n{rows}\n"
+        );
+        let budget = import("b.csv", text.as_bytes()).unwrap();
+        assert!(guesses(&budget, part), "{rows}: {:?}", budget.guessed);
+    }
+}
+
+/// A result is not added to its own parts, whatever follows it; before, it was.
+#[test]
+fn results_are_no_parts_of_themselves() {
+    let text = "Quantity;Estimate;Unit;Standard uncertainty;Distribution;Sensitivity coefficient\n\
+        Mass;997,5;mg;0,15;normal;1,0029 µL/mg\nZ;1,0029;µL/mg;0,0002;normal;997,5 mg\n\n\
+        Volume;1000,39;µL;0,2496;;\nk;2;;;;\nU;0,50;µL;;;\n";
+    let (found, budget) = uncertainties(text);
+    assert_eq!(found, [0.15, 0.0002]);
+    let output = task(&budget).model.outputs[0].quantity.clone();
+    assert_eq!((output.name.as_str(), output.unit.text()), ("Volume", "µL"));
+    assert!(!guesses(&budget, "the sheet says"), "{:?}", budget.guessed);
+    let text = "Quantity,Estimate,Unit,Standard uncertainty,Distribution,Sensitivity coefficient\n\
+        m_S,10000.005,g,0.0225,normal,1\ndm,0,g,0.00895,rectangular,1\nSum,,,,,\n\
+        m_X,10000.005,g,0.0242,normal,\n";
+    let (_, budget) = uncertainties(text);
+    assert!(budget.text.contains(r#""m_X":"m_S + dm""#), "{}", budget.text);
+}
+
+/// Correlations and lines below the table are told; texts that look like an equation are read or
+/// refused, and no sum is taken in their place.
+#[test]
+fn nothing_of_the_sheet_is_dropped_without_a_word() {
+    let head = "Quantity;Estimate;Unit;Standard uncertainty";
+    for line in ["Correlation between a and b: r = 0.7", "r(a, b) = 0,7;;;", "Korrelation;0,7;;"] {
+        let budget = import("b.csv", format!("{head}\na;1;V;0,1\nb;2;V;0,1\n{line}\n").as_bytes());
+        let budget = budget.unwrap_or_else(|error| panic!("{line}: {error}"));
+        assert!(guesses(&budget, "independent without it"), "{line}: {:?}", budget.guessed);
+        assert_eq!(task(&budget).variables.len(), 2, "{line}");
+    }
+    let below = format!("{head}\na;1;V;0,1\nb;2;V;0,1\n\n\nc;3;V;0,1\n");
+    let budget = import("b.csv", below.as_bytes()).unwrap();
+    assert!(guesses(&budget, "`c` stands below the table"), "{:?}", budget.guessed);
+    for (equation, formula) in [
+        ("y = 1,5*a + b", "1.5*a + b"),
+        ("y = a – b", "a - b"),
+        ("y = a·(1 + b²/a²)", "a*(1 + b^2/a^2)"),
+        ("Model: y = √2 × a + b", "sqrt(2) * a + b"),
+    ] {
+        let text = format!("{equation}\n{head}\na;1;V;0,1\nb;2;V;0,1\n");
+        let budget = import("b.csv", text.as_bytes()).unwrap_or_else(|e| panic!("{equation}: {e}"));
+        assert!(budget.text.contains(&format!(r#""y":"{formula}""#)), "{}", budget.text);
+    }
+    for (equation, part) in [
+        ("y = 2a - b", "`y = 2a - b` cannot be read as an equation"),
+        ("y = a + b\nz = a - b", "the result can be `y` of line 1 or `z` of line 2"),
+        ("y = a*(b - 20)", "which `mV` would not be converted"),
+    ] {
+        let text = format!("{equation}\n{head}\na;1;mV;0,1\nb;2;V;0,1\n");
+        let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains(part), "{equation}: {error}");
+    }
+    let text = format!("c = a/2\ny = c - b\n{head}\na;50;mm;0,1\nb;1;mm;0,1\ny;24;mm;\n");
+    let budget = import("b.csv", text.as_bytes()).unwrap();
+    assert!(budget.text.contains(r#"{"c":"a/2","y":"c - b"}"#), "{}", budget.text);
+}
+
+/// Standard uncertainties beside stated ones: they tell the factor, or contradict.
+#[test]
+fn standard_uncertainties_beside_stated_ones() {
+    let text = "Source,Unit,a,Distribution,u(xi),c_i\nRef,V,0.002,normal,0.001,1\n\
+        Res,V,0.001,rectangular,0.00058,1\n";
+    let (found, budget) = uncertainties(text);
+    assert!((found[0] - 0.001).abs() < 1e-18 && (found[1] - 5.77e-4).abs() < 1e-6, "{found:?}");
+    assert!(!guesses(&budget, "k = 1"), "{:?}", budget.guessed);
+    let text = "Source,Unit,±,Divisor,u(xi)\nRef,V,0.030,2,0.030\n";
+    let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("has the standard uncertainty 0.0150 by its stated"), "{error}");
+    // a shape keeps its standard uncertainty
+    let (found, budget) =
+        uncertainties("Source,Unit,u(xi),Distribution\nRes,V,0.003,rectangular\n");
+    assert!((found[0] / 0.003 - 1.0).abs() < 1e-14, "{found:?}");
+    assert_eq!(task(&budget).rows[0].distributions[0].name(), "rectangular");
+}
+
+/// Decimal commas in quotes between commas, French headings, words with a semicolon, `>100`.
+#[test]
+fn sheets_of_other_habits() {
+    let text = "Grandeur,Estimation,Unité,Incertitude-type,Loi,Coefficient de sensibilité,ddl\n\
+        Étalon,\"50,000 2\",mm,\"0,000 03\",normale,1,>100\n\
+        Résolution; lue,0,mm,\"0,000 1\",rectangulaire,1,∞\n";
+    let (found, budget) = uncertainties(text);
+    assert!((found[0] - 3e-5).abs() < 1e-18 && (found[1] - 1e-4).abs() < 1e-17, "{found:?}");
+    assert_eq!(known_dof(&budget), [100.0, f64::INFINITY]);
+    let error = import("b.csv", b"Quantity,Estimate,Unit,+-\na,\"1,500\",V,0.1\n").unwrap_err();
+    assert!(error.to_string().contains("not grouped"), "{error}");
+}
