@@ -33,7 +33,10 @@ impl Arcsine {
     /// The value at a probability: sin(pi (p - 1/2)) = -cos(pi p) of the amplitude.
     #[inline(always)]
     fn at(&self, p: f64) -> f64 {
-        let (_, cos) = elementary::sin_cos_turn(0.5 * p);
+        // no rounding brings a value beyond the limits
+        let cos = elementary::sin_quarters(1.0 - 2.0 * p);
+        let cos = if cos > 1.0 { 1.0 } else { cos };
+        let cos = if cos < -1.0 { -1.0 } else { cos };
         self.mean - self.half_width * cos
     }
 }

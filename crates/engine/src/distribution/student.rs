@@ -103,13 +103,33 @@ pub(super) fn draw(mean: f64, scale: f64, dof: f64, stream: &mut Stream, out: &m
     let mut turn = [0.0; COLUMN];
     stream.uniform(&mut radius);
     stream.uniform(&mut turn);
+    // no logarithm is below that of the least uniform number
+    if LARGEST_LOGARITHM * 2.0 / dof <= elementary::EXP_LIMIT {
+        let grown = elementary::exp_minus_one_positive;
+        fill((mean, scale, dof), (&radius, &turn), grown, out);
+    } else {
+        // of less than an eighth of a degree of freedom hardly any draw is near the middle
+        let grown = |x: f64| if x < 1e-3 { x * (1.0 + 0.5 * x) } else { elementary::exp(x) - 1.0 };
+        fill((mean, scale, dof), (&radius, &turn), grown, out);
+    }
+}
+
+/// Minus the logarithm of the least uniform number, 2^-53.
+const LARGEST_LOGARITHM: f64 = 36.8;
+
+/// `grown` is exp(x) - 1.
+#[inline(always)]
+fn fill(
+    (mean, scale, dof): (f64, f64, f64),
+    (radius, turn): (&[f64; COLUMN], &[f64; COLUMN]),
+    grown: impl Fn(f64) -> f64,
+    out: &mut Column,
+) {
     let exponent = -2.0 / dof;
     for i in 0..COLUMN {
         let x = exponent * elementary::ln_uniform(radius[i]);
-        // exp(x) - 1 loses the digits of a small x; its series does not
-        let series = x * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0 + x / 120.0))));
-        let grown = if x < 1e-3 { series } else { elementary::exp(x) - 1.0 };
-        let (_, cos) = elementary::sin_cos_turn(turn[i]);
-        out.0[i] = mean + scale * ((dof * grown).sqrt() * cos);
+        // a cosine over a whole turn is a sine over half of one, there and back
+        let cos = elementary::sin_quarters(4.0 * (turn[i] - 0.5).abs() - 1.0);
+        out.0[i] = mean + scale * ((dof * grown(x)).sqrt() * cos);
     }
 }

@@ -304,6 +304,54 @@ pub fn exp(x: f64) -> f64 {
     if x.is_nan() { f64::NAN } else { scaled }
 }
 
+/// e to the power `x`, less 1, for 0 <= `x` <= [`EXP_LIMIT`], within 3 ulp; meaningless elsewhere.
+///
+/// The parts of [`exp`] without the cases that draws do not have; a small `x` keeps its digits, because
+/// 1 is taken away before anything is added to it.
+#[inline(always)]
+pub(crate) fn exp_minus_one_positive(x: f64) -> f64 {
+    let rounded = x * LOG2_E + ROUNDER;
+    let n = rounded - ROUNDER;
+    let hi = x - n * LN2_HI;
+    let lo = n * LN2_LO;
+    let r = hi - lo;
+    let z = r * r;
+    let c = r - z * (P1 + z * (P2 + z * (P3 + z * (P4 + z * P5))));
+    let y = r * c / (2.0 - c) - lo + hi;
+    let biased = rounded.to_bits().wrapping_sub(ROUNDER.to_bits()).wrapping_add(1023);
+    let scale = f64::from_bits(biased << 52);
+    scale * y + (scale - 1.0)
+}
+
+/// The largest argument of [`exp_minus_one_positive`].
+pub(crate) const EXP_LIMIT: f64 = 700.0;
+
+/// The sine of `quarter` quarter turns, for `quarter` in [-1, 1], to an absolute error below 2^-51; at
+/// the ends it may be as much above 1.
+///
+/// One polynomial for half a turn: where a draw needs but one of sine and cosine, this is a third of the
+/// work of [`sin_cos_turn`]. The coefficients are those of the expansion of sin(pi q/2)/q in Chebyshev
+/// polynomials of q^2 on [0, 1], cut off below 4e-19.
+#[inline(always)]
+pub(crate) fn sin_quarters(quarter: f64) -> f64 {
+    const C: [f64; 9] = [
+        1.57079632679489655800e+00,
+        -6.45964097506246170965e-01,
+        7.96926262461656459424e-02,
+        -4.68175413530425542363e-03,
+        1.60441184713091601101e-04,
+        -3.59884302046725762620e-06,
+        5.69213642809862536725e-08,
+        -6.68441683185608462817e-10,
+        5.87297574479995033707e-12,
+    ];
+    let w = quarter * quarter;
+    let square = w * w;
+    let low = (C[0] + C[1] * w) + square * (C[2] + C[3] * w);
+    let high = (C[4] + C[5] * w) + square * ((C[6] + C[7] * w) + square * C[8]);
+    quarter * (low + (square * square) * high)
+}
+
 /// ln `x` for a normal positive `x` that carries a factor 2^`scale`, not counted in the result;
 /// `offset` is 2⁵² + 1023 + `scale`.
 #[inline(always)]
@@ -655,6 +703,37 @@ mod tests {
             if x.is_finite() {
                 check("ln", x, ln(x), libm::log(x));
             }
+        }
+    }
+
+    #[test]
+    fn exponentials_less_one_of_positive_numbers() {
+        let mut stream = Stream(5);
+        for i in 0..200_000 {
+            let range = [1e-6, 1e-3, 1.0, EXP_LIMIT][i % 4];
+            let x = stream.between(0.0, range);
+            let (found, expected) = (exp_minus_one_positive(x), libm::expm1(x));
+            // the reference is within 1 ulp itself
+            assert!(
+                (found - expected).abs() <= 4.0 * ulp(expected),
+                "{x:e}: {found:e} {expected:e}"
+            );
+        }
+        assert_eq!(exp_minus_one_positive(0.0), 0.0);
+        assert_eq!(exp_minus_one_positive(1e-300), 1e-300);
+    }
+
+    #[test]
+    fn sines_of_quarters_are_sines() {
+        let mut stream = Stream(6);
+        for _ in 0..100_000 {
+            let quarter = stream.between(-1.0, 1.0);
+            // the rounding of the angle and of the reference is another 2^-53 each
+            let miss = sin_quarters(quarter) - libm::sin(quarter * FRAC_PI_2);
+            assert!(miss.abs() < 3.0 * f64::EPSILON, "{quarter:e} {miss:e}");
+        }
+        for (quarter, sine) in [(0.0, 0.0), (1.0, 1.0), (-1.0, -1.0)] {
+            assert!((sin_quarters(quarter) - sine).abs() < 2.0 * f64::EPSILON);
         }
     }
 

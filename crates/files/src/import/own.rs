@@ -49,7 +49,9 @@ pub(super) fn of_workbook(
     reader.sheet(&inputs);
     let Reader { root, changed, replaced, .. } = reader;
     let made = if changed.is_empty() {
-        let understood = vec!["the model file of this workbook; no cell was changed".to_owned()];
+        let unchanged = "the model file of this workbook; no estimate, standard uncertainty, degrees of \
+                         freedom or correlation was changed, and other cells are not looked at";
+        let understood = vec![unchanged.to_owned()];
         Some(ImportedBudget { text, understood, guessed: Vec::new() })
     } else {
         serde_json::to_string_pretty(&root).ok().map(|text| ImportedBudget {

@@ -388,7 +388,7 @@ impl Budget<'_> {
                 return Some(to_15_digits(share / whole));
             }
             None => format!("`{text}` is a share, but the unit of this row is `{}`", row.unit),
-            Some(estimate) if estimate == 0.0 => format!(
+            Some(0.0) => format!(
                 "`{text}` of the estimate 0 is nothing: state the {} in the unit of the quantity, or what \
                  it is a share of",
                 column.name()

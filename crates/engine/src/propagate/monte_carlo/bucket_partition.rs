@@ -7,8 +7,14 @@
 //! sorted only when one of its values is asked for. Buckets follow the windows: most of them lie in
 //! the two tails, where the ends of intervals are. What is found are exact order statistics; how the
 //! buckets lie affects time alone.
+#![allow(unsafe_code)] // instructions of a path that the machine has
 
+#[cfg(target_arch = "x86_64")]
+use super::simd;
+use super::sorting;
 use super::windows::Windows;
+#[cfg(target_arch = "x86_64")]
+use crate::number::Instructions;
 use crate::number::{CodePath, Kernel};
 
 /// Values to a bucket, on average.
@@ -27,27 +33,33 @@ pub(super) struct BucketPartition {
     /// The least and the greatest value of each; of an empty one infinity and minus infinity.
     extremes: Vec<[f64; 2]>,
     sorted: Vec<bool>,
+    /// The path that buckets are sorted on.
+    path: CodePath,
     /// Number of values in the low tail, about the median, in the high tail.
     regions: [usize; 3],
 }
 
 /// Equal buckets from one value on.
 #[derive(Clone, Copy, Debug)]
-struct Region {
-    from: f64,
-    inverse: f64,
-    first: f64,
+pub(super) struct Region {
+    pub(super) from: f64,
+    pub(super) inverse: f64,
+    pub(super) first: f64,
     /// How many there are after the first.
-    more: f64,
+    pub(super) more: f64,
 }
 
 /// Which bucket a value belongs in.
 #[derive(Clone, Copy, Debug)]
-struct Layout {
-    low: f64,
-    high: f64,
-    regions: [Region; 3],
+pub(super) struct Layout {
+    pub(super) low: f64,
+    pub(super) high: f64,
+    /// The low tail, about the median, the high tail.
+    pub(super) regions: [Region; 3],
 }
+
+/// 2^52: adding it rounds and leaves the integer in the low bits.
+pub(super) const ROUND: f64 = 4_503_599_627_370_496.0;
 
 impl Layout {
     fn new(kept: &[&[f64]], windows: &Windows, buckets: usize) -> Self {
@@ -83,9 +95,7 @@ impl Layout {
     /// The bucket of a value: greater values never have a lower one, and those beyond the ends are in
     /// the outermost ones.
     #[inline(always)]
-    fn bucket(&self, value: f64) -> u16 {
-        // adding 2^52 rounds and leaves the integer in the low bits
-        const ROUND: f64 = 4_503_599_627_370_496.0;
+    pub(super) fn bucket(&self, value: f64) -> u16 {
         let [low, median, high] = self.regions;
         let or = |of: fn(&Region) -> f64| {
             let tail = if value <= self.low { of(&low) } else { of(&high) };
@@ -104,7 +114,18 @@ impl Layout {
     }
 }
 
-/// The buckets of some values.
+/// The buckets of some values, as many as there is room for.
+fn buckets_of(path: CodePath, layout: &Layout, values: &[f64], out: &mut [u16]) {
+    #[cfg(target_arch = "x86_64")]
+    if path.instructions() == Instructions::Avx512 {
+        // SAFETY: the machine has the instructions of a path.
+        unsafe { simd::buckets(layout, values, out) };
+        return;
+    }
+    path.run(BucketKernel { layout, values, out });
+}
+
+/// The same in plain loops.
 struct BucketKernel<'a> {
     layout: &'a Layout,
     values: &'a [f64],
@@ -122,6 +143,46 @@ impl Kernel for BucketKernel<'_> {
     }
 }
 
+/// A bucket of at most so many values is sorted by counting.
+const COUNTED: usize = 64;
+
+/// Sorts the values of a bucket by their total order. Of few, the place of each is the number of those
+/// that belong before it: as many comparisons as there are pairs, but side by side and without a branch.
+fn sort_bucket(path: CodePath, values: &mut [f64]) {
+    if values.len() > COUNTED {
+        values.sort_unstable_by(f64::total_cmp);
+    } else if values.len() > 1 {
+        path.run(CountingSort { values });
+    }
+}
+
+struct CountingSort<'a> {
+    values: &'a mut [f64],
+}
+
+impl Kernel for CountingSort<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        // places beyond the values are above all of them
+        let mut keys = [i64::MAX; COUNTED];
+        let count = self.values.len();
+        for (key, value) in keys.iter_mut().zip(self.values.iter()) {
+            *key = sorting::key(*value);
+        }
+        let mut sorted = [0.0; COUNTED];
+        for (place, value) in self.values.iter().enumerate() {
+            let own = keys[place];
+            let (before, after) = keys[..count].split_at(place);
+            let below: i64 = before.iter().map(|key| i64::from(*key <= own)).sum();
+            let below: i64 = below + after.iter().map(|key| i64::from(*key < own)).sum::<i64>();
+            sorted[below as usize % COUNTED] = *value;
+        }
+        self.values.copy_from_slice(&sorted[..count]);
+    }
+}
+
 impl BucketPartition {
     pub(super) fn new(path: CodePath, kept: &[&[f64]], windows: &Windows) -> Self {
         let count: usize = kept.iter().map(|part| part.len()).sum();
@@ -133,7 +194,7 @@ impl BucketPartition {
         let mut rest = &mut bucket_of[..];
         for values in kept {
             let (own, after) = rest.split_at_mut(values.len());
-            path.run(BucketKernel { layout: &layout, values, out: own });
+            buckets_of(path, &layout, values, own);
             for &bucket in own.iter() {
                 counts[usize::from(bucket)] += 1;
             }
@@ -164,7 +225,7 @@ impl BucketPartition {
         let extremes = extremes.collect();
         let [low, median, high] = ends.map(|end| starts[end]);
         let regions = [low, median.saturating_sub(low), high.saturating_sub(median)];
-        Self { values, starts, extremes, sorted: vec![false; buckets], regions }
+        Self { values, starts, extremes, sorted: vec![false; buckets], path, regions }
     }
 
     /// Number of values in the low tail, about the median, in the high tail.
@@ -179,7 +240,7 @@ impl BucketPartition {
     fn sort(&mut self, bucket: usize) {
         if !self.sorted[bucket] {
             let values = &mut self.values[self.starts[bucket]..self.starts[bucket + 1]];
-            values.sort_unstable_by(f64::total_cmp);
+            sort_bucket(self.path, values);
             self.sorted[bucket] = true;
         }
     }

@@ -12,6 +12,9 @@ use super::windows::Windows;
 use crate::distribution::BLOCK;
 use crate::propagate::Control;
 
+/// Blocks of the pilot of a very long run, of which narrower windows keep a sixth less memory.
+const VERY_LONG_PILOT: u64 = 64;
+
 /// Blocks of the pilot of a long run.
 const PILOT_BLOCKS: u64 = 16;
 
@@ -22,18 +25,25 @@ const SHORT_PILOT: u64 = 4;
 /// From so many trials on a run is long.
 const LONG: u64 = 1_000_000;
 
+/// From so many trials on it is very long.
+const VERY_LONG: u64 = 5_000_000;
+
 /// Up to so many trials all values are kept.
 const ALL_KEPT: u64 = 1 << 16;
 
 /// Outputs whose pilot values are held at a time: 64 MiB.
-const PILOT_OUTPUTS: usize = (64 << 20) / (8 * BLOCK * PILOT_BLOCKS as usize);
+const PILOT_OUTPUTS: usize = (64 << 20) / (8 * BLOCK * VERY_LONG_PILOT as usize);
 
 /// Windows wider than this many times the first ones keep everything.
 pub(super) const KEEP_ALL_MARGIN: f64 = 20.0;
 
 /// The blocks of the pilot of a run.
 pub(super) fn pilot_blocks(trials: u64) -> u64 {
-    let most = if trials >= LONG { PILOT_BLOCKS } else { SHORT_PILOT };
+    let most = match trials {
+        VERY_LONG.. => VERY_LONG_PILOT,
+        LONG.. => PILOT_BLOCKS,
+        _ => SHORT_PILOT,
+    };
     trials.div_ceil(BLOCK as u64).min(most)
 }
 

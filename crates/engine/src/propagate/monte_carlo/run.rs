@@ -185,6 +185,10 @@ fn accumulate_chunk(
         path.run(AccumulateKernel { path, values, count, plans, accumulated: &mut accumulated });
         control.advance(wanted as u64);
     }
+    // the room that was reserved for more would stay for the whole run; the next chunk takes it
+    for output in &mut accumulated.outputs {
+        output.kept.shrink_to_fit();
+    }
     accumulated
 }
 

@@ -4,11 +4,14 @@
 #![allow(unsafe_code)]
 
 use std::arch::x86_64::{
-    __mmask8, _CMP_GE_OQ, _CMP_LE_OQ, _CMP_LT_OQ, _mm512_add_pd, _mm512_cmp_pd_mask,
-    _mm512_loadu_pd, _mm512_maskz_compress_pd, _mm512_maskz_loadu_pd, _mm512_maskz_sub_pd,
-    _mm512_mul_pd, _mm512_set1_pd, _mm512_setzero_pd, _mm512_storeu_pd,
+    __m128i, __mmask8, _CMP_GE_OQ, _CMP_GT_OQ, _CMP_LE_OQ, _CMP_LT_OQ, _mm_storeu_si128,
+    _mm512_add_pd, _mm512_castpd_si512, _mm512_cmp_pd_mask, _mm512_cvtepi64_epi16, _mm512_loadu_pd,
+    _mm512_mask_blend_pd, _mm512_maskz_compress_pd, _mm512_maskz_loadu_pd, _mm512_maskz_sub_pd,
+    _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_set1_pd, _mm512_setzero_pd,
+    _mm512_storeu_pd, _mm512_sub_pd,
 };
 
+use super::bucket_partition::{Layout, ROUND};
 use super::plan::{LANES, Reference};
 use super::windows::Windows;
 
@@ -28,28 +31,97 @@ pub(super) fn keep(block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64
     let median = [_mm512_set1_pd(windows.median_low), _mm512_set1_pd(windows.median_high)];
     let high = _mm512_set1_pd(windows.high);
     let mut below = 0;
-    let mut length = kept.len();
-    for chunk in block.chunks(LANES) {
-        let lanes = lanes_of(chunk);
-        // SAFETY: only lanes within the chunk are read.
-        let value = unsafe { _mm512_maskz_loadu_pd(lanes, chunk.as_ptr()) };
+    let start = kept.len();
+    let out = kept.as_mut_ptr();
+    let mut length = start;
+    let whole = block.len() / LANES * LANES;
+    let mut first = 0;
+    while first < block.len() {
+        let lanes = if first < whole { __mmask8::MAX } else { lanes_of(&block[whole..]) };
+        let value = if first < whole {
+            // SAFETY: eight values from `first` on are within the block.
+            unsafe { _mm512_loadu_pd(block.as_ptr().add(first)) }
+        } else {
+            // SAFETY: only lanes within the block are read.
+            unsafe { _mm512_maskz_loadu_pd(lanes, block.as_ptr().add(first)) }
+        };
         let in_low = _mm512_cmp_pd_mask::<_CMP_LE_OQ>(value, low);
         let in_median = _mm512_cmp_pd_mask::<_CMP_GE_OQ>(value, median[0])
             & _mm512_cmp_pd_mask::<_CMP_LE_OQ>(value, median[1]);
         let in_high = _mm512_cmp_pd_mask::<_CMP_GE_OQ>(value, high);
         let under = _mm512_cmp_pd_mask::<_CMP_LT_OQ>(value, median[0]) & lanes;
-        below += u64::from(under.count_ones());
+        below += under.count_ones();
         let keep = (in_low | in_median | in_high) & lanes;
         // SAFETY: the room for a whole block and eight more was reserved, and at most a block's
         // values are kept, so that eight from `length` on are within the capacity.
         unsafe {
-            _mm512_storeu_pd(kept.as_mut_ptr().add(length), _mm512_maskz_compress_pd(keep, value));
+            _mm512_storeu_pd(out.add(length), _mm512_maskz_compress_pd(keep, value));
         }
         length += keep.count_ones() as usize;
+        first += LANES;
     }
     // SAFETY: the values up to `length` were written above.
     unsafe { kept.set_len(length) };
-    below
+    u64::from(below)
+}
+
+/// The bucket of each value, as many as there is room for.
+///
+/// # Safety
+/// As [`keep`].
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,popcnt")]
+pub(super) fn buckets(layout: &Layout, values: &[f64], out: &mut [u16]) {
+    let [tail_low, median, tail_high] = layout.regions;
+    let (low, high) = (_mm512_set1_pd(layout.low), _mm512_set1_pd(layout.high));
+    let (zero, round) = (_mm512_setzero_pd(), _mm512_set1_pd(ROUND));
+    // of the three regions: where they begin, buckets to a unit, the last bucket, the first
+    let from = [
+        _mm512_set1_pd(tail_low.from),
+        _mm512_set1_pd(median.from),
+        _mm512_set1_pd(tail_high.from),
+    ];
+    let inverse = [
+        _mm512_set1_pd(tail_low.inverse),
+        _mm512_set1_pd(median.inverse),
+        _mm512_set1_pd(tail_high.inverse),
+    ];
+    let more = [
+        _mm512_set1_pd(tail_low.more),
+        _mm512_set1_pd(median.more),
+        _mm512_set1_pd(tail_high.more),
+    ];
+    let first = [
+        _mm512_set1_pd(tail_low.first),
+        _mm512_set1_pd(median.first),
+        _mm512_set1_pd(tail_high.first),
+    ];
+    let (chunks, rest) = values.as_chunks::<LANES>();
+    let (outs, last) = out.as_chunks_mut::<LANES>();
+    for (chunk, out) in chunks.iter().zip(outs) {
+        // SAFETY: the chunk has eight values.
+        let value = unsafe { _mm512_loadu_pd(chunk.as_ptr()) };
+        let in_low = _mm512_cmp_pd_mask::<_CMP_LE_OQ>(value, low);
+        let in_median = _mm512_cmp_pd_mask::<_CMP_GT_OQ>(value, low)
+            & _mm512_cmp_pd_mask::<_CMP_LT_OQ>(value, high);
+        let start = _mm512_mask_blend_pd(in_low, from[2], from[0]);
+        let start = _mm512_mask_blend_pd(in_median, start, from[1]);
+        let by = _mm512_mask_blend_pd(in_low, inverse[2], inverse[0]);
+        let by = _mm512_mask_blend_pd(in_median, by, inverse[1]);
+        let most = _mm512_mask_blend_pd(in_low, more[2], more[0]);
+        let most = _mm512_mask_blend_pd(in_median, most, more[1]);
+        let begin = _mm512_mask_blend_pd(in_low, first[2], first[0]);
+        let begin = _mm512_mask_blend_pd(in_median, begin, first[1]);
+        // what is no number comes first, as in the plain loops
+        let index = _mm512_max_pd(_mm512_mul_pd(_mm512_sub_pd(value, start), by), zero);
+        let index = _mm512_min_pd(index, most);
+        let place = _mm512_add_pd(_mm512_add_pd(index, begin), round);
+        let place = _mm512_cvtepi64_epi16(_mm512_castpd_si512(place));
+        // SAFETY: there is room for eight places of two bytes.
+        unsafe { _mm_storeu_si128(out.as_mut_ptr().cast::<__m128i>(), place) };
+    }
+    for (value, out) in rest.iter().zip(last) {
+        *out = layout.bucket(*value);
+    }
 }
 
 /// For the powers 1 to 4 of the values' distances from the reference the sum in each lane.

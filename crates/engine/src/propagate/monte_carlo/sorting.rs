@@ -10,7 +10,8 @@ pub(super) fn sort(values: &mut Vec<f64>) {
 }
 
 /// The bits as an integer of the same order: those of a negative number but its sign are inverted.
-fn key(value: f64) -> i64 {
+#[inline(always)]
+pub(super) fn key(value: f64) -> i64 {
     invert(value.to_bits() as i64)
 }
 
@@ -18,6 +19,7 @@ fn value(key: i64) -> f64 {
     f64::from_bits(invert(key) as u64)
 }
 
+#[inline(always)]
 fn invert(bits: i64) -> i64 {
     bits ^ ((bits >> 63) & i64::MAX)
 }
