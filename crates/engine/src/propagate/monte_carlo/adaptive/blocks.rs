@@ -53,14 +53,38 @@ pub(super) fn figures(
 ) -> Vec<Vec<Option<Figures>>> {
     let everything: Vec<Plan> =
         fences.iter().map(|plan| Plan { windows: Windows::ALL, ..*plan }).collect();
-    let of_block = |workspace: &mut Workspace, number: u64| {
+    let of_block = |drawn: &mut Drawn, number: u64| {
         let run = Run { trials, size, search, control };
         // a block with more values beyond a fence than a pilot lets expect is made again
-        run.figures(workspace, number, fences)
-            .or_else(|| run.figures(workspace, number, &everything))
+        run.figures(drawn, number, fences)
+            .or_else(|| run.figures(drawn, number, &everything))
             .unwrap_or_else(|| vec![None; fences.len()])
     };
-    numbers.into_par_iter().map_init(|| trials.workspace(), of_block).collect()
+    let drawn = || Drawn { workspace: trials.workspace(), shared: None };
+    numbers.into_par_iter().map_init(drawn, of_block).collect()
+}
+
+/// The values of trials, which are drawn in blocks of their own: the last one of a block of the
+/// procedure is mostly the first one of the next.
+struct Drawn {
+    workspace: Workspace,
+    shared: Option<(u64, Vec<[f64; BLOCK]>)>,
+}
+
+impl Drawn {
+    /// Draws a block of trials, unless it is the one that was drawn last; `is_last` tells that another
+    /// block of the procedure begins in it.
+    fn draw(&mut self, trials: &RowTrials, path: CodePath, block: u64, is_last: bool) {
+        match &self.shared {
+            Some((known, values)) if *known == block => {
+                self.workspace.outputs.copy_from_slice(values);
+            }
+            _ => trials.block(path, block, &mut self.workspace),
+        }
+        if is_last {
+            self.shared = Some((block, self.workspace.outputs.clone()));
+        }
+    }
 }
 
 /// How blocks are made.
@@ -76,7 +100,7 @@ impl Run<'_> {
     /// The figures of every output; `None` if an end may lie inside the fences.
     fn figures(
         self,
-        workspace: &mut Workspace,
+        drawn: &mut Drawn,
         number: u64,
         fences: &[Plan],
     ) -> Option<Vec<Option<Figures>>> {
@@ -89,8 +113,9 @@ impl Run<'_> {
             if control.is_stopped() {
                 break;
             }
-            trials.block(control.path, block, workspace);
             let start = block * BLOCK as u64;
+            drawn.draw(trials, path, block, last < start + BLOCK as u64);
+            let workspace = &mut drawn.workspace;
             let from = first.saturating_sub(start) as usize;
             let to = (last - start).min(BLOCK as u64) as usize;
             for output in &mut workspace.outputs {
