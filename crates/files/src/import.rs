@@ -159,7 +159,8 @@ impl Budget<'_> {
             }
         };
         let measured = equations.last().map(|equation| equation.name.clone());
-        let Table { rows, result, stated, factor } = self.rows(&header, measured.as_deref());
+        let used: Vec<String> = equations.iter().flat_map(Equation::names).collect();
+        let Table { rows, result, stated, factor } = self.rows(&header, measured.as_deref(), &used);
         let has_coefficients = rows.iter().any(|row| row.sensitivity.is_some());
         self.unread(&unread, has_coefficients || !equations.is_empty());
         self.remarks(&header, &equations);

@@ -335,7 +335,7 @@ pub(crate) const EXP_LIMIT: f64 = 700.0;
 #[inline(always)]
 pub(crate) fn sin_quarters(quarter: f64) -> f64 {
     const C: [f64; 9] = [
-        1.57079632679489655800e+00,
+        FRAC_PI_2,
         -6.45964097506246170965e-01,
         7.96926262461656459424e-02,
         -4.68175413530425542363e-03,

@@ -20,7 +20,7 @@ pub(super) struct Equation {
 
 impl Equation {
     /// The names that it needs.
-    fn names(&self) -> Vec<String> {
+    pub(super) fn names(&self) -> Vec<String> {
         let formula = Formula::parse(&self.formula).ok();
         formula.iter().flat_map(Formula::names).map(|(name, _)| name.to_owned()).collect()
     }

@@ -54,9 +54,20 @@ fn is_bare_of(row: &Row) -> bool {
 }
 
 impl Budget<'_> {
-    /// The rows of the quantities, and what the sheet says of the result.
-    pub(super) fn rows(&mut self, header: &Header, measurand: Option<&str>) -> Table {
+    /// The rows of the quantities, and what the sheet says of the result; `used` are the names that
+    /// the equations need.
+    pub(super) fn rows(
+        &mut self,
+        header: &Header,
+        measurand: Option<&str>,
+        used: &[String],
+    ) -> Table {
         let mut table = Table::default();
+        let is_uncertain = |line: &usize| {
+            let of = |column| header.cell(self.cells, *line, column).trim();
+            !is_empty(of(Column::Width)) || !is_empty(of(Column::Std))
+        };
+        let last_uncertain = (header.line + 1..self.cells.lines()).rev().find(is_uncertain);
         let mut empty = 0;
         for line in header.line + 1..self.cells.lines() {
             let label = header.cell(self.cells, line, Column::Quantity).trim().to_owned();
@@ -75,8 +86,11 @@ impl Budget<'_> {
                 .into_iter()
                 .any(|words| measurand.is_some_and(|name| columns::identifier(words) == name));
             let words = if symbol.is_empty() { &label } else { &symbol };
-            // a word of results may name a quantity: `U` of a voltage, which has an uncertainty
-            let is_symbol = columns::is_summary_symbol(words) && self.is_bare(header, line);
+            // a symbol of results may be that of a quantity: `U` of a voltage, `p` of a pressure
+            let is_symbol = columns::is_summary_symbol(words)
+                && self.is_bare(header, line)
+                && last_uncertain.is_some_and(|last| line > last)
+                && !used.contains(&columns::identifier(words));
             let is_result = columns::is_result(&label) || is_measurand;
             let is_sentence = label.contains('=') && self.is_alone(header, line);
             if is_below && !is_result && !is_symbol {
@@ -126,6 +140,7 @@ impl Budget<'_> {
         }
         // an equation names its result itself
         if table.result.as_ref().is_none_or(|result| result.is_summary)
+            && table.rows.last().is_none_or(|last| !used.contains(&last.name))
             && let Some(reason) = last_is_result(&table.rows)
             && (measurand.is_none() || reason == NO_UNCERTAINTY)
             && let Some(last) = table.rows.pop()

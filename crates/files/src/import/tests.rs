@@ -449,6 +449,18 @@ fn results_are_no_parts_of_themselves() {
     assert!(budget.text.contains(r#""m_X":"m_S + dm""#), "{}", budget.text);
 }
 
+/// Constants whose symbols are those of summaries are quantities where an equation needs them, or where
+/// other quantities follow.
+#[test]
+fn symbols_of_summaries_may_name_quantities() {
+    let text = "R = U/I\nQuantity,Estimate,Unit,Standard uncertainty\nI,2,A,0.1\nU,10,V,\n";
+    let budget = import("b.csv", text.as_bytes()).unwrap();
+    assert_eq!(task(&budget).variables.len(), 2);
+    let text = "Quantity,Estimate,Unit,Standard uncertainty,c_i\np,1013,hPa,,2\nx,2,hPa,0.1,1\n";
+    let budget = import("b.csv", text.as_bytes()).unwrap();
+    assert_eq!(task(&budget).variables.len(), 2, "{}", budget.text);
+}
+
 /// Correlations and lines below the table are told; texts that look like an equation are read or
 /// refused, and no sum is taken in their place.
 #[test]
