@@ -221,8 +221,8 @@ impl Budget<'_> {
                 continue;
             };
             self.guessed.push(format!(
-                "line {}: `{}` is not taken, and the quantities are independent without it: write the \
-                 coefficient into the model file, `\"correlations\": [[\"a\", \"b\", 0.7]]`",
+                "line {}: `{}` is not taken, and the quantities are independent without it: write names \
+                 and coefficient into the model file, `\"correlations\": [[\"a\", \"b\", r]]`",
                 line + 1,
                 cell.trim()
             ));

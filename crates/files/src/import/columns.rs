@@ -570,8 +570,13 @@ impl HeaderCoverage {
             return Self::Factor(factor);
         }
         let bare = || {
-            let percent = compact.split_once('(')?.1.split_once("%)")?.0;
-            number_of_cell(percent, true)
+            let before = compact.split_once('%')?.0;
+            let is_digit = |c: char| c.is_ascii_digit() || matches!(c, '.' | ',');
+            let start = before
+                .rfind(|c: char| !is_digit(c))
+                .map_or(0, |at| at + before[at..].chars().next().map_or(1, char::len_utf8));
+            // a coverage probability, and no share of an estimate
+            number_of_cell(before.get(start..)?, true).filter(|p| *p >= 50.0 && start > 0)
         };
         let share = behind("p=").or_else(bare).map(|p| if p > 1.0 { p / 100.0 } else { p });
         if let Some(p) = share.filter(|p| *p > 0.0 && *p < 1.0) {
@@ -677,9 +682,19 @@ pub(super) fn distribution(text: &str) -> Option<NamedShape> {
 pub(super) fn is_of_correlation(text: &str) -> bool {
     let words = text.to_lowercase();
     let compact: String = words.split_whitespace().collect();
+    let denies = ["uncorrel", "unkorrel", "nocorrel", "keinekorrel", "noncorrél", "notcorrel"];
+    if denies.iter().any(|word| compact.contains(word)) {
+        return false;
+    }
     ["correl", "korrel", "corrél"].iter().any(|word| words.contains(word))
         || compact.starts_with("r(") && compact.contains('=')
         || compact.contains(":r=")
+}
+
+/// Whether a symbol is that of a combined standard uncertainty, `u_c(y)`.
+pub(super) fn is_combined_symbol(words: &str) -> bool {
+    let compact: String = words.split('(').next().unwrap_or_default().split_whitespace().collect();
+    matches!(compact.as_str(), "uc" | "u_c")
 }
 
 /// Whether a row at the end of a budget is of a summary by its symbol: `U`, `k`, `u_c`, `veff`.

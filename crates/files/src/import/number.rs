@@ -117,7 +117,8 @@ pub(super) fn constant(text: &str, decimal_comma: bool) -> Option<f64> {
         let is_name = before.trim().chars().all(|c| c.is_alphabetic() || c == '_');
         return constant(if is_name { after } else { before }, decimal_comma);
     }
-    let text = if decimal_comma { text.replace(',', ".") } else { text.to_owned() };
+    let text = text.to_lowercase().replace("sqrt", "√");
+    let text = if decimal_comma { text.replace(',', ".") } else { text };
     let formula = Formula::parse(&expression(&text)).ok()?;
     if formula.names().next().is_some() {
         return None;
@@ -192,8 +193,9 @@ mod tests {
         let root = 3f64.sqrt();
         for (text, value) in [
             ("√3", root),
-            ("sqrt(3)", root),
-            ("wurzel(3)", root),
+            ("SQRT(3)", root),
+            ("sqrt3", root),
+            ("Wurzel(3)", root),
             ("2√3", 2.0 * root),
             ("2*√3", 2.0 * root),
             ("1/√3", 1.0 / root),

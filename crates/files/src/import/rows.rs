@@ -87,10 +87,10 @@ impl Budget<'_> {
                 .any(|words| measurand.is_some_and(|name| columns::identifier(words) == name));
             let words = if symbol.is_empty() { &label } else { &symbol };
             // a symbol of results may be that of a quantity: `U` of a voltage, `p` of a pressure
-            let is_symbol = columns::is_summary_symbol(words)
-                && self.is_bare(header, line)
-                && last_uncertain.is_some_and(|last| line > last)
-                && !used.contains(&columns::identifier(words));
+            let is_after = last_uncertain.is_some_and(|last| line > last);
+            let is_symbol = !used.contains(&columns::identifier(words))
+                && (columns::is_combined_symbol(words) && !self.is_quantity(header, line)
+                    || columns::is_summary_symbol(words) && self.is_bare(header, line) && is_after);
             let is_result = columns::is_result(&label) || is_measurand;
             let is_sentence = label.contains('=') && self.is_alone(header, line);
             if is_below && !is_result && !is_symbol {
@@ -106,9 +106,9 @@ impl Budget<'_> {
                 ));
                 continue;
             }
-            // told apart from the rows
+            // told apart from the rows; a quantity may have such words in its name or a remark
             let speaks = self.cells.row(line).iter().any(|cell| columns::is_of_correlation(cell));
-            if (is_sentence && !is_result) || speaks {
+            if (is_sentence && !is_result) || (speaks && !self.is_quantity(header, line)) {
                 continue;
             }
             let row = self.row(header, line, label.clone(), is_result || is_symbol);
@@ -188,6 +188,17 @@ impl Budget<'_> {
         [Column::Width, Column::Std, Column::Sensitivity, Column::Distribution]
             .iter()
             .all(|column| header.cell(self.cells, line, *column).trim().is_empty())
+    }
+
+    /// Whether a line has the numbers of a quantity: an estimate, and an uncertainty.
+    fn is_quantity(&self, header: &Header, line: usize) -> bool {
+        let is_number = |column| {
+            let text = header.cell(self.cells, line, column).trim().trim_start_matches(['±', ' ']);
+            number::number_with_unit(text, self.cells.decimal_comma()).is_some()
+        };
+        let has = |column| header.columns.iter().any(|(_, of)| *of == column);
+        (!has(Column::Estimate) || is_number(Column::Estimate))
+            && (is_number(Column::Width) || is_number(Column::Std))
     }
 
     /// Whether a line has one cell with something in it, of those that the header names.

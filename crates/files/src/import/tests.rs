@@ -303,6 +303,7 @@ fn factors_stand_with_distributions_and_uncertainties() {
         ("Normal, k = 2", "0.0004", 2e-4),
         ("normal (95 %)", "0.0004", 4e-4 / 1.959_963_984_540_054),
         ("normal 2σ", "0.0004", 2e-4),
+        ("normal 95 %", "0.0004", 4e-4 / 1.959_963_984_540_054),
         ("normal", "0.0004 V (k=2)", 2e-4),
         ("rectangular", "±0.0003", 3e-4 / 3_f64.sqrt()),
         ("Tri", "0.0006", 6e-4 / 6_f64.sqrt()),
@@ -471,6 +472,15 @@ fn nothing_of_the_sheet_is_dropped_without_a_word() {
         let budget = budget.unwrap_or_else(|error| panic!("{line}: {error}"));
         assert!(guesses(&budget, "independent without it"), "{line}: {:?}", budget.guessed);
         assert_eq!(task(&budget).variables.len(), 2, "{line}");
+    }
+    // quantities with such words stay
+    for row in ["b;2;V;0,1;r(a;b)=0.7", "b;2;V;0,1;uncorrelated", "Correlation of air;2;V;0,1;"] {
+        let text =
+            format!("{head};Remark\na;1;V;0,1;\n{row}\n").replace("r(a;b)=0.7", "\"r(a;b)=0.7\"");
+        let budget = import("b.csv", text.as_bytes()).unwrap();
+        assert_eq!(task(&budget).variables.len(), 2, "{row}");
+        let denied = row.contains("uncorrelated");
+        assert_eq!(guesses(&budget, "independent without it"), !denied, "{row}");
     }
     let below = format!("{head}\na;1;V;0,1\nb;2;V;0,1\n\n\nc;3;V;0,1\n");
     let budget = import("b.csv", below.as_bytes()).unwrap();

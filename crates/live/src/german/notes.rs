@@ -239,6 +239,10 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{0} rechnet noch einmal aus {1} um: Formeln haben einen Anteil in {2} schon als Zahl, so dass sein Name genügt",
     ),
     (
+        "{} is used at x = {}, and its points lie from {} to {}: beyond them nothing says that the form holds, and the stated uncertainty supposes that it does",
+        "{0} wird bei x = {1} verwendet, und die Punkte liegen zwischen {2} und {3}: Darüber hinaus sagt nichts, dass die Form gilt, und die angegebene Unsicherheit setzt es voraus",
+    ),
+    (
         "{} converts to radians per second once more: formulas have what is given in {} in radians per second already, so that its name is enough",
         "{0} rechnet noch einmal in Radiant je Sekunde um: Formeln haben, was in {1} angegeben ist, schon in Radiant je Sekunde, so dass sein Name genügt",
     ),
