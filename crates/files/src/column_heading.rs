@@ -27,7 +27,8 @@ pub(super) fn bare(text: &str) -> &str {
     named.map(|(name, _)| name).filter(|name| !name.is_empty()).unwrap_or(text)
 }
 
-fn enclosed<'h>(text: &'h str, open: char, close: &str) -> Option<(&'h str, &'h str)> {
+/// The name and the unit of a heading that ends in brackets.
+pub(super) fn enclosed<'h>(text: &'h str, open: char, close: &str) -> Option<(&'h str, &'h str)> {
     let (name, unit) = text.trim_end().strip_suffix(close)?.rsplit_once(open)?;
     Some((name.trim(), unit.trim()))
 }

@@ -149,10 +149,9 @@ impl Budget<'_> {
             let text = self.cells.text(header.words, *place);
             self.guessed.push(format!("the column `{text}` is not taken"));
         }
-        let Equations { read, unread } = Equations::of(self.cells);
         let known = self.names(&header);
-        let equations = match (Equations { read, unread: Vec::new() }).of_result(&known) {
-            Ok(equations) => equations.read,
+        let (equations, unread) = match Equations::of(self.cells).of_result(&known) {
+            Ok(Equations { read, unread }) => (read, unread),
             Err((line, reason)) => {
                 self.fail(line, reason);
                 return None;
@@ -191,7 +190,7 @@ impl Budget<'_> {
             for (name, formula) in &formulas {
                 self.understood.push(format!("the equation {name} = {formula}"));
             }
-            self.unused(&rows, &equations);
+            self.unused(&rows, &equations, &used);
             let unit =
                 if unit.is_empty() { self.unit_of_equation(&rows, &equations) } else { unit };
             let model = |checked| document(title, &rows, &formulas, &unit, checked);

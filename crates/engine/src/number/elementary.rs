@@ -276,6 +276,20 @@ pub fn sin_cos_turn(turn: f64) -> (f64, f64) {
     rotate(rounded.to_bits(), sin, cos)
 }
 
+/// The whole number n, as an integer that wraps around below zero, and y with e to the power `x` equal
+/// to 2ⁿ(1 + y).
+#[inline(always)]
+fn exp_parts(x: f64) -> (u64, f64) {
+    let rounded = x * LOG2_E + ROUNDER;
+    let n = rounded - ROUNDER;
+    let hi = x - n * LN2_HI;
+    let lo = n * LN2_LO;
+    let r = hi - lo;
+    let z = r * r;
+    let c = r - z * (P1 + z * (P2 + z * (P3 + z * (P4 + z * P5))));
+    (rounded.to_bits().wrapping_sub(ROUNDER.to_bits()), r * c / (2.0 - c) - lo + hi)
+}
+
 /// e to the power `x`, within 1 ulp; exactly 1 at ±0, +∞ above 709.78, subnormal and then 0 below
 /// −708.4, NaN for NaN.
 #[inline(always)]
@@ -285,19 +299,13 @@ pub fn exp(x: f64) -> f64 {
     let bounded = if x > 710.0 { 710.0 } else { x };
     let bounded = if bounded < -746.0 { -746.0 } else { bounded };
 
-    let rounded = bounded * LOG2_E + ROUNDER;
-    let n = rounded - ROUNDER;
-    let hi = bounded - n * LN2_HI;
-    let lo = n * LN2_LO;
-    let r = hi - lo;
-    let z = r * r;
-    let c = r - z * (P1 + z * (P2 + z * (P3 + z * (P4 + z * P5))));
-    let y = 1.0 + (r * c / (2.0 - c) - lo + hi);
+    let (power, rest) = exp_parts(bounded);
+    let y = 1.0 + rest;
 
     // 2ⁿ does not fit a double at either end of the range, and a subnormal result must be rounded
     // only once: two factors of about half the exponent, the first of which is always exact.
     // The offset, twice the exponent bias, keeps the integer positive for a logical shift.
-    let biased = rounded.to_bits().wrapping_sub(ROUNDER.to_bits()).wrapping_add(2 * 1023);
+    let biased = power.wrapping_add(2 * 1023);
     let half = biased >> 1;
     let rest = biased.wrapping_sub(half);
     let scaled = y * f64::from_bits(half << 52) * f64::from_bits(rest << 52);
@@ -310,17 +318,9 @@ pub fn exp(x: f64) -> f64 {
 /// 1 is taken away before anything is added to it.
 #[inline(always)]
 pub(crate) fn exp_minus_one_positive(x: f64) -> f64 {
-    let rounded = x * LOG2_E + ROUNDER;
-    let n = rounded - ROUNDER;
-    let hi = x - n * LN2_HI;
-    let lo = n * LN2_LO;
-    let r = hi - lo;
-    let z = r * r;
-    let c = r - z * (P1 + z * (P2 + z * (P3 + z * (P4 + z * P5))));
-    let y = r * c / (2.0 - c) - lo + hi;
-    let biased = rounded.to_bits().wrapping_sub(ROUNDER.to_bits()).wrapping_add(1023);
-    let scale = f64::from_bits(biased << 52);
-    scale * y + (scale - 1.0)
+    let (power, rest) = exp_parts(x);
+    let scale = f64::from_bits(power.wrapping_add(1023) << 52);
+    scale * rest + (scale - 1.0)
 }
 
 /// The largest argument of [`exp_minus_one_positive`].

@@ -3,6 +3,7 @@
 use super::grid::Cells;
 use super::number::number as number_of_cell;
 use super::number::number_with_unit;
+use crate::column_heading;
 use gumption_engine::special::normal;
 use gumption_units::Unit;
 
@@ -395,13 +396,13 @@ fn is_dof(compact: &str) -> bool {
 /// The unit that a header's cell has behind its words, `Estimate (mm)`, `u / µV`, `Uncertainty [%]`;
 /// letters that are symbols of what the column holds are none: `Half-width (a)`.
 fn unit_of_header(text: &str) -> Option<String> {
-    let behind = |open: char, close: char| {
-        let (before, unit) = text.trim_end().strip_suffix(close)?.rsplit_once(open)?;
-        (!before.trim().is_empty()).then_some(unit.trim())
+    let behind = |open: char, close: &str| {
+        let named = column_heading::enclosed(text, open, close);
+        named.filter(|(name, _)| !name.is_empty()).map(|(_, unit)| unit)
     };
-    let unit = behind('[', ']').or_else(|| {
+    let unit = behind('[', "]").or_else(|| {
         const SYMBOLS: [&str; 10] = ["a", "u", "U", "k", "c", "d", "s", "n", "A", "B"];
-        let unit = behind('(', ')').or_else(|| Some(text.rsplit_once(" / ")?.1.trim()))?;
+        let unit = behind('(', ")").or_else(|| Some(text.rsplit_once(" / ")?.1.trim()))?;
         (!SYMBOLS.contains(&unit)).then_some(unit)
     })?;
     (Unit::parse(unit).is_ok() && unit.parse::<f64>().is_err()).then(|| unit.to_owned())

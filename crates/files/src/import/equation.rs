@@ -1,7 +1,5 @@
 //! The equations of a sheet: lines such as `R = U/I`, and cells behind `equation`.
 
-use std::collections::HashMap;
-
 use super::Budget;
 use super::columns;
 use super::grid::Cells;
@@ -214,12 +212,10 @@ impl Budget<'_> {
         }
     }
 
-    /// Says which rows no equation names.
-    pub(super) fn unused(&mut self, rows: &[Row], equations: &[Equation]) {
-        let used: HashMap<String, ()> =
-            equations.iter().flat_map(Equation::names).map(|name| (name, ())).collect();
+    /// Says which rows no equation names; `used` are the names that they need.
+    pub(super) fn unused(&mut self, rows: &[Row], equations: &[Equation], used: &[String]) {
         let measurand = equations.last().map(|equation| equation.name.clone()).unwrap_or_default();
-        for row in rows.iter().filter(|row| !used.contains_key(&row.name)) {
+        for row in rows.iter().filter(|row| !used.contains(&row.name)) {
             self.guessed.push(format!(
                 "line {}: `{}` is not in the equation of {measurand}: it contributes nothing",
                 row.line + 1,

@@ -75,12 +75,13 @@ pub(super) fn of_content(
         let found = read.as_ref().ok().and_then(|(cells, _)| Header::find(cells));
         found.map_or(0, |header| header.columns.len())
     };
-    let most = read.iter().map(columns).max().unwrap_or(0);
+    let counts = read.each_ref().map(columns);
+    let most = counts.iter().copied().max().unwrap_or(0);
     let is_used = |sign: Separator| text.contains(sign.sign());
     let best = match most {
         // no header: what stands there is told in the words of the most likely one
         0 => order.iter().position(|sign| is_used(*sign)).unwrap_or(2),
-        _ => read.iter().position(|read| columns(read) == most).unwrap_or(2),
+        _ => counts.iter().position(|count| *count == most).unwrap_or(2),
     };
     let [semicolon, tab, comma] = read;
     match best {

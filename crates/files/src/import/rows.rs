@@ -613,7 +613,7 @@ impl Budget<'_> {
         let needs = row.width.is_some_and(|width| width > 0.0)
             && row.divisor.is_none()
             && row.std.is_none()
-            && !matches!(HeaderCoverage::of(text), HeaderCoverage::Factor(_))
+            && !is_factor_of(text)
             && !lenient;
         match columns::distribution(text)? {
             NamedShape::Known(name) => Some(name),
@@ -652,7 +652,7 @@ fn is_empty(text: &str) -> bool {
     matches!(text.to_lowercase().as_str(), "" | "-" | "–" | "—" | "n/a" | "na" | "n.a.")
 }
 
-/// Whether an uncertainty has its coverage factor behind it.
+/// Whether a text states a coverage factor.
 fn is_factor_of(text: &str) -> bool {
     matches!(HeaderCoverage::of(text), HeaderCoverage::Factor(_))
 }

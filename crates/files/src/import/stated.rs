@@ -45,8 +45,7 @@ const ROUNDED_PARTS: f64 = 0.02;
 const MATTERS: f64 = 0.1;
 
 impl Budget<'_> {
-    /// What a row of the result, or of a summary, states; `factor` is the coverage factor that the
-    /// sheet states elsewhere.
+    /// What a row of the result, or of a summary, states.
     pub(super) fn stated(&self, header: &Header, line: usize, row: &Row) -> Vec<Stated> {
         let label = header.cell(self.cells, line, Column::Quantity).trim();
         let symbol = header.cell(self.cells, line, Column::Symbol).trim();

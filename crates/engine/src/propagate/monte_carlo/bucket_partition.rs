@@ -165,8 +165,7 @@ impl Kernel for CountingSort<'_> {
 
     #[inline(always)]
     fn run(self) {
-        // places beyond the values are above all of them
-        let mut keys = [i64::MAX; COUNTED];
+        let mut keys = [0; COUNTED];
         let count = self.values.len();
         for (key, value) in keys.iter_mut().zip(self.values.iter()) {
             *key = sorting::key(*value);
