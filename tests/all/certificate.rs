@@ -351,7 +351,7 @@ fn rows_are_chosen_by_their_conditions() {
         "equations": {"y": "x*f*g/1000"}, "outputs": {"y": {"unit": "Hz"}}});
     let file = json!({"monte_carlo": {"trials": 0}, "rows": [
         {"model": "m.json", "output": "y", "set": {"f": "2000 Hz", "g": 1}, "nominal": "f"},
-        {"model": "m.json", "output": "y", "set": {"f": 3}},
+        {"model": "m.json", "output": "y", "set": {"f": 3}, "nominal": "3 mHz"},
         {"model": "m.json", "output": "y", "set": {"g": 2}}]});
     let files = [("c.json", file), ("m.json", model)];
     let found = answer(&files, &[]);
@@ -359,6 +359,7 @@ fn rows_are_chosen_by_their_conditions() {
         found["rows"].as_array().expect("rows").iter().map(|row| number(&row["value"])).collect();
     assert_eq!(values, [2.0, 3.0, 6.0, 2.0, 4.0]);
     assert_eq!(found["rows"][0]["nominal"], 2000.0);
+    assert_eq!(found["rows"][1]["nominal"], 0.003);
     assert_eq!(found["rows"][1]["conditions"], json!({"f": 3.0, "g": 1.0}));
     // `run` takes one value of a condition as well
     let folder = folder(&files);

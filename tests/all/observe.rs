@@ -177,6 +177,27 @@ fn recordings_in_utf_16() {
     }
 }
 
+/// A column is found by its name before the unit of its heading, which must be that of its values.
+#[test]
+fn headings_with_units() {
+    let folder = tempfile::tempdir().unwrap();
+    csv(folder.path(), "plain.csv", 5.0, 4000, 6);
+    let right = answer(folder.path(), &recipe("plain.csv"));
+    let text = std::fs::read_to_string(folder.path().join("plain.csv")).unwrap();
+    let headed = |head: &str| {
+        let text = text.replace("t,ref,x", head);
+        std::fs::write(folder.path().join("headed.csv"), text).unwrap();
+        recipe("headed.csv")
+    };
+    let found = answer(folder.path(), &headed("t / s,ref [V],x (m/s^2)"));
+    assert_eq!(found["rows"], right["rows"]);
+    let said = observe(folder.path(), &headed("t,ref [mV],x"), &[]);
+    let said = String::from_utf8_lossy(&said.stderr).into_owned();
+    assert!(said.contains("the heading of the column `ref [mV]` says `mV`"), "{said}");
+    let said = observe(folder.path(), &headed("t,ref [V],ref [mV]"), &[]);
+    assert_eq!(said.status.code(), Some(2));
+}
+
 #[test]
 fn rows_become_observations_of_a_gap_case_and_conditions_of_a_model() {
     let folder = tempfile::tempdir().unwrap();

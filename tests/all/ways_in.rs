@@ -199,3 +199,35 @@ fn a_german_workbook_becomes_a_model() {
     assert!((r["estimate"].as_f64().unwrap() - 501.12).abs() < 1e-9);
     assert!((r["standard_uncertainty"].as_f64().unwrap() / (501.12 * relative) - 1.0).abs() < 1e-9);
 }
+
+/// Cells are read as they are shown: 0.0002 in a cell that shows `0.02 %` is a share of the estimate,
+/// and 0.5 in one that shows `0.5 mV` is half a millivolt in a row of volts.
+#[test]
+fn cells_of_a_workbook_mean_what_they_show() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut book = Workbook::new();
+    let sheet = book.add_worksheet();
+    let header = ["Quantity", "Estimate", "Unit", "Half-width", "Distribution", "Divisor"];
+    for (column, name) in (0..).zip(header) {
+        sheet.write_string(0, column, name).unwrap();
+    }
+    for (row, (name, format, half)) in
+        [(1, ("U", "0.00%", 0.0002)), (2, ("dU", "0.0\" mV\"", 0.5)), (3, ("dV", "0.0000", 0.0003))]
+    {
+        sheet.write_string(row, 0, name).unwrap();
+        sheet.write_number(row, 1, if row == 1 { 10.05 } else { 0.0 }).unwrap();
+        sheet.write_string(row, 2, "V").unwrap();
+        let format = Format::new().set_num_format(format);
+        sheet.write_number_with_format(row, 3, half, &format).unwrap();
+        sheet.write_string(row, 4, "rectangular").unwrap();
+    }
+    book.save(folder.path().join("shown.xlsx")).unwrap();
+    let (text, said, code) =
+        told(folder.path(), &["import", "shown.xlsx", "--output", "model.json"]);
+    assert_eq!(code, Some(0), "{text} {said}");
+    let model = std::fs::read_to_string(folder.path().join("model.json")).unwrap();
+    let model: Value = serde_json::from_str(&model).unwrap();
+    for (name, half) in [("U", 0.00201), ("dU", 0.0005), ("dV", 0.0003)] {
+        assert_eq!(model["inputs"][name]["half_width"], half, "{model}");
+    }
+}

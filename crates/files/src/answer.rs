@@ -58,9 +58,13 @@ impl Answer {
             .unwrap_or_default()
     }
 
-    /// The result of an output at some conditions: that of the GUM, or that of the trials where it
-    /// has none.
-    pub(super) fn result(&self, output: &str, at: &[(&str, f64)]) -> Result<StatedResult, String> {
+    /// The result of an output at some conditions, with its unit: that of the GUM, or that of the trials
+    /// where it has none.
+    pub(super) fn result(
+        &self,
+        output: &str,
+        at: &[(&str, f64)],
+    ) -> Result<(StatedResult, &str), String> {
         let near = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
         let mut rows = self.rows.iter().filter(|(conditions, _)| {
             at.iter().all(|(name, value)| {
@@ -81,9 +85,11 @@ impl Answer {
                 known.join(", ")
             ));
         };
+        let unit = found.get("unit").and_then(Value::as_str).unwrap_or("1");
         of_gum(found)
             .or_else(|| of_trials(found))
-            .filter(|stated| {
+            .map(|stated| (stated, unit))
+            .filter(|(stated, _)| {
                 stated.value.is_finite() && stated.expanded >= 0.0 && stated.factor > 0.0
             })
             .ok_or_else(|| format!("the output `{output}` of `{name}` has no expanded uncertainty"))

@@ -22,9 +22,24 @@ pub(super) fn heading<'h>(log: &Collector, text: &'h str) -> Option<(&'h str, Un
 
 /// The name of a column whose heading has a unit behind it; of every other one the whole.
 pub(super) fn bare(text: &str) -> &str {
+    named(text).map(|(name, _)| name).filter(|name| !name.is_empty()).unwrap_or(text)
+}
+
+/// The name and the unit of a heading that has one in brackets or behind a slash between spaces.
+pub(super) fn named(text: &str) -> Option<(&str, &str)> {
     let named = enclosed(text, '[', "]").or_else(|| enclosed(text, '(', ")"));
-    let named = named.or_else(|| after(text, " / "));
-    named.map(|(name, _)| name).filter(|name| !name.is_empty()).unwrap_or(text)
+    named.or_else(|| after(text, " / "))
+}
+
+/// The place of the column of that name: as it stands in the header, else the only one that has it with
+/// a unit behind it, `f [Hz]` for `f`.
+pub(super) fn place_of(columns: &[String], name: &str) -> Option<usize> {
+    let exact = columns.iter().position(|column| column == name);
+    exact.or_else(|| {
+        let named = |(_, column): &(usize, &String)| bare(column) == name;
+        let mut places = columns.iter().enumerate().filter(named).map(|(place, _)| place);
+        places.next().filter(|_| places.next().is_none())
+    })
 }
 
 /// The name and the unit of a heading that ends in brackets.
@@ -47,19 +62,27 @@ pub(super) fn check(
     column: &str,
     (declared, of): (&Unit, ValueOf),
 ) -> bool {
-    let named = enclosed(column, '[', "]").or_else(|| enclosed(column, '(', ")"));
-    let Some((name, text)) = named.or_else(|| after(column, " / ")) else { return true };
+    let contradiction = contradiction(|text| log.unit(text).ok(), column, (declared, of));
+    let is_same = contradiction.is_none();
+    contradiction.into_iter().for_each(|kind| log.report(place, kind));
+    is_same
+}
+
+/// That a heading has another unit than `declared`, as [`check`] reports it; `unit` reads the text of one.
+pub(super) fn contradiction(
+    unit: impl Fn(&str) -> Option<Unit>,
+    column: &str,
+    (declared, of): (&Unit, ValueOf),
+) -> Option<DiagnosticKind> {
+    let (name, text) = named(column)?;
     if name.is_empty() || text.parse::<f64>().is_ok() || text == declared.text() {
-        return true;
+        return None;
     }
-    let Ok(unit) = log.unit(text) else { return true };
+    let unit = unit(text)?;
     let is_same = unit.is_compatible(declared)
         && unit.factor() == declared.factor()
         && (of == ValueOf::Difference || unit.has_zero_of(declared));
-    if !is_same {
-        let (column, heading) = (column.to_owned(), text.to_owned());
-        let declared = declared.text().to_owned();
-        log.report(place, DiagnosticKind::ColumnUnit { column, heading, declared });
-    }
-    is_same
+    let (column, heading) = (column.to_owned(), text.to_owned());
+    let declared = declared.text().to_owned();
+    (!is_same).then_some(DiagnosticKind::ColumnUnit { column, heading, declared })
 }

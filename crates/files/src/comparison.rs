@@ -9,8 +9,9 @@ use super::open::{json_as_table, open_as};
 use super::separator::DecimalMarks;
 use super::source::{Place, SourceText};
 use super::text_table::TextTable;
-use super::{DiagnosticKind, answer, bytes, table, workbook};
+use super::{DiagnosticKind, answer, bytes, column_heading, table, workbook};
 use gumption_analysis::compare::{Laboratory, ResultPair, StatedResult};
+use gumption_units::{IncompatibleUnits, Unit};
 
 /// A table that was read and found right.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,7 +77,8 @@ pub fn read_comparison_text(
     }
     let table = TextTable::parse(&log, &source).and_then(|cells| {
         let marks = RefCell::new(cells.marks());
-        let reader = Reader { log: &log, cells: &cells, marks, options };
+        let units = column_units(&log, &cells)?;
+        let reader = Reader { log: &log, cells: &cells, units, marks, options };
         if cells.column("x1").is_some() { reader.pairs() } else { reader.laboratories() }
     });
     log.finish(table)
@@ -92,9 +94,57 @@ fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, String> {
     bytes::text(&bytes).map(Cow::into_owned)
 }
 
+/// Columns of values and of expanded uncertainties.
+const VALUES: [&str; 3] = ["x", "x1", "x2"];
+const UNCERTAINTIES: [&str; 3] = ["U", "U1", "U2"];
+
+/// The units that the headings of values and uncertainties state, `x1 [V]` and `U1 [mV]`; empty where
+/// they state none. Mistakes are reported.
+fn column_units(log: &Collector, cells: &TextTable) -> Option<Vec<(&'static str, Unit)>> {
+    let mut units: Vec<(&'static str, Unit)> = Vec::new();
+    let mut without = None;
+    for name in VALUES.into_iter().chain(UNCERTAINTIES) {
+        let Some(place) = cells.column(name) else { continue };
+        let heading = &cells.columns()[place];
+        let fail = |reason: String| log.report_at(cells.header(), DiagnosticKind::Table { reason });
+        match column_heading::named(heading).map(|(_, unit)| (unit, log.unit(unit))) {
+            None => without = Some(name),
+            Some((text, Err(error))) => {
+                fail(format!("`{heading}`: `{text}` is no unit: {error}"));
+                return None;
+            }
+            Some((_, Ok(unit))) => {
+                if let Some((other, first)) = units.first()
+                    && !first.is_compatible(&unit)
+                {
+                    let first = first.text();
+                    fail(format!(
+                        "`{heading}` cannot be converted to `{first}`, the unit of `{other}`; write \
+                         values and expanded uncertainties in units of one quantity"
+                    ));
+                    return None;
+                }
+                units.push((name, unit));
+            }
+        }
+    }
+    if let (Some((with, unit)), Some(without)) = (units.first(), without) {
+        let reason = format!(
+            "the column `{with}` has the unit `{}` and `{without}` none; write units into the \
+             headings of all values and uncertainties, or of none",
+            unit.text()
+        );
+        log.report_at(cells.header(), DiagnosticKind::Table { reason });
+        return None;
+    }
+    Some(units)
+}
+
 struct Reader<'a> {
     log: &'a Collector,
     cells: &'a TextTable,
+    /// The units of columns; empty where the headings have none.
+    units: Vec<(&'static str, Unit)>,
     marks: RefCell<DecimalMarks>,
     options: ComparisonOptions<'a>,
 }
@@ -125,11 +175,19 @@ impl Reader<'_> {
         }
         let mut pairs = Vec::new();
         for row in 0..self.cells.rows() {
-            let first = self.stated(row, ["x1", "U1", "k1"]);
-            let second = match &answer {
-                None => self.stated(row, ["x2", "U2", "k2"]),
-                Some(answer) => self.of_answer(row, answer, &conditions),
+            let (second, unit) = match &answer {
+                None => {
+                    let unit = self.unit("x1").cloned();
+                    (self.stated(row, ["x2", "U2", "k2"], unit.as_ref()), unit)
+                }
+                Some(answer) => {
+                    let Some((result, unit)) = self.of_answer(row, answer, &conditions) else {
+                        continue;
+                    };
+                    (Some(result), unit)
+                }
             };
+            let first = self.stated(row, ["x1", "U1", "k1"], unit.as_ref());
             let correlation = self.number(row, "r").unwrap_or(Some(0.0));
             let (Some(first), Some(second), Some(correlation)) = (first, second, correlation)
             else {
@@ -178,7 +236,7 @@ impl Reader<'_> {
         }
         let mut laboratories: Vec<Laboratory> = Vec::new();
         for row in 0..count {
-            let Some(result) = self.stated(row, ["x", "U", "k"]) else {
+            let Some(result) = self.stated(row, ["x", "U", "k"], self.unit("x")) else {
                 continue;
             };
             if result.expanded == 0.0 {
@@ -267,8 +325,15 @@ impl Reader<'_> {
             self.log.report_at(self.cells.header(), DiagnosticKind::Table { reason });
             return None;
         }
-        let unknown =
-            |name: &&String| !known.contains(&name.as_str()) && !more.contains(&name.as_str());
+        let is_known = |name: &str| known.contains(&name) || more.contains(&name);
+        let has_unit = |name: &str| {
+            let bare = column_heading::bare(name);
+            VALUES.contains(&bare) || UNCERTAINTIES.contains(&bare)
+        };
+        let unknown = |name: &&String| {
+            let bare = if has_unit(name) { column_heading::bare(name) } else { name.as_str() };
+            !is_known(bare)
+        };
         if let Some(name) = self.cells.columns().iter().find(unknown) {
             let reason = format!(
                 "the column `{name}` is not known; there are {}",
@@ -306,8 +371,18 @@ impl Reader<'_> {
         Some(value)
     }
 
-    /// A stated result of a row.
-    fn stated(&self, row: usize, [x, u, k]: [&str; 3]) -> Option<StatedResult> {
+    /// The unit of a column; `None` where no heading has one.
+    fn unit(&self, column: &str) -> Option<&Unit> {
+        self.units.iter().find(|(name, _)| *name == column).map(|(_, unit)| unit)
+    }
+
+    /// A stated result of a row, in that unit where there are units.
+    fn stated(
+        &self,
+        row: usize,
+        [x, u, k]: [&str; 3],
+        wanted: Option<&Unit>,
+    ) -> Option<StatedResult> {
         let (value, expanded) = (self.number(row, x)?, self.number(row, u)?);
         let factor = self.number(row, k).unwrap_or(Some(USUAL_FACTOR));
         let (value, expanded, factor) = (value?, expanded?, factor?);
@@ -325,19 +400,43 @@ impl Reader<'_> {
         }
         let rounding =
             [x, u].map(|column| half_unit(&self.cells.text(row, column).replace(',', ".")));
-        Some(StatedResult { value, expanded, factor, rounding })
+        let stated = StatedResult { value, expanded, factor, rounding };
+        let (Some(wanted), Some(of_x), Some(of_u)) = (wanted, self.unit(x), self.unit(u)) else {
+            return Some(stated);
+        };
+        let converted = || -> Result<StatedResult, IncompatibleUnits> {
+            let by_x = Unit::conversion_factor(of_x, wanted)?;
+            let by_u = Unit::conversion_factor(of_u, wanted)?;
+            Ok(StatedResult {
+                value: Unit::convert(value, of_x, wanted)?,
+                expanded: expanded * by_u,
+                factor,
+                rounding: [rounding[0] * by_x, rounding[1] * by_u],
+            })
+        };
+        converted()
+            .map_err(|error| {
+                let reason = error.to_string();
+                self.log.report_at(self.place(row, x), DiagnosticKind::Table { reason });
+            })
+            .ok()
     }
 
-    /// The run's result for a row: the output of that label, at the conditions of the row.
+    /// The run's result for a row: the output of that label, at the conditions of the row; with its unit
+    /// where the table has units.
     fn of_answer(
         &self,
         row: usize,
         answer: &answer::Answer,
         conditions: &[&str],
-    ) -> Option<StatedResult> {
+    ) -> Option<(StatedResult, Option<Unit>)> {
         let at: Vec<(&str, f64)> =
             conditions.iter().filter_map(|name| Some((*name, self.number(row, name)??))).collect();
         let found = answer.result(self.cells.text(row, "label"), &at);
+        let found = found.and_then(|(stated, unit)| {
+            let unit = (!self.units.is_empty()).then(|| self.log.unit(unit)).transpose();
+            Ok((stated, unit.map_err(|error| error.to_string())?))
+        });
         found
             .map_err(|reason| {
                 self.log.report_at(self.place(row, "label"), DiagnosticKind::Table { reason });
@@ -384,6 +483,23 @@ mod tests {
         assert_eq!((b.factor, b.rounding), (3.0, [0.05, 0.05]));
     }
 
+    /// 10.012 V and 10 011.5 mV differ by 0.5 mV; the last digits are worth 0.5 mV, 0.05 mV and 5 uV.
+    #[test]
+    fn units_stand_in_headings() {
+        let text = "label,x1 [V],U1 [mV],x2 [mV],U2 / mV,k1\na,10.012,0.4,10011.5,0.30,2\n";
+        let Ok(ComparisonTable::Pairs(pairs)) = read(text) else { panic!() };
+        let [a, b] = pairs[0].results;
+        let near = |found: f64, wanted: f64| (found / wanted - 1.0).abs() < 1e-12;
+        assert!((a.value - b.value - 5e-4).abs() < 1e-14);
+        assert!(near(a.expanded, 4e-4) && near(b.expanded, 3e-4));
+        assert!(near(a.rounding[0], 5e-4) && near(a.rounding[1], 5e-5));
+        assert!(near(b.rounding[0], 5e-5) && near(b.rounding[1], 5e-6));
+        // differences of temperatures have no zero
+        let text = "label;x (degC);U (K)\na;20,1;0,2\nb;20,3;0,1\n";
+        let Ok(ComparisonTable::Laboratories { laboratories, .. }) = read(text) else { panic!() };
+        assert_eq!((laboratories[0].result.value, laboratories[0].result.expanded), (20.1, 0.2));
+    }
+
     #[test]
     fn mistakes_have_places() {
         let said = |text: &str| read(text).unwrap_err().to_string();
@@ -394,6 +510,9 @@ mod tests {
             ("label,x1,U1,x2,U2,r\na,1,1,2,1,2\n", "from -1 to 1"),
             ("label,x1,U1,x2\na,1,1,2\n", "no column U2"),
             ("label,x1,U1,x2,U2,K1\na,1,1,2,1,2\n", "`K1` is not known"),
+            ("label,x [V],U\na,1,1\nb,1,1\n", "has the unit `V` and `U` none"),
+            ("label,x [V],U [%]\na,1,1\nb,1,1\n", "`U [%]` cannot be converted to `V`"),
+            ("label,x [V],U [Vv]\na,1,1\nb,1,1\n", "`Vv` is no unit"),
             ("label,x,U\na,1,1\n", "at least two laboratories"),
             ("label,x,U\na,1,1\na,2,1\n", "a second time"),
             ("label,x,U\na,1,0\nb,2,1\n", "t.csv:2:5:"),

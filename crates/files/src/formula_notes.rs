@@ -1,6 +1,6 @@
 //! Notes on formulas: what is right by the rules and seldom meant, and inputs that no formula uses.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use super::json::Json;
 use super::model_checks::Quantities;
@@ -18,16 +18,12 @@ pub(super) fn of_formulas(
     of: &Quantities,
 ) -> Vec<Warning> {
     let inputs = of.inputs.quantities.iter().map(|input| &input.quantity);
-    let quantities: Vec<&Quantity> = inputs.chain(&of.conditions.quantities).collect();
-    let unit_of = |name: &str| -> Option<&Unit> {
-        let own = |quantity: &&&Quantity| quantity.name == name;
-        quantities.iter().find(own).map(|quantity| &quantity.unit).filter(|_| of.check_units)
-    };
+    let given = units_by_name(inputs.chain(&of.conditions.quantities));
+    let results = units_by_name(of.outputs.outputs.iter().map(|output| &output.quantity));
+    let unit_of = |name: &str| given.get(name).copied().filter(|_| of.check_units);
     let mut found = Vec::new();
     for (name, _, formula) in equations {
-        let result = of.outputs.outputs.iter().map(|output| &output.quantity);
-        let result = result.filter(|result| of.check_units && result.name == *name);
-        let result = result.map(|result| &result.unit).next();
+        let result = results.get(name.as_str()).copied().filter(|_| of.check_units);
         let notes = formula.iter().flat_map(|formula| formula.notes(unit_of, result));
         found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
     }
@@ -37,6 +33,10 @@ pub(super) fn of_formulas(
         found.extend(of.outputs.outputs.iter().filter_map(|output| rate_of_turns(scope, output)));
     }
     found
+}
+
+fn units_by_name<'q>(quantities: impl Iterator<Item = &'q Quantity>) -> HashMap<&'q str, &'q Unit> {
+    quantities.map(|quantity| (quantity.name.as_str(), &quantity.unit)).collect()
 }
 
 /// Inputs that stand in no equation and are no output.
@@ -55,11 +55,10 @@ pub(super) fn unused_inputs(
     let formulas = equations.iter().filter_map(|(_, _, formula)| formula.as_ref());
     let mut used: HashSet<&str> = formulas.flat_map(Formula::names).map(|(name, _)| name).collect();
     used.extend(outputs.iter().map(|output| output.quantity.name.as_str()));
-    let is_used = |name: &str| {
-        let part_of = |used: &&str| used.rsplit_once('.').is_some_and(|(whole, _)| whole == name);
-        used.contains(name) || used.iter().any(part_of)
-    };
-    let unused = inputs.iter().filter(|member| !is_used(&member.key));
+    // what uses a part uses the whole
+    let wholes: Vec<&str> = used.iter().filter_map(|name| Some(name.rsplit_once('.')?.0)).collect();
+    used.extend(wholes);
+    let unused = inputs.iter().filter(|member| !used.contains(member.key.as_str()));
     unused
         .map(|member| {
             let text = format!(

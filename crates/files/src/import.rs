@@ -7,6 +7,7 @@ mod columns;
 mod document;
 mod equation;
 mod grid;
+mod limits;
 mod linear;
 mod number;
 mod own;
@@ -141,12 +142,12 @@ impl Budget<'_> {
             .map(|(place, column)| {
                 let unit = header.unit(*column);
                 let unit = unit.map_or_else(String::new, |unit| format!(" in {unit}"));
-                format!("`{}` as {}{unit}", self.cells.text(header.words, *place), column.name())
+                format!("`{}` as {}{unit}", header.heading(*place), column.name())
             })
             .collect();
-        self.understood.push(format!("line {}: columns {}", header.words + 1, shown.join(", ")));
+        self.understood.push(format!("line {}: columns {}", header.first + 1, shown.join(", ")));
         for place in &header.unknown {
-            let text = self.cells.text(header.words, *place);
+            let text = header.heading(*place);
             self.guessed.push(format!("the column `{text}` is not taken"));
         }
         let known = self.names(&header);
@@ -212,7 +213,9 @@ impl Budget<'_> {
     /// Lines that are no part of the table and would change the result if they were.
     fn remarks(&mut self, header: &Header, equations: &[Equation]) {
         for line in 0..self.cells.lines() {
-            if line == header.words || equations.iter().any(|equation| equation.line == line) {
+            if (header.first..=header.line).contains(&line)
+                || equations.iter().any(|equation| equation.line == line)
+            {
                 continue;
             }
             let cells = self.cells.row(line).iter();

@@ -41,6 +41,7 @@ mod model_checks;
 mod model_file;
 mod model_reader;
 mod notation;
+mod number_format;
 mod object;
 mod observations;
 mod open;

@@ -48,15 +48,16 @@ pub(super) fn check_names(root: &Object<'_>, of: &Quantities, body: &Option<Mode
     let Quantities { inputs, conditions, .. } = of;
     // names with the kind of quantity; a key that stands twice in one object is reported there
     let mut taken: HashMap<&str, usize> = HashMap::new();
-    let read = |name: &str| {
-        let whole = |own: &str| own.rsplit_once('.').is_some_and(|(whole, _)| whole == name);
-        let names = inputs.quantities.iter().map(|q| q.quantity.name.as_str());
-        names.into_iter().any(|own| own == name || whole(own))
-    };
+    // an input that was read has its own name, or names of parts
+    let own = inputs.quantities.iter().map(|of| of.quantity.name.as_str());
+    let read: HashSet<&str> = own
+        .flat_map(|own| [Some(own), own.rsplit_once('.').map(|(whole, _)| whole)])
+        .flatten()
+        .collect();
     let mut named: Vec<(usize, &str, &Range<usize>)> = match root.get("inputs") {
         Some(Member { value: Node { value: Json::Object(members), .. }, .. }) => members
             .iter()
-            .filter(|member| read(&member.key))
+            .filter(|member| read.contains(member.key.as_str()))
             .map(|member| (0, member.key.as_str(), &member.key_span))
             .collect(),
         _ => Vec::new(),

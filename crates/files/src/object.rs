@@ -176,7 +176,13 @@ impl<'a> Object<'a> {
 
     /// The value of a text with a unit; outside `None` if it is none, inside after a mistake.
     #[allow(clippy::option_option)]
-    fn value_of(&self, key: &str, node: &Node, unit: &Unit, of: ValueOf) -> Option<Option<f64>> {
+    pub(crate) fn value_of(
+        &self,
+        key: &str,
+        node: &Node,
+        unit: &Unit,
+        of: ValueOf,
+    ) -> Option<Option<f64>> {
         let Json::Text(text) = &node.value else { return None };
         let read = converted(with_unit(text)?, unit, of, &self.log.own_units());
         let read = read.map_err(|reason| DiagnosticKind::Value {

@@ -32,12 +32,7 @@ impl Table {
     /// The column of that name: as it stands in the header, else the only one that has it with a unit
     /// behind it, `f [Hz]` for `f`.
     pub(super) fn column(&self, name: &str) -> Option<usize> {
-        let exact = self.columns.iter().position(|column| column == name);
-        exact.or_else(|| {
-            let named = |(_, column): &(usize, &String)| column_heading::bare(column) == name;
-            let mut places = self.columns.iter().enumerate().filter(named).map(|(place, _)| place);
-            places.next().filter(|_| places.next().is_none())
-        })
+        column_heading::place_of(&self.columns, name)
     }
 
     /// That there is no column of that name.

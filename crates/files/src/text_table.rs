@@ -3,11 +3,11 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::separator::{DecimalMarks, Separator, is_skipped};
 use super::source::{Place, SourceText};
 use super::table::place_of_cell;
+use super::{DiagnosticKind, column_heading};
 
 /// At most so many rows.
 const MOST_ROWS: usize = 10_000;
@@ -106,9 +106,10 @@ impl TextTable {
         &self.columns
     }
 
-    /// The place of the column of that name.
+    /// The place of the column of that name: as it stands in the header, else the only one that has it
+    /// with a unit behind it.
     pub(super) fn column(&self, name: &str) -> Option<usize> {
-        self.columns.iter().position(|column| column == name)
+        column_heading::place_of(&self.columns, name)
     }
 
     pub(super) fn rows(&self) -> usize {

@@ -8,9 +8,11 @@
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
 
-use calamine::{Data, DataRef, Reader as _, Xlsx};
+use calamine::{Data, DataRef, Reader as _, Style, Xlsx};
 use quick_xml::events::{BytesStart, Event};
 use zip::ZipArchive;
+
+use super::number_format::Behind;
 
 /// Bytes of an unpacked part, at most. A table of ten thousand rows has less than a quarter of it.
 const MOST_OF_PART: u64 = 20_000_000;
@@ -198,6 +200,12 @@ fn letters(column: u32) -> String {
     name
 }
 
+/// What cells of a style show behind their numbers.
+fn behind(style: &Style) -> Behind {
+    let format = style.number_format.as_ref();
+    format.map_or(Behind::Nothing, |format| Behind::of(&format.format_code))
+}
+
 fn cells(bytes: Vec<u8>, sheet: Sheet<'_>) -> Result<Cells, String> {
     let mut workbook: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(is_none)?;
     let names = workbook.sheet_names();
@@ -209,8 +217,9 @@ fn cells(bytes: Vec<u8>, sheet: Sheet<'_>) -> Result<Cells, String> {
     };
     let sheet = sheet.ok_or_else(|| "the workbook has no sheet".to_owned())?;
     let mut reader = workbook.worksheet_cells_reader(&sheet).map_err(is_none)?;
+    let formats: Vec<Behind> = reader.styles().iter().map(behind).collect();
     let (mut cells, mut size) = (Cells::new(), 0);
-    while let Some(cell) = reader.next_cell().map_err(is_none)? {
+    while let Some((cell, style)) = reader.next_cell_with_style_id().map_err(is_none)? {
         let ((row, column), value) = (cell.get_position(), cell.get_value());
         if row >= ROWS || column >= COLUMNS {
             return Err(is_none("it has a cell outside of the sheet"));
@@ -220,7 +229,10 @@ fn cells(bytes: Vec<u8>, sheet: Sheet<'_>) -> Result<Cells, String> {
             DataRef::SharedString(text) => Data::String((*text).to_owned()),
             other => Data::from(other.clone()),
         };
+        let format = formats.get(style).unwrap_or(&Behind::Nothing);
         let text = match value {
+            Data::Float(value) => format.text(value),
+            Data::Int(value) if *format != Behind::Nothing => format.text(value as f64),
             // a line of the text is a row of the sheet
             Data::String(text) if text.contains([',', ';', '"', '\n', '\r', '#']) => {
                 format!("\"{}\"", text.replace('"', "\"\"").replace(['\n', '\r'], " "))

@@ -208,5 +208,15 @@ pub fn to_digits(value: f64, digits: u32) -> f64 {
         .map_or(value, |decimal| decimal.round_to_digits(digits, Direction::Nearest).value())
 }
 
+/// A value without the digits that only binary rounding makes: to fifteen significant ones, of which a
+/// binary64 holds every one; what is not finite stays as it is.
+///
+/// ```
+/// assert_eq!(gumption_engine::decimal::to_15_digits(100.0 * 0.07), 7.0);
+/// ```
+pub fn to_15_digits(value: f64) -> f64 {
+    to_digits(value, text::MOST_DIGITS)
+}
+
 #[cfg(test)]
 mod tests;

@@ -19,6 +19,7 @@ use super::administrative::localized;
 use super::{Asking, CertifiedModel};
 use crate::folder::{FileSource, Folder};
 use crate::open::{is_no_object, text};
+use crate::value_text::ValueOf;
 use gumption_analysis::certificate::contents::{Asked, Line, StatedFunction};
 use gumption_engine::model::Quantity;
 use gumption_engine::task::{Task, Warning};
@@ -168,10 +169,14 @@ impl<'a> Rows<'a> {
         let unit = &quantity.quantity.unit;
         let capability = outputs::capability(&row, wanted, unit).or(quantity.capability);
         let label = localized(&row, "label");
+        let nominal = row.get("nominal");
+        let with_unit = nominal
+            .and_then(|member| row.value_of("nominal", &member.value, unit, ValueOf::Quantity));
         for at in rows {
-            let nominal = match row.get("nominal") {
-                Some(member) => Some(self.nominal(member, (evaluation, at), unit)?),
-                None => None,
+            let nominal = match (with_unit, nominal) {
+                (Some(value), _) => Some(value?),
+                (None, Some(member)) => Some(self.nominal(member, (evaluation, at), unit)?),
+                (None, None) => None,
             };
             let label = label.clone();
             self.lines.push(Line {
@@ -370,7 +375,7 @@ impl<'a> Rows<'a> {
             Json::Text(name) => name,
             other => {
                 let what = "`nominal`".to_owned();
-                let expected = "a number, or the name of a condition or an input";
+                let expected = "a number, a text with a number and its unit, or the name of a condition or an input";
                 let diagnostic = DiagnosticKind::WrongType { what, found: other.kind(), expected };
                 self.log.report(&member.value.span, diagnostic);
                 return None;

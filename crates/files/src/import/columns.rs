@@ -15,6 +15,9 @@ pub(super) enum Column {
     Estimate,
     Unit,
     Width,
+    /// The limits of a quantity, or of its deviations from the estimate.
+    Lower,
+    Upper,
     Std,
     Distribution,
     Divisor,
@@ -126,6 +129,36 @@ const WORDS: &[(Column, &[&str])] = &[
             "limite",
             "limites",
             "tolérance",
+        ],
+    ),
+    (
+        Column::Lower,
+        &[
+            "lower",
+            "lower limit",
+            "lower bound",
+            "min",
+            "minimum",
+            "a-",
+            "a_-",
+            "untere grenze",
+            "untergrenze",
+            "limite inférieure",
+        ],
+    ),
+    (
+        Column::Upper,
+        &[
+            "upper",
+            "upper limit",
+            "upper bound",
+            "max",
+            "maximum",
+            "a+",
+            "a_+",
+            "obere grenze",
+            "obergrenze",
+            "limite supérieure",
         ],
     ),
     (
@@ -303,7 +336,12 @@ const RESULTS: &[&str] = &[
 impl Column {
     /// Whether its cells are numbers of a quantity, in units.
     fn is_of_numbers(self) -> bool {
-        matches!(self, Self::Estimate | Self::Width | Self::Std | Self::Contribution)
+        self.is_of_place() || matches!(self, Self::Width | Self::Std | Self::Contribution)
+    }
+
+    /// Whether its cells are values of a quantity, which may lie below zero.
+    pub(super) fn is_of_place(self) -> bool {
+        matches!(self, Self::Estimate | Self::Lower | Self::Upper)
     }
 
     /// What messages call it.
@@ -314,6 +352,8 @@ impl Column {
             Self::Estimate => "estimate",
             Self::Unit => "unit",
             Self::Width => "stated uncertainty (+-)",
+            Self::Lower => "lower limit",
+            Self::Upper => "upper limit",
             Self::Std => "standard uncertainty",
             Self::Distribution => "distribution",
             Self::Divisor => "divisor",
@@ -413,8 +453,10 @@ fn unit_of_header(text: &str) -> Option<String> {
 pub(super) struct Header {
     /// Its last line, from 0.
     pub(super) line: usize,
-    /// The line of its words.
-    pub(super) words: usize,
+    /// Its first line.
+    pub(super) first: usize,
+    /// The words of its cells.
+    headings: Vec<String>,
     /// Places of cells with what they hold.
     pub(super) columns: Vec<(usize, Column)>,
     /// Places of cells with other words.
@@ -427,10 +469,13 @@ impl Header {
     /// The line that names the most columns, if a quantity and an uncertainty are among them.
     pub(super) fn find(cells: &Cells) -> Option<Self> {
         let mut best: Option<Self> = None;
-        for line in 0..cells.lines() {
+        let one = (0..cells.lines()).map(|line| (line, line, cells.row(line).to_vec()));
+        let two = (1..cells.lines())
+            .filter_map(|line| Some((line - 1, line, of_two_lines(cells, line)?)));
+        for (first, line, headings) in one.chain(two) {
             let mut columns: Vec<(usize, Column)> = Vec::new();
             let mut unknown = Vec::new();
-            for (place, cell) in cells.row(line).iter().enumerate() {
+            for (place, cell) in headings.iter().enumerate() {
                 // `X_i` and `x_i` side by side: the quantity and its estimate
                 let is_estimate = matches!(cell.trim(), "x_i" | "xi")
                     && columns.iter().any(|(_, known)| *known == Column::Symbol);
@@ -461,15 +506,17 @@ impl Header {
                 && u > c
                 && of(Column::Width).is_some()
                 && of(Column::Contribution).is_none()
-                && matches!(plain(&cells.row(line)[u]).as_str(), "ui" | "u_i")
+                && matches!(plain(&headings[u]).as_str(), "ui" | "u_i")
                 && let Some((_, column)) = columns.iter_mut().find(|(place, _)| *place == u)
             {
                 *column = Column::Contribution;
             }
             let has = |wanted: Column| columns.iter().any(|(_, column)| *column == wanted);
-            let enough = has(Column::Quantity) && (has(Column::Width) || has(Column::Std));
+            let has_limits = has(Column::Lower) && has(Column::Upper);
+            let enough =
+                has(Column::Quantity) && (has(Column::Width) || has(Column::Std) || has_limits);
             if enough && best.as_ref().is_none_or(|best| columns.len() > best.columns.len()) {
-                best = Some(Self { line, words: line, columns, unknown, units: Vec::new() });
+                best = Some(Self { line, first, headings, columns, unknown, units: Vec::new() });
             }
         }
         let mut best = best?;
@@ -477,9 +524,7 @@ impl Header {
             .columns
             .iter()
             .filter(|(_, column)| column.is_of_numbers())
-            .filter_map(|(place, column)| {
-                Some((*column, unit_of_header(cells.text(best.line, *place))?))
-            })
+            .filter_map(|(place, column)| Some((*column, unit_of_header(best.heading(*place))?)))
             .collect();
         best.units_below(cells);
         Some(best)
@@ -519,10 +564,15 @@ impl Header {
     }
 
     /// What the heading of a column says of the coverage of its numbers.
-    pub(super) fn coverage(&self, cells: &Cells, column: Column) -> HeaderCoverage {
+    pub(super) fn coverage(&self, column: Column) -> HeaderCoverage {
         let place = self.columns.iter().find(|(_, of)| *of == column);
-        let text = place.map(|(place, _)| cells.text(self.words, *place));
+        let text = place.map(|(place, _)| self.heading(*place));
         text.map_or(HeaderCoverage::None, HeaderCoverage::of)
+    }
+
+    /// The words at the head of a column.
+    pub(super) fn heading(&self, place: usize) -> &str {
+        self.headings.get(place).map_or("", String::as_str)
     }
 
     /// The unit that a column states for its numbers.
@@ -535,6 +585,27 @@ impl Header {
         let place = self.columns.iter().find(|(_, of)| *of == column);
         place.map_or("", |(place, _)| cells.text(line, *place))
     }
+}
+
+/// The headings of a line and the one before, which heads several of its columns together (`Uncertainty`
+/// above `Half-width`, `Distribution` and `Divisor`); `None` where the one before does not.
+fn of_two_lines(cells: &Cells, line: usize) -> Option<Vec<String>> {
+    let (above, below) = (cells.row(line - 1), cells.row(line));
+    let comma = cells.decimal_comma();
+    if below.iter().any(|cell| number_with_unit(cell, comma).is_some()) {
+        return None;
+    }
+    let is_blank = |place: usize| cells.text(line - 1, place).trim().is_empty();
+    // an empty cell behind a heading belongs to it
+    let is_together = |place: usize| is_blank(place) || is_blank(place + 1);
+    let count = above.len().max(below.len());
+    let headings = (0..count).map(|place| {
+        let own = cells.text(line, place).trim();
+        let is_own = place > 0 && is_together(place) && column(own).is_some();
+        if is_own { own.to_owned() } else { cells.text(line - 1, place).to_owned() }
+    });
+    let heads = (0..count).any(|place| !is_blank(place) && is_blank(place + 1));
+    heads.then(|| headings.collect())
 }
 
 /// What a column of expanded uncertainties says of its coverage in its header.

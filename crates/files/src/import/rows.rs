@@ -1,6 +1,6 @@
 //! The rows of a budget: what their cells say, and what has to be guessed.
 
-use gumption_engine::decimal::significant;
+use gumption_engine::decimal::{significant, to_15_digits};
 use gumption_engine::model::formula::check_name;
 use gumption_engine::number::Shortest;
 use gumption_units::Unit;
@@ -11,6 +11,9 @@ use super::stated::Stated;
 use super::{Budget, equation, number};
 use crate::value_text::grouped_digits;
 use crate::width::Width;
+
+/// Columns of which each states an uncertainty.
+const UNCERTAIN: [Column; 3] = [Column::Width, Column::Std, Column::Upper];
 
 /// A row of the budget.
 #[derive(Clone, Debug, Default)]
@@ -65,7 +68,7 @@ impl Budget<'_> {
         let mut table = Table::default();
         let is_uncertain = |line: &usize| {
             let of = |column| header.cell(self.cells, *line, column).trim();
-            !is_empty(of(Column::Width)) || !is_empty(of(Column::Std))
+            UNCERTAIN.iter().any(|column| !is_empty(of(*column)))
         };
         let last_uncertain = (header.line + 1..self.cells.lines()).rev().find(is_uncertain);
         let mut empty = 0;
@@ -179,14 +182,23 @@ impl Budget<'_> {
         }
         row.divisor = self.divisor(header, line, lenient);
         row.dof = self.dof(header, line, lenient);
+        let has_limits = self.limits(header, &mut row, lenient).is_some();
         row.distribution = self.distribution(header, &row, lenient);
+        if has_limits && row.distribution.is_none() && row.divisor.is_none() && row.std.is_none() {
+            row.distribution = Some("rectangular");
+            self.guessed.push(format!(
+                "line {}: a rectangular distribution is taken between the limits",
+                line + 1
+            ));
+        }
         row
     }
 
     /// Whether a line has no uncertainty, coefficient, shape or divisor.
     fn is_bare(&self, header: &Header, line: usize) -> bool {
-        [Column::Width, Column::Std, Column::Sensitivity, Column::Distribution]
+        UNCERTAIN
             .iter()
+            .chain(&[Column::Sensitivity, Column::Distribution])
             .all(|column| header.cell(self.cells, line, *column).trim().is_empty())
     }
 
@@ -198,7 +210,7 @@ impl Budget<'_> {
         };
         let has = |column| header.columns.iter().any(|(_, of)| *of == column);
         (!has(Column::Estimate) || is_number(Column::Estimate))
-            && (is_number(Column::Width) || is_number(Column::Std))
+            && UNCERTAIN.into_iter().any(is_number)
     }
 
     /// Whether a line has one cell with something in it, of those that the header names.
@@ -326,7 +338,7 @@ impl Budget<'_> {
 
     /// A number in the unit of its row, which is that of its first number where no column has one; per
     /// cent and ppm are a share of the estimate where the unit is none of them.
-    fn in_unit(
+    pub(super) fn in_unit(
         &mut self,
         header: &Header,
         line: usize,
@@ -339,7 +351,7 @@ impl Budget<'_> {
         }
         let (value, unit) = self.with_unit(header, line, column, lenient)?;
         let unit = unit.to_owned();
-        if column != Column::Estimate && value < 0.0 && !lenient {
+        if !column.is_of_place() && value < 0.0 && !lenient {
             self.fail(line, format!("the {} `{text}` is below zero", column.name()));
             return None;
         }
@@ -456,7 +468,7 @@ impl Budget<'_> {
         let (from, to) = (Unit::parse(unit).ok()?, Unit::parse(&row.unit).ok()?);
         let factor = Unit::conversion_factor(&from, &to).ok();
         // of a temperature the size of the degree
-        let shifted = column == Column::Estimate && from.zero() != to.zero();
+        let shifted = column.is_of_place() && from.zero() != to.zero();
         match factor.filter(|_| !shifted) {
             Some(1.0) => Some(value),
             Some(_) => Some(to_15_digits(to.from_si(from.to_si(value)))),
@@ -475,7 +487,7 @@ impl Budget<'_> {
     fn coverage(&mut self, header: &Header, row: &mut Row) {
         let Some(width) = row.width.filter(|width| *width > 0.0) else { return };
         let cell = |column| HeaderCoverage::of(header.cell(self.cells, row.line, column));
-        let of_header = header.coverage(self.cells, Column::Width);
+        let of_header = header.coverage(Column::Width);
         let is_normal = matches!(row.distribution, None | Some("normal"));
         let mut stated: Vec<(f64, &str)> =
             row.divisor.map(|k| (k, "the divisor")).into_iter().collect();
@@ -663,11 +675,6 @@ fn is_grouped(text: &str) -> bool {
     let is_first = groups.next().is_some_and(|first| !first.is_empty() && first.len() <= 4);
     let mut rest = groups.peekable();
     is_first && rest.peek().is_some() && rest.all(|group| group.len() == 3)
-}
-
-/// A number without the digits that only rounding makes.
-pub(super) fn to_15_digits(value: f64) -> f64 {
-    format!("{value:.14e}").parse().unwrap_or(value)
 }
 
 /// Why the last row of a budget is taken for its result.

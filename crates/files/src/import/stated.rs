@@ -78,14 +78,12 @@ impl Budget<'_> {
             let expanded = Figure::ExpandedUncertainty(factor);
             let figure = match column {
                 Column::Estimate if !is_uncertainty => Figure::Estimate,
-                Column::Width if !is_expanded => {
-                    match (factor, header.coverage(self.cells, column)) {
-                        (Some(factor), _) | (None, HeaderCoverage::Factor(factor)) => {
-                            Figure::ExpandedUncertainty(Some(factor))
-                        }
-                        _ => continue,
+                Column::Width if !is_expanded => match (factor, header.coverage(column)) {
+                    (Some(factor), _) | (None, HeaderCoverage::Factor(factor)) => {
+                        Figure::ExpandedUncertainty(Some(factor))
                     }
-                }
+                    _ => continue,
+                },
                 _ if is_expanded => expanded,
                 _ => Figure::StandardUncertainty,
             };

@@ -539,3 +539,45 @@ fn sheets_of_other_habits() {
     let error = import("b.csv", b"Quantity,Estimate,Unit,+-\na,\"1,500\",V,0.1\n").unwrap_err();
     assert!(error.to_string().contains("not grouped"), "{error}");
 }
+
+/// Limits: 20 °C ± 0.5 °C is what 19.5 °C to 20.5 °C says, and a tolerance of -0.1 V to 0.1 V beside 10 V
+/// is one of deviations.
+#[test]
+fn limits_are_half_widths() {
+    let (u, budget) = uncertainties(
+        "Quantity;Estimate;Unit;Lower limit;Upper limit;Distribution\n\
+         a;20;mm;19,5;20,5;rectangular\nb;;mm;-3;1;\nc;10;mm;-0,1;0,1;triangular\n",
+    );
+    let means: Vec<f64> = task(&budget).rows[0].distributions.iter().map(|d| d.mean()).collect();
+    assert_eq!(means, [20.0, -1.0, 10.0]);
+    for (found, wanted) in u.iter().zip([0.5 / 3f64.sqrt(), 2.0 / 3f64.sqrt(), 0.1 / 6f64.sqrt()]) {
+        assert!((found / wanted - 1.0).abs() < 1e-12, "{u:?}");
+    }
+    assert!(guesses(&budget, "line 3: the estimate is the middle of the limits"));
+    assert!(guesses(&budget, "line 4: the limits are taken as deviations of ±0.1"));
+    let said = |row: &str| {
+        let text = format!("Quantity;Estimate;Min;Max\n{row}\n");
+        import("l.csv", text.as_bytes()).unwrap_err().to_string()
+    };
+    assert!(said("a;20;19;20,5").contains("do not lie alike about the estimate 20"));
+    assert!(said("a;0,2;-1;1").contains("do not lie alike about the estimate 0.2"));
+    assert!(said("a;20;21;19").contains("the upper limit 19 is below the lower one, 21"));
+    assert!(said("a;20;19;").contains("one limit only"));
+}
+
+/// Headings of two lines, as merged cells leave them.
+#[test]
+fn a_heading_over_several_columns() {
+    let (u, budget) = uncertainties(
+        "Budget\n\nQuantity;Estimate;Unit;Uncertainty;;;Sensitivity coefficient\n\
+         ;;;Half-width;Distribution;Divisor;\na;20;mm;0,5;normal;2;1\nb;1;mm;0,1;rectangular;√3;1\n",
+    );
+    assert_eq!(u[0], 0.25);
+    assert!((u[1] - 0.1 / 3f64.sqrt()).abs() < 1e-15);
+    assert!(budget.understood[0].contains("`Half-width` as stated uncertainty"), "{budget:?}");
+    // a line of units is none
+    let (u, _) = uncertainties(
+        "Quantity;Estimate;Standard uncertainty;Distribution\n;V;V;\na;20;0,5;normal\n",
+    );
+    assert_eq!(u, [0.5]);
+}

@@ -139,7 +139,8 @@ fn replaced() -> Value {
 fn nominal() -> Value {
     value_or_text().with(
         "description",
-        "Nominal value in the output's unit, or the name of a condition or an input.",
+        "Nominal value in the output's unit, a text with a unit of its own (`100 ohm`), or the name of a \
+         condition or an input.",
     )
 }
 

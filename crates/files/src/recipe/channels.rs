@@ -28,6 +28,8 @@ pub(super) struct ChannelFile {
     pub(super) place: Range<usize>,
     pub(super) step_places: Vec<Range<usize>>,
     column: ColumnName,
+    /// The unit of its raw values; `None` of counts.
+    raw_unit: Option<Unit>,
     zero: f64,
     range: Option<[f64; 2]>,
 }
@@ -57,10 +59,10 @@ fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Op
         (None, false, Some(own)) => Some(own.clone()),
         _ => unit(&of, "raw_unit", "1"),
     };
+    // counts that are scaled may have any heading unless their unit is stated
+    let raw_unit = raw.clone().filter(|_| of.get("raw_unit").is_some() || !scaled);
     if let (Some(member), Some(ColumnName::Name(name)), Some(raw)) =
-        (of.get("column"), &column, &raw)
-        // counts that are scaled may have any heading unless their unit is stated
-        && (of.get("raw_unit").is_some() || !scaled)
+        (of.get("column"), &column, &raw_unit)
     {
         column_heading::check(log, &member.value.span, name, (raw, ValueOf::Quantity));
     }
@@ -83,6 +85,7 @@ fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Op
         place: member.key_span.clone(),
         step_places: steps.places,
         column: column?,
+        raw_unit,
         zero,
         range,
     })
@@ -200,7 +203,11 @@ fn resolution(of: &Object<'_>, range: Option<[f64; 2]>) -> f64 {
 impl ChannelFile {
     /// Its column, and what its raw values become.
     pub(super) fn wanted(&self) -> (Wanted, Conversion) {
-        let wanted = Wanted { column: self.column.clone(), channel: self.channel.name.clone() };
+        let wanted = Wanted {
+            column: self.column.clone(),
+            channel: self.channel.name.clone(),
+            unit: self.raw_unit.clone(),
+        };
         (wanted, Conversion { zero: self.zero, gain: self.gain, range: self.range })
     }
 }

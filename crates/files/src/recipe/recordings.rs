@@ -16,6 +16,7 @@ use super::column::column;
 use super::quantity::{positive, quantity, unit};
 use crate::folder::Folder;
 use gumption_signal::Measured;
+use gumption_units::Unit;
 
 /// The search for a sampling rate, as the recipe describes it.
 #[derive(Clone, Debug)]
@@ -50,7 +51,7 @@ pub(super) struct RecordingFile {
     /// How the sampling rate is found, where it is.
     pub(super) search: Option<SearchFile>,
     rate: Option<Measured>,
-    time: Option<(ColumnName, f64)>,
+    time: Option<(ColumnName, Unit)>,
 }
 
 pub(super) fn read(root: &Object<'_>, folder: Folder<'_>) -> Option<Vec<RecordingFile>> {
@@ -116,7 +117,7 @@ pub(super) fn read(root: &Object<'_>, folder: Folder<'_>) -> Option<Vec<Recordin
             held: held.clone(),
             rate: rate.or(found),
             search,
-            time: time.zip(unit.map(|unit| unit.factor())),
+            time: time.zip(unit),
         });
     }
     if recordings.is_empty() && object.members().is_empty() {

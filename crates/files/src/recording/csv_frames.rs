@@ -7,8 +7,10 @@ use csv::{ByteRecord, Reader};
 
 use super::wide_text::NarrowText;
 use super::{BLOCK, ColumnName, Frames, Wanted, place};
+use crate::column_heading;
 use crate::separator::{DecimalMarks, Separator};
-use gumption_units::nearest;
+use crate::value_text::ValueOf;
+use gumption_units::{Unit, nearest};
 
 /// Longer cells are cut in messages.
 const LONGEST: usize = 40;
@@ -106,11 +108,23 @@ impl<R: Read> CsvFrames<R> {
                     ));
                 }
                 ColumnName::Name(name) => {
-                    let same: Vec<usize> =
-                        (0..names.len()).filter(|place| names[*place] == *name).collect();
-                    match same.as_slice() {
-                        [place] => *place,
-                        [] => {
+                    if names.iter().filter(|column| *column == name).count() > 1 {
+                        return Err(format!("its header has the name `{name}` twice"));
+                    }
+                    match column_heading::place_of(&names, name) {
+                        Some(place) => {
+                            let unit = wanted.unit.as_ref();
+                            let other = unit.and_then(|unit| {
+                                let of = (unit, ValueOf::Quantity);
+                                let parse = |text: &str| Unit::parse(text).ok();
+                                column_heading::contradiction(parse, &names[place], of)
+                            });
+                            match other {
+                                Some(other) => return Err(other.to_string()),
+                                None => place,
+                            }
+                        }
+                        None => {
                             let near = nearest(name, names.iter().map(String::as_str));
                             let hint = match near {
                                 Some(near) => format!("did you mean `{near}`?"),
@@ -118,7 +132,6 @@ impl<R: Read> CsvFrames<R> {
                             };
                             return Err(format!("it has no column `{name}`; {hint}"));
                         }
-                        _ => return Err(format!("its header has the name `{name}` twice")),
                     }
                 }
             };

@@ -18,6 +18,7 @@ use sha2::{Digest, Sha256};
 
 use gumption_engine::task::Warning;
 use gumption_signal::{BLOCK, BlockVisitor, InMemorySamples, Measured, SampleSource, in_blocks};
+use gumption_units::Unit;
 
 /// Values that are held in memory at most, over all channels of a recording (256 MiB); a longer
 /// recording is read again for each pass.
@@ -68,6 +69,8 @@ pub(super) enum ColumnName {
 pub(super) struct Wanted {
     pub(super) column: ColumnName,
     pub(super) channel: String,
+    /// The unit that its values are read in, which its heading may not contradict; `None` of counts.
+    pub(super) unit: Option<Unit>,
 }
 
 /// What a channel's raw values become, and where they saturate.
@@ -88,8 +91,8 @@ pub(super) struct Reading {
     /// The name in messages.
     pub(super) name: String,
     pub(super) channels: Vec<(Wanted, Conversion)>,
-    /// The column of instants, and how many seconds its unit is.
-    pub(super) time: Option<(ColumnName, f64)>,
+    /// The column of instants, and its unit.
+    pub(super) time: Option<(ColumnName, Unit)>,
     /// The sampling rate in hertz that the recipe states.
     pub(super) rate: Option<Measured>,
     /// The part that is used, in seconds.
@@ -145,10 +148,11 @@ pub(super) fn open(reading: Reading) -> Result<Recording, String> {
 impl Reading {
     /// The columns to read.
     fn wanted(&self) -> Vec<Wanted> {
-        let time = self
-            .time
-            .iter()
-            .map(|(column, _)| Wanted { column: column.clone(), channel: "the time".to_owned() });
+        let time = self.time.iter().map(|(column, unit)| Wanted {
+            column: column.clone(),
+            channel: "the time".to_owned(),
+            unit: Some(unit.clone()),
+        });
         self.channels.iter().map(|(wanted, _)| wanted.clone()).chain(time).collect()
     }
 

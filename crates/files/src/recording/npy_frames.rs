@@ -107,7 +107,7 @@ mod tests {
     }
 
     fn column(number: usize) -> Wanted {
-        Wanted { column: ColumnName::Number(number), channel: format!("c{number}") }
+        Wanted { column: ColumnName::Number(number), channel: format!("c{number}"), unit: None }
     }
 
     /// All blocks of the wanted columns.

@@ -146,7 +146,7 @@ impl<'r> Scanned<'r> {
         for i in 0..length {
             let sample = self.all + i as u64;
             let instant = match (&self.reading.time, columns.last().and_then(|c| c.get(i))) {
-                (Some((_, unit)), Some(time)) => Some(time * unit),
+                (Some((_, unit)), Some(time)) => Some(time * unit.factor()),
                 _ => None,
             };
             let at = instant.or(self.known.map(|rate| sample as f64 / rate)).unwrap_or(0.0);

@@ -1,0 +1,75 @@
+//! Rows that state their quantity by a lower and an upper limit (JCGM 100, 4.3.7).
+
+use gumption_engine::decimal::to_15_digits;
+use gumption_engine::number::Shortest;
+
+use super::Budget;
+use super::columns::{Column, Header};
+use super::rows::Row;
+
+/// Limits lie alike about an estimate to this share of their distance, which rounding of the sheet leaves.
+const ALIKE: f64 = 1e-9;
+
+impl Budget<'_> {
+    /// Takes the half width, and where the row has none the estimate, of its limits; `None` where it has
+    /// no limits, or after a mistake. In a row of results there is nothing to take.
+    pub(super) fn limits(&mut self, header: &Header, row: &mut Row, lenient: bool) -> Option<()> {
+        let line = row.line;
+        let mut read = |column| self.in_unit(header, line, (column, lenient), row);
+        let limits = [read(Column::Lower), read(Column::Upper)];
+        if lenient || limits == [None, None] {
+            return None;
+        }
+        match take(limits, row) {
+            Ok(said) => {
+                let said = said.map(|said| format!("line {}: {said}", line + 1));
+                self.guessed.extend(said);
+                Some(())
+            }
+            Err(reason) => {
+                self.fail(line, reason);
+                None
+            }
+        }
+    }
+}
+
+/// Writes the half width of two limits into their row, and where it has none the estimate; what is to be
+/// told of it.
+fn take(limits: [Option<f64>; 2], row: &mut Row) -> Result<Option<String>, String> {
+    let [Some(lower), Some(upper)] = limits else {
+        return Err("the row has one limit only; it needs both".to_owned());
+    };
+    if row.width.is_some() {
+        let reason = "the row has limits and a stated uncertainty; only one of them can be taken";
+        return Err(reason.to_owned());
+    }
+    let half = to_15_digits(0.5 * (upper - lower));
+    let middle = to_15_digits(0.5 * (upper + lower));
+    if half < 0.0 {
+        let [lower, upper] = [lower, upper].map(Shortest);
+        return Err(format!("the upper limit {upper} is below the lower one, {lower}"));
+    }
+    row.width = Some(half);
+    let is_alike = |a: f64, b: f64| (a - b).abs() <= ALIKE * half.max(a.abs());
+    match row.estimate {
+        None => {
+            row.estimate = Some(middle);
+            Ok(Some("the estimate is the middle of the limits".to_owned()))
+        }
+        Some(estimate) if is_alike(estimate, middle) => Ok(None),
+        // ±0.5 beside 10: tolerances
+        Some(estimate) if is_alike(upper, -lower) && !(lower..=upper).contains(&estimate) => {
+            let half = Shortest(half);
+            Ok(Some(format!("the limits are taken as deviations of ±{half} from the estimate")))
+        }
+        Some(estimate) => {
+            let [estimate, lower, upper, middle] = [estimate, lower, upper, middle].map(Shortest);
+            Err(format!(
+                "the limits {lower} and {upper} do not lie alike about the estimate {estimate}; write the \
+                 middle {middle} as the estimate if every value between them is as likely, or a \
+                 half-width"
+            ))
+        }
+    }
+}

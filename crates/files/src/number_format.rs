@@ -1,0 +1,99 @@
+//! Number formats of a workbook's cells (ECMA-376-1, 18.8.30): what a cell shows behind the number that
+//! it holds.
+//!
+//! A cell that shows `0.02 %` holds 0.0002, and one that shows `0.5 µm` holds 0.5. Who reads a sheet
+//! means what it shows.
+
+use gumption_engine::decimal;
+
+/// What a cell shows behind its number.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) enum Behind {
+    #[default]
+    Nothing,
+    /// The number is shown a hundred times as large.
+    Percent,
+    /// Letters, as those of a unit.
+    Letters(String),
+}
+
+impl Behind {
+    /// By the format's section for positive numbers, its first.
+    pub(super) fn of(format: &str) -> Self {
+        let mut letters = String::new();
+        let mut has_number = false;
+        let mut signs = format.chars();
+        while let Some(sign) = signs.next() {
+            match sign {
+                ';' => break,
+                '%' => return Self::Percent,
+                '"' => letters.extend(signs.by_ref().take_while(|c| *c != '"')),
+                '\\' => letters.extend(signs.next()),
+                // room of a sign's width, and a sign that fills the cell
+                '_' | '*' => drop(signs.next()),
+                '[' => {
+                    // a currency, or whatever was put in its place, before the language
+                    let inside: String = signs.by_ref().take_while(|c| *c != ']').collect();
+                    let currency = inside.strip_prefix('$').unwrap_or_default();
+                    letters.push_str(currency.split('-').next().unwrap_or_default());
+                }
+                '0' | '#' | '?' => {
+                    has_number = true;
+                    letters.clear();
+                }
+                _ => {}
+            }
+        }
+        let letters = letters.trim();
+        match letters {
+            "%" => Self::Letters(letters.to_owned()),
+            _ if has_number && letters.contains(char::is_alphabetic) => {
+                Self::Letters(letters.to_owned())
+            }
+            _ if has_number && letters.contains(['°', '‰']) => Self::Letters(letters.to_owned()),
+            _ => Self::Nothing,
+        }
+    }
+
+    /// A number with what stands behind it.
+    pub(super) fn text(&self, value: f64) -> String {
+        match self {
+            Self::Nothing => value.to_string(),
+            Self::Percent => format!("{}%", decimal::to_15_digits(100.0 * value)),
+            Self::Letters(letters) => format!("{value} {letters}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_cell_shows() {
+        for (format, shown) in [
+            ("General", "0.0002"),
+            ("0.00", "0.0002"),
+            ("0.00%", "0.02%"),
+            ("0.00\\ %", "0.02%"),
+            ("0.00%;[Red]-0.00%", "0.02%"),
+            ("0.00\"%\"", "0.0002 %"),
+            ("0.000\" µm\"", "0.0002 µm"),
+            ("0.0\\ \\m\\V", "0.0002 mV"),
+            ("\"±\" 0.0", "0.0002"),
+            ("\"U = \"0.0\" V\"", "0.0002 V"),
+            ("\"n\" 0", "0.0002"),
+            ("#,##0.00 [$Ω-407]", "0.0002 Ω"),
+            ("0.0 \\°\\C", "0.0002 °C"),
+            ("0.00_);(0.00\" m\")", "0.0002"),
+            ("0.00E+00", "0.0002"),
+            ("[Red]0.0", "0.0002"),
+            ("@", "0.0002"),
+            ("\"unfinished", "0.0002"),
+        ] {
+            assert_eq!(Behind::of(format).text(0.0002), shown, "{format}");
+        }
+        assert_eq!(Behind::Percent.text(0.07), "7%");
+        assert_eq!(Behind::Percent.text(-1.5), "-150%");
+    }
+}
