@@ -225,7 +225,7 @@ fn cells_of_a_workbook_mean_what_they_show() {
     let (text, said, code) =
         told(folder.path(), &["import", "shown.xlsx", "--output", "model.json"]);
     assert_eq!(code, Some(0), "{text} {said}");
-    let model = std::fs::read_to_string(folder.path().join("model.json")).unwrap();
+    let model = fs::read_to_string(folder.path().join("model.json")).unwrap();
     let model: Value = serde_json::from_str(&model).unwrap();
     for (name, half) in [("U", 0.00201), ("dU", 0.0005), ("dV", 0.0003)] {
         assert_eq!(model["inputs"][name]["half_width"], half, "{model}");
