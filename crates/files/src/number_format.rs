@@ -22,7 +22,8 @@ impl Behind {
     pub(super) fn of(format: &str) -> Self {
         let mut letters = String::new();
         let mut has_number = false;
-        let mut signs = format.chars();
+        let digits = format.replacen("General", "0", 1);
+        let mut signs = digits.chars();
         while let Some(sign) = signs.next() {
             match sign {
                 ';' => break,
@@ -73,6 +74,7 @@ mod tests {
     fn what_a_cell_shows() {
         for (format, shown) in [
             ("General", "0.0002"),
+            ("General\" V\"", "0.0002 V"),
             ("0.00", "0.0002"),
             ("0.00%", "0.02%"),
             ("0.00\\ %", "0.02%"),
