@@ -109,6 +109,10 @@ const WORDS: &[(Column, &[&str])] = &[
             "halfwidth",
             "semi-range",
             "tolerance",
+            "maximum permissible error",
+            "max. permissible error",
+            "max permissible error",
+            "mpe",
             "stated uncertainty",
             "unsicherheit",
             "halbbreite",
@@ -121,6 +125,8 @@ const WORDS: &[(Column, &[&str])] = &[
             "erw. unsicherheit",
             "erw. messunsicherheit",
             "toleranz",
+            "fehlergrenze",
+            "fehlergrenzen",
             "angegebene unsicherheit",
             "incertitude",
             "incertitude élargie",
@@ -129,6 +135,7 @@ const WORDS: &[(Column, &[&str])] = &[
             "limite",
             "limites",
             "tolérance",
+            "erreur maximale tolérée",
         ],
     ),
     (
@@ -334,6 +341,9 @@ const RESULTS: &[&str] = &[
 ];
 
 impl Column {
+    /// Columns of which each states an uncertainty; a lower limit has an upper one beside it.
+    pub(super) const UNCERTAIN: [Self; 3] = [Self::Width, Self::Std, Self::Upper];
+
     /// Whether its cells are numbers of a quantity, in units.
     fn is_of_numbers(self) -> bool {
         self.is_of_place() || matches!(self, Self::Width | Self::Std | Self::Contribution)
@@ -511,10 +521,14 @@ impl Header {
             {
                 *column = Column::Contribution;
             }
+            // one limit alone is none
+            let is_limit = |column: Column| matches!(column, Column::Lower | Column::Upper);
+            if columns.iter().filter(|(_, column)| is_limit(*column)).count() == 1 {
+                let alone = columns.extract_if(.., |(_, column)| is_limit(*column));
+                unknown.extend(alone.map(|(place, _)| place));
+            }
             let has = |wanted: Column| columns.iter().any(|(_, column)| *column == wanted);
-            let has_limits = has(Column::Lower) && has(Column::Upper);
-            let enough =
-                has(Column::Quantity) && (has(Column::Width) || has(Column::Std) || has_limits);
+            let enough = has(Column::Quantity) && Column::UNCERTAIN.into_iter().any(has);
             if enough && best.as_ref().is_none_or(|best| columns.len() > best.columns.len()) {
                 best = Some(Self { line, first, headings, columns, unknown, units: Vec::new() });
             }

@@ -12,9 +12,6 @@ use super::{Budget, equation, number};
 use crate::value_text::grouped_digits;
 use crate::width::Width;
 
-/// Columns of which each states an uncertainty.
-const UNCERTAIN: [Column; 3] = [Column::Width, Column::Std, Column::Upper];
-
 /// A row of the budget.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Row {
@@ -68,7 +65,7 @@ impl Budget<'_> {
         let mut table = Table::default();
         let is_uncertain = |line: &usize| {
             let of = |column| header.cell(self.cells, *line, column).trim();
-            UNCERTAIN.iter().any(|column| !is_empty(of(*column)))
+            Column::UNCERTAIN.iter().any(|column| !is_empty(of(*column)))
         };
         let last_uncertain = (header.line + 1..self.cells.lines()).rev().find(is_uncertain);
         let mut empty = 0;
@@ -196,7 +193,7 @@ impl Budget<'_> {
 
     /// Whether a line has no uncertainty, coefficient, shape or divisor.
     fn is_bare(&self, header: &Header, line: usize) -> bool {
-        UNCERTAIN
+        Column::UNCERTAIN
             .iter()
             .chain(&[Column::Sensitivity, Column::Distribution])
             .all(|column| header.cell(self.cells, line, *column).trim().is_empty())
@@ -210,7 +207,7 @@ impl Budget<'_> {
         };
         let has = |column| header.columns.iter().any(|(_, of)| *of == column);
         (!has(Column::Estimate) || is_number(Column::Estimate))
-            && UNCERTAIN.into_iter().any(is_number)
+            && Column::UNCERTAIN.into_iter().any(is_number)
     }
 
     /// Whether a line has one cell with something in it, of those that the header names.

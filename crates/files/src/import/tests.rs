@@ -563,6 +563,13 @@ fn limits_are_half_widths() {
     assert!(said("a;0,2;-1;1").contains("do not lie alike about the estimate 0.2"));
     assert!(said("a;20;21;19").contains("the upper limit 19 is below the lower one, 21"));
     assert!(said("a;20;19;").contains("one limit only"));
+    // a limit of errors is a width, and one limit alone none
+    let (u, budget) = uncertainties(
+        "Quantity;Estimate;Unit;Maximum permissible error;Distribution;Max\n\
+         a;20;mm;0,3;rectangular;21\n",
+    );
+    assert!((u[0] - 0.3 / 3f64.sqrt()).abs() < 1e-15);
+    assert!(guesses(&budget, "the column `Max` is not taken"));
 }
 
 /// Headings of two lines, as merged cells leave them.
