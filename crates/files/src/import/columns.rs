@@ -610,13 +610,14 @@ fn of_two_lines(cells: &Cells, line: usize) -> Option<Vec<String>> {
         return None;
     }
     let is_blank = |place: usize| cells.text(line - 1, place).trim().is_empty();
+    let names_column = |place: usize| column(cells.text(line, place)).is_some();
     // an empty cell behind a heading belongs to it
-    let is_together = |place: usize| is_blank(place) || is_blank(place + 1);
+    let is_together =
+        |place: usize| is_blank(place) || is_blank(place + 1) && names_column(place + 1);
     let count = above.len().max(below.len());
     let headings = (0..count).map(|place| {
-        let own = cells.text(line, place).trim();
-        let is_own = place > 0 && is_together(place) && column(own).is_some();
-        if is_own { own.to_owned() } else { cells.text(line - 1, place).to_owned() }
+        let is_own = place > 0 && is_together(place) && names_column(place);
+        cells.text(if is_own { line } else { line - 1 }, place).to_owned()
     });
     let heads = (0..count).any(|place| !is_blank(place) && is_blank(place + 1));
     heads.then(|| headings.collect())
