@@ -46,14 +46,10 @@ impl Behind {
             }
         }
         let letters = letters.trim();
-        match letters {
-            "%" => Self::Letters(letters.to_owned()),
-            _ if has_number && letters.contains(char::is_alphabetic) => {
-                Self::Letters(letters.to_owned())
-            }
-            _ if has_number && letters.contains(['°', '‰']) => Self::Letters(letters.to_owned()),
-            _ => Self::Nothing,
-        }
+        let is_unit = letters == "%"
+            || has_number
+                && letters.contains(|c: char| c.is_alphabetic() || matches!(c, '°' | '‰'));
+        if is_unit { Self::Letters(letters.to_owned()) } else { Self::Nothing }
     }
 
     /// A number with what stands behind it.

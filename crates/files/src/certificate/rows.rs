@@ -375,7 +375,8 @@ impl<'a> Rows<'a> {
             Json::Text(name) => name,
             other => {
                 let what = "`nominal`".to_owned();
-                let expected = "a number, a text with a number and its unit, or the name of a condition or an input";
+                let expected = "a number, a text with a number and its unit, or the name of a \
+                                condition or an input";
                 let diagnostic = DiagnosticKind::WrongType { what, found: other.kind(), expected };
                 self.log.report(&member.value.span, diagnostic);
                 return None;

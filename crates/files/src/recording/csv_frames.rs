@@ -111,28 +111,23 @@ impl<R: Read> CsvFrames<R> {
                     if names.iter().filter(|column| *column == name).count() > 1 {
                         return Err(format!("its header has the name `{name}` twice"));
                     }
-                    match column_heading::place_of(&names, name) {
-                        Some(place) => {
-                            let unit = wanted.unit.as_ref();
-                            let other = unit.and_then(|unit| {
-                                let of = (unit, ValueOf::Quantity);
-                                let parse = |text: &str| Unit::parse(text).ok();
-                                column_heading::contradiction(parse, &names[place], of)
-                            });
-                            match other {
-                                Some(other) => return Err(other.to_string()),
-                                None => place,
-                            }
-                        }
-                        None => {
-                            let near = nearest(name, names.iter().map(String::as_str));
-                            let hint = match near {
-                                Some(near) => format!("did you mean `{near}`?"),
-                                None => format!("its columns are {}", names.join(", ")),
-                            };
-                            return Err(format!("it has no column `{name}`; {hint}"));
-                        }
+                    let Some(place) = column_heading::place_of(&names, name) else {
+                        let near = nearest(name, names.iter().map(String::as_str));
+                        let hint = match near {
+                            Some(near) => format!("did you mean `{near}`?"),
+                            None => format!("its columns are {}", names.join(", ")),
+                        };
+                        return Err(format!("it has no column `{name}`; {hint}"));
+                    };
+                    let contradiction = wanted.unit.as_ref().and_then(|unit| {
+                        let parse = |text: &str| Unit::parse(text).ok();
+                        let of = (unit, ValueOf::Quantity);
+                        column_heading::contradiction(parse, &names[place], of)
+                    });
+                    if let Some(contradiction) = contradiction {
+                        return Err(contradiction.to_string());
                     }
+                    place
                 }
             };
             self.places.push(found);
