@@ -24,7 +24,7 @@ use gumption_engine::task::{Coverage, MethodChoice, Settings, StoppingRule, Tria
 const MAGIC: &[u8] = b"gumption part\n";
 
 /// The version of the form.
-const FORM: u8 = 1;
+const FORM: u8 = 2;
 
 /// Bytes of a header, at most: a model file and the names of those that it names.
 const MOST_HEADER: u32 = 80_000_000;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::condensed::Condensed;
 use crate::distribution::{BLOCK, Draws, Joint, StreamKey, Varying};
 use crate::model::{Schedule, ScheduledOutput};
 use crate::number::{COLUMN, CodePath, Column, Kernel};
@@ -25,6 +26,8 @@ pub(crate) struct RowTrials {
     function: Option<Called>,
     /// The outputs' values in the first blocks, as far as they are held.
     held: Vec<Box<[[f64; BLOCK]]>>,
+    /// What is kept of the first blocks, where it was made before the run.
+    pub(super) condensed: Condensed,
 }
 
 /// A function that takes columns.
@@ -81,6 +84,7 @@ impl RowTrials {
                 .as_ref()
                 .map(|function| Called { function: Arc::clone(function), bound }),
             held: Vec::new(),
+            condensed: Condensed::default(),
         }
     }
 

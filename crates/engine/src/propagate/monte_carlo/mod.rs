@@ -6,12 +6,14 @@
 //! accumulates sums and keeps only what the coverage intervals and the median can depend on
 //! (`accumulate`); order statistics of what was kept are then those of all trials (`order`,
 //! `bucket_partition`, `interval`). Where that would not fit into memory, the trials are generated
-//! again in a few passes (`several_pass`).
+//! again in a few passes (`several_pass`). Where their number is found on the way (`adaptive`), what
+//! is kept of a block is made when it is drawn (`condensed`), and the main pass adds it up.
 
 mod accumulate;
 mod adaptive;
 mod block;
 mod bucket_partition;
+mod condensed;
 mod convergence;
 mod figures;
 mod hash;

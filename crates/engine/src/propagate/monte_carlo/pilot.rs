@@ -19,7 +19,8 @@ const VERY_LONG_PILOT: u64 = 64;
 const PILOT_BLOCKS: u64 = 16;
 
 /// Blocks of the pilot of a short one, where a longer pilot would cost more than narrower windows
-/// save.
+/// save. Of every run so many tell the reference about which sums are taken, so that a sum over some
+/// trials is the same in a run of any length.
 const SHORT_PILOT: u64 = 4;
 
 /// From so many trials on a run is long.
@@ -37,6 +38,9 @@ const PILOT_OUTPUTS: usize = (64 << 20) / (8 * BLOCK * VERY_LONG_PILOT as usize)
 /// Windows wider than this many times the first ones keep everything.
 pub(super) const KEEP_ALL_MARGIN: f64 = 20.0;
 
+/// The blocks of the longest pilot.
+pub(super) const LONGEST_PILOT: u64 = VERY_LONG_PILOT;
+
 /// The blocks of the pilot of a run.
 pub(super) fn pilot_blocks(trials: u64) -> u64 {
     let most = match trials {
@@ -47,25 +51,47 @@ pub(super) fn pilot_blocks(trials: u64) -> u64 {
     trials.div_ceil(BLOCK as u64).min(most)
 }
 
-/// The values of some outputs in the first blocks.
+/// The values of some outputs in the first blocks, and how many of them are those of a short pilot.
 fn pilot(
     trials: &RowTrials,
     request: Request<'_>,
     control: &Control<'_>,
     outputs: Range<usize>,
-) -> Vec<Vec<f64>> {
+) -> (Vec<Vec<f64>>, usize) {
     let blocks = pilot_blocks(request.trials);
     let mut workspace = trials.workspace();
     let mut pilot: Vec<Vec<f64>> = vec![Vec::new(); outputs.len()];
+    let mut of_short = 0;
     for block in 0..blocks {
         let count = trials_in(block, request.trials);
         trials.block(control.path, block, &mut workspace);
         let (count, _) = drop_undefined(control.path, &mut workspace.outputs, count);
+        of_short += if block < SHORT_PILOT { count } else { 0 };
         for (values, out) in pilot.iter_mut().zip(workspace.outputs.iter().skip(outputs.start)) {
             values.extend_from_slice(&out[..count]);
         }
     }
-    pilot
+    (pilot, of_short)
+}
+
+/// The plan of each output that is that of a run of any length up to so many trials: its reference,
+/// with windows that hold those of all lengths.
+pub(super) fn plans_of_any_length(
+    trials: &RowTrials,
+    request: Request<'_>,
+    control: &Control<'_>,
+) -> Vec<Plan> {
+    let lengths = [ALL_KEPT + 1, LONG, VERY_LONG].into_iter();
+    let lengths = lengths.filter(|&length| length <= request.trials.max(ALL_KEPT + 1));
+    let of_length = |length| plans(trials, Request { trials: length, ..request }, control, 1.0);
+    let joined = |mut all: Vec<Plan>, more: Vec<Plan>| {
+        for (plan, more) in all.iter_mut().zip(more) {
+            plan.windows = plan.windows.joined(&more.windows);
+            plan.kept = plan.kept.max(more.kept);
+        }
+        all
+    };
+    lengths.map(of_length).reduce(joined).unwrap_or_default()
 }
 
 /// References and windows from the first blocks.
@@ -78,11 +104,21 @@ pub(super) fn plans(
     let groups = (0..trials.outputs()).step_by(PILOT_OUTPUTS);
     let groups = groups.map(|first| first..(first + PILOT_OUTPUTS).min(trials.outputs()));
     groups
-        .flat_map(|group| group.clone().zip(pilot(trials, request, control, group)))
-        .map(|(output, values)| {
-            let mut order = BucketPartition::new(control.path, &[&values], &Windows::ALL);
-            let mut at = |index: usize| (index < values.len()).then(|| order.at(index));
-            let reference = reference(values.len(), &mut at, trials.limits(output));
+        .flat_map(|group| {
+            let (values, of_short) = pilot(trials, request, control, group.clone());
+            group.zip(values).map(move |(output, values)| (output, values, of_short))
+        })
+        .map(|(output, values, of_short)| {
+            let partition =
+                |values: &[f64]| BucketPartition::new(control.path, &[values], &Windows::ALL);
+            let limits = trials.limits(output);
+            let mut order = partition(&values);
+            let reference = if of_short == values.len() {
+                reference(of_short, &mut order, limits)
+            } else {
+                reference(of_short, &mut partition(&values[..of_short]), limits)
+            };
+            let at = |index: usize| (index < values.len()).then(|| order.at(index));
             let all = request.trials <= ALL_KEPT || margin > KEEP_ALL_MARGIN;
             let windows = if all {
                 Windows::ALL
@@ -95,13 +131,9 @@ pub(super) fn plans(
         .collect()
 }
 
-/// The median and a width of `count` values, `at` gives that at an index in their order: half the distance of the
-/// quartiles, or what is there.
-fn reference(
-    count: usize,
-    at: &mut impl FnMut(usize) -> Option<f64>,
-    limits: [f64; 2],
-) -> Reference {
+/// The median and a width of `count` values: half the distance of the quartiles, or what is there.
+fn reference(count: usize, order: &mut BucketPartition, limits: [f64; 2]) -> Reference {
+    let mut at = |index: usize| (index < count).then(|| order.at(index));
     let mut share = |share: f64| at((share * count as f64) as usize);
     let middle = share(0.5).unwrap_or(0.0);
     let quartiles = share(0.25).zip(share(0.75));

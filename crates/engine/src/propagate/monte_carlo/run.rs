@@ -174,9 +174,13 @@ fn accumulate_chunk(
         if control.is_stopped() {
             break;
         }
+        let wanted = trials_in(block, count);
+        if wanted == BLOCK && trials.condensed.add(path, block, plans, &mut accumulated) {
+            control.advance(wanted as u64);
+            continue;
+        }
         trials.block(path, block, workspace);
         let values = &mut workspace.outputs;
-        let wanted = trials_in(block, count);
         let (count, first) = drop_undefined(path, values, wanted);
         if let Some(first) = first {
             accumulated.undefined += (wanted - count) as u64;

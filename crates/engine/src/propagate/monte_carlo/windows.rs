@@ -57,12 +57,27 @@ impl Windows {
         }
     }
 
-    /// The tails alone.
-    pub(crate) fn without_median(self) -> Self {
-        if self.keep_all() {
-            return self;
+    /// Windows that keep what either of two keeps.
+    pub(crate) fn joined(&self, other: &Self) -> Self {
+        if self.keep_all() || other.keep_all() {
+            return Self::ALL;
         }
-        Self { median_low: f64::INFINITY, median_high: f64::NEG_INFINITY, ..self }
+        let [[a, b], [c, d]] = [self.ends, other.ends];
+        Self {
+            low: self.low.max(other.low),
+            median_low: self.median_low.min(other.median_low),
+            median_high: self.median_high.max(other.median_high),
+            high: self.high.min(other.high),
+            ends: [a.min(c), b.max(d)],
+        }
+    }
+
+    /// Whether all values are kept that other windows keep.
+    pub(crate) fn cover(&self, other: &Self) -> bool {
+        self.low >= other.low
+            && self.median_low <= other.median_low
+            && self.median_high >= other.median_high
+            && self.high <= other.high
     }
 
     /// Whether all values are kept.

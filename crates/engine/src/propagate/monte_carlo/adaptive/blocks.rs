@@ -1,18 +1,19 @@
 //! The blocks of the procedure: the figures of every output in M trials.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::{FIGURES, Search};
 use crate::distribution::BLOCK;
 use crate::number::{CodePath, Kernel};
 use crate::propagate::Control;
-use crate::propagate::monte_carlo::accumulate::{drop_undefined, keep};
+use crate::propagate::monte_carlo::accumulate::drop_undefined;
 use crate::propagate::monte_carlo::block::{RowTrials, Workspace};
+use crate::propagate::monte_carlo::condensed::{CondensedBlock, Share, condense};
 use crate::propagate::monte_carlo::interval::Ranks;
 use crate::propagate::monte_carlo::moments::Moments;
-use crate::propagate::monte_carlo::pilot::plans;
 use crate::propagate::monte_carlo::plan::Plan;
-use crate::propagate::monte_carlo::request::Request;
 use crate::propagate::monte_carlo::sums::Sums;
 use crate::propagate::monte_carlo::windows::Windows;
 
@@ -25,97 +26,118 @@ const HELD: u64 = 1 << 17;
 /// Values that are collected before the tails are cut back.
 const FRESH: usize = 4096;
 
-/// Trials that the pilot takes itself to be one of many of.
-const MANY: u64 = 1 << 40;
-
-/// How much wider than those of a long run the windows are: a block has fewer trials, whose ranks
-/// scatter more.
-const WIDENING: f64 = 1.5;
-
-/// Where in a block the ends of the symmetric interval lie: windows from the pilot.
-pub(super) fn fences(trials: &RowTrials, search: Search<'_>, control: &Control<'_>) -> Vec<Plan> {
-    let Search { probability, drawn_dof, .. } = search;
-    // each end leaves half of what is not covered
-    let probability = 0.5 + 0.5 * probability;
-    let request = Request { trials: MANY, probability, drawn_dof };
-    let plans = plans(trials, request, control, WIDENING).into_iter();
-    plans.map(|plan| Plan { windows: plan.windows.without_median(), ..plan }).collect()
-}
-
 /// The figures of every output in some blocks of `size` trials.
 pub(super) fn figures(
-    trials: &RowTrials,
-    numbers: std::ops::Range<u64>,
+    trials: &mut RowTrials,
+    numbers: Range<u64>,
     size: u64,
-    fences: &[Plan],
+    plans: &[Plan],
     search: Search<'_>,
     control: &Control<'_>,
 ) -> Vec<Vec<Option<Figures>>> {
-    let everything: Vec<Plan> =
-        fences.iter().map(|plan| Plan { windows: Windows::ALL, ..*plan }).collect();
-    let of_block = |drawn: &mut Drawn, number: u64| {
-        let run = Run { trials, size, search, control };
-        // a block with more values beyond a fence than a pilot lets expect is made again
-        run.figures(drawn, number, fences)
-            .or_else(|| run.figures(drawn, number, &everything))
-            .unwrap_or_else(|| vec![None; fences.len()])
-    };
-    let drawn = || Drawn { workspace: trials.workspace(), shared: None };
-    numbers.into_par_iter().map_init(drawn, of_block).collect()
-}
-
-/// The values of trials, which are drawn in blocks of their own: the last one of a block of the
-/// procedure is mostly the first one of the next.
-struct Drawn {
-    workspace: Workspace,
-    shared: Option<(u64, Vec<[f64; BLOCK]>)>,
-}
-
-impl Drawn {
-    /// Draws a block of trials, unless it is the one that was drawn last; `is_last` tells that another
-    /// block of the procedure begins in it.
-    fn draw(&mut self, trials: &RowTrials, path: CodePath, block: u64, is_last: bool) {
-        match &self.shared {
-            Some((known, values)) if *known == block => {
-                self.workspace.outputs.copy_from_slice(values);
-            }
-            _ => trials.block(path, block, &mut self.workspace),
-        }
-        if is_last {
-            self.shared = Some((block, self.workspace.outputs.clone()));
-        }
+    let run = Run { size, plans, search, control };
+    let share: f64 = plans.iter().map(|plan| plan.kept).sum();
+    let kept = 8.0 * share * ((numbers.end - numbers.start) * size) as f64;
+    let keeps_all = plans.iter().any(|plan| plan.windows.keep_all());
+    if keeps_all || size < BLOCK as u64 || kept > control.memory as f64 {
+        return run.figures_of_drawn_blocks(trials, numbers);
     }
+    let (first, end) = (numbers.start * size, numbers.end * size);
+    let (first, end) = (first / BLOCK as u64, end.div_ceil(BLOCK as u64));
+    let known = trials.condensed.len();
+    let from = if first <= known { known } else { first };
+    let Some(made) = condense(trials, control, plans, from..end, size) else {
+        return Vec::new();
+    };
+    let block = |block: u64| match trials.condensed.get(block) {
+        Some(found) => Some(found),
+        None => made.get(usize::try_from(block.checked_sub(from)?).ok()?),
+    };
+    // a block with more values beyond the windows than a pilot lets expect is made again
+    let of_block = |workspace: &mut Workspace, number: u64| {
+        run.figures_of_condensed(&block, number)
+            .unwrap_or_else(|| run.figures_of_drawn(trials, workspace, number))
+    };
+    let found = numbers.into_par_iter().map_init(|| trials.workspace(), of_block).collect();
+    if from == known {
+        trials.condensed.extend(made, control.memory);
+    }
+    found
 }
 
 /// How blocks are made.
 #[derive(Clone, Copy)]
 struct Run<'a> {
-    trials: &'a RowTrials,
     size: u64,
+    plans: &'a [Plan],
     search: Search<'a>,
     control: &'a Control<'a>,
 }
 
 impl Run<'_> {
-    /// The figures of every output; `None` if an end may lie inside the fences.
-    fn figures(
+    /// The figures of every output in a block, from what is kept of the blocks of trials; `None` if an
+    /// end may lie where nothing is kept.
+    fn figures_of_condensed<'b>(
         self,
-        drawn: &mut Drawn,
+        block: &impl Fn(u64) -> Option<&'b CondensedBlock>,
         number: u64,
-        fences: &[Plan],
     ) -> Option<Vec<Option<Figures>>> {
-        let Self { trials, size, search, control } = self;
+        let (first, last) = (number * self.size, (number + 1) * self.size);
+        let of_output = |(output, plan): (usize, &Plan)| {
+            let mut fenced = Fenced::new(*plan);
+            for number in first / BLOCK as u64..last.div_ceil(BLOCK as u64) {
+                let start = number * BLOCK as u64;
+                let share = if start < first {
+                    Share::AfterEdge
+                } else if last < start + BLOCK as u64 {
+                    Share::BeforeEdge
+                } else {
+                    Share::Whole
+                };
+                let block = block(number)?;
+                let (sums, kept) = block.output(share, output)?;
+                fenced.count += block.trials(share);
+                fenced.sums.merge(sums);
+                fenced.kept.extend_from_slice(kept);
+            }
+            if fenced.count < 2 {
+                return Some(None);
+            }
+            fenced.figures(self.search.probability).map(Some)
+        };
+        self.plans.iter().enumerate().map(of_output).collect()
+    }
+
+    /// The figures of every output in some blocks, from all of their values.
+    fn figures_of_drawn_blocks(
+        self,
+        trials: &RowTrials,
+        numbers: Range<u64>,
+    ) -> Vec<Vec<Option<Figures>>> {
+        let of_block = |workspace: &mut Workspace, number: u64| {
+            self.figures_of_drawn(trials, workspace, number)
+        };
+        numbers.into_par_iter().map_init(|| trials.workspace(), of_block).collect()
+    }
+
+    /// The figures of every output in a block, from all of its values.
+    fn figures_of_drawn(
+        self,
+        trials: &RowTrials,
+        workspace: &mut Workspace,
+        number: u64,
+    ) -> Vec<Option<Figures>> {
+        let Self { size, plans, search, control } = self;
         let path = control.path;
         let (first, last) = (number * size, (number + 1) * size);
         let new = |plan: &Plan| Values::new(size, search.probability, *plan);
-        let mut values: Vec<Values> = fences.iter().map(new).collect();
+        let mut values: Vec<Values> = plans.iter().map(new).collect();
         for block in first / BLOCK as u64..last.div_ceil(BLOCK as u64) {
             if control.is_stopped() {
                 break;
             }
             let start = block * BLOCK as u64;
-            drawn.draw(trials, path, block, last < start + BLOCK as u64);
-            let workspace = &mut drawn.workspace;
+            trials.block(path, block, workspace);
             let from = first.saturating_sub(start) as usize;
             let to = (last - start).min(BLOCK as u64) as usize;
             for output in &mut workspace.outputs {
@@ -144,10 +166,10 @@ impl Kernel for Add<'_> {
     fn run(self) {
         let Self { path, values, new } = self;
         match values {
-            Values::Kept(fenced) => {
-                fenced.count += new.len() as u64;
-                fenced.sums.add(path, new, fenced.plan.reference);
-                keep(path, new, &fenced.plan.windows, &mut fenced.kept);
+            Values::All(all) => {
+                all.count += new.len() as u64;
+                all.sums.add(path, new, all.plan.reference);
+                all.kept.extend_from_slice(new);
             }
             Values::Tails(tails) => new.iter().for_each(|&value| tails.push(value)),
         }
@@ -157,11 +179,11 @@ impl Kernel for Add<'_> {
 /// The values of one output in a block.
 #[derive(Debug)]
 enum Values {
-    Kept(Fenced),
+    All(Fenced),
     Tails(Tails),
 }
 
-/// Sums of values, and those beyond the fences.
+/// Sums of values, and those that the windows keep.
 #[derive(Debug)]
 struct Fenced {
     plan: Plan,
@@ -187,9 +209,8 @@ struct Tails {
 impl Values {
     /// Of so many trials, of which some may not count.
     fn new(size: u64, probability: f64, plan: Plan) -> Self {
-        if size <= HELD || !plan.windows.keep_all() {
-            let (sums, kept) = (Sums::default(), Vec::new());
-            return Self::Kept(Fenced { plan, count: 0, sums, kept });
+        if size <= HELD {
+            return Self::All(Fenced::new(Plan { windows: Windows::ALL, ..plan }));
         }
         let Ranks { q, r } = Ranks::new(size, probability);
         // of fewer trials the ranks are no farther from the ends, but for rounding
@@ -204,18 +225,22 @@ impl Values {
         })
     }
 
-    /// The figures, if there are enough values to have any; `None` if an end may lie inside the
-    /// fences.
-    fn figures(&mut self, probability: f64) -> Option<Option<Figures>> {
+    /// The figures, if there are enough values to have any.
+    fn figures(&mut self, probability: f64) -> Option<Figures> {
         match self {
-            Self::Kept(fenced) if fenced.count < 2 => Some(None),
-            Self::Kept(fenced) => fenced.figures(probability).map(Some),
-            Self::Tails(tails) => Some(tails.figures(probability)),
+            Self::All(all) if all.count < 2 => None,
+            Self::All(all) => all.figures(probability),
+            Self::Tails(tails) => tails.figures(probability),
         }
     }
 }
 
 impl Fenced {
+    fn new(plan: Plan) -> Self {
+        Self { plan, count: 0, sums: Sums::default(), kept: Vec::new() }
+    }
+
+    /// The figures; `None` if an end may lie where nothing is kept.
     fn figures(&mut self, probability: f64) -> Option<Figures> {
         let Self { plan: Plan { reference, windows, .. }, count, sums, kept } = self;
         let Ranks { q, r } = Ranks::new(*count, probability);
@@ -292,12 +317,16 @@ mod tests {
 
     /// A plan with windows beyond two values.
     fn plan(middle: f64, windows: Option<[f64; 2]>) -> Plan {
-        let scale = 1e5;
+        let (scale, kept) = (1e5, 1.0);
         let limits = [f64::NEG_INFINITY, f64::INFINITY];
-        let windows = windows.map_or(Windows::ALL, |[low, high]| {
-            Windows { low, high, ends: [low - 1.0, high + 1.0], ..Windows::ALL }.without_median()
+        let windows = windows.map_or(Windows::ALL, |[low, high]| Windows {
+            low,
+            median_low: f64::INFINITY,
+            median_high: f64::NEG_INFINITY,
+            high,
+            ends: [low - 1.0, high + 1.0],
         });
-        Plan { reference: Reference { middle, scale, limits }, windows, kept: 1.0 }
+        Plan { reference: Reference { middle, scale, limits }, windows, kept }
     }
 
     /// The figures from sums and tails are those of all values: the ends exactly, mean and standard
@@ -307,30 +336,37 @@ mod tests {
         // a full cycle of a linear congruence: every number below 2^18 once, far from zero
         let size = 1u64 << 18;
         let value = |i: u64| ((i * 5 * 4001 + 12_345) % size) as f64 - 1e6;
+        let path = CodePath::best();
         let cases = [(size, 0.9995), (size - 1000, 0.9999), (300_000 / 2, 0.99925), (10_000, 0.95)];
         for (count, probability) in cases {
             let all: Vec<f64> = (0..count).map(value).collect();
             let exact = directly(&all, probability);
-            // 3 % on each side, nothing, and too little for the ends of 95 %
-            let third = 0.03 * size as f64;
-            let fences = [third - 1e6, size as f64 - third - 1e6];
-            let narrow = [0.2 * third - 1e6, size as f64 - 0.2 * third - 1e6];
-            for windows in [None, Some(fences), Some(narrow)] {
-                let mut values = Values::new(size, probability, plan(-9e5, windows));
-                for part in all.chunks(1000) {
-                    let path = CodePath::best();
-                    path.run(Add { path, values: &mut values, new: part });
-                }
-                assert_eq!(matches!(values, Values::Tails(_)), windows.is_none());
-                let found = values.figures(probability);
-                if windows == Some(narrow) && probability == 0.95 {
-                    assert_eq!(found, None);
-                    continue;
-                }
-                let found = found.unwrap().unwrap();
+            let agrees = |found: Figures| {
                 assert_eq!(exact[2..], found[2..]);
                 assert!((exact[0] - found[0]).abs() < 1e-6, "{exact:?}, {found:?}");
                 assert!((exact[1] / found[1] - 1.0).abs() < 1e-9, "{exact:?}, {found:?}");
+            };
+            let mut values = Values::new(size.min(count), probability, plan(-9e5, None));
+            assert_eq!(matches!(values, Values::Tails(_)), count > HELD);
+            for part in all.chunks(1000) {
+                path.run(Add { path, values: &mut values, new: part });
+            }
+            agrees(values.figures(probability).unwrap());
+            // 3 % on each side, and too little for the ends of 95 %
+            for share in [0.03, 0.006] {
+                let width = share * size as f64;
+                let windows = [width - 1e6, size as f64 - width - 1e6];
+                let mut fenced = Fenced::new(plan(-9e5, Some(windows)));
+                fenced.count = count;
+                fenced.sums.add(path, &all, fenced.plan.reference);
+                fenced.kept =
+                    all.iter().copied().filter(|v| fenced.plan.windows.keeps(*v)).collect();
+                let found = fenced.figures(probability);
+                if share == 0.006 && probability == 0.95 {
+                    assert_eq!(found, None);
+                } else {
+                    agrees(found.unwrap());
+                }
             }
         }
     }

@@ -24,7 +24,10 @@ mod watch;
 use watch::Watch;
 
 use super::block::RowTrials;
+use super::condensed::Condensed;
+use super::pilot::{LONGEST_PILOT, plans_of_any_length};
 use super::plan::Plan;
+use super::request::Request;
 use crate::distribution::BLOCK;
 use crate::propagate::Control;
 use crate::special::student;
@@ -106,9 +109,10 @@ pub(crate) fn find_trials(
         size,
         most: search.most / size,
         made: 0,
-        fences: None,
+        plans: Vec::new(),
         watches,
     };
+    blocks.prepare();
     // of blocks larger than that the scatter cannot be told within the largest number of trials
     let (blocks_wanted, converged) = match search.rule {
         _ if blocks.most < 2 => (0, false),
@@ -136,21 +140,34 @@ struct Blocks<'a> {
     /// Their largest number.
     most: u64,
     made: u64,
-    /// Windows of the outputs, found with the first blocks.
-    fences: Option<Vec<Plan>>,
+    /// About which values sums are taken, and which values are kept.
+    plans: Vec<Plan>,
     watches: Vec<Watch>,
 }
 
 impl Blocks<'_> {
+    /// Finds about which values sums are taken, and which values are kept.
+    fn prepare(&mut self) {
+        let Self { trials, search, control, size, most, .. } = self;
+        let request = Request {
+            trials: *most * *size,
+            probability: search.probability,
+            drawn_dof: search.drawn_dof,
+        };
+        if *most < 2 {
+            return;
+        }
+        let pilot = request.trials.div_ceil(BLOCK as u64).min(LONGEST_PILOT);
+        trials.hold(control.path, pilot, control.memory);
+        self.plans = plans_of_any_length(trials, request, control);
+        trials.condensed = Condensed::new(self.plans.clone());
+    }
+
     /// Makes some more blocks and looks at them one after the other until `enough` says so.
     fn make(&mut self, count: u64, enough: impl Fn(&Self) -> bool) -> bool {
         let numbers = self.made..self.made + count;
-        let end = (numbers.end * self.size).div_ceil(BLOCK as u64);
-        self.trials.hold(self.control.path, end, self.control.memory);
-        let (search, control) = (self.search, self.control);
-        let fences =
-            self.fences.get_or_insert_with(|| blocks::fences(self.trials, search, control));
-        let found = blocks::figures(self.trials, numbers, self.size, fences, search, control);
+        let Self { trials, search, control, size, plans, .. } = self;
+        let found = blocks::figures(trials, numbers, *size, plans, *search, control);
         for figures in found {
             self.made += 1;
             for (watch, figures) in self.watches.iter_mut().zip(figures) {
