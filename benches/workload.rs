@@ -228,6 +228,8 @@ fn tried() -> Result<(), String> {
 }
 
 fn main() -> ExitCode {
+    // as the program does
+    gumption_command::freed_memory::keep();
     let arguments = Arguments::parse();
     let paths = CodePath::available().into_iter().map(CodePath::name).collect::<Vec<_>>();
     let done = match &arguments.workload {

@@ -11,6 +11,7 @@ mod diff;
 mod evaluated;
 mod exit;
 mod exported;
+pub mod freed_memory;
 mod gap;
 mod gap_check;
 mod help;
@@ -117,6 +118,17 @@ enum Command {
     Help(help::Help),
 }
 
+impl Command {
+    /// Whether the command waits for its user most of the time.
+    fn idles(&self) -> bool {
+        #[cfg(feature = "open")]
+        if matches!(self, Self::Open(_)) {
+            return true;
+        }
+        false
+    }
+}
+
 /// What a command gave that was called as a function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Answered {
@@ -179,6 +191,9 @@ impl CommandLine {
             },
         };
         arguments.color.choose();
+        if !arguments.command.idles() {
+            freed_memory::keep();
+        }
         match gumption_report::within_width(paint::width(), || self.execute(arguments.command)) {
             Ok(exit) => exit.code(),
             Err(failure) => failure.report(),

@@ -276,30 +276,60 @@ impl BucketPartition {
             stretches.push(Stretch { from: i, to: end, buckets: [a, b], least, most });
             i = end;
         }
-        let bound = stretches.iter().map(|s| s.most).fold(f64::INFINITY, f64::min);
-        stretches.retain(|stretch| stretch.least <= bound);
-        stretches.sort_by(|s, t| s.least.total_cmp(&t.least));
-        let mut best: Option<(f64, usize, ([f64; 2], usize))> = None;
-        for stretch in stretches {
-            if best.is_some_and(|(length, ..)| stretch.least > length) {
-                break;
-            }
-            for bucket in stretch.buckets {
-                self.sort(bucket);
-            }
-            for i in stretch.from..stretch.to {
-                let ends = [self.values[low + i], self.values[high + i]];
-                let (length, distance) = (ends[1] - ends[0], i.abs_diff(middle));
-                let better = best.is_none_or(|(least, nearest, _)| {
-                    length < least || (length == least && distance < nearest)
-                });
-                if better {
-                    best = Some((length, distance, (ends, i)));
-                }
+        let mut best = None;
+        // two that are likely to have short differences first, so that few others can have less
+        for of in [|s: &Stretch| s.least, |s: &Stretch| s.most] {
+            let by = |&s: &usize, &t: &usize| of(&stretches[s]).total_cmp(&of(&stretches[t]));
+            if let Some(place) = (0..stretches.len()).min_by(by) {
+                let stretch = stretches.swap_remove(place);
+                self.look_at(stretch, (low, high), middle, &mut best);
             }
         }
-        best.map(|(.., ends)| ends)
+        let can_be_less =
+            |s: &Stretch, best: &Option<Shortest>| best.is_none_or(|b| s.least <= b.length);
+        stretches.retain(|stretch| can_be_less(stretch, &best));
+        stretches.sort_unstable_by(|s, t| s.least.total_cmp(&t.least));
+        for stretch in stretches {
+            if !can_be_less(&stretch, &best) {
+                break;
+            }
+            self.look_at(stretch, (low, high), middle, &mut best);
+        }
+        best.map(|best| (best.ends, best.index))
     }
+
+    /// Looks for a shorter difference in a stretch.
+    fn look_at(
+        &mut self,
+        stretch: Stretch,
+        (low, high): (usize, usize),
+        middle: usize,
+        best: &mut Option<Shortest>,
+    ) {
+        for bucket in stretch.buckets {
+            self.sort(bucket);
+        }
+        for index in stretch.from..stretch.to {
+            let ends = [self.values[low + index], self.values[high + index]];
+            let (length, distance) = (ends[1] - ends[0], index.abs_diff(middle));
+            let is_better = best.is_none_or(|best| {
+                length < best.length || (length == best.length && distance < best.distance)
+            });
+            if is_better {
+                *best = Some(Shortest { length, distance, ends, index });
+            }
+        }
+    }
+}
+
+/// The least difference that was found.
+#[derive(Clone, Copy, Debug)]
+struct Shortest {
+    length: f64,
+    /// How far its index lies from the middle.
+    distance: usize,
+    ends: [f64; 2],
+    index: usize,
 }
 
 /// Indices over which both ends stay in one bucket each.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::accumulate::{AccumulateKernel, Accumulated, drop_undefined};
+use super::accumulate::{AccumulateKernel, Accumulated, AccumulatedOutput, drop_undefined};
 use super::block::{RowTrials, Workspace};
 use super::figures::{Finished, Intervals, MonteCarlo, NumericalError, Undefined, of_moments};
 use super::interval::{Ranks, is_extreme, quantile_error, shortest, symmetric};
@@ -89,24 +89,39 @@ pub(super) fn scatters(
 ) -> Vec<ShortestScatter> {
     let chunk = batch_blocks(request.trials);
     let count = request.trials.min(BATCHES as u64 * chunk * BLOCK as u64);
-    let of_batch = |workspace: &mut Workspace, number: u64| {
+    let batch = |workspace: &mut Workspace, number: u64| {
         let made = accumulate_chunk(trials, request.trials, plans, control, workspace, number);
-        let outputs = made.outputs.into_iter().zip(plans);
-        let intervals = outputs.map(|(output, plan)| {
-            let (trials, below_median) = (made.trials, output.below_median);
-            let batch = Batch { trials, below_median, kept: output.kept };
-            let mut order = order_of(control.path, &[batch], &plan.windows);
-            BatchInterval::of(&mut order, request.probability, number).filter(|_| trials > 0)
+        let batch = |output: AccumulatedOutput| Batch {
+            trials: made.trials,
+            below_median: output.below_median,
+            kept: output.kept,
+        };
+        made.outputs.into_iter().map(batch).collect::<Vec<Batch>>()
+    };
+    let of_batch = |workspace: &mut Workspace, number: u64| {
+        let intervals = batch(workspace, number).into_iter().zip(plans).map(|(batch, plan)| {
+            let mut order = order_of(control.path, std::slice::from_ref(&batch), &plan.windows);
+            BatchInterval::of(&mut order, request.probability, number).filter(|_| batch.trials > 0)
         });
-        (made.trials, intervals.collect::<Vec<_>>())
+        intervals.collect::<Vec<_>>()
     };
     let numbers = 0..count.div_ceil(BLOCK as u64).div_ceil(chunk);
-    let found: Vec<(u64, Vec<Option<BatchInterval>>)> =
+    let found: Vec<Vec<Option<BatchInterval>>> =
         numbers.into_par_iter().map_init(|| trials.workspace(), of_batch).collect();
     (0..plans.len())
         .map(|output| {
-            let batches = found.iter().filter_map(|(_, intervals)| intervals.get(output)?.as_ref());
-            ShortestScatter::of(batches.cloned().collect(), request.trials)
+            // made once more: seldom, and so that no more than a batch of each thread is held
+            let near = |batches: &[BatchInterval], end: usize| {
+                let of_batch = |workspace: &mut Workspace, interval: &BatchInterval| {
+                    let made = batch(workspace, interval.number());
+                    let own = made.get(output).map_or(&[][..], std::slice::from_ref);
+                    let mut order = order_of(control.path, own, &plans[output].windows);
+                    interval.nearest(&mut order, end)
+                };
+                batches.par_iter().map_init(|| trials.workspace(), of_batch).collect()
+            };
+            let batches = found.iter().filter_map(|intervals| intervals.get(output)?.clone());
+            ShortestScatter::of(batches.collect(), request.trials, near)
         })
         .collect()
 }
@@ -311,10 +326,16 @@ fn shortest_scatter(
     windows: &Windows,
 ) -> ShortestScatter {
     let total = chunks.iter().map(|chunk| chunk.trials).sum();
-    let batches = chunks.par_chunks(1).take(BATCHES).enumerate();
-    let batches = batches.filter(|(_, batch)| batch.iter().all(|chunk| chunk.trials > 0));
-    let intervals = batches.filter_map(|(number, batch)| {
-        BatchInterval::of(&mut order_of(path, batch, windows), probability, number as u64)
-    });
-    ShortestScatter::of(intervals.collect(), total)
+    let order = |number: u64| order_of(path, &chunks[number as usize..][..1], windows);
+    let numbers = (0..chunks.len().min(BATCHES) as u64).into_par_iter();
+    let numbers = numbers.filter(|number| chunks[*number as usize].trials > 0);
+    let intervals = numbers
+        .filter_map(|number| BatchInterval::of(&mut order(number), probability, number))
+        .collect();
+    let near = |batches: &[BatchInterval], end: usize| {
+        let of_batch =
+            |interval: &BatchInterval| interval.nearest(&mut order(interval.number()), end);
+        batches.par_iter().map(of_batch).collect()
+    };
+    ShortestScatter::of(intervals, total, near)
 }

@@ -48,6 +48,7 @@ pub(super) fn batch_blocks(trials: u64) -> u64 {
 /// The shortest interval of a batch.
 #[derive(Clone, Debug)]
 pub(super) struct BatchInterval {
+    number: u64,
     trials: u64,
     ends: [f64; 2],
     /// The numerical standard errors of the order statistics of these ranks; not a number where they
@@ -56,8 +57,6 @@ pub(super) struct BatchInterval {
     /// The rank of the lower end, from 1, and the largest that it can have.
     rank: u64,
     most: u64,
-    /// The trials next to the least and to the greatest one.
-    near: [Vec<f64>; 2],
     /// By how much each end moves from one rank of the batch to the next; where errors were asked for.
     steps: [f64; 2],
 }
@@ -76,8 +75,17 @@ impl BatchInterval {
         let step = |error: f64, rank| error / rank_spread(trials, rank) as f64;
         let steps = [step(errors[0], rank), step(errors[1], upper)];
         let most = trials.saturating_sub(q).max(1);
-        let near = [false, true].map(|upper| limit_scatter::nearest(order, upper, most));
-        Some(Self { trials, ends, errors, rank, most, near, steps })
+        Some(Self { number, trials, ends, errors, rank, most, steps })
+    }
+
+    /// The number of the batch.
+    pub(super) fn number(&self) -> u64 {
+        self.number
+    }
+
+    /// The trials of the batch next to its least one, or its greatest one, in `order`.
+    pub(super) fn nearest(&self, order: &mut Order, end: usize) -> Vec<f64> {
+        limit_scatter::nearest(order, end == 1, self.most)
     }
 
     /// Where the interval lies along all possible ones, from 0 to 1.
@@ -97,8 +105,13 @@ pub(super) struct ShortestScatter {
 }
 
 impl ShortestScatter {
-    /// From the batches of a run of `total` trials.
-    pub(super) fn of(mut batches: Vec<BatchInterval>, total: u64) -> Self {
+    /// From the batches of a run of `total` trials. `near` gives the trials of a batch next to its
+    /// least one (0) or its greatest one (1): asked for only where the interval begins at a limit.
+    pub(super) fn of(
+        mut batches: Vec<BatchInterval>,
+        total: u64,
+        near: impl Fn(&[BatchInterval], usize) -> Vec<Vec<f64>>,
+    ) -> Self {
         let largest = batches.iter().map(|batch| batch.trials).max().unwrap_or(0);
         // a last batch of few trials would scatter more than the others
         batches.retain(|batch| 2 * batch.trials > largest);
@@ -122,8 +135,8 @@ impl ShortestScatter {
                 return (ratio * quantile).sqrt();
             }
             if at_limit[end] {
-                let near: Vec<&[f64]> =
-                    batches.iter().map(|batch| batch.near[end].as_slice()).collect();
+                let near = near(&batches, end);
+                let near: Vec<&[f64]> = near.iter().map(Vec::as_slice).collect();
                 let sampled = batches.iter().map(|batch| batch.trials).sum();
                 let step = mean(&|batch| batch.steps[1 - end].powi(2)).sqrt() * ratio;
                 return limit_scatter::scatter(&near, sampled, total, step);
