@@ -5,6 +5,7 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::Control;
 use super::conformity::Conformity;
@@ -259,8 +260,8 @@ pub(super) type Known<'k> = &'k (dyn Fn(usize) -> Option<monte_carlo::Finished> 
 const MOST_COLUMNS: usize = 256 << 20;
 
 /// Runs `work` in the caller's thread pool (rayon's global one, unless the call comes from another),
-/// or, where the control asks for a number of threads, in a pool of that many. Either way there are
-/// no more threads than have room for the columns of the task.
+/// or, where the control asks for a number of threads, in a pool of that many, which is kept for the
+/// next call. Either way there are no more threads than have room for the columns of the task.
 ///
 /// # Errors
 /// Threads that cannot be started.
@@ -277,11 +278,22 @@ pub fn in_pool<R: Send>(
         return Ok(work());
     }
     let asked = if control.threads == 0 { room } else { control.threads };
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(asked.min(room))
-        .build()
-        .map_err(|error| EvaluationError::Threads(error.to_string()))?;
-    Ok(pool.install(work))
+    Ok(pool_of(asked.min(room))?.install(work))
+}
+
+/// A pool of so many threads: the last one, if it has as many. New threads begin on the processor of
+/// the one that starts them and may wait there for milliseconds, as long as a run of a million trials
+/// takes.
+fn pool_of(threads: usize) -> Result<Arc<ThreadPool>, EvaluationError> {
+    static LAST: Mutex<Option<Arc<ThreadPool>>> = Mutex::new(None);
+    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(pool) = last.as_ref().filter(|pool| pool.current_num_threads() == threads) {
+        return Ok(Arc::clone(pool));
+    }
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = Arc::new(pool.map_err(|error| EvaluationError::Threads(error.to_string()))?);
+    *last = Some(Arc::clone(&pool));
+    Ok(pool)
 }
 
 /// Among how many rows at most the memory for kept values is divided.
