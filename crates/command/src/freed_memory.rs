@@ -10,7 +10,7 @@
 /// Arrays of this size and more are mapped for themselves, and so much is kept at the end of a heap,
 /// bytes.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
-const KEPT: libc::c_int = 4 << 20;
+const KEPT: libc::c_int = 16 << 20;
 
 /// Fixes both limits for the whole process. Other C libraries have none to be fixed.
 pub fn keep() {

@@ -793,6 +793,50 @@ pub(super) fn is_summary_symbol(words: &str) -> bool {
     SYMBOLS.contains(&compact.as_str())
 }
 
+/// Degrees of freedom without the type of the evaluation, which is often said with them: `9 (A)`.
+pub(super) fn without_type(text: &str) -> &str {
+    let of_type = |text: &str| {
+        let (plain, inside) = text.strip_suffix(')')?.rsplit_once('(')?;
+        let inside = inside.to_lowercase();
+        let letter = inside.strip_prefix("type").or_else(|| inside.strip_prefix("typ"));
+        matches!(letter.unwrap_or(&inside).trim(), "a" | "b").then_some(plain.len())
+    };
+    let text = text.trim();
+    of_type(text).map_or(text, |length| text[..length].trim_end())
+}
+
+/// A name and the unit that stands in brackets behind it, `dT [K]`; `None` where there is none.
+pub(super) fn with_unit_in_brackets(words: &str) -> Option<(&str, String)> {
+    let (name, unit) = words.trim().strip_suffix(']')?.rsplit_once('[')?;
+    let (name, unit) = (name.trim(), unit.trim());
+    if name.is_empty() || unit.is_empty() {
+        return None;
+    }
+    let unit = Unit::parse(unit).map(|_| unit.to_owned()).ok().or_else(|| unit_as_meant(unit))?;
+    Some((name, unit))
+}
+
+/// A unit as tables have it that formulas could not: `/K` for `1/K`, `K-1` and `m/s2` for `K^-1` and
+/// `m/s^2`.
+pub(super) fn unit_as_meant(text: &str) -> Option<String> {
+    let mut meant = String::new();
+    if text.starts_with('/') {
+        meant.push('1');
+    }
+    let mut before = ' ';
+    let mut signs = text.chars().peekable();
+    while let Some(sign) = signs.next() {
+        let next_is_digit = signs.peek().is_some_and(char::is_ascii_digit);
+        let begins_power = sign.is_ascii_digit() || (matches!(sign, '-' | '−') && next_is_digit);
+        if begins_power && before.is_alphabetic() {
+            meant.push('^');
+        }
+        meant.push(if sign == '−' { '-' } else { sign });
+        before = sign;
+    }
+    (meant != text && Unit::parse(&meant).is_ok()).then_some(meant)
+}
+
 /// Words as a name of formulas: other signs become `_`.
 pub(super) fn identifier(words: &str) -> String {
     let mut name = String::new();

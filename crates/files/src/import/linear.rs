@@ -8,6 +8,7 @@ use super::Budget;
 use super::columns::{Column, Header};
 use super::number::number_with_unit;
 use super::rows::{Row, divisor_of};
+use gumption_engine::decimal::to_15_digits;
 use gumption_engine::number::{Shortest, elementary};
 use gumption_units::Unit;
 
@@ -71,7 +72,7 @@ impl Budget<'_> {
                     self.guessed.push(format!(
                         "the quantities add up to {}, and the sheet says {}: the constant {constant} is \
                          added",
-                        written(sum),
+                        written(to_15_digits(sum)),
                         written(estimate)
                     ));
                 }
@@ -80,7 +81,7 @@ impl Budget<'_> {
             Some(_) => {}
             None if with > 0 => self.guessed.push(format!(
                 "the estimate of {measurand} is not given: that of the linear model is taken, {}",
-                written(sum)
+                written(to_15_digits(sum))
             )),
             None => {}
         }

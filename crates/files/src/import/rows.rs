@@ -133,6 +133,8 @@ impl Budget<'_> {
                 continue;
             }
             let mut row = row;
+            let plain = columns::with_unit_in_brackets(words);
+            let words = plain.as_ref().map_or(words.as_str(), |(name, _)| *name);
             row.name = self.name(words, &table.rows, line);
             self.coverage(header, &mut row);
             self.contradictions(&row);
@@ -166,6 +168,7 @@ impl Budget<'_> {
     fn row(&mut self, header: &Header, line: usize, label: String, lenient: bool) -> Row {
         let mut row = Row { line, about: label, ..Row::default() };
         row.unit = self.unit(header, line, lenient);
+        self.unit_of_name(header, &mut row, lenient);
         row.estimate = self.in_unit(header, line, (Column::Estimate, lenient), &mut row);
         row.width = self.in_unit(header, line, (Column::Width, lenient), &mut row);
         row.std = self.in_unit(header, line, (Column::Std, lenient), &mut row);
@@ -279,6 +282,7 @@ impl Budget<'_> {
                     .filter(|_| is_factor_of(text))
                     .map_or(text, |(of, _)| of.trim())
             }
+            Column::Dof => columns::without_type(text),
             _ => text,
         };
         let comma = self.cells.decimal_comma();
@@ -307,7 +311,7 @@ impl Budget<'_> {
 
     /// Degrees of freedom; `None` where they are infinite, or not stated.
     fn dof(&mut self, header: &Header, line: usize, lenient: bool) -> Option<f64> {
-        let text = header.cell(self.cells, line, Column::Dof).trim();
+        let text = columns::without_type(header.cell(self.cells, line, Column::Dof));
         let infinite = ["inf", "infinity", "∞", "unendlich", "infinite", "infini"];
         if infinite.contains(&text.to_lowercase().as_str()) {
             return None;
@@ -604,6 +608,9 @@ impl Budget<'_> {
         }
         match Unit::parse(text) {
             Ok(_) => text.to_owned(),
+            Err(_) if columns::unit_as_meant(text).is_some() => {
+                columns::unit_as_meant(text).unwrap_or_default()
+            }
             Err(_) if lenient => String::new(),
             Err(error) => {
                 self.guessed.push(format!(
@@ -612,6 +619,31 @@ impl Budget<'_> {
                     line + 1
                 ));
                 String::new()
+            }
+        }
+    }
+
+    /// Takes the unit that stands behind a name, `dT [K]`, where the row has no other one.
+    fn unit_of_name(&mut self, header: &Header, row: &mut Row, lenient: bool) {
+        for column in [Column::Symbol, Column::Quantity] {
+            let words = header.cell(self.cells, row.line, column);
+            let Some((_, unit)) = columns::with_unit_in_brackets(words) else {
+                continue;
+            };
+            if row.unit.is_empty() {
+                self.understood.push(format!(
+                    "line {}: the unit `{unit}` of `{}`",
+                    row.line + 1,
+                    words.trim()
+                ));
+                row.unit = unit;
+            } else if row.unit != unit && !lenient {
+                let reason = format!(
+                    "`{}` says `{unit}`, but the column of the unit `{}`",
+                    words.trim(),
+                    row.unit
+                );
+                self.fail(row.line, reason);
             }
         }
     }

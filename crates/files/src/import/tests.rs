@@ -588,3 +588,28 @@ fn a_heading_over_several_columns() {
     );
     assert_eq!(u, [0.5]);
 }
+
+/// Units as tables have them: behind a name, as `/K`, with a plain exponent; the type of the evaluation
+/// beside degrees of freedom.
+#[test]
+fn units_behind_names_and_without_signs_of_powers() {
+    let text = "Quantity;Estimate;Unit;Standard uncertainty;Sensitivity coefficient;Degrees of freedom\n\
+        alpha;11,5e-6;/K;0,5e-6;2;∞ (B)\n\
+        beta [K^-1];1e-6;;1e-7;1;9 (A)\n\
+        gamma;2e-6;K-1;1e-7;1;50 (Type B)\n";
+    let budget = import("b.csv", text.as_bytes()).unwrap();
+    let task = task(&budget);
+    let names: Vec<&str> = task.variables.iter().map(|v| v.name.as_str()).collect();
+    assert_eq!(names, ["alpha", "beta", "gamma"], "{}", budget.text);
+    for unit in ["\"1/K\"", "\"K^-1\""] {
+        assert!(budget.text.contains(unit), "{}", budget.text);
+    }
+    assert!(budget.text.contains("\"dof\":9.0") && budget.text.contains("\"dof\":50.0"));
+    // two units for one row
+    let text = text.replace("beta [K^-1];1e-6;;", "beta [K^-1];1e-6;m;");
+    let error = import("b.csv", text.as_bytes()).unwrap_err();
+    assert!(
+        format!("{error:?}").contains("says `K^-1`, but the column of the unit `m`"),
+        "{error:?}"
+    );
+}
