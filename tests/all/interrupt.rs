@@ -30,6 +30,25 @@ fn signal(child: &Child, name: &str) {
     assert!(kill.expect("`kill` runs").success());
 }
 
+/// Waits until the first trials are made: processor time says so whatever else the machine does (on
+/// Linux; elsewhere by the clock).
+fn wait_for_trials(child: &Child) {
+    // hundredths of a second, of user and system: the fields behind the name in brackets
+    let used = || {
+        let found = fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
+        let fields = found.rsplit_once(')')?.1.split_whitespace();
+        let ticks: Vec<u64> =
+            fields.skip(11).take(2).map_while(|field| field.parse().ok()).collect();
+        Some(ticks.iter().sum::<u64>())
+    };
+    if !cfg!(target_os = "linux") {
+        return std::thread::sleep(Duration::from_secs(3));
+    }
+    while used().is_some_and(|ticks| ticks < 50) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
 fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name());
     let mut names: Vec<String> = entries.map(|name| name.into_string().unwrap()).collect();
@@ -56,8 +75,7 @@ fn a_signal_gives_the_answer_of_the_trials_so_far() {
         let arguments = ["run", "m.json", "--trials", "1e12", "--format", "json"];
         let outputs = ["--output", "a.json", "--save", "r.json", "--samples", "s.csv"];
         let child = start(folder.path(), &[&arguments[..], &outputs].concat());
-        // long enough for the first pass to begin on a busy machine; what is there counts whenever
-        std::thread::sleep(Duration::from_secs(3));
+        wait_for_trials(&child);
         signal(&child, name);
         let done = child.wait_with_output().unwrap();
         let said = String::from_utf8_lossy(&done.stderr).into_owned();
@@ -91,7 +109,7 @@ fn every_format_is_marked() {
         let folder = folder();
         let arguments = ["run", "m.json", "--trials", "1e12", "--format", format];
         let child = start(folder.path(), &[&arguments[..], &["--output", "a"]].concat());
-        std::thread::sleep(Duration::from_millis(1500));
+        wait_for_trials(&child);
         signal(&child, "-TERM");
         let done = child.wait_with_output().unwrap();
         assert_eq!(done.status.code(), Some(143), "{format}");

@@ -112,19 +112,27 @@ fn draws(distribution: &Distribution, count: usize) -> Vec<f64> {
 fn draws_follow_the_quantile_function() {
     let n = 1000 * BLOCK;
     for (name, distribution) in shapes() {
-        let mut values = draws(&distribution, n);
+        let values = draws(&distribution, n);
         assert!(values.iter().all(|v| v.is_finite()), "{name}");
-        values.sort_unstable_by(f64::total_cmp);
         let points = 4000;
-        let worst = (1..points)
-            .map(|i| {
-                let p = f64::from(i) / f64::from(points);
-                let q = distribution.quantile(p);
-                let below = values.partition_point(|&v| v < q) as f64 / n as f64;
-                let up_to = values.partition_point(|&v| v <= q) as f64 / n as f64;
-                (below - p).max(p - up_to)
-            })
-            .fold(0.0, f64::max);
+        let shares: Vec<f64> = (1..points).map(|i| f64::from(i) / f64::from(points)).collect();
+        let quantiles: Vec<f64> = shares.iter().map(|&p| distribution.quantile(p)).collect();
+        assert!(quantiles.is_sorted(), "{name}");
+        // by the first quantile above a draw, and by the first that is not below it
+        let (mut below, mut up_to) = (vec![0; shares.len() + 1], vec![0; shares.len() + 1]);
+        for v in values {
+            let first = quantiles.partition_point(|&q| q < v);
+            up_to[first] += 1;
+            let equal = quantiles[first..].iter().take_while(|&&q| q == v).count();
+            below[first + equal] += 1;
+        }
+        let (mut draws_below, mut draws_up_to, mut worst) = (0, 0, 0.0_f64);
+        for ((p, below), up_to) in shares.into_iter().zip(below).zip(up_to) {
+            draws_below += below;
+            draws_up_to += up_to;
+            let share = |draws: i32| f64::from(draws) / n as f64;
+            worst = worst.max(share(draws_below) - p).max(p - share(draws_up_to));
+        }
         let statistic = worst * (n as f64).sqrt();
         assert!(statistic < 2.6, "{name}: {statistic}");
     }
