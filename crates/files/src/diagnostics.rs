@@ -198,6 +198,11 @@ impl Collector {
         result.map_err(|diagnostic| self.report(span, diagnostic)).ok()
     }
 
+    /// Whether a mistake was reported that begins where `span` does.
+    pub(crate) fn has_mistake_at(&self, span: &Range<usize>) -> bool {
+        self.by_start.borrow().get(&span.start).is_some_and(|found| !found.is_empty())
+    }
+
     pub(crate) fn is_clean(&self) -> bool {
         self.diagnostics.borrow().is_empty()
     }

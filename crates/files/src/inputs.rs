@@ -213,9 +213,13 @@ impl<'a> Reader<'a, '_> {
         self.inputs.pairs.push((first, coefficient, member.value.span.clone()));
     }
 
-    /// The unit as given; without one that of a saved result, or 1.
+    /// The unit as given; without one that of a saved result, or 1. Nothing where the text that the
+    /// whole input is could not be read.
     fn unit(&self) -> Option<Unit> {
         let object = &self.object;
+        let is_unread = object
+            .get("distribution")
+            .is_some_and(|made| object.log.has_mistake_at(&made.key_span));
         let is_result = object.get("distribution").is_some_and(
             |member| matches!(&member.value.value, Json::Text(name) if name == "result"),
         );
@@ -223,6 +227,7 @@ impl<'a> Reader<'a, '_> {
             .get("distribution")
             .is_some_and(|member| matches!(&member.value.value, Json::Text(name) if name == "dcc"));
         match object.get("unit") {
+            None if is_unread => None,
             None if is_result => self.results.unit(object),
             None if self.whole.is_some() => self.whole.clone(),
             None if is_certificate => Some(self.certificate.as_ref()?.unit.clone()),

@@ -1,5 +1,5 @@
 //! Quantities as people write them, a whole input in one text: `5.0112(23) V`,
-//! `5.0112 V ± 0.0046 V (k=2)`, `5 +0.2 -0.1 mm`.
+//! `5.0112 V ± 0.0046 V (k=2)`, `5.0112 V, U = 0.0046 V, k = 2`, `5 +0.2 -0.1 mm`.
 //!
 //! Such a text becomes the object that the file could have had in its place, before anything reads
 //! it; whatever is wrong with that object is reported at the text.
@@ -173,10 +173,30 @@ fn members(span: &Range<usize>, unit: Option<String>, stated: Stated) -> Vec<Mem
     made
 }
 
+/// How a quantity is written.
+const FORMS: &str = "write it as `5.0112 V`, `5.0112(23) V`, `5.0112 V ± 0.0046 V (k=2)` or \
+                     `5 +0.2 -0.1 mm`";
+
+/// What an uncertainty is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Uncertainty {
+    /// `u =`.
+    Standard,
+    /// `U =`, and behind `±`.
+    Expanded,
+}
+
+impl Uncertainty {
+    fn symbol(self) -> &'static str {
+        match self {
+            Self::Standard => "u",
+            Self::Expanded => "U",
+        }
+    }
+}
+
 /// Reads a text: its unit (empty without one) and what it says.
 fn stated(text: &str) -> Result<(String, Stated), String> {
-    const FORMS: &str = "write it as `5.0112 V`, `5.0112(23) V`, `5.0112 V ± 0.0046 V (k=2)` or \
-                         `5 +0.2 -0.1 mm`";
     let text = text.trim().replace('−', "-").replace("+/-", "±").replace("+-", "±");
     // (5.0112 ± 0.0046) V (k=2)
     let (inner, outer) = match text.strip_prefix('(').and_then(|rest| rest.split_once(')')) {
@@ -187,8 +207,13 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
         let first = "it does not begin with a number";
         format!("{first}; {FORMS}")
     })?;
-    if rest.starts_with(',') {
+    if is_decimal_comma(rest) {
         return Err("a decimal fraction is written with a point, such as `5.01`".to_owned());
+    }
+    if let Some((before, of, after)) = named_uncertainty(rest) {
+        let (uncertainty, behind) = digits(after)
+            .ok_or_else(|| format!("a number is needed behind `{} =`", of.symbol()))?;
+        return uncertain(&value, before, of, &uncertainty, behind, false);
     }
     if let Some(after) = rest.strip_prefix('(') {
         let (inside, after) = after.split_once(')').ok_or("the parenthesis is not closed")?;
@@ -209,27 +234,14 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
             Some(_) => return Err(format!("the unit stands behind the parenthesis; {FORMS}")),
             None => behind,
         };
-        let (own, coverage) = match behind.find('(') {
-            Some(at) => (behind[..at].trim(), behind[at..].trim()),
-            None => (behind.trim(), ""),
-        };
-        let first = before.trim();
-        if !first.is_empty() && own.is_empty() {
-            return Err(format!("the uncertainty has no unit; {FORMS}"));
-        }
-        if first.is_empty() && own == "%" && outer.is_none() {
-            return Err(format!(
-                "`± {expanded} %` is {expanded} % of the value, or both are in %: write \
-                 `{value} % ± {expanded} %`, or the uncertainty in the unit of the value"
-            ));
-        }
-        let coverage = coverage_of(coverage)?;
-        if first.is_empty() || first == own {
-            return Ok((unit(own)?, Stated::Expanded { value, expanded, coverage }));
-        }
-        // a width that names its own unit, or per cent of the value
-        let expanded = format!("{expanded} {}", unit(own)?);
-        return Ok((unit(first)?, Stated::Expanded { value, expanded, coverage }));
+        return uncertain(
+            &value,
+            before,
+            Uncertainty::Expanded,
+            &expanded,
+            behind,
+            outer.is_some(),
+        );
     }
     if rest.starts_with('+') || (rest.starts_with('-') && rest.contains('+')) {
         let (first, rest) = signed(rest).ok_or_else(|| FORMS.to_owned())?;
@@ -244,15 +256,83 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
     Ok((unit(rest)?, Stated::Exact(value)))
 }
 
-/// What stands behind `±`: `(k=2)`, `(p=95 %)`, `(p=0.95)`, `(95 %)`; of `(k=2, p=95 %)`, as
+/// Whether digits follow a comma at once.
+fn is_decimal_comma(text: &str) -> bool {
+    text.strip_prefix(',').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+}
+
+/// `V, U = 0.0046 V, k = 2`: what stands before the uncertainty that is named, which one it is, and
+/// what stands behind its equals sign.
+fn named_uncertainty(text: &str) -> Option<(&str, Uncertainty, &str)> {
+    let (before, rest) = text.split_once([',', ';'])?;
+    let (symbol, after) = rest.split_once('=')?;
+    let of = match symbol.trim() {
+        "u" => Uncertainty::Standard,
+        "U" => Uncertainty::Expanded,
+        _ => return None,
+    };
+    Some((before, of, after.trim()))
+}
+
+/// A value whose unit is `first`, and its uncertainty with its own unit and what is said of it behind
+/// it; where both share one unit (`is_shared`) it stands behind the uncertainty.
+fn uncertain(
+    value: &str,
+    first: &str,
+    of: Uncertainty,
+    uncertainty: &str,
+    behind: &str,
+    is_shared: bool,
+) -> Result<(String, Stated), String> {
+    if is_decimal_comma(behind) {
+        return Err("a decimal fraction is written with a point, such as `0.01`".to_owned());
+    }
+    let (own, said) = match behind.find(['(', ',', ';']) {
+        Some(at) => (behind[..at].trim(), behind[at..].trim()),
+        None => (behind.trim(), ""),
+    };
+    let first = first.trim();
+    if !first.is_empty() && own.is_empty() {
+        return Err(format!("the uncertainty has no unit; {FORMS}"));
+    }
+    if first.is_empty() && own == "%" && !is_shared {
+        return Err(format!(
+            "`± {uncertainty} %` is {uncertainty} % of the value, or both are in %: write \
+             `{value} % ± {uncertainty} %`, or the uncertainty in the unit of the value"
+        ));
+    }
+    let coverage = coverage_of(of, said)?;
+    let (value, uncertainty) = (value.to_owned(), uncertainty.to_owned());
+    if first.is_empty() || first == own {
+        return Ok((unit(own)?, Stated::Expanded { value, expanded: uncertainty, coverage }));
+    }
+    // a width that names its own unit, or per cent of the value
+    let expanded = format!("{uncertainty} {}", unit(own)?);
+    Ok((unit(first)?, Stated::Expanded { value, expanded, coverage }))
+}
+
+/// What stands behind an uncertainty: `(k=2)`, `(p=95 %)`, `(p=0.95)`, `(95 %)`; of `(k=2, p=95 %)`, as
 /// certificates have it, the factor, which that probability must allow; degrees of freedom behind
-/// them, `(k=2.28, dof=10)`.
-fn coverage_of(text: &str) -> Result<Coverage, String> {
-    const MISSING: &str = "what is behind `±` must be said: `(k=2)`, `(p=95 %)`, or `(k=1)` for a \
-                           standard uncertainty; degrees of freedom behind it, `(k=2.28, dof=10)`";
-    let inside = text.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')).ok_or(MISSING)?;
+/// them, `(k=2.28, dof=10)`. All of it also without parentheses behind a comma or a semicolon,
+/// `, k = 2`. A standard uncertainty has degrees of freedom at the most.
+fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
+    const MISSING: &str = "what the uncertainty is must be said: `(k=2)`, `(p=95 %)`, or `(k=1)` for \
+                           a standard uncertainty; degrees of freedom behind it, `(k=2.28, dof=10)`";
+    let inside = match text.strip_prefix([',', ';']) {
+        // `, k = 2 (95 %)`
+        Some(rest) if rest.matches('(').count() == rest.matches(')').count() => {
+            rest.replace('(', ",").replace(')', "")
+        }
+        Some(_) => return Err("the parenthesis is not closed".to_owned()),
+        None if text.is_empty() && of == Uncertainty::Standard => String::new(),
+        None => {
+            let inside = text.strip_prefix('(').and_then(|rest| rest.strip_suffix(')'));
+            inside.ok_or(MISSING)?.to_owned()
+        }
+    };
     let (mut k, mut p, mut dof) = (None, None, None);
-    for part in inside.split([',', ';']).map(str::trim) {
+    let parts = inside.split([',', ';']).map(str::trim);
+    for part in parts.filter(|part| of == Uncertainty::Expanded || !part.is_empty()) {
         let (key, number) = part.split_once('=').unwrap_or(("p", part));
         let number = number.trim();
         let (percent, digits) = match number.strip_suffix('%') {
@@ -283,6 +363,15 @@ fn coverage_of(text: &str) -> Result<Coverage, String> {
         }
     }
     let dof = dof.map(|(text, _)| text);
+    if of == Uncertainty::Standard {
+        return match (k, p) {
+            (None, None) => Ok(Coverage { key: "k", factor: "1".to_owned(), dof }),
+            (Some((factor, 1.0)), None) => Ok(Coverage { key: "k", factor, dof }),
+            _ => Err("`u =` is a standard uncertainty, and what stands behind it belongs to an \
+                      expanded one: write `U =`, or leave it out"
+                .to_owned()),
+        };
+    }
     match (k, p) {
         (Some((factor, k)), Some((_, p))) => {
             // rounded to three digits, as certificates print it
@@ -418,6 +507,14 @@ mod tests {
             ("5.01 V ± 0.02 V (k = 2.28; 95 %)", "V", expanded("5.01", "0.02", "k", "2.28")),
             ("5 V ± 0.1 V (k=2.28, dof=10)", "V", with("5", "0.1", "k", "2.28", Some("10"))),
             ("5 V ± 0.1 V (95 %; νeff = 10)", "V", with("5", "0.1", "p", "0.95", Some("10"))),
+            ("5.0 V ± 0.1 V, k = 2.0", "V", expanded("5.0", "0.1", "k", "2.0")),
+            ("(5.0 ± 0.1) V; k=2; 95 %", "V", expanded("5.0", "0.1", "k", "2")),
+            ("5.0 V ± 0.1 V, k = 2 (95 %)", "V", expanded("5.0", "0.1", "k", "2")),
+            ("5.0 V, U = 0.1 V, k = 2", "V", expanded("5.0", "0.1", "k", "2")),
+            ("5.0 V; U = 20 mV (k = 2)", "V", expanded("5.0", "20 mV", "k", "2")),
+            ("5.0, U = 0.1, p = 95 %", "", expanded("5.0", "0.1", "p", "0.95")),
+            ("5.0 V, u = 0.05 V", "V", expanded("5.0", "0.05", "k", "1")),
+            ("5.0 V, u = 0.05 V, ν = 9", "V", with("5.0", "0.05", "k", "1", Some("9"))),
             ("3 1/s", "1/s", Stated::Exact("3".into())),
         ];
         for (text, unit, expected) in table {
@@ -451,6 +548,14 @@ mod tests {
             ("5.0112 V ± 0.0046 V (n=2)", "must be said"),
             ("5.0 V ± 0.1 V (k=2, rectangular)", "`rectangular` is not known there"),
             ("5.0 V ± 0.1 V (k=2, k=3)", "`k` is said twice"),
+            ("5.0 V ± 0,1 V (k=2)", "with a point"),
+            ("5.0 V ± 0.1 V, k = 2,28", "with a point"),
+            ("5.0 V ± 0.1 V, k = 2 (95 %", "not closed"),
+            ("5.0 V ± 0.1 V,", "not known there"),
+            ("5.0 V, U = 0.1 V", "must be said"),
+            ("5.0 V, U = , k = 2", "a number is needed behind `U =`"),
+            ("5.0 V, u = 0.1 V, k = 2", "`u =` is a standard uncertainty"),
+            ("5.0 V, s = 0.1 V", "is no unit"),
             ("5.0 V ± 0.1 V (k=2, p=99 %)", "k = 2 is less than the 2.58"),
             ("5.0 V ± 0.1 V (k=1.65, 95 %)", "name it"),
             ("5.0 V ± 0.1 V (k=1.65, 95 %, rectangular)", "`rectangular` is not known there"),
