@@ -21,8 +21,8 @@ use gumption_report::plan as report;
 pub(super) struct Planning {
     #[command(flatten)]
     model: Model,
-    /// What is wanted: "U(y) <= 0.01 m/s^2", or "u(y) <= ..." for the standard uncertainty; without a
-    /// unit in that of the output
+    /// What is wanted: "U(y) <= 0.01 m/s^2", "U(y)/y <= 0.5 %", or "u(y) <= ..." for the standard
+    /// uncertainty; without a unit in that of the output
     #[arg(long, value_name = "TARGET")]
     target: String,
     /// What improvements of inputs cost; without it halving any of them costs the same
@@ -158,8 +158,7 @@ fn said(error: &NoPlan, task: &Task, question: &PlanQuestion) -> String {
         let digits = gumption_engine::decimal::to_digits(value, 4);
         format!("{} {unit}", Shortest(digits)).trim_end().to_owned()
     };
-    let most = format!("{} {unit}", Shortest(target.most));
-    let most = most.trim_end();
+    let most = report::wanted(&target, output);
     match error {
         NoPlan::Met(now) => format!(
             "the target {kind}({name}) <= {most} is met already: {kind}({name}) is {} now",

@@ -1,32 +1,33 @@
 //! What a plan is asked for, as it is typed: `U(y) <= 0.01 m/s^2`, and `reference/drift = 1 yr`.
 
 use super::value_text::{ValueOf, converted, with_unit};
-use super::width::number;
+use super::width::{Width, number, share};
 use gumption_analysis::plan::{Drift, DriftLaw, PlanTarget};
 use gumption_engine::task::Task;
 use gumption_units::nearest;
 
 /// The form of a target, for messages.
-const FORM: &str =
-    "a target is written `U(y) <= 0.01 m/s^2` (or `u(y)` for the standard uncertainty)";
+const FORM: &str = "a target is written `U(y) <= 0.01 m/s^2` or `U(y)/y <= 0.5 %` (or `u(y)` for the \
+                    standard uncertainty)";
 
-/// A target of an output of a task; a number without a unit is in the output's.
+/// A target of an output of a task: a value, a number in the output's unit, a share of the estimate
+/// (`U(y)/y <= 0.5 %`), or both as in a specification (`U(y) <= 0.1 % + 2 uV`).
 ///
 /// # Errors
 /// Why it is none, in words: its form, an unknown output, another dimension, a value that is not
-/// above zero.
+/// above zero, a share of a temperature or a level.
 pub fn read_target(text: &str, task: &Task) -> Result<PlanTarget, String> {
     let form = || format!("`{text}` is not a target; {FORM}");
     let (left, right) = text.split_once('<').ok_or_else(form)?;
     let right = right.strip_prefix('=').unwrap_or(right).trim();
-    let left = left.trim();
-    let (kind, rest) = left.split_once('(').ok_or_else(form)?;
+    let (kind, rest) = left.trim().split_once('(').ok_or_else(form)?;
     let expanded = match kind.trim() {
         "U" => true,
         "u" => false,
         _ => return Err(form()),
     };
-    let name = rest.trim().strip_suffix(')').ok_or_else(form)?.trim();
+    let (name, divisor) = rest.rsplit_once(')').ok_or_else(form)?;
+    let (name, divisor) = (name.trim(), divisor.trim());
     let names = || task.model.outputs.iter().map(|output| output.quantity.name.as_str());
     let output = names().position(|known| known == name).ok_or_else(|| {
         let known: Vec<&str> = names().take(20).collect();
@@ -39,19 +40,42 @@ pub fn read_target(text: &str, task: &Task) -> Result<PlanTarget, String> {
     })?;
     let unit = task.model.outputs.get(output).map(|output| &output.quantity.unit);
     let unit = unit.ok_or_else(form)?;
-    let most = match with_unit(right) {
-        Some(value) => converted(value, unit, ValueOf::Difference, &[])
-            .map_err(|error| format!("the target `{right}` of `{name}`: {error}"))?,
-        None => match number(right) {
-            Ok((value, "")) => value,
-            _ => return Err(form()),
-        },
-    };
-    if most > 0.0 && most.is_finite() {
-        Ok(PlanTarget { output, expanded, most })
-    } else {
-        Err(format!("the target `{right}` of `{name}` must be above zero"))
+    let target = PlanTarget { output, expanded, share: 0.0, most: 0.0 };
+    let wrong = |reason: String| format!("the target `{right}` of `{name}`{reason}");
+    let (first, behind) = number(right).map_err(|_| form())?;
+    if first.is_nan() || first <= 0.0 || first.is_infinite() {
+        return Err(wrong(" must be above zero".to_owned()));
     }
+    match divisor.strip_prefix('/').map(str::trim) {
+        None if divisor.is_empty() => {}
+        Some(of) if of.trim_matches('|').trim() == name => {
+            if unit.is_celsius() || !unit.level_exponent().is_zero() {
+                return Err(wrong(format!(
+                    ": a share of a value in `{unit}` means nothing; state it in that unit"
+                )));
+            }
+            let factor = match share(behind) {
+                Some((factor, "")) => factor,
+                _ if behind.is_empty() => 1.0,
+                _ => return Err(form()),
+            };
+            return Ok(PlanTarget { share: first * factor, ..target });
+        }
+        _ => return Err(form()),
+    }
+    if behind.is_empty() {
+        return Ok(PlanTarget { most: first, ..target });
+    }
+    if unit.dimension().is_none() {
+        // a share in the unit of an output that is itself a share
+        let value = with_unit(right).ok_or_else(form)?;
+        let most = converted(value, unit, ValueOf::Difference, &[])
+            .map_err(|error| wrong(format!(": {error}")))?;
+        return Ok(PlanTarget { most, ..target });
+    }
+    let width = Width::specification(right, unit, &[]);
+    let Width { relative, absolute } = width.map_err(|reason| wrong(format!(": {reason}")))?;
+    Ok(PlanTarget { share: relative, most: absolute, ..target })
 }
 
 /// The drift of an input over a time, `NAME=TIME UNIT`, and the unit of the time as it is written.
@@ -109,11 +133,18 @@ mod tests {
     #[test]
     fn targets() {
         let target = |text: &str| read_target(text, &task()).unwrap();
-        let of = |most| PlanTarget { output: 0, expanded: true, most };
+        let of = |most| PlanTarget { output: 0, expanded: true, share: 0.0, most };
         assert_eq!(target("U(length) <= 0.01 m"), of(10.0));
         assert_eq!(target(" U( length )<0.5mm "), of(0.5));
         assert_eq!(target("U(length) <= 3"), of(3.0));
         assert_eq!(target("u(length) <= 2 mm"), PlanTarget { expanded: false, ..of(2.0) });
+        let of_share = |share| PlanTarget { share, ..of(0.0) };
+        assert_eq!(target("U(length) <= 0.5 %"), of_share(0.005));
+        assert_eq!(target("U(length)/length <= 0.5 %"), of_share(0.005));
+        assert_eq!(target("u(length) / |length| <= 1e-3").share, 1e-3);
+        // products of 50 and 1 um with their factors, right to an ulp
+        let both = target("U(length) <= 50 ppm + 1 um");
+        assert!((both.share - 5e-5).abs() < 1e-19 && (both.most - 1e-3).abs() < 1e-18);
         let wrong = |text: &str| read_target(text, &task()).unwrap_err();
         assert!(wrong("U(lenght) <= 3").contains("did you mean `length`"));
         assert!(wrong("U(length) <= 3 s").contains("`3 s`"));
@@ -127,6 +158,9 @@ mod tests {
             "V(length) < 3",
             "U(length) <= x",
             "U(length) < 3 4",
+            "U(length)/width < 3 %",
+            "U(length)/length < 3 mm",
+            "U(length)*2 < 3 mm",
         ] {
             assert!(read_target(form, &task()).is_err(), "{form}");
         }

@@ -10,8 +10,10 @@ use gumption_units::Unit;
 /// A width that may follow the estimate: `relative` times its modulus, plus `absolute`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Width {
-    relative: f64,
-    absolute: f64,
+    /// The share of the estimate's modulus.
+    pub(super) relative: f64,
+    /// What is added to it, in the input's unit.
+    pub(super) absolute: f64,
 }
 
 impl Width {
@@ -72,7 +74,7 @@ impl Width {
                 Some((factor, "")) => {
                     if unit.is_relative() || unit.is_celsius() || !unit.level_exponent().is_zero() {
                         return Err(format!(
-                            "for an input in `{unit}` it is not clear what `{term}` is of: write \
+                            "for a quantity in `{unit}` it is not clear what `{term}` is of: write \
                              `{term} of reading`, or a value with its unit"
                         ));
                     }
@@ -134,7 +136,7 @@ pub(super) fn number(term: &str) -> Result<(f64, &str), String> {
 }
 
 /// Whether the rest of a term is a share, of which size, and what it is of (`""` if not said).
-fn share(rest: &str) -> Option<(f64, &str)> {
+pub(super) fn share(rest: &str) -> Option<(f64, &str)> {
     let (factor, after) = [("%", 1e-2), ("ppm", 1e-6), ("ppb", 1e-9)]
         .into_iter()
         .find_map(|(sign, factor)| Some((factor, rest.strip_prefix(sign)?)))?;

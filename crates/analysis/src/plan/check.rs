@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use super::NoPlan;
 use super::trial_budget::{Change, Changes, TrialBudget, stand_in};
-use super::{NoPlan, PlanTarget};
 use gumption_engine::distribution::{
     Arcsine, Constant, Distribution, Fits, Invalid, Normal, Rectangular, StudentT, Trapezoidal,
     Triangular,
@@ -35,10 +35,10 @@ pub struct PlanCheck {
 pub(super) fn of(
     task: &Task,
     budget: &TrialBudget<'_>,
-    target: PlanTarget,
     changes: &Changes,
     control: &Control<'_>,
 ) -> Result<PlanCheck, NoPlan> {
+    let target = budget.target;
     let mut stood_in = Vec::new();
     let mut distributions = budget.row.distributions.to_vec();
     for &(variable, change) in changes {
@@ -73,8 +73,8 @@ pub(super) fn of(
         if target.expanded { Some(of_half) } else { figures.errors.standard_uncertainty }
     });
     let holds = figure.zip(error).and_then(|(figure, error)| {
-        let clear = (figure - target.most).abs() > 2.0 * error;
-        clear.then_some(figure <= target.most)
+        let clear = (figure - budget.limit).abs() > 2.0 * error;
+        clear.then_some(figure <= budget.limit)
     });
     Ok(PlanCheck {
         trials: figures.map_or(0, |figures| figures.trials),

@@ -7,7 +7,8 @@
 //! freedom as in any evaluation, so that U may jump where their integer part does; every answer is
 //! checked on the side where the target holds.
 //!
-//! Of a sweep the row with the largest U is planned, and the plan is tried in all others.
+//! Of a sweep the row in which U is furthest above its target is planned, and the plan is tried in all
+//! others.
 
 mod check;
 mod cost;
@@ -37,8 +38,17 @@ pub struct PlanTarget {
     pub output: usize,
     /// Whether the expanded uncertainty U is meant, or else the standard uncertainty u.
     pub expanded: bool,
-    /// The most that it may be, in the output's unit; above 0.
+    /// The most that it may be, a share of the modulus of the estimate; 0 or above.
+    pub share: f64,
+    /// What is added to that share, in the output's unit; 0 or above, and one of the two above 0.
     pub most: f64,
+}
+
+impl PlanTarget {
+    /// The most that the uncertainty of this estimate may be, both in the output's unit.
+    pub fn limit(&self, estimate: f64) -> f64 {
+        self.share * estimate.abs() + self.most
+    }
 }
 
 /// What is asked for.
@@ -83,6 +93,8 @@ pub struct Plan {
     pub now: Gum,
     /// U or u as it is.
     pub figure: f64,
+    /// The most that it may be in the planned row, in the output's unit.
+    pub limit: f64,
     /// One entry for each line of the budget, in order.
     pub inputs: Vec<InputNeed>,
     /// The cheapest combination of improvements; `None` where the target holds already.
@@ -102,6 +114,8 @@ pub enum NoPlan {
     /// The law of propagation gives nothing here: a sensitivity coefficient or the coverage factor is
     /// not defined.
     Undefined,
+    /// The target is a share of an estimate that is 0.
+    NoEstimate,
     /// The target holds already; what it is now, in the output's unit.
     Met(f64),
     /// The target holds with no combination of improvements; the least that was found.
@@ -125,6 +139,9 @@ impl fmt::Display for NoPlan {
             Self::Undefined => f.write_str(
                 "the law of propagation gives no uncertainty here (a sensitivity coefficient or the \
                  coverage factor is not defined), so there is nothing to plan with",
+            ),
+            Self::NoEstimate => f.write_str(
+                "the target is a share of the estimate, which is 0: state it in the unit of the output",
             ),
             Self::Met(now) => write!(f, "the target is met already: it is {now} now"),
             Self::Unreachable(least) => write!(
@@ -160,36 +177,41 @@ pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Resu
     for (row, budget) in budgets.iter().enumerate() {
         let figure = budget.figure(&none).filter(|figure| figure.is_finite());
         let figure = figure.ok_or(NoPlan::Undefined)?;
-        if worst.is_none_or(|(_, most)| figure > most) {
-            worst = Some((row, figure));
+        if budget.limit == 0.0 {
+            return Err(NoPlan::NoEstimate);
+        }
+        let used = figure / budget.limit;
+        if worst.is_none_or(|(_, most)| used > most) {
+            worst = Some((row, used));
         }
     }
-    let (row, figure) = worst.ok_or(NoPlan::Undefined)?;
+    let (row, _) = worst.ok_or(NoPlan::Undefined)?;
     let budget = budgets.get(row).ok_or(NoPlan::Undefined)?;
+    let limit = budget.limit;
+    let figure = budget.figure(&none).ok_or(NoPlan::Undefined)?;
     let now = budget.gum(&none).ok_or(NoPlan::Undefined)?;
     let interval = match question.drift {
         Some(drift) => Some(interval::longest(budget, drift).ok_or(NoPlan::NoDrift)?),
         None => None,
     };
-    let met = figure <= target.most;
+    let met = figure <= limit;
     if met && interval.is_none() {
         return Err(NoPlan::Met(figure));
     }
     let inputs = now.budget().map(|line| need(budget, line.variable, met)).collect();
     let cheapest = if met { None } else { Some(optimum::cheapest(budget, &question.costs)?) };
     let changes = cheapest.as_ref().map(CheapestPlan::changes).unwrap_or_default();
-    let scaled = |other: &TrialBudget<'_>| other.figure(&budget.carried_to(other, &changes));
     let missed_rows = budgets
         .iter()
         .enumerate()
-        .filter(|(_, other)| !scaled(other).is_some_and(|figure| figure <= target.most))
+        .filter(|(_, other)| !other.holds(&budget.carried_to(other, &changes)))
         .map(|(row, _)| row)
         .collect();
     let check = match task.settings.trials {
         Trials::Fixed(0) => None,
-        _ => Some(check::of(task, budget, target, &changes, control)?),
+        _ => Some(check::of(task, budget, &changes, control)?),
     };
-    Ok(Plan { target, row, now, figure, inputs, cheapest, interval, missed_rows, check })
+    Ok(Plan { target, row, now, figure, limit, inputs, cheapest, interval, missed_rows, check })
 }
 
 /// What one variable alone would have to become.

@@ -22,7 +22,7 @@ fn sum() -> Task {
 }
 
 fn question(most: f64) -> PlanQuestion {
-    let target = PlanTarget { output: 0, expanded: true, most };
+    let target = PlanTarget { output: 0, expanded: true, share: 0.0, most };
     PlanQuestion { target, costs: Costs::Equal, drift: None }
 }
 
@@ -50,10 +50,58 @@ fn one_input_alone() {
     near(found.inputs[0].needed.unwrap(), 4.25f64.sqrt(), 1e-13);
     near(found.inputs[1].needed.unwrap(), 11.25f64.sqrt(), 1e-13);
     // the target may be of the standard uncertainty
-    let target = PlanTarget { output: 0, expanded: false, most: 4.5 };
+    let target = PlanTarget { output: 0, expanded: false, share: 0.0, most: 4.5 };
     let found = planned(&sum(), &PlanQuestion { target, ..question(1.0) });
     near(found.inputs[0].needed.unwrap(), 4.25f64.sqrt(), 1e-13);
     assert!(found.missed_rows.is_empty() && found.check.is_none());
+}
+
+/// A share of the estimate, 150: 6 % of it are 9, and 4 % with 3 more as well. An estimate of 0 has no
+/// share.
+#[test]
+fn a_share_of_the_estimate() {
+    let absolute = planned(&sum(), &question(9.0));
+    for (share, most) in [(0.06, 0.0), (0.04, 3.0)] {
+        let target = PlanTarget { output: 0, expanded: true, share, most };
+        let found = planned(&sum(), &PlanQuestion { target, ..question(1.0) });
+        near(found.limit, 9.0, 1e-14);
+        let (of_share, of_value) = (found.inputs[0].needed, absolute.inputs[0].needed);
+        near(of_share.unwrap(), of_value.unwrap(), 1e-13);
+    }
+    let zero = Task::builder("")
+        .input("a", Input::normal(0.0, 3.0, "mm").unwrap())
+        .equation("y", "a")
+        .output("y", "mm")
+        .trials(0)
+        .build()
+        .unwrap();
+    let target = PlanTarget { output: 0, expanded: true, share: 0.06, most: 0.0 };
+    let asked = PlanQuestion { target, ..question(1.0) };
+    assert_eq!(plan(&zero, &asked, &Control::default()).unwrap_err(), NoPlan::NoEstimate);
+}
+
+/// Of y = a f + b at f = 1 and 10 with U = 2 sqrt(9 f^2 + 16), 10 and 60.5: 10 is 6.7 % of 150 and 60.5
+/// is 5.8 % of 1050, so that the first row is planned for 5 %, and the second for a value.
+#[test]
+fn the_row_furthest_above_its_target_is_planned() {
+    let task = Task::builder("")
+        .input("a", Input::normal(100.0, 3.0, "mm").unwrap())
+        .input("b", Input::normal(50.0, 4.0, "mm").unwrap())
+        .conditions(&[("f", "1")], [[1.0], [10.0]])
+        .equation("y", "a*f + b")
+        .output("y", "mm")
+        .coverage(FIXED)
+        .trials(0)
+        .build()
+        .unwrap();
+    let of = |share, most| {
+        let target = PlanTarget { output: 0, expanded: true, share, most };
+        planned(&task, &PlanQuestion { target, ..question(1.0) })
+    };
+    let found = of(0.05, 0.0);
+    assert_eq!(found.row, 0);
+    near(found.limit, 7.5, 1e-14);
+    assert_eq!(of(0.0, 9.5).row, 1);
 }
 
 /// Costs u0/u - 1 each: the gradient 3/a^2 : 4/b^2 is to be a : b, so a^3 : b^3 = 3 : 4.

@@ -36,12 +36,20 @@ pub(super) struct TrialBudget<'a> {
     pub(super) task: &'a Task,
     pub(super) row: &'a Row,
     pub(super) target: PlanTarget,
+    /// The most that the uncertainty may be in this row, in the output's unit.
+    pub(super) limit: f64,
     at: AtEstimates<'a>,
 }
 
 impl<'a> TrialBudget<'a> {
     pub(super) fn of(task: &'a Task, row: &'a Row, target: PlanTarget) -> Self {
-        Self { task, row, target, at: AtEstimates::of(task, row) }
+        let mut budget =
+            Self { task, row, target, limit: target.most, at: AtEstimates::of(task, row) };
+        if target.share > 0.0 {
+            let estimate = budget.gum(&Changes::default()).map_or(f64::NAN, |gum| gum.estimate);
+            budget.limit = target.limit(estimate);
+        }
+        budget
     }
 
     fn distribution(&self, variable: usize) -> Option<&Arc<Distribution>> {
@@ -121,7 +129,7 @@ impl<'a> TrialBudget<'a> {
 
     /// Whether the target holds with some inputs changed.
     pub(super) fn holds(&self, changes: &Changes) -> bool {
-        self.figure(changes).is_some_and(|figure| figure <= self.target.most)
+        self.figure(changes).is_some_and(|figure| figure <= self.limit)
     }
 
     /// The changes for another row: widths by the same factor.

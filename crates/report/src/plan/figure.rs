@@ -90,7 +90,7 @@ pub(super) fn interval(report: &PlanReport<'_>, found: &PlannedInterval) -> Opti
 }
 
 fn panel(report: &PlanReport<'_>, area: &Area<'_>, curve: &Curve<'_>) -> Drawn {
-    let target = report.plan.target.most;
+    let target = report.plan.limit;
     let end = curve.points.iter().map(|point| point.0).fold(0.0, f64::max);
     let top = curve.points.iter().map(|point| point.1).fold(target, f64::max);
     let (x, y) = (Axis::linear(0.0, end), Axis::linear(0.0, 1.08 * top));

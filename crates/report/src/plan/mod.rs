@@ -10,6 +10,7 @@ mod words;
 pub use csv::csv;
 pub use json::json;
 pub use page::{html, markdown, table};
+pub use words::wanted;
 
 use crate::Provenance;
 use gumption_analysis::plan::{Costs, Plan};

@@ -5,7 +5,8 @@ use super::sheets::{DIGITS, at_most};
 use crate::number::{exact, rounded, significant};
 use crate::plain;
 use crate::table::{conditions_text, grouped, in_unit};
-use gumption_analysis::plan::{Costs, DriftLaw, PlanCheck, PlannedInterval};
+use gumption_analysis::plan::{Costs, DriftLaw, PlanCheck, PlanTarget, PlannedInterval};
+use gumption_engine::decimal::to_digits;
 use gumption_engine::model::Quantity;
 
 pub(super) const EQUAL: &str = "Without a file of costs, halving any standard uncertainty counts as \
@@ -30,10 +31,28 @@ fn name(report: &PlanReport<'_>) -> String {
     format!("{}({})", report.kind(), plain(output))
 }
 
+/// The most that the uncertainty of an output may be: `8 uV`, `0.5 % of the estimate + 2 uV`.
+pub fn wanted(target: &PlanTarget, output: Option<&Quantity>) -> String {
+    let mut terms = Vec::new();
+    if target.share > 0.0 {
+        let percent = exact(to_digits(100.0 * target.share, 12));
+        terms.push(format!("{percent} % of the estimate"));
+    }
+    if target.most > 0.0 {
+        terms.push(value(output, &exact(target.most)));
+    }
+    terms.join(" + ")
+}
+
 /// What is wanted, and what there is.
 pub(super) fn target(report: &PlanReport<'_>) -> String {
     let plan = report.plan;
-    let wanted = value(report.output(), &exact(plan.target.most));
+    let wanted = if plan.target.share > 0.0 {
+        let limit = value(report.output(), &significant(plan.limit, DIGITS));
+        format!("{limit} ({})", wanted(&plan.target, report.output()))
+    } else {
+        wanted(&plan.target, report.output())
+    };
     let now = value(report.output(), &significant(plan.figure, DIGITS));
     let name = name(report);
     let mut said = format!("target {name} <= {wanted}; now {name} = {now}");
@@ -42,7 +61,8 @@ pub(super) fn target(report: &PlanReport<'_>) -> String {
     }
     if let Some(row) = report.task.rows.get(plan.row).filter(|_| report.task.swept) {
         let at = conditions_text(&report.task.model.conditions, &row.conditions);
-        said += &format!(", largest at {at}");
+        let worst = if plan.target.share > 0.0 { "furthest above it" } else { "largest" };
+        said += &format!(", {worst} at {at}");
     }
     said
 }
@@ -72,7 +92,7 @@ pub(super) fn notes(report: &PlanReport<'_>) -> Vec<String> {
         let rows: Vec<String> =
             plan.missed_rows.iter().take(20).map(|row| (row + 1).to_string()).collect();
         said.push(format!(
-            "The plan is that of the row with the largest uncertainty; the target is missed in {} \
+            "The plan is that of the row furthest above its target; the target is missed in {} \
              other rows ({}{}): plan them with their own conditions.",
             plan.missed_rows.len(),
             rows.join(", "),
