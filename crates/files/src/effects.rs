@@ -14,7 +14,7 @@ use super::{DiagnosticKind, inputs};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::model::formula;
 use gumption_engine::model::formula::{Formula, FormulaError};
-use gumption_engine::task::Warning;
+use gumption_engine::task::{Trials, Warning};
 use gumption_gap::Candidate;
 use gumption_gap::{Effect, OverridableModel};
 use gumption_units::nearest;
@@ -125,7 +125,10 @@ impl Reader<'_> {
                 self.log.report(&of.value.span, diagnostic(reason));
                 None
             }
-            Some(of) => inputs::read(self.log, of, &NoConditions, &[], self.results),
+            Some(of) => {
+                // parameters are always drawn
+                inputs::read(self.log, of, &NoConditions, &[], self.results, Trials::Adaptive)
+            }
             None => None,
         };
         let overrides = Object::new(self.log, "`overrides`", &overrides?.value, &member.key_span)?;

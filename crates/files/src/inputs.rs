@@ -22,7 +22,7 @@ use super::value_text::{ValueOf, with_unit};
 use gumption_engine::distribution::{Constant, Distribution, EvaluationType, Samples};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{InputQuantity, Quantity};
-use gumption_engine::task::{Evidence, Sharing, Variable, Warning};
+use gumption_engine::task::{Evidence, Sharing, Trials, Variable, Warning};
 use gumption_units::Unit;
 
 /// At most so many variables.
@@ -42,6 +42,7 @@ pub(super) fn read(
     conditions: &dyn ConditionValues,
     overrides: &[Override],
     results: &Results<'_>,
+    trials: Trials,
 ) -> Option<InputSet> {
     let object = Object::new(log, "`inputs`", &member.value, &member.key_span)?;
     let found = object.members().len();
@@ -74,7 +75,7 @@ pub(super) fn read(
         object.report(DiagnosticKind::TooMany { what, found, most: MOST_VARIABLES });
         return None;
     }
-    paired::apply(log, &mut inputs);
+    paired::apply(log, &mut inputs, trials);
     Some(inputs)
 }
 

@@ -54,7 +54,7 @@ use gumption_engine::model::formula::Formula;
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_engine::model::{Model, Output, typed};
 use gumption_engine::regression::CurveFunction;
-use gumption_engine::task::{ModelStatement, Row, Settings, Task, Warning};
+use gumption_engine::task::{ModelStatement, Row, Settings, Task, Trials, Warning};
 use gumption_gap::{ModelForm, ObservedOutput, OverridableModel};
 use gumption_units::Unit;
 use gumption_units::nearest;
@@ -181,7 +181,8 @@ impl<'a> ModelReader<'a> {
         let fits = self.fits(check_units)?;
         let body = self.body(&simulated, &fits.curves);
         let results = Results::new(self.folder, self.options.files).with_curves(&fits.curves);
-        let mut of = self.quantities(conditions, check_units, &body, (&results, &fits))?;
+        let files = (&results, &fits);
+        let mut of = self.quantities(conditions, check_units, &body, files, settings.trials)?;
 
         let mut files = std::mem::take(&mut of.conditions.files);
         if let Some(observations) = &mut observations {
@@ -283,11 +284,14 @@ impl<'a> ModelReader<'a> {
         check_units: bool,
         body: &Option<ModelBody<'a>>,
         (results, fits): (&Results<'_>, &FitSet),
+        trials: Trials,
     ) -> Option<Quantities> {
         let (root, log) = (&self.root, self.root.log);
         let set = ConditionSet { conditions: &conditions, check_units };
         let inputs = match root.get("inputs") {
-            Some(member) => inputs::read(log, member, &set, self.options.overrides, results),
+            Some(member) => {
+                inputs::read(log, member, &set, self.options.overrides, results, trials)
+            }
             // somebody else's simulation needs none
             None if names_simulation(root) || root.get("fits").is_some() => {
                 Some(InputSet::default())

@@ -3,11 +3,13 @@
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::input_set::InputSet;
-use gumption_engine::distribution::{Distribution, Readings};
+use gumption_engine::distribution::{Distribution, Invalid, Readings};
+use gumption_engine::task::Trials;
 
 /// Makes ensembles of the paired readings, all those of equal length one. The variables must be
-/// complete in every row; else a mistake has been reported already.
-pub(super) fn apply(log: &Collector, inputs: &mut InputSet) {
+/// complete in every row; else a mistake has been reported already. Where the file wants trials their
+/// joint distribution must have a covariance.
+pub(super) fn apply(log: &Collector, inputs: &mut InputSet, trials: Trials) {
     if !inputs.known.is_complete(inputs.variables.len()) {
         return;
     }
@@ -24,7 +26,7 @@ pub(super) fn apply(log: &Collector, inputs: &mut InputSet) {
         }
     }
     for (length, members) in &ensembles {
-        if let Some((variable, diagnostic)) = mistake(inputs, *length, members) {
+        if let Some((variable, diagnostic)) = mistake(inputs, *length, members, trials) {
             if let Some(place) = inputs.places.get(variable) {
                 log.report(place, diagnostic);
             }
@@ -43,7 +45,12 @@ pub(super) fn apply(log: &Collector, inputs: &mut InputSet) {
 }
 
 /// Why these variables, read `length` times each, cannot be an ensemble, and the one at diagnostic.
-fn mistake(inputs: &InputSet, length: usize, members: &[usize]) -> Option<(usize, DiagnosticKind)> {
+fn mistake(
+    inputs: &InputSet,
+    length: usize,
+    members: &[usize],
+    trials: Trials,
+) -> Option<(usize, DiagnosticKind)> {
     let name = |v: usize| inputs.variables.get(v).map_or("", |variable| variable.name.as_str());
     let (&first, others) = members.split_first()?;
     if others.is_empty() {
@@ -73,7 +80,11 @@ fn mistake(inputs: &InputSet, length: usize, members: &[usize]) -> Option<(usize
     let Distribution::Readings(readings) = &**inputs.known.get(first, 0)? else {
         return None;
     };
-    let error = Readings::clone(readings).paired(members.len()).err()?;
+    let error = match Readings::clone(readings).paired(members.len()) {
+        Ok(paired) if paired.have_covariance() || trials == Trials::Fixed(0) => return None,
+        Ok(_) => Invalid::TooFewPaired { count: length, together: members.len() },
+        Err(error) => error,
+    };
     Some((first, DiagnosticKind::Distribution { name: name(first).to_owned(), error }))
 }
 
@@ -136,6 +147,35 @@ mod tests {
         assert!((shares + gum.correlations().next().unwrap().share - 1.0).abs() < 1e-12);
         // n - N = 3 in the trials: no kurtosis, no standard error of the standard deviation
         assert_eq!(evaluation.rows[0].outputs[0].drawn_dof, 3.0);
+    }
+
+    /// JCGM 100, H.2 whole: five readings of three quantities, whose joint t distribution has two
+    /// degrees of freedom and no covariance, by the law of propagation alone. Estimates and standard
+    /// uncertainties of table H.3 to their last digit; that of X is 0.2956 with all digits, from
+    /// which the table's 0.295 was cut.
+    #[test]
+    fn the_example_of_the_guide_without_trials() {
+        let text = |trials: u32| {
+            let phase = readings("phi", "1.0456, 1.0438, 1.0468, 1.0428, 1.0433");
+            format!(
+                "{{\"inputs\": {{{}, {phase}}}, \"equations\": {{\"R\": \"V/I*cos(phi)\", \
+                 \"X\": \"V/I*sin(phi)\", \"Z\": \"V/I\"}}, \"outputs\": {{\"R\": {{}}, \"X\": {{}}, \
+                 \"Z\": {{}}}}, \"monte_carlo\": {{\"trials\": {trials}}}}}",
+                voltage_and_current()
+            )
+        };
+        let read = |trials| read_text("test", &text(trials), Path::new(""), &[]);
+        let refused = read(20_000).unwrap_err().to_string();
+        assert!(refused.contains("at least 6 are needed"), "{refused}");
+        let task = read(0).expect("a task").task;
+        let evaluation = evaluate(&task, &Control::default()).expect("an evaluation");
+        let published = [(127.732, 0.071), (219.847, 0.2956), (254.260, 0.236)];
+        for (output, (estimate, u)) in evaluation.rows[0].outputs.iter().zip(published) {
+            let gum = output.gum.as_ref().expect("figures");
+            assert!((gum.estimate - estimate).abs() < 5.1e-4, "{}", gum.estimate);
+            assert!((gum.standard_uncertainty - u).abs() < 5.1e-4, "{}", gum.standard_uncertainty);
+            assert!(matches!(gum.dof, Dof::Finite(dof) if (dof - 4.0).abs() < 1e-9));
+        }
     }
 
     /// Welch-Satterthwaite with the ensemble as one term u_1 of 4 degrees of freedom beside a

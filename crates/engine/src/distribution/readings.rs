@@ -63,14 +63,21 @@ impl Readings {
     /// as many of them.
     ///
     /// # Errors
-    /// Not above `together` + 2 readings, for which the joint distribution has no covariance.
+    /// Not above `together` readings, for which there is no joint distribution. With one or two more
+    /// there is one without a covariance ([`Readings::have_covariance`]).
     pub fn paired(self, together: usize) -> Result<Self, Invalid> {
         let count = self.values.len();
-        if count > together + 2 {
+        if count > together {
             Ok(Self { together: together.max(1), ..self })
         } else {
             Err(Invalid::TooFewPaired { count, together })
         }
+    }
+
+    /// Whether the joint t distribution of the paired readings, of n - N degrees of freedom, has a
+    /// covariance (JCGM 102, 5.3): more than N + 2 readings of each of N quantities.
+    pub fn have_covariance(&self) -> bool {
+        self.values.len() > self.together + 2
     }
 
     /// The same readings with the standard deviation of their t distribution as standard uncertainty,

@@ -220,7 +220,8 @@ impl fmt::Display for Invalid {
                 f,
                 "{count} readings of each of {together} paired quantities are too few for their \
                  joint distribution to have a covariance; at least {} are needed (JCGM 102, 5.3). \
-                 With fewer, give each quantity its mean, the standard uncertainty and degrees of \
+                 With fewer, evaluate by the law of propagation alone, without trials (`\"trials\": \
+                 0`), or give each quantity its mean, the standard uncertainty and degrees of \
                  freedom of that, and their `correlations` (JCGM 100, 5.2.3)",
                 together + 3
             ),
