@@ -15,7 +15,7 @@ use gumption_engine::propagate::gum::Dof;
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
 use gumption_engine::propagate::{
     Control, EvaluationError, Origins, OutputEvaluation, RowEvaluation, joint_ranks, linear,
-    origins, quantiles,
+    origins, quantiles_and_ranks,
 };
 use gumption_engine::task::Task;
 
@@ -117,16 +117,15 @@ pub fn saved_result(
     }
     let scores: Vec<f64> = Scores::WRITTEN.values().collect();
     let found = match known {
-        Some(_) => None,
-        None => quantiles(task, evaluation, 0, &scores, control)?,
+        Some(known) => {
+            joint_ranks(task, evaluation, 0, control)?.map(|ranks| (known.to_vec(), ranks))
+        }
+        None => quantiles_and_ranks(task, evaluation, 0, &scores, control)?,
     };
-    let Some(quantiles) = known.or(found.as_deref()) else { return Ok(None) };
-    let Some(ranks) = joint_ranks(task, evaluation, 0, control)? else {
-        return Ok(None);
-    };
+    let Some((quantiles, ranks)) = found else { return Ok(None) };
     let gums: Vec<_> = evaluated.outputs.iter().map(linear).collect();
     let origins = origins(task, row, &gums, &provenance.model_sha256);
-    Ok(Some(saved(report, &origins, quantiles, &ranks)))
+    Ok(Some(saved(report, &origins, &quantiles, &ranks)))
 }
 
 #[derive(Serialize)]

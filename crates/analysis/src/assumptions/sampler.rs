@@ -44,6 +44,14 @@ pub(super) struct Prepared<'a> {
     has_shape_before: bool,
 }
 
+impl Prepared<'_> {
+    /// Whether the change can move an output; the change that is none moves all, so that they are
+    /// looked at.
+    pub(super) fn moves(&self, output: usize) -> bool {
+        self.following.as_ref().is_none_or(|following| following.moves(output))
+    }
+}
+
 /// A set of quantities with what is to be computed again where they have other values.
 #[derive(Clone, Debug)]
 pub(super) struct PreparedSet<'a> {
@@ -58,10 +66,8 @@ pub(super) struct Buffers {
     values: Vec<Column>,
     second: Vec<Column>,
     registers: Vec<Column>,
+    outputs: Vec<Column>,
 }
-
-/// The values of all outputs in a block.
-pub(super) type Block = Vec<[f64; BLOCK]>;
 
 impl Sampler {
     /// A row of the task.
@@ -125,11 +131,8 @@ impl Sampler {
             second: columns.clone(),
             values: columns,
             registers: vec![Column::ZERO; self.schedule.registers],
+            outputs: vec![Column::ZERO; self.outputs()],
         }
-    }
-
-    pub(super) fn blocks(&self, count: usize) -> Vec<Block> {
-        vec![vec![[0.0; BLOCK]; self.outputs()]; count]
     }
 
     /// Changes made ready.
@@ -164,30 +167,30 @@ impl Sampler {
         64 * self.schedule.registers
     }
 
-    /// The outputs in block `block` with each of the changes.
+    /// Hands over the outputs of the first `count` trials of block `block` with each of the changes,
+    /// column by column.
     pub(super) fn changed(
         &self,
-        path: CodePath,
-        block: u64,
+        (path, block, count): (CodePath, u64, usize),
         changes: &[Prepared<'_>],
         buffers: &mut Buffers,
-        out: &mut [Block],
+        taker: &mut impl Taker,
     ) {
-        path.run(Changed { path, sampler: self, block, changes, buffers, out });
+        path.run(Changed { path, sampler: self, block, count, changes, buffers, taker });
     }
 
-    /// The outputs in block `block` of the first and of the second sample, then of the second with
-    /// each of the sets of quantities taken from the first. With (A, B) = (second, first) that is
-    /// what Jansen's estimators need: A, B and A with one set from B.
+    /// Hands over the outputs of the first `count` trials of block `block`: of the first sample (0)
+    /// and of the second one (1), then of the second with each of the sets of quantities taken from
+    /// the first. With (A, B) = (second, first) that is what Jansen's estimators need: A, B and A with
+    /// one set from B.
     pub(super) fn mixed(
         &self,
-        path: CodePath,
-        block: u64,
+        (path, block, count): (CodePath, u64, usize),
         sets: &[PreparedSet<'_>],
         buffers: &mut Buffers,
-        out: &mut [Block],
+        taker: &mut impl Taker,
     ) {
-        path.run(Mixed { path, sampler: self, block, sets, buffers, out });
+        path.run(Mixed { path, sampler: self, block, count, sets, buffers, taker });
     }
 
     /// The values of all quantities in the first `blocks` blocks, column by column.
@@ -195,10 +198,12 @@ impl Sampler {
         path.run(Drawn { path, sampler: self, block, buffers })
     }
 
-    /// What the outputs follow from where only the quantity at `place` changes: the columns of all
-    /// values that are computed before it matters.
-    pub(super) fn widening(&self, place: usize) -> Widening<'_> {
-        Widening { sampler: self, place, following: self.schedule.following(&[place]) }
+    /// What an output follows from where only the quantity at `place` changes; `None` where it does
+    /// not depend on it.
+    pub(super) fn widening(&self, place: usize, output: usize) -> Option<Widening<'_>> {
+        let outputs = self.schedule.outputs.get(output..=output)?;
+        let following = self.schedule.following_to(&[place], outputs);
+        following.moves(0).then_some(Widening { sampler: self, place, output, following })
     }
 
     #[inline(always)]
@@ -211,16 +216,18 @@ impl Sampler {
         }
     }
 
-    /// The column of an output after the steps that end in `outputs` have run.
+    /// The columns of all outputs after the steps that end in `outputs` have run.
     #[inline(always)]
-    fn output(
-        &self,
-        outputs: &[ScheduledOutput],
-        registers: &[Column],
-        output: usize,
-        out: &mut [f64],
-    ) {
-        match outputs[output] {
+    fn all(&self, outputs: &[ScheduledOutput], registers: &[Column], found: &mut [Column]) {
+        for (output, (&at, found)) in outputs.iter().zip(found).enumerate() {
+            self.found(at, registers, output, &mut found.0);
+        }
+    }
+
+    /// The column of an output that was found.
+    #[inline(always)]
+    fn found(&self, found: ScheduledOutput, registers: &[Column], output: usize, out: &mut [f64]) {
+        match found {
             ScheduledOutput::Register(register) => out.copy_from_slice(&registers[register].0),
             ScheduledOutput::Constant(value) => out.fill(value),
         }
@@ -245,34 +252,42 @@ fn widen(values: &Column, mean: f64, factor: f64, out: &mut Column) {
     }
 }
 
-struct Changed<'a> {
+/// Takes the outputs of trials, column by column.
+pub(super) trait Taker {
+    /// Takes the first `count` trials of a column of all outputs, under the change or in the sample of
+    /// this number. To be inlined, as it is compiled for the vectors of each path.
+    fn take(&mut self, number: usize, outputs: &mut [Column], count: usize);
+}
+
+struct Changed<'a, T> {
     path: CodePath,
     sampler: &'a Sampler,
     block: u64,
+    count: usize,
     changes: &'a [Prepared<'a>],
     buffers: &'a mut Buffers,
-    out: &'a mut [Block],
+    taker: &'a mut T,
 }
 
-impl Kernel for Changed<'_> {
+impl<T: Taker> Kernel for Changed<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let Self { path, sampler, block, changes, buffers, out } = self;
-        let Buffers { scores, values, registers, .. } = buffers;
-        let count = sampler.variables.len();
-        let places: Vec<usize> = (0..count).collect();
+        let Self { path, sampler, block, count, changes, buffers, taker } = self;
+        let Buffers { scores, values, registers, outputs: found, .. } = buffers;
+        let quantities = sampler.variables.len();
+        let places: Vec<usize> = (0..quantities).collect();
         let followings = changes.iter().filter_map(|prepared| prepared.following.as_ref());
         followings.for_each(|following| make_room(registers, following));
         let mut draws = Draws::new(&sampler.varying, &sampler.keys, path, block);
         let mut standard = Column::ZERO;
-        for first in (0..BLOCK).step_by(COLUMN) {
+        for first in (0..count).step_by(COLUMN) {
             draws.scores(scores, &places);
             sampler.values(scores, values);
-            registers[..count].clone_from_slice(values);
+            registers[..quantities].clone_from_slice(values);
             sampler.schedule.run(registers);
-            for (prepared, out) in changes.iter().zip(out.iter_mut()) {
+            for (number, prepared) in changes.iter().enumerate() {
                 let Prepared { change, following, has_shape_before } = prepared;
                 let mut outputs = &sampler.schedule.outputs;
                 if let Some(following) = following {
@@ -292,59 +307,55 @@ impl Kernel for Changed<'_> {
                     following.run(registers);
                     outputs = &following.outputs;
                 }
-                for (output, out) in out.iter_mut().enumerate() {
-                    sampler.output(outputs, registers, output, &mut out[first..first + COLUMN]);
-                }
+                sampler.all(outputs, registers, found);
+                taker.take(number, found, (count - first).min(COLUMN));
             }
         }
     }
 }
 
-struct Mixed<'a> {
+struct Mixed<'a, T> {
     path: CodePath,
     sampler: &'a Sampler,
     block: u64,
+    count: usize,
     sets: &'a [PreparedSet<'a>],
     buffers: &'a mut Buffers,
-    out: &'a mut [Block],
+    taker: &'a mut T,
 }
 
-impl Kernel for Mixed<'_> {
+impl<T: Taker> Kernel for Mixed<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let Self { path, sampler, block, sets, buffers, out } = self;
-        let Buffers { scores, values, second, registers } = buffers;
-        let count = sampler.variables.len();
-        let places: Vec<usize> = (0..count).collect();
+        let Self { path, sampler, block, count, sets, buffers, taker } = self;
+        let Buffers { scores, values, second, registers, outputs: found } = buffers;
+        let quantities = sampler.variables.len();
+        let places: Vec<usize> = (0..quantities).collect();
         sets.iter().for_each(|set| make_room(registers, &set.following));
         let mut draws = Draws::new(&sampler.varying, &sampler.keys, path, block);
         let mut others = Draws::new(&sampler.varying, &sampler.second, path, block);
-        for first in (0..BLOCK).step_by(COLUMN) {
+        for first in (0..count).step_by(COLUMN) {
+            let count = (count - first).min(COLUMN);
             draws.scores(scores, &places);
             sampler.values(scores, values);
             others.scores(scores, &places);
             sampler.values(scores, second);
-            let (samples, mixed) = out.split_at_mut(2);
             // the second sample last, as the sets are taken into it
-            for (sample, out) in [&*values, &*second].into_iter().zip(samples) {
-                registers[..count].clone_from_slice(sample);
+            for (number, sample) in [&*values, &*second].into_iter().enumerate() {
+                registers[..quantities].clone_from_slice(sample);
                 sampler.schedule.run(registers);
-                for (output, out) in out.iter_mut().enumerate() {
-                    let out = &mut out[first..first + COLUMN];
-                    sampler.output(&sampler.schedule.outputs, registers, output, out);
-                }
+                sampler.all(&sampler.schedule.outputs, registers, found);
+                taker.take(number, found, count);
             }
-            for (PreparedSet { places, following }, out) in sets.iter().zip(mixed) {
+            for (number, PreparedSet { places, following }) in sets.iter().enumerate() {
                 for (&place, &register) in places.iter().zip(&following.variables) {
                     registers[register].0 = values[place].0;
                 }
                 following.run(registers);
-                for (output, out) in out.iter_mut().enumerate() {
-                    let out = &mut out[first..first + COLUMN];
-                    sampler.output(&following.outputs, registers, output, out);
-                }
+                sampler.all(&following.outputs, registers, found);
+                taker.take(2 + number, found, count);
             }
         }
     }
@@ -376,11 +387,12 @@ impl Kernel for Drawn<'_> {
     }
 }
 
-/// What the outputs follow from where only one quantity changes.
+/// What an output follows from where only one quantity changes.
 #[derive(Clone, Debug)]
 pub(super) struct Widening<'a> {
     sampler: &'a Sampler,
     place: usize,
+    output: usize,
     following: Following,
 }
 
@@ -410,7 +422,7 @@ impl Widening<'_> {
         before.extend(self.computed().iter().map(|&register| registers[register].clone()));
     }
 
-    /// The outputs for one column of trials, of which the quantity's values are changed to `mean`
+    /// The output for one column of trials, of which the quantity's values are changed to `mean`
     /// plus `factor` times their distances from it. `before` is what was computed before, or nothing,
     /// which is then computed again.
     pub(super) fn widened(
@@ -419,11 +431,11 @@ impl Widening<'_> {
         (values, before): (&[Column], &[Column]),
         change: (f64, f64),
         buffers: &mut Buffers,
-        take: impl FnMut(usize, &[f64; COLUMN]),
+        out: &mut [f64],
     ) {
         let registers = &mut buffers.registers;
         make_room(registers, &self.following);
-        path.run(Widened { widening: self, values, before, change, registers, take });
+        path.run(Widened { widening: self, values, before, change, registers, out });
     }
 }
 
@@ -444,22 +456,22 @@ impl Kernel for Before<'_> {
     }
 }
 
-struct Widened<'a, F> {
+struct Widened<'a> {
     widening: &'a Widening<'a>,
     values: &'a [Column],
     before: &'a [Column],
     change: (f64, f64),
     registers: &'a mut [Column],
-    take: F,
+    out: &'a mut [f64],
 }
 
-impl<F: FnMut(usize, &[f64; COLUMN])> Kernel for Widened<'_, F> {
+impl Kernel for Widened<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let Self { widening, values, before, change: (mean, factor), registers, mut take } = self;
-        let Widening { sampler, place, following } = widening;
+        let Self { widening, values, before, change: (mean, factor), registers, out } = self;
+        let Widening { sampler, place, output, following } = widening;
         let computed = widening.computed();
         if before.len() == computed.len() {
             let variables = &following.reads[..following.reads.len() - computed.len()];
@@ -474,10 +486,6 @@ impl<F: FnMut(usize, &[f64; COLUMN])> Kernel for Widened<'_, F> {
         }
         widen(&values[*place], mean, factor, &mut registers[following.variables[0]]);
         following.run(registers);
-        let mut out = [0.0; COLUMN];
-        for output in 0..sampler.outputs() {
-            sampler.output(&following.outputs, registers, output, &mut out);
-            take(output, &out);
-        }
+        sampler.found(following.outputs[0], registers, *output, out);
     }
 }

@@ -9,9 +9,9 @@
 
 use rayon::prelude::*;
 
-use super::sampler::{PreparedSet, Sampler};
+use super::sampler::{PreparedSet, Sampler, Taker};
 use super::spread::{batches, standard_error, trials_in};
-use gumption_engine::distribution::BLOCK;
+use gumption_engine::number::Column;
 use gumption_engine::propagate::Control;
 
 /// The indices of one set of quantities for one output.
@@ -59,6 +59,103 @@ impl Sums {
     }
 }
 
+/// Sums are taken in so many lanes, as vectors take them.
+const LANES: usize = 16;
+
+/// The squared differences of one set to B and to A, in lanes.
+type Differences = [[f64; LANES]; 2];
+
+/// The sums of one output in lanes.
+#[derive(Clone, Debug)]
+struct Lanes {
+    /// Of both samples about the reference, and their squares.
+    samples: [[f64; LANES]; 2],
+    differences: Vec<Differences>,
+}
+
+impl Lanes {
+    fn sums(&self, count: f64) -> Sums {
+        let sum = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
+        Sums {
+            count,
+            sum: sum(&self.samples[0]),
+            squares: sum(&self.samples[1]),
+            differences: self.differences.iter().map(|of| [sum(&of[0]), sum(&of[1])]).collect(),
+        }
+    }
+}
+
+/// The first value of each output.
+struct First(Vec<f64>);
+
+impl Taker for First {
+    #[inline(always)]
+    fn take(&mut self, number: usize, outputs: &mut [Column], _count: usize) {
+        if number == 0 {
+            self.0 = outputs.iter().map(|column| column.0[0]).collect();
+        }
+    }
+}
+
+/// Takes the samples into sums.
+struct Samples<'a> {
+    references: &'a [f64],
+    /// A column of the outputs of both samples. The first sample gives the sets: it is B.
+    both: [Vec<Column>; 2],
+    lanes: Vec<Lanes>,
+}
+
+/// Calls `add` with each of so many values and the lane that it belongs to.
+#[inline(always)]
+fn in_lanes(count: usize, mut add: impl FnMut(usize, usize)) {
+    let whole = count / LANES * LANES;
+    for first in (0..whole).step_by(LANES) {
+        for lane in 0..LANES {
+            add(first + lane, lane);
+        }
+    }
+    for (lane, trial) in (whole..count).enumerate() {
+        add(trial, lane);
+    }
+}
+
+impl Taker for Samples<'_> {
+    #[inline(always)]
+    fn take(&mut self, number: usize, outputs: &mut [Column], count: usize) {
+        let Self { references, both: [b, a], lanes } = self;
+        for (output, (column, lanes)) in outputs.iter().zip(lanes).enumerate() {
+            let values: &[f64] = &column.0[..count];
+            let [mut first, mut second] = match number.checked_sub(2) {
+                None => lanes.samples,
+                Some(set) => lanes.differences[set],
+            };
+            if number < 2 {
+                let reference = references[output];
+                in_lanes(count, |trial, lane| {
+                    let d = values[trial] - reference;
+                    first[lane] += d;
+                    second[lane] += d * d;
+                });
+            } else {
+                let (a, b) = (&a[output].0[..count], &b[output].0[..count]);
+                in_lanes(count, |trial, lane| {
+                    let (to_b, to_a) = (b[trial] - values[trial], a[trial] - values[trial]);
+                    first[lane] += to_b * to_b;
+                    second[lane] += to_a * to_a;
+                });
+            }
+            let found = [first, second];
+            match number.checked_sub(2) {
+                None => lanes.samples = found,
+                Some(set) => lanes.differences[set] = found,
+            }
+        }
+        if let Some(sample) = self.both.get_mut(number) {
+            sample.clone_from_slice(outputs);
+        }
+    }
+}
+
 /// For each output the indices of each set of places; `None` for an output that does not vary or has
 /// trials that are not finite. The whole is `None` if stopped.
 pub(super) fn indices(
@@ -67,9 +164,9 @@ pub(super) fn indices(
     trials: u64,
     control: &Control<'_>,
 ) -> Option<Vec<Vec<Option<Sobol>>>> {
-    // the outputs of a block for both samples and every set that is taken at a time
-    let block = size_of::<[f64; BLOCK]>() * sampler.outputs() + sampler.prepared_bytes();
-    let at_a_time = (control.memory / block.max(1)).saturating_sub(2).max(1);
+    // the sums of every set that is taken at a time
+    let set = size_of::<Differences>() * sampler.outputs() + sampler.prepared_bytes();
+    let at_a_time = (control.memory / set).max(1);
     let mut all = vec![Vec::with_capacity(sets.len()); sampler.outputs()];
     for sets in sets.chunks(at_a_time) {
         let found = indices_of(sampler, sets, trials, control)?;
@@ -88,42 +185,29 @@ fn indices_of(
     let outputs = sampler.outputs();
     let sets: Vec<PreparedSet<'_>> = sets.iter().map(|set| sampler.prepared_set(set)).collect();
     // about a value of the output, so that a common large part costs no digits
-    let mut first = sampler.blocks(2);
-    sampler.mixed(control.path, 0, &[], &mut sampler.buffers(), &mut first);
-    let references: Vec<f64> = first[0].iter().map(|values| values[0]).collect();
+    let mut first = First(Vec::new());
+    sampler.mixed((control.path, 0, 1), &[], &mut sampler.buffers(), &mut first);
+    let references = first.0;
     let batch = |blocks: std::ops::Range<u64>| {
         let mut buffers = sampler.buffers();
-        let mut out = sampler.blocks(2 + sets.len());
-        let empty = Sums { differences: vec![[0.0; 2]; sets.len()], ..Sums::default() };
-        let mut sums = vec![empty; outputs];
+        let none =
+            Lanes { samples: [[0.0; LANES]; 2], differences: vec![[[0.0; LANES]; 2]; sets.len()] };
+        let mut lanes = Samples {
+            references: &references,
+            both: [vec![Column::ZERO; outputs], vec![Column::ZERO; outputs]],
+            lanes: vec![none; outputs],
+        };
+        let mut made = 0;
         for block in blocks {
             if control.is_stopped() {
                 return None;
             }
-            sampler.mixed(control.path, block, &sets, &mut buffers, &mut out);
             let count = trials_in(block, trials);
-            for (output, (sums, reference)) in sums.iter_mut().zip(&references).enumerate() {
-                // the first sample gives the sets: it is B
-                let (b, a) = (&out[0][output][..count], &out[1][output][..count]);
-                sums.count += count as f64;
-                for value in a.iter().chain(b) {
-                    let d = value - reference;
-                    sums.sum += d;
-                    sums.squares += d * d;
-                }
-                for (mixed, found) in out.iter().skip(2).zip(&mut sums.differences) {
-                    let (mut to_b, mut to_a) = (0.0, 0.0);
-                    for ((mixed, a), b) in mixed[output][..count].iter().zip(a).zip(b) {
-                        to_b += (b - mixed) * (b - mixed);
-                        to_a += (a - mixed) * (a - mixed);
-                    }
-                    found[0] += to_b;
-                    found[1] += to_a;
-                }
-            }
+            sampler.mixed((control.path, block, count), &sets, &mut buffers, &mut lanes);
+            made += count;
             control.advance((count * (2 + sets.len())) as u64);
         }
-        Some(sums)
+        Some(lanes.lanes.iter().map(|lanes| lanes.sums(made as f64)).collect())
     };
     let batches: Option<Vec<Vec<Sums>>> = batches(trials).into_par_iter().map(batch).collect();
     let batches = batches?;

@@ -6,9 +6,9 @@
 
 use rayon::prelude::*;
 
-use super::sampler::{Change, Prepared, Sampler};
+use super::sampler::{Change, Prepared, Sampler, Taker};
 use gumption_engine::distribution::BLOCK;
-use gumption_engine::number::Kernel;
+use gumption_engine::number::{COLUMN, Column};
 use gumption_engine::propagate::Control;
 use gumption_engine::propagate::monte_carlo::Ranks;
 
@@ -81,15 +81,29 @@ enum Limits {
     About([[f64; 2]; 2]),
 }
 
-/// A change's limits and references, output by output.
-type Plan = Vec<(Limits, f64)>;
+/// How the values of one output under one change are taken.
+#[derive(Clone, Copy, Debug)]
+struct OutputPlan {
+    limits: Limits,
+    /// What the sums are about.
+    reference: f64,
+    /// Whether they are taken: not where the change does not move the output, whose values are those
+    /// of the baseline.
+    is_taken: bool,
+}
+
+/// A change's plans, output by output.
+type Plan = Vec<OutputPlan>;
+
+/// Sums are taken in so many lanes, and values sought among so many at a time.
+const LANES: usize = 16;
 
 /// One output's values in one batch.
 #[derive(Clone, Debug, Default)]
 struct Tally {
     trials: u64,
-    sum: f64,
-    squares: f64,
+    sums: [f64; LANES],
+    squares: [f64; LANES],
     below: [u64; 2],
     kept: [Vec<f64>; 2],
     /// Half the length of the coverage interval, of a whole batch; `None` if an end was not kept.
@@ -103,7 +117,8 @@ struct Batch {
     outputs: Vec<Tally>,
 }
 
-/// The spreads of all outputs under each of the changes; `None` if stopped.
+/// The spreads of all outputs under each of the changes, of which the first is the baseline; `None`
+/// if stopped.
 pub(super) fn spreads(
     sampler: &Sampler,
     changes: &[Change],
@@ -115,13 +130,16 @@ pub(super) fn spreads(
     loop {
         let request = (trials, probability);
         let batches = tallies(sampler, &changes, &plans, request, control)?;
-        let found: Option<Vec<Vec<Spread>>> =
-            (0..changes.len()).map(|c| finish(&batches, c, &plans, probability)).collect();
-        if found.is_some() {
-            return found;
+        if let Some(found) = finish_all(&batches, &plans, probability) {
+            return Some(found);
         }
-        // a limit missed a value that is needed
-        plans.iter_mut().flatten().for_each(|(limits, _)| *limits = Limits::All);
+        if plans.iter().flatten().any(|plan| !plan.is_taken) {
+            // trials were left out, of which an output that is not moved has others then
+            plans.iter_mut().flatten().for_each(|plan| plan.is_taken = true);
+        } else {
+            // a limit missed a value that is needed
+            plans.iter_mut().flatten().for_each(|plan| plan.limits = Limits::All);
+        }
     }
 }
 
@@ -140,21 +158,14 @@ fn plans(
     control: &Control<'_>,
 ) -> Vec<Plan> {
     let blocks = trials.div_ceil(BLOCK as u64);
-    let pilot = blocks.min(PILOT);
     let mut buffers = sampler.buffers();
-    let mut out = sampler.blocks(changes.len());
-    let mut values: Vec<Vec<Vec<f64>>> = vec![vec![Vec::new(); sampler.outputs()]; changes.len()];
-    for block in 0..pilot {
-        sampler.changed(control.path, block, changes, &mut buffers, &mut out);
-        let count = trials_in(block, trials);
-        for (values, out) in values.iter_mut().zip(&out) {
-            for (values, out) in values.iter_mut().zip(out) {
-                values.extend(out[..count].iter().filter(|value| value.is_finite()));
-            }
-        }
+    let mut pilot = Pilot { values: vec![vec![Vec::new(); sampler.outputs()]; changes.len()] };
+    for block in 0..blocks.min(PILOT) {
+        let these = (control.path, block, trials_in(block, trials));
+        sampler.changed(these, changes, &mut buffers, &mut pilot);
     }
     let batch = trials as f64 / batches(trials).len().max(1) as f64;
-    let plan = |values: &mut Vec<f64>| {
+    let plan = |values: &mut Vec<f64>, is_taken: bool| {
         values.sort_unstable_by(f64::total_cmp);
         let n = values.len() as f64;
         let at = |share: f64| {
@@ -164,7 +175,7 @@ fn plans(
         };
         let reference = at(0.5).unwrap_or(0.0);
         if blocks <= SMALL {
-            return (Limits::All, reference);
+            return OutputPlan { limits: Limits::All, reference, is_taken };
         }
         let tail = 0.5 - 0.5 * probability;
         let spread = (tail * (1.0 - tail)).sqrt();
@@ -175,9 +186,27 @@ fn plans(
                 at(share + margin).unwrap_or(f64::INFINITY),
             ]
         };
-        (Limits::About([about(tail), about(1.0 - tail)]), reference)
+        let limits = Limits::About([about(tail), about(1.0 - tail)]);
+        OutputPlan { limits, reference, is_taken }
     };
-    values.iter_mut().map(|outputs| outputs.iter_mut().map(plan).collect()).collect()
+    let planned = pilot.values.iter_mut().zip(changes).map(|(outputs, change)| {
+        outputs.iter_mut().enumerate().map(|(o, values)| plan(values, change.moves(o))).collect()
+    });
+    planned.collect()
+}
+
+/// The finite values of the first blocks.
+struct Pilot {
+    values: Vec<Vec<Vec<f64>>>,
+}
+
+impl Taker for Pilot {
+    #[inline(always)]
+    fn take(&mut self, number: usize, outputs: &mut [Column], count: usize) {
+        for (values, column) in self.values[number].iter_mut().zip(outputs) {
+            values.extend(column.0[..count].iter().filter(|value| value.is_finite()));
+        }
+    }
 }
 
 /// All batches, in order; for each the changes.
@@ -190,28 +219,21 @@ fn tallies(
 ) -> Option<Vec<Vec<Batch>>> {
     let batch = |blocks: std::ops::Range<u64>| {
         let mut buffers = sampler.buffers();
-        let mut out = sampler.blocks(changes.len());
         let empty = Batch { undefined: 0, outputs: vec![Tally::default(); sampler.outputs()] };
-        let mut found = vec![empty; changes.len()];
+        let mut tallies = Tallies { found: vec![empty; changes.len()], plans };
         for block in blocks {
             if control.is_stopped() {
                 return None;
             }
-            sampler.changed(control.path, block, changes, &mut buffers, &mut out);
             let count = trials_in(block, trials);
-            for ((batch, values), plan) in found.iter_mut().zip(&mut out).zip(plans) {
-                let defined = defined(values, count);
-                batch.undefined += (count - defined) as u64;
-                for ((tally, values), plan) in batch.outputs.iter_mut().zip(values).zip(plan) {
-                    control.path.run(Add { tally, values: &values[..defined], plan: *plan });
-                }
-            }
+            sampler.changed((control.path, block, count), changes, &mut buffers, &mut tallies);
             control.advance((count * changes.len()) as u64);
         }
+        let mut found = tallies.found;
         for (batch, plan) in found.iter_mut().zip(plans) {
-            for (tally, &(limits, _)) in batch.outputs.iter_mut().zip(plan) {
+            for (tally, plan) in batch.outputs.iter_mut().zip(plan) {
                 if tally.trials > 0 {
-                    let interval = tally.interval(limits, probability);
+                    let interval = tally.interval(plan.limits, probability);
                     tally.half_length = interval.map(|[low, high]| 0.5 * high - 0.5 * low);
                 }
             }
@@ -222,44 +244,55 @@ fn tallies(
 }
 
 /// Moves the trials whose outputs are all finite to the front, and tells how many there are.
-fn defined(values: &mut [[f64; BLOCK]], count: usize) -> usize {
-    let finite =
-        |values: &[[f64; BLOCK]], trial: usize| values.iter().all(|v| v[trial].is_finite());
-    // all values are looked at, so that several are at a time
-    if values.iter().all(|v| v[..count].iter().fold(true, |all, x| all & x.is_finite())) {
+#[inline(always)]
+fn defined(outputs: &mut [Column], count: usize) -> usize {
+    // all values are counted, so that several are looked at at a time
+    let finite = |column: &Column| {
+        column.0[..count].iter().map(|value| u64::from(value.is_finite())).sum::<u64>()
+    };
+    if outputs.iter().all(|column| finite(column) == count as u64) {
         return count;
     }
     let mut left = 0;
     for trial in 0..count {
-        if finite(values, trial) {
-            values.iter_mut().for_each(|v| v[left] = v[trial]);
+        if outputs.iter().all(|column| column.0[trial].is_finite()) {
+            outputs.iter_mut().for_each(|column| column.0[left] = column.0[trial]);
             left += 1;
         }
     }
     left
 }
 
-/// Sums are taken in so many lanes, and values sought among so many at a time.
-const LANES: usize = 16;
-
-/// Takes values into a tally.
-struct Add<'a> {
-    tally: &'a mut Tally,
-    values: &'a [f64],
-    plan: (Limits, f64),
+/// Takes values into the tallies of a batch.
+struct Tallies<'a> {
+    found: Vec<Batch>,
+    plans: &'a [Plan],
 }
 
-impl Kernel for Add<'_> {
-    type Output = ();
-
+impl Taker for Tallies<'_> {
     #[inline(always)]
-    fn run(self) {
-        let Self { tally, values, plan: (limits, reference) } = self;
-        tally.trials += values.len() as u64;
-        let (mut sums, mut squares) = ([0.0; LANES], [0.0; LANES]);
+    fn take(&mut self, number: usize, outputs: &mut [Column], count: usize) {
+        let batch = &mut self.found[number];
+        let defined = defined(outputs, count);
+        batch.undefined += (count - defined) as u64;
+        let plan = &self.plans[number];
+        for ((tally, column), plan) in batch.outputs.iter_mut().zip(&*outputs).zip(plan) {
+            if plan.is_taken {
+                tally.add(&column.0[..defined], plan);
+            }
+        }
+    }
+}
+
+impl Tally {
+    /// Takes at most a column of values.
+    #[inline(always)]
+    fn add(&mut self, values: &[f64], plan: &OutputPlan) {
+        self.trials += values.len() as u64;
         let (chunks, rest) = values.as_chunks::<LANES>();
+        let (mut sums, mut squares) = (self.sums, self.squares);
         let mut add = |lane: usize, value: f64| {
-            let d = value - reference;
+            let d = value - plan.reference;
             sums[lane] += d;
             squares[lane] += d * d;
         };
@@ -267,26 +300,44 @@ impl Kernel for Add<'_> {
             (0..LANES).for_each(|lane| add(lane, chunk[lane]));
         }
         rest.iter().enumerate().for_each(|(lane, &value)| add(lane, value));
-        tally.sum += sums.iter().sum::<f64>();
-        tally.squares += squares.iter().sum::<f64>();
-        match limits {
-            Limits::All => tally.kept[0].extend_from_slice(values),
+        (self.sums, self.squares) = (sums, squares);
+        match plan.limits {
+            Limits::All => self.kept[0].extend_from_slice(values),
             Limits::About(about) => {
-                for ([low, high], (below, kept)) in
-                    about.into_iter().zip(tally.below.iter_mut().zip(&mut tally.kept))
-                {
-                    let is_kept = |value: f64| (value >= low) & (value <= high);
+                for (below, [low, _]) in self.below.iter_mut().zip(about) {
                     *below += values.iter().map(|&value| u64::from(value < low)).sum::<u64>();
-                    // few are kept, and mostly none of some neighbours
-                    for chunk in chunks {
-                        if chunk.iter().fold(false, |any, &value| any | is_kept(value)) {
-                            kept.extend(chunk.iter().filter(|value| is_kept(**value)));
+                }
+                let [[a, b], [c, d]] = about;
+                let is_kept = |v: f64| ((v >= a) & (v <= b)) | ((v >= c) & (v <= d));
+                let mut found = [0.0; COLUMN];
+                let mut count = 0;
+                let mut keep = |values: &[f64]| {
+                    for &value in values {
+                        found[count % COLUMN] = value;
+                        count += usize::from(is_kept(value));
+                    }
+                };
+                // few are kept, and mostly none of some neighbours
+                for chunk in chunks {
+                    if chunk.iter().map(|&value| u64::from(is_kept(value))).sum::<u64>() > 0 {
+                        keep(chunk);
+                    }
+                }
+                keep(rest);
+                for &value in &found[..count] {
+                    for (kept, [low, high]) in self.kept.iter_mut().zip(about) {
+                        if value >= low && value <= high {
+                            kept.push(value);
                         }
                     }
-                    kept.extend(rest.iter().filter(|value| is_kept(**value)));
                 }
             }
         }
+    }
+
+    /// The sums of all lanes.
+    fn sums(&self) -> [f64; 2] {
+        [self.sums.iter().sum(), self.squares.iter().sum()]
     }
 }
 
@@ -305,24 +356,46 @@ impl Tally {
     }
 }
 
+/// The spreads under all changes; `None` if an end was not kept.
+fn finish_all(
+    batches: &[Vec<Batch>],
+    plans: &[Plan],
+    probability: f64,
+) -> Option<Vec<Vec<Spread>>> {
+    let mut found: Vec<Vec<Spread>> = Vec::with_capacity(plans.len());
+    for change in 0..plans.len() {
+        let spreads = finish(batches, change, plans, probability, found.first())?;
+        found.push(spreads);
+    }
+    Some(found)
+}
+
 /// The spreads under one change; `None` if an end was not kept.
 fn finish(
     batches: &[Vec<Batch>],
     change: usize,
     plans: &[Plan],
     probability: f64,
+    baseline: Option<&Vec<Spread>>,
 ) -> Option<Vec<Spread>> {
     let batches: Vec<&Batch> = batches.iter().filter_map(|batch| batch.get(change)).collect();
     let undefined: u64 = batches.iter().map(|batch| batch.undefined).sum();
     let plan = plans.get(change)?;
-    let spread = |(output, &(limits, _)): (usize, &(Limits, f64))| {
+    let spread = |(output, plan): (usize, &OutputPlan)| {
+        if !plan.is_taken {
+            // where trials are left out of either, they are not the same trials
+            let baseline = baseline?.get(output)?;
+            return (undefined == 0 && baseline.undefined == 0.0).then(|| baseline.clone());
+        }
         let parts = batches.iter().filter_map(|batch| batch.outputs.get(output));
         let parts: Vec<&Tally> = parts.filter(|tally| tally.trials > 0).collect();
         let mut all = Tally::default();
+        let (mut sum, mut squares) = (0.0, 0.0);
         for part in &parts {
             all.trials += part.trials;
-            all.sum += part.sum;
-            all.squares += part.squares;
+            let [own_sum, own_squares] = part.sums();
+            sum += own_sum;
+            squares += own_squares;
             for side in 0..2 {
                 all.below[side] += part.below[side];
                 all.kept[side].extend_from_slice(&part.kept[side]);
@@ -340,10 +413,10 @@ fn finish(
             });
         }
         let half_lengths: Option<Vec<f64>> = parts.iter().map(|part| part.half_length).collect();
-        let variance = (all.squares - all.sum * (all.sum / n)) / (n - 1.0);
+        let variance = (squares - sum * (sum / n)) / (n - 1.0);
         Some(Spread {
             std: variance.max(0.0).sqrt(),
-            interval: all.interval(limits, probability)?,
+            interval: all.interval(plan.limits, probability)?,
             half_lengths: half_lengths?,
             undefined: share,
         })

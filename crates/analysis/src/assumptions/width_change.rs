@@ -1,7 +1,7 @@
 //! The width at widths: how far a stated width may be wrong before the expanded uncertainty moves by
 //! more than is allowed.
 
-use super::sampler::{Buffers, Sampler, Widening};
+use super::sampler::{Buffers, Change, Sampler, Taker, Widening};
 use gumption_engine::distribution::BLOCK;
 use gumption_engine::number::{COLUMN, Column};
 use gumption_engine::propagate::Control;
@@ -25,6 +25,8 @@ pub(super) struct WidthSearch<'a> {
     sampler: &'a Sampler,
     /// The values of all quantities, column by column.
     values: Vec<Column>,
+    /// Half the lengths of the outputs' coverage intervals as stated.
+    stated: Vec<f64>,
     probability: f64,
     allowed: f64,
 }
@@ -46,34 +48,35 @@ impl<'a> WidthSearch<'a> {
         let blocks = (trials / BLOCK as u64).min(affordable).clamp(BLOCKS[0], BLOCKS[1]);
         let mut buffers = sampler.buffers();
         let drawn = (0..blocks).map(|block| sampler.drawn(control.path, block, &mut buffers));
-        Self { sampler, values: drawn.flatten().collect(), probability, allowed }
+        let values = drawn.flatten().collect();
+        let mut stated = Collected(vec![Vec::new(); sampler.outputs()]);
+        for block in 0..blocks {
+            let whole = (control.path, block, BLOCK);
+            let none = sampler.prepared(&[Change::None]);
+            sampler.changed(whole, &none, &mut buffers, &mut stated);
+        }
+        let stated = stated.0.iter_mut().map(|values| half_length(values, probability)).collect();
+        Self { sampler, values, stated, probability, allowed }
     }
 
-    /// Half the lengths of the outputs' coverage intervals where the width of a quantity is
-    /// multiplied; not a number where a trial is not finite. `before` is what does not depend on it,
-    /// column by column, or nothing.
-    fn half_lengths(
+    /// Half the length of an output's coverage interval where the width of a quantity is multiplied;
+    /// not a number where a trial is not finite. `before` is what does not depend on it, column by
+    /// column, or nothing.
+    fn half_length(
         &self,
         (widening, before): (&Widening<'_>, &[Column]),
-        (mean, factor): (f64, f64),
+        change: (f64, f64),
         buffers: &mut Buffers,
         control: &Control<'_>,
-    ) -> Vec<f64> {
-        let mut found: Vec<Vec<f64>> = vec![Vec::new(); self.sampler.outputs()];
+    ) -> f64 {
+        let mut found = vec![0.0; self.columns().len() * COLUMN];
         let each = if before.is_empty() { 0 } else { widening.columns() };
-        for (column, values) in self.columns().enumerate() {
+        let columns = self.columns().zip(found.chunks_mut(COLUMN));
+        for (column, (values, out)) in columns.enumerate() {
             let before = &before[column * each..(column + 1) * each];
-            widening.widened(
-                control.path,
-                (values, before),
-                (mean, factor),
-                buffers,
-                |output, values: &[f64; COLUMN]| {
-                    found[output].extend_from_slice(values);
-                },
-            );
+            widening.widened(control.path, (values, before), change, buffers, out);
         }
-        found.iter_mut().map(|values| half_length(values, self.probability)).collect()
+        half_length(&mut found, self.probability)
     }
 
     /// The values of all quantities in each column of trials.
@@ -108,55 +111,58 @@ impl<'a> WidthSearch<'a> {
         control: &Control<'_>,
     ) -> Vec<Option<Allowed>> {
         let mut buffers = self.sampler.buffers();
-        let widening = self.sampler.widening(place);
-        let before = self.before(&widening, &mut buffers, control);
-        let mut known: Vec<(f64, Vec<f64>)> = Vec::new();
-        let mut at = |factor: f64, output: usize| {
-            let found = known
-                .iter()
-                .find(|(known, _)| *known == factor)
-                .map(|(_, lengths)| lengths[output]);
-            found.unwrap_or_else(|| {
-                let (of, change) = ((&widening, &before[..]), (mean, factor));
-                let lengths = self.half_lengths(of, change, &mut buffers, control);
-                let length = lengths[output];
-                known.push((factor, lengths));
-                length
-            })
+        let outputs = 0..self.sampler.outputs();
+        outputs.map(|output| self.of_output((place, mean), output, &mut buffers, control)).collect()
+    }
+
+    fn of_output(
+        &self,
+        (place, mean): (usize, f64),
+        output: usize,
+        buffers: &mut Buffers,
+        control: &Control<'_>,
+    ) -> Option<Allowed> {
+        let stated = self.stated[output];
+        if stated.is_nan() || stated <= 0.0 {
+            return None;
+        }
+        let Some(widening) = self.sampler.widening(place, output) else {
+            return Some([-1.0, f64::INFINITY]);
         };
-        (0..self.sampler.outputs())
-            .map(|output| {
-                let stated = at(1.0, output);
-                if stated.is_nan() || stated <= 0.0 {
-                    return None;
-                }
-                // the square of the length is nearly linear in that of the width
-                let mut excess = |square: f64| {
-                    let change = at(square.sqrt(), output) / stated - 1.0;
-                    if change.is_nan() { f64::INFINITY } else { change.abs() - self.allowed }
-                };
-                let lower = if excess(0.0) <= 0.0 { 0.0 } else { crossing(1.0, 0.0, &mut excess) };
-                let mut inside = 1.0;
-                let upper = loop {
-                    let factor = 4.0 * inside;
-                    if excess(factor) > 0.0 {
-                        break crossing(inside, factor, &mut excess).sqrt() - 1.0;
-                    }
-                    inside = factor;
-                    if inside >= LARGEST * LARGEST {
-                        break f64::INFINITY;
-                    }
-                };
-                Some([lower.sqrt() - 1.0, upper])
-            })
-            .collect()
+        let before = self.before(&widening, buffers, control);
+        let mut at =
+            |factor: f64| self.half_length((&widening, &before), (mean, factor), buffers, control);
+        // the square of the length is nearly linear in that of the width
+        let mut excess = |square: f64| {
+            let change = at(square.sqrt()) / stated - 1.0;
+            if change.is_nan() { f64::INFINITY } else { change.abs() - self.allowed }
+        };
+        let inside = [1.0, -self.allowed];
+        let none = excess(0.0);
+        let lower = if none <= 0.0 { 0.0 } else { crossing(inside, [0.0, none], &mut excess) };
+        let mut inside = inside;
+        let upper = loop {
+            let square = 4.0 * inside[0];
+            let found = [square, excess(square)];
+            if found[1] > 0.0 {
+                break crossing(inside, found, &mut excess).sqrt() - 1.0;
+            }
+            inside = found;
+            if square >= LARGEST * LARGEST {
+                break f64::INFINITY;
+            }
+        };
+        Some([lower.sqrt() - 1.0, upper])
     }
 }
 
-/// Where the excess turns positive on the way from `inside` to `outside`: false position with the
-/// retained end's weight halved (the Illinois rule), the last point inside.
-fn crossing(mut inside: f64, mut outside: f64, excess: &mut impl FnMut(f64) -> f64) -> f64 {
-    let (mut low, mut high) = (excess(inside), excess(outside));
+/// Where the excess turns positive on the way from `inside` to `outside`, each with its excess: false
+/// position with the retained end's weight halved (the Illinois rule), the last point inside.
+fn crossing(
+    [mut inside, mut low]: [f64; 2],
+    [mut outside, mut high]: [f64; 2],
+    excess: &mut impl FnMut(f64) -> f64,
+) -> f64 {
     let mut last = 0;
     for _ in 0..60 {
         if (inside.sqrt() - outside.sqrt()).abs() <= TOLERANCE {
@@ -186,30 +192,113 @@ fn half_length(values: &mut [f64], probability: f64) -> f64 {
     }
     let ranks = Ranks::new(values.len() as u64, probability);
     let place = |rank: u64| (rank as usize).clamp(1, values.len()) - 1;
-    let (lower, upper) = (place(ranks.r), place(ranks.r + ranks.q));
-    let (_, &mut low, above) = values.select_nth_unstable_by(lower, f64::total_cmp);
-    // the upper end is among those above the lower one
-    let high = match upper.checked_sub(lower + 1) {
-        Some(place) => *above.select_nth_unstable_by(place, f64::total_cmp).1,
-        None => low,
-    };
+    let places = [place(ranks.r), place(ranks.r + ranks.q)];
+    let [low, high] = in_tails(values, places).unwrap_or_else(|| {
+        let (_, &mut low, above) = values.select_nth_unstable_by(places[0], f64::total_cmp);
+        // the upper end is among those above the lower one
+        let high = match places[1].checked_sub(places[0] + 1) {
+            Some(place) => *above.select_nth_unstable_by(place, f64::total_cmp).1,
+            None => low,
+        };
+        [low, high]
+    });
     0.5 * high - 0.5 * low
+}
+
+/// The first so many values tell where the tails lie.
+const PILOT: usize = 2048;
+
+/// How many standard deviations of a rank of the pilot the tails are wider than their ends.
+const MARGIN: f64 = 6.0;
+
+/// The values at two places of the order, sought in the tails alone; `None` where they are not there
+/// for sure.
+fn in_tails(values: &[f64], places: [usize; 2]) -> Option<[f64; 2]> {
+    let mut pilot = values.get(..PILOT).filter(|pilot| values.len() >= 8 * pilot.len())?.to_vec();
+    pilot.sort_unstable_by(f64::total_cmp);
+    let count = values.len() as f64;
+    let limit = |place: usize, way: f64| {
+        let share = place as f64 / count;
+        let scatter = (share * (1.0 - share) / PILOT as f64).sqrt();
+        let rank = (share + way * MARGIN * scatter) * PILOT as f64;
+        (rank >= 1.0).then(|| pilot.get(rank as usize).copied()).flatten()
+    };
+    let [below, above] = [limit(places[0], 1.0)?, limit(places[1], -1.0)?];
+    let mut low: Vec<f64> = Vec::with_capacity(values.len() / 8);
+    let mut high = low.clone();
+    for chunk in values.chunks(16) {
+        // all are counted, so that several are looked at at a time
+        if chunk.iter().map(|&value| u64::from(value <= below)).sum::<u64>() > 0 {
+            low.extend(chunk.iter().filter(|value| **value <= below));
+        }
+        if chunk.iter().map(|&value| u64::from(value >= above)).sum::<u64>() > 0 {
+            high.extend(chunk.iter().filter(|value| **value >= above));
+        }
+    }
+    let from_top = values.len() - places[1];
+    let high_place = high.len().checked_sub(from_top)?;
+    if places[0] >= low.len() {
+        return None;
+    }
+    let low = *low.select_nth_unstable_by(places[0], f64::total_cmp).1;
+    let high = *high.select_nth_unstable_by(high_place, f64::total_cmp).1;
+    Some([low, high])
+}
+
+/// The values of all outputs.
+struct Collected(Vec<Vec<f64>>);
+
+impl Taker for Collected {
+    #[inline(always)]
+    fn take(&mut self, _number: usize, outputs: &mut [Column], count: usize) {
+        for (values, column) in self.0.iter_mut().zip(outputs) {
+            values.extend_from_slice(&column.0[..count]);
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// Ends that are sought in the tails alone are those of all values, also where many are equal or
+    /// the pilot is of other values than the rest.
+    #[test]
+    fn ends_are_in_the_tails() {
+        let mut state = 1u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        let random: Vec<f64> = (0..32_768).map(|_| next() * next() - 0.3).collect();
+        let steps = random.iter().map(|x| (x * 20.0).round()).collect();
+        let mut other = random.clone();
+        other[..PILOT].iter_mut().for_each(|x| *x *= 0.01);
+        for values in [random, steps, other] {
+            let mut sorted = values.clone();
+            sorted.sort_unstable_by(f64::total_cmp);
+            for places in [[0, 32_767], [800, 31_900], [5_000, 30_000], [9, 9]] {
+                let expected = places.map(|place| sorted[place]);
+                assert!(in_tails(&values, places).is_none_or(|found| found == expected));
+            }
+            let ranks = Ranks::new(values.len() as u64, 0.95);
+            let ends = [ranks.r, ranks.r + ranks.q].map(|rank| sorted[rank as usize - 1]);
+            assert_eq!(half_length(&mut values.clone(), 0.95), 0.5 * ends[1] - 0.5 * ends[0]);
+        }
+    }
+
     /// The square root of 1.3225 is 1.15: a length that grows as the width, 15 % allowed.
     #[test]
     fn the_crossing_is_found() {
         let mut excess = |square: f64| (square.sqrt() - 1.0).abs() - 0.15;
-        let up = crossing(1.0, 4.0, &mut excess).sqrt();
-        let down = crossing(1.0, 0.0, &mut excess).sqrt();
+        let stated = [1.0, excess(1.0)];
+        let up = crossing(stated, [4.0, excess(4.0)], &mut excess).sqrt();
+        let down = crossing(stated, [0.0, excess(0.0)], &mut excess).sqrt();
         assert!((up - 1.15).abs() < TOLERANCE && up <= 1.15 + 1e-12, "{up}");
         assert!((down - 0.85).abs() < TOLERANCE && down >= 0.85 - 1e-12, "{down}");
         // not a number beyond
         let mut excess = |s: f64| if s > 2.0 { f64::INFINITY } else { -1.0 };
-        assert!((crossing(1.0, 4.0, &mut excess).sqrt() - 2f64.sqrt()).abs() < TOLERANCE);
+        let found = crossing([1.0, -1.0], [4.0, f64::INFINITY], &mut excess);
+        assert!((found.sqrt() - 2f64.sqrt()).abs() < TOLERANCE);
     }
 }

@@ -221,6 +221,14 @@ impl Schedule {
     /// # Panics
     /// Of a schedule that does not keep all values.
     pub fn following(&self, places: &[usize]) -> Following {
+        self.following_to(places, &self.outputs)
+    }
+
+    /// The same for some of the outputs alone.
+    ///
+    /// # Panics
+    /// As [`Schedule::following`].
+    pub fn following_to(&self, places: &[usize], outputs: &[ScheduledOutput]) -> Following {
         assert!(self.kept == Kept::All, "values that are needed again are not kept");
         let mut own: Vec<Option<usize>> = vec![None; self.registers];
         let mut registers = self.registers;
@@ -230,7 +238,7 @@ impl Schedule {
         };
         let variables = places.iter().map(|&place| *own[place].insert(take()));
         let variables: Vec<usize> = variables.collect();
-        let mut steps = Vec::new();
+        let mut steps: Vec<Step> = Vec::new();
         let mut routines: Vec<ScheduledRoutine> = Vec::new();
         for step in &self.steps {
             let operand = |operand: Operand| match operand {
@@ -276,34 +284,32 @@ impl Schedule {
                 }
             }
         }
-        let outputs = self.outputs.iter().map(|output| match *output {
+        let outputs = outputs.iter().map(|output| match *output {
             ScheduledOutput::Register(r) => ScheduledOutput::Register(own[r].unwrap_or(r)),
             constant @ ScheduledOutput::Constant(_) => constant,
         });
         let outputs: Vec<ScheduledOutput> = outputs.collect();
-        let mut reads = Vec::new();
-        let mut read = |operand: &Operand| {
-            if let Operand::Register(r) = *operand
-                && r < self.registers
-            {
-                reads.push(r);
-            }
-        };
-        for step in &steps {
-            match step {
-                Step::Unary(..) | Step::SinCos { .. } => {}
-                Step::Binary(_, x, y, _) => [x, y].into_iter().for_each(&mut read),
-                Step::Routine(number) => routines[*number].operands.iter().for_each(&mut read),
-            }
-        }
+        let mut needed = vec![false; registers];
         for output in &outputs {
-            if let ScheduledOutput::Register(r) = *output {
-                read(&Operand::Register(r));
+            if let ScheduledOutput::Register(register) = *output {
+                needed[register] = true;
             }
         }
-        reads.sort_unstable();
-        reads.dedup();
-        Following { steps, routines, registers, variables, reads, outputs }
+        let mut kept = Vec::with_capacity(steps.len());
+        for step in steps.into_iter().rev() {
+            if step.results(&routines).into_iter().flatten().any(|result| needed[result]) {
+                step.for_each_read(&routines, |register| needed[register] = true);
+                kept.push(step);
+            }
+        }
+        kept.reverse();
+        let steps = kept;
+        let reads = (0..self.registers).filter(|&register| needed[register]).collect();
+        let first = self.registers;
+        let mut following =
+            Following { steps, routines, first, registers, variables, reads, outputs };
+        following.share_registers();
+        following
     }
 }
 
@@ -314,6 +320,8 @@ impl Schedule {
 pub struct Following {
     steps: Vec<Step>,
     routines: Vec<ScheduledRoutine>,
+    /// The first register behind those of the schedule.
+    first: usize,
     /// Number of registers, those of the schedule first.
     pub registers: usize,
     /// Where the other values of the variables are put, in the order in which they were named.
@@ -329,6 +337,112 @@ impl Following {
     #[inline(always)]
     pub fn run(&self, registers: &mut [Column]) {
         run_steps(&self.steps, &self.routines, registers);
+    }
+
+    /// Whether an output depends on the variables whose values are others.
+    pub fn moves(&self, output: usize) -> bool {
+        match self.outputs.get(output) {
+            Some(ScheduledOutput::Register(register)) => *register >= self.first,
+            Some(ScheduledOutput::Constant(_)) | None => false,
+        }
+    }
+
+    /// Lets values that are not needed at the same time share registers, so that the columns of many
+    /// changes stay in the nearest cache. The other values of the variables are put anew before each
+    /// run.
+    fn share_registers(&mut self) {
+        let first = self.first;
+        let mut last_use = vec![0; self.registers];
+        for (index, step) in self.steps.iter().enumerate() {
+            step.for_each_read(&self.routines, |register| last_use[register] = index);
+        }
+        for output in &self.outputs {
+            if let ScheduledOutput::Register(register) = *output {
+                last_use[register] = usize::MAX;
+            }
+        }
+        let mut place: Vec<usize> = (0..self.registers).collect();
+        let mut free: Vec<usize> = Vec::new();
+        self.registers = first;
+        let mut take = |free: &mut Vec<usize>| {
+            free.pop().unwrap_or_else(|| {
+                self.registers += 1;
+                self.registers - 1
+            })
+        };
+        for variable in &mut self.variables {
+            place[*variable] = take(&mut free);
+            *variable = place[*variable];
+        }
+        for (index, step) in self.steps.iter_mut().enumerate() {
+            let mut ended = Vec::new();
+            step.for_each_read(&self.routines, |register| {
+                if register >= first && last_use[register] == index && !ended.contains(&register) {
+                    ended.push(register);
+                }
+            });
+            let operand = |operand: &mut Operand, place: &[usize]| {
+                if let Operand::Register(register) = operand {
+                    *register = place[*register];
+                }
+            };
+            let mut result = |register: &mut usize, place: &mut [usize]| {
+                place[*register] = take(&mut free);
+                *register = place[*register];
+            };
+            match step {
+                Step::Unary(_, x, out) => {
+                    *x = place[*x];
+                    result(out, &mut place);
+                }
+                Step::Binary(_, x, y, out) => {
+                    operand(x, &place);
+                    operand(y, &place);
+                    result(out, &mut place);
+                }
+                Step::SinCos { angle, sin, cos } => {
+                    *angle = place[*angle];
+                    result(sin, &mut place);
+                    result(cos, &mut place);
+                }
+                Step::Routine(number) => {
+                    let ScheduledRoutine { operands, out, .. } = &mut self.routines[*number];
+                    operands.iter_mut().for_each(|x| operand(x, &place));
+                    result(out, &mut place);
+                }
+            }
+            free.extend(ended.into_iter().map(|register| place[register]));
+        }
+        for output in &mut self.outputs {
+            if let ScheduledOutput::Register(register) = output {
+                *register = place[*register];
+            }
+        }
+    }
+}
+
+impl Step {
+    /// The registers that the step writes to.
+    fn results(&self, routines: &[ScheduledRoutine]) -> [Option<usize>; 2] {
+        match *self {
+            Self::Unary(_, _, out) | Self::Binary(_, _, _, out) => [Some(out), None],
+            Self::SinCos { sin, cos, .. } => [Some(sin), Some(cos)],
+            Self::Routine(number) => [Some(routines[number].out), None],
+        }
+    }
+
+    /// Calls `f` with every register that the step reads.
+    fn for_each_read(&self, routines: &[ScheduledRoutine], mut f: impl FnMut(usize)) {
+        let mut read = |operand: &Operand| {
+            if let Operand::Register(register) = *operand {
+                f(register);
+            }
+        };
+        match self {
+            Self::Unary(_, x, _) | Self::SinCos { angle: x, .. } => f(*x),
+            Self::Binary(_, x, y, _) => [x, y].into_iter().for_each(read),
+            Self::Routine(number) => routines[*number].operands.iter().for_each(&mut read),
+        }
     }
 }
 
@@ -464,6 +578,16 @@ mod tests {
             let expected = found(&schedule.outputs, &whole(&values));
             assert_eq!(found(&following.outputs, &registers), expected, "{places:?}");
             assert_eq!(found(&schedule.outputs, &registers), before);
+            for (output, value) in schedule.outputs.iter().zip(&expected) {
+                let alone = schedule.following_to(&places, &[*output]);
+                registers.resize(alone.registers.max(registers.len()), Column::ZERO);
+                for (&place, &register) in places.iter().zip(&alone.variables) {
+                    registers[register] = other[place].clone();
+                }
+                alone.run(&mut registers);
+                assert_eq!(found(&alone.outputs, &registers), [*value], "{places:?}");
+                assert!(alone.steps.len() <= following.steps.len());
+            }
             // only what was not computed again is read of the first run
             assert!(following.reads.iter().all(|read| *read < schedule.registers));
         }

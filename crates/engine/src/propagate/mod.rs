@@ -38,6 +38,8 @@ pub use origins::{Origins, linear, origins};
 pub use regions::{
     JointRegion, Region, RegionEvaluation, RegionValidation, SampledRegion, SmallestRegion,
 };
-pub use replay::{convergence, for_each_block, histograms, joint_ranks, quantiles};
+pub use replay::{
+    convergence, for_each_block, histograms, joint_ranks, quantiles, quantiles_and_ranks,
+};
 pub use second_order::SecondOrder;
 pub use warnings::{second_order_text, warnings};

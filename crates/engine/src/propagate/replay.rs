@@ -2,7 +2,7 @@
 
 use super::evaluation::{drawn_dof, in_pool, joint, reach};
 use super::gum::Gum;
-use super::monte_carlo::{self, Histogram, MonteCarlo, Request, RowTrials};
+use super::monte_carlo::{self, Histogram, MonteCarlo, QuantilesAndRanks, Request, RowTrials};
 use super::{Control, Evaluation, EvaluationError, gum};
 use crate::task::Task;
 
@@ -44,6 +44,27 @@ pub fn quantiles(
     })?
 }
 
+/// For each output of a row the quantiles of the run's trials ([`quantiles`]), and its joint ranks
+/// ([`joint_ranks`]); `None` without trials, or if stopped. The trials are made once more for both,
+/// where memory can hold them.
+///
+/// # Errors
+/// Threads that cannot be started.
+pub fn quantiles_and_ranks(
+    task: &Task,
+    evaluation: &Evaluation,
+    row: usize,
+    scores: &[f64],
+    control: &Control<'_>,
+) -> Result<Option<QuantilesAndRanks>, EvaluationError> {
+    let count = made(evaluation, row);
+    let asked = (scores, rows(task));
+    in_pool(task, control, || {
+        let trials = trials(task, row)?.filter(|_| count > 0);
+        Ok(trials.and_then(|t| monte_carlo::quantiles_and_ranks(&t, count, asked, control)))
+    })?
+}
+
 /// How the outputs of a row vary together: for each its ranks, from 1, in a few of the run's trials
 /// that stand for all of them. Entry i of all outputs is of the same trial; an output that does not
 /// vary has none. `None` without trials, or if stopped.
@@ -57,11 +78,15 @@ pub fn joint_ranks(
     control: &Control<'_>,
 ) -> Result<Option<Vec<Vec<u32>>>, EvaluationError> {
     let count = made(evaluation, row);
-    let rows = (MOST_RANKS / task.model.outputs.len().max(1)).min(MOST_ROWS);
     in_pool(task, control, || {
         let trials = trials(task, row)?.filter(|_| count > 0);
-        Ok(trials.and_then(|trials| monte_carlo::joint_ranks(&trials, count, rows, control)))
+        Ok(trials.and_then(|t| monte_carlo::joint_ranks(&t, count, rows(task), control)))
     })?
+}
+
+/// Trials in the sample that represents all.
+fn rows(task: &Task) -> usize {
+    (MOST_RANKS / task.model.outputs.len().max(1)).min(MOST_ROWS)
 }
 
 /// For each output of a row the histogram of the run's trials (of the first ten million of more), over

@@ -8,7 +8,7 @@ use gumption_engine::number::CodePath;
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
 use gumption_engine::propagate::{
-    Control, Evaluation, evaluate, joint_ranks, linear, origins, quantiles, trial_hash, warnings,
+    Control, Evaluation, evaluate, linear, origins, quantiles_and_ranks, trial_hash, warnings,
 };
 use gumption_engine::task::Trials;
 use gumption_files as file;
@@ -56,8 +56,7 @@ impl Run {
     fn save(&self, path: &Path, model: &str) {
         let task = &self.file.task;
         let scores: Vec<f64> = Scores::WRITTEN.values().collect();
-        let quantiles = quantiles(task, &self.evaluation, 0, &scores, &Control::default());
-        let ranks = joint_ranks(task, &self.evaluation, 0, &Control::default());
+        let found = quantiles_and_ranks(task, &self.evaluation, 0, &scores, &Control::default());
         let gums: Vec<_> = self.evaluation.rows[0].outputs.iter().map(linear).collect();
         let origins = origins(task, &task.rows[0], &gums, model);
         let provenance = Provenance { model_sha256: model.to_owned(), files: Vec::new() };
@@ -67,7 +66,7 @@ impl Run {
             warnings: &[],
             provenance: &provenance,
         };
-        let (quantiles, ranks) = (quantiles.unwrap().unwrap(), ranks.unwrap().unwrap());
+        let (quantiles, ranks) = found.unwrap().unwrap();
         std::fs::write(path, saved(&report, &origins, &quantiles, &ranks)).unwrap();
     }
 }

@@ -13,7 +13,8 @@
 use rayon::prelude::*;
 
 use super::block::RowTrials;
-use super::repeat::repeat;
+use super::quantiles::{are_held, of_all, quantiles};
+use super::repeat::collected;
 use crate::propagate::Control;
 use crate::special;
 
@@ -23,6 +24,9 @@ const MOST_VALUES: usize = 1 << 22;
 
 /// Trials that are looked at, at most.
 const MOST_TRIALS: usize = 1 << 20;
+
+/// Trials of a cell whose spread is looked at, about as many at most.
+const LOOKED_AT: usize = 4096;
 
 /// A direction with less than this share of an output's variance is left out.
 const NEGLIGIBLE: f64 = 1e-6;
@@ -36,17 +40,33 @@ pub(crate) fn joint_ranks(
     rows: usize,
     control: &Control<'_>,
 ) -> Option<Vec<Vec<u32>>> {
-    let outputs = trials.outputs();
-    let most = (MOST_VALUES / outputs.max(1)).min(MOST_TRIALS);
-    let count = count.min(most as u64);
-    let mut values: Vec<Vec<f64>> = vec![Vec::new(); outputs];
-    let whole = repeat(trials, count, control, |block| {
-        for (kept, values) in values.iter_mut().zip(block) {
-            kept.extend_from_slice(values);
-        }
-        Ok::<(), std::convert::Infallible>(())
-    });
-    whole.unwrap_or(false).then(|| ranks_of(&values, rows))
+    let values = collected(trials, count.min(most_trials(trials)), control)?;
+    Some(ranks_of(&values, rows))
+}
+
+/// Trials that are looked at, at most.
+fn most_trials(trials: &RowTrials) -> u64 {
+    (MOST_VALUES / trials.outputs().max(1)).min(MOST_TRIALS) as u64
+}
+
+/// For each output its quantiles, and its joint ranks.
+pub type QuantilesAndRanks = (Vec<Vec<f64>>, Vec<Vec<u32>>);
+
+/// The quantiles at the probabilities Phi(score), and joint ranks in at most `rows` trials, of
+/// trials that are made once for both where they are held and looked at as a whole.
+pub(crate) fn quantiles_and_ranks(
+    trials: &RowTrials,
+    count: u64,
+    (scores, rows): (&[f64], usize),
+    control: &Control<'_>,
+) -> Option<QuantilesAndRanks> {
+    if are_held(count, trials.outputs(), control.memory) && count <= most_trials(trials) {
+        let values = collected(trials, count, control)?;
+        let ranks = ranks_of(&values, rows);
+        return Some((of_all(values, scores)?, ranks));
+    }
+    let quantiles = quantiles(trials, count, scores, control)?;
+    Some((quantiles, joint_ranks(trials, count, rows, control)?))
 }
 
 /// The ranks of at most `rows` trials that represent all.
@@ -78,11 +98,20 @@ fn ranks_of(values: &[Vec<f64>], rows: usize) -> Vec<Vec<u32>> {
 fn order(values: &[f64]) -> Vec<u32> {
     let keys = values.iter().enumerate().map(|(index, value)| (ordered_bits(*value), index as u32));
     let mut keys: Vec<(u64, u32)> = keys.collect();
-    if keys.len() >= RADIX {
-        sort_by_digits(&mut keys);
-    } else {
-        keys.sort_unstable();
-    }
+    sort_by_keys(&mut keys);
+    keys.into_iter().map(|(_, index)| index).collect()
+}
+
+/// The same of the leading 32 bits of what the values range over: nearer neighbours stay in order.
+fn order_nearly(values: &[f64]) -> Vec<u32> {
+    let bits = values.iter().map(|value| ordered_bits(*value));
+    let (least, most) =
+        bits.fold((u64::MAX, 0), |(least, most), bits| (least.min(bits), most.max(bits)));
+    let shift = (u64::BITS - most.saturating_sub(least).leading_zeros()).saturating_sub(u32::BITS);
+    let key = |value: f64| ((ordered_bits(value) - least) >> shift) as u32;
+    let keys = values.iter().enumerate().map(|(index, value)| (key(*value), index as u32));
+    let mut keys: Vec<(u32, u32)> = keys.collect();
+    sort_by_keys(&mut keys);
     keys.into_iter().map(|(_, index)| index).collect()
 }
 
@@ -98,11 +127,16 @@ fn ordered_bits(value: f64) -> u64 {
     if bits >> 63 == 1 { !bits } else { bits | 1 << 63 }
 }
 
-/// Sorts by the keys, from the last digit to the first; equal ones stay in order.
-fn sort_by_digits(keys: &mut Vec<(u64, u32)>) {
-    let mut sorted = vec![(0, 0); keys.len()];
-    for shift in (0..u64::BITS).step_by(DIGIT as usize) {
-        let digit = |key: u64| (key >> shift) as usize & ((1 << DIGIT) - 1);
+/// Sorts by the keys; equal ones stay in order.
+fn sort_by_keys<K: Copy + Ord + Default + Into<u64>>(keys: &mut Vec<(K, u32)>) {
+    if keys.len() < RADIX {
+        keys.sort_unstable();
+        return;
+    }
+    // from the last digit to the first
+    let mut sorted = vec![(K::default(), 0); keys.len()];
+    for shift in (0..8 * size_of::<K>()).step_by(DIGIT as usize) {
+        let digit = |key: K| (key.into() >> shift) as usize & ((1 << DIGIT) - 1);
         let mut next = [0; 1 << DIGIT];
         keys.iter().for_each(|&(key, _)| next[digit(key)] += 1);
         if next.contains(&keys.len()) {
@@ -127,10 +161,11 @@ fn scores_of_ranks(count: usize) -> Vec<f32> {
     (0..count).into_par_iter().map(score).collect()
 }
 
-/// Standard normal scores of the ranks, all different ones.
+/// Standard normal scores of the ranks, all different ones. They only say where trials are looked
+/// for, and values that hardly differ may change places.
 fn scores(values: &[f64], of_rank: &[f32]) -> Vec<f32> {
     let mut scores = vec![0.0; values.len()];
-    for (score, index) in of_rank.iter().zip(order(values)) {
+    for (score, index) in of_rank.iter().zip(order_nearly(values)) {
         scores[index as usize] = *score;
     }
     scores
@@ -147,19 +182,25 @@ fn chosen(scores: &[Vec<f32>], count: usize, rows: usize) -> Vec<u32> {
         [x, y, z, w] => choose_among([x, y, z, w], count, &mut chosen),
         _ => {
             let mut trials: Vec<u32> = (0..count as u32).collect();
-            let along = |direction: usize, trial: &u32| scores[direction][*trial as usize];
+            let along = |direction: usize, trial: &u32| whole(scores[direction][*trial as usize]);
             choose((scores.len(), &along, &|trial| *trial), &mut trials, &mut chosen);
         }
     }
     chosen
 }
 
+/// A score as a whole number that grows with it evenly, which is compared faster.
+fn whole(score: f32) -> u32 {
+    // scores of a million trials lie within 6, those of directions within some times that
+    ((score + 64.0) * (1 << 25) as f32) as u32
+}
+
 /// The choice with the scores of a trial beside it: what is moved together is read together.
 fn choose_among<const N: usize>(scores: [&Vec<f32>; N], count: usize, chosen: &mut [u32]) {
-    let trial = |index: u32| (scores.map(|scores| scores[index as usize]), index);
-    let mut trials: Vec<([f32; N], u32)> = (0..count as u32).map(trial).collect();
-    let along = |direction: usize, trial: &([f32; N], u32)| trial.0[direction];
-    let index = |trial: &([f32; N], u32)| trial.1;
+    let trial = |index: u32| (scores.map(|scores| whole(scores[index as usize])), index);
+    let mut trials: Vec<([u32; N], u32)> = (0..count as u32).map(trial).collect();
+    let along = |direction: usize, trial: &([u32; N], u32)| trial.0[direction];
+    let index = |trial: &([u32; N], u32)| trial.1;
     choose((N, &along, &index), &mut trials, chosen);
 }
 
@@ -168,7 +209,7 @@ fn choose_among<const N: usize>(scores: [&Vec<f32>; N], count: usize, chosen: &m
 /// score along one, and its index.
 fn choose<T: Send, A, I>(by: (usize, &A, &I), trials: &mut [T], chosen: &mut [u32])
 where
-    A: Fn(usize, &T) -> f32 + Sync,
+    A: Fn(usize, &T) -> u32 + Sync,
     I: Fn(&T) -> u32 + Sync,
 {
     let (directions, along, index) = by;
@@ -179,25 +220,21 @@ where
     if chosen.is_empty() {
         return;
     }
+    // of many trials some tell where they are spread out
+    let step = (trials.len() / LOOKED_AT).max(1);
     let width = |direction: usize| {
-        let (least, most) = trials
-            .iter()
-            .map(|trial| along(direction, trial))
-            .fold((f32::INFINITY, f32::NEG_INFINITY), |(least, most), score| {
-                (least.min(score), most.max(score))
-            });
-        most - least
+        let scores = trials.iter().step_by(step).map(|trial| along(direction, trial));
+        let extremes = |(least, most): (u32, u32), x: u32| (least.min(x), most.max(x));
+        let (least, most) = scores.fold((u32::MAX, 0), extremes);
+        most.saturating_sub(least)
     };
-    let widest = (0..directions).fold((0, f32::NEG_INFINITY), |best, direction| {
-        let width = width(direction);
-        if width > best.1 { (direction, width) } else { best }
-    });
+    let widest = (0..directions).rev().max_by_key(|&direction| width(direction)).unwrap_or(0);
     let cells = chosen.len() / 2;
     // as many trials for each cell, to one
     let cut = (trials.len() as u64 * cells as u64 / chosen.len() as u64) as usize;
-    let key = |trial: &T| along(widest.0, trial);
-    trials.select_nth_unstable_by(cut, |a, b| {
-        key(a).total_cmp(&key(b)).then_with(|| index(a).cmp(&index(b)))
+    // by score, and of equal ones the first trial first: numbers that are compared at once
+    trials.select_nth_unstable_by_key(cut, |trial| {
+        (u64::from(along(widest, trial)) << 32) | u64::from(index(trial))
     });
     let (low, high) = trials.split_at_mut(cut);
     let (of_low, of_high) = chosen.split_at_mut(cells);
@@ -281,7 +318,7 @@ mod tests {
         let scores = [scores(&x, &of_rank), scores(&y, &of_rank)];
         let mut looked_up = vec![0; 777];
         let mut trials: Vec<u32> = (0..x.len() as u32).collect();
-        let along = |direction: usize, trial: &u32| scores[direction][*trial as usize];
+        let along = |direction: usize, trial: &u32| whole(scores[direction][*trial as usize]);
         choose((2, &along, &|trial| *trial), &mut trials, &mut looked_up);
         assert_eq!(chosen(&scores, x.len(), 777), looked_up);
     }
@@ -296,6 +333,14 @@ mod tests {
         let mut expected: Vec<u32> = (0..values.len() as u32).collect();
         expected.sort_by(|&a, &b| values[a as usize].total_cmp(&values[b as usize]));
         assert_eq!(order(&values), expected);
+        // of neighbouring places the values are those of the order to 2^-32 of the bits' range, which
+        // spans all exponents here: 12 bits of sign and exponent leave 20 for the digits
+        for (nearly, exactly) in order_nearly(&values).into_iter().zip(expected) {
+            let (nearly, exactly) = (values[nearly as usize], values[exactly as usize]);
+            assert!((nearly - exactly).abs() <= 1e-6 * exactly.abs(), "{nearly} {exactly}");
+        }
+        // all equal
+        assert_eq!(order_nearly(&[2.0; 5]), [0, 1, 2, 3, 4]);
     }
 
     /// Equal values have ranks all the same.

@@ -4,13 +4,16 @@
 //! greatest value; the cells of the first pass are 0.002 of a quartile's distance wide, and wider
 //! ones (in far tails) are kept or split in further passes.
 
+use rayon::prelude::*;
+
 use super::block::RowTrials;
 use super::partition::{Leaf, Partition};
 use super::passes::{Look, Pass, first_partitions, kept_budget, narrow, pass};
 use super::pilot::plans;
 use super::plan::Plan;
-use super::repeat::repeat;
+use super::repeat::collected;
 use super::request::Request;
+use super::sorting::sort;
 use super::targets::leaf_of;
 use crate::propagate::Control;
 use crate::special;
@@ -33,23 +36,22 @@ pub(crate) fn quantiles(
     control: &Control<'_>,
 ) -> Option<Vec<Vec<f64>>> {
     if are_held(count, trials.outputs(), control.memory) {
-        let mut kept: Vec<Vec<f64>> = vec![Vec::new(); trials.outputs()];
-        let whole = repeat(trials, count, control, |block| {
-            for (kept, values) in kept.iter_mut().zip(block) {
-                kept.extend_from_slice(values);
-            }
-            Ok::<(), std::convert::Infallible>(())
-        });
-        if !whole.unwrap_or(false) || kept.iter().any(Vec::is_empty) {
-            return None;
-        }
-        return Some(kept.into_iter().map(|values| of_values(values, scores)).collect());
+        let kept = collected(trials, count, control)?;
+        return of_all(kept, scores);
     }
     of_cells(trials, count, scores, control)
 }
 
+/// The quantiles of values that are held, output by output; `None` where there are none.
+pub(super) fn of_all(values: Vec<Vec<f64>>, scores: &[f64]) -> Option<Vec<Vec<f64>>> {
+    if values.iter().any(Vec::is_empty) {
+        return None;
+    }
+    Some(values.into_par_iter().map(|values| of_values(values, scores)).collect())
+}
+
 fn of_values(mut values: Vec<f64>, scores: &[f64]) -> Vec<f64> {
-    values.sort_unstable_by(f64::total_cmp);
+    sort(&mut values);
     let count = values.len() as u64;
     scores.iter().map(|&z| interpolate(rank(z, count), |k| values[k as usize - 1])).collect()
 }

@@ -43,3 +43,19 @@ pub(crate) fn repeat<E: Send>(
     }
     Ok(true)
 }
+
+/// The values of all outputs in the first `count` trials, which are made again; `None` if stopped.
+pub(super) fn collected(
+    trials: &RowTrials,
+    count: u64,
+    control: &Control<'_>,
+) -> Option<Vec<Vec<f64>>> {
+    let mut values: Vec<Vec<f64>> = vec![Vec::with_capacity(count as usize); trials.outputs()];
+    let whole = repeat(trials, count, control, |block| {
+        for (kept, values) in values.iter_mut().zip(block) {
+            kept.extend_from_slice(values);
+        }
+        Ok::<(), std::convert::Infallible>(())
+    });
+    whole.unwrap_or(false).then_some(values)
+}

@@ -9,7 +9,7 @@ use crate as file;
 use crate::read_result;
 use gumption_analysis::integrity;
 use gumption_engine::distribution::Scores;
-use gumption_engine::propagate::{Control, evaluate, joint_ranks, linear, origins, quantiles};
+use gumption_engine::propagate::{Control, evaluate, linear, origins, quantiles_and_ranks};
 use gumption_report::{EvaluationReport, Provenance, saved};
 
 /// What is written for outputs of all kinds: with degrees of freedom, without sensitivities, known
@@ -29,8 +29,8 @@ fn written() -> Value {
     let control = Control::default();
     let evaluation = evaluate(task, &control).unwrap();
     let scores: Vec<f64> = Scores::WRITTEN.values().collect();
-    let quantiles = quantiles(task, &evaluation, 0, &scores, &control).unwrap().unwrap();
-    let ranks = joint_ranks(task, &evaluation, 0, &control).unwrap().unwrap();
+    let found = quantiles_and_ranks(task, &evaluation, 0, &scores, &control);
+    let (quantiles, ranks) = found.unwrap().unwrap();
     let gums: Vec<_> = evaluation.rows[0].outputs.iter().map(linear).collect();
     let origins = origins(task, &task.rows[0], &gums, "m");
     let files = vec![("x.csv".to_owned(), "0".to_owned())];
