@@ -9,6 +9,7 @@
 mod alternatives;
 mod anderson_darling;
 mod evidence;
+mod lanes;
 mod sampler;
 mod sobol;
 mod spread;

@@ -9,6 +9,7 @@
 
 use rayon::prelude::*;
 
+use super::lanes::{LANES, in_lanes};
 use super::sampler::{PreparedSet, Sampler, Taker};
 use super::spread::{batches, standard_error, trials_in};
 use gumption_engine::number::Column;
@@ -59,9 +60,6 @@ impl Sums {
     }
 }
 
-/// Sums are taken in so many lanes, as vectors take them.
-const LANES: usize = 16;
-
 /// The squared differences of one set to B and to A, in lanes.
 type Differences = [[f64; LANES]; 2];
 
@@ -103,20 +101,6 @@ struct Samples<'a> {
     /// A column of the outputs of both samples. The first sample gives the sets: it is B.
     both: [Vec<Column>; 2],
     lanes: Vec<Lanes>,
-}
-
-/// Calls `add` with each of so many values and the lane that it belongs to.
-#[inline(always)]
-fn in_lanes(count: usize, mut add: impl FnMut(usize, usize)) {
-    let whole = count / LANES * LANES;
-    for first in (0..whole).step_by(LANES) {
-        for lane in 0..LANES {
-            add(first + lane, lane);
-        }
-    }
-    for (lane, trial) in (whole..count).enumerate() {
-        add(trial, lane);
-    }
 }
 
 impl Taker for Samples<'_> {

@@ -6,6 +6,7 @@
 
 use rayon::prelude::*;
 
+use super::lanes::{LANES, in_lanes};
 use super::sampler::{Change, Prepared, Sampler, Taker};
 use gumption_engine::distribution::BLOCK;
 use gumption_engine::number::{COLUMN, Column};
@@ -94,9 +95,6 @@ struct OutputPlan {
 
 /// A change's plans, output by output.
 type Plan = Vec<OutputPlan>;
-
-/// Sums are taken in so many lanes, and values sought among so many at a time.
-const LANES: usize = 16;
 
 /// One output's values in one batch.
 #[derive(Clone, Debug, Default)]
@@ -289,17 +287,12 @@ impl Tally {
     #[inline(always)]
     fn add(&mut self, values: &[f64], plan: &OutputPlan) {
         self.trials += values.len() as u64;
-        let (chunks, rest) = values.as_chunks::<LANES>();
         let (mut sums, mut squares) = (self.sums, self.squares);
-        let mut add = |lane: usize, value: f64| {
-            let d = value - plan.reference;
+        in_lanes(values.len(), |place, lane| {
+            let d = values[place] - plan.reference;
             sums[lane] += d;
             squares[lane] += d * d;
-        };
-        for chunk in chunks {
-            (0..LANES).for_each(|lane| add(lane, chunk[lane]));
-        }
-        rest.iter().enumerate().for_each(|(lane, &value)| add(lane, value));
+        });
         (self.sums, self.squares) = (sums, squares);
         match plan.limits {
             Limits::All => self.kept[0].extend_from_slice(values),
@@ -318,12 +311,11 @@ impl Tally {
                     }
                 };
                 // few are kept, and mostly none of some neighbours
-                for chunk in chunks {
+                for chunk in values.chunks(LANES) {
                     if chunk.iter().map(|&value| u64::from(is_kept(value))).sum::<u64>() > 0 {
                         keep(chunk);
                     }
                 }
-                keep(rest);
                 for &value in &found[..count] {
                     for (kept, [low, high]) in self.kept.iter_mut().zip(about) {
                         if value >= low && value <= high {
@@ -339,9 +331,7 @@ impl Tally {
     fn sums(&self) -> [f64; 2] {
         [self.sums.iter().sum(), self.squares.iter().sum()]
     }
-}
 
-impl Tally {
     /// The coverage interval; `None` if an end was not kept.
     fn interval(&mut self, limits: Limits, probability: f64) -> Option<[f64; 2]> {
         let ranks = Ranks::new(self.trials, probability);
