@@ -316,7 +316,7 @@ impl<'a> Reader<'a, '_> {
             at: Some((conditions, row)),
             ..Fields::new(object, self.name, unit, estimate, results)
         };
-        let mut zero_width = Vec::new();
+        let (mut zero_width, mut zero_share) = (Vec::new(), Vec::new());
         let mut drawn: Vec<Distribution> = Vec::new();
         let differs = matches!(source, EstimateSource::Formula(_))
             || shapes::has_width_of_row(&object, kind, unit);
@@ -331,24 +331,38 @@ impl<'a> Reader<'a, '_> {
             {
                 zero_width.push(row + 1);
             }
+            if distribution.mean() == 0.0 && shapes::has_share_beside_value(&object, kind, unit) {
+                zero_share.push(row + 1);
+            }
             drawn.push(distribution);
         }
         let shared = if differs { None } else { drawn.first() };
         self.note_of_readings(self.name, kind, shared, read.as_ref());
         let same_elsewhere = !differs && self.conditions.rows() > 1;
-        if let Some(first) = zero_width.first() {
-            let place = match () {
-                () if self.conditions.rows() <= 1 => String::new(),
-                () if zero_width.len() > 1 || same_elsewhere => {
-                    format!(" in row {first} and others")
-                }
-                () => format!(" in row {first}"),
-            };
+        let rows = self.conditions.rows();
+        let place = |of: &[usize]| match of {
+            [first, more @ ..] if rows > 1 => {
+                let others = if !more.is_empty() || same_elsewhere { " and others" } else { "" };
+                format!(" in row {first}{others}")
+            }
+            _ => String::new(),
+        };
+        if !zero_width.is_empty() {
             let text = format!(
-                "the width of `{}` follows its estimate and becomes 0{place}; it is a constant there",
+                "the width of `{}` follows its estimate and becomes 0{}; it is a constant there",
                 self.name,
+                place(&zero_width)
             );
             self.inputs.warnings.push(Warning::new("width-zero", self.name, text));
+        }
+        if !zero_share.is_empty() {
+            let text = format!(
+                "the share of reading in the width of `{}` is 0{}, as its estimate is; of another \
+                 quantity's value it would be `20 ppm of 10 V`",
+                self.name,
+                place(&zero_share)
+            );
+            self.inputs.warnings.push(Warning::new("share-of-zero", self.name, text));
         }
         match drawn.pop() {
             Some(distribution) if !differs => self.inputs.known.always(variable, distribution),

@@ -158,6 +158,20 @@ pub(super) fn has_width_of_row(object: &Object<'_>, kind: &Shape, unit: &Unit) -
     widths.any(|key| formula_of_width(object, key, unit).is_some())
 }
 
+/// Whether a width of the quantity has a share of its estimate and something beside it, so that of an
+/// estimate of 0 the share is lost without a trace.
+pub(super) fn has_share_beside_value(object: &Object<'_>, kind: &Shape, unit: &Unit) -> bool {
+    let own = object.log.own_units();
+    let mut widths = WIDTHS.iter().filter(|key| kind.fields.contains(key));
+    widths.any(|key| {
+        let Some(Json::Text(text)) = object.get(key).map(|member| &member.value.value) else {
+            return false;
+        };
+        Width::specification(text, unit, &own)
+            .is_ok_and(|width| width.at(1.0) > width.at(0.0) && width.at(0.0) > 0.0)
+    })
+}
+
 impl<'a> Fields<'a> {
     /// The fields of a quantity that has nothing beside them: no file read for it, no conditions.
     pub(super) fn new(

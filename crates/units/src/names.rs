@@ -68,6 +68,12 @@ impl Symbol {
         self.prefixes
     }
 
+    /// Whether this prefix may: `Grad` is the German word for a degree, and nobody has a million turns
+    /// in radians.
+    pub(super) fn takes(&self, prefix: &Prefix) -> bool {
+        self.prefixes && (self.name != "rad" || prefix.decimal < 0)
+    }
+
     /// Every spelling, [`Symbol::name`] first.
     pub fn spellings(&self) -> impl Iterator<Item = &'static str> {
         std::iter::once(self.name).chain(self.also.iter().copied())
@@ -220,7 +226,7 @@ pub(super) static SYMBOLS: &[Symbol] = &[
     si("C", CHARGE, 0).named("coulomb"),
     si("V", [1, 2, -3, -1, 0, 0, 0], 0).named("volt"),
     si("F", [-1, -2, 4, 2, 0, 0, 0], 0).named("farad"),
-    si("ohm", RESISTANCE, 0).named("ohm").also(&["Ω", "\u{2126}"]),
+    si("ohm", RESISTANCE, 0).named("ohm").also(&["Ω", "\u{2126}", "Ohm"]),
     si("S", [-1, -2, 3, 2, 0, 0, 0], 0).named("siemens"),
     si("Wb", [1, 2, -2, -1, 0, 0, 0], 0).named("weber"),
     si("T", [1, 0, -2, -1, 0, 0, 0], 0).named("tesla"),
@@ -420,7 +426,7 @@ pub(super) fn read(name: &str) -> Option<(Option<&'static Prefix>, &'static Symb
     match symbol(name) {
         Some(symbol) => Some((None, symbol)),
         None => {
-            let found = prefixed(name).find(|found| found.symbol.prefixes)?;
+            let found = prefixed(name).find(|found| found.symbol.takes(found.prefix))?;
             Some((Some(found.prefix), found.symbol))
         }
     }

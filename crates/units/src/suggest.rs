@@ -36,7 +36,7 @@ const SPELLED: &[(&str, &[&str])] = &[
     ("degree", &["deg"]), ("degs", &["deg"]), ("º", &["deg"]), ("˚", &["deg"]), ("ºc", &["degC"]),
     ("˚c", &["degC"]), ("arcminute", &["arcmin"]), ("amin", &["arcmin"]),
     ("arcsecond", &["arcsec"]), ("asec", &["arcsec"]), ("mas", &["1e-3*arcsec"]),
-    ("grad", &["gon"]),
+    ("grad", &["deg", "gon"]),
     ("\"", &["arcsec", "in"]), ("”", &["arcsec", "in"]), ("“", &["arcsec", "in"]),
     ("’", &["arcmin"]), ("‘", &["arcmin"]), ("`", &["arcmin"]), ("´", &["arcmin"]),
     ("revolution", &["rev"]), ("cycle", &["rev"]), ("rps", &["rev/s"]),

@@ -521,6 +521,15 @@ impl Header {
             {
                 *column = Column::Contribution;
             }
+            // `u` is a standard uncertainty, unless it is still to be divided; `U` is an expanded one
+            let known = [Column::Std, Column::Divisor, Column::Width];
+            if let [None, None, Some(place)] = known.map(|of| place_of(&columns, of))
+                && plain_case(&headings[place]) == "u"
+                && HeaderCoverage::of(&headings[place]) == HeaderCoverage::None
+                && let Some((_, column)) = columns.iter_mut().find(|(at, _)| *at == place)
+            {
+                *column = Column::Std;
+            }
             // one limit alone is none
             let is_limit = |column: Column| matches!(column, Column::Lower | Column::Upper);
             if columns.iter().filter(|(_, column)| is_limit(*column)).count() == 1 {

@@ -68,14 +68,18 @@ impl Budget<'_> {
         match estimate {
             Some(estimate) if (estimate - sum).abs() > 1e-9 * estimate.abs().max(sum.abs()) => {
                 let constant = written(difference(estimate, sum));
-                if with == 0 {
-                    self.guessed.push(format!(
-                        "the quantities add up to {}, and the sheet says {}: the constant {constant} is \
-                         added",
-                        written(to_15_digits(sum)),
-                        written(estimate)
-                    ));
-                }
+                let what = if with == 0 { "" } else { ", times their coefficients," };
+                let turned = Self::sign_that_explains(rows, &factors, estimate - sum);
+                // the derivatives of a product leave a constant; a plain sum has none
+                let is_sum = rows.iter().all(|row| row.sensitivity.is_none_or(|c| c.abs() == 1.0));
+                let is_guess = is_sum || !turned.is_empty();
+                let told = if is_guess { &mut self.guessed } else { &mut self.understood };
+                told.push(format!(
+                    "the quantities{what} add up to {}, and the sheet has {}: the constant {constant} \
+                     is added{turned}",
+                    written(to_15_digits(sum)),
+                    written(estimate),
+                ));
                 terms.push(constant);
             }
             Some(_) => {}
@@ -92,6 +96,24 @@ impl Budget<'_> {
             });
         }
         Some(Linear { formula: terms.join(" + "), unit })
+    }
+
+    /// The row whose coefficient with the other sign makes the sheet's estimate, as the end of a
+    /// sentence.
+    fn sign_that_explains(rows: &[Row], factors: &[f64], difference: f64) -> String {
+        let mut turned = rows.iter().zip(factors).filter(|(row, factor)| {
+            let product = **factor * row.estimate.unwrap_or(0.0);
+            (difference + 2.0 * product).abs() <= 1e-6 * product.abs()
+        });
+        match (turned.next(), turned.next()) {
+            (Some((row, factor)), None) => format!(
+                "; with the coefficient {} of `{}` (line {}) there would be none",
+                Shortest(-factor),
+                row.name,
+                row.line + 1
+            ),
+            _ => String::new(),
+        }
     }
 
     /// The unit of the result: that of its row, else that of the first row whose coefficient says it.

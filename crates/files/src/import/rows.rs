@@ -612,6 +612,11 @@ impl Budget<'_> {
                 columns::unit_as_meant(text).unwrap_or_default()
             }
             Err(_) if lenient => String::new(),
+            // a slip of the keyboard is no plain number
+            Err(error) if !error.suggestions().is_empty() => {
+                self.fail(line, format!("the unit `{text}`: {error}"));
+                String::new()
+            }
             Err(error) => {
                 self.guessed.push(format!(
                     "line {}: `{text}` is taken for a plain number, because it is no unit known \

@@ -432,6 +432,46 @@ fn the_sheet_s_result_is_compared() {
     }
 }
 
+/// A sheet whose coefficient has the wrong sign, or none, adds up to another estimate: that is said,
+/// with the sign that would explain it.
+#[test]
+fn constants_are_told() {
+    let head = "Quantity,Estimate,Unit,Standard uncertainty,Distribution,Sensitivity coefficient\n";
+    let rows = "V_s,10.00012,V,0.00002,normal,1\ncorr,0.00005,V,0.00001,normal,1\n";
+    let (_, budget) = uncertainties(&format!("{head}{rows}V_x,10.00007,V,,,\n"));
+    assert!(guesses(&budget, "coefficient -1 of `corr` (line 3)"), "{:?}", budget.guessed);
+    let (_, budget) = uncertainties(&format!("{head}{rows}V_x,10.00017,V,,,\n"));
+    assert!(!guesses(&budget, "the constant"), "{:?}", budget.guessed);
+}
+
+/// `u` heads standard uncertainties, and is a half-width only where it is still to be divided.
+#[test]
+fn a_column_u_is_of_standard_uncertainties() {
+    let rows = "ts,23.010,°C,0.010,normal,1\ndtD,0,°C,0.012,rectangular,1\ntx,23.010,°C,0.0156,,\n";
+    let head = "Quantity,Estimate,Unit,u,Distribution,Sensitivity coefficient\n";
+    let (found, budget) = uncertainties(&format!("{head}{rows}"));
+    // a rectangle of the half-width 0.012 sqrt(3), which has that standard deviation to rounding
+    assert!((found[0] - 0.010).abs() < 1e-15 && (found[1] - 0.012).abs() < 1e-12, "{found:?}");
+    assert!(!guesses(&budget, "the sheet"), "{:?}", budget.guessed);
+    let (found, _) = uncertainties("Quantity,Estimate,u,Divisor\na,5,0.3,3\n");
+    assert!((found[0] - 0.1).abs() < 1e-15);
+}
+
+/// A slip in a unit is a mistake and no plain number; `Ohm` is how the ohm is written.
+#[test]
+fn units_with_a_slip_are_mistakes() {
+    let rows = |unit: &str| {
+        format!(
+            "Quantity;Estimate;Unit;Half-width;Distribution;Sensitivity\n\
+             R;30,00;Ohm;0,05;rectangular;1\ndR;0;{unit};20;rectangular;\nRx;30,00;Ohm;;;\n"
+        )
+    };
+    let (found, _) = uncertainties(&rows("mOhm"));
+    assert!((found[0] - 0.05 / 3f64.sqrt()).abs() < 1e-12);
+    let error = import("b.csv", rows("mOHm").as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("`mOHm` is not a known unit; did you mean"), "{error}");
+}
+
 /// A result is not added to its own parts, whatever follows it; before, it was.
 #[test]
 fn results_are_no_parts_of_themselves() {

@@ -136,6 +136,18 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "die Breite von {0} folgt ihrem Schätzwert und wird 0; dort ist sie eine Konstante",
     ),
     (
+        "the share of reading in the width of {} is 0 in row {} and others, as its estimate is; of another quantity's value it would be {}",
+        "der Anteil vom Messwert in der Breite von {0} ist in Zeile {1} und anderen 0, wie ihr Schätzwert; vom Wert einer anderen Größe wäre er {2}",
+    ),
+    (
+        "the share of reading in the width of {} is 0 in row {}, as its estimate is; of another quantity's value it would be {}",
+        "der Anteil vom Messwert in der Breite von {0} ist in Zeile {1} 0, wie ihr Schätzwert; vom Wert einer anderen Größe wäre er {2}",
+    ),
+    (
+        "the share of reading in the width of {} is 0, as its estimate is; of another quantity's value it would be {}",
+        "der Anteil vom Messwert in der Breite von {0} ist 0, wie ihr Schätzwert; vom Wert einer anderen Größe wäre er {1}",
+    ),
+    (
         "the width of {} follows its estimate and becomes 0 in row {}; it is a constant there",
         "die Breite von {0} folgt ihrem Schätzwert und wird in Zeile {1} 0; dort ist sie eine Konstante",
     ),
