@@ -148,3 +148,21 @@ fn curves_beyond_their_points() {
         assert_eq!(codes(&file), expected, "{formula} {x} {unit}");
     }
 }
+
+/// A share of reading beside a value is lost without a trace where the estimate is 0, as that of a
+/// correction is.
+#[test]
+fn shares_of_an_estimate_of_zero() {
+    for (mean, width, wanted) in [
+        (0.0, "20 ppm of reading + 4 ppm of 10 V", Some("share-of-zero")),
+        (0.0, "20 ppm + 2 uV", Some("share-of-zero")),
+        (0.0, "20 ppm of 10 V + 4 ppm of 10 V", None),
+        (5.0, "20 ppm of reading + 4 ppm of 10 V", None),
+    ] {
+        let input =
+            json!({"unit": "V", "distribution": "rectangular", "mean": mean, "half_width": width});
+        let file = json!({"inputs": {"x": input, "v": normal("V", 10.0)},
+            "equations": {"y": "v + x"}, "outputs": {"y": {"unit": "V"}}});
+        assert_eq!(codes(&file), wanted.as_slice(), "{mean} {width}");
+    }
+}
