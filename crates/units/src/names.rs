@@ -68,10 +68,10 @@ impl Symbol {
         self.prefixes
     }
 
-    /// Whether this prefix may: `Grad` is the German word for a degree, and nobody has a million turns
-    /// in radians.
+    /// Whether this prefix may: `Grad` is the German word for a degree, and nobody measures in
+    /// gigaradians.
     pub(super) fn takes(&self, prefix: &Prefix) -> bool {
-        self.prefixes && (self.name != "rad" || prefix.decimal < 0)
+        self.prefixes && (self.name != "rad" || prefix.symbol != "G")
     }
 
     /// Every spelling, [`Symbol::name`] first.
@@ -226,7 +226,7 @@ pub(super) static SYMBOLS: &[Symbol] = &[
     si("C", CHARGE, 0).named("coulomb"),
     si("V", [1, 2, -3, -1, 0, 0, 0], 0).named("volt"),
     si("F", [-1, -2, 4, 2, 0, 0, 0], 0).named("farad"),
-    si("ohm", RESISTANCE, 0).named("ohm").also(&["Ω", "\u{2126}", "Ohm"]),
+    si("ohm", RESISTANCE, 0).named("ohm").also(&["Ω", "\u{2126}"]),
     si("S", [-1, -2, 3, 2, 0, 0, 0], 0).named("siemens"),
     si("Wb", [1, 2, -2, -1, 0, 0, 0], 0).named("weber"),
     si("T", [1, 0, -2, -1, 0, 0, 0], 0).named("tesla"),

@@ -826,8 +826,10 @@ pub(super) fn with_unit_in_brackets(words: &str) -> Option<(&str, String)> {
 }
 
 /// A unit as tables have it that formulas could not: `/K` for `1/K`, `K-1` and `m/s2` for `K^-1` and
-/// `m/s^2`.
+/// `m/s^2`, `mOhm` for `mohm`.
 pub(super) fn unit_as_meant(text: &str) -> Option<String> {
+    let written = text;
+    let text = &text.replace("Ohm", "ohm");
     let mut meant = String::new();
     if text.starts_with('/') {
         meant.push('1');
@@ -843,7 +845,7 @@ pub(super) fn unit_as_meant(text: &str) -> Option<String> {
         meant.push(if sign == '−' { '-' } else { sign });
         before = sign;
     }
-    (meant != text && Unit::parse(&meant).is_ok()).then_some(meant)
+    (meant != written && Unit::parse(&meant).is_ok()).then_some(meant)
 }
 
 /// Words as a name of formulas: other signs become `_`.

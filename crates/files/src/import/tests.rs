@@ -457,7 +457,7 @@ fn a_column_u_is_of_standard_uncertainties() {
     assert!((found[0] - 0.1).abs() < 1e-15);
 }
 
-/// A slip in a unit is a mistake and no plain number; `Ohm` is how the ohm is written.
+/// A slip in a unit is a mistake and no plain number; `Ohm` is how tables write the ohm.
 #[test]
 fn units_with_a_slip_are_mistakes() {
     let rows = |unit: &str| {
