@@ -316,6 +316,7 @@ impl<'a> Reader<'a, '_> {
             at: Some((conditions, row)),
             ..Fields::new(object, self.name, unit, estimate, results)
         };
+        let has_share = shapes::has_share_beside_value(&object, kind, unit);
         let (mut zero_width, mut zero_share) = (Vec::new(), Vec::new());
         let mut drawn: Vec<Distribution> = Vec::new();
         let differs = matches!(source, EstimateSource::Formula(_))
@@ -331,7 +332,7 @@ impl<'a> Reader<'a, '_> {
             {
                 zero_width.push(row + 1);
             }
-            if distribution.mean() == 0.0 && shapes::has_share_beside_value(&object, kind, unit) {
+            if has_share && distribution.mean() == 0.0 {
                 zero_share.push(row + 1);
             }
             drawn.push(distribution);

@@ -50,9 +50,9 @@ impl<'a> WidthSearch<'a> {
         let drawn = (0..blocks).map(|block| sampler.drawn(control.path, block, &mut buffers));
         let values = drawn.flatten().collect();
         let mut stated = Collected(vec![Vec::new(); sampler.outputs()]);
+        let none = sampler.prepared(&[Change::None]);
         for block in 0..blocks {
             let whole = (control.path, block, BLOCK);
-            let none = sampler.prepared(&[Change::None]);
             sampler.changed(whole, &none, &mut buffers, &mut stated);
         }
         let stated = stated.0.iter_mut().map(|values| half_length(values, probability)).collect();

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::accumulate::drop_undefined;
 use super::block::{RowTrials, Workspace};
-use super::repeat::repeat;
+use super::repeat::collected;
 use super::request::trials_in;
 use crate::distribution::BLOCK;
 use crate::propagate::Control;
@@ -141,14 +141,7 @@ pub(crate) fn histograms(
 
 /// For each output the range of nearly all of its first trials, `None` where they are all equal.
 fn ranges(trials: &RowTrials, count: u64, control: &Control<'_>) -> Option<Vec<Option<[f64; 2]>>> {
-    let mut pilot: Vec<Vec<f64>> = vec![Vec::new(); trials.outputs()];
-    let first = count.min(PILOT_BLOCKS * BLOCK as u64);
-    let whole = repeat(trials, first, control, |block| {
-        for (pilot, values) in pilot.iter_mut().zip(block) {
-            pilot.extend_from_slice(values);
-        }
-        Ok::<(), std::convert::Infallible>(())
-    });
+    let pilot = collected(trials, count.min(PILOT_BLOCKS * BLOCK as u64), control)?;
     let range = |mut values: Vec<f64>| {
         values.sort_unstable_by(f64::total_cmp);
         let last = values.len().checked_sub(1)?;
@@ -156,7 +149,7 @@ fn ranges(trials: &RowTrials, count: u64, control: &Control<'_>) -> Option<Vec<O
         let (low, high) = (values[tail], values[last - tail]);
         (low < high).then_some([low, high])
     };
-    whole.unwrap_or(false).then(|| pilot.into_iter().map(range).collect())
+    Some(pilot.into_iter().map(range).collect())
 }
 
 /// A range that also shows what else is to be seen, with some room.
