@@ -6,6 +6,8 @@
 //! other, with parameters that may go beyond their priors, and with inputs that may move within their
 //! standard uncertainties; and the other way round.
 
+use std::rc::Rc;
+
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -14,6 +16,7 @@ use super::predict::Predictor;
 use super::reachable::Place;
 use super::setup::Setup;
 use super::weighed::names;
+use gumption_engine::number::COLUMN;
 use gumption_engine::task::Row;
 
 /// Hypotheses that are looked at, at most: single effects, and leading ones of several.
@@ -37,6 +40,9 @@ const STEPS: usize = 40;
 
 /// A step that leaves more than this of the sum of squares is one to a best fit that is not exact.
 const STALLED: f64 = 0.999;
+
+/// Dampings of a step that are tried, each ten times the one before.
+const DAMPINGS: usize = 8;
 
 /// Half the step of differences in the scores.
 const DIFFERENCE: f64 = 1e-4;
@@ -193,39 +199,22 @@ impl Surface<'_> {
     }
 
     /// Whether a least-squares fit of some unknown quantities comes within a tolerance everywhere
-    /// (Levenberg, Marquardt).
+    /// (Levenberg, Marquardt). The steps of several dampings are tried side by side, each with the
+    /// points from which the next step follows.
     fn fits(&self, target: &[f64], start: &[f64], unknowns: &[usize], tolerance: f64) -> bool {
-        let residuals = |values: &[f64]| -> DVector<f64> {
-            DVector::from_iterator(target.len(), target.iter().zip(values).map(|(t, v)| t - v))
-        };
         let most = |of: &DVector<f64>| of.iter().map(|r| r.abs()).fold(0.0, f64::max);
-        let mut at = start.to_vec();
+        let mut here = self.around(target, vec![start.to_vec()], unknowns).next();
         let mut damping = 1e-3;
         let mut last = f64::INFINITY;
         for step in 0..STEPS {
-            let mut points = vec![at.clone()];
-            for &unknown in unknowns {
-                for sign in [1.0, -1.0] {
-                    let mut moved = at.clone();
-                    moved[unknown] += sign * DIFFERENCE;
-                    points.push(moved);
-                }
-            }
-            let values = self.predictor.values(&points);
-            let own = residuals(&column(&values, &self.scales, 0));
+            let Some(Around { at, residuals: own, square, slopes }) = here.take() else {
+                return false;
+            };
             let within = self.inputs.clone().all(|input| at[input].abs() <= 1.0);
             if most(&own) <= tolerance {
                 return within;
             }
-            let columns: Vec<DVector<f64>> = (0..unknowns.len())
-                .map(|n| {
-                    let [up, down] = [1, 2]
-                        .map(|side| DVector::from_vec(column(&values, &self.scales, 2 * n + side)));
-                    (up - down) / (2.0 * DIFFERENCE)
-                })
-                .collect();
-            let slopes = DMatrix::from_columns(&columns);
-            let square = own.norm_squared();
+            let slopes = DMatrix::from_columns(&slopes());
             if !square.is_finite() || slopes.iter().any(|slope| !slope.is_finite()) {
                 return false;
             }
@@ -239,39 +228,85 @@ impl Surface<'_> {
             let normal = slopes.tr_mul(&slopes);
             let gradient = slopes.tr_mul(&own);
             let largest = normal.diagonal().max().max(f64::MIN_POSITIVE);
-            let mut moved = false;
-            for _ in 0..8 {
-                let mut damped = normal.clone();
-                for n in 0..unknowns.len() {
-                    damped[(n, n)] += damping * normal[(n, n)].max(1e-12 * largest);
-                }
-                let Some(root) = damped.cholesky() else {
-                    damping *= 10.0;
-                    continue;
-                };
-                let by = root.solve(&gradient);
-                let mut next = at.clone();
-                for (n, &unknown) in unknowns.iter().enumerate() {
-                    next[unknown] += by[n];
-                }
-                let there = first(&self.predictor.values(&[next.clone()]), &self.scales);
-                let there = residuals(&there).norm_squared();
-                if there < square {
-                    // the steps to an exact fit are no small ones
-                    if there > STALLED * square {
-                        return false;
+            let dampings = (0..DAMPINGS).scan(damping, |next, _| {
+                let own = *next;
+                *next *= 10.0;
+                Some(own)
+            });
+            let moves: Vec<(f64, Vec<f64>)> = dampings
+                .filter_map(|damping| {
+                    let mut damped = normal.clone();
+                    for n in 0..unknowns.len() {
+                        damped[(n, n)] += damping * normal[(n, n)].max(1e-12 * largest);
                     }
-                    at = next;
-                    damping = (0.1 * damping).max(1e-15);
-                    moved = true;
-                    break;
-                }
-                damping *= 10.0;
-            }
-            if !moved {
+                    let by = damped.cholesky()?.solve(&gradient);
+                    let mut next = at.clone();
+                    for (n, &unknown) in unknowns.iter().enumerate() {
+                        next[unknown] += by[n];
+                    }
+                    Some((damping, next))
+                })
+                .collect();
+            let together = (COLUMN / (2 * unknowns.len() + 1)).max(1);
+            let found = moves.chunks(together).find_map(|moves| {
+                let points = moves.iter().map(|(_, next)| next.clone()).collect();
+                let around = self.around(target, points, unknowns);
+                let mut tried = moves.iter().map(|(damping, _)| *damping).zip(around);
+                tried.find(|(_, there)| there.square < square)
+            });
+            let Some((own, there)) = found else { return false };
+            // the steps to an exact fit are no small ones
+            if there.square > STALLED * square {
                 return false;
             }
+            damping = (0.1 * own).max(1e-15);
+            here = Some(there);
         }
         false
     }
+
+    /// What is left of a target at points, and its derivatives there by some unknown quantities.
+    fn around<'f>(
+        &'f self,
+        target: &'f [f64],
+        at: Vec<Vec<f64>>,
+        unknowns: &'f [usize],
+    ) -> impl Iterator<Item = Around<impl Fn() -> Vec<DVector<f64>> + 'f>> + 'f {
+        let group = 2 * unknowns.len() + 1;
+        let mut points = Vec::with_capacity(at.len() * group);
+        for at in &at {
+            points.push(at.clone());
+            for &unknown in unknowns {
+                for sign in [1.0, -1.0] {
+                    let mut moved = at.clone();
+                    moved[unknown] += sign * DIFFERENCE;
+                    points.push(moved);
+                }
+            }
+        }
+        let values = Rc::new(self.predictor.values(&points));
+        at.into_iter().enumerate().map(move |(number, at)| {
+            let first = number * group;
+            let own = column(&values, &self.scales, first);
+            let left = target.iter().zip(own).map(|(t, v)| t - v);
+            let residuals = DVector::from_iterator(target.len(), left);
+            let values = Rc::clone(&values);
+            let slopes = move || {
+                let side = |n: usize| DVector::from_vec(column(&values, &self.scales, first + n));
+                let slope = |n: usize| (side(2 * n + 1) - side(2 * n + 2)) / (2.0 * DIFFERENCE);
+                (0..unknowns.len()).map(slope).collect()
+            };
+            Around { at, square: residuals.norm_squared(), residuals, slopes }
+        })
+    }
+}
+
+/// What is left of a target at a point.
+struct Around<S> {
+    at: Vec<f64>,
+    residuals: DVector<f64>,
+    /// The sum of their squares.
+    square: f64,
+    /// Makes the derivatives of what is said there by the unknown quantities.
+    slopes: S,
 }

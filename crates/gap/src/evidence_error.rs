@@ -32,11 +32,12 @@ pub(super) struct LnWeight {
 
 /// The posterior probabilities, averaged over the errors of the evidences. An error estimated from
 /// n effective draws is distributed like t with n - 1 degrees of freedom, so that a probability
-/// that rests on few draws comes out less sure.
-pub(super) fn averaged(hypotheses: &[LnWeight], seed: u64) -> Vec<f64> {
+/// that rests on few draws comes out less sure. `share` is the probability of all of them together
+/// beside what else may be true.
+pub(super) fn averaged(hypotheses: &[LnWeight], share: f64, seed: u64) -> Vec<f64> {
     let plain = shares(&hypotheses.iter().map(|known| known.ln).collect::<Vec<_>>());
     let uncertain: Vec<usize> = (0..hypotheses.len())
-        .filter(|&h| plain[h] > LEAST && hypotheses[h].standard_error > NEGLIGIBLE)
+        .filter(|&h| plain[h] * share > LEAST && hypotheses[h].standard_error > NEGLIGIBLE)
         .collect();
     if uncertain.is_empty() {
         return plain;
@@ -89,7 +90,7 @@ mod tests {
 
     #[test]
     fn well_known_evidences_keep_their_shares() {
-        let got = averaged(&[known(3f64.ln(), 0.01, 4000.0), known(0.0, 0.0, 0.0)], 1);
+        let got = averaged(&[known(3f64.ln(), 0.01, 4000.0), known(0.0, 0.0, 0.0)], 1.0, 1);
         assert!((got[0] - 0.75).abs() < 1e-12 && (got[1] - 0.25).abs() < 1e-12, "{got:?}");
     }
 
@@ -98,13 +99,13 @@ mod tests {
         // independent: E[1/(1 + exp(-(4 + 2 t)))] for t with 4 degrees of freedom is 0.90480 by
         // numerical integration, against 0.98201 without doubt; 2048 draws of a spread of 0.194
         // scatter by 0.0043, five times which is allowed
-        let got = averaged(&[known(4.0, 2.0, 5.0), known(0.0, 0.0, 0.0)], 1);
+        let got = averaged(&[known(4.0, 2.0, 5.0), known(0.0, 0.0, 0.0)], 1.0, 1);
         assert!((got[0] - 0.90480).abs() < 0.0215, "{got:?}");
         assert!((got[0] + got[1] - 1.0).abs() < 1e-12);
     }
 
     #[test]
     fn nothing_known_is_nothing_said() {
-        assert_eq!(averaged(&[known(f64::NEG_INFINITY, 0.0, 0.0)], 1), [0.0]);
+        assert_eq!(averaged(&[known(f64::NEG_INFINITY, 0.0, 0.0)], 1.0, 1), [0.0]);
     }
 }

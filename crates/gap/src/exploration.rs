@@ -9,7 +9,8 @@ use rayon::prelude::*;
 
 use super::evidence::{DISAGREE, EvidenceEstimate};
 use super::likelihood::Likelihood;
-use super::posterior::{Effort, MANY_VALUES, WeighedHypothesis};
+use super::over_noises::converted_point;
+use super::posterior::{Before, Effort, HOPELESS, MANY_VALUES, WeighedHypothesis};
 use super::response_scan;
 use super::search::Mode;
 use super::setup::Setup;
@@ -47,18 +48,55 @@ impl<'s, 'c> Exploration<'s, 'c> {
     }
 
     /// A hypothesis with a first estimate of its evidence; `known` are those with fewer effects.
-    /// `None` once nothing new is to be begun.
+    /// Where its modes are known with another noise, it is explored only if these are not hopeless
+    /// beside what `leads`, the logarithm of a prior times an evidence. `None` once nothing new is to
+    /// be begun.
     pub(super) fn begin(
         &self,
         effects: Vec<usize>,
         known: &[WeighedHypothesis],
+        before: Option<Before<'_, '_>>,
+        leads: f64,
     ) -> Option<WeighedHypothesis> {
-        (!self.effort.is_stopped()).then(|| self.begun(effects, known))
+        if self.effort.is_stopped() {
+            return None;
+        }
+        let again = before.and_then(|before| self.again(&effects, before));
+        let hopeless = again.filter(|again| again.ln_weight() < leads - HOPELESS);
+        Some(hopeless.unwrap_or_else(|| self.begun(effects, known)))
+    }
+
+    /// A hypothesis as its best modes with another noise have it; `None` where there are none.
+    fn again(
+        &self,
+        effects: &[usize],
+        (setup, posterior): Before<'_, '_>,
+    ) -> Option<WeighedHypothesis> {
+        if self.part.is_some() {
+            return None;
+        }
+        let likelihood = self.setup.likelihood(effects);
+        let from = setup.likelihood(effects).roles;
+        let modes = &posterior.of(effects)?.evidence.modes;
+        let starts: Vec<Vec<f64>> = modes
+            .iter()
+            .take(HANDED_ON)
+            .filter_map(|mode| converted_point(&mode.scores, &from, &likelihood.roles))
+            .collect();
+        if starts.is_empty() {
+            return None;
+        }
+        let evidence = EvidenceEstimate::begin(&likelihood, self.key(effects, ""), &starts, 0);
+        Some(self.with_evidence(effects.to_vec(), evidence))
     }
 
     fn begun(&self, effects: Vec<usize>, known: &[WeighedHypothesis]) -> WeighedHypothesis {
         let starts = seeds(self.setup, &effects, known);
         let evidence = self.integral(&effects, known, starts, "");
+        self.with_evidence(effects, evidence)
+    }
+
+    fn with_evidence(&self, effects: Vec<usize>, evidence: EvidenceEstimate) -> WeighedHypothesis {
         let prior = self.setup.prior();
         let count = self.setup.case.candidates.len();
         let share = |of: f64, count: usize| if count == 0 { 0.0 } else { of / count as f64 };
@@ -72,13 +110,26 @@ impl<'s, 'c> Exploration<'s, 'c> {
     }
 
     /// No gap and every effect alone.
-    pub(super) fn singles(&self) -> Vec<WeighedHypothesis> {
+    pub(super) fn singles(
+        &self,
+        before: Option<Before<'_, '_>>,
+        rivals: f64,
+    ) -> Vec<WeighedHypothesis> {
         let none = self.begun(Vec::new(), &[]);
+        let leads = rivals.max(none.ln_weight());
         let known = std::slice::from_ref(&none);
         let count = self.setup.case.candidates.len();
-        let singles: Vec<WeighedHypothesis> =
-            (0..count).into_par_iter().filter_map(|one| self.begin(vec![one], known)).collect();
+        let singles: Vec<WeighedHypothesis> = (0..count)
+            .into_par_iter()
+            .filter_map(|one| self.begin(vec![one], known, before, leads))
+            .collect();
         std::iter::once(none).chain(singles).collect()
+    }
+
+    fn key(&self, effects: &[usize], run: &str) -> StreamKey {
+        let candidates = &self.setup.case.candidates;
+        let name: Vec<&str> = effects.iter().map(|&e| candidates[e].effect.name.as_str()).collect();
+        StreamKey::new(self.seed, &format!("gap/{}{run}", name.join("+")))
     }
 
     fn integral(
@@ -88,9 +139,7 @@ impl<'s, 'c> Exploration<'s, 'c> {
         mut starts: Vec<Vec<f64>>,
         run: &str,
     ) -> EvidenceEstimate {
-        let candidates = &self.setup.case.candidates;
-        let name: Vec<&str> = effects.iter().map(|&e| candidates[e].effect.name.as_str()).collect();
-        let key = StreamKey::new(self.seed, &format!("gap/{}{run}", name.join("+")));
+        let key = self.key(effects, run);
         if let Some(part) = &self.part {
             let likelihood = part.likelihood(effects);
             starts.extend(scanned(part, &likelihood, effects, known));
@@ -105,16 +154,18 @@ impl<'s, 'c> Exploration<'s, 'c> {
     }
 
     /// Tries the modes of pairs on their members, and what that gives on the pairs, until nothing new
-    /// is found.
-    pub(super) fn reconcile(&self, hypotheses: &mut [WeighedHypothesis]) {
+    /// is found. Of pairs for which the logarithm of prior times evidence is below `least` nothing is
+    /// learnt.
+    pub(super) fn reconcile(&self, hypotheses: &mut [WeighedHypothesis], least: f64) {
         let pairs = hypotheses.partition_point(|h| h.effects.len() < 2);
         for _ in 0..ROUNDS {
             let (fewer, pairs) = hypotheses.split_at_mut(pairs);
+            let tells = |pair: &WeighedHypothesis| pair.ln_weight() >= least;
             let gained: Vec<Vec<usize>> = fewer
                 .par_iter_mut()
                 .filter(|single| single.effects.len() == 1)
                 .filter_map(|single| {
-                    let starts = self.projected(&single.effects, pairs);
+                    let starts = self.projected(&single.effects, pairs.iter().filter(|p| tells(p)));
                     let likelihood = self.setup.likelihood(&single.effects);
                     let new = single.evidence.explore(&likelihood, &starts);
                     new.then(|| single.effects.clone())
@@ -125,7 +176,7 @@ impl<'s, 'c> Exploration<'s, 'c> {
             }
             let fewer = &*fewer;
             let has = |pair: &WeighedHypothesis| {
-                gained.iter().flatten().any(|effect| pair.effects.contains(effect))
+                tells(pair) && gained.iter().flatten().any(|effect| pair.effects.contains(effect))
             };
             pairs.par_iter_mut().filter(|pair| has(pair)).for_each(|pair| {
                 let starts = seeds(self.setup, &pair.effects, fewer);
@@ -136,7 +187,11 @@ impl<'s, 'c> Exploration<'s, 'c> {
     }
 
     /// The modes of the pairs of which these effects are a part, without the others.
-    fn projected(&self, effects: &[usize], pairs: &[WeighedHypothesis]) -> Vec<Vec<f64>> {
+    fn projected<'h>(
+        &self,
+        effects: &[usize],
+        pairs: impl Iterator<Item = &'h WeighedHypothesis>,
+    ) -> Vec<Vec<f64>> {
         let shared = self.setup.roles.len();
         let holds = |pair: &&WeighedHypothesis| effects.iter().all(|e| pair.effects.contains(e));
         let of = |pair: &WeighedHypothesis, mode: &Mode| {
@@ -147,7 +202,6 @@ impl<'s, 'c> Exploration<'s, 'c> {
             scores
         };
         pairs
-            .iter()
             .filter(holds)
             .flat_map(|pair| {
                 pair.evidence.modes.iter().take(HANDED_ON).map(move |mode| of(pair, mode))

@@ -7,13 +7,15 @@
 //! (Birge 1932, Physical Review 40, 207), or with single values off by many standard uncertainties.
 //! Probabilities of effects are summed over it.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::discrepancy::Discrepancy;
 use super::latent::{Map, Role};
 use super::logarithm::ln_add;
-use super::posterior::{self, Effort, MANY_VALUES, Posterior, WeighedHypothesis};
+use super::posterior::{self, Beginnings, Effort, MANY_VALUES, Posterior, WeighedHypothesis};
 use super::prior_widths::{self, Begun, OtherPriors, PriorWidths};
 use super::setup::Setup;
 use super::whitened::{self, WhitenedResiduals};
@@ -242,7 +244,7 @@ pub(crate) struct Weighing<'c> {
     /// How wide the priors of the effects' parameters are.
     pub(crate) widths: PriorWidths,
     pub(crate) setup: Setup<'c>,
-    pub(crate) discrepancy: Discrepancy,
+    pub(crate) discrepancy: Arc<Discrepancy>,
     pub(crate) posterior: Posterior,
     /// Prior probability of the noise model, or of priors of other widths.
     prior: f64,
@@ -261,14 +263,23 @@ pub(crate) fn weighings<'c>(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Vec<Weighing<'c>> {
     let begun = |(setup, singles, pairs): Begun<'c>,
-                 prior: f64,
+                 (widths, prior): (PriorWidths, f64),
                  known: &[Weighing<'c>],
                  [from, to]: [f64; 2]| {
-        let discrepancy = Discrepancy::new(&setup);
         let rivals = ln_total(known) - elementary::ln(prior);
+        let stated = known.first();
+        // with the noise as it is stated, a discrepancy's forms are those there; with the same priors
+        // as there, modes are near those there
+        let same_noise = stated.filter(|_| widths != PriorWidths::AsStated);
+        let discrepancy = match same_noise {
+            Some(stated) => Arc::clone(&stated.discrepancy),
+            None => Arc::new(Discrepancy::new(&setup)),
+        };
+        let same_priors = stated.filter(|_| widths == PriorWidths::AsStated);
+        let before = same_priors.map(|stated| (&stated.setup, &stated.posterior));
         let posterior = posterior::posterior(
             &setup,
-            (singles, pairs),
+            Beginnings { singles, pairs, before },
             &discrepancy,
             seed,
             effort,
@@ -277,19 +288,14 @@ pub(crate) fn weighings<'c>(
                 progress(from + (to - from) * share);
             },
         );
-        Weighing {
-            widths: PriorWidths::AsStated,
-            setup,
-            discrepancy,
-            posterior,
-            prior,
-            probability: 0.0,
-        }
+        Weighing { widths, setup, discrepancy, posterior, prior, probability: 0.0 }
     };
     let weighing = |setup: Setup<'c>, prior: f64, known: &[Weighing<'c>], parts: [f64; 2]| {
-        let singles = posterior::singles(&setup, seed, effort);
+        let rivals = ln_total(known) - elementary::ln(prior);
+        let before = known.first().map(|stated| (&stated.setup, &stated.posterior));
+        let singles = posterior::singles_again(&setup, before, rivals, seed, effort);
         let pairs = setup.case.pairs();
-        begun((setup, singles, pairs), prior, known, parts)
+        begun((setup, singles, pairs), (PriorWidths::AsStated, prior), known, parts)
     };
     let values = case.task.rows.len() * case.observed.iter().flatten().count();
     let stated = NoiseModel::default().prior(values);
@@ -317,8 +323,7 @@ pub(crate) fn weighings<'c>(
         }
         let other = prior_widths::begin(widths, others, &weighings, seed, effort);
         if let Some(other) = other {
-            let prior = widths.prior();
-            weighings.push(Weighing { widths, ..begun(other, prior, &weighings, [0.7, 0.8]) });
+            weighings.push(begun(other, (widths, widths.prior()), &weighings, [0.7, 0.8]));
         }
     }
     while few && !effort.is_stopped() {

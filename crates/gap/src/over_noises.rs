@@ -4,6 +4,8 @@
 //! and how wide its interval is. Sizes and predictions are therefore those of the mixture of all
 //! noises, and not those of the most probable one.
 
+use std::sync::Arc;
+
 use super::discrepancy::Discrepancy;
 use super::evidence::EvidenceEstimate;
 use super::latent::Role;
@@ -21,7 +23,7 @@ const LEAST_SHARE: f64 = 0.01;
 
 /// The weighing with the most probable noise, in which the probabilities of hypotheses are summed
 /// over what the noise may be and their draws are those of all noises.
-pub(crate) fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Discrepancy, Posterior) {
+pub(crate) fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Arc<Discrepancy>, Posterior) {
     let most = most_probable(&weighings);
     let mut first = weighings.swap_remove(most);
     let other = first.widths != PriorWidths::AsStated;
@@ -95,20 +97,36 @@ pub(crate) fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Discrepanc
 fn converted(scores: &[Column], from: &[Role], to: &[Role]) -> Option<Vec<Column>> {
     let score = |role: &Role| -> Option<Column> {
         let Some(at) = from.iter().position(|other| other.is_same_quantity(role)) else {
-            // the factor of uncertainties that are right is one, whose logarithm is zero
-            let score = role.map().and_then(|map| map.score(0.0))?;
-            return Some(Column([score; gumption_engine::number::COLUMN]));
+            return Some(Column([score_of_none(role)?; gumption_engine::number::COLUMN]));
         };
-        let (theirs, own) = (from[at].map()?, role.map()?);
         let mut column = scores.get(at)?.clone();
-        if theirs != own {
-            for value in &mut column.0 {
-                *value = own.score(theirs.value(*value))?;
-            }
+        for value in &mut column.0 {
+            *value = score_as(*value, &from[at], role)?;
         }
         Some(column)
     };
     to.iter().map(score).collect()
+}
+
+/// The same of one point.
+pub(crate) fn converted_point(scores: &[f64], from: &[Role], to: &[Role]) -> Option<Vec<f64>> {
+    let score = |role: &Role| match from.iter().position(|other| other.is_same_quantity(role)) {
+        None => score_of_none(role),
+        Some(at) => score_as(*scores.get(at)?, &from[at], role),
+    };
+    to.iter().map(score).collect()
+}
+
+/// The score of a quantity that is taken for certain elsewhere: the factor of uncertainties that are
+/// right is one, whose logarithm is zero.
+fn score_of_none(role: &Role) -> Option<f64> {
+    role.map().and_then(|map| map.score(0.0))
+}
+
+/// The score of the same value with another prior.
+fn score_as(score: f64, from: &Role, to: &Role) -> Option<f64> {
+    let (theirs, own) = (from.map()?, to.map()?);
+    if theirs == own { Some(score) } else { own.score(theirs.value(score)) }
 }
 
 #[cfg(test)]

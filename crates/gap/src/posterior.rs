@@ -108,18 +108,41 @@ const LEADING: f64 = 0.01;
 /// With more values than this, modes are searched in a part of the data first.
 pub(super) const MANY_VALUES: usize = 20_000;
 
+/// Hypotheses that were weighed with another noise, and the setup of that.
+pub(crate) type Before<'p, 'c> = (&'p Setup<'c>, &'p Posterior);
+
 /// No gap and every effect alone, with first estimates of their evidences.
 pub(crate) fn singles(setup: &Setup<'_>, seed: u64, effort: Effort<'_>) -> Vec<WeighedHypothesis> {
-    let effort = effort.for_values(setup.data.len());
-    Exploration::new(setup, seed, effort).singles()
+    singles_again(setup, None, f64::NEG_INFINITY, seed, effort)
 }
 
-/// Weighs all hypotheses against the data of a setup, of which the `singles` are begun and the `pairs`
-/// not. `rivals` is the logarithm of the evidence of everything else that may be true, over the prior
+/// The same where they were weighed with another noise; `rivals` is as for [`posterior`].
+pub(crate) fn singles_again(
+    setup: &Setup<'_>,
+    before: Option<Before<'_, '_>>,
+    rivals: f64,
+    seed: u64,
+    effort: Effort<'_>,
+) -> Vec<WeighedHypothesis> {
+    let effort = effort.for_values(setup.data.len());
+    Exploration::new(setup, seed, effort).singles(before, rivals)
+}
+
+/// The hypotheses that are to be weighed.
+pub(crate) struct Beginnings<'p, 'c> {
+    /// Those of at most one effect, with first estimates of their evidences.
+    pub(crate) singles: Vec<WeighedHypothesis>,
+    /// Pairs of effects, not yet begun.
+    pub(crate) pairs: Vec<Vec<usize>>,
+    /// The same hypotheses weighed with another noise, if they were.
+    pub(crate) before: Option<Before<'p, 'c>>,
+}
+
+/// Weighs all hypotheses against the data of a setup. `rivals` is the logarithm of the evidence of everything else that may be true, over the prior
 /// probability of this setup: what is improbable beside it need not be known well.
 pub(crate) fn posterior(
     setup: &Setup<'_>,
-    (singles, pairs): (Vec<WeighedHypothesis>, Vec<Vec<usize>>),
+    beginnings: Beginnings<'_, '_>,
     discrepancy: &Discrepancy,
     seed: u64,
     effort: Effort<'_>,
@@ -129,18 +152,20 @@ pub(crate) fn posterior(
     let effort = effort.for_values(setup.data.len());
     let prior = setup.prior();
     let exploration = Exploration::new(setup, seed, effort);
-    let mut hypotheses = singles;
+    let Beginnings { singles: mut hypotheses, pairs, before } = beginnings;
     progress(0.2);
     let residuals = by_rows(&setup.data.nominal_residuals());
     let floor = floor(&hypotheses, prior.unexplained, rivals);
     let unexplained = discrepancy.evidence(setup, &residuals, floor);
     progress(0.3);
     if prior.two > 0.0 && !effort.is_stopped() {
-        let of_pairs: Vec<WeighedHypothesis> =
-            pairs.into_par_iter().filter_map(|of| exploration.begin(of, &hypotheses)).collect();
+        let leads = leading(&hypotheses, rivals);
+        let begin = |of: Vec<usize>| exploration.begin(of, &hypotheses, before, leads);
+        let of_pairs: Vec<WeighedHypothesis> = pairs.into_par_iter().filter_map(begin).collect();
         hypotheses.extend(of_pairs);
         if !effort.is_stopped() {
-            exploration.reconcile(&mut hypotheses);
+            let least = before.map_or(f64::NEG_INFINITY, |_| leads - HOPELESS);
+            exploration.reconcile(&mut hypotheses, least);
         }
     }
     progress(0.6);
@@ -257,12 +282,20 @@ fn ln_weight(prior: f64, ln_evidence: f64) -> f64 {
     if prior > 0.0 { elementary::ln(prior) + ln_evidence } else { f64::NEG_INFINITY }
 }
 
+/// The logarithm of prior times evidence of the leading hypothesis, or of what else may be true.
+fn leading(hypotheses: &[WeighedHypothesis], rivals: f64) -> f64 {
+    hypotheses.iter().map(WeighedHypothesis::ln_weight).fold(rivals, f64::max)
+}
+
 /// The evidence of "unexplained" that would make it as probable as the leading hypothesis, or as what
 /// else may be true.
 fn floor(hypotheses: &[WeighedHypothesis], prior: f64, rivals: f64) -> f64 {
-    let most = hypotheses.iter().map(WeighedHypothesis::ln_weight).fold(rivals, f64::max);
-    most - elementary::ln(prior.max(f64::MIN_POSITIVE))
+    leading(hypotheses, rivals) - elementary::ln(prior.max(f64::MIN_POSITIVE))
 }
+
+/// Hypotheses that are less probable than what leads by this factor's logarithm, with the best modes
+/// that they had with another noise, are not explored anew with this one.
+pub(super) const HOPELESS: f64 = 12.0;
 
 /// Share of "unexplained" in which an effect of the catalogue acts as well.
 const BESIDE_AN_EFFECT: f64 = 0.2;
@@ -361,7 +394,7 @@ impl Posterior {
             standard_error: 0.0,
             effective_sample_size: 0.0,
         });
-        let averaged = evidence_error::averaged(&all, seed);
+        let averaged = evidence_error::averaged(&all, self.share(), seed);
         let mut averaged = averaged.into_iter();
         for (hypothesis, own) in self.hypotheses.iter_mut().zip(&mut averaged) {
             hypothesis.probability = own;

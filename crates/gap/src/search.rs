@@ -261,161 +261,98 @@ impl Walker {
 /// Cost, gradient and information at many points.
 fn locals(likelihood: &Likelihood<'_>, points: &[Vec<f64>]) -> Vec<Local> {
     let unknowns = likelihood.unknowns();
-    let group = unknowns + 1;
-    let together = (COLUMN / group).max(1);
+    let together = (COLUMN / (unknowns + 1)).max(1);
     let mut locals = Vec::with_capacity(points.len());
     for points in points.chunks(together) {
-        let lanes = points.len() * group;
+        let count = points.len();
         let mut scores = vec![Column::ZERO; unknowns];
-        for (number, point) in points.iter().enumerate() {
-            for (i, (column, &score)) in scores.iter_mut().zip(point).enumerate() {
-                column.0[number * group..(number + 1) * group].fill(score);
-                column.0[number * group + 1 + i] += STEP;
+        for (i, column) in scores.iter_mut().enumerate() {
+            for group in column.0.chunks_exact_mut(count).take(unknowns + 1) {
+                group.iter_mut().zip(points).for_each(|(score, point)| *score = point[i]);
             }
+            column.0[(i + 1) * count..][..count].iter_mut().for_each(|score| *score += STEP);
         }
-        let mut moments = Moments::new(likelihood, points.len());
-        likelihood.visit(&scores, lanes, &mut moments);
-        let all = moments.groups.iter().zip(points);
-        locals.extend(all.map(|(group, point)| {
-            group.local(likelihood.covariance, likelihood.data.len(), point)
-        }));
+        let mut moments = Moments::new(likelihood, count);
+        likelihood.visit(&scores, count * (unknowns + 1), &mut moments);
+        let local = |(number, point): (usize, &Vec<f64>)| {
+            moments.local(number, likelihood.covariance, likelihood.data.len(), point)
+        };
+        locals.extend(points.iter().enumerate().map(local));
     }
     locals
 }
 
-/// Sums for the points of one column.
+/// Points whose sums are added up side by side.
+const SIDE_BY_SIDE: usize = 8;
+
+/// A number for each of so many points.
+type Points = [f64; SIDE_BY_SIDE];
+
+/// Sums for the points of one column. Its lanes are the points themselves, then all of them with the
+/// first score moved, and so on; what belongs to one point stands in the same lane of `Points`, in the
+/// block of sums of its number.
 struct Moments<'l> {
     basis: &'l [Vec<f64>],
     fitted: bool,
-    noise: Vec<bool>,
-    groups: Vec<Group>,
+    points: usize,
+    /// The scores that move the residuals, and those that move their variances.
+    moving: Vec<usize>,
+    noise: Vec<usize>,
+    blocks: Vec<Block>,
 }
 
-/// Sums for one point.
-struct Group {
-    square: f64,
-    half_ln_variances: f64,
-    gradient: Vec<f64>,
-    information: Vec<f64>,
+/// Sums for [`SIDE_BY_SIDE`] points.
+struct Block {
+    square: Points,
+    half_ln_variances: Points,
+    gradient: Vec<Points>,
+    information: Vec<Points>,
     /// Products of the basis with the residual, then with its derivatives.
-    products: Vec<f64>,
-    inner: Vec<f64>,
-    slopes: Vec<f64>,
-    ln_slopes: Vec<f64>,
+    products: Vec<Points>,
+    inner: Vec<Points>,
+    /// Of the value that is being added, by score.
+    slopes: Vec<Points>,
 }
+
+/// The lanes of a column, with room to read a whole block from any of them.
+type Lanes = [f64; COLUMN + SIDE_BY_SIDE];
 
 impl<'l> Moments<'l> {
     fn new(likelihood: &'l Likelihood<'_>, points: usize) -> Self {
         let unknowns = likelihood.unknowns();
         let basis = &likelihood.covariance.basis;
         let fitted = likelihood.covariance.fitted;
-        let group = || Group {
-            square: 0.0,
-            half_ln_variances: 0.0,
-            gradient: vec![0.0; unknowns],
-            information: vec![0.0; triangle(unknowns)],
-            products: vec![0.0; basis.len() * (unknowns + 1)],
-            inner: vec![0.0; if fitted { triangle(basis.len()) } else { 0 }],
-            slopes: vec![0.0; unknowns],
-            ln_slopes: vec![0.0; unknowns],
+        let zeros = |count: usize| vec![[0.0; SIDE_BY_SIDE]; count];
+        let block = || Block {
+            square: [0.0; SIDE_BY_SIDE],
+            half_ln_variances: [0.0; SIDE_BY_SIDE],
+            gradient: zeros(unknowns),
+            information: zeros(triangle(unknowns)),
+            products: zeros(basis.len() * (unknowns + 1)),
+            inner: zeros(if fitted { triangle(basis.len()) } else { 0 }),
+            slopes: zeros(unknowns),
         };
-        Self {
-            basis,
-            fitted,
-            noise: likelihood.roles.iter().map(super::latent::Role::is_noise).collect(),
-            groups: (0..points).map(|_| group()).collect(),
-        }
+        let is_noise = |i: &usize| likelihood.roles[*i].is_noise();
+        let (noise, moving) = (0..unknowns).partition(is_noise);
+        let blocks = (0..points.div_ceil(SIDE_BY_SIDE)).map(|_| block()).collect();
+        Self { basis, fitted, points, moving, noise, blocks }
     }
-}
 
-/// Adds what one value gives to a gradient, a multiple of its slopes, and to a packed information,
-/// a multiple of their products.
-#[inline(always)]
-fn add_products(
-    gradient: &mut [f64],
-    information: &mut [f64],
-    first: f64,
-    second: f64,
-    slopes: &[f64],
-) {
-    for ((t, slope), gradient) in slopes.iter().enumerate().zip(gradient) {
-        if *slope == 0.0 {
-            continue;
-        }
-        *gradient += first * slope;
-        let row = information[triangle(t)..].iter_mut().zip(&slopes[..=t]);
-        let slope = second * slope;
-        row.for_each(|(cell, other)| *cell += slope * other);
-    }
-}
-
-impl Visitor for Moments<'_> {
-    #[inline(always)]
-    fn row(&mut self, row: usize, residuals: &[Column], ln_variances: &[Column]) {
-        let outputs = residuals.len();
-        let unknowns = self.noise.len();
-        for (output, (residual, ln_variance)) in residuals.iter().zip(ln_variances).enumerate() {
-            for (number, group) in self.groups.iter_mut().enumerate() {
-                let lane = number * (unknowns + 1);
-                let r = residual.0[lane];
-                group.square += r * r;
-                let moved = &residual.0[lane + 1..][..unknowns];
-                for ((slope, moved), noise) in group.slopes.iter_mut().zip(moved).zip(&self.noise) {
-                    *slope = if *noise { 0.0 } else { (moved - r) / STEP };
-                }
-                add_products(&mut group.gradient, &mut group.information, r, 1.0, &group.slopes);
-                if self.fitted {
-                    let ln = ln_variance.0[lane];
-                    group.half_ln_variances += 0.5 * ln;
-                    let moved = &ln_variance.0[lane + 1..][..unknowns];
-                    let slopes = group.ln_slopes.iter_mut().zip(moved).zip(&self.noise);
-                    for ((slope, moved), noise) in slopes {
-                        *slope = if *noise { (moved - ln) / STEP } else { 0.0 };
-                    }
-                    let excess = 0.5 * (1.0 - r * r);
-                    let Group { gradient, information, ln_slopes, .. } = group;
-                    add_products(gradient, information, excess, 0.5, ln_slopes);
-                }
-                if self.basis.is_empty() {
-                    continue;
-                }
-                let place = row * outputs + output;
-                let root =
-                    if self.fitted { elementary::exp(-0.5 * ln_variance.0[lane]) } else { 1.0 };
-                for (i, column) in self.basis.iter().enumerate() {
-                    let factor = column[place] * root;
-                    if factor == 0.0 {
-                        continue;
-                    }
-                    let products = &mut group.products[i * (unknowns + 1)..];
-                    products[0] += factor * r;
-                    for t in 0..unknowns {
-                        products[1 + t] += factor * group.slopes[t];
-                    }
-                    if self.fitted {
-                        for (j, other) in self.basis.iter().enumerate().take(i + 1) {
-                            group.inner[triangle(i) + j] += factor * root * other[place];
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-impl Group {
-    fn local(&self, covariance: &Covariance, values: usize, point: &[f64]) -> Local {
+    /// What the sums say of a point.
+    fn local(&self, number: usize, covariance: &Covariance, values: usize, point: &[f64]) -> Local {
         let unknowns = point.len();
         let k = covariance.basis.len();
-        let mut square = self.square;
-        let mut half_ln_det = covariance.half_ln_det + self.half_ln_variances;
-        let mut gradient = DVector::from_column_slice(&self.gradient);
+        let block = &self.blocks[number / SIDE_BY_SIDE];
+        let lane = number % SIDE_BY_SIDE;
+        let mut square = block.square[lane];
+        let mut half_ln_det = covariance.half_ln_det + block.half_ln_variances[lane];
+        let mut gradient = DVector::from_fn(unknowns, |i, _| block.gradient[i][lane]);
         let mut information = DMatrix::from_fn(unknowns, unknowns, |i, j| {
-            self.information[triangle(i.max(j)) + i.min(j)]
+            block.information[triangle(i.max(j)) + i.min(j)][lane]
         });
         if k > 0 {
             let inner = if covariance.fitted {
-                let mut root = self.inner.clone();
+                let mut root: Vec<f64> = block.inner.iter().map(|sums| sums[lane]).collect();
                 for i in 0..k {
                     root[triangle(i) + i] += 1.0;
                 }
@@ -425,8 +362,9 @@ impl Group {
             } else {
                 packed::to_matrix(&covariance.inner)
             };
-            let products =
-                DMatrix::from_fn(k, unknowns + 1, |i, j| self.products[i * (unknowns + 1) + j]);
+            let products = DMatrix::from_fn(k, unknowns + 1, |i, j| {
+                block.products[i * (unknowns + 1) + j][lane]
+            });
             if let Some(y) = inner.solve_lower_triangular(&products) {
                 let first = y.column(0);
                 let others = y.columns(1, unknowns);
@@ -447,5 +385,109 @@ impl Group {
             f64::INFINITY
         };
         Local { cost, gradient, information }
+    }
+}
+
+#[inline(always)]
+fn lanes(column: &Column) -> Lanes {
+    let mut lanes = [0.0; COLUMN + SIDE_BY_SIDE];
+    lanes[..COLUMN].copy_from_slice(&column.0);
+    lanes
+}
+
+#[inline(always)]
+fn block_at(lanes: &Lanes, first: usize) -> Points {
+    std::array::from_fn(|n| lanes[first + n])
+}
+
+#[inline(always)]
+fn each(of: impl Fn(usize) -> f64) -> Points {
+    std::array::from_fn(of)
+}
+
+/// Adds products, point by point.
+#[inline(always)]
+fn add_product(sums: &mut Points, a: &Points, b: &Points) {
+    for n in 0..SIDE_BY_SIDE {
+        sums[n] += a[n] * b[n];
+    }
+}
+
+impl Block {
+    /// Adds what one value gives to the gradient, a multiple of its slopes by these scores, and to the
+    /// information, a multiple of their products.
+    #[inline(always)]
+    fn add_slopes(&mut self, scores: &[usize], first: &Points, second: f64) {
+        for (number, &t) in scores.iter().enumerate() {
+            let slope = self.slopes[t];
+            add_product(&mut self.gradient[t], first, &slope);
+            let slope = slope.map(|slope| second * slope);
+            for &u in &scores[..=number] {
+                add_product(&mut self.information[triangle(t) + u], &slope, &self.slopes[u]);
+            }
+        }
+    }
+}
+
+impl Visitor for Moments<'_> {
+    #[inline(always)]
+    fn row(&mut self, row: usize, residuals: &[Column], ln_variances: &[Column]) {
+        let Self { basis, fitted, points, moving, noise, blocks } = self;
+        let outputs = residuals.len();
+        let unknowns = moving.len() + noise.len();
+        for (output, (residual, ln_variance)) in residuals.iter().zip(ln_variances).enumerate() {
+            let residual = lanes(residual);
+            let ln_variance = lanes(ln_variance);
+            let place = row * outputs + output;
+            for (number, block) in blocks.iter_mut().enumerate() {
+                let first = number * SIDE_BY_SIDE;
+                let r = block_at(&residual, first);
+                add_product(&mut block.square, &r, &r);
+                for &t in &*moving {
+                    let moved = block_at(&residual, first + (t + 1) * *points);
+                    block.slopes[t] = each(|n| (moved[n] - r[n]) / STEP);
+                }
+                block.add_slopes(moving, &r, 1.0);
+                let ln = block_at(&ln_variance, first);
+                if *fitted {
+                    for (sum, ln) in block.half_ln_variances.iter_mut().zip(&ln) {
+                        *sum += 0.5 * ln;
+                    }
+                    for &t in &*noise {
+                        let moved = block_at(&ln_variance, first + (t + 1) * *points);
+                        block.slopes[t] = each(|n| (moved[n] - ln[n]) / STEP);
+                    }
+                    let excess = each(|n| 0.5 * (1.0 - r[n] * r[n]));
+                    block.add_slopes(noise, &excess, 0.5);
+                }
+                if basis.is_empty() {
+                    continue;
+                }
+                let root = if *fitted {
+                    each(|n| elementary::exp(-0.5 * ln[n]))
+                } else {
+                    [1.0; SIDE_BY_SIDE]
+                };
+                for (i, column) in basis.iter().enumerate() {
+                    let own = column[place];
+                    if own == 0.0 {
+                        continue;
+                    }
+                    let factor = each(|n| own * root[n]);
+                    let products = &mut block.products[i * (unknowns + 1)..];
+                    add_product(&mut products[0], &factor, &r);
+                    for &t in &*moving {
+                        add_product(&mut products[1 + t], &factor, &block.slopes[t]);
+                    }
+                    if *fitted {
+                        let factor = each(|n| factor[n] * root[n]);
+                        for (j, other) in basis.iter().enumerate().take(i + 1) {
+                            let other = [other[place]; SIDE_BY_SIDE];
+                            add_product(&mut block.inner[triangle(i) + j], &factor, &other);
+                        }
+                    }
+                }
+            }
+        }
     }
 }

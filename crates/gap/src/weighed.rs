@@ -1,6 +1,8 @@
 //! The hypotheses of a case weighed against its data: the most probable one, and those that the data
 //! cannot tell from it.
 
+use std::sync::Arc;
+
 use super::composed::{self, ComposedEffect, Compositions};
 use super::departure;
 use super::diagnosis::{
@@ -54,7 +56,7 @@ pub(crate) struct Weighed<'c> {
     pub(crate) noise: WeighedNoise,
     /// With the noise that is most probable.
     pub(crate) setup: Setup<'c>,
-    pub(crate) discrepancy: Discrepancy,
+    pub(crate) discrepancy: Arc<Discrepancy>,
     pub(crate) posterior: Posterior,
     /// Place of the most probable hypothesis that is not "unexplained".
     pub(crate) best: usize,

@@ -46,6 +46,12 @@ pub fn to_matrix(lower: &[f64]) -> DMatrix<f64> {
     DMatrix::from_fn(order, order, |i, j| if j <= i { lower[triangle(i) + j] } else { 0.0 })
 }
 
+/// The symmetric matrix with this lower triangle.
+pub fn to_symmetric(lower: &[f64]) -> DMatrix<f64> {
+    let order = order(lower);
+    DMatrix::from_fn(order, order, |i, j| lower[triangle(i.max(j)) + i.min(j)])
+}
+
 /// Replaces the lower triangle of a symmetric matrix by its Cholesky root.
 ///
 /// # Errors
@@ -155,13 +161,19 @@ impl Kernel for SolveMany<'_> {
         let groups = self.vectors.chunks_exact_mut(group);
         for (group, squares) in groups.zip(self.squares.chunks_exact_mut(TOGETHER)) {
             let mut lengths = [0.0; TOGETHER];
-            // results before the first entries that are not zero are zero
+            // results before the first entries that are not zero are zero, and so are later ones whose
+            // rows reach no further back than `end`, the last that is not
             let begin = first_of(group) / TOGETHER;
+            let mut end = begin;
             for i in begin..group.len() / TOGETHER {
                 let row = row(self.lower, i);
                 let (known, rest) = group.split_at_mut(i * TOGETHER);
-                let mut sums = [0.0; TOGETHER];
                 let first = firsts[i].max(begin);
+                if first >= end && rest[..TOGETHER].iter().all(|entry| *entry == 0.0) {
+                    continue;
+                }
+                end = i + 1;
+                let mut sums = [0.0; TOGETHER];
                 let known = known.chunks_exact(TOGETHER).skip(first);
                 for (entry, known) in row[first..].iter().zip(known) {
                     for (sum, known) in sums.iter_mut().zip(known) {
@@ -234,6 +246,8 @@ mod tests {
         let dense = DMatrix::from_fn(3, 3, |i, j| MATRIX[i][j]);
         let mut root = lower();
         cholesky(&mut root, 0.0).unwrap();
+        assert_eq!(to_symmetric(&root).lower_triangle(), to_matrix(&root));
+        assert_eq!(to_symmetric(&root).transpose(), to_symmetric(&root));
         let mut clamped = lower();
         cholesky_of_definite(&mut clamped);
         assert_eq!(root, clamped);

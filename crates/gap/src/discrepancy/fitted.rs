@@ -27,6 +27,7 @@ use super::{AMPLITUDES, Discrepancy, Unexplained, Weighted, weigh};
 use crate::latent::{EDGE, Role, ln_prior};
 use crate::logarithm::HALF_LN_TWO_PI;
 use crate::setup::Setup;
+use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, TOGETHER, triangle};
 use gumption_engine::number::elementary;
 
@@ -161,10 +162,23 @@ struct Problem<'p> {
     means: Vec<Mean>,
     /// The discrepancy's features at each mean, then the shared inputs' basis.
     rows: Vec<Vec<f64>>,
+    /// Those of a row's features that are not zero: they are of one output each.
+    spans: Vec<Range<usize>>,
     features: usize,
     /// For each mean the variance of the discrepancy at unit variance of the function.
     own: Vec<f64>,
     touched: f64,
+}
+
+/// A quantity of the noise at its score.
+struct NoiseAt {
+    output: usize,
+    /// Whether it is the power of the model's size that the noise follows, or the logarithm of its
+    /// standard deviation.
+    is_power: bool,
+    value: f64,
+    /// By how much it rises from [`STEP`] below the score to as much above.
+    rise: f64,
 }
 
 /// The mean of values that differ by nothing but noise.
@@ -199,29 +213,45 @@ impl<'p> Problem<'p> {
         };
         let rows: Vec<Vec<f64>> = means.iter().map(row).collect();
         let features = features.ncols();
+        let span = |row: &Vec<f64>| {
+            let filled = |f: &f64| *f != 0.0;
+            let first = row[..features].iter().position(filled).unwrap_or(features);
+            first..row[..features].iter().rposition(filled).map_or(first, |last| last + 1)
+        };
+        let spans = rows.iter().map(span).collect();
         let own: Vec<f64> =
             rows.iter().map(|row| row[..features].iter().map(|f| f * f).sum()).collect();
         let touched = own.iter().zip(&means).filter(|(own, _)| **own > 0.0).map(|(_, m)| m.count);
         let touched = touched.sum::<f64>().max(1.0);
-        Self { setup, noise, means, rows, features, own, touched }
+        Self { setup, noise, means, rows, spans, features, own, touched }
+    }
+
+    /// The noise's quantities at these scores, with the differences for their derivatives.
+    fn noise_at(&self, scores: &[f64]) -> Vec<NoiseAt> {
+        let of = |(role, &score): (&&Role, &f64)| {
+            let (output, map, is_power) = match role {
+                Role::Noise { output, map } => (*output, map, false),
+                Role::Power { output, map } => (*output, map, true),
+                Role::Variable { .. } => return None,
+            };
+            let rise = map.value(score + STEP) - map.value(score - STEP);
+            Some(NoiseAt { output, is_power, value: map.value(score), rise })
+        };
+        self.noise.iter().zip(scores).filter_map(of).collect()
     }
 
     /// Variance of a value's noise, and its derivatives by the scores over it.
-    fn variance(&self, value: usize, scores: &[f64], slopes: &mut [f64]) -> f64 {
+    fn variance(&self, value: usize, noise: &[NoiseAt], slopes: &mut [f64]) -> f64 {
         let output = value % self.setup.data.outputs.len();
         let known = self.setup.linear.variances[value];
-        let ln_size = self.setup.ln_sizes[value];
         let (mut ln, mut found) = (self.setup.data.ln_scales[value], false);
         slopes.fill(0.0);
-        for ((role, &score), slope) in self.noise.iter().zip(scores).zip(slopes.iter_mut()) {
-            let (map, factor) = match role {
-                Role::Noise { output: of, map } if *of == output => (map, 1.0),
-                Role::Power { output: of, map } if *of == output => (map, ln_size),
-                _ => continue,
-            };
-            found |= matches!(role, Role::Noise { .. });
-            ln += factor * map.value(score);
-            *slope = factor * (map.value(score + STEP) - map.value(score - STEP)) / STEP;
+        for (of, slope) in noise.iter().zip(slopes.iter_mut()).filter(|(of, _)| of.output == output)
+        {
+            let factor = if of.is_power { self.setup.ln_sizes[value] } else { 1.0 };
+            found |= !of.is_power;
+            ln += factor * of.value;
+            *slope = factor * of.rise / STEP;
         }
         if !found {
             return known;
@@ -235,7 +265,8 @@ impl<'p> Problem<'p> {
     fn variances(&self, scores: &[f64]) -> Vec<f64> {
         let mut slopes = vec![0.0; scores.len()];
         let values = 0..self.setup.linear.variances.len();
-        values.map(|value| self.variance(value, scores, &mut slopes)).collect()
+        let noise = self.noise_at(scores);
+        values.map(|value| self.variance(value, &noise, &mut slopes)).collect()
     }
 
     /// What unit variance is multiplied by for an amplitude of one standard uncertainty; `own` are
@@ -253,10 +284,11 @@ impl<'p> Problem<'p> {
         let d = scores.len();
         let order = self.rows.first().map_or(0, Vec::len);
         let mut slopes = vec![0.0; d];
+        let noise = self.noise_at(scores);
         let mut variances = Vec::with_capacity(self.means.len());
         let mut all_slopes = Vec::with_capacity(self.means.len() * d);
         for mean in &self.means {
-            variances.push(self.variance(mean.value, scores, &mut slopes));
+            variances.push(self.variance(mean.value, &noise, &mut slopes));
             all_slopes.extend_from_slice(&slopes);
         }
         let multiplier = amplitude * self.scale(variances.iter().copied());
@@ -265,20 +297,25 @@ impl<'p> Problem<'p> {
             inner[triangle(i) + i] = 1.0;
         }
         let mut products = vec![0.0; order];
-        let mut whitened = Vec::with_capacity(self.rows.len() * order);
+        let mut whitened = vec![0.0; self.rows.len() * order];
         let mut ln = 0.0;
-        for ((mean, row), &variance) in self.means.iter().zip(&self.rows).zip(&variances) {
+        for (n, (mean, &variance)) in self.means.iter().zip(&variances).enumerate() {
             let root = (mean.count / variance).sqrt();
-            let first = whitened.len();
-            whitened.extend(row[..self.features].iter().map(|f| multiplier * root * f));
-            whitened.extend(row[self.features..].iter().map(|b| root * b));
-            let row = &whitened[first..];
+            let white_row = &mut whitened[n * order..(n + 1) * order];
+            for (part, factor) in
+                [(self.spans[n].clone(), multiplier * root), (self.features..order, root)]
+            {
+                let entries = white_row[part.clone()].iter_mut().zip(&self.rows[n][part]);
+                entries.for_each(|(white, entry)| *white = factor * entry);
+            }
             let white = mean.residual * root;
             ln -= 0.5
                 * (mean.count * elementary::ln(variance) + mean.squares / variance + white * white);
             ln -= mean.count * HALF_LN_TWO_PI;
-            for (product, factor) in products.iter_mut().zip(row) {
-                *product += factor * white;
+            for part in [self.spans[n].clone(), self.features..order] {
+                for (product, factor) in products[part.clone()].iter_mut().zip(&white_row[part]) {
+                    *product += factor * white;
+                }
             }
         }
         packed::add_squares(&mut inner, &whitened);
@@ -297,7 +334,9 @@ impl<'p> Problem<'p> {
             let slopes = &all_slopes[n * d..(n + 1) * d];
             let leverage = all_leverages[n];
             leverages += leverage;
-            let fitted: f64 = row.iter().zip(&products).map(|(w, b)| w * b).sum();
+            let span = self.spans[n].clone();
+            let fitted = dot(&row[span.clone()], &products[span])
+                + dot(&row[self.features..], &products[self.features..]);
             let rest = mean.residual * (mean.count / variance).sqrt() - fitted;
             let excess = rest * rest + mean.squares / variance - (mean.count - leverage);
             let share = mean.count * self.own[n] / variance;

@@ -35,10 +35,45 @@ pub(crate) struct Form {
 /// A form in the metric of the residuals, with the noise known.
 #[derive(Debug)]
 struct Factored {
+    /// The features, whitened by the blocks.
+    white: DMatrix<f64>,
+    /// What shared inputs make of them.
+    cross: DMatrix<f64>,
     /// Eigenvalues of the features' covariance.
     eigenvalues: Vec<f64>,
-    /// Takes residuals, whitened by the blocks, to scores along the eigenvectors.
-    projector: DMatrix<f64>,
+    eigenvectors: DMatrix<f64>,
+}
+
+impl Factored {
+    /// `None` where the shared inputs' covariance has no root.
+    fn new(setup: &Setup<'_>, features: &DMatrix<f64>) -> Option<Self> {
+        let covariance = &setup.linear;
+        let mut white = DMatrix::zeros(features.nrows(), features.ncols());
+        for (column, mut out) in features.column_iter().zip(white.column_iter_mut()) {
+            let whitened = covariance.whiten_blocks(column.as_slice());
+            out.copy_from(&DVector::from_vec(whitened));
+        }
+        let k = covariance.basis.len();
+        let products = DMatrix::from_fn(k, white.ncols(), |i, j| {
+            dot(&covariance.basis[i], white.column(j).as_slice())
+        });
+        let cross = packed::to_matrix(&covariance.inner).solve_lower_triangular(&products)?;
+        // products of the features that shared inputs cannot make
+        let mut gram = vec![0.0; packed::triangle(white.ncols())];
+        packed::add_squares(&mut gram, white.transpose().as_slice());
+        let gram = packed::to_symmetric(&gram) - cross.tr_mul(&cross);
+        let eigen = gram.symmetric_eigen();
+        let eigenvalues = eigen.eigenvalues.iter().map(|value| value.max(0.0)).collect();
+        Some(Self { white, cross, eigenvalues, eigenvectors: eigen.eigenvectors })
+    }
+
+    /// The scores of residuals, whitened by the blocks, along the eigenvectors.
+    fn scores(&self, setup: &Setup<'_>, whitened: &DVector<f64>) -> DVector<f64> {
+        let projected = setup.linear.project(whitened.as_slice());
+        let products =
+            self.white.tr_mul(whitened) - self.cross.tr_mul(&DVector::from_vec(projected));
+        self.eigenvectors.tr_mul(&products)
+    }
 }
 
 /// The forms for a design that are `wanted`.
@@ -116,7 +151,7 @@ pub(crate) fn forms(
                 nodes,
                 scale,
                 factored: (keep && !setup.linear.fitted)
-                    .then(|| factored(setup, &features))
+                    .then(|| Factored::new(setup, &features))
                     .flatten(),
                 features: keep.then_some(features),
             }
@@ -143,51 +178,13 @@ impl Form {
         axes: &Axes,
         whitened: &DVector<f64>,
     ) -> (Vec<f64>, DVector<f64>) {
+        let of = |factored: &Factored| factored.scores(setup, whitened);
         if let Some(factored) = &self.factored {
-            return (factored.eigenvalues.clone(), &factored.projector * whitened);
+            return (factored.eigenvalues.clone(), of(factored));
         }
-        let features = self.features(setup, axes);
-        let Some((gram, white, cross)) = gram(setup, &features) else {
-            return (Vec::new(), DVector::zeros(0));
-        };
-        let eigen = gram.symmetric_eigen();
-        let projected = setup.linear.project(whitened.as_slice());
-        let products = white.tr_mul(whitened) - cross.tr_mul(&DVector::from_vec(projected));
-        let eigenvalues = eigen.eigenvalues.iter().map(|value| value.max(0.0)).collect();
-        (eigenvalues, eigen.eigenvectors.tr_mul(&products))
+        match Factored::new(setup, &self.features(setup, axes)) {
+            Some(factored) => (factored.eigenvalues.clone(), of(&factored)),
+            None => (Vec::new(), DVector::zeros(0)),
+        }
     }
-}
-
-/// Products of the features that shared inputs cannot make, the whitened features, and what shared
-/// inputs make of them.
-fn gram(
-    setup: &Setup<'_>,
-    features: &DMatrix<f64>,
-) -> Option<(DMatrix<f64>, DMatrix<f64>, DMatrix<f64>)> {
-    let covariance = &setup.linear;
-    let mut white = DMatrix::zeros(features.nrows(), features.ncols());
-    for (column, mut out) in features.column_iter().zip(white.column_iter_mut()) {
-        let whitened = covariance.whiten_blocks(column.as_slice());
-        out.copy_from(&DVector::from_vec(whitened));
-    }
-    let k = covariance.basis.len();
-    let products = DMatrix::from_fn(k, white.ncols(), |i, j| {
-        dot(&covariance.basis[i], white.column(j).as_slice())
-    });
-    let cross = packed::to_matrix(&covariance.inner).solve_lower_triangular(&products)?;
-    Some((white.tr_mul(&white) - cross.tr_mul(&cross), white, cross))
-}
-
-fn factored(setup: &Setup<'_>, features: &DMatrix<f64>) -> Option<Factored> {
-    let (gram, white, cross) = gram(setup, features)?;
-    let covariance = &setup.linear;
-    let k = covariance.basis.len();
-    let basis = DMatrix::from_fn(k, white.nrows(), |i, j| covariance.basis[i][j]);
-    let half = packed::to_matrix(&covariance.inner).solve_lower_triangular(&basis)?;
-    let projector = white.transpose() - cross.tr_mul(&half);
-    let eigen = gram.symmetric_eigen();
-    Some(Factored {
-        projector: eigen.eigenvectors.tr_mul(&projector),
-        eigenvalues: eigen.eigenvalues.iter().map(|value| value.max(0.0)).collect(),
-    })
 }

@@ -6,7 +6,8 @@ use super::{line, ln_normal};
 use crate::data::by_rows;
 use crate::discrepancy::Discrepancy;
 use crate::evidence::EvidenceEstimate;
-use crate::posterior::{Effort, posterior, singles};
+use crate::noise_model::NoiseModel;
+use crate::posterior::{Before, Beginnings, Effort, posterior, singles, singles_again};
 use crate::setup::Setup;
 use gumption_engine::distribution::StreamKey;
 
@@ -80,7 +81,7 @@ fn probabilities_follow_from_exact_evidences() {
     let discrepancy = Discrepancy::new(&setup);
     let found = posterior(
         &setup,
-        (singles(&setup, 1, Effort::FULL), case.pairs()),
+        Beginnings { singles: singles(&setup, 1, Effort::FULL), pairs: case.pairs(), before: None },
         &discrepancy,
         1,
         Effort::FULL,
@@ -103,5 +104,41 @@ fn probabilities_follow_from_exact_evidences() {
         let wanted = weight(&hypothesis.effects) / weight(&[]);
         // five standard errors of two evidences, of 0.007 at most each
         assert!((ratio / wanted).ln().abs() < 0.05, "{:?} {ratio} {wanted}", hypothesis.effects);
+    }
+}
+
+/// What is hopeless is not explored anew with another noise: its evidence is that about the modes that
+/// it had before.
+#[test]
+fn hopeless_evidences_are_those_about_known_modes() {
+    let case = line();
+    let setup = Setup::new(&case);
+    let weighed = |setup: &Setup<'_>, before: Option<Before<'_, '_>>, rivals: f64| {
+        let singles = singles_again(setup, before, rivals, 1, Effort::FULL);
+        let beginnings = Beginnings { singles, pairs: case.pairs(), before };
+        let discrepancy = Discrepancy::new(setup);
+        posterior(setup, beginnings, &discrepancy, 1, Effort::FULL, rivals, &|_| {})
+    };
+    let stated = weighed(&setup, None, f64::NEG_INFINITY);
+    for noise in [
+        NoiseModel { factor: true, ..NoiseModel::default() },
+        NoiseModel { serial: Some(0.6), ..NoiseModel::default() },
+    ] {
+        let other = setup.with_noise(noise.clone());
+        let anew = weighed(&other, None, f64::NEG_INFINITY);
+        // beside a rival that is this much more probable everything is hopeless
+        let again = weighed(&other, Some((&setup, &stated)), 1000.0);
+        for (anew, again) in anew.hypotheses.iter().zip(&again.hypotheses) {
+            assert_eq!(anew.effects, again.effects);
+            let few = again.evidence.columns.len();
+            assert!(anew.effects.is_empty() || few == 2, "{:?}: {few}", anew.effects);
+            let [anew, again] = [&anew.evidence, &again.evidence];
+            // five standard errors, of 0.12 at most; the seed is fixed, so that this fails always or
+            // never
+            let error = anew.standard_error.hypot(again.standard_error);
+            assert!(error < 0.12, "{noise:?} {error}");
+            let apart = anew.ln_evidence - again.ln_evidence;
+            assert!(apart.abs() < 5.0 * error + 1e-9, "{noise:?}: {apart} +- {error}");
+        }
     }
 }
