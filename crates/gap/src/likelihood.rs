@@ -142,7 +142,13 @@ impl Evaluator {
 
     /// The outputs at a point into `out`.
     #[inline(always)]
-    pub(crate) fn at(&self, point: usize, registers: &mut [Column], out: &mut [Column]) {
+    pub(crate) fn at(
+        &self,
+        path: CodePath,
+        point: usize,
+        registers: &mut [Column],
+        out: &mut [Column],
+    ) {
         let schedule = match &self.conditions {
             None => &self.schedules[point],
             Some(conditions) => {
@@ -154,7 +160,7 @@ impl Evaluator {
                 &self.schedules[0]
             }
         };
-        schedule.run(registers);
+        schedule.run_on(path, registers);
         for (out, &output) in out.iter_mut().zip(&self.outputs) {
             match schedule.outputs[output] {
                 ScheduledOutput::Register(register) => {
@@ -233,7 +239,7 @@ impl<'c> Likelihood<'c> {
     /// Goes through the rows of the data for up to a column of points.
     pub(crate) fn visit<V: Visitor>(&self, scores: &[Column], lanes: usize, visitor: &mut V) {
         let path = CodePath::best();
-        path.run(Walk { likelihood: self, scores: self.mixed(scores), lanes, visitor });
+        path.run(Walk { path, likelihood: self, scores: self.mixed(scores), lanes, visitor });
     }
 
     /// The logarithms of the likelihood of up to a column of points; minus infinity where the model is
@@ -259,6 +265,7 @@ pub(crate) fn fixed_at(rows: &[Row], roles: &[Role]) -> Vec<Option<Vec<f64>>> {
 
 /// One pass over the data.
 struct Walk<'w, 'c, V> {
+    path: CodePath,
     likelihood: &'w Likelihood<'c>,
     scores: Vec<Column>,
     lanes: usize,
@@ -270,7 +277,7 @@ impl<V: Visitor> Kernel for Walk<'_, '_, V> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { likelihood, scores, lanes, visitor } = self;
+        let Self { path, likelihood, scores, lanes, visitor } = self;
         let Likelihood { data, covariance, roles, evaluator, ln_sizes, .. } = likelihood;
         let count = data.outputs.len();
         let mut registers = evaluator.workspace();
@@ -313,7 +320,7 @@ impl<V: Visitor> Kernel for Walk<'_, '_, V> {
                 }
                 evaluator.set(&mut registers, *place, &values);
             }
-            evaluator.at(number, &mut registers, &mut sims);
+            evaluator.at(path, number, &mut registers, &mut sims);
             for &row in &point.rows {
                 for output in 0..count {
                     let value = data.values[output][row];

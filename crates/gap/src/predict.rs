@@ -80,8 +80,9 @@ impl<'s> Predictor<'s> {
                 }
             }
             let scores = likelihood.mixed(&scores);
-            let walk = Walk { evaluator, roles, scores, lanes: draws.len(), outputs };
-            for (of_row, columns) in values.iter_mut().zip(CodePath::best().run(walk)) {
+            let path = CodePath::best();
+            let walk = Walk { path, evaluator, roles, scores, lanes: draws.len(), outputs };
+            for (of_row, columns) in values.iter_mut().zip(path.run(walk)) {
                 for (of_output, column) in of_row.iter_mut().zip(columns) {
                     of_output.extend(column);
                 }
@@ -92,6 +93,7 @@ impl<'s> Predictor<'s> {
 }
 
 struct Walk<'w> {
+    path: CodePath,
     evaluator: &'w Evaluator,
     roles: &'w [Role],
     scores: Vec<Column>,
@@ -104,7 +106,7 @@ impl Kernel for Walk<'_> {
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let Self { evaluator, roles, scores, lanes, outputs } = self;
+        let Self { path, evaluator, roles, scores, lanes, outputs } = self;
         let mut registers = evaluator.workspace();
         let mut values = Column::ZERO;
         let mut sims = vec![Column::ZERO; outputs];
@@ -121,7 +123,7 @@ impl Kernel for Walk<'_> {
                     evaluator.set(&mut registers, *place, &values);
                 }
             }
-            evaluator.at(row, &mut registers, &mut sims);
+            evaluator.at(path, row, &mut registers, &mut sims);
             of_rows.push(sims.iter().map(|column| column.0[..lanes].to_vec()).collect());
         }
         of_rows

@@ -283,10 +283,10 @@ impl<T: Taker> Kernel for Changed<'_, T> {
         let mut draws = Draws::new(&sampler.varying, &sampler.keys, path, block);
         let mut standard = Column::ZERO;
         for first in (0..count).step_by(COLUMN) {
-            draws.scores(scores, &places);
+            draws.scores_on(path, scores, &places);
             sampler.values(scores, values);
             registers[..quantities].clone_from_slice(values);
-            sampler.schedule.run(registers);
+            sampler.schedule.run_on(path, registers);
             for (number, prepared) in changes.iter().enumerate() {
                 let Prepared { change, following, has_shape_before } = prepared;
                 let mut outputs = &sampler.schedule.outputs;
@@ -304,7 +304,7 @@ impl<T: Taker> Kernel for Changed<'_, T> {
                             widen(&values[*place], *mean, *factor, changed);
                         }
                     }
-                    following.run(registers);
+                    following.run_on(path, registers);
                     outputs = &following.outputs;
                 }
                 sampler.all(outputs, registers, found);
@@ -338,14 +338,14 @@ impl<T: Taker> Kernel for Mixed<'_, T> {
         let mut others = Draws::new(&sampler.varying, &sampler.second, path, block);
         for first in (0..count).step_by(COLUMN) {
             let count = (count - first).min(COLUMN);
-            draws.scores(scores, &places);
+            draws.scores_on(path, scores, &places);
             sampler.values(scores, values);
-            others.scores(scores, &places);
+            others.scores_on(path, scores, &places);
             sampler.values(scores, second);
             // the second sample last, as the sets are taken into it
             for (number, sample) in [&*values, &*second].into_iter().enumerate() {
                 registers[..quantities].clone_from_slice(sample);
-                sampler.schedule.run(registers);
+                sampler.schedule.run_on(path, registers);
                 sampler.all(&sampler.schedule.outputs, registers, found);
                 taker.take(number, found, count);
             }
@@ -353,7 +353,7 @@ impl<T: Taker> Kernel for Mixed<'_, T> {
                 for (&place, &register) in places.iter().zip(&following.variables) {
                     registers[register].0 = values[place].0;
                 }
-                following.run(registers);
+                following.run_on(path, registers);
                 sampler.all(&following.outputs, registers, found);
                 taker.take(2 + number, found, count);
             }
@@ -379,7 +379,7 @@ impl Kernel for Drawn<'_> {
         let mut draws = Draws::new(&sampler.varying, &sampler.keys, path, block);
         let mut drawn = Vec::with_capacity(BLOCK / COLUMN * places.len());
         for _ in 0..BLOCK / COLUMN {
-            draws.scores(scores, &places);
+            draws.scores_on(path, scores, &places);
             sampler.values(scores, values);
             drawn.extend_from_slice(values);
         }
@@ -418,8 +418,13 @@ impl Widening<'_> {
         before: &mut Vec<Column>,
     ) {
         let registers = &mut buffers.registers;
-        path.run(Before { widening: self, values, registers });
+        self.run_before(path, values, registers);
         before.extend(self.computed().iter().map(|&register| registers[register].clone()));
+    }
+
+    fn run_before(&self, path: CodePath, values: &[Column], registers: &mut [Column]) {
+        registers[..values.len()].clone_from_slice(values);
+        self.sampler.schedule.run_on(path, registers);
     }
 
     /// The output for one column of trials, of which the quantity's values are changed to `mean`
@@ -435,28 +440,12 @@ impl Widening<'_> {
     ) {
         let registers = &mut buffers.registers;
         make_room(registers, &self.following);
-        path.run(Widened { widening: self, values, before, change, registers, out });
-    }
-}
-
-struct Before<'a> {
-    widening: &'a Widening<'a>,
-    values: &'a [Column],
-    registers: &'a mut [Column],
-}
-
-impl Kernel for Before<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let Self { widening, values, registers } = self;
-        registers[..values.len()].clone_from_slice(values);
-        widening.sampler.schedule.run(registers);
+        path.run(Widened { path, widening: self, values, before, change, registers, out });
     }
 }
 
 struct Widened<'a> {
+    path: CodePath,
     widening: &'a Widening<'a>,
     values: &'a [Column],
     before: &'a [Column],
@@ -470,7 +459,7 @@ impl Kernel for Widened<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { widening, values, before, change: (mean, factor), registers, out } = self;
+        let Self { path, widening, values, before, change: (mean, factor), registers, out } = self;
         let Widening { sampler, place, output, following } = widening;
         let computed = widening.computed();
         if before.len() == computed.len() {
@@ -482,10 +471,10 @@ impl Kernel for Widened<'_> {
                 registers[register].0 = column.0;
             }
         } else {
-            Before { widening, values, registers: &mut *registers }.run();
+            widening.run_before(path, values, registers);
         }
         widen(&values[*place], mean, factor, &mut registers[following.variables[0]]);
-        following.run(registers);
+        following.run_on(path, registers);
         sampler.found(following.outputs[0], registers, *output, out);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::program::Program;
 use super::schedule::{Schedule, ScheduledOutput};
-use crate::number::{COLUMN, Column, Routine, Shortest};
+use crate::number::{COLUMN, CodePath, Column, Routine, Shortest};
 
 /// The range is looked at in so many cells for changes of sign.
 const CELLS: usize = 16;
@@ -247,9 +247,10 @@ impl Routine for Root {
         for (register, operand) in registers.iter_mut().skip(1).zip(rest) {
             register.0 = *operand;
         }
+        let path = CodePath::best();
         let mut run = |x: &[f64; COLUMN]| {
             registers[0].0 = *x;
-            self.schedule.run(&mut registers);
+            self.schedule.run_on(path, &mut registers);
             match self.schedule.outputs.first() {
                 Some(ScheduledOutput::Register(register)) => registers[*register].0,
                 Some(ScheduledOutput::Constant(value)) => [*value; COLUMN],

@@ -5,8 +5,8 @@ use super::program::{Node, Program};
 use std::sync::Arc;
 
 use crate::number::{
-    Binary, COLUMN, Column, Number, Operand, Routine, Unary, apply_binary, apply_sin_cos,
-    apply_unary,
+    Binary, COLUMN, CodePath, Column, Kernel, Number, Operand, Routine, Unary, apply_binary,
+    apply_sin_cos, apply_unary,
 };
 
 /// One step over columns.
@@ -209,10 +209,15 @@ impl Schedule {
         Self { steps, routines, kept, registers, used, outputs }
     }
 
-    /// Runs all steps on one column of trials.
+    /// Runs all steps on one column of trials, as part of a kernel.
     #[inline(always)]
-    pub fn run(&self, registers: &mut [Column]) {
+    pub(crate) fn run(&self, registers: &mut [Column]) {
         run_steps(&self.steps, &self.routines, registers);
+    }
+
+    /// Runs all steps on one column of trials.
+    pub fn run_on(&self, path: CodePath, registers: &mut [Column]) {
+        run_steps_on(path, &self.steps, &self.routines, registers);
     }
 
     /// What is to be computed again where only the varying variables at these places, in their order,
@@ -334,9 +339,8 @@ pub struct Following {
 
 impl Following {
     /// Runs the steps on one column of trials.
-    #[inline(always)]
-    pub fn run(&self, registers: &mut [Column]) {
-        run_steps(&self.steps, &self.routines, registers);
+    pub fn run_on(&self, path: CodePath, registers: &mut [Column]) {
+        run_steps_on(path, &self.steps, &self.routines, registers);
     }
 
     /// Whether an output depends on the variables whose values are others.
@@ -458,6 +462,33 @@ fn run_steps(steps: &[Step], routines: &[ScheduledRoutine], registers: &mut [Col
     }
 }
 
+/// The same compiled once for each path, for whoever does not run many columns in a loop of little
+/// else: a call is a few nanoseconds, a column takes hundreds.
+#[inline(never)]
+fn run_steps_on(
+    path: CodePath,
+    steps: &[Step],
+    routines: &[ScheduledRoutine],
+    registers: &mut [Column],
+) {
+    path.run(StepsKernel { steps, routines, registers });
+}
+
+struct StepsKernel<'a> {
+    steps: &'a [Step],
+    routines: &'a [ScheduledRoutine],
+    registers: &'a mut [Column],
+}
+
+impl Kernel for StepsKernel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        run_steps(self.steps, self.routines, self.registers);
+    }
+}
+
 impl ScheduledRoutine {
     #[inline(never)]
     fn run(&self, registers: &mut [Column]) {
@@ -561,7 +592,7 @@ mod tests {
         let whole = |values: &[Column; 3]| {
             let mut registers = vec![Column::ZERO; schedule.registers];
             registers[..3].clone_from_slice(values);
-            schedule.run(&mut registers);
+            schedule.run_on(CodePath::best(), &mut registers);
             registers
         };
         for places in [vec![0], vec![1], vec![2], vec![2, 0], vec![0, 1, 2], vec![]] {
@@ -574,7 +605,7 @@ mod tests {
                 values[place] = other[place].clone();
                 registers[register] = other[place].clone();
             }
-            following.run(&mut registers);
+            following.run_on(CodePath::best(), &mut registers);
             let expected = found(&schedule.outputs, &whole(&values));
             assert_eq!(found(&following.outputs, &registers), expected, "{places:?}");
             assert_eq!(found(&schedule.outputs, &registers), before);
@@ -584,7 +615,7 @@ mod tests {
                 for (&place, &register) in places.iter().zip(&alone.variables) {
                     registers[register] = other[place].clone();
                 }
-                alone.run(&mut registers);
+                alone.run_on(CodePath::best(), &mut registers);
                 assert_eq!(found(&alone.outputs, &registers), [*value], "{places:?}");
                 assert!(alone.steps.len() <= following.steps.len());
             }

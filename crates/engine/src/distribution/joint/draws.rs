@@ -6,7 +6,7 @@ use super::rank_sample::RankSample;
 use super::{Group, Joint, paired};
 use crate::distribution::{Distribution, Stream, StreamKey, normal};
 use crate::linalg::packed;
-use crate::number::{CodePath, Column};
+use crate::number::{CodePath, Column, Kernel};
 use crate::regression::Refit;
 
 /// The quantities of a row that vary, and the joint draw of those that are linked.
@@ -102,6 +102,21 @@ impl Varying {
     }
 }
 
+struct ScoresKernel<'k, 'a> {
+    draws: &'k mut Draws<'a>,
+    registers: &'k mut [Column],
+    register: &'k [usize],
+}
+
+impl Kernel for ScoresKernel<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.draws.scores(self.registers, self.register);
+    }
+}
+
 /// The running draw of a set of quantities through one block.
 #[derive(Debug)]
 pub struct Draws<'a> {
@@ -142,9 +157,15 @@ impl<'a> Draws<'a> {
     }
 
     /// Draws the next column of standard normal scores of every quantity, dependent as the
-    /// quantities are; of those [`Varying::without_scores`] the values.
+    /// quantities are; of those [`Varying::without_scores`] the values. `register[q]` is where that of
+    /// quantity `q` goes.
+    #[inline(never)]
+    pub fn scores_on(&mut self, path: CodePath, registers: &mut [Column], register: &[usize]) {
+        path.run(ScoresKernel { draws: self, registers, register });
+    }
+
     #[inline(always)]
-    pub fn scores(&mut self, registers: &mut [Column], register: &[usize]) {
+    fn scores(&mut self, registers: &mut [Column], register: &[usize]) {
         let varying = self.varying;
         for q in 0..varying.len() {
             if !varying.in_group[q] {

@@ -22,7 +22,7 @@ use self::pieces::Parts;
 use self::points::Inputs;
 use super::exact::{Accuracy, Noiseless, Problem, Scatter};
 use crate::model::{Program, Schedule, ScheduledOutput};
-use crate::number::{COLUMN, Column};
+use crate::number::{COLUMN, CodePath, Column};
 
 /// Randomizations.
 pub(super) const RANDOMIZATIONS: u32 = 16;
@@ -157,7 +157,7 @@ impl Setup {
 
     /// The outputs where the registers hold the inputs.
     fn run(&self, registers: &mut [Column], out: &mut Column) {
-        self.schedule.run(registers);
+        self.schedule.run_on(CodePath::best(), registers);
         match self.schedule.outputs.first() {
             Some(ScheduledOutput::Register(register)) => out.0 = registers[*register].0,
             Some(ScheduledOutput::Constant(value)) => out.0.fill(*value),
