@@ -78,7 +78,7 @@ impl Varying {
         &self.distributions
     }
 
-    /// For each whether [`Draws::scores`] gives its values and no scores: paired readings, and
+    /// For each whether [`Draws::scores_on`] gives its values and no scores: paired readings, and
     /// outputs of a saved result that are drawn together.
     pub fn without_scores(&self) -> Vec<bool> {
         let mut without = vec![false; self.len()];
