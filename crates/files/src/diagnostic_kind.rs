@@ -801,11 +801,21 @@ impl fmt::Display for DiagnosticKind {
                 let (found, expected) = (counted(*found, "cell"), counted(*expected, "name"));
                 write!(f, "row {row} has {found}, but the header has {expected}")
             }
-            Self::Sample { found } => write!(
-                f,
-                "`{found}` is not a finite number; a file of samples has one on each line, and `#` \
-                 before words"
-            ),
+            Self::Sample { found } => {
+                let point = found.replacen(',', ".", 1);
+                if point != *found && point.parse::<f64>().is_ok() {
+                    return write!(
+                        f,
+                        "`{found}` is no number: a decimal fraction is written with a point, \
+                         `{point}`"
+                    );
+                }
+                write!(
+                    f,
+                    "`{found}` is not a finite number; a file of samples has one on each line, and \
+                     `#` before words"
+                )
+            }
             Self::ColumnUnit { column, heading, declared } => write!(
                 f,
                 "the heading of the column `{column}` says `{heading}`, but its values are read in \

@@ -146,6 +146,14 @@ impl Budget<'_> {
             })
             .collect();
         self.understood.push(format!("line {}: columns {}", header.first + 1, shown.join(", ")));
+        if header.has_widths_as_values {
+            let column = header.columns.iter().find(|(_, column)| *column == Column::Width);
+            let text = column.map_or("", |(place, _)| header.heading(*place));
+            self.guessed.push(format!(
+                "`{text}` is taken for half-widths and expanded uncertainties, as its numbers over \
+                 the divisors are the standard uncertainties; estimates are 0"
+            ));
+        }
         for place in &header.unknown {
             let text = header.heading(*place);
             self.guessed.push(format!("the column `{text}` is not taken"));

@@ -9,7 +9,7 @@ use std::ops::Range;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
-use super::value_text::grouped_digits;
+use super::value_text::{grouped_digits, is_comma};
 use gumption_engine::special;
 
 /// What a text says of a quantity: numbers as written, without the unit.
@@ -207,7 +207,7 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
         let first = "it does not begin with a number";
         format!("{first}; {FORMS}")
     })?;
-    if is_decimal_comma(rest) {
+    if is_comma(rest) {
         return Err("a decimal fraction is written with a point, such as `5.01`".to_owned());
     }
     if let Some((before, of, after)) = named_uncertainty(rest) {
@@ -256,11 +256,6 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
     Ok((unit(rest)?, Stated::Exact(value)))
 }
 
-/// Whether digits follow a comma at once.
-fn is_decimal_comma(text: &str) -> bool {
-    text.strip_prefix(',').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
-}
-
 /// `V, U = 0.0046 V, k = 2`: what stands before the uncertainty that is named, which one it is, and
 /// what stands behind its equals sign.
 fn named_uncertainty(text: &str) -> Option<(&str, Uncertainty, &str)> {
@@ -284,7 +279,7 @@ fn uncertain(
     behind: &str,
     is_shared: bool,
 ) -> Result<(String, Stated), String> {
-    if is_decimal_comma(behind) {
+    if is_comma(behind) {
         return Err("a decimal fraction is written with a point, such as `0.01`".to_owned());
     }
     let (own, said) = match behind.find(['(', ',', ';']) {

@@ -107,9 +107,12 @@ fn place<'a>(object: &Object<'a>) -> &'a Range<usize> {
     object.get("file").map_or(object.place(), |member| &member.value.span)
 }
 
-/// Whether some line is a number.
+/// Whether some line is a number, be it with a decimal comma.
 fn has_numbers(text: &str) -> bool {
-    text.lines().any(|line| line.trim().parse::<f64>().is_ok())
+    let is_number = |text: &str| text.parse::<f64>().is_ok();
+    text.lines()
+        .map(str::trim)
+        .any(|line| is_number(line) || is_number(&line.replacen(',', ".", 1)))
 }
 
 type PlacedKinds = Vec<(Range<usize>, DiagnosticKind)>;
@@ -175,6 +178,13 @@ mod tests {
         let diagnostics = model("1\n2\nvolt\n").unwrap_err().to_string();
         assert!(
             diagnostics.starts_with("s.txt:3:1: `volt` is not a finite number"),
+            "{diagnostics}"
+        );
+        let diagnostics = model("1,5\n2,5\n").unwrap_err().to_string();
+        assert!(
+            diagnostics.starts_with(
+                "s.txt:1:1: `1,5` is no number: a decimal fraction is written with a point, `1.5`"
+            ),
             "{diagnostics}"
         );
         let diagnostics = model("").unwrap_err().to_string();

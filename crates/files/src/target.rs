@@ -1,6 +1,6 @@
 //! What a plan is asked for, as it is typed: `U(y) <= 0.01 m/s^2`, and `reference/drift = 1 yr`.
 
-use super::value_text::{ValueOf, converted, with_unit};
+use super::value_text::{ValueOf, converted, decimal_comma, is_comma, with_unit};
 use super::width::{Width, number, share};
 use gumption_analysis::plan::{Drift, DriftLaw, PlanTarget};
 use gumption_engine::task::Task;
@@ -43,6 +43,9 @@ pub fn read_target(text: &str, task: &Task) -> Result<PlanTarget, String> {
     let target = PlanTarget { output, expanded, share: 0.0, most: 0.0 };
     let wrong = |reason: String| format!("the target `{right}` of `{name}`{reason}");
     let (first, behind) = number(right).map_err(|_| form())?;
+    if is_comma(behind) {
+        return Err(wrong(format!(": {}", decimal_comma(first, behind))));
+    }
     if first.is_nan() || first <= 0.0 || first.is_infinite() {
         return Err(wrong(" must be above zero".to_owned()));
     }
@@ -149,6 +152,7 @@ mod tests {
         assert!(wrong("U(lenght) <= 3").contains("did you mean `length`"));
         assert!(wrong("U(length) <= 3 s").contains("`3 s`"));
         assert!(wrong("U(length) <= 0").contains("above zero"));
+        assert!(wrong("U(length) <= 0,0006 m").contains("such as `0.0006`"));
         assert!(wrong("U(length) <= -1 mm").contains("above zero"));
         for form in [
             "",

@@ -27,14 +27,14 @@ pub(super) fn with_unit(text: &str) -> Option<(f64, &str)> {
 }
 
 /// Whether a number went on with a decimal comma.
-fn is_comma(rest: &str) -> bool {
+pub(super) fn is_comma(rest: &str) -> bool {
     let digits = rest.strip_prefix(',');
     digits.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
 }
 
 /// What is wrong with a number that goes on with a comma and digits: a decimal fraction, or digits in
 /// groups of three.
-fn decimal_comma(whole: f64, rest: &str) -> String {
+pub(super) fn decimal_comma(whole: f64, rest: &str) -> String {
     let digits: String = rest.chars().skip(1).take_while(char::is_ascii_digit).collect();
     let whole = Shortest(whole);
     if digits.len() == 3 {

@@ -73,9 +73,14 @@ impl Width {
             match share(rest).or_else(|| ratio(rest, unit, own)) {
                 Some((factor, "")) => {
                     if unit.is_relative() || unit.is_celsius() || !unit.level_exponent().is_zero() {
+                        let own = if unit.is_relative() {
+                            format!("the number alone, without quotes, for as much in `{unit}`")
+                        } else {
+                            "a value with its unit".to_owned()
+                        };
                         return Err(format!(
                             "for a quantity in `{unit}` it is not clear what `{term}` is of: write \
-                             `{term} of reading`, or a value with its unit"
+                             `{term} of reading`, or {own}"
                         ));
                     }
                     width.relative += value * factor;

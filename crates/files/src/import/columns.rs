@@ -2,7 +2,7 @@
 
 use super::grid::Cells;
 use super::number::number as number_of_cell;
-use super::number::number_with_unit;
+use super::number::{constant, number_with_unit};
 use crate::column_heading;
 use gumption_engine::special::normal;
 use gumption_units::Unit;
@@ -340,6 +340,10 @@ const RESULTS: &[&str] = &[
     "standardunsicherheit",
 ];
 
+/// A quotient is a printed standard uncertainty where it differs from it by no more than this share:
+/// two digits, of which the least are 1.0, are rounded by up to 5 %.
+const ROUNDED: f64 = 0.05;
+
 impl Column {
     /// Columns of which each states an uncertainty; a lower limit has an upper one beside it.
     pub(super) const UNCERTAIN: [Self; 3] = [Self::Width, Self::Std, Self::Upper];
@@ -473,6 +477,8 @@ pub(super) struct Header {
     pub(super) unknown: Vec<usize>,
     /// The units that columns of numbers state.
     units: Vec<(Column, String)>,
+    /// Whether a column that is headed like one of estimates holds what is divided by the divisors.
+    pub(super) has_widths_as_values: bool,
 }
 
 impl Header {
@@ -539,10 +545,19 @@ impl Header {
             let has = |wanted: Column| columns.iter().any(|(_, column)| *column == wanted);
             let enough = has(Column::Quantity) && Column::UNCERTAIN.into_iter().any(has);
             if enough && best.as_ref().is_none_or(|best| columns.len() > best.columns.len()) {
-                best = Some(Self { line, first, headings, columns, unknown, units: Vec::new() });
+                best = Some(Self {
+                    line,
+                    first,
+                    headings,
+                    columns,
+                    unknown,
+                    units: Vec::new(),
+                    has_widths_as_values: false,
+                });
             }
         }
         let mut best = best?;
+        best.widths_as_values(cells);
         best.units = best
             .columns
             .iter()
@@ -551,6 +566,37 @@ impl Header {
             .collect();
         best.units_below(cells);
         Some(best)
+    }
+
+    /// `Value` heads the half-widths and expanded uncertainties where its numbers over the divisors are
+    /// the standard uncertainties in every row that has all three, and in two rows at least.
+    fn widths_as_values(&mut self, cells: &Cells) {
+        let has = |wanted: Column| self.columns.iter().any(|(_, column)| *column == wanted);
+        if has(Column::Width) || !has(Column::Divisor) {
+            return;
+        }
+        let comma = cells.decimal_comma();
+        let of = |line: usize, column: Column| {
+            let text = self.cell(cells, line, column).trim();
+            number_with_unit(text, comma).map(|(value, _)| value).or_else(|| constant(text, comma))
+        };
+        let rows: Vec<[f64; 3]> = (self.line + 1..cells.lines())
+            .filter_map(|line| {
+                let all = [Column::Estimate, Column::Divisor, Column::Std];
+                let [value, divisor, std] = all.map(|column| of(line, column));
+                Some([value?, divisor?, std?])
+            })
+            .collect();
+        let is_width = |[value, divisor, std]: &[f64; 3]| {
+            (value.abs() / divisor - std).abs() <= ROUNDED * std.abs() && *std > 0.0
+        };
+        if rows.len() >= 2 && rows.iter().all(is_width) {
+            let estimates = self.columns.iter_mut().find(|(_, of)| *of == Column::Estimate);
+            if let Some((_, column)) = estimates {
+                *column = Column::Width;
+                self.has_widths_as_values = true;
+            }
+        }
     }
 
     /// A line of units right below the header, `;mm;µm;;;µm`, is part of it, and so is one of symbols.

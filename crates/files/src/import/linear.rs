@@ -167,8 +167,27 @@ impl Budget<'_> {
                 let found = product.map_or_else(String::new, |found| {
                     format!(", {}, where the result is in `{unit}`", found.describe())
                 });
-                let reason = format!("a coefficient in `{stated}` times `{}`{found}", row.unit);
-                self.fail(row.line, reason);
+                let is_plain = row.unit_of_sensitivity.is_empty();
+                if is_plain && self.contribution(header, row, c, &whole).is_some_and(is_same) {
+                    let of = if row.unit.is_empty() { "unit one" } else { &row.unit };
+                    self.guessed.push(format!(
+                        "line {line}: the coefficient {} of `{}` is taken in `{unit}` per {of}, as its \
+                         contribution has it",
+                        Shortest(c),
+                        row.name
+                    ));
+                    return Some(c);
+                }
+                let coefficient = if is_plain {
+                    "a coefficient without a unit".to_owned()
+                } else {
+                    format!("a coefficient in `{stated}`")
+                };
+                let times = match row.unit.as_str() {
+                    "" => "a quantity without one".to_owned(),
+                    own => format!("`{own}`"),
+                };
+                self.fail(row.line, format!("{coefficient} times {times}{found}"));
                 return None;
             }
             let scale = per.factor() * own.factor() / whole.factor();

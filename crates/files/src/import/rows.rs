@@ -82,7 +82,10 @@ impl Budget<'_> {
                 empty = 0;
             }
             let symbol = header.cell(self.cells, line, Column::Symbol).trim().to_owned();
-            let is_measurand = [&label, &symbol]
+            let is_sentence = label.contains('=') && self.is_alone(header, line);
+            // `P = P1 + A` with a unit beside it is the row of the result
+            let left = label.split('=').next().filter(|_| !is_sentence).unwrap_or(&label);
+            let is_measurand = [left, &symbol]
                 .into_iter()
                 .any(|words| measurand.is_some_and(|name| columns::identifier(words) == name));
             let words = if symbol.is_empty() { &label } else { &symbol };
@@ -92,7 +95,6 @@ impl Budget<'_> {
                 && (columns::is_combined_symbol(words) && !self.is_quantity(header, line)
                     || columns::is_summary_symbol(words) && self.is_bare(header, line) && is_after);
             let is_result = columns::is_result(&label) || is_measurand;
-            let is_sentence = label.contains('=') && self.is_alone(header, line);
             if is_below && !is_result && !is_symbol {
                 self.guessed.push(format!(
                     "line {}: `{}` stands below the table and is not taken",

@@ -60,6 +60,46 @@ fn guesses(budget: &ImportedBudget, part: &str) -> bool {
     budget.guessed.iter().any(|said| said.contains(part))
 }
 
+/// The row of an equation without numbers says the unit of its result.
+#[test]
+fn an_equation_in_a_row_has_the_unit_of_its_result() {
+    let text = "Quantity;Estimate;Unit;Standard uncertainty\nP1;-20;dBm;0.1\nA;30;dB;0.05\n\
+        P = P1 + A;;dBm;\n";
+    let budget = import("b.csv", text.as_bytes()).unwrap();
+    assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "dBm");
+}
+
+/// A plain coefficient beside one with a unit: its contribution says what it is in.
+#[test]
+fn a_contribution_tells_the_unit_of_a_plain_coefficient() {
+    let head = "Quantity,Estimate,Unit,Standard uncertainty,Sensitivity,Unit of c_i,Contribution\n";
+    let rows = "l,10,mm,0.01,1,mm/mm,0.01\nangle,0,,0.002,20,,0.04\nresult,10,mm,,,,\n";
+    let budget = import("b.csv", format!("{head}{rows}").as_bytes()).unwrap();
+    assert!(budget.text.contains("l + (20.0)*angle") || budget.text.contains("l + (20)*angle"));
+    assert!(guesses(&budget, "the coefficient 20 of `angle` is taken in `mm` per unit one"));
+    let error = import("b.csv", format!("{head}{rows}").replace("0.04", "0.4").as_bytes());
+    let error = error.unwrap_err().to_string();
+    assert!(error.contains("a coefficient without a unit times a quantity without one"), "{error}");
+}
+
+/// `Value` over the divisor is the standard uncertainty in every row: it is no estimate.
+#[test]
+fn values_that_are_divided_are_widths() {
+    let head = "Source,Value (mg),Distribution,Divisor,ui (mg),Sensitivity\n";
+    let rows = "standard,0.30,normal,2,0.15,1\nbuoyancy,0.10,rectangular,√3,0.058,1\n";
+    let (found, budget) = uncertainties(&format!("{head}{rows}"));
+    assert_eq!(found[0], 0.15);
+    assert!((found[1] - 0.1 / 3f64.sqrt()).abs() < 1e-15, "{found:?}");
+    assert_eq!(task(&budget).rows[0].distributions[0].mean(), 0.0);
+    assert!(guesses(&budget, "`Value (mg)` is taken for half-widths"), "{:?}", budget.guessed);
+    // an estimate in one of the rows is one in all of them
+    let rows = "standard,10.30,normal,2,0.15,1\nbuoyancy,0.10,rectangular,√3,0.058,1\n";
+    let (found, budget) = uncertainties(&format!("{head}{rows}"));
+    // the half-width is the root of three times the standard uncertainty: two roundings
+    assert!(found[0] == 0.15 && (found[1] - 0.058).abs() < 1e-15, "{found:?}");
+    assert_eq!(task(&budget).rows[0].distributions[0].mean(), 10.3);
+}
+
 /// A header that names the factor of its uncertainties; before, they were taken for standard ones.
 #[test]
 fn expanded_uncertainties_have_the_factor_of_their_header() {

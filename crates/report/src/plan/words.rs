@@ -102,16 +102,18 @@ pub(super) fn notes(report: &PlanReport<'_>) -> Vec<String> {
     said
 }
 
-/// Below this, a t distribution is wider than the normal one by more than a tenth (JCGM 101, 6.4.9.4:
-/// the ratio of standard deviations is sqrt(dof/(dof - 2))).
-const FEW_DOF: f64 = 12.0;
+/// How much wider what is drawn with these degrees of freedom is than a normal distribution: the ratio of
+/// standard deviations (JCGM 101, 6.4.9.4).
+fn widening(dof: f64) -> f64 {
+    if dof > 2.0 { (dof / (dof - 2.0)).sqrt() } else { f64::INFINITY }
+}
 
 /// What the trials say.
 fn check(report: &PlanReport<'_>, found: &PlanCheck) -> Option<String> {
     let figure = value(report.output(), &significant(found.figure?, DIGITS));
     let verdict = match found.holds {
         Some(true) => "the target holds",
-        Some(false) if found.drawn_dof < FEW_DOF => {
+        Some(false) if found.figure? <= report.plan.limit * widening(found.drawn_dof) => {
             "the target is missed: standard uncertainties of inputs have few degrees of freedom, which \
              makes what is drawn for them wider, so aim lower"
         }
