@@ -70,7 +70,10 @@ pub fn text(bytes: &[u8]) -> Result<Cow<'_, str>, String> {
         [0xff, 0xfe, rest @ ..] => (rest, u16::from_le_bytes),
         [0xfe, 0xff, rest @ ..] => (rest, u16::from_be_bytes),
         _ => {
-            let text = std::str::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned());
+            let text = std::str::from_utf8(bytes).map_err(|_| {
+                "it is not UTF-8 text: save it as UTF-8, of a spreadsheet as `CSV UTF-8` or as a workbook"
+                    .to_owned()
+            });
             return text.map(Cow::Borrowed);
         }
     };

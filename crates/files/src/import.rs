@@ -158,6 +158,10 @@ impl Budget<'_> {
             let text = header.heading(*place);
             self.guessed.push(format!("the column `{text}` is not taken"));
         }
+        if !header.doubtful.is_empty() {
+            header.doubtful.iter().for_each(|reason| self.fail(header.first, reason.clone()));
+            return None;
+        }
         let known = self.names(&header);
         let (equations, unread) = match Equations::of(self.cells).of_result(&known) {
             Ok(Equations { read, unread }) => (read, unread),

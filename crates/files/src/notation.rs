@@ -9,7 +9,7 @@ use std::ops::Range;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
-use super::value_text::{grouped_digits, is_comma};
+use super::value_text::{grouped_digits, is_comma, number_in_parentheses};
 use gumption_engine::special;
 
 /// What a text says of a quantity: numbers as written, without the unit.
@@ -457,6 +457,11 @@ fn unit(text: &str) -> Result<String, String> {
     let text = text.trim();
     if text.contains(['±', '+', '=']) {
         return Err(format!("`{text}` is no unit"));
+    }
+    if let Some(digits) = number_in_parentheses(text) {
+        return Err(format!(
+            "a second uncertainty in parentheses, `({digits})`, is not read: combine the two"
+        ));
     }
     if let Some(reason) = grouped_digits(text) {
         return Err(reason);

@@ -59,11 +59,23 @@ pub(super) fn grouped_digits(unit: &str) -> Option<String> {
     })
 }
 
+/// The number alone in parentheses that a text begins with.
+pub(super) fn number_in_parentheses(text: &str) -> Option<&str> {
+    let (inside, _) = text.trim_start().strip_prefix('(')?.split_once(')')?;
+    inside.trim().parse::<f64>().is_ok().then_some(inside)
+}
+
 /// The unit that stands behind a number; it may be one of the file's own.
 ///
 /// # Errors
 /// Why it is none, as a sentence without a capital.
 pub(super) fn unit_behind_number(text: &str, own: &[Unit]) -> Result<Unit, String> {
+    if let Some(digits) = number_in_parentheses(text) {
+        return Err(format!(
+            "`({digits})` behind a number can be an uncertainty or a factor: uncertainties that belong \
+             together are combined and written once, and a unit begins with no number"
+        ));
+    }
     match grouped_digits(text) {
         Some(reason) => Err(reason),
         None => Unit::parse_among(text, own).map_err(|error| error.to_string()),

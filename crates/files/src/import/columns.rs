@@ -3,7 +3,6 @@
 use super::grid::Cells;
 use super::number::number as number_of_cell;
 use super::number::{constant, number_with_unit};
-use crate::column_heading;
 use gumption_engine::special::normal;
 use gumption_units::Unit;
 
@@ -340,6 +339,17 @@ const RESULTS: &[&str] = &[
     "standardunsicherheit",
 ];
 
+/// Whether a heading speaks of a standard deviation.
+fn is_deviation(heading: &str) -> bool {
+    let words = plain(heading);
+    ["standard deviation", "standardabweichung", "écart-type", "écart type", "std"]
+        .iter()
+        .any(|deviation| words.starts_with(deviation))
+        && !words.contains("uncertainty")
+        && !words.contains("mean")
+        && !words.contains("mittel")
+}
+
 /// A quotient is a printed standard uncertainty where it differs from it by no more than this share:
 /// two digits, of which the least are 1.0, are rounded by up to 5 %.
 const ROUNDED: f64 = 0.05;
@@ -447,19 +457,83 @@ fn is_dof(compact: &str) -> bool {
     parts.into_iter().all(is_one)
 }
 
-/// The unit that a header's cell has behind its words, `Estimate (mm)`, `u / µV`, `Uncertainty [%]`;
-/// letters that are symbols of what the column holds are none: `Half-width (a)`.
-fn unit_of_header(text: &str) -> Option<String> {
-    let behind = |open: char, close: &str| {
-        let named = column_heading::enclosed(text, open, close);
-        named.filter(|(name, _)| !name.is_empty()).map(|(_, unit)| unit)
-    };
-    let unit = behind('[', "]").or_else(|| {
-        const SYMBOLS: [&str; 10] = ["a", "u", "U", "k", "c", "d", "s", "n", "A", "B"];
-        let unit = behind('(', ")").or_else(|| Some(text.rsplit_once(" / ")?.1.trim()))?;
-        (!SYMBOLS.contains(&unit)).then_some(unit)
-    })?;
-    (Unit::parse(unit).is_ok() && unit.parse::<f64>().is_err()).then(|| unit.to_owned())
+/// The unit that a header's cell has behind its words, `Estimate (mm)`, `u / µV`, `Uncertainty [%]`,
+/// `U (k=2) in mV`, `Uncertainty (% of reading)`; letters that are symbols of what the column holds are
+/// none: `Half-width (a)`.
+///
+/// # Errors
+/// What stands in the place of a unit and looks like one, but is none that numbers could be read in.
+fn unit_of_header(text: &str) -> Result<Option<String>, String> {
+    const SYMBOLS: [&str; 10] = ["a", "u", "U", "k", "c", "d", "s", "n", "A", "B"];
+    let mut pieces: Vec<&str> = Vec::new();
+    let mut rest = text;
+    while let Some(open) = rest.find(['(', '[']) {
+        let close = if rest[open..].starts_with('[') { ']' } else { ')' };
+        let inside = &rest[open + 1..];
+        let Some(end) = inside.find(close) else { break };
+        if open > 0 {
+            pieces.push(&inside[..end]);
+        }
+        rest = &inside[end + 1..];
+    }
+    let bare = text.split(['(', '[']).next().unwrap_or_default();
+    for sign in [" / ", " in ", ", "] {
+        pieces.extend([bare, rest].into_iter().filter_map(|part| Some(part.split_once(sign)?.1)));
+    }
+    pieces.extend(rest.strip_prefix(" in "));
+    let mut doubtful = None;
+    for piece in pieces {
+        let piece = piece.trim().trim_start_matches(['±', ' ']);
+        let piece = piece.strip_prefix("in ").unwrap_or(piece).trim();
+        if piece.is_empty()
+            || SYMBOLS.contains(&piece)
+            || piece.parse::<f64>().is_ok()
+            || HeaderCoverage::of(piece) != HeaderCoverage::None
+        {
+            continue;
+        }
+        if Unit::parse(piece).is_ok() {
+            return Ok(Some(piece.to_owned()));
+        }
+        let (share, of) = piece.split_once(' ').unwrap_or((piece, ""));
+        if matches!(share, "%" | "‰" | "ppm" | "ppb") && is_of_estimate(of) {
+            return Ok(Some(share.to_owned()));
+        }
+        let compact = piece.replace(' ', "");
+        let is_like_unit = matches!(share, "%" | "‰" | "ppm" | "ppb")
+            || compact.contains("10^")
+            || compact.contains("10⁻")
+            || compact.contains("10-");
+        if is_like_unit {
+            doubtful = Some(piece.to_owned());
+        }
+    }
+    doubtful.map_or(Ok(None), Err)
+}
+
+/// Whether words behind a share say that it is one of the estimate.
+fn is_of_estimate(words: &str) -> bool {
+    const ESTIMATE: [&str; 18] = [
+        "of reading",
+        "of the reading",
+        "of rdg",
+        "of rdg.",
+        "rdg",
+        "rdg.",
+        "of value",
+        "of the value",
+        "of estimate",
+        "of the estimate",
+        "of measured value",
+        "of nominal",
+        "v.m.",
+        "v. m.",
+        "vom messwert",
+        "vom wert",
+        "de la lecture",
+        "de la valeur",
+    ];
+    ESTIMATE.contains(&words.trim().to_lowercase().as_str())
 }
 
 /// The header of a budget.
@@ -479,6 +553,8 @@ pub(super) struct Header {
     units: Vec<(Column, String)>,
     /// Whether a column that is headed like one of estimates holds what is divided by the divisors.
     pub(super) has_widths_as_values: bool,
+    /// What cannot be read in one way.
+    pub(super) doubtful: Vec<String>,
 }
 
 impl Header {
@@ -498,6 +574,17 @@ impl Header {
                 match if is_estimate { Some(Column::Estimate) } else { column(cell) } {
                     Some(found) if !columns.iter().any(|(_, known)| *known == found) => {
                         columns.push((place, found));
+                    }
+                    // beside a standard uncertainty, a standard deviation is that of single readings
+                    Some(Column::Std) if !is_deviation(cell) => {
+                        for (known, column) in &mut columns {
+                            if *column == Column::Std && is_deviation(&headings[*known]) {
+                                unknown.push(std::mem::replace(known, place));
+                            }
+                        }
+                        if !columns.contains(&(place, Column::Std)) {
+                            unknown.push(place);
+                        }
                     }
                     _ if cell.trim().is_empty() => {}
                     _ => unknown.push(place),
@@ -553,17 +640,25 @@ impl Header {
                     unknown,
                     units: Vec::new(),
                     has_widths_as_values: false,
+                    doubtful: Vec::new(),
                 });
             }
         }
         let mut best = best?;
         best.widths_as_values(cells);
-        best.units = best
-            .columns
-            .iter()
-            .filter(|(_, column)| column.is_of_numbers())
-            .filter_map(|(place, column)| Some((*column, unit_of_header(best.heading(*place))?)))
-            .collect();
+        best.doubts(cells);
+        for (place, column) in best.columns.iter().filter(|(_, column)| column.is_of_numbers()) {
+            let heading = best.headings.get(*place).map_or("", String::as_str);
+            match unit_of_header(heading) {
+                Ok(Some(unit)) => best.units.push((*column, unit)),
+                Ok(None) => {}
+                Err(piece) => best.doubtful.push(format!(
+                    "`{piece}` in the heading `{heading}` is no unit: write the unit of its numbers \
+                     alone (`mV`), or `%` or `ppm` for shares of the estimates; a share of a range is \
+                     written as a value"
+                )),
+            }
+        }
         best.units_below(cells);
         Some(best)
     }
@@ -571,8 +666,18 @@ impl Header {
     /// `Value` heads the half-widths and expanded uncertainties where its numbers over the divisors are
     /// the standard uncertainties in every row that has all three, and in two rows at least.
     fn widths_as_values(&mut self, cells: &Cells) {
-        let has = |wanted: Column| self.columns.iter().any(|(_, column)| *column == wanted);
-        if has(Column::Width) || !has(Column::Divisor) {
+        let place_of = |wanted: Column| {
+            self.columns.iter().find(|(_, column)| *column == wanted).map(|(place, _)| *place)
+        };
+        // `u` beside a divisor may be what is left after it
+        let of_quotients = match place_of(Column::Width) {
+            None => Column::Std,
+            Some(place) if plain_case(self.heading(place)) == "u" => Column::Width,
+            Some(_) => return,
+        };
+        if place_of(Column::Divisor).is_none()
+            || of_quotients == Column::Width && place_of(Column::Std).is_some()
+        {
             return;
         }
         let comma = cells.decimal_comma();
@@ -582,7 +687,7 @@ impl Header {
         };
         let rows: Vec<[f64; 3]> = (self.line + 1..cells.lines())
             .filter_map(|line| {
-                let all = [Column::Estimate, Column::Divisor, Column::Std];
+                let all = [Column::Estimate, Column::Divisor, of_quotients];
                 let [value, divisor, std] = all.map(|column| of(line, column));
                 Some([value?, divisor?, std?])
             })
@@ -591,10 +696,53 @@ impl Header {
             (value.abs() / divisor - std).abs() <= ROUNDED * std.abs() && *std > 0.0
         };
         if rows.len() >= 2 && rows.iter().all(is_width) {
-            let estimates = self.columns.iter_mut().find(|(_, of)| *of == Column::Estimate);
-            if let Some((_, column)) = estimates {
-                *column = Column::Width;
-                self.has_widths_as_values = true;
+            for (_, column) in &mut self.columns {
+                if *column == of_quotients {
+                    *column = Column::Std;
+                } else if *column == Column::Estimate {
+                    *column = Column::Width;
+                }
+            }
+            self.has_widths_as_values = true;
+        }
+    }
+
+    /// What could be meant in two ways: standard deviations of a stated number of readings, and a second
+    /// column of units right behind uncertainties.
+    fn doubts(&mut self, cells: &Cells) {
+        let std = self.columns.iter().find(|(_, column)| *column == Column::Std);
+        if let Some((place, _)) = std {
+            let heading = self.heading(*place);
+            let compact: String = heading.to_lowercase().split_whitespace().collect();
+            let number = self.unknown.iter().find(|place| self.heading(**place).trim() == "n");
+            if is_deviation(heading) && (compact.contains("n=") || number.is_some()) {
+                self.doubtful.push(format!(
+                    "`{heading}` can be the standard deviation of single readings, to be divided by the \
+                     root of their number, or that of their mean: divide it and head the column \
+                     `Standard uncertainty`, with a column of degrees of freedom"
+                ));
+            }
+        }
+        let of_uncertainty = self.unknown.iter().find(|&&place| {
+            let before = place.checked_sub(1);
+            column(self.heading(place)) == Some(Column::Unit)
+                && self.columns.iter().any(|(of, column)| {
+                    Some(*of) == before && matches!(column, Column::Width | Column::Std)
+                })
+        });
+        if let Some(&place) = of_uncertainty {
+            let (before, units) = (self.heading(place - 1), self.heading(place));
+            let units_of_rows = self.columns.iter().find(|(_, column)| *column == Column::Unit);
+            let differ = |line: usize| {
+                let own = cells.text(line, place).trim();
+                let of_row = units_of_rows.map_or("", |(place, _)| cells.text(line, *place).trim());
+                !own.is_empty() && own != of_row
+            };
+            if (self.line + 1..cells.lines()).any(differ) {
+                self.doubtful.push(format!(
+                    "a second column `{units}` stands behind `{before}`: write its units behind the \
+                     numbers (`30 nm`)"
+                ));
             }
         }
     }

@@ -60,6 +60,58 @@ fn guesses(budget: &ImportedBudget, part: &str) -> bool {
     budget.guessed.iter().any(|said| said.contains(part))
 }
 
+/// Units of headings wherever they stand in them, and shares of the estimate in words.
+#[test]
+fn headings_say_their_units_in_many_ways() {
+    // (heading, uncertainty, wanted standard uncertainty in V): of 10 V
+    for (heading, cell, u) in [
+        ("Uncertainty (mV) k=2", "5", 2.5e-3),
+        ("Uncertainty in mV (k=2)", "5", 2.5e-3),
+        ("Uncertainty (± mV)", "5", 5e-3 / 3f64.sqrt()),
+        ("Uncertainty in mV", "5", 5e-3 / 3f64.sqrt()),
+        ("Standard uncertainty, mV", "5", 5e-3),
+        ("Standard uncertainty [mV]", "5", 5e-3),
+        ("Uncertainty (% of reading)", "0.02", 2e-3 / 3f64.sqrt()),
+        ("Uncertainty [% of value]", "0.02", 2e-3 / 3f64.sqrt()),
+        ("Uncertainty (ppm of reading)", "20", 2e-4 / 3f64.sqrt()),
+        ("Unsicherheit (% v.M.)", "0.02", 2e-3 / 3f64.sqrt()),
+        ("Incertitude (% de la lecture)", "0.02", 2e-3 / 3f64.sqrt()),
+    ] {
+        let shape = if heading.contains("k=2") { "normal" } else { "rectangular" };
+        let text =
+            format!("Quantity;Estimate;Unit;{heading};Distribution\nA;10;V;{cell};{shape}\n");
+        let (found, _) = uncertainties(&text);
+        // a few roundings of conversions and divisors
+        assert!((found[0] / u - 1.0).abs() < 1e-12, "{heading}: {found:?}, not {u}");
+    }
+    for (heading, said) in [
+        ("Uncertainty (% FS)", "`% FS` in the heading"),
+        ("Uncertainty (x10^-6)", "`x10^-6` in the heading"),
+        ("Standard deviation (n = 10)", "standard deviation of single readings"),
+    ] {
+        let text = format!("Quantity;Estimate;Unit;{heading};Distribution\nA;10;V;5;normal\n");
+        let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains(said), "{heading}: {error}");
+    }
+    let text = "Quantity,Estimate,Unit,Uncertainty,Unit,Distribution\nL,50,mm,30,nm,rectangular\n";
+    let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("a second column `Unit` stands behind `Uncertainty`"), "{error}");
+}
+
+/// `u` that is the quotient already is not divided again, and a standard uncertainty beside a standard
+/// deviation is the one that counts.
+#[test]
+fn quotients_are_not_divided_again() {
+    let text = "Source,Value,Unit,Distribution,Divisor,Sensitivity,u\nStandard,2.0,V,normal,2,1,1.0\n\
+        Ratio,0.5,V,rectangular,1.732,1,0.29\n";
+    let (found, _) = uncertainties(text);
+    assert_eq!(found[0], 1.0);
+    assert!((found[1] - 0.5 / 3f64.sqrt()).abs() < 1e-4, "{found:?}");
+    let text =
+        "Quantity,Estimate,Unit,Standard deviation,n,Standard uncertainty\nA,1,V,0.3,9,0.1\n";
+    assert_eq!(uncertainties(text).0, [0.1]);
+}
+
 /// The row of an equation without numbers says the unit of its result.
 #[test]
 fn an_equation_in_a_row_has_the_unit_of_its_result() {
