@@ -133,3 +133,27 @@ fn the_laboratorys_capability() {
     assert!(said.contains("must not be stated"), "{said}");
     assert!(codes(&answer(&model(10.0, 0.1, r#""cmc": 0.05"#))).is_empty());
 }
+
+/// Every page of a sweep says what is decided of its rows.
+#[test]
+fn sweeps_say_what_is_decided_of_each_row() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let model = r#"{"format": 1,
+      "conditions": {"p": {"unit": "bar", "values": [0, 5, 10]}},
+      "inputs": {
+        "ref": {"unit": "bar", "distribution": "normal", "mean": "p", "std": 0.002},
+        "ind": {"unit": "bar", "distribution": "constant", "value": "p*1.004"}},
+      "equations": {"e": "ind - ref"},
+      "outputs": {"e": {"unit": "bar", "tolerance": {"lower": -0.03, "upper": 0.03}}}}"#;
+    fs::write(folder.path().join("m.json"), model).expect("a file");
+    for format in ["table", "html", "markdown"] {
+        let mut run = command();
+        run.current_dir(folder.path());
+        let run = run.args(["run", "m.json", "--trials", "10000", "--format", format]).output();
+        let page = String::from_utf8(run.expect("it runs").stdout).expect("UTF-8");
+        let words = page.split_whitespace().collect::<Vec<_>>().join(" ");
+        // errors of 0, 0.02 and 0.04 bar
+        assert!(words.contains("2 of 3 rows accepted, rejected: row 3"), "{format}: {words}");
+        assert!(words.contains("decision") && words.contains("simple acceptance"), "{format}");
+    }
+}

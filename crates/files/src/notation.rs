@@ -473,6 +473,14 @@ fn unit(text: &str) -> Result<String, String> {
 mod tests {
     use super::*;
 
+    #[test]
+    fn a_second_uncertainty_in_parentheses_is_no_factor() {
+        for text in ["9.109(2)(5) mm", "5.01 (2)(3) V", "5.01(1) (3) mV"] {
+            let error = stated(text).unwrap_err();
+            assert!(error.contains("a second uncertainty in parentheses"), "{text}: {error}");
+        }
+    }
+
     fn read(text: &str) -> (String, Stated) {
         stated(text).unwrap_or_else(|error| panic!("{text}: {error}"))
     }

@@ -113,9 +113,19 @@ impl Tolerance {
         Self { lower: self.lower.map(|l| l + width), upper: self.upper.map(|u| u - width) }
     }
 
-    /// Whether a value lies within the limits.
+    /// Whether a value lies within the limits, or on one of them but for the rounding of binary
+    /// fractions.
+    ///
+    /// ```
+    /// use gumption_engine::model::Tolerance;
+    ///
+    /// let tolerance = Tolerance { lower: None, upper: Some(0.3) };
+    /// assert!(tolerance.holds(0.1 + 0.2) && !tolerance.holds(0.3 + 1e-9));
+    /// ```
     pub fn holds(&self, value: f64) -> bool {
-        self.lower.is_none_or(|lower| value >= lower) && self.upper.is_none_or(|u| value <= u)
+        let rounding = |limit: f64| 1e-12 * limit.abs().max(value.abs());
+        self.lower.is_none_or(|lower| value >= lower - rounding(lower))
+            && self.upper.is_none_or(|upper| value <= upper + rounding(upper))
     }
 }
 

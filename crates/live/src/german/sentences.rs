@@ -62,6 +62,34 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
         "Toleranz {0:}: Der Schätzwert liegt {1:}, und der Wert ist mit einer Wahrscheinlichkeit von {2} % konform (numerischer Standardfehler {3} %)",
     ),
     (
+        "Tolerance {}, simple acceptance (JCGM 106, 8.2): {} of {} rows accepted",
+        "Toleranz {0:}, einfache Annahme (JCGM 106, 8.2): {1} von {2} Zeilen angenommen",
+    ),
+    (
+        "Tolerance {}, simple acceptance (JCGM 106, 8.2): {} of {} rows accepted, rejected: row {}",
+        "Toleranz {0:}, einfache Annahme (JCGM 106, 8.2): {1} von {2} Zeilen angenommen, zurückgewiesen: Zeile {3}",
+    ),
+    (
+        "Tolerance {}, simple acceptance (JCGM 106, 8.2): {} of {} rows accepted, rejected: rows {}",
+        "Toleranz {0:}, einfache Annahme (JCGM 106, 8.2): {1} von {2} Zeilen angenommen, zurückgewiesen: Zeilen {3}",
+    ),
+    (
+        "Tolerance {}, guarded acceptance (JCGM 106, 8.3) for a {} risk of false acceptance of at most {} %: {} of {} rows accepted",
+        "Toleranz {0:}, Annahme mit Schutzabstand (JCGM 106, 8.3) für ein {1:} Risiko fälschlicher Annahme von höchstens {2} %: {3} von {4} Zeilen angenommen",
+    ),
+    (
+        "Tolerance {}, guarded acceptance (JCGM 106, 8.3) for a {} risk of false acceptance of at most {} %: {} of {} rows accepted, rejected: row {}",
+        "Toleranz {0:}, Annahme mit Schutzabstand (JCGM 106, 8.3) für ein {1:} Risiko fälschlicher Annahme von höchstens {2} %: {3} von {4} Zeilen angenommen, zurückgewiesen: Zeile {5}",
+    ),
+    (
+        "Tolerance {}, guarded acceptance (JCGM 106, 8.3) for a {} risk of false acceptance of at most {} %: {} of {} rows accepted, rejected: rows {}",
+        "Toleranz {0:}, Annahme mit Schutzabstand (JCGM 106, 8.3) für ein {1:} Risiko fälschlicher Annahme von höchstens {2} %: {3} von {4} Zeilen angenommen, zurückgewiesen: Zeilen {5}",
+    ),
+    (
+        "Probabilities, guard bands and risks of every row: --format json",
+        "Wahrscheinlichkeiten, Schutzabstände und Risiken jeder Zeile: --format json",
+    ),
+    (
         "Decision rule: simple acceptance (JCGM 106, 8.2), accepted where the estimate lies within the tolerance. Decision: {}",
         "Entscheidungsregel: einfache Annahme (JCGM 106, 8.2), angenommen wird, wenn der Schätzwert innerhalb der Toleranz liegt. Entscheidung: {0:}",
     ),

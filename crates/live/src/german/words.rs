@@ -56,6 +56,7 @@ pub(super) const WORDS: &[(&str, &str)] = &[
     ("not defined", "nicht definiert"),
     ("within", "innerhalb"),
     ("outside", "außerhalb"),
+    ("decision", "Entscheidung"),
     ("accepted", "angenommen"),
     ("rejected", "zurückgewiesen"),
     ("specific", "spezifisches"),

@@ -173,7 +173,7 @@ fn prior_text(found: &Conformity) -> String {
 }
 
 /// Limits with the unit; to a position if there is one.
-fn limits_text(output: &Quantity, limits: &Tolerance, position: Option<i32>) -> String {
+pub(super) fn limits_text(output: &Quantity, limits: &Tolerance, position: Option<i32>) -> String {
     let text = |limit: f64| {
         position.map_or_else(|| limit.to_string(), |position| rounded(limit, position))
     };
@@ -186,9 +186,29 @@ fn limits_text(output: &Quantity, limits: &Tolerance, position: Option<i32>) -> 
     in_unit(&limits, &output.unit)
 }
 
+/// What is decided.
+pub(super) fn decision(found: &Conformity) -> &'static str {
+    if found.conforms { "accepted" } else { "rejected" }
+}
+
+/// The rule by which it is decided.
+pub(super) fn rule(found: &Conformity) -> String {
+    found.wanted_risk.map_or_else(
+        || "simple acceptance (JCGM 106, 8.2)".to_owned(),
+        |risk| {
+            let kind = if found.global.is_some() { "global" } else { "specific" };
+            format!(
+                "guarded acceptance (JCGM 106, 8.3) for a {kind} risk of false acceptance of at most \
+                 {} %",
+                percentage(risk)
+            )
+        },
+    )
+}
+
 /// The decision rule and the decision.
 fn rule_text(output: &Quantity, found: &Conformity) -> String {
-    let decision = if found.conforms { "accepted" } else { "rejected" };
+    let decision = decision(found);
     let Some(risk) = found.wanted_risk else {
         return format!(
             "Decision rule: simple acceptance (JCGM 106, 8.2), accepted where the estimate lies \

@@ -1,5 +1,6 @@
 //! A sweep over conditions: one table for each output, one line for each row.
 
+use super::comparison::{decision, limits_text, rule};
 use super::grid::{Grid, PAGE};
 use super::{USUAL, conditions_text, text, title, width};
 use crate::number::{
@@ -9,7 +10,7 @@ use crate::sheet::{Figure, Sheet};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::propagate::gum::Gum;
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, StatedInterval};
-use gumption_engine::propagate::{OutputEvaluation, RowEvaluation, naming};
+use gumption_engine::propagate::{Conformity, OutputEvaluation, RowEvaluation, naming};
 use gumption_engine::task::Task;
 
 /// The tables of all outputs, part by part, an empty line apart.
@@ -51,10 +52,11 @@ pub(super) fn tables<'a>(
         let mut above = title(quantity) + "\n";
         let varying = varying.clone();
         let pages = (0..rows.len()).step_by(PAGE);
-        pages.map(move |first| {
+        let pages = pages.map(move |first| {
             let grid = sweep.grid(output, layout, &varying, first);
             std::mem::take(&mut above) + &grid.render(width())
-        })
+        });
+        pages.chain(conformity(task, rows, output).map(|said| text::wrapped(&said)))
     });
     let last = text::wrapped(MORE);
     unvaried.into_iter().chain(hidden).chain(by_number).chain(tables).chain([last])
@@ -63,6 +65,39 @@ pub(super) fn tables<'a>(
 /// What else there is of a sweep.
 pub(crate) const MORE: &str = "Budgets, shortest intervals, numerical standard errors and correlations of every row: \
      --format json.";
+
+/// Rejected rows that are named, at most.
+const MOST_NAMED: usize = 20;
+
+/// The decisions about the rows of an output with a tolerance: the limits, the rule, and which rows
+/// are rejected; `None` where there is none.
+pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> Option<String> {
+    let quantity = &task.model.outputs.get(output)?.quantity;
+    let found: Vec<(usize, &Conformity)> = rows
+        .iter()
+        .enumerate()
+        .filter_map(|(row, of)| Some((row, of.outputs.get(output)?.conformity.as_deref()?)))
+        .collect();
+    let (_, first) = found.first()?;
+    let rejected: Vec<String> =
+        found.iter().filter(|(_, of)| !of.conforms).map(|(row, _)| (row + 1).to_string()).collect();
+    let named = rejected.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", ");
+    let more = if rejected.len() > MOST_NAMED { ", ..." } else { "" };
+    let plural = if rejected.len() == 1 { "row" } else { "rows" };
+    Some(format!(
+        "Tolerance {}, {}: {} of {} rows accepted{}. Probabilities, guard bands and risks of every row: \
+         --format json.",
+        limits_text(quantity, &first.tolerance, None),
+        rule(first),
+        found.len() - rejected.len(),
+        found.len(),
+        if rejected.is_empty() {
+            String::new()
+        } else {
+            format!(", rejected: {plural} {named}{more}")
+        }
+    ))
+}
 
 /// Inputs with a column of their own, at most.
 const MOST_SHARES: usize = 8;
@@ -131,6 +166,9 @@ fn answer(sheet: &mut Sheet, lines: &[Line], has_trials: bool) {
             };
             sheet.text("Monte Carlo\ninterval is", lines.iter().map(kind));
         }
+    }
+    if lines.iter().any(|line| line.decision != MISSING) {
+        sheet.text("decision", lines.iter().map(|line| line.decision.to_owned()));
     }
 }
 
@@ -320,6 +358,9 @@ impl Sweep<'_> {
             grid.text(header, intervals);
             grid.text("GUM\ninterval", column(6));
         }
+        if lines.iter().any(|line| line.decision != MISSING) {
+            grid.text("decision", lines.iter().map(|line| line.decision.to_owned()));
+        }
         grid
     }
 }
@@ -343,6 +384,8 @@ struct Line {
     texts: [String; 7],
     /// Whether that interval is the shortest one, if there is one.
     shortest: Option<bool>,
+    /// What is decided of an output with a tolerance.
+    decision: &'static str,
 }
 
 /// The interval is the one that is stated of a result: the shortest where the output is skew
@@ -377,5 +420,7 @@ fn line(output: Option<&OutputEvaluation>, digits: u32) -> Line {
         end(1),
         verdict.to_owned(),
     ];
-    Line { texts, shortest: stated.map(|of| of.shortest) }
+    let conformity = output.and_then(|output| output.conformity.as_deref());
+    let decision = conformity.map_or(MISSING, decision);
+    Line { texts, shortest: stated.map(|of| of.shortest), decision }
 }
