@@ -87,7 +87,12 @@ impl Width {
                 }
                 Some((factor, "reading")) => width.relative += value * factor,
                 Some((factor, range)) => {
-                    let (full, range_unit) = number(range)?;
+                    let (full, range_unit) = number(range).map_err(|_| {
+                        format!(
+                            "`{term}`: what it is a share of is a value, such as `0.01 % of 10 V`, or \
+                             `reading`; `{range}` is neither"
+                        )
+                    })?;
                     width.absolute +=
                         value * factor * converted(full, (range_unit, own), unit, range)?;
                 }
@@ -176,15 +181,38 @@ fn converted(
     if text == unit.text().trim() {
         return Ok(value);
     }
-    let given = unit_behind_number(text, own).map_err(|error| format!("in `{term}`: {error}"))?;
-    let factor = Unit::conversion_factor(&given, unit)
-        .map_err(|_| format!("`{text}` in `{term}` cannot be converted to the unit `{unit}`"))?;
+    // data sheets count in digits of a display
+    let is_of_display = matches!(text, "digit" | "digits" | "count" | "counts" | "lsd" | "LSD");
+    let said = |error: String| {
+        if is_of_display {
+            format!(
+                "how large a digit is depends on the range: write `{term}` as a value in `{unit}`"
+            )
+        } else {
+            error
+        }
+    };
+    let given =
+        unit_behind_number(text, own).map_err(|error| said(format!("in `{term}`: {error}")))?;
+    let factor = Unit::conversion_factor(&given, unit).map_err(|_| {
+        said(format!("`{text}` in `{term}` cannot be converted to the unit `{unit}`"))
+    })?;
     Ok(value * factor)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn shares_of_what_and_digits_of_a_display() {
+        let volt = Unit::parse("V").unwrap();
+        let wrong = |text: &str| Width::specification(text, &volt, &[]).unwrap_err();
+        assert!(wrong("0.02 % of reading + 0.01 % of range").contains("such as `0.01 % of 10 V`"));
+        for text in ["0.02 % of 20 V + 3 digits", "3 digit"] {
+            assert!(wrong(text).contains("how large a digit is"), "{}", wrong(text));
+        }
+    }
 
     fn read(text: &str, unit: &str) -> Result<Width, String> {
         Width::specification(text, &Unit::parse(unit).unwrap(), &[])

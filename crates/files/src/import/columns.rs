@@ -488,6 +488,8 @@ fn unit_of_header(text: &str) -> Result<Option<String>, String> {
         if piece.is_empty()
             || SYMBOLS.contains(&piece)
             || piece.parse::<f64>().is_ok()
+            // a coverage probability
+            || piece.starts_with(|c: char| c.is_ascii_digit()) && piece.ends_with('%')
             || HeaderCoverage::of(piece) != HeaderCoverage::None
         {
             continue;

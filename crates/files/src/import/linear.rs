@@ -241,6 +241,18 @@ impl Budget<'_> {
                 None
             }
             Some(_) | None => {
+                if scale.is_none()
+                    && let Some((found, of)) = self.by_contribution(header, row, c, &whole)
+                {
+                    self.guessed.push(format!(
+                        "line {line}: the coefficient {} of `{}` is taken in `{of}` per {}, as its \
+                         contribution has it",
+                        Shortest(c),
+                        row.name,
+                        row.unit
+                    ));
+                    return Some(found);
+                }
                 if c.abs() == 1.0 && row.unit != unit && !unit.is_empty() {
                     self.guessed.push(format!(
                         "line {line}: the coefficient {} of `{}` is taken in `{unit}` per {}",
@@ -274,6 +286,21 @@ impl Budget<'_> {
         };
         let u = standard_uncertainty(row).unwrap_or(0.0);
         (!text.ends_with('%')).then(|| [(stated * scale).abs(), (factor * u).abs()])
+    }
+
+    /// A coefficient that is stated in the unit of the contributions and not in that of the result, where
+    /// the row's contribution says so; and that unit.
+    fn by_contribution<'h>(
+        &self,
+        header: &'h Header,
+        row: &Row,
+        c: f64,
+        of_result: &Unit,
+    ) -> Option<(f64, &'h str)> {
+        let unit = header.unit(Column::Contribution)?;
+        let scale = Unit::conversion_factor(&Unit::parse(unit).ok()?, of_result).ok()?;
+        let fits = |c: f64| self.contribution(header, row, c, of_result).is_some_and(is_same);
+        (scale != 1.0 && !fits(c) && fits(c * scale)).then_some((c * scale, unit))
     }
 
     /// Tells where the sheet's contribution of a row is not that of the model.

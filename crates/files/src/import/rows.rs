@@ -477,9 +477,13 @@ impl Budget<'_> {
             Some(_) => Some(to_15_digits(to.from_si(from.to_si(value)))),
             None if lenient => None,
             None => {
-                let reason =
-                    format!("the {} is in `{unit}`, but the row in `{}`", column.name(), row.unit);
-                self.fail(line, reason);
+                let hint = if column == Column::Std {
+                    "; what is in the unit of the result is headed `Contribution`, beside coefficients"
+                } else {
+                    ""
+                };
+                let (name, own) = (column.name(), &row.unit);
+                self.fail(line, format!("the {name} is in `{unit}`, but the row in `{own}`{hint}"));
                 None
             }
         }

@@ -68,6 +68,7 @@ fn headings_say_their_units_in_many_ways() {
         ("Uncertainty (mV) k=2", "5", 2.5e-3),
         ("Uncertainty in mV (k=2)", "5", 2.5e-3),
         ("Uncertainty (± mV)", "5", 5e-3 / 3f64.sqrt()),
+        ("Uncertainty (95 %), k=2", "0.005", 2.5e-3),
         ("Uncertainty in mV", "5", 5e-3 / 3f64.sqrt()),
         ("Standard uncertainty, mV", "5", 5e-3),
         ("Standard uncertainty [mV]", "5", 5e-3),
@@ -132,6 +133,16 @@ fn a_contribution_tells_the_unit_of_a_plain_coefficient() {
     let error = import("b.csv", format!("{head}{rows}").replace("0.04", "0.4").as_bytes());
     let error = error.unwrap_err().to_string();
     assert!(error.contains("a coefficient without a unit times a quantity without one"), "{error}");
+}
+
+/// Contributions in another unit than the result say what the coefficients are in.
+#[test]
+fn coefficients_in_the_unit_of_the_contributions() {
+    let text = "Quantity;Estimate;Unit;Standard uncertainty;Sensitivity;Contribution (µm)\n\
+        block;50;mm;0,000015;1;0,015\ntemperature;0;°C;0,289;-0,575;0,166\nresult;50;mm;;;\n";
+    let budget = import("b.csv", text.as_bytes()).unwrap();
+    assert!(guesses(&budget, "the coefficient -0.575 of `temperature` is taken in `µm` per °C"));
+    assert!(budget.text.contains("(-0.000575"), "{}", budget.text);
 }
 
 /// `Value` over the divisor is the standard uncertainty in every row: it is no estimate.
