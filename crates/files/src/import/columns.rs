@@ -725,6 +725,24 @@ impl Header {
                 ));
             }
         }
+        let beside = self.unknown.iter().find(|place| is_deviation(self.heading(**place)));
+        if let Some(&place) = beside {
+            let comma = cells.decimal_comma();
+            let is_lost = |line: &usize| {
+                number_with_unit(cells.text(*line, place).trim(), comma).is_some()
+                    && Column::UNCERTAIN
+                        .iter()
+                        .all(|column| self.cell(cells, *line, *column).trim().is_empty())
+            };
+            if let Some(line) = (self.line + 1..cells.lines()).find(is_lost) {
+                self.doubtful.push(format!(
+                    "line {} has a number below `{}` and no uncertainty: state its standard \
+                     uncertainty, the standard deviation over the root of the number of readings",
+                    line + 1,
+                    self.heading(place)
+                ));
+            }
+        }
         let of_uncertainty = self.unknown.iter().find(|&&place| {
             let before = place.checked_sub(1);
             column(self.heading(place)) == Some(Column::Unit)

@@ -111,6 +111,9 @@ fn quotients_are_not_divided_again() {
     let text =
         "Quantity,Estimate,Unit,Standard deviation,n,Standard uncertainty\nA,1,V,0.3,9,0.1\n";
     assert_eq!(uncertainties(text).0, [0.1]);
+    let lost = text.replace("0.3,9,0.1", "0.3,9,");
+    let error = import("b.csv", lost.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("line 2 has a number below `Standard deviation`"), "{error}");
 }
 
 /// The row of an equation without numbers says the unit of its result.
