@@ -149,6 +149,26 @@ fn curves_beyond_their_points() {
     }
 }
 
+/// A component that has the estimate of its input once more doubles it.
+#[test]
+fn components_with_the_estimate_of_their_input() {
+    for (component, wanted) in [
+        (json!({"distribution": "rectangular", "lower": 9.9, "upper": 10.1}), true),
+        (json!({"distribution": "normal", "mean": 10, "std": 0.1}), true),
+        (json!({"distribution": "rectangular", "lower": -0.1, "upper": 0.1}), false),
+        (json!({"distribution": "normal", "std": 0.1}), false),
+        (json!({"distribution": "readings", "values": [9.9, 10.0, 10.1]}), false),
+    ] {
+        let mut component = component;
+        component["name"] = json!("c");
+        let input = json!({"unit": "mm", "mean": 10, "components": [component]});
+        let file = json!({"inputs": {"a": input}, "equations": {"y": "a"},
+            "outputs": {"y": {"unit": "mm"}}});
+        let expected: &[&str] = if wanted { &["component-estimate"] } else { &[] };
+        assert_eq!(codes(&file), expected, "{file}");
+    }
+}
+
 /// A share of reading beside a value is lost without a trace where the estimate is 0, as that of a
 /// correction is.
 #[test]

@@ -19,9 +19,11 @@ use super::results::Results;
 use super::samples;
 use super::shapes::{self, Estimate, Fields};
 use super::value_text::{ValueOf, with_unit};
+use gumption_engine::decimal;
 use gumption_engine::distribution::{Constant, Distribution, EvaluationType, Samples};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{InputQuantity, Quantity};
+use gumption_engine::number::Shortest;
 use gumption_engine::task::{Evidence, Sharing, Trials, Variable, Warning};
 use gumption_units::Unit;
 
@@ -593,6 +595,7 @@ impl<'a> Reader<'a, '_> {
         let differs = matches!(source, EstimateSource::Formula(_))
             || parts.iter().any(|part| shapes::has_width_of_row(&part.object, part.kind, unit));
         let mut drawn: Vec<Vec<Distribution>> = vec![Vec::new(); 1 + parts.len()];
+        let mut totals: Vec<f64> = Vec::new();
         for row in 0..if differs { self.conditions.rows() } else { 1 } {
             let of_readings = match of_type_a.first() {
                 Some(part) if row > 0 && readings::are_of_rows(&part.object) => {
@@ -608,6 +611,7 @@ impl<'a> Reader<'a, '_> {
                 Some(Estimate::Given(value)) => value,
                 None => return,
             };
+            totals.push(total);
             let of_parts: Option<Vec<Distribution>> = parts
                 .iter()
                 .map(|part| part.distribution(unit, total, self.results, at(row)))
@@ -623,6 +627,11 @@ impl<'a> Reader<'a, '_> {
             drawn.iter_mut().zip(row).for_each(|(drawn, distribution)| drawn.push(distribution));
         }
         for (part, drawn) in parts.iter().zip(drawn.iter().skip(1)) {
+            if part.kind.name != "readings"
+                && let (Some(of_part), Some(&total)) = (drawn.first(), totals.first())
+            {
+                self.note_of_estimate(&part.full, of_part.mean(), total, unit);
+            }
             let shared = if differs { None } else { drawn.first() };
             self.note_of_readings(&part.full, part.kind, shared, part.read.0.as_ref());
         }
@@ -637,6 +646,23 @@ impl<'a> Reader<'a, '_> {
                 }
             }
         }
+    }
+
+    /// Tells of a component whose own estimate is about that of its input: the two are added.
+    fn note_of_estimate(&mut self, part: &str, own: f64, total: f64, unit: &Unit) {
+        if total == 0.0 || (own - total).abs() > ALIKE * total.abs() {
+            return;
+        }
+        let shown = |value: f64| unit.after(&Shortest(decimal::to_15_digits(value)).to_string());
+        let text = format!(
+            "the estimate {} of the component `{part}` is added to {}, that of `{}`: together {}; \
+             components are deviations, about 0",
+            shown(own),
+            shown(total),
+            self.name,
+            shown(own + total)
+        );
+        self.inputs.warnings.push(Warning::new("component-estimate", self.name, text));
     }
 
     /// The components as written, each with a variable of its own; `None` if one is faulty.
@@ -700,6 +726,10 @@ impl<'a> Reader<'a, '_> {
         (parts.len() == list.len() && !list.is_empty()).then_some(parts)
     }
 }
+
+/// A component's estimate that differs from that of its input by no more than this share of it was
+/// hardly meant to be added.
+const ALIKE: f64 = 0.2;
 
 /// A component as written.
 struct Part<'a> {

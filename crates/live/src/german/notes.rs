@@ -144,6 +144,10 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "der Anteil vom Messwert in der Breite von {0} ist in Zeile {1} 0, wie ihr Schätzwert; vom Wert einer anderen Größe wäre er {2}",
     ),
     (
+        "the estimate {} of the component {} is added to {}, that of {}: together {}; components are deviations, about 0",
+        "der Schätzwert {0} des Anteils {1} wird zu {2} addiert, dem von {3}: zusammen {4}; Anteile sind Abweichungen, um 0 herum",
+    ),
+    (
         "the share of reading in the width of {} is 0, as its estimate is; of another quantity's value it would be {}",
         "der Anteil vom Messwert in der Breite von {0} ist 0, wie ihr Schätzwert; vom Wert einer anderen Größe wäre er {1}",
     ),
