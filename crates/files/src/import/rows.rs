@@ -142,6 +142,7 @@ impl Budget<'_> {
             self.contradictions(&row);
             table.rows.push(row);
         }
+        self.factor_of_heading(header, &table.rows);
         // an equation names its result itself
         if table.result.as_ref().is_none_or(|result| result.is_summary)
             && table.rows.last().is_none_or(|last| !used.contains(&last.name))
@@ -543,6 +544,29 @@ impl Budget<'_> {
                  of a standard uncertainty",
                 row.name
             ));
+        }
+    }
+
+    /// A heading says a coverage factor, and each row that it can be of another one.
+    fn factor_of_heading(&self, header: &Header, rows: &[Row]) {
+        let HeaderCoverage::Factor(factor) = header.coverage(Column::Width) else { return };
+        let is_of_it = |row: &&Row| {
+            row.width.is_some_and(|width| width > 0.0)
+                && matches!(row.distribution, None | Some("normal"))
+                && !is_empty(header.cell(self.cells, row.line, Column::Divisor).trim())
+        };
+        let of_it: Vec<&Row> = rows.iter().filter(is_of_it).collect();
+        let differs = |row: &&Row| row.divisor.is_some_and(|divisor| !near(divisor, factor));
+        if let Some(row) = of_it.first()
+            && of_it.iter().all(differs)
+        {
+            let divisor = row.divisor.unwrap_or(f64::NAN);
+            let reason = format!(
+                "the heading says {}, the divisor {}: which factor is it?",
+                Shortest(factor),
+                Shortest(divisor)
+            );
+            self.fail(row.line, reason);
         }
     }
 

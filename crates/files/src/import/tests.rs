@@ -148,6 +148,19 @@ fn coefficients_in_the_unit_of_the_contributions() {
     assert!(budget.text.contains("(-0.000575"), "{}", budget.text);
 }
 
+/// A heading's factor that no divisor has is asked; where one has it, others may differ.
+#[test]
+fn a_heading_s_factor_and_the_divisors() {
+    let head = "Quantity,Value,Unit,U (k=2),Distribution,Divisor\n";
+    let rest = "Resolution,0,V,0.05,rectangular,1.732\nScatter,0,V,0.01,normal,1\n";
+    let text = format!("{head}Certificate,50,V,0.04,normal,1\n{rest}");
+    let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("the heading says 2, the divisor 1: which factor"), "{error}");
+    let text = format!("{head}Certificate,50,V,0.04,normal,2\n{rest}");
+    let (found, _) = uncertainties(&text);
+    assert_eq!([found[0], found[2]], [0.02, 0.01]);
+}
+
 /// `Value` over the divisor is the standard uncertainty in every row: it is no estimate.
 #[test]
 fn values_that_are_divided_are_widths() {
