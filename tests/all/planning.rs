@@ -131,3 +131,23 @@ fn what_cannot_be_planned_is_said() {
     assert!(drift("b").contains("is written"));
     assert!(drift("c=1 yr").contains("no uncertainty that could grow"));
 }
+
+/// A share of an estimate that its uncertainty hides is hardly what is wanted.
+#[test]
+fn a_share_of_next_to_nothing_is_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // y = 1.5 mm with U = 10 mm
+    let text = SUM.replace("\"mean\": 100", "\"mean\": -49.5");
+    fs::write(folder.path().join("near.json"), text).expect("a file");
+    fs::write(folder.path().join("far.json"), SUM).expect("a file");
+    for (file, target, told) in [
+        ("near.json", "U(y) <= 50 %", true),
+        ("near.json", "U(y) <= 7 mm", false),
+        ("far.json", "U(y) <= 5 %", false),
+    ] {
+        let found = run(folder.path(), &["plan", file, "--target", target, "--trials", "0"]);
+        assert!(found.status.success(), "{}", String::from_utf8_lossy(&found.stderr));
+        let page = String::from_utf8_lossy(&found.stdout).into_owned();
+        assert_eq!(page.contains("smaller than its uncertainty"), told, "{file} {target}: {page}");
+    }
+}

@@ -71,6 +71,17 @@ pub(super) fn target(report: &PlanReport<'_>) -> String {
 pub(super) fn notes(report: &PlanReport<'_>) -> Vec<String> {
     let plan = report.plan;
     let mut said = Vec::new();
+    // the limit is a share of the estimate alone
+    if plan.target.share > 0.0
+        && plan.target.most == 0.0
+        && plan.figure * plan.target.share > plan.limit
+    {
+        said.push(
+            "The estimate is smaller than its uncertainty there, so a share of it says little: add a \
+             value to the target, `0.01 % + 2 uV`, or leave the row out."
+                .to_owned(),
+        );
+    }
     if let Some(cheapest) = &plan.cheapest {
         let planned = if plan.target.expanded {
             cheapest.gum.expanded_uncertainty()
