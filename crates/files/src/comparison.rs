@@ -109,6 +109,13 @@ fn column_units(log: &Collector, cells: &TextTable) -> Option<Vec<(&'static str,
         let fail = |reason: String| log.report_at(cells.header(), DiagnosticKind::Table { reason });
         match column_heading::named(heading).map(|(_, unit)| (unit, log.unit(unit))) {
             None => without = Some(name),
+            Some((text, Err(_))) if text.replace(' ', "").starts_with("k=") => {
+                fail(format!(
+                    "`{heading}`: coverage factors stand in a column of their own, `k` (of pairs `k1` \
+                     and `k2`), and are 2 where there is none"
+                ));
+                return None;
+            }
             Some((text, Err(error))) => {
                 fail(format!("`{heading}`: `{text}` is no unit: {error}"));
                 return None;
@@ -513,6 +520,7 @@ mod tests {
             ("label,x [V],U\na,1,1\nb,1,1\n", "has the unit `V` and `U` none"),
             ("label,x [V],U [%]\na,1,1\nb,1,1\n", "`U [%]` cannot be converted to `V`"),
             ("label,x [V],U [Vv]\na,1,1\nb,1,1\n", "`Vv` is no unit"),
+            ("label,x,U (k=2)\na,1,1\nb,1,1\n", "stand in a column of their own, `k`"),
             ("label,x,U\na,1,1\n", "at least two laboratories"),
             ("label,x,U\na,1,1\na,2,1\n", "a second time"),
             ("label,x,U\na,1,0\nb,2,1\n", "t.csv:2:5:"),
