@@ -4,6 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::keys::SHAPES;
+use super::value_text::with_point;
 use gumption_engine::distribution::Invalid;
 use gumption_engine::model::formula::{FormulaError, ScaleMisfit};
 use gumption_engine::number::Shortest;
@@ -802,8 +803,7 @@ impl fmt::Display for DiagnosticKind {
                 write!(f, "row {row} has {found}, but the header has {expected}")
             }
             Self::Sample { found } => {
-                let point = found.replacen(',', ".", 1);
-                if point != *found && point.parse::<f64>().is_ok() {
+                if let Some(point) = with_point(found) {
                     return write!(
                         f,
                         "`{found}` is no number: a decimal fraction is written with a point, \

@@ -7,7 +7,7 @@ use super::folder::Folder;
 use super::json::Json;
 use super::object::Object;
 use super::source::{Place, SourceText};
-use super::value_text::ValueOf;
+use super::value_text::{ValueOf, with_point};
 use super::{DiagnosticKind, bytes};
 use gumption_engine::distribution::Samples;
 use gumption_units::Unit;
@@ -109,10 +109,8 @@ fn place<'a>(object: &Object<'a>) -> &'a Range<usize> {
 
 /// Whether some line is a number, be it with a decimal comma.
 fn has_numbers(text: &str) -> bool {
-    let is_number = |text: &str| text.parse::<f64>().is_ok();
-    text.lines()
-        .map(str::trim)
-        .any(|line| is_number(line) || is_number(&line.replacen(',', ".", 1)))
+    let mut lines = text.lines().map(str::trim);
+    lines.any(|line| line.parse::<f64>().is_ok() || with_point(line).is_some())
 }
 
 type PlacedKinds = Vec<(Range<usize>, DiagnosticKind)>;

@@ -26,6 +26,12 @@ pub(super) fn with_unit(text: &str) -> Option<(f64, &str)> {
     (value.is_finite() && (begins_unit || is_comma(rest))).then_some((value, rest))
 }
 
+/// A number with a decimal comma as it is written here; `None` where the text is none.
+pub(super) fn with_point(text: &str) -> Option<String> {
+    let point = text.replacen(',', ".", 1);
+    (point != text && point.parse::<f64>().is_ok()).then_some(point)
+}
+
 /// Whether a number went on with a decimal comma.
 pub(super) fn is_comma(rest: &str) -> bool {
     let digits = rest.strip_prefix(',');

@@ -15,7 +15,9 @@ use rayon::prelude::*;
 use super::discrepancy::Discrepancy;
 use super::latent::{Map, Role};
 use super::logarithm::ln_add;
-use super::posterior::{self, Beginnings, Effort, MANY_VALUES, Posterior, WeighedHypothesis};
+use super::posterior::{
+    self, Before, Beginnings, Effort, MANY_VALUES, Posterior, WeighedHypothesis,
+};
 use super::prior_widths::{self, Begun, OtherPriors, PriorWidths};
 use super::setup::Setup;
 use super::whitened::{self, WhitenedResiduals};
@@ -266,24 +268,21 @@ pub(crate) fn weighings<'c>(
                  (widths, prior): (PriorWidths, f64),
                  known: &[Weighing<'c>],
                  [from, to]: [f64; 2]| {
-        let rivals = ln_total(known) - elementary::ln(prior);
-        let stated = known.first();
-        // with the noise as it is stated, a discrepancy's forms are those there; with the same priors
-        // as there, modes are near those there
-        let same_noise = stated.filter(|_| widths != PriorWidths::AsStated);
-        let discrepancy = match same_noise {
-            Some(stated) => Arc::clone(&stated.discrepancy),
-            None => Arc::new(Discrepancy::new(&setup)),
+        // with other priors the noise is as it is stated, and a discrepancy's forms are those there;
+        // with the same priors as there, modes are near those there
+        let (discrepancy, before) = match known.first() {
+            Some(stated) if widths != PriorWidths::AsStated => {
+                (Arc::clone(&stated.discrepancy), None)
+            }
+            stated => (Arc::new(Discrepancy::new(&setup)), stated.map(Weighing::before)),
         };
-        let same_priors = stated.filter(|_| widths == PriorWidths::AsStated);
-        let before = same_priors.map(|stated| (&stated.setup, &stated.posterior));
         let posterior = posterior::posterior(
             &setup,
             Beginnings { singles, pairs, before },
             &discrepancy,
             seed,
             effort,
-            rivals,
+            ln_rivals(known, prior),
             &|share| {
                 progress(from + (to - from) * share);
             },
@@ -291,8 +290,8 @@ pub(crate) fn weighings<'c>(
         Weighing { widths, setup, discrepancy, posterior, prior, probability: 0.0 }
     };
     let weighing = |setup: Setup<'c>, prior: f64, known: &[Weighing<'c>], parts: [f64; 2]| {
-        let rivals = ln_total(known) - elementary::ln(prior);
-        let before = known.first().map(|stated| (&stated.setup, &stated.posterior));
+        let before = known.first().map(Weighing::before);
+        let rivals = ln_rivals(known, prior);
         let singles = posterior::singles_again(&setup, before, rivals, seed, effort);
         let pairs = setup.case.pairs();
         begun((setup, singles, pairs), (PriorWidths::AsStated, prior), known, parts)
@@ -346,7 +345,17 @@ pub(crate) fn ln_total(weighings: &[Weighing<'_>]) -> f64 {
     weighings.iter().map(Weighing::ln_weight).fold(f64::NEG_INFINITY, ln_add)
 }
 
-impl Weighing<'_> {
+/// The same over the prior probability of what is weighed beside it.
+fn ln_rivals(known: &[Weighing<'_>], prior: f64) -> f64 {
+    ln_total(known) - elementary::ln(prior)
+}
+
+impl<'c> Weighing<'c> {
+    /// What another weighing learns from this one.
+    fn before(&self) -> Before<'_, 'c> {
+        (&self.setup, &self.posterior)
+    }
+
     pub(crate) fn ln_weight(&self) -> f64 {
         elementary::ln(self.prior) + self.posterior.ln_evidence
     }

@@ -138,8 +138,9 @@ pub(crate) struct Beginnings<'p, 'c> {
     pub(crate) before: Option<Before<'p, 'c>>,
 }
 
-/// Weighs all hypotheses against the data of a setup. `rivals` is the logarithm of the evidence of everything else that may be true, over the prior
-/// probability of this setup: what is improbable beside it need not be known well.
+/// Weighs all hypotheses against the data of a setup. `rivals` is the logarithm of the evidence of
+/// everything else that may be true, over the prior probability of this setup: what is improbable
+/// beside it need not be known well.
 pub(crate) fn posterior(
     setup: &Setup<'_>,
     beginnings: Beginnings<'_, '_>,

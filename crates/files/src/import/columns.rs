@@ -498,11 +498,12 @@ fn unit_of_header(text: &str) -> Result<Option<String>, String> {
             return Ok(Some(piece.to_owned()));
         }
         let (share, of) = piece.split_once(' ').unwrap_or((piece, ""));
-        if matches!(share, "%" | "‰" | "ppm" | "ppb") && is_of_estimate(of) {
+        let is_share = matches!(share, "%" | "‰" | "ppm" | "ppb");
+        if is_share && is_of_estimate(of) {
             return Ok(Some(share.to_owned()));
         }
         let compact = piece.replace(' ', "");
-        let is_like_unit = matches!(share, "%" | "‰" | "ppm" | "ppb")
+        let is_like_unit = is_share
             || compact.contains("10^")
             || compact.contains("10⁻")
             || compact.contains("10-");

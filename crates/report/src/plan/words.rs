@@ -4,7 +4,7 @@ use super::PlanReport;
 use super::sheets::{DIGITS, at_most};
 use crate::number::{exact, rounded, significant};
 use crate::plain;
-use crate::table::{conditions_text, grouped, in_unit};
+use crate::table::{conditions_text, grouped, in_unit, row_numbers};
 use gumption_analysis::plan::{Costs, DriftLaw, PlanCheck, PlanTarget, PlannedInterval};
 use gumption_engine::decimal::to_digits;
 use gumption_engine::model::Quantity;
@@ -100,14 +100,11 @@ pub(super) fn notes(report: &PlanReport<'_>) -> Vec<String> {
     }
     said.extend(plan.check.as_ref().and_then(|found| check(report, found)));
     if !plan.missed_rows.is_empty() {
-        let rows: Vec<String> =
-            plan.missed_rows.iter().take(20).map(|row| (row + 1).to_string()).collect();
         said.push(format!(
             "The plan is that of the row furthest above its target; the target is missed in {} \
-             other rows ({}{}): plan them with their own conditions.",
+             other rows ({}): plan them with their own conditions.",
             plan.missed_rows.len(),
-            rows.join(", "),
-            if plan.missed_rows.len() > rows.len() { ", ..." } else { "" }
+            row_numbers(&plan.missed_rows)
         ));
     }
     said

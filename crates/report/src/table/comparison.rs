@@ -195,15 +195,14 @@ pub(super) fn decision(found: &Conformity) -> &'static str {
 pub(super) fn rule(found: &Conformity) -> String {
     found.wanted_risk.map_or_else(
         || "simple acceptance (JCGM 106, 8.2)".to_owned(),
-        |risk| {
-            let kind = if found.global.is_some() { "global" } else { "specific" };
-            format!(
-                "guarded acceptance (JCGM 106, 8.3) for a {kind} risk of false acceptance of at most \
-                 {} %",
-                percentage(risk)
-            )
-        },
+        |risk| format!("guarded acceptance (JCGM 106, 8.3) for {}", risk_text(found, risk)),
     )
+}
+
+/// A risk that is wanted at most.
+fn risk_text(found: &Conformity, risk: f64) -> String {
+    let kind = if found.global.is_some() { "global" } else { "specific" };
+    format!("a {kind} risk of false acceptance of at most {} %", percentage(risk))
 }
 
 /// The decision rule and the decision.
@@ -215,8 +214,7 @@ fn rule_text(output: &Quantity, found: &Conformity) -> String {
              within the tolerance. Decision: {decision}."
         );
     };
-    let kind = if found.global.is_some() { "global" } else { "specific" };
-    let wanted = format!("a {kind} risk of false acceptance of at most {} %", percentage(risk));
+    let wanted = risk_text(found, risk);
     let (Some(width), Some(acceptance)) = (found.guard_band, found.acceptance) else {
         return format!(
             "Decision rule: guarded acceptance (JCGM 106, 8.3) for {wanted}; no value has so small \

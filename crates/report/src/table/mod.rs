@@ -234,6 +234,16 @@ pub(super) fn coverage_text(coverage: Coverage) -> String {
     }
 }
 
+/// Rows that are named, at most.
+const MOST_NAMED: usize = 20;
+
+/// The numbers of rows, from 1, of which these are the places.
+pub(crate) fn row_numbers(places: &[usize]) -> String {
+    let named: Vec<String> =
+        places.iter().take(MOST_NAMED).map(|place| (place + 1).to_string()).collect();
+    named.join(", ") + if places.len() > MOST_NAMED { ", ..." } else { "" }
+}
+
 /// `f = 10 Hz, tilt = 35 deg`.
 pub(crate) fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String {
     let parts: Vec<String> = conditions

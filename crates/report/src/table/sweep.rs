@@ -2,7 +2,7 @@
 
 use super::comparison::{decision, limits_text, rule};
 use super::grid::{Grid, PAGE};
-use super::{USUAL, conditions_text, text, title, width};
+use super::{USUAL, conditions_text, row_numbers, text, title, width};
 use crate::number::{
     MISSING, align, exact, justified, place_of_ends, position, rounded, significant, to,
 };
@@ -66,9 +66,6 @@ pub(super) fn tables<'a>(
 pub(crate) const MORE: &str = "Budgets, shortest intervals, numerical standard errors and correlations of every row: \
      --format json.";
 
-/// Rejected rows that are named, at most.
-const MOST_NAMED: usize = 20;
-
 /// The decisions about the rows of an output with a tolerance: the limits, the rule, and which rows
 /// are rejected; `None` where there is none.
 pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> Option<String> {
@@ -79,10 +76,8 @@ pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> 
         .filter_map(|(row, of)| Some((row, of.outputs.get(output)?.conformity.as_deref()?)))
         .collect();
     let (_, first) = found.first()?;
-    let rejected: Vec<String> =
-        found.iter().filter(|(_, of)| !of.conforms).map(|(row, _)| (row + 1).to_string()).collect();
-    let named = rejected.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", ");
-    let more = if rejected.len() > MOST_NAMED { ", ..." } else { "" };
+    let rejected: Vec<usize> =
+        found.iter().filter(|(_, of)| !of.conforms).map(|(row, _)| *row).collect();
     let plural = if rejected.len() == 1 { "row" } else { "rows" };
     Some(format!(
         "Tolerance {}, {}: {} of {} rows accepted{}. Probabilities, guard bands and risks of every row: \
@@ -94,7 +89,7 @@ pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> 
         if rejected.is_empty() {
             String::new()
         } else {
-            format!(", rejected: {plural} {named}{more}")
+            format!(", rejected: {plural} {}", row_numbers(&rejected))
         }
     ))
 }
