@@ -56,6 +56,30 @@ fn conformance_probabilities() {
     }
 }
 
+/// Without trials it is decided by the law of propagation: Phi(0.3) = 0.617 911 (JCGM 106, 7.2) of a
+/// normal quantity 0.3 u below its limit, and of t with 3 degrees of freedom
+/// 1/2 + (a/(1 + a^2) + atan a)/pi with a = 0.3/sqrt(3), 0.608 118.
+#[test]
+fn decisions_without_trials() {
+    let limit = r#""tolerance": {"upper": 0.1, "risk": 0.05}"#;
+    let few = model(0.097, 0.01, limit).replace("0.01}", "0.01, \"dof\": 3}");
+    for (text, expected) in [(model(0.097, 0.01, limit), 0.617_911), (few, 0.608_118)] {
+        let (code, found, said) = run(&text, &["--trials", "0", "--format", "json"]);
+        assert_eq!(code, Some(0), "{said}");
+        assert!(said.contains("decided about its tolerance by the law of propagation"), "{said}");
+        let found: Value = serde_json::from_str(&found).expect("JSON");
+        let of = &found["outputs"]["y"]["conformity"];
+        // six printed digits of the closed forms
+        assert!((number(&of["probability"]) - expected).abs() < 1e-6, "{of}");
+        assert_eq!(of["conforms"], false);
+        let (code, page, _) = run(&text, &["--trials", "0", "--fail"]);
+        assert_eq!(code, Some(3), "{page}");
+        assert!(page.contains("Decision: rejected"), "{page}");
+    }
+    let (code, ..) = run(&model(0.0, 0.01, limit), &["--trials", "0", "--fail"]);
+    assert_eq!(code, Some(0));
+}
+
 /// The ball bearings of JCGM 106, 9.5.4. u from 200 000 trials is 0.25 um to 0.16 %, and the risk
 /// follows it about in proportion.
 #[test]

@@ -40,6 +40,8 @@ fn every_change_is_noticed() {
     let whole = saved(folder);
     let (code, said) = run(folder, &["run", "use.json"]);
     assert_eq!((code, said.contains("r.json")), (Some(0), false), "{said}");
+    let (code, said) = run(folder, &["check", "r.json"]);
+    assert_eq!((code, said.as_str()), (Some(0), ""));
     let moved: Vec<Value> = whole["outputs"]["v"]["quantiles"]
         .as_array()
         .unwrap()

@@ -132,6 +132,44 @@ fn what_cannot_be_planned_is_said() {
     assert!(drift("c=1 yr").contains("no uncertainty that could grow"));
 }
 
+/// Three readings carry nearly all of U: by the law of propagation U is k u with k of the effective
+/// degrees of freedom, and the trials of their t distribution are wider, so that a target between the
+/// two is not met. What is proposed instead is the target times the ratio of the two.
+#[test]
+fn a_target_that_only_the_law_of_propagation_meets_is_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let model = r#"{"inputs": {
+        "E1": {"unit": "mV", "distribution": "normal", "mean": 176.1, "std": 0.3},
+        "E2": {"unit": "mV", "distribution": "normal", "mean": -1.2, "std": 0.3},
+        "Ex": {"unit": "mV", "distribution": "readings", "values": [85.2, 85.4, 85.1]},
+        "pH1": {"distribution": "normal", "mean": 4.005, "expanded": 0.01, "k": 2},
+        "pH2": {"distribution": "normal", "mean": 7.0, "expanded": 0.01, "k": 2}},
+        "equations": {"pHx": "pH1 + (Ex - E1)*(pH2 - pH1)/(E2 - E1)"}, "outputs": {"pHx": {}}}"#;
+    fs::write(path.join("ph.json"), model).expect("a file");
+    let said = |target: &str, trials: &str| {
+        let found = run(path, &["plan", "ph.json", "--target", target, "--trials", trials]);
+        assert_eq!(found.status.code(), Some(2), "{target}");
+        String::from_utf8(found.stderr).expect("text")
+    };
+    let few = said("U(pHx) <= 0.011", "200000");
+    let has = |part: &str| few.contains(part);
+    assert!(has("met by the law of propagation, which plans (0.01055)"), "{few}");
+    let number_behind = |words: &str| -> f64 {
+        let rest = few.split_once(words).expect("these words").1;
+        let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(rest.len());
+        rest[..end].parse().expect("a number")
+    };
+    let (by_trials, instead) =
+        (number_behind("trials give "), number_behind("plan for U(pHx) <= "));
+    // a million trials give 0.0121, and 200 000 half the length of the interval to 0.4 %
+    assert!((by_trials / 0.0121 - 1.0).abs() < 0.02, "{few}");
+    // both are rounded to four digits
+    assert!((instead / (0.011 * 0.01055 / by_trials) - 1.0).abs() < 1e-3, "{few}");
+    assert!(said("U(pHx) <= 0.02", "200000").contains("met already: U(pHx) is 0.01055 now"));
+    assert!(said("U(pHx) <= 0.011", "0").contains("met already"));
+}
+
 /// A share of an estimate that its uncertainty hides is hardly what is wanted.
 #[test]
 fn a_share_of_next_to_nothing_is_told() {

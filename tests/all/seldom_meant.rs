@@ -70,6 +70,9 @@ fn formulas() {
         ("1/min", "x", "rpm", Some("rate-of-turns")),
         ("1/min", "x*[rev]", "rpm", None),
         ("rpm", "x", "rpm", None),
+        ("rpm", "x", "1/min", Some("radians-of-turns")),
+        ("rpm", "x/[rev]", "1/min", None),
+        ("rad", "x", "1", None),
         ("1/min", "x", "1/min", None),
     ] {
         let found = codes(&of(unit, formula, result));

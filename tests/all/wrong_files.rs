@@ -53,7 +53,7 @@ fn files_of_other_commands() {
     ];
     let takes: [(&[&str], &[&str]); 10] = [
         (&["run"], &[model]),
-        (&["check"], &[model, certificate, recipe]),
+        (&["check"], &[model, certificate, recipe, &saved]),
         (&["assumptions"], &[model]),
         (&["certificate"], &[certificate]),
         (&["compare"], &[&table]),

@@ -53,6 +53,7 @@ fn numbers_that_were_wrong() {
     let gain = json!({"Vo": normal("V", 1.0, 0.001), "Vi": normal("mV", 10.0, 0.01),
         "L": normal("dB", 20.0, 0.1), "n": normal("1", 2.0, 0.01)});
     let turns = json!({"n": normal("rpm", 60.0, 0.1), "f": normal("Hz", 1.0, 0.001)});
+    let warm = json!({"a": normal("mV/degF", 1.0, 0.01), "t": normal("degF", 68.0, 0.1)});
     type Right = Result<(f64, f64), &'static str>;
     let table: &[(&Value, &str, &str, f64, Right)] = &[
         (&gas, "p/(R*T)", "kg/m^3", 17.418, Ok((1.188_331, 1e-6))),
@@ -75,6 +76,9 @@ fn numbers_that_were_wrong() {
         (&turns, "f", "rad/s", 1.0, Err("2*pi")),
         (&turns, "n/[rev]", "Hz", TAU, Ok((1.0, EXACT))),
         (&turns, "2*pi*f", "rad/s", 1.0, Ok((TAU, EXACT))),
+        // 1 mV/degF times 68 degF was 36 mV, as of 20 degrees from 0 degC
+        (&warm, "a*t", "mV", 36.0, Err("give the coefficient per degC")),
+        (&warm, "a*(t - 60 [degF])", "mV", 8.0, Ok((8.0, EXACT))),
     ];
     for (inputs, formula, unit, was, right) in table {
         let model = model(inputs, formula, unit);
@@ -213,6 +217,80 @@ fn reasons_are_true() {
     assert!(!said.contains("18446744073709551615"), "{said}");
     let said = refused(&readings(json!([1, 2])), &["--memory", "99999999999G"]);
     assert!(!said.contains("at least 1 MiB"), "{said}");
+}
+
+/// Values of which one unit is declared and another stands behind the uncertainty: earlier versions
+/// took the second for both, so that 20 degC were -253.15 degC and 1 kg was 1 mg.
+#[test]
+fn a_value_has_one_unit() {
+    let of =
+        |unit: &str, value: &str| model(&json!({"x": {"unit": unit, "value": value}}), "x", unit);
+    for (unit, value, said) in [
+        ("degC", "20 ± 0.5 K (k=2)", "20 K, as what stands behind it, or 20 degC"),
+        ("degC", "20(0.5) K", "20 K, as what stands behind it, or 20 degC"),
+        ("kg", "1.000 ± 50 mg (95 %)", "1.000 mg, as what stands behind it, or 1.000 kg"),
+        ("m", "10 +0.2 -0.1 mm", "10 mm, as what stands behind it, or 10 m"),
+        ("m", "10, U = 2 mm, k = 2", "the value has no unit, and its uncertainty is in `mm`"),
+    ] {
+        let found = refused(&of(unit, value), &["--trials", "0"]);
+        assert!(found.contains(said), "{value}: {found}");
+    }
+    // estimate and standard uncertainty, in the declared unit
+    for (unit, value, right) in [
+        ("degC", "20 degC ± 0.5 K (k=2)", [20.0, 0.25]),
+        ("kg", "1.000 kg ± 50 mg (k=2)", [1.0, 25e-6]),
+        ("kg", "1000.0(20) g", [1.0, 2e-3]),
+        ("kg", "(1000 ± 4) g (k=2)", [1.0, 2e-3]),
+        ("°C", "20 ± 0.5 degC (k=2)", [20.0, 0.25]),
+        ("m", "10 +0.2 -0.2 m", [10.0, 0.2]),
+    ] {
+        let found = answer(&of(unit, value), &["--trials", "0"]);
+        let gum = &found["outputs"]["y"]["gum"];
+        let found = ["estimate", "standard_uncertainty"].map(|key| gum[key].as_f64().unwrap());
+        // a quotient or two of 16 digits
+        let near =
+            found.iter().zip(right).all(|(found, right)| (found / right - 1.0).abs() < 1e-14);
+        assert!(near, "{value}: {found:?}");
+    }
+}
+
+/// Factors and probabilities mistaken for each other, which earlier versions computed with.
+#[test]
+fn factors_and_probabilities_are_told_apart() {
+    let of = |key: &str, value: f64| {
+        let x =
+            json!({"unit": "1", "distribution": "normal", "mean": 1, "expanded": 0.1, key: value});
+        model(&json!({"x": x}), "x", "1")
+    };
+    for (key, value) in [("k", 95.0), ("k", 0.95), ("p", 0.05)] {
+        let found = refused(&of(key, value), &["--trials", "0"]);
+        assert!(found.contains(&format!("`{key}` is {value}, but must be")), "{found}");
+    }
+    for (key, value) in [("coverage_factor", 0.95), ("coverage_probability", 0.05)] {
+        let mut wrong = of("k", 2.0);
+        wrong[key] = json!(value);
+        let found = refused(&wrong, &["--trials", "0"]);
+        assert!(found.contains(&format!("`{key}` is {value}, but must be")), "{found}");
+    }
+}
+
+/// Readings beside an estimate that is not their mean: 5.2 is 3.5 times s/sqrt(3) = 0.0577 above 5.
+#[test]
+fn readings_far_from_the_estimate_are_told() {
+    let of = |values: Value| {
+        let part = json!({"name": "rep", "distribution": "readings", "values": values});
+        model(&json!({"x": {"unit": "V", "mean": 5, "components": [part]}}), "x", "V")
+    };
+    let codes = |values: Value| {
+        let found = answer(&of(values), &["--trials", "0"]);
+        assert_eq!(found["outputs"]["y"]["gum"]["estimate"], 5.0);
+        let notes = found["warnings"].as_array().cloned().unwrap_or_default();
+        notes.iter().map(|note| code(note).to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(codes(json!([5.1, 5.2, 5.3])), ["readings-apart"]);
+    // within their scatter, and deviations about zero
+    assert!(codes(json!([5.1, 5.0, 5.3])).is_empty());
+    assert!(codes(json!([0.1, -0.1, 0.05])).is_empty());
 }
 
 /// A width that is a share of another quantity.

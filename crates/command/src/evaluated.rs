@@ -62,8 +62,10 @@ impl Evaluated {
     pub(super) fn check(&self, task: &Task) -> Result<(), Failure> {
         save::check(task, self.save.as_deref(), self.samples.as_ref())?;
         self.check_format(task)?;
-        if self.fail && task.settings.trials == Trials::Fixed(0) {
-            let reason = "`--fail` has nothing to judge by without trials, but their number is 0";
+        let decides = task.model.outputs.iter().any(|output| output.tolerance.is_some());
+        if self.fail && task.settings.trials == Trials::Fixed(0) && !decides {
+            let reason = "`--fail` has nothing to judge by without trials, but their number is 0, \
+                          and no output has a tolerance";
             return Err(Failure::Argument(reason.to_owned()));
         }
         Ok(())
@@ -307,7 +309,10 @@ fn judgements(task: &Task, evaluation: &Evaluation) -> Vec<Judgement> {
                 .conformity
                 .as_ref()
                 .map(|conformity| if conformity.conforms { Verdict::Yes } else { Verdict::No });
-            all.push(judgement("is the GUM interval valid (clause 8)", valid));
+            // without trials nobody asks it
+            if task.settings.trials != Trials::Fixed(0) {
+                all.push(judgement("is the GUM interval valid (clause 8)", valid));
+            }
             if output.tolerance.is_some() {
                 all.push(judgement("does it conform", conforms));
             }

@@ -156,13 +156,22 @@ fn said(error: &NoPlan, task: &Task, question: &PlanQuestion) -> String {
     let kind = if target.expanded { "U" } else { "u" };
     let value = |value: f64| {
         let digits = gumption_engine::decimal::to_digits(value, 4);
-        format!("{} {unit}", Shortest(digits)).trim_end().to_owned()
+        let of_unit = if unit == "1" { "" } else { unit };
+        format!("{} {of_unit}", Shortest(digits)).trim_end().to_owned()
     };
     let most = report::wanted(&target, output);
     match error {
         NoPlan::Met(now) => format!(
             "the target {kind}({name}) <= {most} is met already: {kind}({name}) is {} now",
             value(*now)
+        ),
+        NoPlan::MetByPropagation { figure, by_trials, instead } => format!(
+            "the target {kind}({name}) <= {most} is met by the law of propagation, which plans ({}), but \
+             the trials give {}, as `gumption run` shows; plan for {kind}({name}) <= {}, with which the \
+             trials come to about the target",
+            value(*figure),
+            value(*by_trials),
+            value(*instead)
         ),
         NoPlan::Unreachable(least) => format!(
             "the target {kind}({name}) <= {most} cannot be reached: with every improvement that {} \

@@ -10,6 +10,7 @@ use super::model_reader::{ModelOptions, read_with};
 use super::open::is_table_of_results;
 use super::reader::FileReader;
 use super::recipe;
+use super::result_file;
 use super::source::SourceText;
 use gumption_engine::task::Warning;
 
@@ -52,7 +53,7 @@ impl TextKind {
             Self::Costs
         } else if certificate::is_meant(&root) {
             Self::Certificate
-        } else if has("result") || has("gumption") {
+        } else if result_file::is_meant(&root) || has("gumption") {
             Self::Result
         } else if has("observations") {
             Self::Case
@@ -78,8 +79,8 @@ impl TextKind {
     }
 }
 
-/// Checks a text: as a certificate, a recipe, a file of costs or a case of the gap diagnosis where it
-/// has a key that only those have, else as a model. Hands back the notes on it.
+/// Checks a text: as a certificate, a recipe, a file of costs, a saved result or a case of the gap
+/// diagnosis where it has a key that only those have, else as a model. Hands back the notes on it.
 pub(super) fn check_text(
     files: FileReader<'_>,
     name: &str,
@@ -92,6 +93,9 @@ pub(super) fn check_text(
         }
         if costs::is_meant(&root) {
             return costs::check_text(name, text).map(|()| Vec::new());
+        }
+        if result_file::is_meant(&root) {
+            return files.result_text(name, text).map(|file| file.warnings);
         }
         if certificate::is_meant(&root) {
             return files.certificate_text(name, text, folder).map(|file| file.warnings);

@@ -9,7 +9,7 @@ use super::object::Object;
 use gumption_engine::model::formula::{Formula, LevelReference, Scope, Typing};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::task::Warning;
-use gumption_units::{FactorBase, Unit};
+use gumption_units::{FactorBase, Turn, Unit};
 
 /// Notes on the formulas of a file whose units are checked, and on the units of its outputs.
 pub(super) fn of_formulas(
@@ -31,6 +31,9 @@ pub(super) fn of_formulas(
         found.extend(celsius_as_kelvin(scope, &of.outputs.outputs));
         found.extend(of.outputs.outputs.iter().filter_map(|output| sum_of_levels(scope, output)));
         found.extend(of.outputs.outputs.iter().filter_map(|output| rate_of_turns(scope, output)));
+        let counts_turns = given.values().any(|unit| has_turns(unit));
+        let radians = |output| radians_of_turns(scope, output).filter(|_| counts_turns);
+        found.extend(of.outputs.outputs.iter().filter_map(radians));
     }
     found
 }
@@ -92,18 +95,36 @@ fn sum_of_levels(scope: &Scope, output: &Output) -> Option<Warning> {
 fn rate_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
     let Quantity { name, unit, .. } = &output.quantity;
     let typing = scope.get(name)?;
-    let of_turns = unit.factors().iter().any(|factor| match factor.base {
-        FactorBase::Named { symbol, .. } => matches!(symbol.name(), "rpm" | "rev" | "turn"),
-        _ => false,
-    });
     let unknown = typing.turn.is_none() && typing.dimension.is_some_and(|of| !of.is_none());
-    (of_turns && unknown && unit.turn().is_some()).then(|| {
+    (has_turns(unit) && unknown && unit.turn().is_some()).then(|| {
         let text = format!(
             "`{name}` is taken for an angular frequency, of which 2*pi radians are a revolution, as \
              nothing says that it counts revolutions; if it does, write `...*[rev]`, or give it in \
              `1/min`"
         );
         Warning::new("rate-of-turns", name, text)
+    })
+}
+
+/// A result that counts angle, in a unit that counts nothing (`1/min`, `1`), of inputs in revolutions.
+fn radians_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
+    let Quantity { name, unit, .. } = &output.quantity;
+    let counts_angle = scope.get(name)?.turn == Some(Turn::Angle);
+    let counts_nothing = unit.turn().is_none() && unit.dimension().is_of_time();
+    (counts_angle && counts_nothing).then(|| {
+        let text = format!(
+            "`{name}` counts angle and is reported in `{unit}` in radians, 2*pi for a revolution; if \
+             revolutions are meant, write `.../[rev]`, or report it in rpm or rev"
+        );
+        Warning::new("radians-of-turns", name, text)
+    })
+}
+
+/// Whether a unit counts revolutions.
+fn has_turns(unit: &Unit) -> bool {
+    unit.factors().iter().any(|factor| match factor.base {
+        FactorBase::Named { symbol, .. } => matches!(symbol.name(), "rpm" | "rev" | "turn"),
+        _ => false,
     })
 }
 

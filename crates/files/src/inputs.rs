@@ -586,12 +586,14 @@ impl<'a> Reader<'a, '_> {
         };
         let conditions = self.conditions;
         let at = |row| (conditions, row);
-        let of_readings =
-            match of_type_a.first().map(|part| part.distribution(unit, 0.0, self.results, at(0))) {
-                Some(Some(distribution)) => distribution.mean(),
-                Some(None) => return,
-                None => 0.0,
-            };
+        let (of_readings, scatter) = match of_type_a
+            .first()
+            .map(|part| part.distribution(unit, 0.0, self.results, at(0)))
+        {
+            Some(Some(distribution)) => (distribution.mean(), distribution.standard_uncertainty()),
+            Some(None) => return,
+            None => (0.0, 0.0),
+        };
         let differs = matches!(source, EstimateSource::Formula(_))
             || parts.iter().any(|part| shapes::has_width_of_row(&part.object, part.kind, unit));
         let mut drawn: Vec<Vec<Distribution>> = vec![Vec::new(); 1 + parts.len()];
@@ -626,6 +628,9 @@ impl<'a> Reader<'a, '_> {
             let row = std::iter::once(base.into()).chain(of_parts);
             drawn.iter_mut().zip(row).for_each(|(drawn, distribution)| drawn.push(distribution));
         }
+        if let (Some(part), Some(&total)) = (of_type_a.first(), totals.first()) {
+            self.note_of_mean(&part.full, [of_readings, scatter], total, unit);
+        }
         for (part, drawn) in parts.iter().zip(drawn.iter().skip(1)) {
             if part.kind.name != "readings"
                 && let (Some(of_part), Some(&total)) = (drawn.first(), totals.first())
@@ -648,12 +653,33 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
+    /// Tells of readings whose mean is far from the estimate of their input, of which only the scatter
+    /// counts. Deviations about zero are no readings of the quantity.
+    fn note_of_mean(&mut self, part: &str, [mean, u]: [f64; 2], total: f64, unit: &Unit) {
+        let are_of_quantity = (mean - total).abs() < 0.5 * total.abs();
+        // to the digits that sums of readings have
+        let apart = (mean - total).abs() > 3.0 * u + 1e-12 * total.abs();
+        if !(are_of_quantity && apart) {
+            return;
+        }
+        let shown = |value| in_unit(value, unit);
+        let text = format!(
+            "the readings of `{part}` have the mean {}, more than three of its standard uncertainties \
+             from {}, the estimate that `{}` is given: only their scatter counts; leave the estimate \
+             out to take their mean",
+            shown(mean),
+            shown(total),
+            self.name
+        );
+        self.inputs.warnings.push(Warning::new("readings-apart", self.name, text));
+    }
+
     /// Tells of a component whose own estimate is about that of its input: the two are added.
     fn note_of_estimate(&mut self, part: &str, own: f64, total: f64, unit: &Unit) {
         if total == 0.0 || (own - total).abs() > ALIKE * total.abs() {
             return;
         }
-        let shown = |value: f64| unit.after(&Shortest(decimal::to_15_digits(value)).to_string());
+        let shown = |value| in_unit(value, unit);
         let text = format!(
             "the estimate {} of the component `{part}` is added to {}, that of `{}`: together {}; \
              components are deviations, about 0",
@@ -766,4 +792,9 @@ impl Part<'_> {
         }
         .distribution(self.kind)
     }
+}
+
+/// A value as notes show it.
+fn in_unit(value: f64, unit: &Unit) -> String {
+    unit.after(&Shortest(decimal::to_15_digits(value)).to_string())
 }

@@ -11,6 +11,7 @@ use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
 use super::value_text::{grouped_digits, is_comma, number_in_parentheses};
 use gumption_engine::special;
+use gumption_units::Unit;
 
 /// What a text says of a quantity: numbers as written, without the unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,15 +91,22 @@ fn quantity(log: &Collector, name: &str, node: &mut Node, input_unit: Option<&st
             }
             let Some(place) = fields.iter().position(|field| field.key == "value") else { return };
             let span = fields[place].value.span.clone();
+            let own = unit_of(fields).or_else(|| input_unit.map(str::to_owned));
             let found = match &fields[place].value.value {
                 Json::Number(number) => Some((String::new(), Stated::Exact(number.clone()))),
-                Json::Text(text) => reported(log, name, text, &span, stated(text)),
+                Json::Text(text) => {
+                    let read = stated(text).and_then(|(unit, stated)| {
+                        let declared = own.as_deref().unwrap_or(&unit);
+                        in_one_unit(text, &unit, declared, &log.own_units())?;
+                        Ok((unit, stated))
+                    });
+                    reported(log, name, text, &span, read)
+                }
                 _ => return,
             };
             let (unit, stated) =
                 found.unwrap_or_else(|| (String::new(), Stated::Exact("1".to_owned())));
             fields.remove(place);
-            let own = unit_of(fields).or_else(|| input_unit.map(str::to_owned));
             let same = own.as_ref().is_none_or(|own| *own == unit);
             // numbers in another unit keep it, and are converted where they are read
             let behind = if same || unit.is_empty() { String::new() } else { format!(" {unit}") };
@@ -117,6 +125,26 @@ fn quantity(log: &Collector, name: &str, node: &mut Node, input_unit: Option<&st
         }
         _ => {}
     }
+}
+
+/// Asks for the unit of a value that is in the one behind its uncertainty or in the one that its input
+/// declares: `10, U = 2 mm, k = 2` of an input in m, `20(0.5) K` of one in degC.
+fn in_one_unit(text: &str, unit: &str, declared: &str, own: &[Unit]) -> Result<(), String> {
+    let parse = |text: &str| Unit::parse_among(text, own).ok();
+    // a unit that there is not is reported where it is read
+    let (Some(written), Some(of_input)) = (parse(unit), parse(declared)) else { return Ok(()) };
+    let Some((value, behind)) = digits(text.trim()) else { return Ok(()) };
+    let is_same = Unit::convert(1.0, &written, &of_input) == Ok(1.0);
+    let is_bare = behind.starts_with(['±', '+', '-', '−', ',', ';']);
+    let is_on_a_scale = behind.starts_with('(') && !written.has_zero_of(&of_input);
+    if unit.is_empty() || is_same || !(is_bare || is_on_a_scale) {
+        return Ok(());
+    }
+    Err(format!(
+        "the value can be {value} {unit}, as what stands behind it, or {value} {declared}, the input's \
+         unit: give the value a unit of its own, such as `{value} {declared} ± 0.1 {unit} (k=2)`, or \
+         leave `unit` out"
+    ))
 }
 
 fn reported(
@@ -213,6 +241,13 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
     if let Some((before, of, after)) = named_uncertainty(rest) {
         let (uncertainty, behind) = digits(after)
             .ok_or_else(|| format!("a number is needed behind `{} =`", of.symbol()))?;
+        let unit_end = behind.find(['(', ',', ';']).unwrap_or(behind.len());
+        let unit = behind.get(..unit_end).unwrap_or_default().trim();
+        if before.trim().is_empty() && !unit.is_empty() {
+            return Err(format!(
+                "the value has no unit, and its uncertainty is in `{unit}`; {FORMS}"
+            ));
+        }
         return uncertain(&value, before, of, &uncertainty, behind, false);
     }
     if let Some(after) = rest.strip_prefix('(') {
@@ -564,6 +599,7 @@ mod tests {
             ("5.0 V, U = , k = 2", "a number is needed behind `U =`"),
             ("5.0 V, u = 0.1 V, k = 2", "`u =` is a standard uncertainty"),
             ("5.0 V, s = 0.1 V", "is no unit"),
+            ("5.0, U = 2 mV, k = 2", "the value has no unit"),
             ("5.0 V ± 0.1 V (k=2, p=99 %)", "k = 2 is less than the 2.58"),
             ("5.0 V ± 0.1 V (k=1.65, 95 %)", "name it"),
             ("5.0 V ± 0.1 V (k=1.65, 95 %, rectangular)", "`rectangular` is not known there"),

@@ -70,6 +70,12 @@ pub struct SavedOutput {
     pub sensitivities: Option<Vec<f64>>,
 }
 
+/// Whether a file is a saved result: it says so itself.
+pub(super) fn is_meant(root: &Node) -> bool {
+    let Json::Object(members) = &root.value else { return false };
+    members.iter().any(|member| member.key == "result")
+}
+
 /// Reads and checks the text of a result file; `name` is used in messages.
 pub(super) fn read_text(
     files: FileReader<'_>,

@@ -1,6 +1,7 @@
 //! Coverage and Monte Carlo settings of a file.
 
 use super::DiagnosticKind;
+use super::coverage_slips;
 use super::json::Json;
 use super::keys;
 use super::object::{Object, whole_number};
@@ -130,31 +131,29 @@ pub(super) fn coverage(root: &Object<'_>) -> Option<Coverage> {
             None
         }
         (Some(member), None) => {
-            let p = root.number("coverage_probability")?;
-            if p > 0.0 && p < 1.0 {
-                Some(Coverage::Probability(p))
-            } else {
-                let diagnostic =
-                    DiagnosticKind::NotProbability { key: "coverage_probability".into(), found: p };
-                root.log.report(&member.value.span, diagnostic);
-                None
-            }
+            let found = root.number("coverage_probability")?;
+            let key = "coverage_probability".to_owned();
+            let diagnostic = match coverage_slips::of_probability(found) {
+                Some(range) => DiagnosticKind::OutOfRange { key, found, range },
+                None if found > 0.0 && found < 1.0 => return Some(Coverage::Probability(found)),
+                None => DiagnosticKind::NotProbability { key, found },
+            };
+            root.log.report(&member.value.span, diagnostic);
+            None
         }
         (None, Some(member)) => {
-            let factor = root.number("coverage_factor")?;
-            // beyond 8 the probability is 1 in double precision
-            if factor > 0.0 && factor <= 8.0 {
-                Some(Coverage::Factor { factor, fixed })
-            } else {
-                let range = "above 0 and at most 8";
-                let diagnostic = DiagnosticKind::OutOfRange {
-                    key: "coverage_factor".into(),
-                    found: factor,
-                    range,
-                };
-                root.log.report(&member.value.span, diagnostic);
-                None
-            }
+            let found = root.number("coverage_factor")?;
+            let range = match coverage_slips::of_factor_of_results(found) {
+                Some(range) => range,
+                // beyond 8 the probability is 1 in double precision
+                None if found > 0.0 && found <= 8.0 => {
+                    return Some(Coverage::Factor { factor: found, fixed });
+                }
+                None => "above 0 and at most 8",
+            };
+            let key = "coverage_factor".to_owned();
+            root.log.report(&member.value.span, DiagnosticKind::OutOfRange { key, found, range });
+            None
         }
         (None, None) => {
             if let Some(member) = root.get("coverage_factor_fixed") {

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
+use super::coverage_slips;
 use super::dcc::FromCertificate;
 use super::json::{Json, Node};
 use super::keys::{SHAPES, Shape};
@@ -543,25 +544,29 @@ impl<'a> Fields<'a> {
                 None
             }
             (Some(member), None) => {
-                let k = self.object.number("k")?;
-                if k > 0.0 {
-                    Some(k)
-                } else {
-                    let diagnostic = DiagnosticKind::NotPositive { key: "k".into(), found: k };
-                    self.object.log.report(&member.value.span, diagnostic);
-                    None
-                }
+                let found = self.object.number("k")?;
+                let key = "k".to_owned();
+                let diagnostic = match coverage_slips::of_factor(found) {
+                    Some(range) => DiagnosticKind::OutOfRange { key, found, range },
+                    None if found > 0.0 => return Some(found),
+                    None => DiagnosticKind::NotPositive { key, found },
+                };
+                self.object.log.report(&member.value.span, diagnostic);
+                None
             }
             (None, Some(member)) => {
-                let p = self.object.number("p")?;
-                if p > 0.0 && p < 1.0 {
-                    let dof = dof.unwrap_or(f64::INFINITY);
-                    Some(special::student::two_sided_factor(p, dof))
-                } else {
-                    let diagnostic = DiagnosticKind::NotProbability { key: "p".into(), found: p };
-                    self.object.log.report(&member.value.span, diagnostic);
-                    None
-                }
+                let found = self.object.number("p")?;
+                let key = "p".to_owned();
+                let diagnostic = match coverage_slips::of_probability(found) {
+                    Some(range) => DiagnosticKind::OutOfRange { key, found, range },
+                    None if found > 0.0 && found < 1.0 => {
+                        let dof = dof.unwrap_or(f64::INFINITY);
+                        return Some(special::student::two_sided_factor(found, dof));
+                    }
+                    None => DiagnosticKind::NotProbability { key, found },
+                };
+                self.object.log.report(&member.value.span, diagnostic);
+                None
             }
             (None, None) => {
                 let place =

@@ -220,18 +220,20 @@ impl Unit {
 
     /// The exponent of the decibels (or nepers) in the unit: 1 for `dB` and `dB/m`, 0 without any.
     pub fn level_exponent(&self) -> Exponent {
-        self.exponent_of(|flavour| matches!(flavour, Flavour::Level(_)))
+        self.exponent_of(|symbol| matches!(symbol.flavour, Flavour::Level(_)))
     }
 
-    /// The exponent of the degrees Celsius (or Fahrenheit) in the unit: -1 for `ppm/degC`.
+    /// The exponent of the degrees Celsius in the unit: -1 for `ppm/degC`. Those of Fahrenheit are none:
+    /// temperatures in `degF` are computed with as numbers of degrees Celsius, which a coefficient per
+    /// degree Fahrenheit cannot be multiplied by.
     pub fn celsius_exponent(&self) -> Exponent {
-        self.exponent_of(|flavour| flavour == Flavour::Celsius)
+        self.exponent_of(|symbol| symbol.flavour == Flavour::Celsius && symbol.name() != "degF")
     }
 
     /// The exponent that the symbols of a kind have together; 0 if that is out of range.
-    fn exponent_of(&self, is_of_kind: impl Fn(Flavour) -> bool) -> Exponent {
+    fn exponent_of(&self, is_of_kind: impl Fn(&Symbol) -> bool) -> Exponent {
         let of_kind = self.factors.iter().filter(|factor| match factor.base {
-            FactorBase::Named { symbol, .. } => is_of_kind(symbol.flavour),
+            FactorBase::Named { symbol, .. } => is_of_kind(symbol),
             FactorBase::Number(_) | FactorBase::Defined(_) => false,
         });
         let sum = of_kind

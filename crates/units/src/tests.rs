@@ -370,7 +370,7 @@ fn how_units_are_written_tells_what_they_count() {
     let unit = |text: &str| Unit::parse(text).unwrap();
     let exponent = |text: &str| unit(text).celsius_exponent().to_f64();
     for (text, of_celsius) in
-        [("1/degC", -1.0), ("ppm/degC^2", -2.0), ("mV/K", 0.0), ("degF", 1.0), ("W/(m^2 °C)", -1.0)]
+        [("1/degC", -1.0), ("ppm/degC^2", -2.0), ("mV/K", 0.0), ("degF", 0.0), ("W/(m^2 °C)", -1.0)]
     {
         assert_eq!(exponent(text), of_celsius, "{text}");
     }

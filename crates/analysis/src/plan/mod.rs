@@ -118,6 +118,16 @@ pub enum NoPlan {
     NoEstimate,
     /// The target holds already; what it is now, in the output's unit.
     Met(f64),
+    /// The target holds already by the law of propagation, which plans, and not by the trials.
+    MetByPropagation {
+        /// What it is now by the law of propagation, in the output's unit.
+        figure: f64,
+        /// What it is by the trials.
+        by_trials: f64,
+        /// The most that it may be by the law of propagation for the trials to come to the target,
+        /// where both shrink alike.
+        instead: f64,
+    },
     /// The target holds with no combination of improvements; the least that was found.
     Unreachable(f64),
     /// More combinations of offers than can be tried.
@@ -144,6 +154,11 @@ impl fmt::Display for NoPlan {
                 "the target is a share of the estimate, which is 0: state it in the unit of the output",
             ),
             Self::Met(now) => write!(f, "the target is met already: it is {now} now"),
+            Self::MetByPropagation { figure, by_trials, .. } => write!(
+                f,
+                "the target is met already by the law of propagation ({figure}), but not by the trials \
+                 ({by_trials})"
+            ),
             Self::Unreachable(least) => write!(
                 f,
                 "the target cannot be reached: with every improvement that there is, {least} remains"
@@ -196,7 +211,7 @@ pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Resu
     };
     let met = figure <= limit;
     if met && interval.is_none() {
-        return Err(NoPlan::Met(figure));
+        return Err(unplanned(task, budget, figure, control)?);
     }
     let inputs = now.budget().map(|line| need(budget, line.variable, met)).collect();
     let cheapest = if met { None } else { Some(optimum::cheapest(budget, &question.costs)?) };
@@ -212,6 +227,27 @@ pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Resu
         _ => Some(check::of(task, budget, &changes, control)?),
     };
     Ok(Plan { target, row, now, figure, limit, inputs, cheapest, interval, missed_rows, check })
+}
+
+/// Why nothing is planned where the target holds by the law of propagation: it is met, unless the
+/// trials miss it.
+fn unplanned(
+    task: &Task,
+    budget: &TrialBudget<'_>,
+    figure: f64,
+    control: &Control<'_>,
+) -> Result<NoPlan, NoPlan> {
+    if task.settings.trials == Trials::Fixed(0) {
+        return Ok(NoPlan::Met(figure));
+    }
+    let check = check::of(task, budget, &Changes::default(), control)?;
+    Ok(match (check.holds, check.figure) {
+        (Some(false), Some(by_trials)) => {
+            let instead = budget.limit * figure / by_trials;
+            NoPlan::MetByPropagation { figure, by_trials, instead }
+        }
+        _ => NoPlan::Met(figure),
+    })
 }
 
 /// What one variable alone would have to become.

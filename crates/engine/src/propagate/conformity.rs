@@ -7,6 +7,7 @@ mod global;
 pub use global::GlobalRisks;
 use global::Inspection;
 
+use super::gum::{Dof, Gum};
 use super::monte_carlo::MonteCarlo;
 use crate::model::{Output, Tolerance};
 use crate::number::elementary;
@@ -108,6 +109,22 @@ impl Conformity {
     /// evaluated one, such as a laboratory's capability: the estimate is taken to be normally
     /// distributed with it (JCGM 106, 7.2). `None` without a tolerance or an uncertainty above zero.
     pub fn with_stated(output: &Output, estimate: f64, u: f64) -> Option<Self> {
+        Self::about(output, estimate, u, f64::INFINITY)
+    }
+
+    /// The decision about an output by the law of propagation alone, where no trials are made: the
+    /// output is normally distributed (JCGM 106, 7.2), or as t with its effective degrees of freedom
+    /// (JCGM 100, G.3). `None` without a tolerance or an uncertainty above zero.
+    pub fn by_propagation(output: &Output, gum: &Gum) -> Option<Self> {
+        let dof = match gum.dof {
+            Dof::Finite(dof) => dof,
+            Dof::Infinite | Dof::Undefined => f64::INFINITY,
+        };
+        Self::about(output, gum.estimate, gum.standard_uncertainty, dof)
+    }
+
+    /// The decision about an estimate about which the output is distributed as t.
+    fn about(output: &Output, estimate: f64, u: f64, dof: f64) -> Option<Self> {
         let tolerance = output.tolerance?;
         let limits = tolerance.ends();
         if !(u > 0.0 && u.is_finite()) {
@@ -121,7 +138,7 @@ impl Conformity {
         };
         let acceptance = guard_band.map(|width| tolerance.narrowed(width));
         let [lower, upper] = limits.map(|limit| (limit - estimate) / u);
-        let share = special::normal::cdf(upper) - special::normal::cdf(lower);
+        let share = special::student::cdf(upper, dof) - special::student::cdf(lower, dof);
         let global = inspection.as_ref().zip(acceptance).map(|(of, to)| of.risks(to.ends()));
         Some(Self {
             tolerance,

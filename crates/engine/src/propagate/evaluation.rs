@@ -464,6 +464,10 @@ fn evaluate_row(
             let linear = linear.map(|gum| (gum.estimate, gum.standard_uncertainty));
             Conformity::of(output, figures, u, linear).map(Box::new)
         });
+        let alone = gum.as_ref().filter(|_| task.settings.trials == Trials::Fixed(0));
+        let conformity = conformity.or_else(|| {
+            alone.and_then(|gum| Conformity::by_propagation(output, gum)).map(Box::new)
+        });
         result.outputs.push(OutputEvaluation {
             gum,
             monte_carlo,

@@ -66,6 +66,9 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
             of_output((task, &named), (name, jumps), row, evaluated, &mut found);
             of_noiseless(&output.quantity.name, evaluated, &mut found);
             of_capability(output, evaluated, &mut found);
+            if task.settings.trials == Trials::Fixed(0) && evaluated.conformity.is_some() {
+                push(&mut found, conformity_by_propagation(name));
+            }
         }
     }
     found
@@ -408,6 +411,15 @@ pub fn second_order_text(task: &Task, gum: &Gum, second: &SecondOrder) -> String
         text += &format!("; {}", products.join(", "));
     }
     text
+}
+
+/// A decision without trials.
+fn conformity_by_propagation(name: &str) -> Warning {
+    let text = format!(
+        "`{name}`: without trials it is decided about its tolerance by the law of propagation, as of a \
+         normal or t distribution (JCGM 106, 7.2); trials show whether that holds"
+    );
+    Warning::new("conformity-by-propagation", name, text)
 }
 
 /// Trials of which a few carry the standard uncertainty.

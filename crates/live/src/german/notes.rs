@@ -144,6 +144,10 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "der Anteil vom Messwert in der Breite von {0} ist in Zeile {1} 0, wie ihr Schätzwert; vom Wert einer anderen Größe wäre er {2}",
     ),
     (
+        "the readings of {} have the mean {}, more than three of its standard uncertainties from {}, the estimate that {} is given: only their scatter counts; leave the estimate out to take their mean",
+        "die Ablesungen von {0} haben den Mittelwert {1}, mehr als drei seiner Standardunsicherheiten von {2} entfernt, dem Schätzwert, der für {3} angegeben ist: Nur ihre Streuung zählt; ohne den angegebenen Schätzwert gilt ihr Mittelwert",
+    ),
+    (
         "the estimate {} of the component {} is added to {}, that of {}: together {}; components are deviations, about 0",
         "der Schätzwert {0} des Anteils {1} wird zu {2} addiert, dem von {3}: zusammen {4}; Anteile sind Abweichungen, um 0 herum",
     ),
@@ -277,6 +281,14 @@ pub(super) const NOTES: &[(&str, &str)] = &[
     (
         "{} is taken for an angular frequency, of which 2*pi radians are a revolution, as nothing says that it counts revolutions; if it does, write {}, or give it in {}",
         "{0} gilt als Kreisfrequenz, von der 2*pi Radiant eine Umdrehung sind, denn nichts sagt, dass es Umdrehungen zählt; wenn es das tut, ist {1} zu schreiben oder die Einheit {2} anzugeben",
+    ),
+    (
+        "{} counts angle and is reported in {} in radians, 2*pi for a revolution; if revolutions are meant, write {}, or report it in rpm or rev",
+        "{0} zählt Winkel und wird in {1} in Radiant angegeben, 2*pi je Umdrehung; sind Umdrehungen gemeint, ist {2} zu schreiben oder rpm oder rev als Einheit anzugeben",
+    ),
+    (
+        "{}: without trials it is decided about its tolerance by the law of propagation, as of a normal or t distribution (JCGM 106, 7.2); trials show whether that holds",
+        "{0}: Ohne Versuche wird über die Toleranz nach dem Fortpflanzungsgesetz entschieden, wie bei einer Normal- oder t-Verteilung (JCGM 106, 7.2); Versuche zeigen, ob das gilt",
     ),
     (
         "no equation uses the input {}: it contributes nothing to any uncertainty",

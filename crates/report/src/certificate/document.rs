@@ -3,7 +3,7 @@
 use super::words::{self, Words, beside};
 use super::{
     CertificateReport, administrative, conformity, file_name, functions, measurement, sentences,
-    sheets,
+    sheets, trials_made,
 };
 use crate::document::{Block, Document, Foot};
 use crate::plain;
@@ -95,9 +95,14 @@ fn provenance(report: &CertificateReport<'_>) -> Vec<String> {
         let mut line = format!("{} {name}, SHA-256: {}", word(|w| w.model_file), model.digest);
         let asked = report.certificate.evaluations.iter().find(|asked| asked.file == number);
         if let Some(settings) = asked.map(|asked| asked.task.settings) {
+            let made = match trials_made::of_file(report, number) {
+                None => "0".to_owned(),
+                Some([least, most]) if least == most => least.to_string(),
+                Some([least, most]) => format!("{least}\u{2013}{most}"),
+            };
             let trials = match settings.trials {
-                Trials::Fixed(trials) => trials.to_string(),
-                Trials::Adaptive => word(|w| w.adaptive),
+                Trials::Fixed(_) => made,
+                Trials::Adaptive => format!("{} ({made})", word(|w| w.adaptive)),
             };
             let (of_trials, of_seed) = (word(|w| w.trials), word(|w| w.seed));
             line += &format!("; {of_trials}: {trials}; {of_seed}: {}", settings.seed);

@@ -2,7 +2,9 @@
 
 use super::functions::At;
 use super::stated::{self, Stated};
-use super::{CertificateReport, administrative, functions, measurement, regions, sentences};
+use super::{
+    CertificateReport, administrative, functions, measurement, regions, sentences, trials_made,
+};
 use crate::answer::{list, object, pretty};
 use crate::fits::{self, FitSide};
 use crate::sheet::Figure;
@@ -173,11 +175,13 @@ fn provenance(report: &CertificateReport<'_>) -> Value {
             Trials::Fixed(trials) => trials.into(),
             Trials::Adaptive => "adaptive".into(),
         });
+        let made = trials_made::of_file(report, number);
         object([
             ("model", Value::from(model.name)),
             ("model_sha256", model.digest.as_str().into()),
             ("seed", settings.map_or(Value::Null, |settings| settings.seed.into())),
             ("trials", trials),
+            ("trials_made", made.map_or(Value::Null, |made| list(made.map(Value::from)))),
             ("files", object(files)),
         ])
     });
