@@ -279,6 +279,10 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{0} gilt als Kreisfrequenz, von der 2*pi Radiant eine Umdrehung sind, denn nichts sagt, dass es Umdrehungen zählt; wenn es das tut, ist {1} zu schreiben oder die Einheit {2} anzugeben",
     ),
     (
+        "the `about` of {} still says {}, as a new file does, and certificates print it: write from where it is known, or take the key out",
+        "`about` von {0} hat noch den Text einer neuen Datei, {1}, und Kalibrierscheine drucken ihn: Angeben, woher die Größe bekannt ist, oder den Schlüssel weglassen",
+    ),
+    (
         "no equation uses the input {}: it contributes nothing to any uncertainty",
         "keine Gleichung verwendet die Eingangsgröße {0}: Sie trägt zu keiner Unsicherheit bei",
     ),
