@@ -12,6 +12,7 @@ mod regions;
 mod sentences;
 mod sheets;
 mod stated;
+mod units;
 mod words;
 mod workbook;
 
