@@ -862,6 +862,11 @@ fn every_language_stands_by_itself() {
     assert_eq!(stated["device"]["serial_number"], "=1+1");
     assert_eq!(stated["calibration_date"], json!(["2026-03-02", "2026-03-02"]));
     assert_eq!(stated["place"], "laboratory");
+    // LaTeX has no signs of its own for some quotes
+    files[0].1["language"] = json!(["en", "de", "it", "fr"]);
+    fs::write(folder.path().join("c.json"), files[0].1.to_string()).expect("a file");
+    let latex = page("latex");
+    assert!(latex.contains("in den letzten beiden Spalten") && !latex.contains("U+"), "{latex}");
     assert_eq!(
         found["particulars"]["Laboratorium / Laboratory"],
         "L & <Co>, Torino, IT, a@example.org"
