@@ -806,6 +806,12 @@ fn units_are_printed_with_their_symbols() {
     }
     let latex = output_of(&name, "latex");
     assert!(latex.contains(r"\unit{\micro\ohm}"), "{latex}");
+    let bytes = gumption().args(["certificate", &name, "--format", "xlsx", "--quiet"]).output();
+    let mut book: Xlsx<_> =
+        Xlsx::new(std::io::Cursor::new(bytes.expect("a workbook").stdout)).expect("a workbook");
+    let sheet = book.worksheet_range("Certificate").expect("a sheet");
+    let texts: Vec<String> = sheet.used_cells().map(|(_, _, cell)| cell.to_string()).collect();
+    assert!(texts.contains(&"µΩ".to_owned()) && !texts.concat().contains("uohm"), "{texts:?}");
     let dcc = output_of(&name, "dcc");
     assert!(dcc.contains(r"\micro\ohm") && dcc.contains("up to 6 µΩ"), "{dcc}");
     let csv = output_of(&name, "csv");
