@@ -859,7 +859,7 @@ fn every_language_stands_by_itself() {
             let end = part.find("</p>").or_else(|| part.find("</ul>")).unwrap_or(part.len());
             part[..end].contains(said)
         };
-        assert!(foreign.iter().any(|part| begins(part)), "{said}\n{html}");
+        assert!(foreign.iter().any(begins), "{said}\n{html}");
     }
     assert!(foreign.iter().all(|part| !part.split("</").next().unwrap_or("").contains("Zeile")));
     let found: Value = serde_json::from_str(&page("json")).expect("JSON");
