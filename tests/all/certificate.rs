@@ -641,6 +641,9 @@ fn a_certificate_states_the_measurement() {
         stated["symbols"]["r"],
         json!({"meaning": "resolution of the indicator", "unit": "m/s^2"})
     );
+    // what nothing is said of has a line as well
+    assert_eq!(stated["symbols"]["b"], json!({"meaning": "", "unit": "m/s^2"}));
+    assert_eq!(stated["symbols"]["f"], json!({"meaning": "", "unit": "Hz"}));
     files[0].1["equations"] = json!(false);
     fs::write(folder.path().join("c.json"), files[0].1.to_string()).expect("a file");
     assert!(!page("markdown").contains("Measurement model"));
@@ -707,6 +710,173 @@ fn what_is_raised_to_the_capability_is_decided_with_it() {
     let (said, row) = page(false);
     assert!(said.contains("0.00196 mm") && !said.contains("95.22 %"), "{said}");
     assert_eq!(number(&row["coverage_factor"]), 2.0);
+}
+
+/// A result within the tolerance that a guarded rule rejects is not said to fail the tolerance (JCGM
+/// 106:2012, 8.3): of 0.097 N m with u = 0.01 N m the share within +-0.1 N m is cdf(0.3) = 0.6179, the
+/// guard band for 5 % is 1.645 * 0.01 N m. One outside of the tolerance, 0.107 N m, does not conform;
+/// the risk that it does all the same is cdf(-0.7) = 0.2420. Of 2 N m it is next to nothing.
+#[test]
+fn what_a_guarded_rule_rejects_may_lie_within_the_tolerance() {
+    let certificate = |mean: f64, tolerance: Value, language: Value| {
+        let mut input = normal(mean, 0.01);
+        input["unit"] = json!("N m");
+        let output = json!({"unit": "N m", "tolerance": tolerance});
+        let model = json!({"inputs": {"e": input}, "equations": {"err": "e"},
+            "outputs": {"err": output}});
+        let mut file = small().swap_remove(0).1;
+        file["language"] = language;
+        // of a million trials the numerical standard error is 0.05 %
+        file["monte_carlo"] = json!({"trials": 1_000_000});
+        file["rows"] = json!([{"model": "m.json", "output": "err"}]);
+        let folder = folder(&[("c.json", file), ("m.json", model)]);
+        let name = path(folder.path(), "c.json");
+        let page = |format: &str| {
+            let page = output_of(&name, format);
+            page.split_whitespace().collect::<Vec<_>>().join(" ")
+        };
+        (page("table"), page("csv"), page("dcc"))
+    };
+    let guarded = || json!({"lower": -0.1, "upper": 0.1, "risk": 0.05});
+    let not_shown = [
+        (
+            "en",
+            "It is not shown that the result conforms to the tolerance from -0.1 to 0.1 N m: it lies \
+            within the tolerance, but outside the acceptance limits, and is rejected by the decision \
+            rule. Specific risk that the value conforms all the same: 61.",
+            "does not conform",
+        ),
+        (
+            "de",
+            "ist nicht nachgewiesen: Es liegt innerhalb der Toleranz, aber außerhalb der \
+            Annahmegrenzen, und wird nach der Entscheidungsregel zurückgewiesen. Spezifisches Risiko, \
+            dass der Wert dennoch konform ist: 61,",
+            "nicht konform",
+        ),
+        ("it", "fuori dai limiti di accettazione", "non è conforme"),
+        ("fr", "hors des limites d'acceptation", "n'est pas conforme"),
+    ];
+    for (language, said, not) in not_shown {
+        let (page, csv, dcc) = certificate(0.097, guarded(), json!(language));
+        assert!(page.contains(said) && !page.contains(not), "{page}");
+        assert!(csv.contains(",decision ") && csv.contains(",rejected"), "{csv}");
+        assert!(dcc.contains("<dcc:conformity>fail<"), "{dcc}");
+    }
+    let (page, ..) = certificate(0.107, guarded(), json!("en"));
+    let said = "The result does not conform to the tolerance from -0.1 to 0.1 N m. Specific risk that \
+                the value conforms all the same: 24.";
+    assert!(page.contains(said), "{page}");
+    let (page, ..) = certificate(2.0, guarded(), json!("en"));
+    assert!(page.contains("conforms all the same: less than 0.01 %."), "{page}");
+    // 2 * sf(10) is all that the middle of the tolerance has beyond it
+    let (page, ..) =
+        certificate(0.0, json!({"lower": -0.1, "upper": 0.1, "risk": 1e-24}), json!("en"));
+    assert!(page.contains("the decision rule accepts no value, and it is rejected"), "{page}");
+    let (page, csv, dcc) = certificate(0.0, guarded(), json!("en"));
+    assert!(page.contains("conforms with a probability of more than 99.99 %"), "{page}");
+    assert!(csv.contains(",accepted") && dcc.contains("<dcc:conformity>pass<"), "{csv}");
+    // without a rule that guards nothing lies between the two
+    let (page, ..) = certificate(0.097, json!({"lower": -0.1, "upper": 0.1}), json!("de"));
+    assert!(page.contains("hält die Toleranz von -0,1 bis 0,1 N m ein: konform"), "{page}");
+}
+
+/// Units are as print has them on what people read, and as the model has them for programs.
+#[test]
+fn units_are_printed_with_their_symbols() {
+    let model = json!({
+        "conditions": {"t": {"unit": "degC", "values": [20]}},
+        "inputs": {"x": {"unit": "uohm", "distribution": "normal", "mean": 5, "std": 0.1},
+            "v": {"unit": "uL", "distribution": "normal", "mean": 3, "std": 0.2}},
+        "equations": {"y": "x*(1 + 0 [1/K]*(t - 20 [degC]))"},
+        "outputs": {"y": {"unit": "uohm", "tolerance": {"upper": 6, "risk": 0.05}}}});
+    let mut file = small().swap_remove(0).1;
+    file["language"] = json!("en");
+    file["rows"] = json!([{"model": "m.json", "output": "y", "set": {"v": "4 uL"}}]);
+    let folder = folder(&[("c.json", file), ("m.json", model)]);
+    let name = path(folder.path(), "c.json");
+    for format in ["table", "markdown", "html"] {
+        let page = output_of(&name, format);
+        let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+        for unit in ["µΩ", "µL", "°C", "up to 6 µΩ", "v = 4 µL"] {
+            assert!(page.contains(unit), "{format}: {unit}\n{page}");
+        }
+        for unit in ["uohm", "uL", "degC"] {
+            assert!(!page.contains(unit), "{format}: {unit}\n{page}");
+        }
+    }
+    let latex = output_of(&name, "latex");
+    assert!(latex.contains(r"\unit{\micro\ohm}"), "{latex}");
+    let bytes = gumption().args(["certificate", &name, "--format", "xlsx", "--quiet"]).output();
+    let mut book: Xlsx<_> =
+        Xlsx::new(std::io::Cursor::new(bytes.expect("a workbook").stdout)).expect("a workbook");
+    let sheet = book.worksheet_range("Certificate").expect("a sheet");
+    let texts: Vec<String> = sheet.used_cells().map(|(_, _, cell)| cell.to_string()).collect();
+    assert!(texts.contains(&"µΩ".to_owned()) && !texts.concat().contains("uohm"), "{texts:?}");
+    let dcc = output_of(&name, "dcc");
+    assert!(dcc.contains(r"\micro\ohm") && dcc.contains("up to 6 µΩ"), "{dcc}");
+    let csv = output_of(&name, "csv");
+    assert!(csv.contains(",uohm,") && csv.contains("v = 4 uL, t = 20 degC"), "{csv}");
+    let found: Value = serde_json::from_str(&output_of(&name, "json")).expect("JSON");
+    assert_eq!(found["rows"][0]["unit"], "uohm");
+    let symbols = &found["measurement"][0]["symbols"];
+    assert_eq!(symbols["t"], json!({"meaning": "", "unit": "degC"}));
+}
+
+/// Every language of a digital certificate has its own words and its own decimal mark; pages have one
+/// mark, and mark up what is in another language than the page (WCAG 2.1, 3.1.2). Programs find what
+/// is said of device and parties under the keys of the file.
+#[test]
+fn every_language_stands_by_itself() {
+    let mut files = small();
+    let entries = files[0].1.as_object_mut().expect("an object");
+    entries.remove("title");
+    entries.insert("language".into(), json!(["de", "en"]));
+    entries.insert("remarks".into(), json!({"de": "eine Bemerkung", "en": "a remark"}));
+    let folder = folder(&files);
+    let name = path(folder.path(), "c.json");
+    let page = |format: &str| {
+        output(&["certificate", &name, "--format", format, "--quiet", "--trials", "50000"])
+    };
+    let dcc = page("dcc");
+    let read = roxmltree::Document::parse(&dcc).expect("XML");
+    let contents = |language: &str| -> Vec<&str> {
+        let all = read.descendants().filter(|node| node.attribute("lang") == Some(language));
+        all.filter_map(|node| node.text()).collect()
+    };
+    assert!(contents("de").contains(&"Kalibrierschein"), "{dcc}");
+    assert!(contents("en").contains(&"Calibration certificate"), "{dcc}");
+    assert!(contents("en").iter().any(|text| text.contains("k = 2.00")), "{dcc}");
+    assert!(contents("de").iter().any(|text| text.contains("k = 2,00")), "{dcc}");
+    let limits = |language: &str, said: &str| contents(language).iter().any(|of| of.contains(said));
+    assert!(limits("de", "ab 9,5 m/s^2") && limits("en", "from 9.5 m/s^2 on"), "{dcc}");
+    let html = page("html");
+    assert!(html.contains("<html lang=\"de\">"), "{html}");
+    let foreign: Vec<&str> = html.split(" lang=\"en\">").skip(1).collect();
+    for said in
+        ["is normally distributed", "Row 3: The result conforms", "a remark", "Rows that share"]
+    {
+        let begins = |part: &&str| {
+            let end = part.find("</p>").or_else(|| part.find("</ul>")).unwrap_or(part.len());
+            part[..end].contains(said)
+        };
+        assert!(foreign.iter().any(begins), "{said}\n{html}");
+    }
+    assert!(foreign.iter().all(|part| !part.split("</").next().unwrap_or("").contains("Zeile")));
+    let found: Value = serde_json::from_str(&page("json")).expect("JSON");
+    let stated = &found["administrative"];
+    assert_eq!(stated["laboratory"]["city"], "Torino");
+    assert_eq!(stated["device"]["serial_number"], "=1+1");
+    assert_eq!(stated["calibration_date"], json!(["2026-03-02", "2026-03-02"]));
+    assert_eq!(stated["place"], "laboratory");
+    // LaTeX has no signs of its own for some quotes
+    files[0].1["language"] = json!(["en", "de", "it", "fr"]);
+    fs::write(folder.path().join("c.json"), files[0].1.to_string()).expect("a file");
+    let latex = page("latex");
+    assert!(latex.contains("in den letzten beiden Spalten") && !latex.contains("U+"), "{latex}");
+    assert_eq!(
+        found["particulars"]["Laboratorium / Laboratory"],
+        "L & <Co>, Torino, IT, a@example.org"
+    );
 }
 
 fn output_of(certificate: &str, format: &str) -> String {

@@ -207,6 +207,35 @@ fn set_replaces_estimates_and_fields() {
     near(with(&["x=2", "x.half_width=10 %", "t=4"]), (500.0, 2.0 * u));
 }
 
+/// Conditions in the rows of a table are no inputs, and are changed there; those of a grid are set.
+#[test]
+fn set_of_a_condition_of_a_table_says_where_its_rows_are() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("press.csv"), "p_ref,t [K]\n1,300\n2,301\n").expect("a table");
+    let model = r#"{"conditions": {"file": "press.csv", "units": {"p_ref": "bar"}},
+        "inputs": {"x": {"unit": "bar", "distribution": "normal", "mean": "p_ref", "std": 0.1}},
+        "equations": {"y": "x"}, "outputs": {"y": {"unit": "bar"}}}"#;
+    let file = folder.path().join("press.json");
+    fs::write(&file, model).expect("a model");
+    let file = file.to_str().expect("a path");
+    let said = |set: &str| {
+        let (code, answer, message) = ended(&["run", file, "--set", set], "");
+        assert_eq!((code, answer.as_str()), (2, ""));
+        message
+    };
+    let message = said("p_ref=6");
+    assert!(message.contains("press.json:1:48:"), "{message}");
+    assert!(
+        message.contains("`p_ref` is a condition, whose values stand in the rows of `press.csv`")
+    );
+    assert!(!message.contains("no input of that name"), "{message}");
+    let message = said("t=6");
+    assert!(
+        message.contains("conditions are rows of `press.csv` and are changed there"),
+        "{message}"
+    );
+}
+
 #[test]
 fn set_with_nonsense_is_explained() {
     let nonsense = [

@@ -135,6 +135,34 @@ fn the_posterior_where_a_prior_is_stated() {
     }
 }
 
+/// What rounds to certainty is not said to be certain: of 300 000 trials that all conform the
+/// probability is above 99.99 % (less than 1e-5 is missing, with 95 %), of 10 000 above 99.9 %.
+#[test]
+fn a_probability_near_one_is_not_called_certain() {
+    let text = model(1.0, 0.01, r#""tolerance": {"upper": 2}"#);
+    let page = |text: &str, options: &[&str]| {
+        let (_, page, _) = run(text, options);
+        page.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let said = page(&text, &[]);
+    assert!(
+        said.contains("probability of more than 99.99 % (all 300 000 trials conform)"),
+        "{said}"
+    );
+    assert!(said.contains("the value does not conform: less than 0.01 %"), "{said}");
+    let said = page(&text, &["--trials", "10000"]);
+    assert!(said.contains("probability of more than 99.9 % (all 10 000 trials conform)"), "{said}");
+    let said = page(&model(3.0, 0.01, r#""tolerance": {"upper": 2}"#), &[]);
+    assert!(said.contains("less than 0.01 % (none of the 300 000 trials conforms)"), "{said}");
+    let prior =
+        r#""tolerance": {"upper": 2, "prior": {"distribution": "normal", "mean": 1, "std": 0.1}}"#;
+    let said = page(&model(1.0, 0.01, prior), &[]);
+    assert!(
+        said.contains("more than 99.99 % (with the prior, by JCGM 106, 6.3 and 7.1; without"),
+        "{said}"
+    );
+}
+
 #[test]
 fn the_laboratorys_capability() {
     let found = answer(&model(10.0, 0.01, r#""cmc": "0.4 % + 0.01 um""#));

@@ -123,6 +123,9 @@ fn inputs_and_correlations() {
     assert_eq!(codes(&file), Vec::<&str>::new());
     file["inputs"]["b"] = json!({"unit": "V", "distribution": "constant", "value": 1});
     assert_eq!(codes(&file), ["correlation-with-constant"]);
+    // what `new` wrote before it wrote nothing
+    file["inputs"]["a"]["about"] = json!("where this is known from");
+    assert_eq!(codes(&file), ["correlation-with-constant", "placeholder-about"]);
 }
 
 /// A calibration function outside of its points; a little beyond them is common.

@@ -251,7 +251,7 @@ impl Draft {
     /// The file, with remarks at keys that programs skip.
     fn text(&self) -> String {
         let mut file = Map::new();
-        file.insert("$comment".into(), json!("Keys that begin with $ are remarks. `gumption help model` lists all keys, `gumption help distributions` what an input may be."));
+        file.insert("$comment".into(), json!("Keys that begin with $ are remarks. `gumption help model` lists all keys, `gumption help distributions` what an input may be. `about` of an input says where it is known from; certificates print its first sentence as the meaning of the symbol."));
         file.insert("format".into(), json!(1));
         if let Some(title) = self.title.as_ref().filter(|title| !title.is_empty()) {
             file.insert("title".into(), json!(title));
@@ -274,7 +274,6 @@ fn blank() -> Map<String, Value> {
         ("distribution", json!("normal")),
         ("mean", Value::Null),
         ("std", Value::Null),
-        ("about", json!("where this is known from")),
     ];
     keys.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
 }
@@ -314,9 +313,6 @@ fn described(said: &str) -> Result<Map<String, Value>, String> {
         if keys.insert(key.to_owned(), read(key, value)).is_some() {
             return Err(format!("`{key}` is given twice"));
         }
-    }
-    if !keys.contains_key("about") {
-        keys.insert("about".into(), json!("where this is known from"));
     }
     Ok(keys)
 }

@@ -1,7 +1,7 @@
 //! Tables of results to be compared: two results a row, or one result a laboratory.
 
 use std::borrow::Cow;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::path::Path;
 
 use super::diagnostics::{Collector, Diagnostics};
@@ -78,7 +78,8 @@ pub fn read_comparison_text(
     let table = TextTable::parse(&log, &source).and_then(|cells| {
         let marks = RefCell::new(cells.marks());
         let units = column_units(&log, &cells)?;
-        let reader = Reader { log: &log, cells: &cells, units, marks, options };
+        let reader =
+            Reader { log: &log, cells: &cells, units, marks, mixed: Cell::new(false), options };
         if cells.column("x1").is_some() { reader.pairs() } else { reader.laboratories() }
     });
     log.finish(table)
@@ -153,6 +154,8 @@ struct Reader<'a> {
     /// The units of columns; empty where the headings have none.
     units: Vec<(&'static str, Unit)>,
     marks: RefCell<DecimalMarks>,
+    /// Whether the numbers have two decimal marks, which was said.
+    mixed: Cell<bool>,
     options: ComparisonOptions<'a>,
 }
 
@@ -181,7 +184,7 @@ impl Reader<'_> {
             return None;
         }
         let mut pairs = Vec::new();
-        for row in 0..self.cells.rows() {
+        for row in self.rows() {
             let (second, unit) = match &answer {
                 None => {
                     let unit = self.unit("x1").cloned();
@@ -242,7 +245,7 @@ impl Reader<'_> {
             return None;
         }
         let mut laboratories: Vec<Laboratory> = Vec::new();
-        for row in 0..count {
+        for row in self.rows() {
             let Some(result) = self.stated(row, ["x", "U", "k"], self.unit("x")) else {
                 continue;
             };
@@ -341,15 +344,20 @@ impl Reader<'_> {
             let bare = if has_unit(name) { column_heading::bare(name) } else { name.as_str() };
             !is_known(bare)
         };
-        if let Some(name) = self.cells.columns().iter().find(unknown) {
+        let unknown: Vec<&String> = self.cells.columns().iter().filter(unknown).collect();
+        for name in &unknown {
             let reason = format!(
                 "the column `{name}` is not known; there are {}",
                 list(&[known, more].concat())
             );
             self.log.report_at(self.cells.header(), DiagnosticKind::Table { reason });
-            return None;
         }
-        Some(())
+        unknown.is_empty().then_some(())
+    }
+
+    /// The rows with a cell for each column; the others are mistakes already.
+    fn rows(&self) -> impl Iterator<Item = usize> {
+        (0..self.cells.rows()).filter(|row| self.cells.is_whole(*row))
     }
 
     fn place(&self, row: usize, column: &str) -> Place {
@@ -362,7 +370,8 @@ impl Reader<'_> {
         let text = match self.marks.borrow_mut().with_point(self.cells.text(row, column)) {
             Ok(text) => text,
             Err(reason) => {
-                if self.log.is_clean() {
+                // of all cells that follow it would be said again
+                if !self.mixed.replace(true) {
                     let place = self.place(row, column);
                     self.log.report_at(place, DiagnosticKind::Table { reason });
                 }
@@ -398,11 +407,12 @@ impl Reader<'_> {
             let diagnostic =
                 DiagnosticKind::OutOfRange { key: u.to_owned(), found: expanded, range };
             self.log.report_at(self.place(row, u), diagnostic);
-            return None;
         }
         if factor <= 0.0 {
             let diagnostic = DiagnosticKind::NotPositive { key: k.to_owned(), found: factor };
             self.log.report_at(self.place(row, k), diagnostic);
+        }
+        if expanded < 0.0 || factor <= 0.0 {
             return None;
         }
         let rounding =
@@ -505,6 +515,24 @@ mod tests {
         let text = "label;x (degC);U (K)\na;20,1;0,2\nb;20,3;0,1\n";
         let Ok(ComparisonTable::Laboratories { laboratories, .. }) = read(text) else { panic!() };
         assert_eq!((laboratories[0].result.value, laboratories[0].result.expanded), (20.1, 0.2));
+    }
+
+    /// Rows that are too short or too long hide nothing of the others, and neither does a first bad
+    /// cell.
+    #[test]
+    fn all_mistakes_are_told_at_once() {
+        let text =
+            "label,x1,U1,x2,U2,k1\na,1,,2,1,2\nb,1,1\nc,x,1,2,-1,0\nd,1,1,2,1,2,9\ne,1,-1,2,1,0\n";
+        let said = read(text).unwrap_err().to_string();
+        let places: Vec<String> = said
+            .lines()
+            .filter_map(|line| Some(line.strip_prefix("t.csv:")?.split(": ").next()?.to_owned()))
+            .collect();
+        assert_eq!(places, ["2:4", "3:1", "4:3", "4:9", "5:1", "6:5", "6:12"], "{said}");
+        let said = read("label;x;U\na;z;1\nb;1,5;0.1\nc;1,5;0.1\n").unwrap_err().to_string();
+        assert!(said.contains("`z`") && said.matches("one table").count() == 1, "{said}");
+        let said = read("label,x,U,K,n\na,1,1,1,1\nb,1,1,1,1\n").unwrap_err().to_string();
+        assert!(said.contains("`K` is not known") && said.contains("`n` is not known"), "{said}");
     }
 
     #[test]

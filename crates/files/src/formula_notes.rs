@@ -1,4 +1,5 @@
-//! Notes on formulas: what is right by the rules and seldom meant, and inputs that no formula uses.
+//! Notes on formulas: what is right by the rules and seldom meant, inputs that no formula uses, and
+//! words that a new file has of them.
 
 use std::collections::{HashMap, HashSet};
 
@@ -71,6 +72,24 @@ pub(super) fn unused_inputs(
             Warning::new(UNUSED_INPUT, &member.key, text)
         })
         .collect()
+}
+
+/// What earlier versions of `gumption new` wrote as the `about` of an input.
+const PLACEHOLDER: &str = "where this is known from";
+
+/// Inputs whose `about` still has the words of a new file: certificates print it.
+pub(super) fn placeholders(of: &Quantities) -> Vec<Warning> {
+    let named = of.inputs.quantities.iter().map(|input| &input.quantity);
+    let left = named.filter(|quantity| quantity.about.trim() == PLACEHOLDER);
+    left.map(|quantity| {
+        let text = format!(
+            "the `about` of `{}` still says \"{PLACEHOLDER}\", as a new file does, and certificates print \
+             it: write from where it is known, or take the key out",
+            quantity.name
+        );
+        Warning::new("placeholder-about", &quantity.name, text)
+    })
+    .collect()
 }
 
 /// The code of [`unused_inputs`].

@@ -360,6 +360,7 @@ impl<'a> ModelReader<'a> {
                 warnings.extend(formula_notes::of_formulas(&equations, &scope, of));
                 let outputs = &of.outputs.outputs;
                 warnings.extend(formula_notes::unused_inputs(&self.root, &equations, outputs));
+                warnings.extend(formula_notes::placeholders(of));
                 let formulas =
                     equations.into_iter().filter_map(|(name, _, formula)| Some((name, formula?)));
                 (scope, ModelForm::Equations(formulas.collect()))

@@ -1,5 +1,7 @@
 //! Values that stand in place of those of a file: estimates, fields of inputs, values of conditions.
 
+use std::ops::Range;
+
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
@@ -69,6 +71,7 @@ pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
         if override_condition(log, root, replaced) {
             continue;
         }
+        let table = table_of_conditions(root, &replaced.input);
         let inputs = match &mut root.value {
             Json::Object(members) => members.iter_mut().find(|m| m.key == "inputs"),
             _ => None,
@@ -79,6 +82,17 @@ pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
         };
         let names: Vec<String> = inputs.iter().map(|m| m.key.clone()).collect();
         let Some(input) = inputs.iter_mut().find(|m| m.key == replaced.input) else {
+            if let Some((file, Some(place))) = &table {
+                let name = &replaced.input;
+                let reason = format!(
+                    "`{name}` is a condition, whose values stand in the rows of `{file}`: change rows \
+                     or leave them out there, or write `conditions` as a grid, \
+                     {{\"{name}\": {{\"unit\": ..., \"values\": [...]}}}}, which a replacement sets to one \
+                     value; a row of a certificate chooses among them with `set`"
+                );
+                log.report(place, DiagnosticKind::Override { text: replaced.text.clone(), reason });
+                continue;
+            }
             let nearest = nearest(&replaced.input, names.iter().map(String::as_str));
             let reason = match nearest {
                 Some(name) => format!("there is no input of that name; did you mean `{name}`?"),
@@ -86,7 +100,10 @@ pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
                     let most = names.iter().take(MOST_NAMES).map(|name| format!("`{name}`"));
                     let more = if names.len() > MOST_NAMES { ", ..." } else { "" };
                     let list = most.collect::<Vec<_>>().join(", ");
-                    format!("there is no input of that name; the inputs are {list}{more}")
+                    let rows = table.map_or_else(String::new, |(file, _)| {
+                        format!("; conditions are rows of `{file}` and are changed there")
+                    });
+                    format!("there is no input of that name; the inputs are {list}{more}{rows}")
                 }
             };
             log.report(&whole, DiagnosticKind::Override { text: replaced.text.clone(), reason });
@@ -158,6 +175,20 @@ fn override_condition(log: &Collector, root: &mut Node, replaced: &Override) -> 
         Err(diagnostic) => log.report(&values.span, diagnostic),
     }
     true
+}
+
+/// The table whose rows are the conditions, and the place where the file names one of its columns.
+fn table_of_conditions(root: &mut Node, name: &str) -> Option<(String, Option<Range<usize>>)> {
+    let conditions = member_of(root, "conditions")?;
+    let file = match &member_of(conditions, "file")?.value {
+        Json::Text(file) => file.clone(),
+        _ => return None,
+    };
+    let place = match member_of(conditions, "units").map(|units| &units.value) {
+        Some(Json::Object(units)) => units.iter().find(|unit| unit.key == name),
+        _ => None,
+    };
+    Some((file, place.map(|unit| unit.key_span.clone())))
 }
 
 /// The values of a condition of a grid, and its unit.

@@ -24,7 +24,8 @@ pub(super) struct TextTable {
 
 impl TextTable {
     /// Reads a table: a header row of names, cells between `,`, `;` or tabs, lines that begin with `#`
-    /// and empty ones skipped. Mistakes are reported.
+    /// and empty ones skipped. Mistakes are reported; rows with too few or too many cells are there,
+    /// and are not [whole](Self::is_whole).
     pub(super) fn parse(log: &Collector, source: &Arc<SourceText>) -> Option<Self> {
         let mut table: Option<Self> = None;
         let mut start = 0;
@@ -77,7 +78,8 @@ impl TextTable {
         let reason = match &table {
             None => "the table is empty; a header row of names and rows are needed",
             Some(table) if table.rows.is_empty() => "the table has a header but no rows",
-            Some(_) => return table.filter(|_| log.is_clean()),
+            // lines of another length have been reported; the others are read all the same
+            Some(_) => return table,
         };
         log.report(&(0..0), DiagnosticKind::Table { reason: reason.to_owned() });
         None
@@ -114,6 +116,11 @@ impl TextTable {
 
     pub(super) fn rows(&self) -> usize {
         self.rows.len()
+    }
+
+    /// Whether a row has a cell for each column.
+    pub(super) fn is_whole(&self, row: usize) -> bool {
+        self.rows.get(row).is_some_and(|(_, cells)| cells.len() == self.columns.len())
     }
 
     /// The text of a cell; empty where there is no such column.

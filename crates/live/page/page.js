@@ -397,7 +397,9 @@ class Page {
       marks.push(make("span", { class: `badge ${look}` }, text), make("span", { class: "detail" }, words.clause_detail(clause)));
     }
     if (conformity) {
-      const p = String(Number((100 * conformity.probability).toFixed(2)));
+      // what rounds to certainty is none
+      const share = 100 * conformity.probability;
+      const p = share >= 99.995 ? "> 99.99" : share < 0.005 ? "< 0.01" : String(Number(share.toFixed(2)));
       marks.push(make("span", { class: `badge ${conformity.conforms ? "yes" : "no"}` }, conformity.conforms ? words.conforms(p) : words.not_conforms(p)));
     }
     badges.replaceChildren(...marks);

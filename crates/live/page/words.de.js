@@ -25,7 +25,7 @@ export default {
   clause_yes: "Abschnitt 8: das GUM-Intervall gilt", clause_no: "Abschnitt 8: das GUM-Intervall gilt nicht",
   clause_open: "Abschnitt 8: mit diesen Versuchen nicht entschieden",
   clause_detail: c => `die Enden weichen um ${c.d_low} und ${c.d_high} ab, Toleranz ${c.tolerance}`,
-  conforms: p => `konform, Wahrscheinlichkeit ${p} %`, not_conforms: p => `nicht konform, Wahrscheinlichkeit ${p} %`,
+  conforms: p => `angenommen, Wahrscheinlichkeit der Konformität ${p} %`, not_conforms: p => `zurückgewiesen, Wahrscheinlichkeit der Konformität ${p} %`,
   written: "wie geschrieben", text_value: "Wert", components: "Komponenten", complex: "komplex",
   remove_of: n => `${n} entfernen`, of: (key, name) => `${key} von ${name}`, between: "zwischen", and: "und",
   coefficient: "Koeffizient", source: "Quelle", values: "Werte",

@@ -25,7 +25,7 @@ export default {
   clause_yes: "Clause 8: the GUM interval is valid", clause_no: "Clause 8: the GUM interval is not valid",
   clause_open: "Clause 8: not decided by these trials",
   clause_detail: c => `ends differ by ${c.d_low} and ${c.d_high}, tolerance ${c.tolerance}`,
-  conforms: p => `conforms, probability ${p} %`, not_conforms: p => `does not conform, probability ${p} %`,
+  conforms: p => `accepted, probability of conformity ${p} %`, not_conforms: p => `rejected, probability of conformity ${p} %`,
   written: "as written", text_value: "value", components: "components", complex: "complex",
   remove_of: n => `Remove ${n}`, of: (key, name) => `${key} of ${name}`, between: "between", and: "and",
   coefficient: "coefficient", source: "source", values: "values",

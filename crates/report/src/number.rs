@@ -5,7 +5,7 @@ use gumption_engine::propagate::monte_carlo::MonteCarlo;
 
 pub(crate) use gumption_engine::decimal::{MISSING, exact, position, rounded, significant};
 
-use gumption_engine::decimal::to_position;
+use gumption_engine::decimal::{Decimal, to_position};
 
 /// The position that two demands allow: the coarser one, or the only one there is.
 pub fn coarser(a: Option<i32>, b: Option<i32>) -> Option<i32> {
@@ -34,6 +34,59 @@ pub(crate) fn degrees_of_freedom(number: &str) -> String {
 /// ```
 pub fn justified(value: f64, position: Option<i32>, error: f64) -> String {
     to(value, coarser(position, self::position(error, 1)))
+}
+
+/// A probability in percent as pages print it: with two decimals at most, and without the digits that
+/// its numerical standard error does not justify. What rounds to 0 % or to 100 % is neither, and is
+/// said to lie beyond the nearest number that is printed otherwise.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Percent {
+    /// A number.
+    At(String),
+    /// More than a number: what rounds to 100 %.
+    MoreThan(String),
+    /// Less than a number: what rounds to 0 %.
+    LessThan(String),
+}
+
+impl Percent {
+    /// Decimal place of probabilities in percent.
+    const PLACE: i32 = -2;
+
+    /// A probability with its numerical standard error; `trials` is how many of them it is the share
+    /// of, if it is one. Where all of them agree, the probability of the contrary is at most 3 over
+    /// their number (with 95 %: 0.95 = 1 - (1 - 3/n)^n), which the number that is printed allows for.
+    pub(crate) fn of(share: f64, error: f64, trials: Option<u64>) -> Self {
+        let percent = 100.0 * share;
+        let place = match trials.filter(|_| share <= 0.0 || share >= 1.0) {
+            Some(trials) => {
+                let most = 300.0 / trials as f64;
+                (Self::PLACE..2).find(|place| Decimal::new(1, *place).value() >= most).unwrap_or(2)
+            }
+            None => coarser(Some(Self::PLACE), position(100.0 * error, 1)).unwrap_or(Self::PLACE),
+        };
+        let (unit, near) = (Decimal::new(1, place).value(), to_position(percent, place));
+        // so few trials tell nothing
+        if place >= 2 {
+            return Self::At(rounded(percent, 0));
+        }
+        if near >= 100.0 {
+            Self::MoreThan(rounded(100.0 - unit, place))
+        } else if near <= 0.0 {
+            Self::LessThan(rounded(unit, place))
+        } else {
+            Self::At(rounded(percent, place))
+        }
+    }
+
+    /// In English, without the sign.
+    pub(crate) fn text(&self) -> String {
+        match self {
+            Self::At(number) => number.clone(),
+            Self::MoreThan(number) => format!("more than {number}"),
+            Self::LessThan(number) => format!("less than {number}"),
+        }
+    }
 }
 
 /// The position of the last digit of the median and of the ends of coverage intervals: that of the
@@ -146,6 +199,23 @@ mod tests {
         assert_eq!(justified(2.345_6, None, 0.01), "2.35");
         assert_eq!(justified(0.02, Some(-3), 0.6), "0.0");
         assert_eq!(justified(1234.0, Some(0), 30.0), "1230");
+    }
+
+    /// 3 of 10 000 trials are 0.03 %, of a million 0.0003 %, of 100 are 3 %.
+    #[test]
+    fn a_probability_is_not_rounded_to_certainty() {
+        let text = |share: f64, error: f64, trials| Percent::of(share, error, trials).text();
+        assert_eq!(text(0.618_34, 0.0005, Some(1_000_000)), "61.83");
+        assert_eq!(text(0.618_34, 0.005, Some(10_000)), "61.8");
+        assert_eq!(text(1.0, 0.0, Some(1_000_000)), "more than 99.99");
+        assert_eq!(text(0.0, 0.0, Some(1_000_000)), "less than 0.01");
+        assert_eq!(text(1.0, 0.0, Some(10_000)), "more than 99.9");
+        assert_eq!(text(0.0, 0.0, Some(100)), "less than 10");
+        assert_eq!(text(1.0, 0.0, Some(10)), "100");
+        assert_eq!(text(0.999_96, 1e-5, Some(1_000_000)), "more than 99.99");
+        assert_eq!(text(0.999_94, 1e-5, Some(1_000_000)), "99.99");
+        assert_eq!(text(1e-9, 0.0, None), "less than 0.01");
+        assert_eq!(text(1.0, 0.0, None), "more than 99.99");
     }
 
     #[test]

@@ -24,6 +24,7 @@ pub(super) fn read(root: &Object<'_>) -> Option<AdministrativeData> {
         Some(_) => localized(root, "remarks").into_iter().collect(),
         None => Vec::new(),
     };
+    let days = days(root);
     Some(AdministrativeData {
         title: localized(root, "title"),
         number: owned(root, "number"),
@@ -31,9 +32,9 @@ pub(super) fn read(root: &Object<'_>) -> Option<AdministrativeData> {
         customer: party(root, "customer"),
         laboratory: party(root, "laboratory"),
         responsible: owned(root, "responsible"),
-        calibrated: calibrated(root),
-        received: date(root, "receipt_date"),
-        issued: date(root, "issue_date"),
+        calibrated: days.calibrated,
+        received: days.received,
+        issued: days.issued,
         place: place.unwrap_or_default(),
         environment: localized(root, "environment"),
         method: localized(root, "method"),
@@ -115,6 +116,63 @@ fn party(root: &Object<'_>, key: &'static str) -> Option<Party> {
         email: owned(&object, "email"),
         phone: owned(&object, "phone"),
     })
+}
+
+/// The days of a certificate.
+struct Days {
+    received: Option<String>,
+    calibrated: Option<[String; 2]>,
+    issued: Option<String>,
+}
+
+/// The days of the certificate, in their order: a device is received, calibrated, and then its
+/// certificate is issued. Two of them may be one day.
+fn days(root: &Object<'_>) -> Days {
+    let days = Days {
+        received: date(root, "receipt_date"),
+        calibrated: calibrated(root),
+        issued: date(root, "issue_date"),
+    };
+    // days of the same form are in the order of their texts
+    let refuse = |key: &str, reason: String| {
+        let place = root.get(key).map_or(root.place(), |member| &member.value.span);
+        root.log.report(place, DiagnosticKind::Certificate { reason });
+    };
+    let ends = days.calibrated.as_ref().map(|[first, last]| (first, last));
+    match (&days.received, ends) {
+        (Some(received), Some((first, _))) if received > first => refuse(
+            "receipt_date",
+            format!(
+                "the device is received on {received} (`receipt_date`), after its calibration begins \
+                 on {first} (`calibration_date`); a device is received on or before that day"
+            ),
+        ),
+        (Some(received), _) => {
+            if let Some(issued) = days.issued.as_ref().filter(|issued| received > *issued) {
+                refuse(
+                    "receipt_date",
+                    format!(
+                        "the device is received on {received} (`receipt_date`), after the certificate \
+                         is issued on {issued} (`issue_date`); a device is received on or before that \
+                         day"
+                    ),
+                );
+            }
+        }
+        (None, _) => {}
+    }
+    if let (Some(issued), Some((_, last))) = (&days.issued, ends)
+        && issued < last
+    {
+        refuse(
+            "issue_date",
+            format!(
+                "the certificate is issued on {issued} (`issue_date`), before its calibration ends on \
+                 {last} (`calibration_date`); a certificate is issued on that day or later"
+            ),
+        );
+    }
+    days
 }
 
 fn date(root: &Object<'_>, key: &'static str) -> Option<String> {

@@ -291,6 +291,10 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{0}: Ohne Versuche wird über die Toleranz nach dem Fortpflanzungsgesetz entschieden, wie bei einer Normal- oder t-Verteilung (JCGM 106, 7.2); Versuche zeigen, ob das gilt",
     ),
     (
+        "the `about` of {} still says {}, as a new file does, and certificates print it: write from where it is known, or take the key out",
+        "`about` von {0} hat noch den Text einer neuen Datei, {1}, und Kalibrierscheine drucken ihn: Angeben, woher die Größe bekannt ist, oder den Schlüssel weglassen",
+    ),
+    (
         "no equation uses the input {}: it contributes nothing to any uncertainty",
         "keine Gleichung verwendet die Eingangsgröße {0}: Sie trägt zu keiner Unsicherheit bei",
     ),

@@ -55,11 +55,23 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
     // conformity
     (
         "Tolerance {}: the estimate lies {}, and the value conforms with a probability of {} % (numerical standard error {} %; with the prior, by JCGM 106, 6.3 and 7.1; without it {} %)",
-        "Toleranz {0:}: Der Schätzwert liegt {1:}, und der Wert ist mit einer Wahrscheinlichkeit von {2} % konform (numerischer Standardfehler {3} %; mit dem Vorwissen, nach JCGM 106, 6.3 und 7.1; ohne es {4} %)",
+        "Toleranz {0:}: Der Schätzwert liegt {1:}, und der Wert ist mit einer Wahrscheinlichkeit von {2:} % konform (numerischer Standardfehler {3} %; mit dem Vorwissen, nach JCGM 106, 6.3 und 7.1; ohne es {4:} %)",
     ),
     (
         "Tolerance {}: the estimate lies {}, and the value conforms with a probability of {} % (numerical standard error {} %)",
-        "Toleranz {0:}: Der Schätzwert liegt {1:}, und der Wert ist mit einer Wahrscheinlichkeit von {2} % konform (numerischer Standardfehler {3} %)",
+        "Toleranz {0:}: Der Schätzwert liegt {1:}, und der Wert ist mit einer Wahrscheinlichkeit von {2:} % konform (numerischer Standardfehler {3} %)",
+    ),
+    (
+        "Tolerance {}: the estimate lies {}, and the value conforms with a probability of {} % (with the prior, by JCGM 106, 6.3 and 7.1; without it {} %)",
+        "Toleranz {0:}: Der Schätzwert liegt {1:}, und der Wert ist mit einer Wahrscheinlichkeit von {2:} % konform (mit dem Vorwissen, nach JCGM 106, 6.3 und 7.1; ohne es {3:} %)",
+    ),
+    (
+        "Tolerance {}: the estimate lies {}, and the value conforms with a probability of {} % (all {} trials conform)",
+        "Toleranz {0:}: Der Schätzwert liegt {1:}, und der Wert ist mit einer Wahrscheinlichkeit von {2:} % konform (alle {3} Versuche sind konform)",
+    ),
+    (
+        "Tolerance {}: the estimate lies {}, and the value conforms with a probability of {} % (none of the {} trials conforms)",
+        "Toleranz {0:}: Der Schätzwert liegt {1:}, und der Wert ist mit einer Wahrscheinlichkeit von {2:} % konform (keiner der {3} Versuche ist konform)",
     ),
     (
         "Tolerance {}, simple acceptance (JCGM 106, 8.2): {} of {} rows accepted",
@@ -103,11 +115,11 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
     ),
     (
         "Specific risk that the value does not conform: {} %",
-        "Spezifisches Risiko, dass der Wert nicht konform ist: {0} %",
+        "Spezifisches Risiko, dass der Wert nicht konform ist: {0:} %",
     ),
     (
         "Specific risk that the value conforms all the same: {} %",
-        "Spezifisches Risiko, dass der Wert dennoch konform ist: {0} %",
+        "Spezifisches Risiko, dass der Wert dennoch konform ist: {0:} %",
     ),
     (
         "Global risks with the prior, for normally distributed errors: false acceptance {} %, false rejection {} %",
@@ -483,6 +495,8 @@ pub(super) const BRIEF: &[(&str, &str)] = &[
     ("from {} on", "ab {0}"),
     ("from {} to {}", "von {0} bis {1}"),
     ("up to {}", "bis {0}"),
+    ("more than {}", "mehr als {0}"),
+    ("less than {}", "weniger als {0}"),
     ("{} % to {}", "{0} % bis {1:}"),
     ("any to {}", "beliebig bis {0:}"),
     ("{} to {}", "{0} bis {1}"),

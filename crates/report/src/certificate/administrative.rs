@@ -2,9 +2,11 @@
 
 use super::CertificateReport;
 use super::words::{self, Words, beside};
+use crate::answer::{list, object};
 use crate::plain;
 use crate::sheet::Sheet;
 use gumption_analysis::certificate::contents::{Localized, Party, PerformanceLocation};
+use serde_json::Value;
 
 /// The title in the languages of the certificate.
 pub(super) fn title(report: &CertificateReport<'_>) -> String {
@@ -70,6 +72,67 @@ pub(super) fn lines(report: &CertificateReport<'_>) -> Vec<(String, String)> {
     add(|w| w.method, of.method.as_ref().map(local));
     add(|w| w.traceability, of.traceability.as_ref().map(local));
     lines
+}
+
+/// The same for programs, by the keys of the certificate file, whatever its languages.
+pub(super) fn for_programs(report: &CertificateReport<'_>) -> Value {
+    let of = &report.certificate.administrative;
+    let text = |text: &Option<String>| text.as_deref().map(Value::from);
+    let local = |text: Option<&Localized>| text.map(localized);
+    let party = |party: &Party| {
+        given([
+            ("name", Some(party.name.as_str().into())),
+            ("code", text(&party.code)),
+            ("street", text(&party.street)),
+            ("street_number", text(&party.street_number)),
+            ("post_code", text(&party.post_code)),
+            ("city", text(&party.city)),
+            ("country", text(&party.country)),
+            ("email", text(&party.email)),
+            ("phone", text(&party.phone)),
+        ])
+    };
+    let device = of.device.as_ref().map(|device| {
+        given([
+            ("name", Some(localized(&device.name))),
+            ("manufacturer", text(&device.manufacturer)),
+            ("model", text(&device.model)),
+            ("condition", local(device.condition.as_ref())),
+            ("serial_number", text(&device.serial_number)),
+            ("customer_number", text(&device.customer_number)),
+        ])
+    });
+    let days = |days: &[String; 2]| list(days.iter().map(|day| Value::from(day.as_str())));
+    given([
+        ("title", local(of.title.as_ref())),
+        ("number", text(&of.number)),
+        ("device", device),
+        ("customer", of.customer.as_ref().map(party)),
+        ("laboratory", of.laboratory.as_ref().map(party)),
+        ("responsible", text(&of.responsible)),
+        ("receipt_date", text(&of.received)),
+        ("calibration_date", of.calibrated.as_ref().map(days)),
+        ("issue_date", text(&of.issued)),
+        ("place", Some(of.place.name().into())),
+        ("environment", local(of.environment.as_ref())),
+        ("method", local(of.method.as_ref())),
+        ("traceability", local(of.traceability.as_ref())),
+    ])
+}
+
+/// What is there of these.
+fn given<const N: usize>(members: [(&'static str, Option<Value>); N]) -> Value {
+    object(members.into_iter().filter_map(|(key, value)| Some((key, value?))))
+}
+
+/// A text, or one for each language by its code.
+fn localized(text: &Localized) -> Value {
+    match text.texts.as_slice() {
+        [(None, text)] => text.as_str().into(),
+        texts => object(texts.iter().filter_map(|(language, text)| {
+            Some(((*language)?.code(), Value::from(text.as_str())))
+        })),
+    }
 }
 
 /// Name, address and contact (ISO/IEC 17025, 7.8.2.1 b and e).

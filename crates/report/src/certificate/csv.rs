@@ -1,8 +1,9 @@
 //! One line for each row of the table, as stated, for spreadsheets.
 
 use super::CertificateReport;
-use super::stated::{self, Stated};
+use super::stated::{self, Stated, UnitsAre};
 use crate::csv::{number, of_records, text};
+use crate::table::comparison;
 
 const COLUMNS: [&str; 15] = [
     "row",
@@ -22,14 +23,24 @@ const COLUMNS: [&str; 15] = [
     "model",
 ];
 
+/// The last column, where some row has a tolerance.
+const DECISION: &str = "decision";
+
 /// The rows as comma-separated values: value, expanded uncertainty, coverage factor and interval
-/// rounded as they are stated, the standard uncertainty in full. An empty cell stands for what is
-/// infinite or not defined.
+/// rounded as they are stated, the standard uncertainty in full; where some row has a tolerance what
+/// is decided about it, `accepted` or `rejected`. An empty cell stands for what is infinite or not
+/// defined.
 pub fn csv(report: &CertificateReport<'_>) -> String {
     of_records(|writer| {
-        writer.write_record(COLUMNS)?;
         let rows = stated::rows(report);
-        rows.iter().try_for_each(|row| writer.write_record(record(report, row)))
+        let decided = rows.iter().any(|row| row.conformity().is_some());
+        let header = COLUMNS.into_iter().chain(decided.then_some(DECISION));
+        writer.write_record(header)?;
+        rows.iter().try_for_each(|row| {
+            let decision = row.conformity().map_or("", |found| comparison::decision(&found));
+            let cells = record(report, row).into_iter();
+            writer.write_record(cells.chain(decided.then(|| decision.to_owned())))
+        })
     })
 }
 
@@ -39,7 +50,7 @@ fn record(report: &CertificateReport<'_>, row: &Stated<'_>) -> Vec<String> {
     vec![
         row.number.to_string(),
         text(&row.name(&report.certificate.languages)),
-        text(&row.circumstances(report).join(", ")),
+        text(&row.circumstances(report, UnitsAre::OfFile).join(", ")),
         number(row.line.nominal),
         row.value().text,
         row.expanded().text,

@@ -1,5 +1,6 @@
 //! The certificate as a document.
 
+use super::sentences::Said;
 use super::words::{self, Words, beside};
 use super::{
     CertificateReport, administrative, conformity, file_name, functions, measurement, sentences,
@@ -7,7 +8,7 @@ use super::{
 };
 use crate::document::{Block, Document, Foot};
 use crate::plain;
-use gumption_analysis::certificate::contents::DecimalMark;
+use gumption_analysis::certificate::contents::{DecimalMark, Language, Localized};
 use gumption_engine::task::Trials;
 
 /// The whole document.
@@ -28,8 +29,8 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
     document.section(beside(languages, |w| w.results));
     document.table(sheets::results(report));
     document.section(beside(languages, |w| w.uncertainty));
-    for language in languages {
-        document.text(sentences::coverage(report, *language).join(" "));
+    for of in Said::on_page(report) {
+        document.text_in(of.language.code(), sentences::coverage(report, of).join(" "));
     }
     functions::sections(&mut document, report);
     if sheets::are_correlated(report) {
@@ -37,30 +38,31 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
         if certificate.lines.len() <= sheets::MOST_CORRELATED {
             document.table(sheets::correlations(report));
             for language in languages {
-                document.text(words::of(*language).correlated);
+                document.text_in(language.code(), words::of(*language).correlated);
             }
         } else {
             for language in languages {
                 let rows = certificate.lines.len().to_string();
-                document.text(words::of(*language).many.replace("{rows}", &rows));
+                let said = words::of(*language).many.replace("{rows}", &rows);
+                document.text_in(language.code(), said);
             }
         }
     }
-    let decided = languages.iter().flat_map(|language| conformity::statements(report, *language));
-    let decided: Vec<String> = decided.collect();
-    if !decided.is_empty() {
+    if !conformity::decisions(report).is_empty() {
         document.section(beside(languages, |w| w.conformity));
-        document.blocks.push(Block::List(decided));
+        for of in Said::on_page(report) {
+            document.list_in(of.language.code(), conformity::statements(report, of));
+        }
     }
     measurement::sections(&mut document, report);
     document.section(beside(languages, |w| w.remarks));
-    let remarks = certificate.administrative.remarks.iter();
-    let remarks = remarks.flat_map(|remark| remark.all(languages)).map(plain);
-    let asked: [fn(&Words) -> &'static str; 2] = [|w| w.relates, |w| w.copies];
-    let asked = asked.into_iter().flat_map(|word| {
-        languages.iter().map(move |language| word(words::of(*language)).to_owned())
-    });
-    document.blocks.push(Block::List(remarks.chain(asked).collect()));
+    for language in languages {
+        let remarks = certificate.administrative.remarks.iter();
+        let remarks = remarks.filter_map(|remark| own(remark, *language, languages)).map(plain);
+        let asked = [words::of(*language).relates, words::of(*language).copies];
+        let asked = asked.into_iter().map(str::to_owned);
+        document.list_in(language.code(), remarks.chain(asked).collect());
+    }
     let signer = certificate.administrative.responsible.as_ref().map(|name| plain(name));
     let [place, signature] = [0, 1].map(|place| beside(languages, |w| w.signed[place]));
     let signature = signer.map_or(signature.clone(), |name| format!("{signature}: {name}"));
@@ -69,6 +71,15 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
     document.blocks.push(Block::List(provenance(report)));
     document.blocks.push(Block::End(beside(languages, |w| w.end)));
     document
+}
+
+/// A remark among those of a language: its text in it, or with those of the first language what is the
+/// same in all of them, or is not written in any.
+fn own<'r>(remark: &'r Localized, language: Language, languages: &[Language]) -> Option<&'r str> {
+    let written = |language: &Language| remark.texts.iter().any(|(of, _)| *of == Some(*language));
+    let first = languages.first() == Some(&language);
+    let stands = written(&language) || (first && !languages.iter().any(written));
+    stands.then(|| remark.get(language))
 }
 
 /// Every page names the certificate and says which of its pages it is (ISO/IEC 17025, 7.8.2.1 d).

@@ -1,8 +1,9 @@
 //! Calibration functions as a certificate states them: parameters, and values with U over the range.
 
 use super::CertificateReport;
-use super::sentences::in_marks;
-use super::words::{self, beside, stacked};
+use super::sentences::Said;
+use super::units::printed;
+use super::words::{beside, stacked};
 use crate::document::{Block, Document};
 use crate::fits::{self, STATED};
 use crate::number::{exact, rounded, with_uncertainty};
@@ -58,17 +59,13 @@ pub(super) fn title(of: &StatedFunction, languages: &[Language]) -> String {
 }
 
 /// The equation with its range, and what U is.
-pub(super) fn sentences(
-    report: &CertificateReport<'_>,
-    of: &StatedFunction,
-    language: Language,
-) -> [String; 2] {
-    let words = words::of(language);
-    let [low, high] = of.curve.fit.points.range().map(|end| in_marks(report, &exact(end)));
+pub(super) fn sentences(of: &StatedFunction, said: Said) -> [String; 2] {
+    let words = said.words();
+    let [low, high] = of.curve.fit.points.range().map(|end| said.in_marks(&exact(end)));
     let equation = fits::equation(&of.curve);
     let range = words.in_range.replace("{equation}", &equation).replace("{low}", &low);
     let range = range.replace("{high}", &high).replace("{name}", &plain(&of.curve.fit.name));
-    [range, words.band.replace("{k}", &in_marks(report, &factor(of)))]
+    [range, words.band.replace("{k}", &said.in_marks(&factor(of)))]
 }
 
 /// Parameters with their standard uncertainties, to one digit more than a certificate has, so that the
@@ -91,7 +88,7 @@ pub(super) fn parameters(report: &CertificateReport<'_>, of: &StatedFunction) ->
         &stacked(languages, |w| w.standard),
         values.map(|(k, t)| Figure::of(fit.standard_uncertainty(k), t.1.clone())),
     );
-    let units = of.curve.parameters.iter().map(|(_, unit)| plain(unit.text()));
+    let units = of.curve.parameters.iter().map(|(_, unit)| plain(printed(unit).text()));
     sheet.units(&stacked(languages, |w| w.unit), units);
     sheet
 }
@@ -99,7 +96,7 @@ pub(super) fn parameters(report: &CertificateReport<'_>, of: &StatedFunction) ->
 /// Values with U over the range.
 pub(super) fn values(report: &CertificateReport<'_>, of: &StatedFunction) -> Sheet {
     let stated = stated(report, of);
-    let unit = |name: &str, unit: &gumption_units::Unit| match unit.text().trim() {
+    let unit = |name: &str, unit: &gumption_units::Unit| match printed(unit).text().trim() {
         "" | "1" => name.to_owned(),
         text => format!("{name}\n{}", plain(text)),
     };
@@ -117,8 +114,8 @@ pub(super) fn sections(document: &mut Document, report: &CertificateReport<'_>) 
     let languages = report.certificate.languages.as_slice();
     for of in &report.certificate.functions {
         document.section(title(of, languages));
-        for language in languages {
-            document.text(sentences(report, of, *language).join(" "));
+        for said in Said::on_page(report) {
+            document.text_in(said.language.code(), sentences(of, said).join(" "));
         }
         document.table(values(report, of));
         document.table(parameters(report, of));

@@ -1,6 +1,7 @@
 //! The certificate for programs.
 
 use super::functions::At;
+use super::sentences::Said;
 use super::stated::{self, Stated};
 use super::{
     CertificateReport, administrative, functions, measurement, regions, sentences, trials_made,
@@ -22,9 +23,9 @@ pub fn json(report: &CertificateReport<'_>) -> String {
     let title = administrative::title(report);
     let rows = stated::rows(report);
     let about = administrative::lines(report);
-    let statements = languages.iter().map(|language| {
-        let said = sentences::coverage(report, *language);
-        (language.code(), list(said.iter().map(|said| Value::from(said.as_str()))))
+    let statements = Said::on_page(report).into_iter().map(|of| {
+        let said = sentences::coverage(report, of);
+        (of.language.code(), list(said.iter().map(|said| Value::from(said.as_str()))))
     });
     let matrix = issued.correlations.iter();
     let matrix = matrix.map(|row| list(row.iter().map(|r| Value::from(*r))));
@@ -42,6 +43,7 @@ pub fn json(report: &CertificateReport<'_>) -> String {
             "particulars",
             object(about.iter().map(|(name, text)| (name.as_str(), Value::from(text.as_str())))),
         ),
+        ("administrative", administrative::for_programs(report)),
         ("language", list(languages.iter().map(|language| language.code()))),
         ("rounding", certificate.rounding.name().into()),
         ("digits", u64::from(certificate.digits).into()),
@@ -58,7 +60,7 @@ pub fn json(report: &CertificateReport<'_>) -> String {
     }
     if !certificate.functions.is_empty() {
         let functions = certificate.functions.iter().map(|of| function(report, of));
-        answer.insert(7, ("functions", list(functions)));
+        answer.insert(8, ("functions", list(functions)));
     }
     pretty(&object(answer))
 }

@@ -3,6 +3,7 @@
 //! The paper is the customer's. What a model says of its inputs may name a laboratory's own files;
 //! such words are left out, and so are estimates and uncertainties of inputs, which are the budget's.
 
+use super::units::{printed_formula, printed_text};
 use super::words::{Words, beside, stacked};
 use super::{CertificateReport, file_name};
 use crate::document::Document;
@@ -22,7 +23,8 @@ const LEFT_OUT: &str = "…";
 pub(super) struct Stated {
     /// Quantities with their equations, in the order in which they are computed.
     pub(super) equations: Vec<[String; 2]>,
-    /// Symbols with their meaning and unit; none where they are very many.
+    /// Symbols with their meaning, which may be empty, and unit; where they are very many those that have
+    /// a meaning, and none where these are as well.
     pub(super) symbols: Vec<[String; 3]>,
 }
 
@@ -54,10 +56,11 @@ impl Stated {
         let symbols: Vec<[String; 3]> = quantities
             .map(|of| [plain(&of.name), meaning(&of.about), plain(of.unit.text())])
             .collect();
-        // what nothing is said of stands in the table of results, unless nothing is said at all
+        // where they are very many, those alone of which something is said
+        let many = symbols.len() > MOST_SYMBOLS;
         let told = |of: &[String; 3]| !of[1].is_empty();
-        let any = symbols.iter().any(told);
-        let symbols: Vec<[String; 3]> = symbols.into_iter().filter(|of| !any || told(of)).collect();
+        let symbols: Vec<[String; 3]> =
+            symbols.into_iter().filter(|of| !many || told(of)).collect();
         Self {
             equations: equations
                 .map(|(name, text)| [name, without_files(&text)])
@@ -84,7 +87,7 @@ pub(super) fn sections(document: &mut Document, report: &CertificateReport<'_>) 
         }
         let mut sheet = Sheet::default();
         sheet.text(&header(|w| w.quantity), of.equations.iter().map(|[name, _]| name.clone()));
-        let texts = of.equations.iter().map(|[_, text]| text.clone());
+        let texts = of.equations.iter().map(|[_, text]| printed_formula(text));
         sheet.push(&header(|w| w.equation), texts, Kind::Equations);
         document.table(sheet);
         if of.symbols.is_empty() {
@@ -96,7 +99,7 @@ pub(super) fn sections(document: &mut Document, report: &CertificateReport<'_>) 
         if column(1).any(|text| !text.is_empty()) {
             sheet.text(&header(|w| w.meaning), column(1));
         }
-        sheet.units(&header(|w| w.unit), column(2));
+        sheet.units(&header(|w| w.unit), column(2).map(|unit| printed_text(&unit)));
         document.table(sheet);
     }
 }

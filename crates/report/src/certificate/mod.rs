@@ -13,6 +13,7 @@ mod sentences;
 mod sheets;
 mod stated;
 mod trials_made;
+mod units;
 mod words;
 mod workbook;
 

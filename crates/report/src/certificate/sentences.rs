@@ -6,28 +6,61 @@ use super::words::{self, Words};
 use crate::document::with_comma;
 use crate::number::exact;
 use gumption_analysis::certificate::Basis;
-use gumption_analysis::certificate::contents::{DecimalMark, Language, Rounding};
+use gumption_analysis::certificate::contents::{Certificate, DecimalMark, Language, Rounding};
+
+/// The language of sentences, and the decimal mark of their numbers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Said {
+    pub(super) language: Language,
+    pub(super) mark: DecimalMark,
+}
+
+impl Said {
+    /// The languages of a page: all of its numbers have one decimal mark.
+    pub(super) fn on_page(report: &CertificateReport<'_>) -> Vec<Self> {
+        let Certificate { languages, decimal_mark, .. } = report.certificate;
+        languages.iter().map(|language| Self { language: *language, mark: *decimal_mark }).collect()
+    }
+
+    /// A language by itself, with the decimal mark that is usual in it; unless the certificate has
+    /// another one than its first language, which was asked for then.
+    pub(super) fn by_itself(report: &CertificateReport<'_>, language: Language) -> Self {
+        let Certificate { languages, decimal_mark, .. } = report.certificate;
+        let usual = languages.first().is_none_or(|first| first.decimal_mark() == *decimal_mark);
+        Self { language, mark: if usual { language.decimal_mark() } else { *decimal_mark } }
+    }
+
+    pub(super) fn words(self) -> &'static Words {
+        words::of(self.language)
+    }
+
+    /// Numbers with the decimal mark.
+    pub(super) fn in_marks(self, numbers: &str) -> String {
+        in_marks(self.mark, numbers)
+    }
+}
 
 /// The statement of coverage in a language.
-pub(super) fn coverage(report: &CertificateReport<'_>, language: Language) -> Vec<String> {
-    let words = words::of(language);
+pub(super) fn coverage(report: &CertificateReport<'_>, of: Said) -> Vec<String> {
+    let words = of.words();
     let rows = stated::rows(report);
     let mut said = Vec::new();
     let mut say = |sentence: &str, holds: &dyn Fn(&Stated<'_>) -> bool| {
-        let of: Vec<usize> = rows.iter().filter(|row| holds(row)).map(|row| row.number).collect();
-        match of.len() {
+        let held = rows.iter().filter(|row| holds(row)).map(|row| row.number);
+        let held: Vec<usize> = held.collect();
+        match held.len() {
             0 => {}
             count if count == rows.len() => said.push(sentence.to_owned()),
-            _ => said.push(about(&of, words) + sentence),
+            _ => said.push(about(&held, words) + sentence),
         }
     };
     let raised = |row: &Stated<'_>| row.is_raised();
     for kind in kinds(&rows) {
-        say(&kind.sentence(report, words), &|row| kind.holds(row));
+        say(&kind.sentence(of), &|row| kind.holds(row));
     }
     say(words.propagation, &|row| row.statement.basis != Basis::Shortest);
     for probability in raised_probabilities(&rows) {
-        let sentence = words.raised.replace("{p}", &self::probability(report, probability, words));
+        let sentence = words.raised.replace("{p}", &self::probability(of, probability));
         say(&sentence, &|row| raised(row) && row.statement.coverage_probability == probability);
     }
     say(words.confirmed, &|row| row.found.validation.is_some_and(|v| v.gum_valid == Some(true)));
@@ -36,9 +69,9 @@ pub(super) fn coverage(report: &CertificateReport<'_>, language: Language) -> Ve
     said
 }
 
-/// Numbers with the decimal mark of the certificate; clauses of norms keep their points.
-pub(super) fn in_marks(report: &CertificateReport<'_>, numbers: &str) -> String {
-    match report.certificate.decimal_mark {
+/// Numbers with a decimal mark; clauses of norms keep their points.
+pub(super) fn in_marks(mark: DecimalMark, numbers: &str) -> String {
+    match mark {
         DecimalMark::Point => numbers.to_owned(),
         DecimalMark::Comma => with_comma(numbers),
     }
@@ -81,7 +114,8 @@ impl Kind {
         !row.is_raised() && Self::of(row) == *self
     }
 
-    fn sentence(&self, report: &CertificateReport<'_>, words: &Words) -> String {
+    fn sentence(&self, of: Said) -> String {
+        let words = of.words();
         let sentence = match self.basis {
             Basis::Normal => words.normal,
             Basis::Student => words.student,
@@ -89,10 +123,8 @@ impl Kind {
             Basis::Shortest if self.without_trials => words.without_trials,
             Basis::Shortest => words.shortest,
         };
-        let factor = in_marks(report, self.factor.as_deref().unwrap_or_default());
-        sentence
-            .replace("{k}", &factor)
-            .replace("{p}", &probability(report, self.probability, words))
+        let factor = of.in_marks(self.factor.as_deref().unwrap_or_default());
+        sentence.replace("{k}", &factor).replace("{p}", &probability(of, self.probability))
     }
 }
 
@@ -108,10 +140,10 @@ fn kinds(rows: &[Stated<'_>]) -> Vec<Kind> {
 }
 
 /// "approximately 95 %" for 0.9545, which accreditation practice prints so (EA-4/02, 5.1).
-fn probability(report: &CertificateReport<'_>, p: Option<f64>, words: &Words) -> String {
+fn probability(of: Said, p: Option<f64>) -> String {
     match p {
-        Some(0.9545) => words.approximately.replace("{p}", "95 %"),
-        Some(p) => format!("{} %", in_marks(report, &exact(stated::percent(p)))),
+        Some(0.9545) => of.words().approximately.replace("{p}", "95 %"),
+        Some(p) => format!("{} %", of.in_marks(&exact(stated::percent(p)))),
         None => String::new(),
     }
 }

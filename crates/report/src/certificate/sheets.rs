@@ -2,7 +2,8 @@
 
 use super::CertificateReport;
 use super::sentences::in_marks;
-use super::stated::{self, Stated};
+use super::stated::{self, Stated, UnitsAre};
+use super::units::printed;
 use super::words::{Words, stacked};
 use crate::number::{exact, rounded};
 use crate::plain;
@@ -30,7 +31,10 @@ pub(super) fn results(report: &CertificateReport<'_>) -> Sheet {
     }
     sheet.figures(&header(|w| w.value), rows.iter().map(Stated::value));
     sheet.figures(&header(|w| w.expanded), rows.iter().map(Stated::expanded));
-    sheet.units(&header(|w| w.unit), rows.iter().map(|row| plain(row.quantity.unit.text())));
+    sheet.units(
+        &header(|w| w.unit),
+        rows.iter().map(|row| plain(printed(&row.quantity.unit).text())),
+    );
     sheet.figures("k", rows.iter().map(Stated::factor));
     // degrees of freedom play a part only where k follows from them
     if rows.iter().any(|row| !row.dof().text.is_empty()) {
@@ -63,7 +67,7 @@ fn conditions(
     rows: &[Stated<'_>],
     header: &str,
 ) {
-    let named = |quantity: &Quantity| match plain(quantity.unit.text()).as_str() {
+    let named = |quantity: &Quantity| match plain(printed(&quantity.unit).text()).as_str() {
         "" | "1" => plain(&quantity.name),
         unit => format!("{}\nin {unit}", plain(&quantity.name)),
     };
@@ -75,13 +79,20 @@ fn conditions(
         }
     }
     if names.len() > MOST_COLUMNS {
-        let text = |row: &Stated<'_>| in_marks(report, &row.circumstances(report).join(", "));
+        let text = |row: &Stated<'_>| {
+            in_marks(
+                report.certificate.decimal_mark,
+                &row.circumstances(report, UnitsAre::Printed).join(", "),
+            )
+        };
         sheet.text(header, rows.iter().map(text));
         return;
     }
     let replaced = |row: &Stated<'_>| match row.line.label {
         Some(_) => String::new(),
-        None => in_marks(report, &row.replaced().join(", ")),
+        None => {
+            in_marks(report.certificate.decimal_mark, &row.replaced(UnitsAre::Printed).join(", "))
+        }
     };
     if rows.iter().any(|row| !replaced(row).is_empty()) {
         sheet.text(header, rows.iter().map(replaced));
@@ -146,7 +157,7 @@ pub(super) fn unrounded(report: &CertificateReport<'_>) -> Sheet {
     let mut sheet = Sheet::default();
     sheet.numbers("row", rows.iter().map(|row| row.number.to_string()));
     sheet.text("quantity", rows.iter().map(|row| plain(&row.quantity.name)));
-    sheet.units("unit", rows.iter().map(|row| plain(row.quantity.unit.text())));
+    sheet.units("unit", rows.iter().map(|row| plain(printed(&row.quantity.unit).text())));
     sheet.figures("value", column(|row| Some(row.statement.value)));
     sheet.figures("standard uncertainty", column(|row| Some(row.statement.standard_uncertainty)));
     sheet.figures("expanded uncertainty", column(|row| Some(row.statement.expanded_uncertainty)));

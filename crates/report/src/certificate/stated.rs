@@ -1,6 +1,7 @@
 //! The rows of a certificate as texts, rounded once for all formats.
 
 use super::CertificateReport;
+use super::units::{printed, printed_value};
 use crate::number::{exact, rounded};
 use crate::sheet::Figure;
 use crate::{conditions_text, plain};
@@ -23,6 +24,15 @@ const PERCENT_DIGITS: u32 = 12;
 
 /// Degrees of freedom that are printed as infinitely many.
 const MOST_DOF: f64 = 10_000.0;
+
+/// How units are written in words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum UnitsAre {
+    /// As print has them.
+    Printed,
+    /// As the model file has them.
+    OfFile,
+}
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug)]
@@ -172,25 +182,40 @@ impl Stated<'_> {
 
     /// Replacements and shown conditions in words, on one line; a row with a label of its own says
     /// nothing of replacements.
-    pub(super) fn circumstances(&self, report: &CertificateReport<'_>) -> Vec<String> {
-        let mut parts = if self.line.label.is_some() { Vec::new() } else { self.replaced() };
+    pub(super) fn circumstances(
+        &self,
+        report: &CertificateReport<'_>,
+        units: UnitsAre,
+    ) -> Vec<String> {
+        let mut parts = if self.line.label.is_some() { Vec::new() } else { self.replaced(units) };
         let shown = self.shown(report);
+        let written = |quantity: &Quantity| match units {
+            UnitsAre::Printed => Quantity { unit: printed(&quantity.unit), ..quantity.clone() },
+            UnitsAre::OfFile => quantity.clone(),
+        };
         let (quantities, values): (Vec<Quantity>, Vec<f64>) =
-            shown.into_iter().map(|(quantity, value)| (quantity.clone(), value)).unzip();
+            shown.into_iter().map(|(quantity, value)| (written(quantity), value)).unzip();
         let conditions = conditions_text(&quantities, &values);
         parts.extend((!conditions.is_empty()).then_some(conditions));
         parts
     }
 
     /// Replacements of the row, as `tilt = 35 deg`.
-    pub(super) fn replaced(&self) -> Vec<String> {
+    pub(super) fn replaced(&self, units: UnitsAre) -> Vec<String> {
         let unit = |name: &str| {
             let input = self.asked.task.model.inputs.iter().find(|i| i.quantity.name == name);
             input.map(|input| plain(input.quantity.unit.text())).filter(|unit| unit != "1")
         };
-        let one = |(name, value): &(String, String)| match (value.parse::<f64>(), unit(name)) {
-            (Ok(_), Some(unit)) => format!("{} = {} {unit}", plain(name), plain(value)),
-            _ => format!("{} = {}", plain(name), plain(value)),
+        let one = |(name, value): &(String, String)| {
+            let value = match (value.parse::<f64>(), unit(name)) {
+                (Ok(_), Some(unit)) => format!("{} {unit}", plain(value)),
+                _ => plain(value),
+            };
+            let value = match units {
+                UnitsAre::Printed => printed_value(&value),
+                UnitsAre::OfFile => value,
+            };
+            format!("{} = {value}", plain(name))
         };
         self.asked.set.iter().map(one).collect()
     }

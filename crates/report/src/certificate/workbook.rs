@@ -2,6 +2,7 @@
 
 use std::io;
 
+use super::sentences::Said;
 use super::{
     CertificateReport, administrative, conformity, file_name, functions, sentences, sheets,
 };
@@ -26,12 +27,12 @@ pub fn xlsx(report: &CertificateReport<'_>) -> io::Result<Vec<u8>> {
             row += 1;
         }
         row = leaf.table(row + 1, &sheets::results(report))? + 1;
-        for language in languages {
-            for said in sentences::coverage(report, *language) {
+        for of in Said::on_page(report) {
+            for said in sentences::coverage(report, of) {
                 leaf.line(row, &said)?;
                 row += 1;
             }
-            for said in conformity::statements(report, *language) {
+            for said in conformity::statements(report, of) {
                 leaf.line(row, &said)?;
                 row += 1;
             }
@@ -51,7 +52,7 @@ pub fn xlsx(report: &CertificateReport<'_>) -> io::Result<Vec<u8>> {
             leaf.title(0, &functions::title(of, languages))?;
             let mut row = 2;
             for said in
-                languages.iter().flat_map(|language| functions::sentences(report, of, *language))
+                Said::on_page(report).into_iter().flat_map(|said| functions::sentences(of, said))
             {
                 leaf.line(row, &said)?;
                 row += 1;

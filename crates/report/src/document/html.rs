@@ -65,6 +65,14 @@ fn block(block: &Block, comma: bool, counts: &mut Counts) -> Markup {
             html! { h2 id={ "section-" (counts.sections) } { (raised(title)) } }
         }
         Block::Text(text) => html! { p { (raised(text)) } },
+        // a reader that speaks has to know (WCAG 2.1, 3.1.2)
+        Block::InLanguage(language, part) => match part.as_ref() {
+            Block::Text(text) => html! { p lang=(language) { (raised(text)) } },
+            Block::List(items) => html! {
+                ul lang=(language) { @for item in items { li { (raised(item)) } } }
+            },
+            part => html! { div lang=(language) { (self::block(part, comma, counts)) } },
+        },
         Block::Verdict(sentences) => html! {
             div.verdict {
                 @for (place, sentence) in sentences.iter().enumerate() {

@@ -36,6 +36,7 @@ fn block(block: &Block, comma: bool, escape: Escape) -> String {
         Block::Table(sheet) if comma => table(&sheet.clone().with_commas(), escape),
         Block::Section(title) => format!("## {}", escape(title)),
         Block::Text(text) => escape(text),
+        Block::InLanguage(_, part) => self::block(part, comma, escape),
         Block::Verdict(sentences) => {
             let stressed = |(place, sentence): (usize, &String)| {
                 let sentence = escape(sentence);

@@ -90,6 +90,8 @@ pub(crate) enum Block {
     Table(Sheet),
     /// A figure, which only pages of a browser show.
     Figure(Drawing),
+    /// A part in another language than the document's, with that as ISO 639-1 has it.
+    InLanguage(&'static str, Box<Block>),
     /// Parts that a page of a browser shows when asked to, below their title.
     Folded(String, Vec<Block>),
     /// Places to be filled in by hand, each with what goes there.
@@ -119,6 +121,23 @@ impl Document {
     /// Adds a paragraph.
     pub(crate) fn text(&mut self, text: impl Into<String>) {
         self.blocks.push(Block::Text(text.into()));
+    }
+
+    /// Adds a paragraph in a language, `de`.
+    pub(crate) fn text_in(&mut self, language: &'static str, text: impl Into<String>) {
+        self.push_in(language, Block::Text(text.into()));
+    }
+
+    /// Adds a list of sentences in a language.
+    pub(crate) fn list_in(&mut self, language: &'static str, items: Vec<String>) {
+        self.push_in(language, Block::List(items));
+    }
+
+    fn push_in(&mut self, language: &'static str, block: Block) {
+        self.blocks.push(match language == self.language {
+            true => block,
+            false => Block::InLanguage(language, Box::new(block)),
+        });
     }
 
     /// Adds a paragraph of one sentence that is written without its capital and full stop.

@@ -40,6 +40,7 @@ fn block(block: &Block, comma: bool) -> String {
         }
         Block::Section(title) => heading(title, '─'),
         Block::Text(text) => wrapped(text),
+        Block::InLanguage(_, part) => self::block(part, comma),
         Block::Verdict(sentences) => sentences.iter().map(|said| wrapped(said)).collect(),
         Block::List(items) => items.iter().map(|item| wrapped(&format!("- {item}"))).collect(),
         Block::Table(sheet) if !sheet.has_headers() => Grid::of(sheet).bare(width()),

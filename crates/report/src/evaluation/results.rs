@@ -116,7 +116,8 @@ fn verdict(settings: &Settings, stated: &Output, found: &OutputEvaluation) -> Ve
             said.extend(interval.map(|said| sentence(&said)));
         }
     }
-    said.extend(found.conformity.iter().flat_map(|c| comparison::conformity(output, c)));
+    let trials = found.monte_carlo.as_ref().map(|figures| figures.trials);
+    said.extend(found.conformity.iter().flat_map(|c| comparison::conformity(output, c, trials)));
     said.extend(comparison::capability(stated, found));
     said
 }

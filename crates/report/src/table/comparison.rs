@@ -5,7 +5,7 @@ use super::{coverage_text, in_unit, text, width};
 use crate::EvaluationReport;
 use crate::document::sentence;
 use crate::number::{
-    MISSING, coarser, exact, justified, place_of_ends, position, rounded, significant, to,
+    MISSING, Percent, coarser, exact, justified, place_of_ends, position, rounded, significant, to,
 };
 use crate::sheet::Sheet;
 use gumption_engine::model::{Output, Quantity, Tolerance};
@@ -59,7 +59,8 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
     page.push('\n');
     page += &text::wrapped(&verdict(output, figures, monte_carlo));
     if let Some(found) = &figures.conformity {
-        page += &conformity(output, found).map(|said| text::wrapped(&said)).concat();
+        let said = conformity(output, found, Some(monte_carlo.trials));
+        page += &said.map(|said| text::wrapped(&said)).concat();
     }
     Some(page)
 }
@@ -147,30 +148,49 @@ pub(crate) fn capability(output: &Output, figures: &OutputEvaluation) -> Option<
 }
 
 /// Conformity with the output's tolerance: its probability, the rule and the decision, the risks.
-pub(crate) fn conformity(output: &Quantity, found: &Conformity) -> [String; 3] {
-    [conformity_text(output, found), rule_text(output, found), risks_text(found)]
+/// `trials` is how many of them the evaluation has.
+pub(crate) fn conformity(
+    output: &Quantity,
+    found: &Conformity,
+    trials: Option<u64>,
+) -> [String; 3] {
+    [conformity_text(output, found, trials), rule_text(output, found), risks_text(found, trials)]
 }
 
 /// The probability of conformity with the output's tolerance.
-fn conformity_text(output: &Quantity, found: &Conformity) -> String {
-    let error = 100.0 * found.numerical_standard_error;
-    let probability = justified(100.0 * found.probability, Some(-2), error);
+fn conformity_text(output: &Quantity, found: &Conformity, trials: Option<u64>) -> String {
+    let probability = percent_of(found, found.probability, trials).text();
     let side = if found.tolerance.holds(found.estimate) { "within" } else { "outside" };
+    // an error that was not estimated is none to be told: trials that all agree have no scatter, and
+    // a posterior of the law of propagation has no trials
+    let error = 100.0 * found.numerical_standard_error;
+    let error =
+        (error > 0.0).then(|| format!("numerical standard error {} %", significant(error, 1)));
+    let counted = trials.filter(|_| found.without_prior.is_none()).map(|trials| {
+        let trials = text::grouped(trials);
+        if found.probability > 0.5 {
+            format!("all {trials} trials conform")
+        } else {
+            format!("none of the {trials} trials conforms")
+        }
+    });
+    let prior = found.without_prior.map(|share| {
+        let share = Percent::of(share, 0.0, trials).text();
+        format!("with the prior, by JCGM 106, 6.3 and 7.1; without it {share} %")
+    });
+    let notes: Vec<String> = error.or(counted).into_iter().chain(prior).collect();
+    let notes = if notes.is_empty() { String::new() } else { format!(" ({})", notes.join("; ")) };
     format!(
-        "Tolerance {}: the estimate lies {side}, and the value conforms with a probability of {probability} % \
-         (numerical standard error {} %{}).",
+        "Tolerance {}: the estimate lies {side}, and the value conforms with a probability of {probability} \
+         %{notes}.",
         limits_text(output, &found.tolerance, None),
-        significant(error, 1),
-        prior_text(found)
     )
 }
 
-/// That a probability takes a prior into account, and what it would be without.
-fn prior_text(found: &Conformity) -> String {
-    found.without_prior.map_or_else(String::new, |share| {
-        let share = rounded(100.0 * share, -2);
-        format!("; with the prior, by JCGM 106, 6.3 and 7.1; without it {share} %")
-    })
+/// A probability of conformity, or of its contrary, in percent.
+pub(crate) fn percent_of(found: &Conformity, share: f64, trials: Option<u64>) -> Percent {
+    let trials = trials.filter(|_| found.without_prior.is_none());
+    Percent::of(share, found.numerical_standard_error, trials)
 }
 
 /// Limits with the unit; to a position if there is one.
@@ -188,7 +208,7 @@ pub(super) fn limits_text(output: &Quantity, limits: &Tolerance, position: Optio
 }
 
 /// What is decided.
-pub(super) fn decision(found: &Conformity) -> &'static str {
+pub(crate) fn decision(found: &Conformity) -> &'static str {
     if found.conforms { "accepted" } else { "rejected" }
 }
 
@@ -232,10 +252,9 @@ fn rule_text(output: &Quantity, found: &Conformity) -> String {
 }
 
 /// Specific and global risks.
-fn risks_text(found: &Conformity) -> String {
+fn risks_text(found: &Conformity, trials: Option<u64>) -> String {
     let wrong = if found.conforms { "does not conform" } else { "conforms all the same" };
-    let error = 100.0 * found.numerical_standard_error;
-    let specific = justified(100.0 * found.specific_risk(), Some(-2), error);
+    let specific = percent_of(found, found.specific_risk(), trials).text();
     let mut text = format!("Specific risk that the value {wrong}: {specific} %.");
     if let Some(risks) = found.global {
         text += &format!(

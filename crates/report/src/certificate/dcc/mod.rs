@@ -14,7 +14,8 @@ pub(super) mod unit;
 mod view;
 mod xml;
 
-use super::{CertificateReport, administrative};
+use super::CertificateReport;
+use super::words::localized;
 use gumption_analysis::certificate::contents::{Certificate, Localized};
 use people::contact;
 pub use view::dcc_stylesheet;
@@ -181,12 +182,9 @@ fn software(xml: &mut Xml) {
     });
 }
 
-/// The title in one language.
+/// The title, in each language its own.
 fn title(report: &CertificateReport<'_>) -> Localized {
-    report
-        .certificate
-        .administrative
-        .title
-        .clone()
-        .unwrap_or_else(|| Localized::plain(administrative::title(report)))
+    let Certificate { administrative, languages, .. } = report.certificate;
+    let given = administrative.title.clone().filter(|title| !title.is_empty());
+    given.unwrap_or_else(|| localized(languages, |w| w.title))
 }

@@ -5,7 +5,9 @@ use super::unit::unit;
 use super::xml::Xml;
 use crate::certificate::CertificateReport;
 use crate::certificate::regions::{Covered, covered};
+use crate::certificate::sentences::Said;
 use crate::certificate::stated::Stated;
+use crate::certificate::units::printed;
 use crate::certificate::words::{self, Words, localized};
 use crate::number::{exact, rounded, significant};
 use gumption_analysis::certificate::contents::{Language, Localized};
@@ -58,9 +60,10 @@ fn about(report: &CertificateReport<'_>, of: &Covered<'_>, language: Language) -
     let mut said: Vec<String> = of.rows.iter().map(|row| named(report, row, language)).collect();
     let found = of.region.monte_carlo.as_ref();
     if let Some(smallest) = found.and_then(|found| found.smallest) {
-        let units = of.rows.iter().map(|row| row.quantity.unit.text().trim());
-        let units: Vec<&str> = units.filter(|unit| !matches!(*unit, "" | "1")).collect();
-        let volume = format!("{} {}", significant(smallest.volume, 3), units.join("*"));
+        let units = of.rows.iter().map(|row| printed(&row.quantity.unit).text().trim().to_owned());
+        let units: Vec<String> = units.filter(|unit| !matches!(unit.as_str(), "" | "1")).collect();
+        let number = Said::by_itself(report, language).in_marks(&significant(smallest.volume, 3));
+        let volume = format!("{number} {}", units.join("*"));
         said.push(words::of(language).smallest.replace("{volume}", volume.trim_end()));
     }
     said.push("JCGM 102:2011, 6.5".to_owned());

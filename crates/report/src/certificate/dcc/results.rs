@@ -6,8 +6,9 @@ use base64::engine::general_purpose::STANDARD;
 use super::unit::{is_of_the_si, unit};
 use super::xml::Xml;
 use crate::certificate::functions::{self, At};
+use crate::certificate::sentences::Said;
 use crate::certificate::stated;
-use crate::certificate::stated::Stated;
+use crate::certificate::stated::{Stated, UnitsAre};
 use crate::certificate::words::{self, Words, localized};
 use crate::certificate::{CertificateReport, file_name, json, sentences};
 use crate::fits;
@@ -117,7 +118,9 @@ pub(super) fn named(
     language: Language,
 ) -> String {
     let mut parts = vec![row.name(&[language])];
-    parts.extend(row.circumstances(report));
+    let of = Said::by_itself(report, language);
+    let circumstances = row.circumstances(report, UnitsAre::Printed);
+    parts.extend(circumstances.iter().map(|part| of.in_marks(part)));
     format!("{} {}: {}", words::of(language).row, row.number, parts.join(", "))
 }
 
@@ -275,7 +278,8 @@ fn function(
     };
     let title = each(&|language| functions::title(of, &[language]));
     xml.text("dcc:name", &title, languages);
-    let said = each(&|language| functions::sentences(report, of, language).join(" "));
+    let said =
+        each(&|language| functions::sentences(of, Said::by_itself(report, language)).join(" "));
     xml.text("dcc:description", &said, languages);
     let probability = exact(of.coverage.probability());
     let dof = curve.fit.degrees_of_freedom();

@@ -1,15 +1,17 @@
 //! The statements of a DCC: coverage, traceability, conformity, remarks.
 
 use super::xml::Xml;
+use crate::certificate::sentences::Said;
 use crate::certificate::words::{self, Words};
 use crate::certificate::{CertificateReport, conformity, sentences};
 use gumption_analysis::certificate::contents::{Language, Localized};
 
 pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
     let of = &report.certificate.administrative;
+    let own = |language: &Language| Said::by_itself(report, *language);
     let coverage = languages
         .iter()
-        .map(|language| (Some(*language), sentences::coverage(report, *language).join(" ")));
+        .map(|language| (Some(*language), sentences::coverage(report, own(language)).join(" ")));
     let norms = ["JCGM 100:2008", "JCGM 101:2008", "EA-4/02 M:2022"];
     statement(xml, &Localized { texts: coverage.collect() }, (None, &norms, None), languages);
     if let Some(traceability) = &of.traceability {
@@ -21,7 +23,7 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
         );
     }
     let decided: Vec<Vec<String>> =
-        languages.iter().map(|language| conformity::statements(report, *language)).collect();
+        languages.iter().map(|language| conformity::statements(report, own(language))).collect();
     for (place, conforms) in conformity::decisions(report).into_iter().enumerate() {
         let texts = languages
             .iter()

@@ -55,11 +55,11 @@ pub(super) const WORDS: Words = Words {
         freedom ν_eff in the table, and k is chosen so that the coverage probability is {p}.",
     fixed: "The expanded uncertainty U is the standard uncertainty multiplied by the agreed coverage \
         factor k = {k}. No distribution is supposed, so that no coverage probability is stated.",
-    shortest: "The result is not normally distributed. The interval from - to in the table is the shortest one \
+    shortest: "The result is not normally distributed. The interval in the last two columns of the table is the shortest one \
         with a coverage probability of {p}, found by the Monte Carlo method (JCGM 101:2008). U is the \
         distance of the value from its farther end, and k is U over the standard uncertainty, to the \
         digits that the trials justify.",
-    without_trials: "The result is not normally distributed. The interval from - to in the table has a \
+    without_trials: "The result is not normally distributed. The interval in the last two columns of the table has a \
         coverage probability of {p}; it was found by the propagation of distributions (JCGM 101:2008, \
         clause 5) without random trials, and is the shortest one, or the symmetric one where that is \
         longer by less than 1 %. U is the distance of the value from its farther end, and k is U over \
@@ -107,8 +107,16 @@ pub(super) const WORDS: Words = Words {
         "The result conforms to the tolerance {limits}.",
         "The result does not conform to the tolerance {limits}.",
     ],
+    not_shown: [
+        "It is not shown that the result conforms to the tolerance {limits}: it lies within the \
+            tolerance, but outside the acceptance limits, and is rejected by the decision rule.",
+        "It is not shown that the result conforms to the tolerance {limits}: it lies within the \
+            tolerance, but the decision rule accepts no value, and it is rejected.",
+    ],
     limits: ["from {low} to {high}{unit}", "from {low}{unit} on", "up to {high}{unit}"],
-    conforming: "The value conforms with a probability of {p} %.",
+    conforming: "The value conforms with a probability of {p}.",
+    all_the_same: "Specific risk that the value conforms all the same: {p}.",
+    percent: ["{p} %", "more than {p} %", "less than {p} %"],
     simple: "Decision rule: simple acceptance (JCGM 106:2012, 8.2).",
     guarded: "Decision rule: guarded acceptance (JCGM 106:2012, 8.3) for {kind} of at most {risk} %; \
         guard band {guard}, accepted {limits}.",

@@ -55,11 +55,11 @@ pub(super) const WORDS: Words = Words {
         et k est choisi de façon que la probabilité de couverture soit {p}.",
     fixed: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur d'élargissement convenu \
         k = {k}. Aucune loi n'est supposée, et aucune probabilité de couverture n'est donc déclarée.",
-    shortest: "Le résultat ne suit pas une loi normale. L'intervalle de - à du tableau est le plus court \
+    shortest: "Le résultat ne suit pas une loi normale. L'intervalle des deux dernières colonnes du tableau est le plus court \
         ayant une probabilité de couverture de {p}, trouvé par la méthode de Monte-Carlo (JCGM 101:2008). U \
         est la distance de la valeur à l'extrémité la plus éloignée, et k est U divisé par \
         l'incertitude-type, avec les chiffres que les tirages justifient.",
-    without_trials: "Le résultat ne suit pas une loi normale. L'intervalle de - à du tableau a une \
+    without_trials: "Le résultat ne suit pas une loi normale. L'intervalle des deux dernières colonnes du tableau a une \
         probabilité de couverture de {p} ; il a été trouvé par la propagation de distributions (JCGM \
         101:2008, article 5) sans tirages aléatoires, et c'est le plus court, ou bien le symétrique là \
         où il est plus long de moins de 1 %. U est la distance de la valeur à l'extrémité la plus \
@@ -107,8 +107,16 @@ pub(super) const WORDS: Words = Words {
         "Le résultat est conforme à la tolérance {limits}.",
         "Le résultat n'est pas conforme à la tolérance {limits}.",
     ],
+    not_shown: [
+        "La conformité du résultat à la tolérance {limits} n'est pas démontrée : il se trouve dans la \
+            tolérance, mais hors des limites d'acceptation, et il est refusé selon la règle de décision.",
+        "La conformité du résultat à la tolérance {limits} n'est pas démontrée : il se trouve dans la \
+            tolérance, mais la règle de décision n'accepte aucune valeur, et il est refusé.",
+    ],
     limits: ["de {low} à {high}{unit}", "à partir de {low}{unit}", "jusqu'à {high}{unit}"],
-    conforming: "La valeur est conforme avec une probabilité de {p} %.",
+    conforming: "La valeur est conforme avec une probabilité de {p}.",
+    all_the_same: "Risque spécifique que la valeur soit malgré tout conforme : {p}.",
+    percent: ["{p} %", "plus de {p} %", "moins de {p} %"],
     simple: "Règle de décision : acceptation simple (JCGM 106:2012, 8.2).",
     guarded: "Règle de décision : acceptation avec bande de garde (JCGM 106:2012, 8.3) pour {kind} d'au plus \
         {risk} % ; bande de garde {guard}, accepté {limits}.",

@@ -57,15 +57,16 @@ pub(super) const WORDS: Words = Words {
     fixed: "Die erweiterte Messunsicherheit U ist die Standardmessunsicherheit, multipliziert mit dem \
         vereinbarten Erweiterungsfaktor k = {k}. Es wird keine Verteilung vorausgesetzt und daher keine \
         Überdeckungswahrscheinlichkeit angegeben.",
-    shortest: "Das Ergebnis ist nicht normalverteilt. Das Intervall von - bis der Tabelle ist das kürzeste mit \
-        einer Überdeckungswahrscheinlichkeit von {p}, ermittelt mit dem Monte-Carlo-Verfahren (JCGM \
-        101:2008). U ist der Abstand des Werts vom weiter entfernten Ende, und k ist U geteilt durch \
-        die Standardmessunsicherheit, auf die Stellen, die die Versuche hergeben.",
-    without_trials: "Das Ergebnis ist nicht normalverteilt. Das Intervall von - bis der Tabelle hat eine \
-        Überdeckungswahrscheinlichkeit von {p}; es wurde durch Fortpflanzung der Verteilungen (JCGM \
-        101:2008, Abschnitt 5) ohne Zufallsversuche ermittelt und ist das kürzeste, oder das \
-        symmetrische, wo dieses um weniger als 1 % länger ist. U ist der Abstand des Werts vom weiter \
-        entfernten Ende, und k ist U geteilt durch die Standardmessunsicherheit.",
+    shortest: "Das Ergebnis ist nicht normalverteilt. Das Intervall in den letzten beiden Spalten der \
+        Tabelle ist das kürzeste mit einer Überdeckungswahrscheinlichkeit von {p}, ermittelt mit dem \
+        Monte-Carlo-Verfahren (JCGM 101:2008). U ist der Abstand des Werts vom weiter entfernten Ende, \
+        und k ist U geteilt durch die Standardmessunsicherheit, auf die Stellen, die die Versuche \
+        hergeben.",
+    without_trials: "Das Ergebnis ist nicht normalverteilt. Das Intervall in den letzten beiden Spalten \
+        der Tabelle hat eine Überdeckungswahrscheinlichkeit von {p}; es wurde durch Fortpflanzung der \
+        Verteilungen (JCGM 101:2008, Abschnitt 5) ohne Zufallsversuche ermittelt und ist das kürzeste, \
+        oder das symmetrische, wo dieses um weniger als 1 % länger ist. U ist der Abstand des Werts vom \
+        weiter entfernten Ende, und k ist U geteilt durch die Standardmessunsicherheit.",
     propagation: "Die Standardmessunsicherheit wurde nach dem Fortpflanzungsgesetz der \
         Messunsicherheit (JCGM 100:2008) ermittelt, wie EA-4/02 M:2022 es verlangt.",
     time: "Wie sich der Gegenstand auf Dauer verhält, ist in den Unsicherheiten nicht enthalten.",
@@ -110,8 +111,17 @@ pub(super) const WORDS: Words = Words {
         "Das Ergebnis hält die Toleranz {limits} ein: konform.",
         "Das Ergebnis hält die Toleranz {limits} nicht ein: nicht konform.",
     ],
+    not_shown: [
+        "Dass das Ergebnis die Toleranz {limits} einhält, ist nicht nachgewiesen: Es liegt innerhalb \
+            der Toleranz, aber außerhalb der Annahmegrenzen, und wird nach der Entscheidungsregel \
+            zurückgewiesen.",
+        "Dass das Ergebnis die Toleranz {limits} einhält, ist nicht nachgewiesen: Es liegt innerhalb \
+            der Toleranz, aber die Entscheidungsregel nimmt keinen Wert an, und es wird zurückgewiesen.",
+    ],
     limits: ["von {low} bis {high}{unit}", "ab {low}{unit}", "bis {high}{unit}"],
-    conforming: "Der Wert ist mit einer Wahrscheinlichkeit von {p} % konform.",
+    conforming: "Der Wert ist mit einer Wahrscheinlichkeit von {p} konform.",
+    all_the_same: "Spezifisches Risiko, dass der Wert dennoch konform ist: {p}.",
+    percent: ["{p} %", "mehr als {p} %", "weniger als {p} %"],
     simple: "Entscheidungsregel: einfache Annahme (JCGM 106:2012, 8.2).",
     guarded: "Entscheidungsregel: Annahme mit Sicherheitsband (JCGM 106:2012, 8.3) für {kind} von \
         höchstens {risk} %; Sicherheitsband {guard}, angenommen {limits}.",

@@ -55,11 +55,11 @@ pub(super) const WORDS: Words = Words {
         tabella, e k è scelto in modo che la probabilità di copertura sia {p}.",
     fixed: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura concordato \
         k = {k}. Non si suppone alcuna distribuzione, perciò non si dichiara una probabilità di copertura.",
-    shortest: "Il risultato non ha distribuzione normale. L'intervallo da - a della tabella è il più corto \
+    shortest: "Il risultato non ha distribuzione normale. L'intervallo nelle ultime due colonne della tabella è il più corto \
         con una probabilità di copertura di {p}, trovato con il metodo Monte Carlo (JCGM 101:2008). U è la \
         distanza del valore dall'estremo più lontano, e k è il rapporto fra U e l'incertezza tipo, con le \
         cifre che le prove Monte Carlo giustificano.",
-    without_trials: "Il risultato non ha distribuzione normale. L'intervallo da - a della tabella ha una \
+    without_trials: "Il risultato non ha distribuzione normale. L'intervallo nelle ultime due colonne della tabella ha una \
         probabilità di copertura di {p}; è stato trovato con la propagazione delle distribuzioni (JCGM \
         101:2008, punto 5) senza prove casuali, ed è il più corto, oppure quello simmetrico dove questo \
         è più lungo di meno dell'1 %. U è la distanza del valore dall'estremo più lontano, e k è il \
@@ -107,8 +107,16 @@ pub(super) const WORDS: Words = Words {
         "Il risultato è conforme alla tolleranza {limits}.",
         "Il risultato non è conforme alla tolleranza {limits}.",
     ],
+    not_shown: [
+        "La conformità del risultato alla tolleranza {limits} non è dimostrata: esso è entro la \
+            tolleranza, ma fuori dai limiti di accettazione, ed è respinto secondo la regola decisionale.",
+        "La conformità del risultato alla tolleranza {limits} non è dimostrata: esso è entro la \
+            tolleranza, ma la regola decisionale non accetta alcun valore, ed è respinto.",
+    ],
     limits: ["da {low} a {high}{unit}", "da {low}{unit} in su", "fino a {high}{unit}"],
-    conforming: "Il valore è conforme con una probabilità di {p} %.",
+    conforming: "Il valore è conforme con una probabilità di {p}.",
+    all_the_same: "Rischio specifico che il valore sia nondimeno conforme: {p}.",
+    percent: ["{p} %", "oltre {p} %", "meno di {p} %"],
     simple: "Regola decisionale: accettazione semplice (JCGM 106:2012, 8.2).",
     guarded: "Regola decisionale: accettazione con banda di guardia (JCGM 106:2012, 8.3) per {kind} non \
         superiore a {risk} %; banda di guardia {guard}, accettato {limits}.",

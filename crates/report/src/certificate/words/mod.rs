@@ -104,10 +104,17 @@ pub(super) struct Words {
     pub(super) conformity: &'static str,
     /// That a value conforms to a tolerance, and that it does not: `{limits}`.
     pub(super) decisions: [&'static str; 2],
+    /// That a value within the tolerance is rejected: it lies outside the acceptance limits, or there
+    /// are none; `{limits}`.
+    pub(super) not_shown: [&'static str; 2],
     /// Limits with their unit: both, the lower one, the upper one; `{low}`, `{high}`, `{unit}`.
     pub(super) limits: [&'static str; 3],
-    /// `{p}`
+    /// The probability that an accepted value conforms: `{p}`, one of `percent`.
     pub(super) conforming: &'static str,
+    /// The risk that a rejected value conforms: `{p}`, one of `percent`.
+    pub(super) all_the_same: &'static str,
+    /// A probability, one above a number and one below it: `{p}`.
+    pub(super) percent: [&'static str; 3],
     pub(super) simple: &'static str,
     /// `{kind}`, `{risk}`, `{guard}`, `{limits}`
     pub(super) guarded: &'static str,
@@ -194,7 +201,7 @@ mod tests {
             marks.sort_unstable();
             marks
         }
-        let templates: [fn(&Words) -> &'static str; 16] = [
+        let templates: [fn(&Words) -> &'static str; 22] = [
             |w| w.period,
             |w| w.rows[0],
             |w| w.rows[1],
@@ -208,6 +215,12 @@ mod tests {
             |w| w.approximately,
             |w| w.many,
             |w| w.conforming,
+            |w| w.all_the_same,
+            |w| w.not_shown[0],
+            |w| w.not_shown[1],
+            |w| w.percent[0],
+            |w| w.percent[1],
+            |w| w.percent[2],
             |w| w.guarded,
             |w| w.never,
             |w| w.page,

@@ -89,6 +89,7 @@ fn block(block: &Block, units: &mut unit::Declared) -> String {
     match block {
         Block::Section(title) => format!("\\section*{{{}}}", escaped(title)),
         Block::Text(text) => escaped(text),
+        Block::InLanguage(_, part) => self::block(part, units),
         Block::Verdict(sentences) => {
             let stressed = |(place, sentence): (usize, &String)| {
                 let sentence = escaped(sentence);

@@ -125,8 +125,9 @@ fn worksheet(book: &mut Book, name: &str, document: &Document) -> Result<(), Xls
                 }
             }
             Block::Table(sheet) => row = leaf.table(row + 1, sheet)? + 1,
-            // what is folded on a page stands on other worksheets
+            // what is folded on a page stands on other worksheets, and an evaluation has one language
             Block::Figure(_)
+            | Block::InLanguage(..)
             | Block::Folded(..)
             | Block::Listing { .. }
             | Block::Signature(_)

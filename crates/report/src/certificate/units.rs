@@ -1,0 +1,107 @@
+//! Units as print has them: `µL` for `uL`, `Ω` for `ohm`, `°C` for `degC`. JSON and CSV keep the text of
+//! the model file.
+
+use gumption_units::{Factor, FactorBase, Unit};
+
+/// Symbols that files have in letters of any keyboard, and those of the SI brochure.
+const SYMBOLS: [(&str, &str); 3] = [("ohm", "Ω"), ("degC", "°C"), ("degF", "°F")];
+
+/// A unit as print has it: the same unit, written as the file has it but for its symbols.
+pub(super) fn printed(unit: &Unit) -> Unit {
+    let mut text = String::new();
+    let mut rest = unit.text();
+    while let Some(first) = rest.chars().next() {
+        let is_letter = |letter: char| letter.is_alphabetic() || letter == '°';
+        let end = rest.find(|letter| is_letter(letter) != is_letter(first)).unwrap_or(rest.len());
+        let (run, behind) = rest.split_at(end);
+        text += &factor_of(unit, run).map_or_else(|| run.to_owned(), symbol);
+        rest = behind;
+    }
+    // a unit that the file defines is known to it alone
+    Unit::parse(&text).unwrap_or_else(|_| unit.clone())
+}
+
+/// The factor whose symbol some letters are.
+fn factor_of<'u>(unit: &'u Unit, letters: &str) -> Option<&'u Factor> {
+    let name = letters.replace(['\u{b5}', '\u{3bc}'], "u");
+    unit.factors().iter().find(|factor| factor.base.to_string() == name)
+}
+
+/// The symbol of a factor behind its prefix.
+fn symbol(factor: &Factor) -> String {
+    let FactorBase::Named { prefix, symbol } = factor.base else {
+        return factor.base.to_string();
+    };
+    let prefix = match prefix.map_or("", |prefix| prefix.symbol()) {
+        "u" => "\u{b5}",
+        other => other,
+    };
+    let known = SYMBOLS.iter().find(|(name, _)| *name == symbol.name());
+    format!("{prefix}{}", known.map_or(symbol.name(), |(_, printed)| printed))
+}
+
+/// A unit's text as print has it; what is no unit stays.
+pub(super) fn printed_text(text: &str) -> String {
+    Unit::parse(text).map_or_else(|_| text.to_owned(), |unit| printed(&unit).text().to_owned())
+}
+
+/// A value as files write it, `20 degC`, with its unit as print has it.
+pub(super) fn printed_value(value: &str) -> String {
+    match value.trim().split_once(' ') {
+        Some((number, unit)) if number.parse::<f64>().is_ok() => {
+            format!("{number} {}", printed_text(unit.trim()))
+        }
+        _ => value.to_owned(),
+    }
+}
+
+/// A formula with the units of its literals, `20 [degC]`, as print has them.
+pub(super) fn printed_formula(formula: &str) -> String {
+    let mut parts = formula.split('[');
+    let mut made = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        made.push('[');
+        match part.split_once(']') {
+            Some((unit, behind)) => made += &format!("{}]{behind}", printed_text(unit)),
+            None => made += part,
+        }
+    }
+    made
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn symbols_are_those_of_the_si_brochure() {
+        let cases = [
+            ("uL", "µL"),
+            ("uohm", "µΩ"),
+            ("ohm*m", "Ω*m"),
+            ("ohm/degC", "Ω/°C"),
+            ("degC", "°C"),
+            ("uV/V", "µV/V"),
+            ("µohm", "µΩ"),
+            ("kΩ", "kΩ"),
+            ("nV/Hz^(1/2)", "nV/Hz^(1/2)"),
+            ("umol mol^-1", "µmol mol^-1"),
+            // the unified atomic mass unit is no prefix
+            ("u", "u"),
+            ("deg", "deg"),
+            ("1", "1"),
+            ("", ""),
+        ];
+        for (text, wanted) in cases {
+            let unit = Unit::parse(text).unwrap();
+            let shown = printed(&unit);
+            assert_eq!(shown.text(), wanted, "{text}");
+            assert_eq!(shown.factors(), unit.factors(), "{text}");
+        }
+        assert_eq!(printed_value("20 degC"), "20 °C");
+        assert_eq!(printed_value("20"), "20");
+        assert_eq!(printed_value("upper end"), "upper end");
+        assert_eq!(printed_formula("R*(1 + a*(t - 23 [degC]))"), "R*(1 + a*(t - 23 [°C]))");
+        assert_eq!(printed_formula("x[0] + 1 [nothing"), "x[0] + 1 [nothing");
+    }
+}
