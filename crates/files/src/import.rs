@@ -6,6 +6,7 @@
 mod columns;
 mod document;
 mod equation;
+mod extent;
 mod grid;
 mod limits;
 mod linear;

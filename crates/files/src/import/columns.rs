@@ -3,7 +3,7 @@
 use super::grid::Cells;
 use super::number::number as number_of_cell;
 use super::number::{constant, number_with_unit};
-use gumption_engine::special::normal;
+use gumption_engine::special::student;
 use gumption_units::Unit;
 
 /// What a column holds.
@@ -803,9 +803,13 @@ impl Header {
 
     /// What the heading of a column says of the coverage of its numbers.
     pub(super) fn coverage(&self, column: Column) -> HeaderCoverage {
+        HeaderCoverage::of(self.heading_of(column))
+    }
+
+    /// The words at the head of what is such a column; empty where there is none.
+    pub(super) fn heading_of(&self, column: Column) -> &str {
         let place = self.columns.iter().find(|(_, of)| *of == column);
-        let text = place.map(|(place, _)| self.heading(*place));
-        text.map_or(HeaderCoverage::None, HeaderCoverage::of)
+        place.map_or("", |(place, _)| self.heading(*place))
     }
 
     /// The words at the head of a column.
@@ -852,8 +856,10 @@ fn of_two_lines(cells: &Cells, line: usize) -> Option<Vec<String>> {
 pub(super) enum HeaderCoverage {
     /// Nothing: the header does not speak of expanded uncertainties.
     None,
-    /// The factor: `U (k=2)`, `U (p=95 %)`.
+    /// The factor: `U (k=2)`.
     Factor(f64),
+    /// The coverage probability, and no factor: `U (p=95 %)`.
+    Probability(f64),
     /// That they are expanded, and no more.
     Expanded,
 }
@@ -891,7 +897,7 @@ impl HeaderCoverage {
         };
         let share = behind("p=").or_else(bare).map(|p| if p > 1.0 { p / 100.0 } else { p });
         if let Some(p) = share.filter(|p| *p > 0.0 && *p < 1.0) {
-            return Self::Factor(normal::quantile(0.5 + 0.5 * p));
+            return Self::Probability(p);
         }
         let words = ["expanded", "erweiterte", "erw."];
         if words.iter().any(|word| compact.starts_with(word)) || plain_case(text) == "U" {
@@ -899,6 +905,24 @@ impl HeaderCoverage {
         } else {
             Self::None
         }
+    }
+
+    /// The factor of uncertainties with these degrees of freedom, `None` where they are infinite: of a
+    /// probability that of the t distribution (JCGM 100, G.3.2).
+    pub(super) fn factor(self, dof: Option<f64>) -> Option<f64> {
+        match self {
+            Self::Factor(factor) => Some(factor),
+            Self::Probability(p) => {
+                let dof = dof.filter(|dof| *dof > 0.0).unwrap_or(f64::INFINITY);
+                Some(student::two_sided_factor(p, dof))
+            }
+            Self::None | Self::Expanded => None,
+        }
+    }
+
+    /// The coverage probability, if that is what is stated.
+    pub(super) fn probability(self) -> Option<f64> {
+        if let Self::Probability(p) = self { Some(p) } else { None }
     }
 }
 

@@ -26,6 +26,8 @@ pub(super) struct Row {
     pub(super) std: Option<f64>,
     pub(super) distribution: Option<&'static str>,
     pub(super) divisor: Option<f64>,
+    /// The coverage probability that the divisor is of, where no factor is stated.
+    pub(super) probability: Option<f64>,
     pub(super) sensitivity: Option<f64>,
     /// As the sheet writes it; empty where it does not.
     pub(super) unit_of_sensitivity: String,
@@ -193,6 +195,9 @@ impl Budget<'_> {
                 "line {}: a rectangular distribution is taken between the limits",
                 line + 1
             ));
+        }
+        if !lenient {
+            self.extent(header, &mut row, has_limits);
         }
         row
     }
@@ -497,8 +502,8 @@ impl Budget<'_> {
         let cell = |column| HeaderCoverage::of(header.cell(self.cells, row.line, column));
         let of_header = header.coverage(Column::Width);
         let is_normal = matches!(row.distribution, None | Some("normal"));
-        let mut stated: Vec<(f64, &str)> =
-            row.divisor.map(|k| (k, "the divisor")).into_iter().collect();
+        let divisor = row.divisor.map(|k| (HeaderCoverage::Factor(k), "the divisor"));
+        let mut stated: Vec<(HeaderCoverage, &str)> = divisor.into_iter().collect();
         for (coverage, place) in [
             (cell(Column::Distribution), "the distribution"),
             (cell(Column::Width), "the uncertainty"),
@@ -506,22 +511,40 @@ impl Budget<'_> {
         ] {
             // a heading speaks of the rows that say nothing else
             let counts = place != "the heading" || (stated.is_empty() && is_normal);
-            if let HeaderCoverage::Factor(factor) = coverage
-                && counts
-            {
-                stated.push((factor, place));
+            if counts && coverage.factor(row.dof).is_some() {
+                stated.push((coverage, place));
             }
         }
-        if let [(first, of), rest @ ..] = stated.as_slice() {
-            if let Some((other, by)) = rest.iter().find(|(other, _)| !near(*first, *other)) {
+        // a factor goes before a probability, of which the sheet may have taken the factor of a normal one
+        let first = stated.iter().find(|(of, _)| of.probability().is_none()).or(stated.first());
+        if let Some((coverage, of)) = first.copied()
+            && let Some(factor) = coverage.factor(row.dof)
+        {
+            let differs = |other: HeaderCoverage| {
+                [row.dof, None]
+                    .into_iter()
+                    .filter_map(|dof| other.factor(dof))
+                    .all(|other| !near(factor, other))
+            };
+            if let Some((other, by)) = stated.iter().find(|(other, _)| differs(*other)) {
                 let reason = format!(
                     "{of} says {}, {by} {}: which factor is it?",
-                    Shortest(*first),
-                    Shortest(*other)
+                    Shortest(factor),
+                    Shortest(other.factor(row.dof).unwrap_or(f64::NAN))
                 );
                 self.fail(row.line, reason);
             }
-            row.divisor = Some(*first);
+            row.divisor = Some(factor);
+            row.probability = coverage.probability();
+            if let Some((p, dof)) = row.probability.zip(row.dof) {
+                self.understood.push(format!(
+                    "line {}: of {} % and {} degrees of freedom k = {} of the t distribution",
+                    row.line + 1,
+                    Shortest(to_15_digits(100.0 * p)),
+                    Shortest(dof),
+                    significant(factor, 4)
+                ));
+            }
             return;
         }
         if !is_normal {
@@ -549,14 +572,18 @@ impl Budget<'_> {
 
     /// A heading says a coverage factor, and each row that it can be of another one.
     fn factor_of_heading(&self, header: &Header, rows: &[Row]) {
-        let HeaderCoverage::Factor(factor) = header.coverage(Column::Width) else { return };
+        let coverage = header.coverage(Column::Width);
+        let Some(factor) = coverage.factor(None) else { return };
         let is_of_it = |row: &&Row| {
             row.width.is_some_and(|width| width > 0.0)
                 && matches!(row.distribution, None | Some("normal"))
                 && !is_empty(header.cell(self.cells, row.line, Column::Divisor).trim())
         };
         let of_it: Vec<&Row> = rows.iter().filter(is_of_it).collect();
-        let differs = |row: &&Row| row.divisor.is_some_and(|divisor| !near(divisor, factor));
+        let differs = |row: &&Row| {
+            let factors = [row.dof, None].map(|dof| coverage.factor(dof).unwrap_or(factor));
+            row.divisor.is_some_and(|divisor| factors.iter().all(|of| !near(divisor, *of)))
+        };
         if let Some(row) = of_it.first()
             && of_it.iter().all(differs)
         {
@@ -686,14 +713,20 @@ impl Budget<'_> {
     fn distribution(&mut self, header: &Header, row: &Row, lenient: bool) -> Option<&'static str> {
         let text = header.cell(self.cells, row.line, Column::Distribution).trim();
         // a half width needs its shape, or what it is divided by
-        let needs = row.width.is_some_and(|width| width > 0.0)
+        let is_undivided = row.width.is_some_and(|width| width > 0.0)
             && row.divisor.is_none()
             && row.std.is_none()
-            && !is_factor_of(text)
             && !lenient;
+        let needs = is_undivided && !is_factor_of(text);
+        // a probability has its factor with degrees of freedom alone, which may be infinite
+        let is_without_dof = header.cell(self.cells, row.line, Column::Dof).trim().is_empty();
+        let is_stated = [HeaderCoverage::of(text), header.coverage(Column::Width)]
+            .iter()
+            .any(|of| of.factor(None).is_some() && (of.probability().is_none() || !is_without_dof));
+        let needs_dof = is_undivided && !is_stated;
         match columns::distribution(text)? {
             NamedShape::Known(name) => Some(name),
-            NamedShape::Student if needs && row.dof.is_none() => {
+            NamedShape::Student if needs_dof && row.dof.is_none() => {
                 let reason = format!(
                     "`{text}` needs a divisor or degrees of freedom: what is the stated uncertainty \
                      divided by?"
@@ -730,7 +763,7 @@ fn is_empty(text: &str) -> bool {
 
 /// Whether a text states a coverage factor.
 fn is_factor_of(text: &str) -> bool {
-    matches!(HeaderCoverage::of(text), HeaderCoverage::Factor(_))
+    HeaderCoverage::of(text).factor(None).is_some()
 }
 
 /// Whether a number may have its digits in groups, `1.234,5` or `1,500`.

@@ -65,10 +65,9 @@ impl Budget<'_> {
             is_expanded || columns::is_of_uncertainty(label) || is_symbol(&["u", "uc", "u_c"]);
         let divisor = header.cell(self.cells, line, Column::Divisor);
         let comma = self.cells.decimal_comma();
-        let factor = match HeaderCoverage::of(label) {
-            HeaderCoverage::Factor(factor) => Some(factor),
-            _ => constant(divisor, comma).filter(|factor| *factor > 0.0),
-        };
+        let factor = HeaderCoverage::of(label)
+            .factor(row.dof)
+            .or_else(|| constant(divisor, comma).filter(|factor| *factor > 0.0));
         let columns = [Column::Estimate, Column::Width, Column::Std, Column::Contribution];
         let mut found = Vec::new();
         for column in columns {
@@ -78,12 +77,11 @@ impl Budget<'_> {
             let expanded = Figure::ExpandedUncertainty(factor);
             let figure = match column {
                 Column::Estimate if !is_uncertainty => Figure::Estimate,
-                Column::Width if !is_expanded => match (factor, header.coverage(column)) {
-                    (Some(factor), _) | (None, HeaderCoverage::Factor(factor)) => {
-                        Figure::ExpandedUncertainty(Some(factor))
-                    }
-                    _ => continue,
-                },
+                Column::Width if !is_expanded => {
+                    let of_header = || header.coverage(column).factor(row.dof);
+                    let Some(factor) = factor.or_else(of_header) else { continue };
+                    Figure::ExpandedUncertainty(Some(factor))
+                }
                 _ if is_expanded => expanded,
                 _ => Figure::StandardUncertainty,
             };

@@ -772,3 +772,92 @@ fn units_behind_names_and_without_signs_of_powers() {
         "{error:?}"
     );
 }
+
+/// A coverage probability with degrees of freedom has the factor of the t distribution: 2.776 445 of 95 %
+/// and 4 (JCGM 100, table G.2, to more digits), with which 0.0002 V is 7.2035e-5 V. Before, it was 1.96.
+#[test]
+fn probabilities_with_degrees_of_freedom_have_the_factor_of_t() {
+    let t = 2.776_445_105_198;
+    for (heading, distribution) in [
+        ("Uncertainty (95 %)", "t"),
+        ("Uncertainty (95 %)", "normal"),
+        ("Uncertainty", "normal (95 %)"),
+        ("Uncertainty", "t (95 %)"),
+    ] {
+        let text = format!(
+            "Quantity,Estimate,Unit,{heading},Distribution,dof,ci\nCal,0,V,0.0002,{distribution},4,1\n"
+        );
+        let (found, budget) = uncertainties(&text);
+        assert!((found[0] * t / 2e-4 - 1.0).abs() < 1e-12, "{heading} {distribution} {found:?}");
+        assert!(budget.text.contains(r#""expanded":0.0002,"p":0.95,"dof":4.0"#), "{}", budget.text);
+        let said = "95 % and 4 degrees of freedom k = 2.776";
+        assert!(budget.understood.iter().any(|of| of.contains(said)), "{:?}", budget.understood);
+    }
+    // a factor goes before a probability, and infinite degrees of freedom have that of a normal one
+    for (heading, dof, divisor, k) in [
+        ("Uncertainty (95 %), k=2", "4", "", 2.0),
+        ("Uncertainty (95 %)", "∞", "", 1.959_963_984_540_054),
+        ("Uncertainty (95 %)", "4", "2.78", 2.78),
+        ("Uncertainty (95 %)", "4", "1.96", 1.96),
+    ] {
+        let text = format!(
+            "Quantity;Estimate;Unit;{heading};Distribution;dof;Divisor\nCal;0;V;0.0002;t;{dof};{divisor}\n"
+        );
+        let (found, _) = uncertainties(&text);
+        assert!((found[0] * k / 2e-4 - 1.0).abs() < 1e-12, "{heading} {dof} {divisor} {found:?}");
+    }
+    let text = "Quantity,Estimate,Unit,Uncertainty,Distribution\nCal,0,V,0.0002,t (95 %)\n";
+    let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("`t (95 %)` needs a divisor or degrees of freedom"), "{error}");
+}
+
+/// What a distribution's cell calls a full width is halved: 0.002 V of a rectangle from limit to limit is
+/// 0.001/sqrt(3) V. Before, it was taken for the half-width.
+#[test]
+fn full_widths_are_halved() {
+    let text = |heading: &str, shape: &str, divisor: &str| {
+        format!(
+            "Quantity;Estimate;Unit;{heading};Distribution;Divisor\na;1;V;0.002;{shape};{divisor}\n"
+        )
+    };
+    for (heading, shape, divisor, root) in [
+        ("Uncertainty", "rectangular (full width)", "", 3.0_f64),
+        ("Uncertainty", "rectangular (full range)", "", 3.0),
+        ("Uncertainty", "triangular (total width)", "", 6.0),
+        ("Uncertainty", "rectangular, range (max-min)", "", 3.0),
+        ("Unsicherheit", "Rechteck (Vollbreite)", "", 3.0),
+        ("Unsicherheit", "Rechteck (Gesamtbreite)", "", 3.0),
+        ("Unsicherheit", "Rechteck (Spannweite)", "", 3.0),
+        ("Incertitude", "rectangulaire (étendue totale)", "", 3.0),
+        ("Uncertainty (full width)", "rectangular", "", 3.0),
+        ("Uncertainty", "rectangular (full width)", "2√3", 3.0),
+    ] {
+        let (found, budget) = uncertainties(&text(heading, shape, divisor));
+        assert!((found[0] * root.sqrt() / 1e-3 - 1.0).abs() < 1e-12, "{shape}: {found:?}");
+        let is_said = budget.understood.iter().any(|said| said.contains("half of 0.002 is taken"));
+        assert!(is_said, "{:?}", budget.understood);
+    }
+    for shape in ["rectangular (Type B)", "rectangular (half-width)", "rectangular (100 %)"] {
+        let (found, _) = uncertainties(&text("Uncertainty", shape, ""));
+        assert!((found[0] * 3f64.sqrt() / 2e-3 - 1.0).abs() < 1e-12, "{shape}: {found:?}");
+    }
+    for (heading, shape, divisor, part) in [
+        (
+            "Half-width",
+            "rectangular (full width)",
+            "",
+            "heading `Half-width` and `rectangular (full width)` contradict",
+        ),
+        ("Uncertainty", "rectangular (peak)", "", "what `peak` says of the uncertainty is not"),
+        ("Uncertainty", "normal (full width)", "", "can be 0.002 or 0.001 that is divided"),
+        (
+            "Uncertainty",
+            "rectangular (full width)",
+            "1.732",
+            "and the divisor 1.732 can be 0.002 or",
+        ),
+    ] {
+        let error = import("b.csv", text(heading, shape, divisor).as_bytes()).unwrap_err();
+        assert!(error.to_string().contains(part), "{shape}: {error}");
+    }
+}
