@@ -96,7 +96,13 @@ impl Budget<'_> {
             let is_symbol = !used.contains(&columns::identifier(words))
                 && (columns::is_combined_symbol(words) && !self.is_quantity(header, line)
                     || columns::is_summary_symbol(words) && self.is_bare(header, line) && is_after);
-            let is_result = columns::is_result(&label) || is_measurand;
+            let is_result =
+                columns::is_result(&label) || columns::is_expanded_symbol(words) || is_measurand;
+            if !is_result && columns::is_subtotal(&label) {
+                let text = format!("line {}: `{label}` is a sum of other rows; left out", line + 1);
+                self.guessed.push(text);
+                continue;
+            }
             if is_below && !is_result && !is_symbol {
                 self.guessed.push(format!(
                     "line {}: `{}` stands below the table and is not taken",
@@ -635,14 +641,26 @@ impl Budget<'_> {
     }
 
     /// A divisor: a number, a root such as `√3` or `sqrt(3)`, or a factor such as `k = 2`.
-    fn divisor(&self, header: &Header, line: usize, lenient: bool) -> Option<f64> {
+    fn divisor(&mut self, header: &Header, line: usize, lenient: bool) -> Option<f64> {
         let text = header.cell(self.cells, line, Column::Divisor).trim();
         if is_empty(text) {
             return None;
         }
+        if columns::is_root_of_n(text) {
+            return self.root_of_n(header, line, lenient);
+        }
         match number::constant(text, self.cells.decimal_comma()) {
             Some(divisor) if divisor >= 1.0 => Some(divisor),
             _ if lenient => None,
+            Some(factor) if factor > 0.0 && self.multiplies(header, line, factor) => {
+                let divisor = 1.0 / factor;
+                self.understood.push(format!(
+                    "line {}: the factor `{text}` multiplies, as 1/{} does",
+                    line + 1,
+                    significant(divisor, 4)
+                ));
+                Some(divisor)
+            }
             Some(factor) if factor > 0.0 => {
                 let reason = format!(
                     "the divisor `{text}` is below 1: does it multiply, as 1/{} would divide?",
@@ -656,6 +674,57 @@ impl Budget<'_> {
                 None
             }
         }
+    }
+
+    /// The root of the number of readings that stands in a row.
+    fn root_of_n(&self, header: &Header, line: usize, lenient: bool) -> Option<f64> {
+        let place = header.number_of_readings(self.cells);
+        let text = place.map_or("", |place| self.cells.text(line, place).trim());
+        let number = number::number(text, self.cells.decimal_comma());
+        let number = number.filter(|number| *number >= 1.0 && number.fract() == 0.0);
+        if number.is_none() && !lenient {
+            let divisor = header.cell(self.cells, line, Column::Divisor).trim();
+            let found = match text {
+                "" => "there is none in a column `n`".to_owned(),
+                text => format!("`{text}` in the column `n` is no whole number above 0"),
+            };
+            self.fail(line, format!("the divisor `{divisor}` needs a number of readings: {found}"));
+        }
+        number.map(f64::sqrt)
+    }
+
+    /// Whether a factor below 1 is 1 over what the row's distribution is divided by, in a column of
+    /// factors; of a normal one whose coverage factor is not stated where another row has such a one.
+    fn multiplies(&self, header: &Header, line: usize, factor: f64) -> bool {
+        if !columns::is_of_factors(header.heading_of(Column::Divisor)) {
+            return false;
+        }
+        let of_shape = |line: usize, factor: f64| {
+            let text = header.cell(self.cells, line, Column::Distribution);
+            match columns::distribution(text) {
+                Some(NamedShape::Known(shape)) => {
+                    divisor_of(shape).map(|divisor| near(divisor, 1.0 / factor))
+                }
+                _ => None,
+            }
+        };
+        if let Some(is_alike) = of_shape(line, factor) {
+            return is_alike;
+        }
+        let cell = |column| HeaderCoverage::of(header.cell(self.cells, line, column));
+        let coverage =
+            [cell(Column::Distribution), cell(Column::Width), header.coverage(Column::Width)];
+        if let Some(stated) = coverage.iter().find_map(|of| of.factor(None)) {
+            return near(stated, 1.0 / factor);
+        }
+        let text = header.cell(self.cells, line, Column::Distribution);
+        let is_normal = columns::distribution(text) == Some(NamedShape::Known("normal"));
+        is_normal
+            && (header.line + 1..self.cells.lines()).any(|line| {
+                let text = header.cell(self.cells, line, Column::Divisor).trim();
+                let factor = number::constant(text, self.cells.decimal_comma());
+                factor.is_some_and(|factor| factor < 1.0 && of_shape(line, factor) == Some(true))
+            })
     }
 
     fn unit(&mut self, header: &Header, line: usize, lenient: bool) -> String {
