@@ -797,8 +797,12 @@ impl Header {
                 Some([value?, divisor?, std?])
             })
             .collect();
+        // factors below 1 multiply
+        let multiplies = is_of_factors(self.heading_of(Column::Divisor));
         let is_width = |[value, divisor, std]: &[f64; 3]| {
-            (value.abs() / divisor - std).abs() <= ROUNDED * std.abs() && *std > 0.0
+            let is_factor = multiplies && *divisor < 1.0;
+            let found = if is_factor { value.abs() * divisor } else { value.abs() / divisor };
+            (found - std).abs() <= ROUNDED * std.abs() && *std > 0.0
         };
         if rows.len() >= 2 && rows.iter().all(is_width) {
             for (_, column) in &mut self.columns {

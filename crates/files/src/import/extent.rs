@@ -77,7 +77,15 @@ fn unknown_word(text: &str) -> Option<&str> {
     let share = text.find('%').filter(|at| !text[..*at].trim_end().ends_with("100"));
     let pp = text.to_lowercase().find("p-p");
     let sign = share.map(|at| &text[at..=at]).or(pp.and_then(|at| text.get(at..at + 3)));
-    text.split(|c: char| !c.is_alphabetic()).skip(1).find(changes).or(sign)
+    // `2s`, of standard deviations
+    let deviations = || {
+        text.split(|c: char| !c.is_alphanumeric()).find(|word| {
+            let digits = word.strip_suffix("sd").or(word.strip_suffix('s')).unwrap_or_default();
+            !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
+        })
+    };
+    let words = text.split(|c: char| !c.is_alphabetic()).skip(1);
+    words.into_iter().find(changes).or(sign).or_else(deviations)
 }
 
 impl Budget<'_> {
@@ -178,6 +186,8 @@ mod tests {
             ("rectangular (peak)", Some("peak")),
             ("rectangular (p-p)", Some("p-p")),
             ("normal (k)", Some("k")),
+            ("normal (2s)", Some("2s")),
+            ("rectangular (manufacturer's)", None),
             ("rectangular (range)", Some("range")),
             ("rectangular (5 %)", Some("%")),
             ("rectangular (100 %)", None),

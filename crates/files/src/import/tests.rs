@@ -1061,6 +1061,18 @@ fn factors_that_multiply_are_understood_where_they_agree() {
     }
 }
 
+/// `Value` times the factor is the standard uncertainty in every row: it is no estimate.
+#[test]
+fn values_that_are_multiplied_are_widths() {
+    let text = "Component,Value,Unit,Distribution,Factor,ci,ui\nA,0.5,mV,normal (k=2),0.5,1,0.25\n\
+        B,0.3,mV,rectangular,0.577,1,0.173\n";
+    let (found, budget) = uncertainties(text);
+    assert_eq!(found[0], 0.25);
+    assert!((found[1] - 0.3 / 3f64.sqrt()).abs() < 1e-15, "{found:?}");
+    let means: Vec<f64> = task(&budget).rows[0].distributions.iter().map(|d| d.mean()).collect();
+    assert_eq!(means, [0.0, 0.0]);
+}
+
 /// A formula that no program has calculated has no value; before, the quantity became certain.
 #[test]
 fn formulas_without_values_are_mistakes() {
