@@ -272,6 +272,15 @@ fn sheets_of_a_workbook() {
     assert_eq!(code, Some(2));
     let part = "it has no sheet `None`; its sheets are `Old` (hidden), `Cover` and `Budget`";
     assert!(said.contains(part), "{said}");
+    let mut book = Workbook::new();
+    book.add_worksheet().write_string(0, 0, "Laboratory").unwrap();
+    let hidden = book.add_worksheet().set_name("Old").unwrap();
+    budget_on(hidden, &[("A", 1.0, 0.7)]);
+    hidden.set_hidden(true);
+    book.save(at.join("none.xlsx")).unwrap();
+    let (_, said, code) = told(at, &["import", "none.xlsx"]);
+    assert_eq!(code, Some(2));
+    assert!(said.contains("the hidden sheet `Old` does: show it"), "{said}");
     fs::write(at.join("b.csv"), "Quantity,Estimate,Unit,Half-width\n").unwrap();
     let (_, said, code) = told(at, &["import", "b.csv", "--sheet", "Old"]);
     assert_eq!(code, Some(2));

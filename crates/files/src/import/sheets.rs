@@ -54,6 +54,18 @@ impl Chosen {
             );
             return Err(DiagnosticKind::Table { reason });
         }
+        if found.is_empty() {
+            for sheet in sheets.iter().filter(|sheet| sheet.is_hidden) {
+                if Header::find(&read(sheet)?.cells).is_some() {
+                    let name = &sheet.name;
+                    let reason = format!(
+                        "no sheet that is shown holds a budget, and the hidden sheet `{name}` does: show \
+                         it, or say it with `--sheet`"
+                    );
+                    return Err(DiagnosticKind::Table { reason });
+                }
+            }
+        }
         match found.pop() {
             Some((sheet, chosen)) => Ok(chosen.told(sheet, &sheets)),
             None => first.ok_or_else(|| unreadable("the workbook has no sheet".to_owned())),
