@@ -231,3 +231,130 @@ fn cells_of_a_workbook_mean_what_they_show() {
         assert_eq!(model["inputs"][name]["half_width"], half, "{model}");
     }
 }
+
+/// A sheet with a header, and rows of a name, an estimate and a half-width in volts.
+fn budget_on(sheet: &mut rust_xlsxwriter::Worksheet, rows: &[(&str, f64, f64)]) {
+    let header = ["Quantity", "Estimate", "Unit", "Half-width", "Distribution"];
+    for (column, name) in (0..).zip(header) {
+        sheet.write_string(0, column, name).unwrap();
+    }
+    for (row, (name, estimate, half)) in (1..).zip(rows) {
+        sheet.write_string(row, 0, *name).unwrap();
+        sheet.write_number(row, 1, *estimate).unwrap();
+        sheet.write_string(row, 2, "V").unwrap();
+        sheet.write_number(row, 3, *half).unwrap();
+        sheet.write_string(row, 4, "rectangular").unwrap();
+    }
+}
+
+/// The first sheet that is shown and holds a budget is read; where several do, the name tells.
+#[test]
+fn sheets_of_a_workbook() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let mut book = Workbook::new();
+    let old = book.add_worksheet().set_name("Old").unwrap();
+    budget_on(old, &[("A", 1.0, 0.7)]);
+    old.set_hidden(true);
+    book.add_worksheet().set_name("Cover").unwrap().write_string(0, 0, "Laboratory").unwrap();
+    let sheet = book.add_worksheet().set_name("Budget").unwrap();
+    budget_on(sheet, &[("A", 1.0, 0.2)]);
+    sheet.set_active(true);
+    book.save(at.join("one.xlsx")).unwrap();
+    let (text, said, code) = told(at, &["import", "one.xlsx"]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(text.contains("\"half_width\":0.2"), "{text}");
+    assert!(said.contains("sheet `Budget` is read, not `Old` (hidden) or `Cover`"), "{said}");
+    let (text, _, code) = told(at, &["import", "one.xlsx", "--sheet", "Old"]);
+    assert_eq!(code, Some(0));
+    assert!(text.contains("\"half_width\":0.7"), "{text}");
+    let (_, said, code) = told(at, &["import", "one.xlsx", "--sheet", "None"]);
+    assert_eq!(code, Some(2));
+    let part = "it has no sheet `None`; its sheets are `Old` (hidden), `Cover` and `Budget`";
+    assert!(said.contains(part), "{said}");
+    let mut book = Workbook::new();
+    book.add_worksheet().write_string(0, 0, "Laboratory").unwrap();
+    let hidden = book.add_worksheet().set_name("Old").unwrap();
+    budget_on(hidden, &[("A", 1.0, 0.7)]);
+    hidden.set_hidden(true);
+    book.save(at.join("none.xlsx")).unwrap();
+    let (_, said, code) = told(at, &["import", "none.xlsx"]);
+    assert_eq!(code, Some(2));
+    assert!(said.contains("the hidden sheet `Old` does: show it"), "{said}");
+    fs::write(at.join("b.csv"), "Quantity,Estimate,Unit,Half-width\n").unwrap();
+    let (_, said, code) = told(at, &["import", "b.csv", "--sheet", "Old"]);
+    assert_eq!(code, Some(2));
+    assert!(said.contains("it is no workbook (.xlsx), and so has no sheet `Old`"), "{said}");
+    let mut book = Workbook::new();
+    for (name, half) in [("DC", 0.2), ("AC", 0.4)] {
+        budget_on(book.add_worksheet().set_name(name).unwrap(), &[("A", 1.0, half)]);
+    }
+    book.save(at.join("two.xlsx")).unwrap();
+    let (_, said, code) = told(at, &["import", "two.xlsx"]);
+    assert_eq!(code, Some(2));
+    assert!(said.contains("the sheets `DC` and `AC` hold a budget each"), "{said}");
+    assert!(said.contains("`--sheet NAME`"), "{said}");
+    let (text, _, code) = told(at, &["import", "two.xlsx", "--sheet", "AC"]);
+    assert_eq!(code, Some(0));
+    assert!(text.contains("\"half_width\":0.4"), "{text}");
+}
+
+/// Rows that nobody sees, or that are struck through, are asked; before, they were used.
+#[test]
+fn rows_that_are_hidden_or_struck_through() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let import = |change: &dyn Fn(&mut rust_xlsxwriter::Worksheet)| {
+        let mut book = Workbook::new();
+        let sheet = book.add_worksheet();
+        budget_on(sheet, &[("A", 1.0, 0.2), ("B", 2.0, 0.3)]);
+        change(sheet);
+        book.save(at.join("b.xlsx")).unwrap();
+        let (_, said, code) = told(at, &["import", "b.xlsx"]);
+        (said, code)
+    };
+    let (said, code) = import(&|sheet| {
+        sheet.set_row_hidden(2).unwrap();
+    });
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("row 3 (`B`) is hidden: show it, or delete it"), "{said}");
+    let (said, code) = import(&|sheet| {
+        sheet.set_row_height(2, 0).unwrap();
+    });
+    assert_eq!(code, Some(2), "{said}");
+    let (said, code) = import(&|sheet| {
+        let struck = Format::new().set_font_strikethrough();
+        sheet.write_string_with_format(2, 0, "B", &struck).unwrap();
+    });
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("row 3 (`B`) is struck through"), "{said}");
+    let (said, code) = import(&|sheet| {
+        sheet.set_row_hidden(7).unwrap();
+    });
+    assert_eq!(code, Some(0), "{said}");
+}
+
+/// Merged cells of units, distributions and divisors count for all rows that they span.
+#[test]
+fn merged_cells_count_for_their_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut book = Workbook::new();
+    let sheet = book.add_worksheet();
+    budget_on(sheet, &[("A", 1.0, 0.2), ("B", 2.0, 0.3), ("C", 2.0, 0.4)]);
+    for row in 1..=3 {
+        sheet.write_blank(row, 2, &Format::new()).unwrap();
+        sheet.write_blank(row, 4, &Format::new()).unwrap();
+    }
+    sheet.merge_range(1, 2, 3, 2, "mV", &Format::new()).unwrap();
+    sheet.merge_range(1, 4, 2, 4, "triangular", &Format::new()).unwrap();
+    sheet.write_string(3, 4, "rectangular").unwrap();
+    book.save(folder.path().join("b.xlsx")).unwrap();
+    let (text, said, code) = told(folder.path(), &["import", "b.xlsx"]);
+    assert_eq!(code, Some(0), "{said}");
+    let model: Value = serde_json::from_str(&text).unwrap();
+    for (name, shape) in [("A", "triangular"), ("B", "triangular"), ("C", "rectangular")] {
+        assert_eq!(model["inputs"][name]["unit"], "mV", "{text}");
+        assert_eq!(model["inputs"][name]["distribution"], shape, "{text}");
+    }
+    assert!(said.contains("the merged cell `triangular` counts for lines 2 to 3"), "{said}");
+}

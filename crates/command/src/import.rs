@@ -7,9 +7,9 @@ use clap::Args;
 use super::exit::say;
 use super::output::Place;
 use super::{Exit, Failure, output};
-use gumption_files::import_budget;
+use gumption_files::import_budget_sheet;
 
-/// Make a model file of a budget in a spreadsheet (CSV, or the first sheet of an XLSX file), or of a
+/// Make a model file of a budget in a spreadsheet (CSV, or the sheet of an XLSX file that holds one), or of a
 /// suncal project (YAML).
 ///
 /// Columns are recognized in English and German: quantity, estimate, unit, +-, distribution, divisor,
@@ -20,6 +20,9 @@ use gumption_files::import_budget;
 pub(super) struct Import {
     /// The budget: a CSV, XLSX or YAML file
     file: PathBuf,
+    /// The sheet of the workbook, where several hold a budget
+    #[arg(long, value_name = "NAME")]
+    sheet: Option<String>,
     /// Write the model file here instead of to standard output
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -32,7 +35,7 @@ impl Import {
     pub(super) fn execute(&self) -> Result<Exit, Failure> {
         let read = [self.file.clone()];
         let [file] = output::open([("--output", self.output.as_deref())], &read)?;
-        let budget = import_budget(&self.file)?;
+        let budget = import_budget_sheet(&self.file, self.sheet.as_deref())?;
         if !self.quiet {
             for said in &budget.understood {
                 say(&format!("understood: {said}\n"));

@@ -6,13 +6,16 @@
 mod columns;
 mod document;
 mod equation;
+mod extent;
 mod grid;
 mod limits;
 mod linear;
+mod mark;
 mod number;
 mod own;
 mod pint;
 mod rows;
+mod sheets;
 mod stated;
 mod suncal;
 mod yaml;
@@ -32,6 +35,7 @@ use equation::{Equation, Equations};
 use gumption_engine::model::formula::{Scope, Typing};
 use gumption_units::Unit;
 use rows::{Row, Table};
+use sheets::Chosen;
 
 /// A model file that was made of a budget.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,15 +48,26 @@ pub struct ImportedBudget {
     pub guessed: Vec<String>,
 }
 
-/// Reads a budget from a CSV file or from the first sheet of an XLSX file; of a workbook that this
+/// Reads a budget from a CSV file or from the sheet of an XLSX file that holds one; of a workbook that this
 /// program has made, its model file with the cells that were changed; of a YAML file the first
 /// calculation of an uncertainty of a suncal project.
 ///
 /// # Errors
 /// A file that cannot be read, or in which no budget is found; rows with mistakes, all at once.
 pub fn import_budget(path: &Path) -> Result<ImportedBudget, Diagnostics> {
+    import_budget_sheet(path, None)
+}
+
+/// As [`import_budget`], of the sheet of that name of an XLSX file.
+///
+/// # Errors
+/// As [`import_budget`]; a sheet that is not there.
+pub fn import_budget_sheet(
+    path: &Path,
+    sheet: Option<&str>,
+) -> Result<ImportedBudget, Diagnostics> {
     match bytes::of_file(path, bytes::MOST) {
-        Ok(content) => import_budget_bytes(path, content),
+        Ok(content) => imported(path, content, sheet),
         Err(message) => {
             let log = Collector::new(SourceText::new(path.display().to_string(), ""));
             log.report(&(0..0), DiagnosticKind::Unreadable { message });
@@ -66,6 +81,14 @@ pub fn import_budget(path: &Path) -> Result<ImportedBudget, Diagnostics> {
 /// # Errors
 /// As [`import_budget`].
 pub fn import_budget_bytes(path: &Path, content: Vec<u8>) -> Result<ImportedBudget, Diagnostics> {
+    imported(path, content, None)
+}
+
+fn imported(
+    path: &Path,
+    content: Vec<u8>,
+    sheet: Option<&str>,
+) -> Result<ImportedBudget, Diagnostics> {
     let name = path.display().to_string();
     let source = |text: &str| SourceText::new(name.clone(), text);
     let failed = |kind: DiagnosticKind| {
@@ -75,7 +98,11 @@ pub fn import_budget_bytes(path: &Path, content: Vec<u8>) -> Result<ImportedBudg
     };
     let is_workbook =
         path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx"));
-    if is_workbook {
+    if let Some(sheet) = sheet.filter(|_| !is_workbook) {
+        let message = format!("it is no workbook (.xlsx), and so has no sheet `{sheet}`");
+        return failed(DiagnosticKind::Unreadable { message });
+    }
+    if is_workbook && sheet.is_none() {
         match own::of_workbook(path, &content) {
             Ok(None) => {}
             Ok(Some(made)) => return made,
@@ -91,15 +118,19 @@ pub fn import_budget_bytes(path: &Path, content: Vec<u8>) -> Result<ImportedBudg
             Err(message) => failed(DiagnosticKind::Unreadable { message }),
         };
     }
-    let (cells, text) = match grid::of_content(content, is_workbook) {
+    let read = if is_workbook {
+        Chosen::of(content, sheet)
+    } else {
+        grid::of_text(&content).map(|(cells, text)| Chosen { cells, text, said: Vec::new() })
+    };
+    let Chosen { cells, text, said } = match read {
         Ok(read) => read,
         Err(kind) => return failed(kind),
     };
     let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let log = Collector::new(source(&text));
     let marks = RefCell::new(cells.marks());
-    let mut budget =
-        Budget { cells: &cells, marks, log: &log, understood: vec![], guessed: vec![] };
+    let mut budget = Budget { cells: &cells, marks, log: &log, understood: said, guessed: vec![] };
     let made = budget.model(&title.unwrap_or_default());
     let (understood, guessed) = (budget.understood, budget.guessed);
     log.finish(made.map(|text| ImportedBudget { text, understood, guessed }))
@@ -121,7 +152,11 @@ impl Budget<'_> {
 
     /// The model file of the budget.
     fn model(&mut self, title: &str) -> Option<String> {
-        let Some(header) = Header::find(self.cells) else {
+        let header = Header::find(self.cells);
+        if !self.is_shown(header.as_ref()) {
+            return None;
+        }
+        let Some(header) = header else {
             if are_results(self.cells.row(0).iter().map(|cell| cell.trim())) {
                 self.log.report(&self.cells.line(0), FileKind::Results.described());
                 return None;
@@ -136,6 +171,18 @@ impl Budget<'_> {
             );
             return None;
         };
+        if let Some(line) = header.repeated(self.cells) {
+            let reason = format!(
+                "line {} begins a second budget: keep one budget in a file (or on a sheet); where the one \
+                 above goes on, delete the line",
+                line.max(header.line) + 1
+            );
+            self.fail(line.max(header.line), reason);
+            return None;
+        }
+        if !self.has_known_mark(&header) {
+            return None;
+        }
         let shown: Vec<String> = header
             .columns
             .iter()
@@ -154,7 +201,8 @@ impl Budget<'_> {
                  the divisors are the standard uncertainties; estimates are 0"
             ));
         }
-        for place in &header.unknown {
+        let readings = header.number_of_readings(self.cells);
+        for place in header.unknown.iter().filter(|place| readings != Some(**place)) {
             let text = header.heading(*place);
             self.guessed.push(format!("the column `{text}` is not taken"));
         }

@@ -90,7 +90,7 @@ pub use diagnostics::{Diagnostic, Diagnostics};
 pub use difference::difference;
 pub use either::ModelOrResult;
 pub use folder::FileSource;
-pub use import::{ImportedBudget, import_budget, import_budget_bytes};
+pub use import::{ImportedBudget, import_budget, import_budget_bytes, import_budget_sheet};
 pub use loose_files::named_in;
 pub use model_file::ModelFile;
 pub use overrides::{Override, Overrides};

@@ -5,14 +5,17 @@
 //! seventeen thousand million. So every part is unpacked within a limit before anybody reads it,
 //! cells are read one by one, and only those that hold something are kept.
 
-use std::collections::BTreeMap;
+mod layout;
+
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Cursor, Read};
 
-use calamine::{Data, DataRef, Reader as _, Style, Xlsx};
+use calamine::{Data, DataRef, Reader as _, SheetType, SheetVisible, Style, Xlsx};
 use quick_xml::events::{BytesStart, Event};
 use zip::ZipArchive;
 
 use super::number_format::Behind;
+pub(super) use layout::{Layout, Place};
 
 /// Bytes of an unpacked part, at most. A table of ten thousand rows has less than a quarter of it.
 const MOST_OF_PART: u64 = 20_000_000;
@@ -39,15 +42,7 @@ type Cells = BTreeMap<u32, BTreeMap<u32, String>>;
 /// What is wrong with the workbook, as a sentence about it.
 pub(super) fn first_sheet(bytes: Vec<u8>) -> Result<String, String> {
     check_parts(&bytes)?;
-    csv(&cells(bytes, Sheet::First)?)
-}
-
-/// All cells of the first sheet, row by row from its first one, empty where nothing stands.
-///
-/// # Errors
-/// What is wrong with the workbook, as a sentence about it.
-pub(super) fn rows(bytes: Vec<u8>) -> Result<Vec<Vec<String>>, String> {
-    rows_of(bytes, Sheet::First)
+    csv(&cells(&mut opened(bytes)?, Sheet::First, &mut 0)?.0)
 }
 
 /// A sheet of a workbook.
@@ -61,17 +56,22 @@ pub(super) enum Sheet<'a> {
     Named(&'a str),
 }
 
-/// The same of another sheet.
+/// All cells of a sheet, row by row from its first one, empty where nothing stands.
 ///
 /// # Errors
 /// What is wrong with the workbook, as a sentence about it.
 pub(super) fn rows_of(bytes: Vec<u8>, sheet: Sheet<'_>) -> Result<Vec<Vec<String>>, String> {
-    /// Beyond it nobody keeps a budget.
-    const MOST_ROWS: u32 = 10_000;
-    const MOST_COLUMNS: u32 = 256;
     check_parts(&bytes)?;
+    Ok(rows(&cells(&mut opened(bytes)?, sheet, &mut 0)?.0))
+}
+
+/// Beyond it nobody keeps a budget.
+const MOST_ROWS: u32 = 10_000;
+const MOST_COLUMNS: u32 = 256;
+
+fn rows(cells: &Cells) -> Vec<Vec<String>> {
     let mut rows: Vec<Vec<String>> = Vec::new();
-    for (row, cells) in cells(bytes, sheet)?.range(..MOST_ROWS) {
+    for (row, cells) in cells.range(..MOST_ROWS) {
         rows.resize(*row as usize, Vec::new());
         let mut line: Vec<String> = Vec::new();
         for (column, text) in cells.range(..MOST_COLUMNS) {
@@ -81,7 +81,61 @@ pub(super) fn rows_of(bytes: Vec<u8>, sheet: Sheet<'_>) -> Result<Vec<Vec<String
         }
         rows.push(line);
     }
-    Ok(rows)
+    rows
+}
+
+/// A workbook of which several sheets are read.
+pub(super) struct Book {
+    bytes: Vec<u8>,
+    workbook: Xlsx<Cursor<Vec<u8>>>,
+    /// Bytes of the texts that were read so far.
+    size: usize,
+}
+
+/// The name of a sheet with cells.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct SheetName {
+    /// Its place among all sheets, from 0.
+    place: usize,
+    pub(super) name: String,
+    pub(super) is_hidden: bool,
+}
+
+impl Book {
+    /// # Errors
+    /// What is wrong with the workbook, as a sentence about it.
+    pub(super) fn open(bytes: Vec<u8>) -> Result<Self, String> {
+        check_parts(&bytes)?;
+        Ok(Self { workbook: opened(bytes.clone())?, bytes, size: 0 })
+    }
+
+    /// The sheets with cells, in their order.
+    pub(super) fn sheets(&self) -> Vec<SheetName> {
+        let all = self.workbook.sheets_metadata().iter().enumerate();
+        let with_cells = all.filter(|(_, sheet)| sheet.typ == SheetType::WorkSheet);
+        with_cells
+            .map(|(place, sheet)| SheetName {
+                place,
+                name: sheet.name.clone(),
+                is_hidden: sheet.visible != SheetVisible::Visible,
+            })
+            .collect()
+    }
+
+    /// All cells of a sheet, row by row from its first one, and what it says besides their values.
+    ///
+    /// # Errors
+    /// What is wrong with the workbook, as a sentence about it.
+    pub(super) fn sheet(&mut self, of: &SheetName) -> Result<(Vec<Vec<String>>, Layout), String> {
+        let sheet = Sheet::Named(&of.name);
+        let (cells, struck) = cells(&mut self.workbook, sheet, &mut self.size)?;
+        Ok((rows(&cells), Layout { struck, ..Layout::of(&self.bytes, of.place) }))
+    }
+}
+
+/// The name of a cell, such as `D2`.
+pub(super) fn reference((row, column): Place) -> String {
+    format!("{}{}", letters(column), row + 1)
 }
 
 fn is_none(error: impl std::fmt::Display) -> String {
@@ -206,19 +260,31 @@ fn behind(style: &Style) -> Behind {
     format.map_or(Behind::Nothing, |format| Behind::of(&format.format_code))
 }
 
-fn cells(bytes: Vec<u8>, sheet: Sheet<'_>) -> Result<Cells, String> {
-    let mut workbook: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(is_none)?;
+fn opened(bytes: Vec<u8>) -> Result<Xlsx<Cursor<Vec<u8>>>, String> {
+    Xlsx::new(Cursor::new(bytes)).map_err(is_none)
+}
+
+/// The cells of a sheet, and which of them are struck through; `size` counts the bytes of their texts.
+fn cells(
+    workbook: &mut Xlsx<Cursor<Vec<u8>>>,
+    sheet: Sheet<'_>,
+    size: &mut usize,
+) -> Result<(Cells, BTreeSet<Place>), String> {
     let names = workbook.sheet_names();
     let sheet = match sheet {
         Sheet::First => names.first().cloned(),
         Sheet::Last => names.last().cloned(),
-        Sheet::Named(name) if !names.iter().any(|known| known == name) => return Ok(Cells::new()),
+        Sheet::Named(name) if !names.iter().any(|known| known == name) => {
+            return Ok(Default::default());
+        }
         Sheet::Named(name) => Some(name.to_owned()),
     };
     let sheet = sheet.ok_or_else(|| "the workbook has no sheet".to_owned())?;
     let mut reader = workbook.worksheet_cells_reader(&sheet).map_err(is_none)?;
     let formats: Vec<Behind> = reader.styles().iter().map(behind).collect();
-    let (mut cells, mut size) = (Cells::new(), 0);
+    let is_struck = |style: &Style| style.font.as_ref().is_some_and(|font| font.strikethrough);
+    let struck_styles: Vec<bool> = reader.styles().iter().map(is_struck).collect();
+    let (mut cells, mut struck) = (Cells::new(), BTreeSet::new());
     while let Some((cell, style)) = reader.next_cell_with_style_id().map_err(is_none)? {
         let ((row, column), value) = (cell.get_position(), cell.get_value());
         if row >= ROWS || column >= COLUMNS {
@@ -242,8 +308,11 @@ fn cells(bytes: Vec<u8>, sheet: Sheet<'_>) -> Result<Cells, String> {
         if text.trim().is_empty() {
             continue;
         }
-        size += text.len() + 1;
-        if size > MOST_OF_TEXT {
+        if struck_styles.get(style).is_some_and(|is_struck| *is_struck) {
+            struck.insert((row, column));
+        }
+        *size += text.len() + 1;
+        if *size > MOST_OF_TEXT {
             let most = MOST_OF_TEXT / 1_000_000;
             return Err(format!(
                 "its cells hold more than {most} MB of text, which this version takes at most"
@@ -251,7 +320,7 @@ fn cells(bytes: Vec<u8>, sheet: Sheet<'_>) -> Result<Cells, String> {
         }
         cells.entry(row).or_default().insert(column, text);
     }
-    Ok(cells)
+    Ok((cells, struck))
 }
 
 /// The table's text: its columns are those of the first row that is no comment, and a cell outside
@@ -292,7 +361,7 @@ fn csv(cells: &Cells) -> Result<String, String> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use std::io::Write;
 
     use super::*;
@@ -317,7 +386,7 @@ mod tests {
     ];
 
     /// A workbook whose sheet and shared strings are written by these.
-    fn workbook(
+    pub(crate) fn workbook(
         sheet: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
         strings: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
     ) -> Vec<u8> {

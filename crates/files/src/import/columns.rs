@@ -3,7 +3,7 @@
 use super::grid::Cells;
 use super::number::number as number_of_cell;
 use super::number::{constant, number_with_unit};
-use gumption_engine::special::normal;
+use gumption_engine::special::student;
 use gumption_units::Unit;
 
 /// What a column holds.
@@ -176,6 +176,12 @@ const WORDS: &[(Column, &[&str])] = &[
             "u_i",
             "ui",
             "std. uncertainty",
+            "std unc",
+            "std. unc",
+            "stand unc",
+            "stand. unc",
+            "stand. uncertainty",
+            "standard unc",
             "u_x",
             "standard deviation",
             "standardunsicherheit",
@@ -226,6 +232,8 @@ const WORDS: &[(Column, &[&str])] = &[
             "faktor",
             "diviseur",
             "facteur d'élargissement",
+            "facteur",
+            "multiplier",
         ],
     ),
     (
@@ -337,7 +345,31 @@ const RESULTS: &[&str] = &[
     "kombinierte messunsicherheit",
     "standard uncertainty",
     "standardunsicherheit",
+    "somme",
+    "expanded",
+    "expanded u",
+    "erweitert",
+    "élargie",
+    "total uncertainty",
+    "total standard uncertainty",
+    "gesamtunsicherheit",
+    "incertitude totale",
 ];
+
+/// Whether a row's words are those of the sum of some rows above it.
+pub(super) fn is_subtotal(words: &str) -> bool {
+    const SUBTOTALS: [&str; 6] =
+        ["subtotal", "sub-total", "sub total", "zwischensumme", "sous-total", "sous total"];
+    let words = plain(words);
+    SUBTOTALS
+        .iter()
+        .any(|of| words.strip_prefix(of).is_some_and(|rest| !rest.starts_with(char::is_alphabetic)))
+}
+
+/// Whether a text is the symbol of an expanded uncertainty with its coverage, `U (k=2)`.
+pub(super) fn is_expanded_symbol(text: &str) -> bool {
+    plain_case(text) == "U" && HeaderCoverage::of(text).factor(None).is_some()
+}
 
 /// Whether a heading speaks of a standard deviation.
 fn is_deviation(heading: &str) -> bool {
@@ -345,7 +377,8 @@ fn is_deviation(heading: &str) -> bool {
     ["standard deviation", "standardabweichung", "écart-type", "écart type", "std"]
         .iter()
         .any(|deviation| words.starts_with(deviation))
-        && !words.contains("uncertainty")
+        && !words.contains("unc")
+        && !words.contains("unsich")
         && !words.contains("mean")
         && !words.contains("mittel")
 }
@@ -574,7 +607,19 @@ impl Header {
                 // `X_i` and `x_i` side by side: the quantity and its estimate
                 let is_estimate = matches!(cell.trim(), "x_i" | "xi")
                     && columns.iter().any(|(_, known)| *known == Column::Symbol);
-                match if is_estimate { Some(Column::Estimate) } else { column(cell) } {
+                // `u` beside what is divided is the quotient
+                let width = columns.iter_mut().find(|(_, known)| *known == Column::Width);
+                let mut found = if is_estimate { Some(Column::Estimate) } else { column(cell) };
+                if let Some((known, of)) = width
+                    && found == Some(Column::Width)
+                {
+                    if plain_case(cell) == "u" {
+                        found = Some(Column::Std);
+                    } else if plain_case(&headings[*known]) == "u" {
+                        *of = Column::Std;
+                    }
+                }
+                match found {
                     Some(found) if !columns.iter().any(|(_, known)| *known == found) => {
                         columns.push((place, found));
                     }
@@ -612,7 +657,8 @@ impl Header {
                 && u > c
                 && of(Column::Width).is_some()
                 && of(Column::Contribution).is_none()
-                && matches!(plain(&headings[u]).as_str(), "ui" | "u_i")
+                && (matches!(plain(&headings[u]).as_str(), "ui" | "u_i")
+                    || plain_case(&headings[u]) == "u")
                 && let Some((_, column)) = columns.iter_mut().find(|(place, _)| *place == u)
             {
                 *column = Column::Contribution;
@@ -649,6 +695,7 @@ impl Header {
         }
         let mut best = best?;
         best.widths_as_values(cells);
+        best.deviations_as_widths(cells);
         best.doubts(cells);
         for (place, column) in best.columns.iter().filter(|(_, column)| column.is_of_numbers()) {
             let heading = best.headings.get(*place).map_or("", String::as_str);
@@ -664,6 +711,61 @@ impl Header {
         }
         best.units_below(cells);
         Some(best)
+    }
+
+    /// The first other line that names the columns of this header, or most of them.
+    pub(super) fn repeated(&self, cells: &Cells) -> Option<usize> {
+        let comma = cells.decimal_comma();
+        let is_header = |line: &usize| {
+            if (self.first..=self.line).contains(line) {
+                return false;
+            }
+            let row = cells.row(*line);
+            let has_number = || row.iter().any(|cell| number_with_unit(cell, comma).is_some());
+            let is_named =
+                |(place, _): &&(usize, Column)| column(cells.text(*line, *place)).is_some();
+            let same = |(place, of): &&(usize, Column)| {
+                let cell = cells.text(*line, *place);
+                column(cell) == Some(*of) || plain(cell) == plain(self.heading(*place))
+            };
+            let same = self.columns.iter().filter(is_named).filter(same).count();
+            same >= 3 && 3 * same >= 2 * self.columns.len() && !has_number()
+        };
+        (0..cells.lines()).find(is_header)
+    }
+
+    /// The column of the numbers of readings that divisors `√n` are of; `None` where no divisor is.
+    pub(super) fn number_of_readings(&self, cells: &Cells) -> Option<usize> {
+        let place = self.unknown.iter().find(|place| {
+            const WORDS: [&str; 8] = [
+                "n",
+                "n_i",
+                "ni",
+                "number of readings",
+                "number of measurements",
+                "anzahl",
+                "anzahl messungen",
+                "nombre de mesures",
+            ];
+            WORDS.contains(&plain(self.heading(**place)).as_str())
+        })?;
+        let is_used = |line: usize| is_root_of_n(self.cell(cells, line, Column::Divisor));
+        (self.line + 1..cells.lines()).any(is_used).then_some(*place)
+    }
+
+    /// A standard deviation that divisors `√n` divide is no standard uncertainty yet.
+    fn deviations_as_widths(&mut self, cells: &Cells) {
+        if self.number_of_readings(cells).is_none()
+            || self.columns.iter().any(|(_, column)| *column == Column::Width)
+            || !is_deviation(self.heading_of(Column::Std))
+        {
+            return;
+        }
+        for (_, column) in &mut self.columns {
+            if *column == Column::Std {
+                *column = Column::Width;
+            }
+        }
     }
 
     /// `Value` heads the half-widths and expanded uncertainties where its numbers over the divisors are
@@ -695,8 +797,12 @@ impl Header {
                 Some([value?, divisor?, std?])
             })
             .collect();
+        // factors below 1 multiply
+        let multiplies = is_of_factors(self.heading_of(Column::Divisor));
         let is_width = |[value, divisor, std]: &[f64; 3]| {
-            (value.abs() / divisor - std).abs() <= ROUNDED * std.abs() && *std > 0.0
+            let is_factor = multiplies && *divisor < 1.0;
+            let found = if is_factor { value.abs() * divisor } else { value.abs() / divisor };
+            (found - std).abs() <= ROUNDED * std.abs() && *std > 0.0
         };
         if rows.len() >= 2 && rows.iter().all(is_width) {
             for (_, column) in &mut self.columns {
@@ -803,9 +909,13 @@ impl Header {
 
     /// What the heading of a column says of the coverage of its numbers.
     pub(super) fn coverage(&self, column: Column) -> HeaderCoverage {
+        HeaderCoverage::of(self.heading_of(column))
+    }
+
+    /// The words at the head of what is such a column; empty where there is none.
+    pub(super) fn heading_of(&self, column: Column) -> &str {
         let place = self.columns.iter().find(|(_, of)| *of == column);
-        let text = place.map(|(place, _)| self.heading(*place));
-        text.map_or(HeaderCoverage::None, HeaderCoverage::of)
+        place.map_or("", |(place, _)| self.heading(*place))
     }
 
     /// The words at the head of a column.
@@ -847,13 +957,27 @@ fn of_two_lines(cells: &Cells, line: usize) -> Option<Vec<String>> {
     heads.then(|| headings.collect())
 }
 
+/// Whether a divisor is the root of the number of readings: `√n`, `sqrt(n)`.
+pub(super) fn is_root_of_n(text: &str) -> bool {
+    let compact: String = text.to_lowercase().split_whitespace().collect();
+    let compact = compact.replace("sqrt", "√").replace("wurzel", "√").replace("racine", "√");
+    matches!(compact.replace(['(', ')'], "").as_str(), "√n" | "n^0.5" | "n^0,5")
+}
+
+/// Whether a heading is of factors, of which a sheet may multiply by them.
+pub(super) fn is_of_factors(heading: &str) -> bool {
+    matches!(plain(heading).as_str(), "factor" | "faktor" | "facteur" | "multiplier")
+}
+
 /// What a column of expanded uncertainties says of its coverage in its header.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum HeaderCoverage {
     /// Nothing: the header does not speak of expanded uncertainties.
     None,
-    /// The factor: `U (k=2)`, `U (p=95 %)`.
+    /// The factor: `U (k=2)`.
     Factor(f64),
+    /// The coverage probability, and no factor: `U (p=95 %)`.
+    Probability(f64),
     /// That they are expanded, and no more.
     Expanded,
 }
@@ -891,14 +1015,34 @@ impl HeaderCoverage {
         };
         let share = behind("p=").or_else(bare).map(|p| if p > 1.0 { p / 100.0 } else { p });
         if let Some(p) = share.filter(|p| *p > 0.0 && *p < 1.0) {
-            return Self::Factor(normal::quantile(0.5 + 0.5 * p));
+            return Self::Probability(p);
         }
-        let words = ["expanded", "erweiterte", "erw."];
-        if words.iter().any(|word| compact.starts_with(word)) || plain_case(text) == "U" {
+        let words = ["expanded", "erweiterte", "erw.", "incertitudeélargie", "incertitudeelargie"];
+        // `Uncertainty U`: the symbol stands behind the words
+        let symbol = plain_case(text).split_whitespace().next_back();
+        if words.iter().any(|word| compact.starts_with(word)) || symbol == Some("U") {
             Self::Expanded
         } else {
             Self::None
         }
+    }
+
+    /// The factor of uncertainties with these degrees of freedom, `None` where they are infinite: of a
+    /// probability that of the t distribution (JCGM 100, G.3.2).
+    pub(super) fn factor(self, dof: Option<f64>) -> Option<f64> {
+        match self {
+            Self::Factor(factor) => Some(factor),
+            Self::Probability(p) => {
+                let dof = dof.filter(|dof| *dof > 0.0).unwrap_or(f64::INFINITY);
+                Some(student::two_sided_factor(p, dof))
+            }
+            Self::None | Self::Expanded => None,
+        }
+    }
+
+    /// The coverage probability, if that is what is stated.
+    pub(super) fn probability(self) -> Option<f64> {
+        if let Self::Probability(p) = self { Some(p) } else { None }
     }
 }
 
@@ -931,11 +1075,15 @@ pub(super) fn is_expanded(words: &str) -> bool {
 
 /// Whether a row that is one of results holds an uncertainty and not the result's estimate.
 pub(super) fn is_of_uncertainty(words: &str) -> bool {
+    if is_expanded_symbol(words) {
+        return true;
+    }
     let words = plain(words);
     ["uncertainty", "unsicherheit", "incertitude", "freedom", "freiheitsgrad"]
         .iter()
         .any(|of| words.contains(of))
         || words == "combined"
+        || words.split_whitespace().any(|word| matches!(word, "expanded" | "erweitert" | "élargie"))
         || is_factor(&words)
 }
 

@@ -34,6 +34,10 @@ fn input(row: &Row) -> Value {
                 put("distribution", "normal".into());
                 put("mean", json!(mean));
                 match divisor {
+                    Some(_) if row.probability.is_some() => {
+                        put("expanded", json!(width));
+                        put("p", json!(row.probability));
+                    }
                     Some(divisor) if divisor != 1.0 => {
                         put("expanded", json!(width));
                         put("k", json!(divisor));

@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
-use super::columns::Header;
+use super::columns::{Column, Header};
 use crate::open::json_as_table;
 use crate::separator::{DecimalMarks, Separator};
 use crate::source::SourceText;
-use crate::{DiagnosticKind, bytes, workbook};
+use crate::workbook::Layout;
+use crate::{DiagnosticKind, bytes};
 
 /// Lines and cells, at most.
 const MOST_LINES: usize = 10_000;
@@ -21,6 +22,8 @@ pub(super) struct Cells {
     separator: Option<Separator>,
     /// Whether cells of a text with commas between them have decimal commas, in quotes.
     quoted_commas: bool,
+    /// What a workbook says of its cells besides their values.
+    layout: Layout,
 }
 
 impl Cells {
@@ -48,23 +51,81 @@ impl Cells {
         self.separator != Some(Separator::Comma) || self.quoted_commas
     }
 
+    /// What separated them in a text; `None` in a workbook.
+    pub(super) fn separator(&self) -> Option<Separator> {
+        self.separator
+    }
+
+    /// What a workbook says of the cells besides their values; of a text nothing.
+    pub(super) fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Writes what merged cells hold into all rows that they span, in columns of what several rows can
+    /// have in common; what was taken, as sentences.
+    fn spread_merged(&mut self, header: &Header) -> Vec<String> {
+        const COMMON: [Column; 6] = [
+            Column::Unit,
+            Column::Distribution,
+            Column::Divisor,
+            Column::Dof,
+            Column::Sensitivity,
+            Column::UnitOfSensitivity,
+        ];
+        let mut said = Vec::new();
+        for ((first, column), (last, _)) in self.layout.merged.clone() {
+            let (first, last, place) = (first as usize, last as usize, column as usize);
+            let is_common =
+                |(of, column): &(usize, Column)| *of == place && COMMON.contains(column);
+            let text = self.text(first, place).to_owned();
+            if first <= header.line
+                || text.trim().is_empty()
+                || !header.columns.iter().any(is_common)
+            {
+                continue;
+            }
+            let mut is_taken = false;
+            for row in self.rows.iter_mut().take(last + 1).skip(first + 1) {
+                if row.iter().all(|cell| cell.trim().is_empty()) {
+                    continue;
+                }
+                row.resize(row.len().max(place + 1), String::new());
+                if row[place].is_empty() {
+                    row[place].clone_from(&text);
+                    is_taken = true;
+                }
+            }
+            if is_taken {
+                said.push(format!(
+                    "the merged cell `{}` counts for lines {} to {}",
+                    text.trim(),
+                    first + 1,
+                    last + 1
+                ));
+            }
+        }
+        said
+    }
+
     /// The decimal marks of its numbers; of a workbook, whose numbers have none, those of any text.
     pub(super) fn marks(&self) -> DecimalMarks {
         DecimalMarks::of(self.separator.unwrap_or(Separator::Comma))
     }
 }
 
-/// The cells of a CSV file or of the first sheet of an XLSX file, and the text of messages.
-pub(super) fn of_content(
-    content: Vec<u8>,
-    is_workbook: bool,
-) -> Result<(Cells, String), DiagnosticKind> {
+/// The cells of a sheet of a workbook, the text of messages, and what was taken of merged cells.
+pub(super) fn of_sheet(rows: Vec<Vec<String>>, layout: Layout) -> (Cells, String, Vec<String>) {
+    let (cells, text) = of_rows(rows);
+    let mut cells = Cells { layout, ..cells };
+    let header = Header::find(&cells);
+    let said = header.map(|header| cells.spread_merged(&header)).unwrap_or_default();
+    (cells, text, said)
+}
+
+/// The cells of a CSV file, and the text of messages.
+pub(super) fn of_text(content: &[u8]) -> Result<(Cells, String), DiagnosticKind> {
     let unreadable = |message| DiagnosticKind::Unreadable { message };
-    if is_workbook {
-        let rows = workbook::rows(content).map_err(unreadable)?;
-        return Ok(of_rows(rows));
-    }
-    let text = bytes::text(&content).map_err(unreadable)?;
+    let text = bytes::text(content).map_err(unreadable)?;
     if let Some((_, kind)) = json_as_table(&SourceText::new("", &text)) {
         return Err(kind);
     }

@@ -26,6 +26,8 @@ pub(super) struct Row {
     pub(super) std: Option<f64>,
     pub(super) distribution: Option<&'static str>,
     pub(super) divisor: Option<f64>,
+    /// The coverage probability that the divisor is of, where no factor is stated.
+    pub(super) probability: Option<f64>,
     pub(super) sensitivity: Option<f64>,
     /// As the sheet writes it; empty where it does not.
     pub(super) unit_of_sensitivity: String,
@@ -94,7 +96,13 @@ impl Budget<'_> {
             let is_symbol = !used.contains(&columns::identifier(words))
                 && (columns::is_combined_symbol(words) && !self.is_quantity(header, line)
                     || columns::is_summary_symbol(words) && self.is_bare(header, line) && is_after);
-            let is_result = columns::is_result(&label) || is_measurand;
+            let is_result =
+                columns::is_result(&label) || columns::is_expanded_symbol(words) || is_measurand;
+            if !is_result && columns::is_subtotal(&label) {
+                let text = format!("line {}: `{label}` is a sum of other rows; left out", line + 1);
+                self.guessed.push(text);
+                continue;
+            }
             if is_below && !is_result && !is_symbol {
                 self.guessed.push(format!(
                     "line {}: `{}` stands below the table and is not taken",
@@ -193,6 +201,9 @@ impl Budget<'_> {
                 "line {}: a rectangular distribution is taken between the limits",
                 line + 1
             ));
+        }
+        if !lenient {
+            self.extent(header, &mut row, has_limits);
         }
         row
     }
@@ -497,8 +508,8 @@ impl Budget<'_> {
         let cell = |column| HeaderCoverage::of(header.cell(self.cells, row.line, column));
         let of_header = header.coverage(Column::Width);
         let is_normal = matches!(row.distribution, None | Some("normal"));
-        let mut stated: Vec<(f64, &str)> =
-            row.divisor.map(|k| (k, "the divisor")).into_iter().collect();
+        let divisor = row.divisor.map(|k| (HeaderCoverage::Factor(k), "the divisor"));
+        let mut stated: Vec<(HeaderCoverage, &str)> = divisor.into_iter().collect();
         for (coverage, place) in [
             (cell(Column::Distribution), "the distribution"),
             (cell(Column::Width), "the uncertainty"),
@@ -506,22 +517,40 @@ impl Budget<'_> {
         ] {
             // a heading speaks of the rows that say nothing else
             let counts = place != "the heading" || (stated.is_empty() && is_normal);
-            if let HeaderCoverage::Factor(factor) = coverage
-                && counts
-            {
-                stated.push((factor, place));
+            if counts && coverage.factor(row.dof).is_some() {
+                stated.push((coverage, place));
             }
         }
-        if let [(first, of), rest @ ..] = stated.as_slice() {
-            if let Some((other, by)) = rest.iter().find(|(other, _)| !near(*first, *other)) {
+        // a factor goes before a probability, of which the sheet may have taken the factor of a normal one
+        let first = stated.iter().find(|(of, _)| of.probability().is_none()).or(stated.first());
+        if let Some((coverage, of)) = first.copied()
+            && let Some(factor) = coverage.factor(row.dof)
+        {
+            let differs = |other: HeaderCoverage| {
+                [row.dof, None]
+                    .into_iter()
+                    .filter_map(|dof| other.factor(dof))
+                    .all(|other| !near(factor, other))
+            };
+            if let Some((other, by)) = stated.iter().find(|(other, _)| differs(*other)) {
                 let reason = format!(
                     "{of} says {}, {by} {}: which factor is it?",
-                    Shortest(*first),
-                    Shortest(*other)
+                    Shortest(factor),
+                    Shortest(other.factor(row.dof).unwrap_or(f64::NAN))
                 );
                 self.fail(row.line, reason);
             }
-            row.divisor = Some(*first);
+            row.divisor = Some(factor);
+            row.probability = coverage.probability();
+            if let Some((p, dof)) = row.probability.zip(row.dof) {
+                self.understood.push(format!(
+                    "line {}: of {} % and {} degrees of freedom k = {} of the t distribution",
+                    row.line + 1,
+                    Shortest(to_15_digits(100.0 * p)),
+                    Shortest(dof),
+                    significant(factor, 4)
+                ));
+            }
             return;
         }
         if !is_normal {
@@ -549,14 +578,18 @@ impl Budget<'_> {
 
     /// A heading says a coverage factor, and each row that it can be of another one.
     fn factor_of_heading(&self, header: &Header, rows: &[Row]) {
-        let HeaderCoverage::Factor(factor) = header.coverage(Column::Width) else { return };
+        let coverage = header.coverage(Column::Width);
+        let Some(factor) = coverage.factor(None) else { return };
         let is_of_it = |row: &&Row| {
             row.width.is_some_and(|width| width > 0.0)
                 && matches!(row.distribution, None | Some("normal"))
                 && !is_empty(header.cell(self.cells, row.line, Column::Divisor).trim())
         };
         let of_it: Vec<&Row> = rows.iter().filter(is_of_it).collect();
-        let differs = |row: &&Row| row.divisor.is_some_and(|divisor| !near(divisor, factor));
+        let differs = |row: &&Row| {
+            let factors = [row.dof, None].map(|dof| coverage.factor(dof).unwrap_or(factor));
+            row.divisor.is_some_and(|divisor| factors.iter().all(|of| !near(divisor, *of)))
+        };
         if let Some(row) = of_it.first()
             && of_it.iter().all(differs)
         {
@@ -608,14 +641,26 @@ impl Budget<'_> {
     }
 
     /// A divisor: a number, a root such as `√3` or `sqrt(3)`, or a factor such as `k = 2`.
-    fn divisor(&self, header: &Header, line: usize, lenient: bool) -> Option<f64> {
+    fn divisor(&mut self, header: &Header, line: usize, lenient: bool) -> Option<f64> {
         let text = header.cell(self.cells, line, Column::Divisor).trim();
         if is_empty(text) {
             return None;
         }
+        if columns::is_root_of_n(text) {
+            return self.root_of_n(header, line, lenient);
+        }
         match number::constant(text, self.cells.decimal_comma()) {
             Some(divisor) if divisor >= 1.0 => Some(divisor),
             _ if lenient => None,
+            Some(factor) if factor > 0.0 && self.multiplies(header, line, factor) => {
+                let divisor = 1.0 / factor;
+                self.understood.push(format!(
+                    "line {}: the factor `{text}` multiplies, as 1/{} does",
+                    line + 1,
+                    significant(divisor, 4)
+                ));
+                Some(divisor)
+            }
             Some(factor) if factor > 0.0 => {
                 let reason = format!(
                     "the divisor `{text}` is below 1: does it multiply, as 1/{} would divide?",
@@ -629,6 +674,57 @@ impl Budget<'_> {
                 None
             }
         }
+    }
+
+    /// The root of the number of readings that stands in a row.
+    fn root_of_n(&self, header: &Header, line: usize, lenient: bool) -> Option<f64> {
+        let place = header.number_of_readings(self.cells);
+        let text = place.map_or("", |place| self.cells.text(line, place).trim());
+        let number = number::number(text, self.cells.decimal_comma());
+        let number = number.filter(|number| *number >= 1.0 && number.fract() == 0.0);
+        if number.is_none() && !lenient {
+            let divisor = header.cell(self.cells, line, Column::Divisor).trim();
+            let found = match text {
+                "" => "there is none in a column `n`".to_owned(),
+                text => format!("`{text}` in the column `n` is no whole number above 0"),
+            };
+            self.fail(line, format!("the divisor `{divisor}` needs a number of readings: {found}"));
+        }
+        number.map(f64::sqrt)
+    }
+
+    /// Whether a factor below 1 is 1 over what the row's distribution is divided by, in a column of
+    /// factors; of a normal one whose coverage factor is not stated where another row has such a one.
+    fn multiplies(&self, header: &Header, line: usize, factor: f64) -> bool {
+        if !columns::is_of_factors(header.heading_of(Column::Divisor)) {
+            return false;
+        }
+        let of_shape = |line: usize, factor: f64| {
+            let text = header.cell(self.cells, line, Column::Distribution);
+            match columns::distribution(text) {
+                Some(NamedShape::Known(shape)) => {
+                    divisor_of(shape).map(|divisor| near(divisor, 1.0 / factor))
+                }
+                _ => None,
+            }
+        };
+        if let Some(is_alike) = of_shape(line, factor) {
+            return is_alike;
+        }
+        let cell = |column| HeaderCoverage::of(header.cell(self.cells, line, column));
+        let coverage =
+            [cell(Column::Distribution), cell(Column::Width), header.coverage(Column::Width)];
+        if let Some(stated) = coverage.iter().find_map(|of| of.factor(None)) {
+            return near(stated, 1.0 / factor);
+        }
+        let text = header.cell(self.cells, line, Column::Distribution);
+        let is_normal = columns::distribution(text) == Some(NamedShape::Known("normal"));
+        is_normal
+            && (header.line + 1..self.cells.lines()).any(|line| {
+                let text = header.cell(self.cells, line, Column::Divisor).trim();
+                let factor = number::constant(text, self.cells.decimal_comma());
+                factor.is_some_and(|factor| factor < 1.0 && of_shape(line, factor) == Some(true))
+            })
     }
 
     fn unit(&mut self, header: &Header, line: usize, lenient: bool) -> String {
@@ -686,14 +782,20 @@ impl Budget<'_> {
     fn distribution(&mut self, header: &Header, row: &Row, lenient: bool) -> Option<&'static str> {
         let text = header.cell(self.cells, row.line, Column::Distribution).trim();
         // a half width needs its shape, or what it is divided by
-        let needs = row.width.is_some_and(|width| width > 0.0)
+        let is_undivided = row.width.is_some_and(|width| width > 0.0)
             && row.divisor.is_none()
             && row.std.is_none()
-            && !is_factor_of(text)
             && !lenient;
+        let needs = is_undivided && !is_factor_of(text);
+        // a probability has its factor with degrees of freedom alone, which may be infinite
+        let is_without_dof = header.cell(self.cells, row.line, Column::Dof).trim().is_empty();
+        let is_stated = [HeaderCoverage::of(text), header.coverage(Column::Width)]
+            .iter()
+            .any(|of| of.factor(None).is_some() && (of.probability().is_none() || !is_without_dof));
+        let needs_dof = is_undivided && !is_stated;
         match columns::distribution(text)? {
             NamedShape::Known(name) => Some(name),
-            NamedShape::Student if needs && row.dof.is_none() => {
+            NamedShape::Student if needs_dof && row.dof.is_none() => {
                 let reason = format!(
                     "`{text}` needs a divisor or degrees of freedom: what is the stated uncertainty \
                      divided by?"
@@ -730,7 +832,7 @@ fn is_empty(text: &str) -> bool {
 
 /// Whether a text states a coverage factor.
 fn is_factor_of(text: &str) -> bool {
-    matches!(HeaderCoverage::of(text), HeaderCoverage::Factor(_))
+    HeaderCoverage::of(text).factor(None).is_some()
 }
 
 /// Whether a number may have its digits in groups, `1.234,5` or `1,500`.

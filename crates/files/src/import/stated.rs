@@ -12,7 +12,7 @@ use super::rows::Row;
 use crate::reader::read_text;
 use gumption_engine::decimal::significant;
 use gumption_engine::number::elementary;
-use gumption_engine::propagate::gum;
+use gumption_engine::propagate::gum::{self, Dof};
 use gumption_units::Unit;
 
 /// A figure of the result.
@@ -20,8 +20,8 @@ use gumption_units::Unit;
 enum Figure {
     Estimate,
     StandardUncertainty,
-    /// With its coverage factor, if the sheet states it.
-    ExpandedUncertainty(Option<f64>),
+    /// With its coverage, if the sheet states it, and its degrees of freedom.
+    ExpandedUncertainty(HeaderCoverage, Option<f64>),
 }
 
 /// A figure of the result as the sheet states it.
@@ -49,10 +49,6 @@ impl Budget<'_> {
     pub(super) fn stated(&self, header: &Header, line: usize, row: &Row) -> Vec<Stated> {
         let label = header.cell(self.cells, line, Column::Quantity).trim();
         let symbol = header.cell(self.cells, line, Column::Symbol).trim();
-        // what is summed there, nobody knows
-        if ["sum", "summe", "total", "somme"].contains(&columns::plain(label).as_str()) {
-            return Vec::new();
-        }
         let is_symbol = |texts: &[&str]| {
             [label, symbol].iter().any(|text| {
                 let compact: String =
@@ -65,9 +61,12 @@ impl Budget<'_> {
             is_expanded || columns::is_of_uncertainty(label) || is_symbol(&["u", "uc", "u_c"]);
         let divisor = header.cell(self.cells, line, Column::Divisor);
         let comma = self.cells.decimal_comma();
-        let factor = match HeaderCoverage::of(label) {
-            HeaderCoverage::Factor(factor) => Some(factor),
-            _ => constant(divisor, comma).filter(|factor| *factor > 0.0),
+        let of_divisor = constant(divisor, comma).filter(|factor| *factor > 0.0);
+        let coverage = match HeaderCoverage::of(label) {
+            HeaderCoverage::None | HeaderCoverage::Expanded => {
+                of_divisor.map_or(HeaderCoverage::None, HeaderCoverage::Factor)
+            }
+            stated => stated,
         };
         let columns = [Column::Estimate, Column::Width, Column::Std, Column::Contribution];
         let mut found = Vec::new();
@@ -75,15 +74,15 @@ impl Budget<'_> {
             let text = header.cell(self.cells, line, column).trim();
             let digits = text.trim_start_matches(['±', ' ']);
             let Some((value, unit)) = number_with_unit(digits, comma) else { continue };
-            let expanded = Figure::ExpandedUncertainty(factor);
+            let expanded = Figure::ExpandedUncertainty(coverage, row.dof);
             let figure = match column {
                 Column::Estimate if !is_uncertainty => Figure::Estimate,
-                Column::Width if !is_expanded => match (factor, header.coverage(column)) {
-                    (Some(factor), _) | (None, HeaderCoverage::Factor(factor)) => {
-                        Figure::ExpandedUncertainty(Some(factor))
-                    }
-                    _ => continue,
-                },
+                Column::Width if !is_expanded => {
+                    let both = [coverage, header.coverage(column)];
+                    let stated = both.into_iter().find(|of| of.factor(None).is_some());
+                    let Some(coverage) = stated else { continue };
+                    Figure::ExpandedUncertainty(coverage, row.dof)
+                }
                 _ if is_expanded => expanded,
                 _ => Figure::StandardUncertainty,
             };
@@ -133,9 +132,15 @@ impl Budget<'_> {
                 Figure::StandardUncertainty => {
                     (u, near(u, ROUNDED_PARTS * u), "the standard uncertainty")
                 }
-                Figure::ExpandedUncertainty(own_factor) => {
-                    let k = own_factor.or(factor).or(gum.coverage_factor).unwrap_or(2.0);
-                    let is_same = near(k * u, ROUNDED_PARTS * k * u);
+                Figure::ExpandedUncertainty(coverage, dof) => {
+                    let effective = if let Dof::Finite(dof) = gum.dof { Some(dof) } else { None };
+                    let own = coverage.factor(dof.or(effective));
+                    let k = own.or(factor).or(gum.coverage_factor).unwrap_or(2.0);
+                    // of a probability the sheet may have the factor of a normal distribution
+                    let is_same = [Some(k), coverage.factor(None)]
+                        .into_iter()
+                        .flatten()
+                        .any(|k| near(k * u, ROUNDED_PARTS * k * u));
                     (k * u, is_same, "the expanded uncertainty")
                 }
             };

@@ -772,3 +772,338 @@ fn units_behind_names_and_without_signs_of_powers() {
         "{error:?}"
     );
 }
+
+/// A coverage probability with degrees of freedom has the factor of the t distribution: 2.776 445 of 95 %
+/// and 4 (JCGM 100, table G.2, to more digits), with which 0.0002 V is 7.2035e-5 V. Before, it was 1.96.
+#[test]
+fn probabilities_with_degrees_of_freedom_have_the_factor_of_t() {
+    let t = 2.776_445_105_198;
+    for (heading, distribution) in [
+        ("Uncertainty (95 %)", "t"),
+        ("Uncertainty (95 %)", "normal"),
+        ("Uncertainty", "normal (95 %)"),
+        ("Uncertainty", "t (95 %)"),
+    ] {
+        let text = format!(
+            "Quantity,Estimate,Unit,{heading},Distribution,dof,ci\nCal,0,V,0.0002,{distribution},4,1\n"
+        );
+        let (found, budget) = uncertainties(&text);
+        assert!((found[0] * t / 2e-4 - 1.0).abs() < 1e-12, "{heading} {distribution} {found:?}");
+        assert!(budget.text.contains(r#""expanded":0.0002,"p":0.95,"dof":4.0"#), "{}", budget.text);
+        let said = "95 % and 4 degrees of freedom k = 2.776";
+        assert!(budget.understood.iter().any(|of| of.contains(said)), "{:?}", budget.understood);
+    }
+    // a factor goes before a probability, and infinite degrees of freedom have that of a normal one
+    for (heading, dof, divisor, k) in [
+        ("Uncertainty (95 %), k=2", "4", "", 2.0),
+        ("Uncertainty (95 %)", "∞", "", 1.959_963_984_540_054),
+        ("Uncertainty (95 %)", "4", "2.78", 2.78),
+        ("Uncertainty (95 %)", "4", "1.96", 1.96),
+    ] {
+        let text = format!(
+            "Quantity;Estimate;Unit;{heading};Distribution;dof;Divisor\nCal;0;V;0.0002;t;{dof};{divisor}\n"
+        );
+        let (found, _) = uncertainties(&text);
+        assert!((found[0] * k / 2e-4 - 1.0).abs() < 1e-12, "{heading} {dof} {divisor} {found:?}");
+    }
+    let text = "Quantity,Estimate,Unit,Uncertainty,Distribution\nCal,0,V,0.0002,t (95 %)\n";
+    let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("`t (95 %)` needs a divisor or degrees of freedom"), "{error}");
+}
+
+/// An expanded uncertainty of a probability is compared with the factor of the effective degrees of
+/// freedom, 2.776 of 4, or that of a normal distribution: 2.776 V and 1.960 V of 1 V.
+#[test]
+fn expanded_results_of_a_probability_are_compared() {
+    for (u, is_told) in [("2.776", false), ("1.960", false), ("2.3", true)] {
+        let text = format!(
+            "Quantity,Estimate,Unit,Standard uncertainty,dof\na,5,V,1,4\nb,2,V,0,\n\
+             Expanded uncertainty (95 %),,V,{u},\n"
+        );
+        let (_, budget) = uncertainties(&text);
+        assert_eq!(guesses(&budget, "the sheet says"), is_told, "{u}: {:?}", budget.guessed);
+    }
+}
+
+/// What a distribution's cell calls a full width is halved: 0.002 V of a rectangle from limit to limit is
+/// 0.001/sqrt(3) V. Before, it was taken for the half-width.
+#[test]
+fn full_widths_are_halved() {
+    let text = |heading: &str, shape: &str, divisor: &str| {
+        format!(
+            "Quantity;Estimate;Unit;{heading};Distribution;Divisor\na;1;V;0.002;{shape};{divisor}\n"
+        )
+    };
+    for (heading, shape, divisor, root) in [
+        ("Uncertainty", "rectangular (full width)", "", 3.0_f64),
+        ("Uncertainty", "rectangular (full range)", "", 3.0),
+        ("Uncertainty", "triangular (total width)", "", 6.0),
+        ("Uncertainty", "rectangular, range (max-min)", "", 3.0),
+        ("Unsicherheit", "Rechteck (Vollbreite)", "", 3.0),
+        ("Unsicherheit", "Rechteck (Gesamtbreite)", "", 3.0),
+        ("Unsicherheit", "Rechteck (Spannweite)", "", 3.0),
+        ("Incertitude", "rectangulaire (étendue totale)", "", 3.0),
+        ("Uncertainty (full width)", "rectangular", "", 3.0),
+        ("Uncertainty", "rectangular (full width)", "2√3", 3.0),
+    ] {
+        let (found, budget) = uncertainties(&text(heading, shape, divisor));
+        assert!((found[0] * root.sqrt() / 1e-3 - 1.0).abs() < 1e-12, "{shape}: {found:?}");
+        let is_said = budget.understood.iter().any(|said| said.contains("half of 0.002 is taken"));
+        assert!(is_said, "{:?}", budget.understood);
+    }
+    for shape in ["rectangular (Type B)", "rectangular (half-width)", "rectangular (100 %)"] {
+        let (found, _) = uncertainties(&text("Uncertainty", shape, ""));
+        assert!((found[0] * 3f64.sqrt() / 2e-3 - 1.0).abs() < 1e-12, "{shape}: {found:?}");
+    }
+    for (heading, shape, divisor, part) in [
+        (
+            "Half-width",
+            "rectangular (full width)",
+            "",
+            "heading `Half-width` and `rectangular (full width)` contradict",
+        ),
+        ("Uncertainty", "rectangular (peak)", "", "what `peak` says of the uncertainty is not"),
+        ("Uncertainty", "normal (full width)", "", "can be 0.002 or 0.001 that is divided"),
+        (
+            "Uncertainty",
+            "rectangular (full width)",
+            "1.732",
+            "and the divisor 1.732 can be 0.002 or",
+        ),
+    ] {
+        let error = import("b.csv", text(heading, shape, divisor).as_bytes()).unwrap_err();
+        assert!(error.to_string().contains(part), "{shape}: {error}");
+    }
+}
+
+/// The one error of a text.
+fn refusal(text: &str) -> String {
+    import("b.csv", text.as_bytes()).unwrap_err().to_string()
+}
+
+/// Sums of some rows are no inputs, and rows of totals and expanded uncertainties are compared:
+/// sqrt(0.3^2 + 0.4^2 + 1.2^2) = 1.3, twice of it 2.6.
+#[test]
+fn sums_and_totals_are_no_inputs() {
+    let head = "Quantity,Estimate,Unit,Standard uncertainty,Sensitivity coefficient\n";
+    for subtotal in ["Subtotal", "Sub-total", "Zwischensumme", "Sous-total", "Subtotal (A)"] {
+        let text = format!(
+            "{head}a,5,V,0.3,1\nb,2,V,0.4,1\n{subtotal},7,V,0.5,1\nc,0,V,1.2,1\nTotal,7,V,1.3,\n"
+        );
+        let (found, budget) = uncertainties(&text);
+        assert_eq!(found, [0.3, 0.4, 1.2], "{subtotal}");
+        assert!(guesses(&budget, "is a sum of other rows; left out"), "{:?}", budget.guessed);
+        assert!(!guesses(&budget, "the sheet says"), "{:?}", budget.guessed);
+    }
+    for (row, told) in [
+        ("Total,7,V,1.7,", "the standard uncertainty of the result is 1.7 V, this model 1.30 V"),
+        ("Summe,7,V,1.7,", "the standard uncertainty of the result is 1.7 V, this model 1.30 V"),
+        (
+            "Expanded (k=2),,V,3.9,",
+            "the expanded uncertainty of the result is 3.9 V, this model 2.60 V",
+        ),
+        (
+            "Expanded (k=2),3.9,V,,",
+            "the expanded uncertainty of the result is 3.9 V, this model 2.60 V",
+        ),
+        ("U (k=2),,V,3.9,", "the expanded uncertainty of the result is 3.9 V, this model 2.60 V"),
+        ("U (k=2),3.9,V,,", "the expanded uncertainty of the result is 3.9 V, this model 2.60 V"),
+        ("Expanded (k=2),,V,2.6,", ""),
+        ("U (k=2),,V,2.6,1", ""),
+        ("Expanded,2.6,V,,", ""),
+    ] {
+        let (found, budget) =
+            uncertainties(&format!("{head}a,5,V,0.3,1\nb,2,V,0.4,1\nc,0,V,1.2,1\n{row}\n"));
+        assert_eq!(found, [0.3, 0.4, 1.2], "{row}");
+        assert!(!budget.text.contains("2.6") && !budget.text.contains("3.9"), "{}", budget.text);
+        let is_told = guesses(&budget, "the sheet says");
+        assert_eq!(is_told, !told.is_empty(), "{row}: {:?}", budget.guessed);
+        assert!(told.is_empty() || guesses(&budget, told), "{row}: {:?}", budget.guessed);
+    }
+}
+
+/// A symbol behind the words says that an uncertainty is expanded, as the words alone do.
+#[test]
+fn a_symbol_behind_the_words_is_of_expanded_uncertainties() {
+    for heading in [
+        "Incertitude élargie U",
+        "Incertitude élargie",
+        "Erweiterte Messunsicherheit U",
+        "Expanded uncertainty U",
+        "Uncertainty U",
+    ] {
+        let text = format!("Grandeur;Estimation;Unité;{heading}\nm;1;kg;0,0004\n");
+        let (found, budget) = uncertainties(&text);
+        assert_eq!(found, [2e-4], "{heading}");
+        assert!(guesses(&budget, "k = 2 is taken"), "{:?}", budget.guessed);
+    }
+}
+
+/// Limits that are deviations and not alike: the middle of -0.0005 and 0.0003 is -0.0001, half of their
+/// distance 0.0004.
+#[test]
+fn limits_that_are_deviations_move_the_estimate() {
+    let text = |estimate: &str, limits: &str, shape: &str| {
+        format!(
+            "Quantity,Estimate,Unit,Lower limit,Upper limit,Distribution\n\
+             Cal,{estimate},V,{limits},{shape}\n"
+        )
+    };
+    let error = refusal(&text("10.000", "-0.0005,0.0003", "rectangular"));
+    let part = "write the estimate 9.9999 V and the limits -0.0004 and 0.0004";
+    assert!(error.contains(part), "{error}");
+    let (found, budget) = uncertainties(&text("9.9999", "-0.0004,0.0004", "rectangular"));
+    assert!((found[0] - 4e-4 / 3f64.sqrt()).abs() < 1e-15);
+    assert_eq!(task(&budget).rows[0].distributions[0].mean(), 9.9999);
+    let error = refusal(&text("20", "19,20.5", "triangular"));
+    assert!(
+        error.contains("write the middle 19.75 as the estimate if that is the most"),
+        "{error}"
+    );
+    assert!(
+        error.contains("`lower`, `upper` and `mode`") && !error.contains("as likely"),
+        "{error}"
+    );
+}
+
+/// Shortened headings of standard uncertainties, and `u` beside what is divided: both are compared.
+#[test]
+fn quotients_under_short_headings_are_compared() {
+    for heading in ["Std unc", "Std. unc.", "Std uncertainty", "Stand. unc.", "u", "u(xi)", "u (V)"]
+    {
+        for (head, row) in [
+            (format!("Uncertainty,Divisor,{heading}"), ["0.03,2,0.015", "0.03,2,0.03"]),
+            (format!("{heading},Uncertainty,Divisor"), ["0.015,0.03,2", "0.03,0.03,2"]),
+        ] {
+            let text = format!("Source,Unit,{head}\nRef,V,{}\n", row[0]);
+            let (found, budget) = uncertainties(&text);
+            assert_eq!(found, [0.015], "{head}");
+            assert!(!guesses(&budget, "not taken"), "{head}: {:?}", budget.guessed);
+            let error = refusal(&format!("Source,Unit,{head}\nRef,V,{}\n", row[1]));
+            assert!(error.contains("has the standard uncertainty 0.0150 by its stated"), "{error}");
+        }
+    }
+    // 250 ppm of 100 ohm
+    let text =
+        "Quantity,Estimate,Unit,Uncertainty (ppm),Divisor,Std unc (ppm)\nR,100,ohm,500,2,250\n";
+    assert_eq!(uncertainties(text).0, [0.025]);
+    let text = "Quantity,Estimate,Unit,Std unc (ppm)\nR,100,ohm,250\n";
+    assert_eq!(uncertainties(text).0, [0.025]);
+}
+
+#[test]
+fn a_repeated_header_begins_another_budget() {
+    let head = "Quantity,Estimate,Unit,Uncertainty,Distribution,Divisor";
+    for between in ["", "\n", "\n\nBudget 2\n"] {
+        let text = format!("{head}\na,1,V,0.1,normal,2\n{between}{head}\nb,1,V,0.1,normal,2\n");
+        let error = refusal(&text);
+        let line = 3 + between.matches('\n').count();
+        assert!(error.contains(&format!("line {line} begins a second budget")), "{error}");
+        assert_eq!(
+            error.trim().lines().filter(|line| line.contains("b.csv")).count(),
+            1,
+            "{error}"
+        );
+    }
+}
+
+/// `10.000` is ten or ten thousand where German headings stand and no number shows the mark.
+#[test]
+fn points_that_may_group_thousands_are_asked() {
+    let german = "Größe;Schätzwert;Einheit;Halbbreite;Verteilung";
+    let english = "Quantity;Estimate;Unit;Half-width;Distribution";
+    let error = refusal(&format!("{german}\nm;10.000;g;1;Rechteck\n"));
+    assert!(error.contains("`10.000` can be `10,000` or `10000`"), "{error}");
+    for (head, width, u) in [(german, "0.5", 0.5), (german, "0.005", 0.005), (english, "1", 1.0)] {
+        let (found, budget) = uncertainties(&format!("{head}\nm;10.000;g;{width};Rechteck\n"));
+        assert!((found[0] - u / 3f64.sqrt()).abs() < 1e-15, "{head} {width}");
+        assert_eq!(task(&budget).rows[0].distributions[0].mean(), 10.0);
+    }
+    let error = refusal(&format!("{german}\nm;10.000;g;0,5;Rechteck\n"));
+    assert!(error.contains("with the same decimal mark"), "{error}");
+}
+
+/// Divisors `√n`: 0.3 V of nine readings is 0.1 V.
+#[test]
+fn roots_of_numbers_of_readings_divide() {
+    for (heading, root) in
+        [("Uncertainty", "√n"), ("Uncertainty", "sqrt(n)"), ("Standard deviation", "√n")]
+    {
+        let head = format!("Quantity;Estimate;Unit;{heading};Distribution;Divisor;n");
+        let rows = format!("R;10;V;0,3;normal;{root};9\nC;0;V;0,2;normal;2;\n");
+        let (found, budget) = uncertainties(&format!("{head}\n{rows}"));
+        assert!(found.iter().all(|u| (u - 0.1).abs() < 1e-15), "{heading} {found:?}");
+        assert!(!guesses(&budget, "not taken"), "{:?}", budget.guessed);
+        let error = refusal(&format!("{head}\n{}", rows.replace(";9", ";")));
+        assert!(error.contains("needs a number of readings: there is none"), "{error}");
+        let error = refusal(&format!("{head}\n{}", rows.replace(";9", ";9,5")));
+        assert!(error.contains("`9,5` in the column `n` is no whole number"), "{error}");
+    }
+}
+
+/// A column of factors may multiply: 0.577 of a rectangle is 1/sqrt(3), 0.408 of a triangle 1/sqrt(6).
+#[test]
+fn factors_that_multiply_are_understood_where_they_agree() {
+    let head = "Quantity,Estimate,Unit,Uncertainty,Distribution,Factor\n";
+    let text = format!(
+        "{head}a,1,V,0.3,rectangular,0.577\nb,1,V,0.4,normal (k=2),0.5\nc,1,V,0.6,triangular,0.408\n\
+         d,1,V,0.2,U-shaped,0.707\ne,1,V,0.8,normal,0.5\nf,1,V,0.1,normal,1\n"
+    );
+    let (found, budget) = uncertainties(&text);
+    let right = [0.3 / 3f64.sqrt(), 0.2, 0.6 / 6f64.sqrt(), 0.2 / 2f64.sqrt(), 0.4, 0.1];
+    assert!(found.iter().zip(right).all(|(u, right)| (u / right - 1.0).abs() < 1e-12), "{found:?}");
+    let said = "line 2: the factor `0.577` multiplies, as 1/1.733 does";
+    assert!(budget.understood.iter().any(|of| of == said), "{:?}", budget.understood);
+    for row in ["a,1,V,0.3,rectangular,0.5", "a,1,V,0.3,normal,0.5", "a,1,V,0.3,normal (k=2),0.577"]
+    {
+        let error = refusal(&format!("{head}{row}\n"));
+        assert!(error.contains("is below 1: does it multiply"), "{row}: {error}");
+    }
+}
+
+/// `Value` times the factor is the standard uncertainty in every row: it is no estimate.
+#[test]
+fn values_that_are_multiplied_are_widths() {
+    let text = "Component,Value,Unit,Distribution,Factor,ci,ui\nA,0.5,mV,normal (k=2),0.5,1,0.25\n\
+        B,0.3,mV,rectangular,0.577,1,0.173\n";
+    let (found, budget) = uncertainties(text);
+    assert_eq!(found[0], 0.25);
+    assert!((found[1] - 0.3 / 3f64.sqrt()).abs() < 1e-15, "{found:?}");
+    let means: Vec<f64> = task(&budget).rows[0].distributions.iter().map(|d| d.mean()).collect();
+    assert_eq!(means, [0.0, 0.0]);
+}
+
+/// A formula that no program has calculated has no value; before, the quantity became certain.
+#[test]
+fn formulas_without_values_are_mistakes() {
+    let of = |cell: &str| {
+        let text = |of: &str| format!(r#"<c t="inlineStr"><is><t>{of}</t></is></c>"#);
+        let row = |cells: &[&str]| {
+            let cells = cells
+                .iter()
+                .map(|of| if of.starts_with('<') { (*of).to_owned() } else { text(of) });
+            format!("<row>{}</row>", cells.collect::<String>())
+        };
+        let head = [
+            "Quantity",
+            "Estimate",
+            "Unit",
+            "Uncertainty",
+            "Distribution",
+            "Divisor",
+            "Contribution",
+        ];
+        let computed = "<c><f>D2/F2</f><v></v></c>";
+        let rows = row(&head)
+            + &row(&["Cal", "<c><v>10</v></c>", "V", cell, "normal", "<c><v>2</v></c>", computed]);
+        let book =
+            crate::workbook::tests::workbook(|out| out.write_all(rows.as_bytes()), |_| Ok(()));
+        import("b.xlsx", &book)
+    };
+    let error = of("<c><f>0.004/2</f><v></v></c>").unwrap_err().to_string();
+    let part =
+        "cell D2 is a formula without a stored value; open and save the workbook in a spreadsheet";
+    assert!(error.contains(part), "{error}");
+    let budget = of("<c><f>0.004/2</f><v>0.002</v></c>").unwrap();
+    assert_eq!(task(&budget).rows[0].distributions[0].standard_uncertainty(), 0.001);
+}

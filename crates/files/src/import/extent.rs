@@ -1,0 +1,204 @@
+//! Half-widths and full widths: what a heading or the cell of a distribution says of the numbers beside
+//! it. Shapes are stated by their half-width (JCGM 100, 4.3.7).
+
+use gumption_engine::decimal::to_15_digits;
+use gumption_engine::number::Shortest;
+
+use super::Budget;
+use super::columns::{Column, Header, HeaderCoverage};
+use super::rows::{Row, divisor_of, near};
+
+/// How much of a shape a number spans.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Extent {
+    /// From the middle to a limit.
+    Half,
+    /// From limit to limit.
+    Full,
+}
+
+impl Extent {
+    /// What a text says; `None` where it says nothing.
+    fn of(text: &str) -> Option<Self> {
+        const HALF: [&str; 13] = [
+            "halfwidth",
+            "halfrange",
+            "semirange",
+            "semiwidth",
+            "halfinterval",
+            "semispan",
+            "halbbreite",
+            "halbweite",
+            "halbespannweite",
+            "demilargeur",
+            "demiétendue",
+            "demietendue",
+            "±",
+        ];
+        const FULL: [&str; 15] = [
+            "fullwidth",
+            "fullrange",
+            "fullspan",
+            "totalwidth",
+            "totalrange",
+            "wholewidth",
+            "wholerange",
+            "maxmin",
+            "vollbreite",
+            "vollebreite",
+            "gesamtbreite",
+            "spannweite",
+            "étendue",
+            "etendue",
+            "largeurtotale",
+        ];
+        let signed = text.to_lowercase().replace("+/-", "±").replace("+-", "±");
+        let compact: String = signed.chars().filter(|c| c.is_alphabetic() || *c == '±').collect();
+        let has = |words: &[&str]| words.iter().any(|word| compact.contains(word));
+        if has(&HALF) { Some(Self::Half) } else { has(&FULL).then_some(Self::Full) }
+    }
+}
+
+/// The first word of a distribution's cell that could change what the number beside it means and is not
+/// understood.
+fn unknown_word(text: &str) -> Option<&str> {
+    const WHOLE: [&str; 12] = [
+        "width", "range", "span", "peak", "pk", "pp", "k", "sigma", "σ", "largeur", "full", "total",
+    ];
+    const PARTS: [&str; 2] = ["breite", "weite"];
+    if Extent::of(text).is_some() || HeaderCoverage::of(text).factor(None).is_some() {
+        return None;
+    }
+    let changes = |word: &&str| {
+        let small = word.to_lowercase();
+        WHOLE.contains(&small.as_str()) || PARTS.iter().any(|part| small.contains(part))
+    };
+    // all of a shape lies within its limits
+    let share = text.find('%').filter(|at| !text[..*at].trim_end().ends_with("100"));
+    let pp = text.to_lowercase().find("p-p");
+    let sign = share.map(|at| &text[at..=at]).or(pp.and_then(|at| text.get(at..at + 3)));
+    // `2s`, of standard deviations
+    let deviations = || {
+        text.split(|c: char| !c.is_alphanumeric()).find(|word| {
+            let digits = word.strip_suffix("sd").or(word.strip_suffix('s')).unwrap_or_default();
+            !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
+        })
+    };
+    let words = text.split(|c: char| !c.is_alphabetic()).skip(1);
+    words.into_iter().find(changes).or(sign).or_else(deviations)
+}
+
+impl Budget<'_> {
+    /// Halves what the row's distribution or the heading of its uncertainty calls a full width; `between`
+    /// says that the width is that of two limits.
+    pub(super) fn extent(&mut self, header: &Header, row: &mut Row, between: bool) {
+        let text = header.cell(self.cells, row.line, Column::Distribution).trim().to_owned();
+        let Some(width) = row.width.filter(|width| *width > 0.0 && !between) else { return };
+        if let Some(word) = unknown_word(&text) {
+            let reason = format!(
+                "`{text}`: what `{word}` says of the uncertainty is not understood; a half-width, a full \
+                 width, a factor (`k=2`, `2σ`) and a coverage probability (`95 %`) are"
+            );
+            self.fail(row.line, reason);
+            return;
+        }
+        let heading = header.heading_of(Column::Width).to_owned();
+        let (of_cell, of_heading) = (Extent::of(&text), Extent::of(&heading));
+        let whole = match (of_cell, of_heading) {
+            (Some(cell), Some(head)) if cell != head => {
+                let reason = format!(
+                    "the heading `{heading}` and `{text}` contradict each other: write half-widths"
+                );
+                self.fail(row.line, reason);
+                return;
+            }
+            (Some(Extent::Full), _) => text,
+            (_, Some(Extent::Full)) => heading,
+            _ => return,
+        };
+        let half = to_15_digits(0.5 * width);
+        let usual = row.distribution.and_then(divisor_of);
+        let is_divided = match (usual, row.divisor) {
+            (None, _) if row.distribution.is_none() => None,
+            // a normal one has no limits: half of its interval is an expanded uncertainty
+            (None, divisor) => {
+                let cell = header.cell(self.cells, row.line, Column::Distribution);
+                let is_stated = divisor.is_some()
+                    || HeaderCoverage::of(cell).factor(None).is_some()
+                    || header.coverage(Column::Width).factor(None).is_some();
+                is_stated.then_some(false)
+            }
+            (Some(_), None) => Some(false),
+            // the root of 12 in place of that of 3
+            (Some(usual), Some(divisor)) if near(divisor, 2.0 * usual) => Some(true),
+            (Some(usual), Some(divisor)) => {
+                let std = row.std.filter(|std| near(divisor, usual) && near(half / divisor, *std));
+                std.map(|_| false)
+            }
+        };
+        match is_divided {
+            Some(is_divided) => {
+                row.width = Some(half);
+                row.divisor = row.divisor.map(|of| if is_divided { 0.5 * of } else { of });
+                self.understood.push(format!(
+                    "line {}: `{whole}`: half of {} is taken, {}",
+                    row.line + 1,
+                    Shortest(width),
+                    Shortest(half)
+                ));
+            }
+            None => {
+                let divisor = row.divisor.map_or_else(String::new, |divisor| {
+                    format!(" and the divisor {}", Shortest(divisor))
+                });
+                self.fail(
+                    row.line,
+                    format!(
+                        "`{whole}`{divisor} can be {} or {} that is divided: write the half-width and what \
+                         it is divided by",
+                        Shortest(width),
+                        Shortest(half)
+                    ),
+                );
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_of_widths() {
+        for (text, extent) in [
+            ("rectangular (full width)", Some(Extent::Full)),
+            ("Rechteck (Vollbreite)", Some(Extent::Full)),
+            ("rectangular, range (max-min)", Some(Extent::Full)),
+            ("rectangulaire (étendue totale)", Some(Extent::Full)),
+            ("rectangulaire (demi-étendue)", Some(Extent::Half)),
+            ("rectangular (semi-range)", Some(Extent::Half)),
+            ("rectangular (Type B)", None),
+        ] {
+            assert_eq!(Extent::of(text), extent, "{text}");
+        }
+        for (text, word) in [
+            ("rectangular (peak)", Some("peak")),
+            ("rectangular (p-p)", Some("p-p")),
+            ("normal (k)", Some("k")),
+            ("normal (2s)", Some("2s")),
+            ("rectangular (manufacturer's)", None),
+            ("rectangular (range)", Some("range")),
+            ("rectangular (5 %)", Some("%")),
+            ("rectangular (100 %)", None),
+            ("normal (95 %)", None),
+            ("normal, 2σ", None),
+            ("rectangular (Type B)", None),
+            ("normal (certificate)", None),
+            ("U-shaped", None),
+            ("rectangular (full width)", None),
+        ] {
+            assert_eq!(unknown_word(text), word, "{text}");
+        }
+    }
+}

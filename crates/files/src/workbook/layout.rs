@@ -1,0 +1,171 @@
+//! What a sheet says of its rows and cells besides their values: hidden rows, formulas that nobody has
+//! calculated, merged and struck-through cells.
+
+use std::collections::BTreeSet;
+use std::io::{Cursor, Read};
+
+use quick_xml::events::{BytesStart, Event};
+use zip::ZipArchive;
+
+use super::{COLUMNS, MOST_OF_PART, MOST_ROWS, ROWS, attribute, place};
+
+/// A row and a column, both counted from 0.
+pub(crate) type Place = (u32, u32);
+
+/// The layout of a sheet.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Layout {
+    /// Rows that are hidden or have no height.
+    pub(crate) hidden: BTreeSet<u32>,
+    /// Formulas without a stored value.
+    pub(crate) unfilled: Vec<Place>,
+    /// Merged cells, from the first to the last one.
+    pub(crate) merged: Vec<(Place, Place)>,
+    /// Cells with content that is struck through.
+    pub(crate) struck: BTreeSet<Place>,
+}
+
+impl Layout {
+    /// That of the sheet of this number in the workbook, from 0; nothing where its part is not found.
+    pub(super) fn of(bytes: &[u8], sheet: usize) -> Self {
+        part_of_sheet(bytes, sheet).map(|text| Self::of_text(&text)).unwrap_or_default()
+    }
+
+    fn of_text(text: &str) -> Self {
+        let mut found = Self::default();
+        let mut xml = quick_xml::Reader::from_str(text);
+        // the row and the column that come next, from 1
+        let (mut row, mut column) = (0, 0);
+        let (mut is_formula, mut has_value, mut in_value) = (false, false, false);
+        loop {
+            let event = match xml.read_event() {
+                Ok(Event::Eof) | Err(_) => return found,
+                Ok(event) => event,
+            };
+            let is_empty = matches!(event, Event::Empty(_));
+            match event {
+                Event::Start(element) | Event::Empty(element) => {
+                    match element.local_name().as_ref() {
+                        "row" => {
+                            let own = attribute(&element, "r").and_then(|r| r.parse().ok());
+                            row = own.unwrap_or(row + 1_u32).min(ROWS);
+                            column = 0;
+                            if is_hidden(&element) && row > 0 {
+                                found.hidden.insert(row - 1);
+                            }
+                        }
+                        "c" => {
+                            let own = attribute(&element, "r").and_then(|r| place(&r));
+                            (column, row) = own.unwrap_or(((column + 1).min(COLUMNS), row.max(1)));
+                            is_formula = false;
+                            // a formula may give an empty text
+                            has_value = attribute(&element, "t").is_some_and(|of| of == "str");
+                        }
+                        "f" => is_formula = true,
+                        "v" | "is" => in_value = !is_empty,
+                        "mergeCell" => {
+                            let range = attribute(&element, "ref").unwrap_or_default();
+                            let ends = range.split_once(':');
+                            let ends = ends.and_then(|(a, b)| place(a).zip(place(b)));
+                            // more than there are rows in a budget are no table
+                            let is_full = found.merged.len() >= MOST_ROWS as usize;
+                            let ends = ends.filter(|_| !is_full);
+                            found.merged.extend(ends.map(|(a, b)| (from_zero(a), from_zero(b))));
+                        }
+                        _ => {}
+                    }
+                }
+                Event::End(element) => match element.local_name().as_ref() {
+                    "v" | "is" => in_value = false,
+                    "c" if is_formula && !has_value => {
+                        found.unfilled.push(from_zero((column, row)));
+                    }
+                    _ => {}
+                },
+                Event::Text(_) | Event::CData(_) | Event::GeneralRef(_) => has_value |= in_value,
+                _ => {}
+            }
+        }
+    }
+}
+
+/// A column and a row counted from 1 as a place.
+const fn from_zero((column, row): (u32, u32)) -> Place {
+    (row.saturating_sub(1), column.saturating_sub(1))
+}
+
+fn is_hidden(row: &BytesStart<'_>) -> bool {
+    let is_set = attribute(row, "hidden").is_some_and(|of| matches!(of.as_str(), "1" | "true"));
+    is_set || attribute(row, "ht").and_then(|ht| ht.parse().ok()).is_some_and(|ht: f64| ht == 0.0)
+}
+
+/// The XML of a sheet.
+fn part_of_sheet(bytes: &[u8], sheet: usize) -> Option<String> {
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).ok()?;
+    let mut part = |name: &str| {
+        let of = |at: usize, archive: &mut ZipArchive<Cursor<&[u8]>>| {
+            let found = archive.by_index(at).ok()?;
+            let is_it = found.name().ok()?.replace('\\', "/").eq_ignore_ascii_case(name);
+            is_it.then_some(at)
+        };
+        let at = (0..archive.len()).find_map(|at| of(at, &mut archive))?;
+        let mut text = String::new();
+        let part = archive.by_index(at).ok()?;
+        part.take(MOST_OF_PART).read_to_string(&mut text).ok()?;
+        Some(text)
+    };
+    let book = part("xl/workbook.xml")?;
+    let is_sheet = |element: &BytesStart<'_>| element.local_name().as_ref() == "sheet";
+    let id = elements(&book, is_sheet, |element| {
+        // in whichever namespace
+        let id = element.attributes().flatten().find(|of| of.key.local_name().as_ref() == "id")?;
+        Some(id.value.into_owned())
+    });
+    let id = id.into_iter().nth(sheet)??;
+    let relations = part("xl/_rels/workbook.xml.rels")?;
+    let is_own = |element: &BytesStart<'_>| attribute(element, "Id").is_some_and(|of| of == id);
+    let targets = elements(&relations, is_own, |element| attribute(element, "Target"));
+    let target = targets.into_iter().flatten().next()?;
+    let name = target.strip_prefix('/').map_or_else(|| format!("xl/{target}"), str::to_owned);
+    part(&name)
+}
+
+/// What the wanted elements of an XML hold.
+fn elements<T>(
+    text: &str,
+    wanted: impl Fn(&BytesStart<'_>) -> bool,
+    of: impl Fn(&BytesStart<'_>) -> T,
+) -> Vec<T> {
+    let mut xml = quick_xml::Reader::from_str(text);
+    let mut found = Vec::new();
+    loop {
+        match xml.read_event() {
+            Ok(Event::Start(element) | Event::Empty(element)) if wanted(&element) => {
+                found.push(of(&element));
+            }
+            Ok(Event::Eof) | Err(_) => return found,
+            Ok(_) => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hidden_rows_formulas_and_merged_cells() {
+        let sheet = r#"<worksheet><sheetData><row r="2" hidden="1"/><row ht="0" customHeight="1">
+            <c r="D3"><f>1+1</f></c><c><f>1+1</f><v></v></c></row><row><c r="A4"><f>2</f><v>2</v></c>
+            <c t="str"><f>""</f><v/></c><c t="inlineStr"><is><t>a</t></is></c></row></sheetData>
+            <mergeCells><mergeCell ref="C2:C5"/></mergeCells></worksheet>"#;
+        let found = Layout::of_text(sheet);
+        assert_eq!(found.hidden, BTreeSet::from([1, 2]));
+        assert_eq!(found.unfilled, [(2, 3), (2, 4)]);
+        assert_eq!(found.merged, [((1, 2), (4, 2))]);
+        assert_eq!(
+            Layout::of_text("<row hidden=\"1\"><c"),
+            Layout { hidden: BTreeSet::from([0]), ..Layout::default() }
+        );
+    }
+}
