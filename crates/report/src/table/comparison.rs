@@ -38,7 +38,7 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
             .and_then(|gum| interval_text(output, gum, digits))
             .into_iter()
             .chain(said)
-            .chain(figures.conformity.iter().flat_map(|found| conformity(output, found)))
+            .chain(figures.conformity.iter().flat_map(|found| conformity(output, found, None)))
             .map(|said| text::wrapped(&said))
             .collect::<String>();
         return (!page.is_empty()).then_some(page);
