@@ -97,6 +97,35 @@ fn saved_results_are_inputs() {
     }
 }
 
+/// p = v^2/r comes from a result, and i = p/v takes v once more: by hand i = v/r, u(i)/i =
+/// sqrt(0.002^2 + 0.002887^2) = 0.003512; with v counted twice 0.0054. A stated correlation, another
+/// value or another name is no such slip.
+#[test]
+fn an_input_beside_the_result_it_went_into_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let v = r#""v": {"unit": "V", "distribution": "normal", "mean": 5, "std": 0.01}"#;
+    let first = format!(
+        r#"{{"inputs": {{{v}, "r": {{"unit": "ohm", "distribution": "rectangular", "mean": 100, "half_width": 0.5}}}},
+            "equations": {{"p": "v^2/r"}}, "outputs": {{"p": {{"unit": "W"}}}}}}"#
+    );
+    fs::write(folder.join("m.json"), first).unwrap();
+    answer(folder, &["m.json", "--save", "p.json", "--trials", "10000"]);
+    let notes = |v: &str, more: &str| {
+        let text = format!(
+            r#"{{"inputs": {{"p": {{"distribution": "result", "file": "p.json", "output": "p"}}, {v}}},
+                {more} "equations": {{"i": "p/v"}}, "outputs": {{"i": {{"unit": "mA"}}}}}}"#
+        );
+        fs::write(folder.join("n.json"), text).unwrap();
+        let found = json(folder, &["n.json", "--trials", "0"]);
+        let notes = found["warnings"].as_array().cloned().unwrap_or_default();
+        notes.iter().any(|note| note["code"] == "counted-twice")
+    };
+    assert!(notes(v, ""));
+    assert!(!notes(v, r#""correlations": [["p", "v", 0.75]],"#));
+    assert!(!notes(&v.replace("0.01", "0.02"), ""));
+}
+
 #[test]
 fn what_cannot_be_written_is_refused() {
     let folder = tempfile::tempdir().unwrap();

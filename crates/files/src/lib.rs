@@ -18,6 +18,7 @@ mod condition_values;
 mod conditions;
 mod correlations;
 mod costs;
+mod counted_twice;
 mod coverage_slips;
 mod dcc;
 mod diagnostic_kind;

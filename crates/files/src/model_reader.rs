@@ -25,6 +25,7 @@ use std::sync::Arc;
 
 use super::column_heading;
 use super::conditions::{self, Conditions};
+use super::counted_twice;
 use super::diagnostics::{Collector, Diagnostics};
 use super::fits::{self, FitSet};
 use super::folder::Folder;
@@ -220,6 +221,7 @@ impl<'a> ModelReader<'a> {
         let mut task = task(parts, model.ok()?, of)?;
         task.regions = regions;
         warnings.extend(fits::extrapolation::notes(root.log, &sim, &task, &task.curves));
+        warnings.extend(counted_twice::notes(&task));
         let source = root.log.source.clone();
         let file = ModelFile { task, warnings, source, files, output_places, evidence };
         let simulated = simulated.len();

@@ -295,6 +295,10 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "`about` von {0} hat noch den Text einer neuen Datei, {1}, und Kalibrierscheine drucken ihn: Angeben, woher die Größe bekannt ist, oder den Schlüssel weglassen",
     ),
     (
+        "{} has the name and the figures of an input that the result {} was evaluated from, and counts as independent of it; if they are one quantity, evaluate both in one model, or state their correlation",
+        "{0} hat den Namen und die Werte einer Eingangsgröße, aus der das Ergebnis {1} ermittelt wurde, und gilt als unabhängig davon; sind sie eine Größe, sind beide in einem Modell auszuwerten, oder ihre Korrelation ist anzugeben",
+    ),
+    (
         "no equation uses the input {}: it contributes nothing to any uncertainty",
         "keine Gleichung verwendet die Eingangsgröße {0}: Sie trägt zu keiner Unsicherheit bei",
     ),
