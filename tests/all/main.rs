@@ -30,6 +30,7 @@ mod interrupt;
 mod intervals;
 mod manual;
 mod observe;
+mod observe_slips;
 mod observe_steps;
 mod one_number;
 #[cfg(feature = "open")]

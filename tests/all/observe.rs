@@ -12,7 +12,7 @@ use crate::support::command;
 const RATE: f64 = 1612.0;
 
 /// A number that looks random between -1/2 and 1/2.
-fn noise(i: u32) -> f64 {
+pub(crate) fn noise(i: u32) -> f64 {
     f64::from((u64::from(i) * u64::from(i) * 7919 % 10007) as u32) / 10007.0 - 0.5
 }
 
@@ -49,14 +49,14 @@ fn recipe(file: &str) -> Value {
     })
 }
 
-fn observe(folder: &Path, recipe: &Value, arguments: &[&str]) -> Output {
+pub(crate) fn observe(folder: &Path, recipe: &Value, arguments: &[&str]) -> Output {
     std::fs::write(folder.join("recipe.json"), recipe.to_string()).unwrap();
     let mut command = command();
     command.current_dir(folder).args(["observe", "recipe.json"]).args(arguments);
     command.output().unwrap()
 }
 
-fn answer(folder: &Path, recipe: &Value) -> Value {
+pub(crate) fn answer(folder: &Path, recipe: &Value) -> Value {
     let said = observe(folder, recipe, &["--format", "json"]);
     assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stderr));
     serde_json::from_slice(&said.stdout).unwrap()

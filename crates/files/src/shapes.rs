@@ -653,6 +653,10 @@ impl<'a> Fields<'a> {
             if !at.0.names().is_empty() || formula.is_some() && name.is_none() {
                 return self.width_of_row(key, &text, at);
             }
+            // a mistake among the conditions, told already, is why there are none
+            if name.is_some() && at.0.are_unreadable() {
+                return None;
+            }
             if let Some(condition) = name.filter(|name| name != text.trim()) {
                 let reason = format!(
                     "as a formula it needs the value of `{condition}`: a width is a formula of \
@@ -731,6 +735,9 @@ impl<'a> Fields<'a> {
         }
         let formula = log.formula(text).map_err(|error| DiagnosticKind::Formula { error });
         let formula = log.value(span, formula)?;
+        if conditions.are_unreadable() {
+            return None;
+        }
         let (unit, of) = (Unit::one(), ValueOf::Quantity);
         if let Err(kinds) = conditions.check(&formula, &unit, of) {
             if row == 0 {

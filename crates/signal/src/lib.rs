@@ -46,11 +46,12 @@ mod surroundings;
 mod trace;
 mod track;
 mod trials;
+mod unexplained;
 mod unsuitable;
 mod values;
 
 use fit::{
-    coloured, common_noise, dirichlet, frequency, lattice, periodic, polar, quantization,
+    coloured, common_noise, dirichlet, frequency, lattice, outlying, periodic, polar, quantization,
     residuals, rounding, sine_fit, spurious, turns, whole_periods,
 };
 use steps::{

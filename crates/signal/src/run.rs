@@ -15,6 +15,7 @@ use super::step::ChannelStep;
 use super::surroundings::{Finding, Surroundings};
 use super::trace::RecordTrace;
 use super::track::ChannelRecording;
+use super::unexplained;
 use super::values::observed;
 use super::{Measured, Signal};
 use gumption_engine::number::elementary;
@@ -31,7 +32,7 @@ struct Stepped {
 }
 
 /// A fixed short name, the channel, and the sentence.
-type Note = (&'static str, usize, String);
+pub(super) type Note = (&'static str, usize, String);
 
 /// Takes amplitudes, phases and what goes with them from the recordings of one row.
 ///
@@ -349,7 +350,8 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
             );
             notes.push(("tones-too-near", of.channel, text));
         }
-        if residuals.coloured.as_ref().is_some_and(|coloured| coloured.walks) && !expected {
+        notes.extend(unexplained::notes(settings, of));
+        if !expected && unexplained::level_wanders(of) {
             let text = format!(
                 "`{name}`: the level wanders and does not come back within the record; the \
                  uncertainty of the offset is that of the record's first value"
@@ -417,13 +419,13 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
 }
 
 /// A number with so many digits.
-fn short(value: f64, digits: usize) -> String {
+pub(super) fn short(value: f64, digits: usize) -> String {
     let text = format!("{value:.*e}", digits.saturating_sub(1));
     gumption_engine::number::Shortest(text.parse().unwrap_or(value)).to_string()
 }
 
 /// The unit of a channel's values before its steps have none of their own, with a blank before it.
-fn unit_text(settings: &RecipeSettings, of: &Analysed) -> String {
+pub(super) fn unit_text(settings: &RecipeSettings, of: &Analysed) -> String {
     let channel = &settings.channels[of.channel];
     let unit = channel.unit.text();
     if unit.is_empty() || unit == "1" || !channel.steps.is_empty() {

@@ -28,8 +28,8 @@ pub(super) struct ChannelFile {
     pub(super) place: Range<usize>,
     pub(super) step_places: Vec<Range<usize>>,
     column: ColumnName,
-    /// The unit of its raw values; `None` of counts.
-    raw_unit: Option<Unit>,
+    /// The unit of its raw values; 1 of counts.
+    raw_unit: Unit,
     zero: f64,
     range: Option<[f64; 2]>,
 }
@@ -59,10 +59,8 @@ fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Op
         (None, false, Some(own)) => Some(own.clone()),
         _ => unit(&of, "raw_unit", "1"),
     };
-    // counts that are scaled may have any heading unless their unit is stated
-    let raw_unit = raw.clone().filter(|_| of.get("raw_unit").is_some() || !scaled);
     if let (Some(member), Some(ColumnName::Name(name)), Some(raw)) =
-        (of.get("column"), &column, &raw_unit)
+        (of.get("column"), &column, &raw)
     {
         column_heading::check(log, &member.value.span, name, (raw, ValueOf::Quantity));
     }
@@ -85,7 +83,7 @@ fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Op
         place: member.key_span.clone(),
         step_places: steps.places,
         column: column?,
-        raw_unit,
+        raw_unit: raw?,
         zero,
         range,
     })

@@ -133,9 +133,10 @@ fn recipe(root: &Object<'_>, folder: Folder<'_>) -> Option<RecipeFile> {
     check_format(root, 1.0);
     let title = root.text("title").map(str::to_owned);
     root.text("source");
-    let recordings = recordings::read(root, folder);
-    let channels = channels::read(root, recordings.as_deref().unwrap_or(&[]));
-    let reference = reference(root, channels.as_deref().unwrap_or(&[]));
+    // what names recordings or channels is held against the names, whatever else is wrong with them
+    let recordings = recordings::read(root, folder)?;
+    let channels = channels::read(root, &recordings);
+    let reference = reference(root);
     let method = named(root, "method", &Method::ALL, Method::name);
     let amplitude = named(root, "amplitude", &Amplitude::ALL, Amplitude::name);
     let phase = named(root, "phase_unit", &PhaseUnit::ALL, PhaseUnit::name);
@@ -143,9 +144,8 @@ fn recipe(root: &Object<'_>, folder: Folder<'_>) -> Option<RecipeFile> {
     let harmonics = root.whole("harmonics", 1, MOST_MULTIPLE).unwrap_or(5);
     let trials = root.whole("trials", 0, 1_000_000).unwrap_or(2000);
     let seed = root.whole("seed", 0, u64::MAX).unwrap_or(1);
-    let (rows, conditions, frequency) =
-        rows::read(root, recordings.as_deref().unwrap_or(&[]), method == Some(Method::Fft))?;
-    let (recordings, channels) = (recordings?, channels?);
+    let (rows, conditions, frequency) = rows::read(root, &recordings, method == Some(Method::Fft))?;
+    let channels = channels?;
     let searches = recordings.iter().enumerate().map(|(number, of)| {
         of.search.as_ref().and_then(|of| of.resolved(root.log, number, &channels))
     });
@@ -218,13 +218,15 @@ fn components(root: &Object<'_>) -> Option<Vec<u32>> {
     Some(multiples)
 }
 
-/// The reference channel; none where the key is not there.
-fn reference(root: &Object<'_>, channels: &[ChannelFile]) -> Option<Option<usize>> {
+/// The reference channel; none where the key is not there. It is looked for among the names of the
+/// channels, so that a mistake within one of these is not a missing channel as well.
+fn reference(root: &Object<'_>) -> Option<Option<usize>> {
     let Some(member) = root.get("reference") else { return Some(None) };
+    let Json::Object(channels) = &root.get("channels")?.value.value else { return None };
     let name = root.text("reference")?;
-    let place = channels.iter().position(|file| file.channel.name == name);
+    let place = channels.iter().position(|channel| channel.key == name);
     if place.is_none() {
-        let known = channels.iter().map(|file| file.channel.name.as_str());
+        let known = channels.iter().map(|channel| channel.key.as_str());
         let reason = match nearest(name, known) {
             Some(near) => format!("there is no channel `{name}`; did you mean `{near}`?"),
             None => format!("there is no channel `{name}`"),

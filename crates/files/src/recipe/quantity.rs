@@ -4,7 +4,7 @@ use super::super::DiagnosticKind;
 use super::super::json::{Json, Member};
 use super::super::keys;
 use super::super::object::Object;
-use gumption_units::Unit;
+use gumption_units::{Turn, Unit};
 
 /// A value and its standard uncertainty, with the unit that they are in.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,7 +92,8 @@ pub(super) fn unit(object: &Object<'_>, key: &'static str, default: &str) -> Opt
     object.log.value(&member.value.span, parsed.map_err(diagnostic))
 }
 
-/// Whether a unit has the dimension that is expected; a mistake where it has not.
+/// Whether a unit has the dimension that is expected; a mistake where it has not, and where it counts
+/// radians in place of periods: 1 rad/s is 1/(2 pi) Hz.
 pub(super) fn same_dimension(
     object: &Object<'_>,
     member: &Member,
@@ -109,8 +110,20 @@ pub(super) fn same_dimension(
             expected_as: expected.dimension().describe(),
         };
         object.log.report(&member.value.span, diagnostic);
+        return false;
     }
-    same
+    if (found.turn(), expected.turn()) == (Some(Turn::Angle), Some(Turn::Periods)) {
+        let hertz = format!("{:.5e}", found.factor() / std::f64::consts::TAU);
+        let reason = format!(
+            "`{}` counts angle, but a frequency counts periods; write it in Hz: 1 {} is {} Hz",
+            found.text(),
+            found.text(),
+            gumption_engine::number::Shortest(hertz.parse().unwrap_or(f64::NAN))
+        );
+        object.log.report(&member.value.span, DiagnosticKind::Recipe { reason });
+        return false;
+    }
+    true
 }
 
 /// A number above zero at `key`, already read.

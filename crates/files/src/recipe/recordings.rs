@@ -234,6 +234,7 @@ impl RecordingFile {
             channels,
             time: self.time.clone(),
             rate: self.rate,
+            searched: self.search.is_some(),
             from,
             to,
             slowest,

@@ -1,5 +1,6 @@
 //! Frames of a CSV file: cells between `,`, `;` or tabs (of the last two perhaps with decimal commas),
-//! with or without a header, lines that begin with `#` skipped.
+//! with or without a header, lines that begin with `#` skipped. A heading with a unit is held against
+//! the unit that the recipe states, by whichever of name and number it names the column.
 
 use std::io::{self, BufRead, BufReader, Cursor, Read};
 
@@ -119,17 +120,14 @@ impl<R: Read> CsvFrames<R> {
                         };
                         return Err(format!("it has no column `{name}`; {hint}"));
                     };
-                    let contradiction = wanted.unit.as_ref().and_then(|unit| {
-                        let parse = |text: &str| Unit::parse(text).ok();
-                        let of = (unit, ValueOf::Quantity);
-                        column_heading::contradiction(parse, &names[place], of)
-                    });
-                    if let Some(contradiction) = contradiction {
-                        return Err(contradiction.to_string());
-                    }
                     place
                 }
             };
+            if let Some(contradiction) =
+                names.get(found).filter(|_| header).and_then(|name| contradiction(wanted, name))
+            {
+                return Err(contradiction);
+            }
             self.places.push(found);
         }
         Ok(())
@@ -194,6 +192,15 @@ impl<R: Read> Frames for CsvFrames<R> {
         }
         Ok(())
     }
+}
+
+/// That the heading of a column has another unit than its values are read in, and what to write.
+fn contradiction(wanted: &Wanted, heading: &str) -> Option<String> {
+    let of = (&wanted.unit, ValueOf::Quantity);
+    let found = column_heading::contradiction(|text| Unit::parse(text).ok(), heading, of)?;
+    let unit = column_heading::named(heading).map_or("", |(_, unit)| unit);
+    let key = if wanted.is_time() { "time_unit" } else { "raw_unit" };
+    Some(format!("{found}; in the recipe this is `\"{key}\": \"{unit}\"`"))
 }
 
 /// The number in a cell, if it is one.

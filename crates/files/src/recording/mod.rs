@@ -69,8 +69,18 @@ pub(super) enum ColumnName {
 pub(super) struct Wanted {
     pub(super) column: ColumnName,
     pub(super) channel: String,
-    /// The unit that its values are read in, which its heading may not contradict; `None` of counts.
-    pub(super) unit: Option<Unit>,
+    /// The unit that its values are read in, which its heading may not contradict; 1 of counts.
+    pub(super) unit: Unit,
+}
+
+/// What stands in the place of a channel's name for the column of instants.
+const THE_TIME: &str = "the time";
+
+impl Wanted {
+    /// Whether it is the column of instants.
+    fn is_time(&self) -> bool {
+        self.channel == THE_TIME
+    }
 }
 
 /// What a channel's raw values become, and where they saturate.
@@ -95,6 +105,8 @@ pub(super) struct Reading {
     pub(super) time: Option<(ColumnName, Unit)>,
     /// The sampling rate in hertz that the recipe states.
     pub(super) rate: Option<Measured>,
+    /// Whether that rate is one to begin a search with, and no statement.
+    pub(super) searched: bool,
     /// The part that is used, in seconds.
     pub(super) from: Option<f64>,
     pub(super) to: Option<f64>,
@@ -150,8 +162,8 @@ impl Reading {
     fn wanted(&self) -> Vec<Wanted> {
         let time = self.time.iter().map(|(column, unit)| Wanted {
             column: column.clone(),
-            channel: "the time".to_owned(),
-            unit: Some(unit.clone()),
+            channel: THE_TIME.to_owned(),
+            unit: unit.clone(),
         });
         self.channels.iter().map(|(wanted, _)| wanted.clone()).chain(time).collect()
     }
@@ -289,7 +301,7 @@ fn finite(value: f64, sample: u64, wanted: &Wanted) -> Result<f64, String> {
 
 /// "sample 12, channel `a`"; samples count from 1.
 fn place(sample: u64, channel: &str) -> String {
-    if channel == "the time" {
+    if channel == THE_TIME {
         format!("sample {sample}, the time")
     } else {
         format!("sample {sample}, channel `{channel}`")

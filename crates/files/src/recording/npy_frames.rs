@@ -94,6 +94,7 @@ impl<R: Read> Frames for NpyFrames<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use gumption_units::Unit;
 
     /// A file of version 1.0.
     fn file(descr: &str, shape: &str, fortran: &str, data: &[u8]) -> Vec<u8> {
@@ -107,7 +108,11 @@ mod tests {
     }
 
     fn column(number: usize) -> Wanted {
-        Wanted { column: ColumnName::Number(number), channel: format!("c{number}"), unit: None }
+        Wanted {
+            column: ColumnName::Number(number),
+            channel: format!("c{number}"),
+            unit: Unit::one(),
+        }
     }
 
     /// All blocks of the wanted columns.

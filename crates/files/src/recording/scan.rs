@@ -15,6 +15,14 @@ use gumption_engine::task::Warning;
 /// Equal values at the highest or lowest value that make a channel suspect, at least.
 const LEAST_RUN: u64 = 5;
 
+/// By how much a stated sampling rate may be another than the file's, as a share, before it is said;
+/// a WAV has whole numbers of hertz.
+const RATES_APART: f64 = 1e-3;
+const WHOLE_HERTZ: f64 = 0.5;
+
+/// Uncertainties of both rates within which they agree all the same.
+const UNCERTAINTIES_APART: f64 = 5.0;
+
 /// Scatter of instants, relative to the interval, that is said.
 const SCATTER: f64 = 0.02;
 
@@ -69,6 +77,7 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
         );
         warnings.push(Warning::new("uneven-instants", reading.name.clone(), text));
     }
+    warnings.extend(scanned.contradicted(stated));
     let start = match &scanned.clock {
         Some(clock) => clock.first,
         None => scanned.first as f64 / rate.value,
@@ -94,6 +103,11 @@ struct Scanned<'r> {
     steps: Vec<(f64, f64)>,
     beyond: Vec<u64>,
     clock: Option<Clock>,
+}
+
+/// A value that was computed, with six digits.
+fn significant(value: f64) -> Shortest {
+    Shortest(format!("{value:.5e}").parse().unwrap_or(value))
 }
 
 /// The highest or lowest value, the longest run of it, and where that begins.
@@ -227,6 +241,34 @@ impl<'r> Scanned<'r> {
         }
     }
 
+    /// That the recipe states another sampling rate than the file's instants or its header, which
+    /// `header` is of.
+    fn contradicted(&self, header: Option<f64>) -> Option<Warning> {
+        let stated = self.reading.rate.filter(|_| !self.reading.searched)?;
+        let (found, u, whose) = match (&self.clock, header) {
+            (Some(clock), _) if clock.count > 2 => {
+                let rate = clock.rate();
+                (rate.value, rate.standard_uncertainty, "its time column has")
+            }
+            (None, Some(rate)) => (rate, WHOLE_HERTZ / UNCERTAINTIES_APART, "its header says"),
+            _ => return None,
+        };
+        let apart = found - stated.value;
+        let within = UNCERTAINTIES_APART * (u * u + stated.standard_uncertainty.powi(2)).sqrt();
+        (apart.abs() > within.max(RATES_APART * stated.value)).then(|| {
+            let name = &self.reading.name;
+            let text = format!(
+                "`{name}`: the recipe states a sampling rate of {} Hz, but {whose} {} Hz; the \
+                 recipe's is used, so that frequencies come out {} times what the file says; where the \
+                 file is right, leave out `sampling_rate`",
+                Shortest(stated.value),
+                significant(found),
+                significant(stated.value / found)
+            );
+            Warning::new("sampling-rates-differ", name.clone(), text)
+        })
+    }
+
     /// Channels that stay at their highest or lowest value for longer than a sine of the recipe's
     /// lowest frequency and their resolution would.
     fn suspects(&self, rate: f64, channels: usize) -> Vec<Warning> {
@@ -295,7 +337,16 @@ impl Clock {
         }
         let mean =
             if self.count > 1 { (self.last - self.first) / (self.count - 1) as f64 } else { step };
-        let what = if step <= 0.0 {
+        if step == 0.0 {
+            return Err(format!(
+                "sample {}: the time repeats, {} s stands twice; time stamps too coarse for the \
+                 samples between them do not tell the sampling rate: leave out `time` and state \
+                 `sampling_rate` (or a sample is in the file twice)",
+                sample + 1,
+                Shortest(instant)
+            ));
+        }
+        let what = if step < 0.0 {
             "runs backwards"
         } else if step > 1.5 * mean || step < 0.5 * mean {
             "jumps"
@@ -375,6 +426,9 @@ mod tests {
         assert!(after(0.5).is_ok());
         assert!(after(0.6).unwrap_err().contains("sample 6: the time jumps"));
         assert!(after(0.3).unwrap_err().contains("runs backwards"));
+        let repeated = after(0.4).unwrap_err();
+        assert!(repeated.contains("sample 6: the time repeats, 0.4 s stands twice"), "{repeated}");
+        assert!(repeated.contains("leave out `time` and state `sampling_rate`"), "{repeated}");
         assert!(after(0.42).unwrap_err().contains("jumps"));
     }
 }

@@ -1,16 +1,20 @@
 //! One line for each row and frequency, as observations of a gap case and conditions of a model take
-//! them: all cells are numbers, all names are names of quantities.
+//! them: all cells are numbers, all headings are names of quantities with their unit, which those files
+//! are held against.
 
 use super::ObservationReport;
 use crate::csv::{number, of_records};
 
 /// The observations as comma-separated values: the conditions, the frequency in hertz, and for each
-/// figure `NAME` its value and `u_NAME`, its standard uncertainty.
+/// figure `NAME` its value and `u_NAME`, its standard uncertainty; each with its unit, `NAME [m/s^2]`.
 pub fn csv(observed: &ObservationReport<'_>) -> String {
     let figures = observed.figures();
-    let mut header: Vec<String> = observed.conditions.iter().map(|c| c.name.clone()).collect();
-    header.push(observed.frequency.to_owned());
-    header.extend(figures.iter().flat_map(|of| [of.name.clone(), format!("u_{}", of.name)]));
+    let conditions = observed.conditions.iter();
+    let mut header: Vec<String> = conditions.map(|c| heading(&c.name, c.unit.text())).collect();
+    header.push(heading(observed.frequency, "Hz"));
+    header.extend(figures.iter().flat_map(|of| {
+        [heading(&of.name, &of.unit), heading(&format!("u_{}", of.name), &of.unit)]
+    }));
     of_records(|writer| {
         writer.write_record(&header)?;
         observed.lines().enumerate().try_for_each(|(line, (conditions, channels))| {
@@ -24,4 +28,9 @@ pub fn csv(observed: &ObservationReport<'_>) -> String {
             writer.write_record(&record)
         })
     })
+}
+
+/// The heading of a column: its name and, unless its values are numbers, their unit.
+fn heading(name: &str, unit: &str) -> String {
+    if unit.is_empty() || unit == "1" { name.to_owned() } else { format!("{name} [{unit}]") }
 }

@@ -25,7 +25,7 @@ use super::{Provenance, document as look};
 use gumption_engine::task::Warning;
 use gumption_files::RecipeCondition;
 use gumption_signal::{
-    BudgetedValue, ChannelObservation, Observation, RecipeSettings, RecordTrace,
+    Amplitude, BudgetedValue, ChannelObservation, Observation, RecipeSettings, RecordTrace,
 };
 
 /// Observations with what a report says about them.
@@ -52,7 +52,7 @@ pub struct ObservationReport<'a> {
 
 /// A column of the answer: one figure of a channel.
 pub(super) struct Figure {
-    /// Its name: `a_x_amplitude`, `a_x_phase_2`.
+    /// Its name: `a_x_amplitude`, `a_x_amplitude_rms` where amplitudes are that, `a_x_phase_2`.
     pub(super) name: String,
     pub(super) unit: String,
     /// Value and standard uncertainty in each row.
@@ -96,7 +96,11 @@ impl ObservationReport<'_> {
             for (number, multiple) in self.settings.components.iter().enumerate() {
                 let suffix = if *multiple == 1 { String::new() } else { format!("_{multiple}") };
                 let phase = self.settings.phase.name();
-                add(format!("amplitude{suffix}"), unit, &|of| {
+                let amplitude = match self.settings.amplitude {
+                    Amplitude::Peak => "amplitude",
+                    Amplitude::Rms => "amplitude_rms",
+                };
+                add(format!("{amplitude}{suffix}"), unit, &|of| {
                     Some(pair(&of.components.get(number)?.amplitude))
                 });
                 // against itself the reference has none

@@ -3,6 +3,7 @@
 use crate::coloured::{Coloured, Series};
 use crate::effects::KnownNoise;
 use crate::lattice;
+use crate::outlying::Farthest;
 use crate::passes::SampleSource;
 use crate::sine_fit::{Sums, ToneCoefficients, ToneDesign, Waves, dot};
 
@@ -44,6 +45,8 @@ pub(crate) struct Residuals {
     pub(crate) cycles: Vec<(f64, f64)>,
     /// The first residuals.
     pub(crate) first: Vec<f64>,
+    /// Those farthest from zero.
+    pub(crate) farthest: Farthest,
     /// The step that the values are multiples of, where there is one that counts beside the noise.
     pub(crate) lattice: Option<f64>,
     /// What is known of the noise otherwise, after steps that change it.
@@ -143,6 +146,7 @@ struct Gathered {
     /// For each fundamental: sums of residual times derivative, and of the derivative's square.
     derivatives: Vec<(f64, f64)>,
     first: Vec<f64>,
+    farthest: Farthest,
     /// The first values.
     values: Vec<f64>,
     series: Series,
@@ -179,6 +183,7 @@ impl Gathered {
             }),
             derivatives: vec![(0.0, 0.0); fundamentals],
             first: Vec::new(),
+            farthest: Farthest::default(),
             values: Vec::new(),
             series: Series::new(design.samples),
         }
@@ -214,6 +219,7 @@ impl Gathered {
         }
         let room = KEPT.saturating_sub(self.first.len()).min(residuals.len());
         self.first.extend_from_slice(&residuals[..room]);
+        self.farthest.add(first, values, &residuals);
         self.series.add(&residuals);
         let room = lattice::LOOKED_AT.saturating_sub(self.values.len()).min(values.len());
         self.values.extend_from_slice(&values[..room]);
@@ -291,6 +297,7 @@ impl Gathered {
             cycles,
             autocorrelation,
             first: self.first,
+            farthest: self.farthest,
             // a step below a third of the noise adds less than a hundredth to its variance
             lattice: lattice::step(&self.values, variance.sqrt() / 3.0),
             known: None,

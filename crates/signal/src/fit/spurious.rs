@@ -52,6 +52,32 @@ pub(crate) fn found(residuals: &[f64]) -> Vec<Spurious> {
     peaks
 }
 
+/// The last bin of a level that wanders. The first one is not looked at: it has what the constant takes
+/// of an oscillation.
+const OF_LEVEL: usize = 4;
+
+/// Whether there are oscillations among `of` that are not fitted, and beside them nothing at the lower
+/// end of the spectrum: residuals that an oscillation correlates, and no level that wanders.
+pub(crate) fn is_level_still(residuals: &[f64], of: &[Spurious]) -> bool {
+    let count = residuals.len() as f64;
+    let apart = |of: &Spurious, bin: usize| of.cycles * count - bin as f64;
+    let tones = of.iter().filter(|of| !of.fitted && apart(of, OF_LEVEL) > 0.5);
+    let tones: Vec<&Spurious> = tones.collect();
+    if tones.is_empty() {
+        return false;
+    }
+    let power = windowed(residuals);
+    let mut sorted = power.clone();
+    sorted.sort_by(f64::total_cmp);
+    let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+    (2..=OF_LEVEL).all(|bin| {
+        // of a tone the Hann window leaks less than the inverse sixth power of the bins between
+        let leaks = |of: &&Spurious| (of.amplitude * count / 4.0).powi(2) / apart(of, bin).powi(6);
+        let leaked: f64 = tones.iter().map(leaks).sum();
+        power.get(bin).is_none_or(|power| *power < OVER_MEDIAN * median + leaked)
+    })
+}
+
 /// Lines: oscillations that stand out of the spectrum of residuals on both sides, strongest first,
 /// between the bins. Noise that is stronger at one end of the spectrum than at the other is none.
 pub(crate) fn lines(residuals: &[f64]) -> Vec<Spurious> {
@@ -102,5 +128,28 @@ mod tests {
         // the bin is within half of 1/4096; the scalloping of three bins below 3 %
         assert!((found[0].cycles - 0.0503).abs() < 1.3e-4, "{found:?}");
         assert!((found[0].amplitude - 0.3).abs() < 0.01, "{found:?}");
+    }
+
+    #[test]
+    fn tones_are_no_wandering_level() {
+        let noise = |i: u32| {
+            let i = u64::from(i);
+            ((i * i * 7919 % 10_007) as f64 / 10_007.0 - 0.5) * 0.02
+        };
+        let tone = |i: u32| (2.0 * std::f64::consts::PI * 0.0051 * f64::from(i)).cos() + noise(i);
+        let still: Vec<f64> = (0..4096).map(tone).collect();
+        assert!(is_level_still(&still, &found(&still)));
+        // a drift of a tenth of its amplitude beside it
+        let drifts: Vec<f64> = (0..4096).map(|i| tone(i) + f64::from(i) / 20_480.0).collect();
+        assert!(!is_level_still(&drifts, &found(&drifts)));
+        let mut level = 0.0;
+        let walk = |i: u32| {
+            level += noise(i);
+            level
+        };
+        let walk: Vec<f64> = (0..4096).map(walk).collect();
+        assert!(!is_level_still(&walk, &found(&walk)));
+        let plain: Vec<f64> = (0..4096).map(noise).collect();
+        assert!(!is_level_still(&plain, &found(&plain)));
     }
 }
