@@ -129,6 +129,16 @@ fn laboratories_and_their_reference_value() {
         (&json!(false), &json!(false))
     );
     assert_eq!(run(folder.path(), &["labs.csv", "--fail"]).status.code(), Some(3));
+    // the advice and the option stand beside the headline, above the table
+    let advice = "Without one take Mandel-Paule: `--estimator mandel-paule` (see below).";
+    let page = |arguments: &[&str]| {
+        let page = String::from_utf8(run(folder.path(), arguments).stdout).expect("text");
+        page.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let headline = page(&["labs.csv"]);
+    let place = headline.find(advice).expect("the advice");
+    assert!(place < headline.find("laboratory").expect("the table"), "{headline}");
+    assert!(!page(&["labs.csv", "--estimator", "mandel-paule"]).contains(advice));
     fs::write(folder.path().join("r.csv"), "C,A,B\n1,0,0\n0,1,0.2\n0,0.2,1\n").expect("written");
     let found = answer(folder.path(), &["labs.csv", "--correlations", "r.csv"]);
     assert!((number(&found["reference"]["U"]) - 2.0 * 0.6f64.sqrt()).abs() < 1e-12);

@@ -118,6 +118,12 @@ fn what_cannot_be_planned_is_said() {
     assert!(costs().contains(
         "cannot be reached: with every improvement that the file of costs has U(y) is still 8 mm"
     ));
+    // an offer in the wrong unit: a has 3 mm
+    cost(r#"{"costs": {"a": {"offers": [{"standard_uncertainty": 1500, "cost": 15}]}}}"#);
+    assert!(costs().contains(
+        "U(y) is still 10 mm. The offer of 1500 mm for a (cost 15) is no better than what there is, \
+         3 mm, and helps nothing. Numbers without a unit are in mm"
+    ));
     cost(r#"{"costs": {"aa": {"cost": 1}}}"#);
     assert!(costs().contains("`aa`") && costs().contains("cost.json:1"));
     cost(r#"{"costs": {"a": {"per_reading": 1}}}"#);
@@ -188,4 +194,22 @@ fn a_share_of_next_to_nothing_is_told() {
         let page = String::from_utf8_lossy(&found.stdout).into_owned();
         assert_eq!(page.contains("smaller than its uncertainty"), told, "{file} {target}: {page}");
     }
+}
+
+/// An offer that is no better than what there is is named in a plan that goes without it.
+#[test]
+fn an_offer_that_helps_nothing_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("sum.json"), SUM).expect("a file");
+    let costs = r#"{"costs": {"a": {"offers": [{"standard_uncertainty": 1500, "cost": 15},
+        {"standard_uncertainty": "1500 um", "cost": 15}]}, "b": {"cost": 1}}}"#;
+    fs::write(folder.path().join("cost.json"), costs).expect("a file");
+    let arguments =
+        ["plan", "sum.json", "--target", "U(y) <= 7 mm", "--cost", "cost.json", "--trials", "0"];
+    let found = run(folder.path(), &arguments);
+    assert_eq!(found.status.code(), Some(0));
+    let page = String::from_utf8(found.stdout).expect("text");
+    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(page.matches("is no better than what there is, 3 mm").count(), 1, "{page}");
+    assert!(page.contains("The offer of 1500 mm for a (cost 15)"), "{page}");
 }

@@ -173,15 +173,19 @@ fn said(error: &NoPlan, task: &Task, question: &PlanQuestion) -> String {
             value(*by_trials),
             value(*instead)
         ),
-        NoPlan::Unreachable(least) => format!(
-            "the target {kind}({name}) <= {most} cannot be reached: with every improvement that {} \
-             {kind}({name}) is still {}",
-            match question.costs {
-                Costs::Equal => "can be planned",
-                _ => "the file of costs has",
-            },
-            value(*least)
-        ),
+        NoPlan::Unreachable(least) => {
+            let said = format!(
+                "the target {kind}({name}) <= {most} cannot be reached: with every improvement that {} \
+                 {kind}({name}) is still {}",
+                match question.costs {
+                    Costs::Equal => "can be planned",
+                    _ => "the file of costs has",
+                },
+                value(*least)
+            );
+            let worse = report::worse_offers(task, &question.costs);
+            if worse.is_empty() { said } else { format!("{said}. {}", worse.join(" ")) }
+        }
         error => error.to_string(),
     }
 }

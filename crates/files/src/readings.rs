@@ -49,9 +49,8 @@ pub(super) fn of_file(
 ) -> Option<Option<FileReadings>> {
     let file = object.get("file")?;
     if object.get("column").is_none() && object.get("groups").is_none() {
-        // a file has numbers alone
-        let plain = (&Unit::one(), ValueOf::Quantity);
-        let numbers = samples::numbers(object, name, plain, folder, files);
+        let unit = (unit, ValueOf::Quantity);
+        let numbers = samples::numbers(object, name, unit, folder, files);
         return Some(numbers.map(|(values, _)| FileReadings { values, note: None }));
     }
     if let Some(second) = object.get("values") {

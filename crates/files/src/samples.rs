@@ -1,14 +1,17 @@
 //! The samples of an empirical distribution: a list in the model file, or a file with one number a
-//! line.
+//! line, perhaps below a heading; a column of a table; a column of an array of NumPy. So the files that
+//! `--samples` writes can be read.
 
 use std::ops::Range;
 
 use super::folder::Folder;
 use super::json::Json;
-use super::object::Object;
+use super::object::{Object, whole_number};
+use super::recording::npy_columns;
+use super::separator::{Separator, is_skipped};
 use super::source::{Place, SourceText};
 use super::value_text::{ValueOf, with_point};
-use super::{DiagnosticKind, bytes};
+use super::{DiagnosticKind, bytes, column_heading, table};
 use gumption_engine::distribution::Samples;
 use gumption_units::Unit;
 
@@ -50,8 +53,13 @@ pub(crate) fn numbers<'a>(
             None
         }
         (Some(member), None) => {
-            let values = from_file(object, object.text("file")?, folder, files)?;
+            let values = from_file(object, object.text("file")?, (unit, of), folder, files)?;
             Some((values, &member.value.span))
+        }
+        (None, Some(_)) if object.get("column").is_some() => {
+            let column = object.get("column").map_or(object.place(), |member| &member.key_span);
+            object.log.report(column, DiagnosticKind::OnlyWith { key: "column", with: "file" });
+            None
         }
         (None, Some(member)) => Some((object.values("values", unit, of)?, &member.value.span)),
         (None, None) => {
@@ -64,6 +72,7 @@ pub(crate) fn numbers<'a>(
 fn from_file(
     object: &Object<'_>,
     file: &str,
+    unit: (&Unit, ValueOf),
     folder: Folder<'_>,
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Option<Vec<f64>> {
@@ -73,11 +82,95 @@ fn from_file(
     };
     let content = folder.content(file, bytes::MOST_OF_SAMPLES);
     let bytes = content.map_err(|kind| object.log.report(place(object), kind)).ok()?;
-    let text = bytes::text(&bytes).map_err(&unreadable).ok()?;
-    let source = SourceText::new(file, &text);
-    drop(text);
-    let numbers = match parse(&source.text) {
-        Ok(numbers) => numbers,
+    let numbers = if bytes.starts_with(NUMPY) {
+        of_array(object, file, &bytes).map_err(&unreadable).ok()?
+    } else {
+        let text = bytes::text(&bytes).map_err(&unreadable).ok()?;
+        of_text(object, file, &text, unit, folder)?
+    };
+    if !files.iter().any(|(known, _)| known == file) {
+        files.push((file.to_owned(), bytes));
+    }
+    Some(numbers)
+}
+
+/// What an array of NumPy begins with.
+const NUMPY: &[u8] = b"\x93NUMPY";
+
+/// The numbers of an array, or of its column of that number.
+fn of_array(object: &Object<'_>, file: &str, bytes: &[u8]) -> Result<Vec<f64>, String> {
+    let (columns, numbers) = npy_columns(bytes)?;
+    let column = match object.get("column").map(|member| &member.value.value) {
+        None if columns == 1 => 1,
+        None => {
+            return Err(format!(
+                "its array has {columns} columns; say which by its number, `\"column\": 1` to \
+                 {columns}"
+            ));
+        }
+        Some(Json::Number(text)) => whole_number(text)
+            .and_then(|number| usize::try_from(number).ok())
+            .filter(|number| (1..=columns).contains(number))
+            .ok_or_else(|| format!("its array has {columns} columns, so no column {text}"))?,
+        Some(_) => {
+            return Err(format!(
+                "columns of an array have no names; give the number of the `column`, from 1 to \
+                 {columns} (of `{file}` as `--samples` writes it in the order of the outputs)"
+            ));
+        }
+    };
+    Ok(numbers.into_iter().skip(column - 1).step_by(columns).collect())
+}
+
+/// The numbers of a text: of its column, or one a line, perhaps below a heading.
+fn of_text(
+    object: &Object<'_>,
+    file: &str,
+    text: &str,
+    unit: (&Unit, ValueOf),
+    folder: Folder<'_>,
+) -> Option<Vec<f64>> {
+    let unreadable = |message: String| {
+        let message = format!("`{file}`: {message}");
+        object.log.report(place(object), DiagnosticKind::Unreadable { message });
+    };
+    if let Some(member) = object.get("column") {
+        let name = object.text("column")?;
+        let span = &member.value.span;
+        let (table, _) = table::read(object.log, folder, file, place(object))?;
+        let Some(column) = table.column(name) else {
+            let reason = table.no_column(name);
+            object.log.report(span, DiagnosticKind::Table { reason });
+            return None;
+        };
+        let heading = table.columns[column].as_str();
+        column_heading::check(object.log, span, heading, unit).then_some(())?;
+        return Some(table.rows.iter().filter_map(|row| row.get(column)).copied().collect());
+    }
+    let source = SourceText::new(file, text);
+    let heading = heading(&source.text);
+    if let Some((heading, _)) = heading {
+        let separator = Separator::of_header(heading);
+        let names: Vec<&str> = heading.split(separator.sign()).map(unquoted).collect();
+        match names.as_slice() {
+            [only] => {
+                column_heading::check(object.log, place(object), only, unit).then_some(())?;
+            }
+            // it may be anything, and is not shown
+            _ if !has_numbers(&source.text.replace(separator.sign(), "\n")) => {}
+            _ => {
+                let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+                unreadable(format!(
+                    "it has several columns, {}; name the one that is wanted with `column`",
+                    names.join(", ")
+                ));
+                return None;
+            }
+        }
+    }
+    let from = heading.map_or(0, |(_, end)| end);
+    match parse(&source.text, from) {
+        Ok(numbers) => Some(numbers),
         // it may be anything, and is not shown
         Err(_) if !has_numbers(&source.text) => {
             let is_readings = matches!(
@@ -87,19 +180,36 @@ fn from_file(
             let instead = if is_readings { "; a table needs the name of its `column`" } else { "" };
             let message = "it is no file of numbers, one a line: no line is one";
             unreadable(format!("{message}{instead}"));
-            return None;
+            None
         }
         Err(kinds) => {
             for (span, diagnostic) in kinds {
                 object.log.report_at(Place { source: source.clone(), span }, diagnostic);
             }
-            return None;
+            None
         }
-    };
-    if !files.iter().any(|(known, _)| known == file) {
-        files.push((file.to_owned(), bytes));
     }
-    Some(numbers)
+}
+
+/// The heading of a text and where its line ends: the first line, if it begins with a letter and is no
+/// number.
+fn heading(text: &str) -> Option<(&str, usize)> {
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        start += line.len();
+        if is_skipped(line) {
+            continue;
+        }
+        let content = line.trim();
+        let begins = unquoted(content).starts_with(|c: char| c.is_alphabetic() || c == '_');
+        return (begins && content.parse::<f64>().is_err()).then_some((content, start));
+    }
+    None
+}
+
+/// A name without spaces around it and without quotation marks.
+fn unquoted(name: &str) -> &str {
+    name.trim().trim_matches('"').trim()
 }
 
 /// A file that is not there is named where the model file names it.
@@ -116,11 +226,12 @@ fn has_numbers(text: &str) -> bool {
 type PlacedKinds = Vec<(Range<usize>, DiagnosticKind)>;
 
 /// The numbers of a text, one a line; empty lines and those that begin with `#` are skipped.
-fn parse(text: &str) -> Result<Vec<f64>, PlacedKinds> {
+/// `from` is where the first line behind a heading begins.
+fn parse(text: &str, from: usize) -> Result<Vec<f64>, PlacedKinds> {
     let mut numbers = Vec::new();
     let mut kinds = Vec::new();
-    let mut start = 0;
-    for line in text.split_inclusive('\n') {
+    let mut start = from;
+    for line in text.get(from..).unwrap_or("").split_inclusive('\n') {
         let content = line.trim();
         let indent = line.len() - line.trim_start().len();
         if !content.is_empty() && !content.starts_with('#') {
@@ -196,16 +307,89 @@ mod tests {
 
     #[test]
     fn one_number_a_line() {
-        assert_eq!(parse("# volts\r\n1\r\n\r\n 2.5e-3 \n-7").unwrap(), vec![1.0, 2.5e-3, -7.0]);
-        assert_eq!(parse("").unwrap(), Vec::<f64>::new());
+        assert_eq!(parse("# volts\r\n1\r\n\r\n 2.5e-3 \n-7", 0).unwrap(), vec![1.0, 2.5e-3, -7.0]);
+        assert_eq!(parse("", 0).unwrap(), Vec::<f64>::new());
     }
 
     #[test]
     fn faulty_lines_know_their_places() {
         let text = "1\n  1,5\nnan\n";
-        let kinds = parse(text).unwrap_err();
+        let kinds = parse(text, 0).unwrap_err();
         let places: Vec<&str> = kinds.iter().map(|(span, _)| &text[span.clone()]).collect();
         assert_eq!(places, vec!["1,5", "nan"]);
-        assert_eq!(parse(&"x\n".repeat(1000)).unwrap_err().len(), MOST_FAULTS);
+        assert_eq!(parse(&"x\n".repeat(1000), 0).unwrap_err().len(), MOST_FAULTS);
+    }
+
+    /// A model of one input in volts of a file of that name and content; `more` are further keys.
+    fn of_file(name: &str, content: &[u8], more: &str) -> Result<[f64; 2], String> {
+        let folder = tempfile::tempdir().unwrap();
+        let text = format!(
+            r#"{{"inputs": {{"a": {{"unit": "V", "distribution": "samples", "file": "{name}"{more}}}}},
+            "equations": {{"y": "a"}}, "outputs": {{"y": {{"unit": "V"}}}}}}"#
+        );
+        std::fs::write(folder.path().join(name), content).unwrap();
+        std::fs::write(folder.path().join("m.json"), text).unwrap();
+        let file = read_model(&folder.path().join("m.json"), &[]).map_err(|e| e.to_string())?;
+        let of = &file.task.rows[0].distributions[0];
+        Ok([of.mean(), of.standard_deviation()])
+    }
+
+    #[test]
+    fn a_heading_and_a_column() {
+        // of 1 and 3: mean 2, standard deviation 1 (divisor n)
+        for content in ["p\n1\n3\n", "# of a run\n\"p [V]\"\n1\n3\n", "p (V)\r\n1\r\n3\r\n"] {
+            assert_eq!(of_file("s.csv", content.as_bytes(), ""), Ok([2.0, 1.0]), "{content}");
+        }
+        let two = b"p [V],q\n1,10\n3,30\n";
+        assert_eq!(of_file("s.csv", two, r#", "column": "p""#), Ok([2.0, 1.0]));
+        assert_eq!(of_file("s.csv", two, r#", "column": "q""#), Ok([20.0, 10.0]));
+        let several = of_file("s.csv", two, "").unwrap_err();
+        let said = "`s.csv`: it has several columns, `p [V]`, `q`; name the one that is wanted with \
+                    `column`";
+        assert!(several.contains(said), "{several}");
+        let none = of_file("s.csv", two, r#", "column": "r""#).unwrap_err();
+        assert!(none.contains("`s.csv` has no column `r`"), "{none}");
+        for (content, more) in
+            [(&b"p [mV]\n1\n3\n"[..], ""), (b"p [mV],q\n1,2\n3,4\n", r#", "column": "p""#)]
+        {
+            let other = of_file("s.csv", content, more).unwrap_err();
+            assert!(other.contains("mV") && other.contains("`V`"), "{other}");
+        }
+    }
+
+    /// What is no heading is a fault as before.
+    #[test]
+    fn what_is_no_heading_is_a_fault() {
+        for content in ["1\np\n3\n", "1,5\n2,5\n", "nan\n1\n", "-\n1\n"] {
+            assert!(of_file("s.csv", content.as_bytes(), "").is_err(), "{content}");
+        }
+        let words = of_file("s.csv", b"a text, of words\nwithout a number\n", "").unwrap_err();
+        assert!(words.contains("it is no file of numbers"), "{words}");
+        let lonely = of_file("s.csv", b"p\n", "").unwrap_err();
+        assert!(!lonely.is_empty());
+    }
+
+    #[test]
+    fn an_array_of_numpy() {
+        let array = |shape: &str, values: &[f64]| {
+            let text = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
+            let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+            bytes.extend((text.len() as u16 + 1).to_le_bytes());
+            bytes.extend(text.bytes().chain([b'\n']));
+            bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+            bytes
+        };
+        assert_eq!(of_file("s.npy", &array("(2, 1)", &[1.0, 3.0]), ""), Ok([2.0, 1.0]));
+        assert_eq!(of_file("s.npy", &array("(2,)", &[1.0, 3.0]), ""), Ok([2.0, 1.0]));
+        let two = array("(2, 2)", &[1.0, 10.0, 3.0, 30.0]);
+        assert_eq!(of_file("s.npy", &two, r#", "column": 2"#), Ok([20.0, 10.0]));
+        for (more, said) in [
+            ("", "its array has 2 columns; say which by its number, `\"column\": 1` to 2"),
+            (r#", "column": 3"#, "its array has 2 columns, so no column 3"),
+            (r#", "column": "p""#, "columns of an array have no names"),
+        ] {
+            let found = of_file("s.npy", &two, more).unwrap_err();
+            assert!(found.contains(said), "{found}");
+        }
     }
 }

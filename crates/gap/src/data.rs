@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::copies::Copies;
 use super::noise_model::{NoiseModel, lag};
 use crate::Case;
 use gumption_engine::number::elementary;
@@ -50,6 +51,11 @@ impl Data {
     /// All rows of a case.
     pub(crate) fn new(case: &Case) -> Self {
         Self::of(case, (0..case.task.rows.len()).collect(), NoiseModel::default())
+    }
+
+    /// The rows of a case that count: those that repeat others beyond chance count once.
+    pub(crate) fn measured(case: &Case) -> Self {
+        Self::of(case, Copies::of(case).counted(case), NoiseModel::default())
     }
 
     /// Some rows of a case, with a noise.

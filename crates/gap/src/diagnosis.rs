@@ -291,6 +291,9 @@ pub struct NextMeasurements {
     /// Groups of hypotheses that are the same function of the conditions in the whole reachable
     /// range, so that no measurement of these outputs can tell them apart.
     pub equivalent: Vec<Vec<Vec<String>>>,
+    /// Conditions, as places, of which it is not known between which values they can be set: of them
+    /// the values of the data count as what can be reached.
+    pub without_range: Vec<usize>,
 }
 
 /// A measurement that may be worth making.

@@ -7,6 +7,7 @@
 mod case;
 pub mod check;
 mod composed;
+mod copies;
 mod correlated;
 mod covariance;
 mod data;

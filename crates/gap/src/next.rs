@@ -105,7 +105,8 @@ pub(crate) fn next(
         let prospects = Prospects::new(setup, &places, &hypotheses, pair, variances, seed);
         proposals = prospects.proposals(entropy);
     }
-    NextMeasurements { entropy, composed, separates, proposals, equivalent }
+    let without_range = reachable::without_range(setup);
+    NextMeasurements { entropy, composed, separates, proposals, equivalent, without_range }
 }
 
 /// Entropy of the probabilities of all hypotheses, in nats; what is composed is not told apart.

@@ -296,9 +296,10 @@ pub(crate) fn weighings<'c>(
         let pairs = setup.case.pairs();
         begun((setup, singles, pairs), (PriorWidths::AsStated, prior), known, parts)
     };
-    let values = case.task.rows.len() * case.observed.iter().flatten().count();
+    let setup = Setup::new(case);
+    let values = setup.data.len();
     let stated = NoiseModel::default().prior(values);
-    let mut weighings = vec![weighing(Setup::new(case), stated, &[], [0.0, 0.35])];
+    let mut weighings = vec![weighing(setup, stated, &[], [0.0, 0.35])];
     let stated = &weighings[0].setup.data.uncertainties;
     // of much data each model costs a pass for every draw
     let few = weighings[0].setup.data.len() <= MANY_VALUES && !effort.is_stopped();

@@ -1,5 +1,6 @@
 //! What to bear in mind when a diagnosis is read.
 
+use super::copies::Copies;
 use super::diagnosis::{
     DiagnosisNote, GapTest, HypothesisKind, MostProbable, NoiseEstimate, Shrinkage,
 };
@@ -126,22 +127,8 @@ pub(crate) fn notes(
             ),
         );
     }
-    let copies = copies(setup);
-    if let [(row, copy), more @ ..] = copies.as_slice() {
-        let others = match more.len() {
-            0 => String::new(),
-            count => format!(", and {count} more rows are such copies"),
-        };
-        note(
-            "copied-rows",
-            format!(
-                "Row {} has the conditions and, to all digits, the values of row {}{others}. What was \
-                 copied counts as measured again, with noise of its own, and makes the diagnosis too \
-                 sure: leave such rows out unless they were measured.",
-                copy + 1,
-                row + 1
-            ),
-        );
+    if let Some(text) = Copies::of(setup.case).note(setup.case) {
+        note("copied-rows", text);
     }
     if setup.data.points.len() < 8 {
         let said = match setup.data.points.len() {
@@ -152,37 +139,6 @@ pub(crate) fn notes(
     }
     notes
 }
-
-/// Rows of the same conditions and values, each with the row of the case that it repeats; only of
-/// values with so many digits that no two readings are the same by chance.
-fn copies(setup: &Setup<'_>) -> Vec<(usize, usize)> {
-    let data = &setup.data;
-    let value = |row: usize, output: usize| data.values[output][row];
-    let outputs = data.outputs.len();
-    let is_copy = |row: usize, other: usize| {
-        (0..outputs).all(|output| value(row, output).to_bits() == value(other, output).to_bits())
-            && (0..outputs).any(|output| significant_digits(value(row, output)) >= TELLING_DIGITS)
-    };
-    let mut found: Vec<(usize, usize)> = Vec::new();
-    for point in &data.points {
-        let mut of_point = point.rows.clone();
-        let bits = |row: usize| (0..outputs).map(move |output| value(row, output).to_bits());
-        of_point.sort_by(|&a, &b| bits(a).cmp(bits(b)).then(a.cmp(&b)));
-        let pairs = of_point.windows(2).filter(|pair| is_copy(pair[0], pair[1]));
-        found.extend(pairs.map(|pair| (data.ids[pair[0]], data.ids[pair[1]])));
-    }
-    found.sort_unstable_by_key(|(_, copy)| *copy);
-    found
-}
-
-/// The digits of a number as it would be written.
-fn significant_digits(value: f64) -> usize {
-    let text = format!("{value:e}");
-    text.bytes().take_while(|byte| *byte != b'e').filter(u8::is_ascii_digit).count()
-}
-
-/// Two readings of so many digits are hardly ever the same.
-const TELLING_DIGITS: usize = 5;
 
 /// The integral of a hypothesis with less than this probability changes the others by less than they
 /// are known.

@@ -25,6 +25,15 @@ pub(crate) struct Place {
     pub(crate) near: Vec<usize>,
 }
 
+/// The conditions of the measurement that say no range.
+pub(crate) fn without_range(setup: &Setup<'_>) -> Vec<usize> {
+    let case = setup.case;
+    let conditions = case.model.conditions.len().saturating_sub(case.simulated);
+    let groups = case.replication.as_ref().map(|of| of.condition);
+    let stated = |condition: usize| case.reachable.get(condition).copied().flatten().is_some();
+    (0..conditions).filter(|&c| !stated(c) && Some(c) != groups).collect()
+}
+
 /// All places. What is known about inputs that differ from row to row is known in the data's own rows
 /// only, so such cases stay there.
 pub(crate) fn places(setup: &Setup<'_>) -> Vec<Place> {

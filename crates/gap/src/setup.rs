@@ -44,7 +44,7 @@ pub(crate) struct Setup<'c> {
 
 impl<'c> Setup<'c> {
     pub(crate) fn new(case: &'c Case) -> Self {
-        let data = Data::new(case);
+        let data = Data::measured(case);
         let spread = Spread::new(case, &data);
         let unknown_inputs = unknown_inputs(case, &data, &spread);
         let ln_sizes = ln_sizes(&data);

@@ -26,6 +26,49 @@ pub struct EvidenceTest {
     pub outside: usize,
     /// The verdict.
     pub verdict: EvidenceVerdict,
+    /// That readings which contradict the stated distribution lie together, off its centre.
+    pub offset: Option<EvidenceOffset>,
+}
+
+/// Readings that scatter little about a value which is not the stated centre: a systematic effect to
+/// be corrected (JCGM 100, 3.2.4) rather than a width or a shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EvidenceOffset {
+    /// The mean of the readings, in the variable's unit.
+    pub mean: f64,
+    /// The stated centre.
+    pub stated: f64,
+    /// The readings' own standard deviation.
+    pub standard_deviation: f64,
+    /// The standard deviation of their mean, s/sqrt(n), with n - 1 degrees of freedom.
+    pub standard_error: f64,
+}
+
+impl EvidenceOffset {
+    /// The probability with which the mean of normal readings about the stated centre lies so near to
+    /// it that no offset is said (t test, two-sided).
+    pub const LEVEL: f64 = 0.99;
+
+    /// By how much the mean is off the stated centre.
+    pub fn difference(&self) -> f64 {
+        self.mean - self.stated
+    }
+
+    /// The offset of readings about `stated`, if it is significant and much larger than their scatter.
+    fn of(stated: f64, readings: &[f64]) -> Option<Self> {
+        let n = readings.len() as f64;
+        // from the first reading, so that no digits are lost
+        let first = *readings.first()?;
+        let mean = first + readings.iter().map(|x| x - first).sum::<f64>() / n;
+        let squares: f64 = readings.iter().map(|x| (x - mean).powi(2)).sum();
+        let standard_deviation = (squares / (n - 1.0)).sqrt();
+        let standard_error = standard_deviation / n.sqrt();
+        let found = Self { mean, stated, standard_deviation, standard_error };
+        let off = found.difference().abs();
+        let critical = special::student::two_sided_factor(Self::LEVEL, n - 1.0);
+        let is_offset = off > critical * standard_error && off > MUCH_LARGER * standard_deviation;
+        is_offset.then_some(found)
+    }
 }
 
 /// The width of a distribution of the stated shape and centre that readings support.
@@ -84,6 +127,10 @@ const TOO_WIDE: f64 = 0.005;
 /// p-values below this speak against the shape.
 const WRONG_SHAPE: f64 = 0.01;
 
+/// An offset is said of readings whose standard deviation is smaller than it by this factor: what is
+/// left once it is corrected is no width that matters beside it.
+const MUCH_LARGER: f64 = 3.0;
+
 /// Rounding of a limit that is no reading outside of it, in half-widths.
 const ROUNDING: f64 = 1e-9;
 
@@ -127,7 +174,10 @@ pub fn agreement(
     } else {
         EvidenceVerdict::Consistent
     };
-    Some(EvidenceTest { variable, readings: readings.len(), p_value, supported, outside, verdict })
+    let contradicted = !matches!(verdict, EvidenceVerdict::Consistent | EvidenceVerdict::TooFew);
+    let offset = EvidenceOffset::of(stated.mean(), readings).filter(|_| contradicted);
+    let readings = readings.len();
+    Some(EvidenceTest { variable, readings, p_value, supported, outside, verdict, offset })
 }
 
 /// The distribution of the population: degrees of freedom say how well a normal distribution's

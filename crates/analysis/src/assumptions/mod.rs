@@ -22,7 +22,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 pub use alternatives::Kept;
-pub use evidence::{EvidenceTest, EvidenceVerdict, SupportedWidth, agreement};
+pub use evidence::{EvidenceOffset, EvidenceTest, EvidenceVerdict, SupportedWidth, agreement};
 pub use sobol::Sobol;
 
 use gumption_engine::distribution::{Distribution, EvaluationType, FromScore};

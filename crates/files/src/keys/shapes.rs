@@ -157,7 +157,7 @@ pub(crate) static SHAPES: [Shape; 20] = [
         name: "samples",
         aliases: &[],
         about: "An empirical distribution: values that are drawn with replacement.",
-        fields: &["file", "values"],
+        fields: &["file", "column", "values"],
         rule: Rule::One(&["file", "values"]),
     },
     Shape {
@@ -251,6 +251,9 @@ fn field(shape: &str, key: &str) -> Value {
         ("readings", "file") => {
             referenced("file", "A file with one reading in each line, or a table with `column`.")
         }
+        ("samples", "column") => {
+            referenced("column", "The column of the file that has the samples.")
+        }
         (_, "column") => text_of("The column of the file that has the readings."),
         (_, "groups") => text_of(
             "The column of the file that numbers the groups of a nested design (days, set-ups): the \
@@ -278,7 +281,11 @@ fn field(shape: &str, key: &str) -> Value {
         (_, "paired") => {
             described("boolean", "Readings that were taken together with those of other inputs.")
         }
-        ("samples", "file") => referenced("file", "A file with one number in each line."),
+        ("samples", "file") => referenced(
+            "file",
+            "A file with one number in each line, perhaps below a heading; a table or an array of \
+             NumPy (as `--samples` writes them) with `column`.",
+        ),
         ("result", "file") => referenced("file", "A result that `gumption run --save` wrote."),
         ("dcc", "file") => referenced("file", "A Digital Calibration Certificate (XML)."),
         (_, "id") => text_of("The `id` of the quantity."),

@@ -35,7 +35,8 @@ fn list(about: &str) -> Value {
 /// Keys of readings that a distribution is tested against.
 pub(crate) const READINGS: &[Key] = keys![
     "values" => referenced("values", "The readings."),
-    "file" => text_of("A file with one reading in each line."),
+    "file" => text_of("A file with one reading in each line, or a table with `column`."),
+    "column" => referenced("column", "The column of the file that has the readings."),
 ];
 
 pub(super) fn definitions() -> Vec<(String, Value)> {

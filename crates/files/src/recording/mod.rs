@@ -28,11 +28,35 @@ const MOST_IN_MEMORY: u64 = 1 << 25;
 ///
 /// # Errors
 /// What is wrong with it, as a sentence without a capital.
-pub(super) fn npy_matrix(mut bytes: &[u8]) -> Result<(usize, usize, Vec<f64>), String> {
+pub(super) fn npy_matrix(bytes: &[u8]) -> Result<(usize, usize, Vec<f64>), String> {
+    npy_numbers(bytes, |shape| match *shape {
+        [rows, columns] => Ok([rows, columns]),
+        _ => Err(format!("it has {} dimensions; a matrix has two", shape.len())),
+    })
+}
+
+/// How many columns the array of a NumPy file has, one of a plain list, and its numbers row by row.
+///
+/// # Errors
+/// What is wrong with it, as a sentence without a capital.
+pub(super) fn npy_columns(bytes: &[u8]) -> Result<(usize, Vec<f64>), String> {
+    let found = npy_numbers(bytes, |shape| match *shape {
+        [rows] => Ok([rows, 1]),
+        [rows, columns] => Ok([rows, columns]),
+        _ => Err(format!(
+            "its array has the shape {shape:?}, but must be samples, or samples by columns"
+        )),
+    });
+    found.map(|(_, columns, numbers)| (columns, numbers))
+}
+
+/// Rows, columns and numbers row by row of an array whose shape has rows and columns.
+fn npy_numbers(
+    mut bytes: &[u8],
+    matrix: impl Fn(&[u64]) -> Result<[u64; 2], String>,
+) -> Result<(usize, usize, Vec<f64>), String> {
     let header = npy_header::NpyHeader::read(&mut bytes)?;
-    let &[rows, columns] = header.shape.as_slice() else {
-        return Err(format!("it has {} dimensions; a matrix has two", header.shape.len()));
-    };
+    let [rows, columns] = matrix(&header.shape)?;
     let size = header.number.size();
     let count = rows.checked_mul(columns).and_then(|count| usize::try_from(count).ok());
     let count = count.filter(|count| count.checked_mul(size) == Some(bytes.len()));

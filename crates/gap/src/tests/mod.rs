@@ -1,6 +1,7 @@
 //! The statistics of the diagnosis against exact values and independent computations.
 
 mod composed;
+mod copies;
 #[path = "../../../../examples/departures/mod.rs"]
 mod departures;
 mod discrepancy;

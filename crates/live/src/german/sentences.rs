@@ -477,6 +477,18 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
     ),
     ("Shapes that matter, by more than {} %: {}", "Wesentliche Formen, um mehr als {0} %: {1;}"),
     ("The readings contradict: {}", "Die Messreihen widersprechen: {0+}"),
+    (
+        "The {} readings of {} lie together, off the stated centre: their mean is {}, their standard deviation {}",
+        "Die {0} Messwerte von {1} liegen beisammen, neben der angegebenen Mitte: Ihr Mittelwert ist {2}, ihre Standardabweichung {3}",
+    ),
+    (
+        "The mean is off by {}, more than their scatter makes (t test, {} %)",
+        "Der Mittelwert liegt um {0} daneben, mehr als ihre Streuung macht (t-Test, {1} %)",
+    ),
+    (
+        "That is an offset to be corrected (JCGM 100, 3.2.4), no width and no shape: correct it, and state what is left",
+        "Das ist eine Abweichung, die zu berichtigen ist (JCGM 100, 3.2.4), keine Breite und keine Form: Berichtigen Sie sie, und geben Sie an, was bleibt",
+    ),
     ("With another shape", "Mit einer anderen Form"),
     ("Do the readings agree?", "Passen die Messreihen dazu?"),
     (

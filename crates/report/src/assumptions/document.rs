@@ -11,7 +11,9 @@ pub(super) fn of(report: &AuditReport<'_>) -> Document {
         subtitle: vec![words::settings(report)],
         ..Document::default()
     };
-    document.blocks.extend(words::contradicted(report).map(|said| Block::Verdict(vec![said])));
+    let contradicted = words::contradicted(report).into_iter();
+    let said: Vec<String> = contradicted.chain(words::offsets(report)).collect();
+    document.blocks.extend((!said.is_empty()).then_some(Block::Verdict(said)));
     statement::section(&mut document, statement::TITLE, report.task.into());
     for (row, of_row) in report.audit.rows.iter().enumerate() {
         for (output, of) in of_row.outputs.iter().enumerate() {

@@ -25,7 +25,10 @@ pub fn fragment(report: &AuditReport<'_>) -> String {
     }
     html! {
         @if let Some(said) = words::contradicted(report) {
-            div.verdict { p { strong { (said) } } }
+            div.verdict {
+                p { strong { (said) } }
+                @for said in words::offsets(report) { p { (said) } }
+            }
         }
         @for part in &parts { (part) }
         @if let Some(evidence) = sheets::evidence(report) {

@@ -3,7 +3,8 @@
 use super::AuditReport;
 use crate::answer::{list, object, pretty};
 use gumption_analysis::assumptions::{
-    EvidenceTest, InputAudit, OutputAudit, RowAudit, Sobol, VariantChange, VariantFigures,
+    EvidenceOffset, EvidenceTest, InputAudit, OutputAudit, RowAudit, Sobol, VariantChange,
+    VariantFigures,
 };
 use serde_json::Value;
 
@@ -126,6 +127,17 @@ fn input_tree(report: &AuditReport<'_>, input: &InputAudit) -> Value {
     object(entries)
 }
 
+fn offset(of: &EvidenceOffset) -> Value {
+    object([
+        ("mean", Value::from(of.mean)),
+        ("stated", of.stated.into()),
+        ("difference", of.difference().into()),
+        ("standard_deviation", of.standard_deviation.into()),
+        ("standard_error", of.standard_error.into()),
+        ("level", EvidenceOffset::LEVEL.into()),
+    ])
+}
+
 fn agreement(report: &AuditReport<'_>, of: &EvidenceTest) -> Value {
     let unit = report.task.variables.get(of.variable).map_or("", |v| v.unit.text());
     let supported = object([
@@ -142,5 +154,6 @@ fn agreement(report: &AuditReport<'_>, of: &EvidenceTest) -> Value {
         ("p_value", of.p_value.into()),
         ("supported", supported),
         ("verdict", of.verdict.words().into()),
+        ("offset", of.offset.as_ref().map_or(Value::Null, offset)),
     ])
 }

@@ -8,6 +8,7 @@ use crate::{Grid, statement, table::width, wrapped};
 pub fn table(report: &AuditReport<'_>) -> String {
     let mut heading = wrapped(&words::title(report)) + &wrapped(&words::settings(report));
     heading += &words::contradicted(report).map(|said| wrapped(&said)).unwrap_or_default();
+    heading += &words::offsets(report).iter().map(|said| wrapped(said)).collect::<String>();
     let stated: String =
         statement::lines(report.task.into()).iter().map(|line| wrapped(line)).collect();
     let mut page = vec![heading];

@@ -37,3 +37,30 @@ fn a_page_and_its_figures() {
     assert!((shown(5) - percent(&a["halved"]["change_of_half_length"])).abs() <= 0.05);
     assert!(page.contains("too narrow") && page.contains("a (rectangular, "));
 }
+
+/// Readings that lie together off the centre are told beside the verdict: sum 0.1263, mean 0.02105,
+/// squares of deviations 1750e-10 over 5, s = 1.87e-4, s/sqrt(6) = 7.6e-5.
+#[test]
+fn an_offset_is_named() {
+    let text = r#"{"inputs": {"off": {"unit": "V", "distribution": "rectangular", "mean": 0,
+        "half_width": 0.01, "evidence": {"values": [0.021, 0.0208, 0.0213, 0.0209, 0.0211, 0.0212]}}},
+        "equations": {"y": "2*off"}, "outputs": {"y": {"unit": "V"}}}"#;
+    let file = read_text("m.json", text, std::path::Path::new(""), &[]).unwrap();
+    let question = Question { trials: 20_000, allowed: 0.05 };
+    let found = audit(&file.task, &file.evidence, question, &Control::default()).unwrap().unwrap();
+    let provenance = Provenance::default();
+    let warnings = &found.warnings;
+    let report = AuditReport { task: &file.task, audit: &found, warnings, provenance: &provenance };
+    let said = "The 6 readings of off lie together, off the stated centre: their mean is 0.021050 V, \
+                their standard deviation 0.00019 V. The mean is off by 0.021050 V, more than their \
+                scatter makes (t test, 99 %). That is an offset to be corrected (JCGM 100, 3.2.4), no \
+                width and no shape: correct it, and state what is left.";
+    let page = table(&report).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(page.contains(&format!("off is too narrow. {said}")), "{page}");
+    assert!(super::markdown(&report).replace('\\', "").contains(said));
+    assert!(super::fragment(&report).contains(said));
+    let answer: serde_json::Value = serde_json::from_str(&json(&report)).unwrap();
+    let evidence = &answer["evidence"][0];
+    assert_eq!(evidence["verdict"], "too narrow");
+    assert!((evidence["offset"]["difference"].as_f64().unwrap() - 0.02105).abs() < 1e-12);
+}

@@ -1,9 +1,11 @@
 //! The sentences of an audit.
 
 use super::AuditReport;
-use crate::number::{coarser, position, rounded, to};
+use crate::number::{coarser, position, rounded, significant, to};
 use crate::{conditions_text, grouped, plain};
-use gumption_analysis::assumptions::{EvidenceVerdict, InputAudit, OutputAudit};
+use gumption_analysis::assumptions::{
+    EvidenceOffset, EvidenceTest, EvidenceVerdict, InputAudit, OutputAudit,
+};
 
 pub(super) const MOVES: &str = "Changes are those of half the length of the coverage interval, \
     relative to the stated assumptions, from the same random numbers; a change below 0.05 % or \
@@ -116,4 +118,28 @@ pub(super) fn contradicted(report: &AuditReport<'_>) -> Option<String> {
         .map(|of| format!("{} is {}", plain(report.name(of.variable)), of.verdict.words()))
         .collect();
     (!said.is_empty()).then(|| format!("The readings contradict: {}.", said.join(", ")))
+}
+
+/// Where the readings lie together off the stated centre: a sentence for each input.
+pub(super) fn offsets(report: &AuditReport<'_>) -> Vec<String> {
+    let offsets = report.audit.evidence.iter();
+    offsets.filter_map(|of| Some(offset(report, of, of.offset?))).collect()
+}
+
+fn offset(report: &AuditReport<'_>, of: &EvidenceTest, offset: EvidenceOffset) -> String {
+    let variable = report.task.variables.get(of.variable);
+    let unit = variable.map_or("", |variable| variable.unit.text());
+    let unit = if matches!(unit, "" | "1") { String::new() } else { format!(" {}", plain(unit)) };
+    let name = plain(report.name(of.variable));
+    let digits = position(offset.standard_error, 2).or(position(offset.difference(), 3));
+    let [mean, off] = [offset.mean, offset.difference().abs()].map(|value| to(value, digits));
+    format!(
+        "The {} readings of {name} lie together, off the stated centre: their mean is {mean}{unit}, \
+         their standard deviation {}{unit}. The mean is off by {off}{unit}, more than their scatter \
+         makes (t test, {} %). That is an offset to be corrected (JCGM 100, 3.2.4), no width and no \
+         shape: correct it, and state what is left.",
+        of.readings,
+        significant(offset.standard_deviation, 2),
+        percent(EvidenceOffset::LEVEL),
+    )
 }

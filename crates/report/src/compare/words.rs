@@ -159,5 +159,24 @@ fn of_laboratories(comparison: &Comparison) -> Vec<String> {
                 _ => "the subsets with one laboratory fewer at a time",
             }
         ),
+        advice(comparison),
     ]
+    .into_iter()
+    .filter(|said| !said.is_empty())
+    .collect()
+}
+
+/// That another estimator is to be taken than the one that the figures are from, and how; empty where
+/// it is that one.
+fn advice(comparison: &Comparison) -> String {
+    let (advised, _) = consensus::recommended(&comparison.all);
+    if advised == comparison.estimator {
+        return String::new();
+    }
+    let name = advised.name();
+    format!(
+        "Degrees of equivalence and En are from this subset, which is right only where a technical \
+         reason speaks against the laboratories that are left out. Without one take Mandel-Paule: \
+         `--estimator {name}` (see below)."
+    )
 }

@@ -21,6 +21,7 @@ pub(super) fn document(diagnosis: &Diagnosis, provenance: &Provenance) -> Docume
     verdict.extend(words::noise_verdict(diagnosis));
     verdict.extend(words::present(diagnosis));
     verdict.extend(words::look_alikes(diagnosis));
+    verdict.extend(words::copies(diagnosis));
     page.blocks.push(Block::Verdict(verdict));
     statement::section(&mut page, words::SIM, words::sim(diagnosis));
     page.section("What was measured, and what the sim says");

@@ -79,6 +79,7 @@ fn heading(diagnosis: &Diagnosis) -> String {
     heading += &paragraphs(words::noise_verdict(diagnosis));
     heading += &words::present(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();
     heading += &words::look_alikes(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();
+    heading += &words::copies(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();
     heading
 }
 

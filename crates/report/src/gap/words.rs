@@ -33,6 +33,9 @@ pub(super) fn title(diagnosis: &Diagnosis) -> String {
 pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
     let verdict = &diagnosis.most_probable;
     let how_sure = format!("(probability {})", probability(verdict.probability));
+    if verdict.probability < LIKELY && verdict.kind != HypothesisKind::Unexplained {
+        return most_probable_of_several(diagnosis);
+    }
     match verdict.kind {
         HypothesisKind::None if diagnosis.notes.iter().any(|note| note.code == "scatter") => {
             format!(
@@ -71,6 +74,45 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
             }
         }
     }
+}
+
+/// The verdict where all other hypotheses together are more probable, with those that come next.
+fn most_probable_of_several(diagnosis: &Diagnosis) -> String {
+    let verdict = &diagnosis.most_probable;
+    let own = Some(&verdict.effects);
+    let of = |h: &Hypothesis| match h.effects.as_ref() {
+        None => "no candidate effect".to_owned(),
+        Some(effects) => quoted(effects),
+    };
+    let none = diagnosis.hypotheses.iter().find(|h| h.effects.as_ref().is_some_and(Vec::is_empty));
+    let none = none.map_or(0.0, |none| none.probability);
+    let start = if 1.0 - none >= SURE {
+        format!(
+            "There is a gap, but what explains it is not decided: {} is only the most probable of \
+             several explanations",
+            quoted(&verdict.effects)
+        )
+    } else if verdict.effects.is_empty() {
+        "Whether there is a gap is not decided: that there is none is only the most probable of several \
+         hypotheses"
+            .to_owned()
+    } else {
+        format!(
+            "Whether there is a gap is not decided: that {} makes one is only the most probable of \
+             several hypotheses",
+            quoted(&verdict.effects)
+        )
+    };
+    let others = diagnosis.hypotheses.iter().filter(|h| h.effects.as_ref() != own);
+    let next: Vec<String> = others
+        .filter(|h| h.probability >= WORTH_NAMING)
+        .map(|h| format!("{} {}", of(h), probability(h.probability)))
+        .collect();
+    let own = probability(verdict.probability);
+    if next.is_empty() {
+        return format!("{start} (probability {own}).");
+    }
+    format!("{start} (probability {own}; {}).", next.join(", "))
 }
 
 /// The probability that effects of the case explain the gap, whichever.
@@ -221,6 +263,15 @@ pub(super) fn interrupted(diagnosis: &Diagnosis) -> Option<String> {
     let note = diagnosis.notes.iter().find(|note| note.code == "interrupted");
     note.filter(|_| diagnosis.interrupted).map(|note| plain(&note.text))
 }
+
+/// Rows that repeat others, which the verdict depends on.
+pub(super) fn copies(diagnosis: &Diagnosis) -> Option<String> {
+    let note = diagnosis.notes.iter().find(|note| note.code == COPIED_ROWS);
+    note.map(|note| plain(&note.text))
+}
+
+/// The note that stands beside the verdict.
+const COPIED_ROWS: &str = "copied-rows";
 
 /// The title above what the sim computes.
 pub(super) const SIM: &str = "The sim";
@@ -441,17 +492,47 @@ fn rival(effects: Option<&Vec<String>>) -> String {
     effects.map_or_else(|| "an effect that is not on the list".to_owned(), |own| quoted(own))
 }
 
+/// Whether all rows have the same conditions.
+fn at_one_place(diagnosis: &Diagnosis) -> bool {
+    diagnosis.rows.windows(2).all(|pair| pair[0].conditions == pair[1].conditions)
+}
+
+/// Which conditions say no range, and how they can; `None` where all do.
+fn without_range(diagnosis: &Diagnosis) -> Option<String> {
+    let conditions = diagnosis.next.without_range.iter();
+    let named = conditions.filter_map(|&place| diagnosis.conditions.get(place));
+    let names: Vec<String> = named.map(|named| plain(&named.name)).collect();
+    let first = names.first()?;
+    Some(format!(
+        "No range is stated for {}, so that only the values of the data count as what can be set and \
+         proposals stay there. If it can be set to others, say so in the case, and they are tried: \
+         \"{first}\": {{..., \"range\": [lowest, highest]}}.",
+        names.join(", ")
+    ))
+}
+
 /// What to measure next, in sentences; the table of proposals says the rest.
 pub(super) fn next(diagnosis: &Diagnosis) -> Vec<String> {
     let next = &diagnosis.next;
     let mut said = Vec::new();
+    let without_range = without_range(diagnosis);
     for group in &next.equivalent {
         let names: Vec<String> = group.iter().map(|effects| quoted(effects)).collect();
-        said.push(format!(
-            "These are the same function of the conditions wherever they can be set, so that no \
-             measurement of these outputs tells them apart: {}.",
-            names.join("; ")
-        ));
+        let names = names.join("; ");
+        said.push(if without_range.is_none() {
+            format!(
+                "These are the same function of the conditions wherever they can be set, so that no \
+                 measurement of these outputs tells them apart: {names}."
+            )
+        } else {
+            format!(
+                "These are the same at the conditions of the data, where no measurement of these \
+                 outputs tells them apart: {names}."
+            )
+        });
+    }
+    if !next.equivalent.is_empty() || at_one_place(diagnosis) {
+        said.extend(without_range);
     }
     let Some(best) = next.proposals.first() else {
         let open = next.entropy > OPEN;
@@ -587,8 +668,10 @@ pub(super) fn noise(diagnosis: &Diagnosis) -> Vec<String> {
     diagnosis.noise.iter().filter_map(sentence).collect()
 }
 
-/// What to bear in mind, without what the section on shrinkage says by itself.
+/// What to bear in mind, without what stands beside the verdict and what the section on shrinkage says
+/// by itself.
 pub(super) fn notes(diagnosis: &Diagnosis) -> Vec<String> {
-    let notes = diagnosis.notes.iter().filter(|note| note.code != "small-gap");
+    let elsewhere = ["small-gap", COPIED_ROWS];
+    let notes = diagnosis.notes.iter().filter(|note| !elsewhere.contains(&note.code));
     notes.map(|note| plain(&note.text)).collect()
 }

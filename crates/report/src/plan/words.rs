@@ -5,9 +5,12 @@ use super::sheets::{DIGITS, at_most};
 use crate::number::{exact, rounded, significant};
 use crate::plain;
 use crate::table::{conditions_text, grouped, in_unit, row_numbers};
-use gumption_analysis::plan::{Costs, DriftLaw, PlanCheck, PlanTarget, PlannedInterval};
+use gumption_analysis::plan::{
+    Costs, DriftLaw, Improvement, PlanCheck, PlanTarget, PlannedInterval,
+};
 use gumption_engine::decimal::to_digits;
 use gumption_engine::model::Quantity;
+use gumption_engine::task::Task;
 
 pub(super) const EQUAL: &str = "Without a file of costs, halving any standard uncertainty counts as \
     much as any other; a reading costs so much that three times as many in addition, which halve it, \
@@ -67,6 +70,38 @@ pub(super) fn target(report: &PlanReport<'_>) -> String {
     said
 }
 
+/// Offers that are no better than what there is, in any row: a sentence for each.
+pub fn worse_offers(task: &Task, costs: &Costs) -> Vec<String> {
+    let Costs::Stated { improvements, .. } = costs else { return Vec::new() };
+    let mut said = Vec::new();
+    for (place, (variable, improvement)) in task.variables.iter().zip(improvements).enumerate() {
+        let Some(Improvement::Offers(offers)) = improvement else { continue };
+        let rows = task.rows.iter().filter_map(|row| row.distributions.get(place));
+        let now = rows.map(|known| known.standard_uncertainty()).fold(0.0, f64::max);
+        let (name, unit) = (plain(&variable.name), variable.unit.text());
+        for offer in offers.iter().filter(|offer| offer.standard_uncertainty >= now) {
+            let of = |value: f64| in_unit(&exact(to_digits(value, 4)), &variable.unit);
+            let hint = if matches!(unit, "" | "1") {
+                String::new()
+            } else {
+                format!(
+                    " Numbers without a unit are in {}; another unit is written with them, \
+                     as `\"1.5 uV\"`.",
+                    plain(unit)
+                )
+            };
+            said.push(format!(
+                "The offer of {} for {name} (cost {}) is no better than what there is, {}, and helps \
+                 nothing.{hint}",
+                of(offer.standard_uncertainty),
+                exact(offer.cost),
+                of(now)
+            ));
+        }
+    }
+    said
+}
+
 /// What is said below the tables.
 pub(super) fn notes(report: &PlanReport<'_>) -> Vec<String> {
     let plan = report.plan;
@@ -98,6 +133,7 @@ pub(super) fn notes(report: &PlanReport<'_>) -> Vec<String> {
             said.push(EQUAL.to_owned());
         }
     }
+    said.extend(worse_offers(report.task, report.costs));
     said.extend(plan.check.as_ref().and_then(|found| check(report, found)));
     if !plan.missed_rows.is_empty() {
         said.push(format!(

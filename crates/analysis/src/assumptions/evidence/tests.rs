@@ -117,3 +117,39 @@ fn the_first_verdict_that_holds() {
     assert_eq!(verdict(&ends), EvidenceVerdict::WrongShape);
     assert!(agreement(0, &stated, &[]).is_none());
 }
+
+/// Six readings about 0.021 of what is stated as 0 +- 0.01, and seven about 0.015 of a normal
+/// distribution about 0.
+#[test]
+fn readings_together_off_the_centre_are_an_offset() {
+    let stated = Arc::new(Rectangular::new(0.0, 0.01).unwrap().into());
+    let readings = [0.021, 0.0208, 0.0213, 0.0209, 0.0211, 0.0212];
+    let found = agreement(0, &stated, &readings).unwrap();
+    assert_eq!(found.verdict, EvidenceVerdict::TooNarrow);
+    let offset = found.offset.unwrap();
+    // sum 0.1263, mean 0.02105; deviations in 1e-5: -5, -25, 25, -15, 5, 15; squares 1750; /5 = 350
+    assert!((offset.mean - 0.02105).abs() < 1e-12, "{offset:?}");
+    assert!((offset.standard_deviation - 1e-5 * 350_f64.sqrt()).abs() < 1e-12, "{offset:?}");
+    let error = 1e-5 * (350.0_f64 / 6.0).sqrt();
+    assert!((offset.standard_error - error).abs() < 1e-12, "{offset:?}");
+    assert!((offset.difference() - 0.02105).abs() < 1e-12, "{offset:?}");
+
+    let stated = Arc::new(Normal::new(0.0, 0.01).unwrap().into());
+    let readings = [0.0150, 0.0152, 0.0148, 0.0151, 0.0149, 0.0150, 0.0150];
+    let found = agreement(0, &stated, &readings).unwrap();
+    assert_eq!(found.verdict, EvidenceVerdict::WrongShape);
+    assert!((found.offset.unwrap().mean - 0.015).abs() < 1e-12);
+
+    // what scatters about the centre, or as widely as it is off, is none
+    let stated = Arc::new(Rectangular::new(0.0, 0.01).unwrap().into());
+    for readings in
+        [[-0.02, 0.021, 0.001, -0.004, 0.015, -0.013], [0.01, 0.03, 0.02, 0.005, 0.035, 0.02]]
+    {
+        let found = agreement(0, &stated, &readings).unwrap();
+        assert_eq!((found.verdict, found.offset), (EvidenceVerdict::TooNarrow, None));
+    }
+    // nor what is consistent: the mean of five is off by 0.5 u
+    let stated = Arc::new(Normal::new(0.0, 0.01).unwrap().into());
+    let found = agreement(0, &stated, &[0.004, -0.009, 0.012, 0.007, 0.009]).unwrap();
+    assert_eq!((found.verdict, found.offset), (EvidenceVerdict::Consistent, None));
+}

@@ -136,3 +136,69 @@ fn a_fraction_is_not_above_what_the_noise_allows() {
     let line = page.lines().find(|line| line.starts_with("rms residual, all outputs")).unwrap();
     assert!(line.trim_end().ends_with(">0.96"), "{line}");
 }
+
+/// A verdict that is less probable than all others together is not said like one that is sure, and what
+/// comes next stands beside it; whether there is a gap is said where no gap has less than 0.05.
+#[test]
+fn a_headline_below_one_half_says_that_it_is_not_decided() {
+    let mut unsure = diagnosis();
+    unsure.most_probable.effects = strings(&["offset"]);
+    unsure.most_probable.probability = 0.247;
+    let of = |effects: Option<&[&str]>, p| hypothesis(effects, [0.2, p, 0.0, 0.0, 100.0], vec![]);
+    let mut with = |none: f64| {
+        unsure.hypotheses = vec![
+            of(Some(&["offset"]), 0.247),
+            of(Some(&["gain"]), 0.24),
+            of(None, 0.2),
+            of(Some(&["offset", "gain"]), 0.05),
+            of(Some(&[]), none),
+        ];
+        page(&unsure).split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let text = with(0.2);
+    assert!(
+        text.contains(
+            "Whether there is a gap is not decided: that offset makes one is only the most probable of \
+             several hypotheses (probability 0.247; gain 0.240, no candidate effect 0.200, no gap \
+             0.200)."
+        ),
+        "{text}"
+    );
+    let text = with(0.01);
+    assert!(
+        text.contains(
+            "There is a gap, but what explains it is not decided: offset is only the most probable of \
+             several explanations (probability 0.247; gain 0.240, no candidate effect 0.200)."
+        ),
+        "{text}"
+    );
+}
+
+/// Without a range nothing is said about where the conditions could be set.
+#[test]
+fn a_condition_without_a_range_is_told() {
+    let mut without = diagnosis();
+    assert!(page(&without).contains("wherever they can be set"));
+    without.next.without_range = vec![0];
+    let text = page(&without).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(!text.contains("wherever they can be set"), "{text}");
+    assert!(
+        text.contains(
+            "No range is stated for f, so that only the values of the data count as what can be set and \
+             proposals stay there. If it can be set to others, say so in the case, and they are tried: \
+             \"f\": {..., \"range\": [lowest, highest]}."
+        ),
+        "{text}"
+    );
+}
+
+/// Rows that repeat others are told beside the verdict, and not once more below.
+#[test]
+fn copied_rows_stand_beside_the_verdict() {
+    let mut copied = diagnosis();
+    let text = "Row 8 has the conditions of row 7.".to_owned();
+    copied.notes.push(DiagnosisNote { code: "copied-rows", text });
+    let page = page(&copied);
+    assert_eq!(page.matches("Row 8 has the conditions of row 7.").count(), 1);
+    assert!(page.find("Row 8 has").unwrap() < page.find("The sim").unwrap(), "{page}");
+}
