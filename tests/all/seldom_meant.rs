@@ -74,6 +74,8 @@ fn formulas() {
         ("rpm", "x/[rev]", "1/min", None),
         ("rad", "x", "1", None),
         ("1/min", "x", "1/min", None),
+        ("pH", "x", "pH", Some("picohenry")),
+        ("nH", "x", "nH", None),
     ] {
         let found = codes(&of(unit, formula, result));
         assert_eq!(found, Vec::from_iter(wanted), "{formula} of {unit} in {result}");

@@ -28,6 +28,7 @@ pub(super) fn of_formulas(
         let notes = formula.iter().flat_map(|formula| formula.notes(unit_of, result));
         found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
     }
+    found.extend(picohenries(of));
     if of.check_units {
         found.extend(celsius_as_kelvin(scope, &of.outputs.outputs));
         found.extend(of.outputs.outputs.iter().filter_map(|output| sum_of_levels(scope, output)));
@@ -90,6 +91,19 @@ pub(super) fn placeholders(of: &Quantities) -> Vec<Warning> {
         Warning::new("placeholder-about", &quantity.name, text)
     })
     .collect()
+}
+
+/// Quantities in `pH`, which is a picohenry and may be meant as the measure of acidity.
+fn picohenries(of: &Quantities) -> Option<Warning> {
+    let inputs = of.inputs.quantities.iter().map(|input| &input.quantity);
+    let mut all = inputs.chain(of.outputs.outputs.iter().map(|output| &output.quantity));
+    all.find(|quantity| quantity.unit.text().trim() == "pH").map(|quantity| {
+        let text = format!(
+            "the unit `pH` of `{}` is the picohenry; a pH value is a number, with the unit `1`",
+            quantity.name
+        );
+        Warning::new("picohenry", &quantity.name, text)
+    })
 }
 
 /// The code of [`unused_inputs`].

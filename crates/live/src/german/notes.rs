@@ -299,6 +299,10 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{0} hat den Namen und die Werte einer Eingangsgröße, aus der das Ergebnis {1} ermittelt wurde, und gilt als unabhängig davon; sind sie eine Größe, sind beide in einem Modell auszuwerten, oder ihre Korrelation ist anzugeben",
     ),
     (
+        "the unit {} of {} is the picohenry; a pH value is a number, with the unit {}",
+        "die Einheit {0} von {1} ist das Pikohenry; ein pH-Wert ist eine Zahl mit der Einheit {2}",
+    ),
+    (
         "no equation uses the input {}: it contributes nothing to any uncertainty",
         "keine Gleichung verwendet die Eingangsgröße {0}: Sie trägt zu keiner Unsicherheit bei",
     ),
