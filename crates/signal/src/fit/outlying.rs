@@ -1,5 +1,7 @@
 //! Samples far beyond the rest: spikes, and numbers that stand for a missing value.
 
+use crate::middle::median;
+
 /// Residuals that are kept at most.
 const KEPT: usize = 32;
 
@@ -63,9 +65,7 @@ impl Farthest {
         if first.len() < LEAST {
             return None;
         }
-        let mut sizes: Vec<f64> = first.iter().map(|residual| residual.abs()).collect();
-        sizes.sort_by(f64::total_cmp);
-        let median = sizes.get(sizes.len() / 2).copied()?;
+        let median = median(first.iter().map(|residual| residual.abs()).collect())?;
         let mut sorted = self.clone();
         sorted.sort();
         let largest = sorted.kept.iter().map(|of| of.value.abs()).fold(0.0, f64::max);

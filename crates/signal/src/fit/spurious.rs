@@ -1,6 +1,7 @@
 //! Oscillations that a fit does not have: found in the spectrum of its residuals.
 
 use crate::frequency::{between, windowed};
+use crate::middle::median;
 
 /// The power of a bin over the median that noise alone exceeds in less than one record in a
 /// thousand: of 2^15 exponential bins the largest is above ln 2 x 25 times the median with a
@@ -33,9 +34,7 @@ pub(crate) fn found(residuals: &[f64]) -> Vec<Spurious> {
         return Vec::new();
     }
     let power = windowed(residuals);
-    let mut sorted = power.clone();
-    sorted.sort_by(f64::total_cmp);
-    let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+    let median = median(power.clone()).unwrap_or(0.0);
     let at = |bin: usize| power.get(bin).copied().unwrap_or(0.0);
     let mut peaks: Vec<Spurious> = (2..power.len())
         .filter(|bin| at(*bin) > OVER_MEDIAN * median)
@@ -67,9 +66,7 @@ pub(crate) fn is_level_still(residuals: &[f64], of: &[Spurious]) -> bool {
         return false;
     }
     let power = windowed(residuals);
-    let mut sorted = power.clone();
-    sorted.sort_by(f64::total_cmp);
-    let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+    let median = median(power.clone()).unwrap_or(0.0);
     (2..=OF_LEVEL).all(|bin| {
         // of a tone the Hann window leaks less than the inverse sixth power of the bins between
         let leaks = |of: &&Spurious| (of.amplitude * count / 4.0).powi(2) / apart(of, bin).powi(6);
@@ -88,9 +85,8 @@ pub(crate) fn lines(residuals: &[f64]) -> Vec<Spurious> {
     let power = windowed(residuals);
     let at = |bin: usize| power.get(bin).copied().unwrap_or(0.0);
     let middle = |bins: std::ops::Range<usize>| {
-        let mut near: Vec<f64> = bins.map(at).collect();
-        near.sort_by(f64::total_cmp);
-        (near.len() >= LEAST_BACKGROUND).then(|| near[near.len() / 2])
+        let near: Vec<f64> = bins.map(at).collect();
+        if near.len() >= LEAST_BACKGROUND { median(near) } else { None }
     };
     let mut found: Vec<Spurious> = (2..power.len().saturating_sub(1))
         .filter(|bin| at(*bin) >= at(bin - 1) && at(*bin) > at(bin + 1))
