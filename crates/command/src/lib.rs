@@ -287,7 +287,7 @@ fn misspelt(error: &clap::Error) -> Option<String> {
 /// The question after names that are near to what was written, if there are any.
 fn did_you_mean(near: &[&str]) -> Option<String> {
     let near: Vec<String> = near.iter().map(|name| format!("`{name}`")).collect();
-    (!near.is_empty()).then(|| format!("did you mean {}?", near.join(" or ")))
+    (!near.is_empty()).then(|| format!("did you mean {}?", gumption_units::listed(&near, " or ")))
 }
 
 #[cfg(test)]

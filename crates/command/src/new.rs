@@ -243,7 +243,8 @@ impl Draft {
         let of = |(name, keys): &(String, Map<String, Value>)| {
             let missing = keys.iter().filter(|(_, value)| value.is_null());
             let missing: Vec<String> = missing.map(|(key, _)| format!("`{key}`")).collect();
-            (!missing.is_empty()).then(|| format!("{} of `{name}`", missing.join(" and ")))
+            (!missing.is_empty())
+                .then(|| format!("{} of `{name}`", gumption_units::listed(&missing, " and ")))
         };
         self.inputs.iter().filter_map(of).collect()
     }

@@ -12,7 +12,7 @@ use super::value_text::ValueOf;
 use gumption_analysis::plan::{Costs, Improvement, Offer};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::task::Task;
-use gumption_units::{Unit, nearest};
+use gumption_units::{Unit, listed, nearest};
 
 /// At most so many offers of an input.
 const MOST_OFFERS: usize = 1000;
@@ -122,7 +122,7 @@ fn improvement(
             if given.is_empty() {
                 "is none".to_owned()
             } else {
-                format!("are {}", given.join(" and "))
+                format!("are {}", listed(&given, " and "))
             }
         );
         object.report(DiagnosticKind::Cost { reason });

@@ -75,7 +75,7 @@ pub(crate) fn note(conflict: &PriorConflict) -> String {
     let PriorConflict { effects, parameter, prior_distance, probability, .. } = conflict;
     let who = match &effects[..] {
         [effect] => format!("{effect} alone"),
-        several => several.join(" and "),
+        several => gumption_units::listed(several, " and "),
     };
     format!(
         "{who} would explain the data with {} of a size that is {prior_distance:.1} {} \

@@ -5,6 +5,7 @@ use std::fmt;
 use std::ops::Range;
 
 use super::dimension::Dimension;
+use super::listed::listed;
 
 /// Why a text is not a unit.
 ///
@@ -229,10 +230,7 @@ pub(super) const MAX_EXPONENT: u32 = 24;
 /// "`a`", "`a` or `b`", "`a`, `b` or `c`".
 fn alternatives(texts: &[String]) -> String {
     let quoted: Vec<String> = texts.iter().map(|text| format!("`{text}`")).collect();
-    match quoted.split_last() {
-        Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
-        _ => quoted.concat(),
-    }
+    listed(&quoted, " or ")
 }
 
 /// A character in a message: quotes as they are, control characters escaped.

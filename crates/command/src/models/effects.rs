@@ -54,7 +54,7 @@ pub(super) fn page(listing: &EffectListing) -> String {
     text.push_str("\n\n");
     let names = listing.names.iter().map(|(name, alternatives)| {
         let others: Vec<&str> = alternatives.iter().skip(1).map(String::as_str).collect();
-        format!("{name} {}", others.join(" or "))
+        format!("{name} {}", gumption_units::listed(&others, " or "))
     });
     let names = names.collect::<Vec<_>>().join(", ");
     text.push_str(&wrapped(&format!("A sim may call {names}.")));

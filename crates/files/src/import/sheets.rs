@@ -94,10 +94,7 @@ fn list<'a>(sheets: impl Iterator<Item = &'a SheetName>, and: &str) -> String {
         let rest = names.split_off(MOST).len();
         names.push(format!("{rest} more"));
     }
-    match names.split_last() {
-        Some((last, rest)) if !rest.is_empty() => format!("{} {and} {last}", rest.join(", ")),
-        _ => names.concat(),
-    }
+    gumption_units::listed(&names, &format!(" {and} "))
 }
 
 impl Budget<'_> {

@@ -172,11 +172,7 @@ fn listed(rows: &[usize], words: &Words) -> String {
             _ => parts.push(format!("{first} to {last}").replace(" to ", "\u{2013}")),
         }
     }
-    match parts.split_last() {
-        Some((last, [])) => last.clone(),
-        Some((last, rest)) => format!("{}{}{last}", rest.join(", "), words.and),
-        None => String::new(),
-    }
+    gumption_units::listed(&parts, words.and)
 }
 
 fn rounding(report: &CertificateReport<'_>, words: &Words) -> String {

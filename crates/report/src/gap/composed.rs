@@ -11,6 +11,7 @@ use gumption_gap::{
     ComposedEffect, ComposedParameter, ComposedPrior, ComposedTerm, DepartureKind, DepartureOver,
     Diagnosis,
 };
+use gumption_units::listed;
 
 /// Composed effects that the page shows, at most.
 const TOLD: usize = 4;
@@ -87,7 +88,7 @@ fn prior(of: &ComposedParameter) -> Value {
 fn words(of: &ComposedEffect) -> String {
     let term = |term: &ComposedTerm| {
         let quantities: Vec<String> = term.quantities.iter().map(|name| plain(name)).collect();
-        let quantities = quantities.join(" and ");
+        let quantities = listed(&quantities, " and ");
         let kind = match term.kind {
             DepartureKind::Additive => format!("an addition to {quantities}"),
             DepartureKind::Proportional => format!("a share of {quantities}"),
@@ -108,7 +109,7 @@ fn words(of: &ComposedEffect) -> String {
     let mut said = terms.join(joint);
     if !of.beside.is_empty() {
         let names: Vec<String> = of.beside.iter().map(|name| plain(name)).collect();
-        said.push_str(&format!(", beside {}", names.join(" and ")));
+        said.push_str(&format!(", beside {}", listed(&names, " and ")));
     }
     said
 }
@@ -140,7 +141,7 @@ fn sentence(of: &ComposedEffect) -> String {
          from your list).",
         probability(of.probability),
         words(of),
-        formulas.join(" and "),
+        listed(&formulas, " and "),
         parameters.join(", "),
         share(of.shrunk.removed_fraction)
     )

@@ -10,6 +10,7 @@ use crate::plain;
 use gumption_gap::{
     DepartureForm, DepartureKind, DepartureOver, DepartureShape, Diagnosis, NamedQuantity,
 };
+use gumption_units::listed;
 
 /// Forms that the page tells, at most.
 const TOLD: usize = 5;
@@ -65,11 +66,8 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> Vec<String> {
 /// A form in words: which outputs, added or a share of the sim, of what, how large.
 fn words(form: &DepartureForm, conditions: &[NamedQuantity]) -> String {
     let outputs: Vec<String> = form.outputs.iter().map(|name| plain(name)).collect();
-    let (all, own) = match outputs.split_last() {
-        Some((last, [])) => (last.clone(), "its sim"),
-        Some((last, others)) => (format!("{} and {last}", others.join(", ")), "their sim"),
-        None => (String::new(), "its sim"),
-    };
+    let all = listed(&outputs, " and ");
+    let own = if outputs.len() > 1 { "their sim" } else { "its sim" };
     let with_unit = |number: String, text: &str| match unit(text) {
         Some(unit) => format!("{number} {unit}"),
         None => number,
@@ -125,7 +123,7 @@ fn words(form: &DepartureForm, conditions: &[NamedQuantity]) -> String {
     said.push_str(&format!("; root mean square {size}"));
     if !form.beside.is_empty() {
         let names: Vec<String> = form.beside.iter().map(|name| plain(name)).collect();
-        said.push_str(&format!(", beside {}", names.join(" and ")));
+        said.push_str(&format!(", beside {}", listed(&names, " and ")));
     }
     said
 }

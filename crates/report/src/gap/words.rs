@@ -8,6 +8,7 @@ use gumption_gap::{
     Diagnosis, GapRegion, Hypothesis, HypothesisKind, NamedQuantity, NoiseEstimate, PriorConflict,
     ProposalKind, ProposedMeasurement, Shrunk, UncertaintyFactor,
 };
+use gumption_units::listed;
 
 /// What a hypothesis is called.
 pub(super) fn hypothesis(effects: Option<&[String]>) -> String {
@@ -69,7 +70,7 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
                 [name] => format!("There is a gap, and {name} explains it {how_sure}."),
                 names => format!(
                     "There is a gap, and {} together explain it {how_sure}.",
-                    names.join(" and ")
+                    listed(names, " and ")
                 ),
             }
         }

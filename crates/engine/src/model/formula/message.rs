@@ -33,10 +33,7 @@ fn short(name: &str) -> String {
 /// "`a`", "`a` or `b`", "`a`, `b` or `c`", or the same with another last word.
 fn listed(texts: &[String], last_word: &str) -> String {
     let quoted: Vec<String> = texts.iter().map(|text| format!("`{}`", short(text))).collect();
-    match quoted.split_last() {
-        Some((last, rest)) if !rest.is_empty() => format!("{}{last_word}{last}", rest.join(", ")),
-        _ => quoted.concat(),
-    }
+    gumption_units::listed(&quoted, last_word)
 }
 
 /// "; hint" and "; did you mean `suggestion`?", as far as there are such.
