@@ -306,3 +306,129 @@ fn a_width_may_be_a_formula() {
         assert!((u.as_f64().unwrap() - right).abs() < 1e-12, "{u}");
     }
 }
+
+/// A time stamp with u = 50 ns: numbers near 1.8e9 are 2^-22 s = 0.24 us apart, so the trials took two
+/// values, U was 0, and the linear difference was called not linear.
+#[test]
+fn trials_of_a_staircase_are_refused() {
+    let inputs = json!({"t": normal("s", 1_795_000_000.25, 5e-8)});
+    let mut model = model(&inputs, "t - 1795000000 [s]", "us");
+    // half a spacing of 2^-53 times 1.795e9 s is 0.20 us
+    let said = refused(&model, &["--trials", "10000"]);
+    assert!(said.contains("leave 0.20 us of it undetermined"), "{said}");
+    assert!(said.contains("`t` is 1795000000.25 s"), "{said}");
+    let by_law = answer(&model, &["--trials", "0"]);
+    assert_eq!(code(&by_law["warnings"][0]), "double-precision", "{by_law}");
+    // 4 us: 5 % is the limit of what is evaluated, and more than 0.5 % is told
+    model["inputs"]["t"]["std"] = 5e-6.into();
+    let found = answer(&model, &["--trials", "10000"]);
+    let u = found["outputs"]["y"]["monte_carlo"]["standard_uncertainty"].as_f64().unwrap();
+    // 10,000 trials: a standard error of 0.035, of which five
+    assert!((u - 5.0).abs() < 0.18, "{u}");
+    assert!(found["warnings"].as_array().unwrap().iter().any(|of| code(of) == "double-precision"));
+    // where only the slope at the estimate vanishes, nothing is lost: cos(1e-14 rad) with u = 0.01 rad
+    let flat = self::model(&json!({"x": normal("rad", 1e-14, 0.01)}), "cos(x)", "1");
+    let found = answer(&flat, &["--trials", "10000"]);
+    assert!(found["warnings"].as_array().unwrap().iter().all(|of| code(of) != "double-precision"));
+}
+
+/// 1e-200 squared is 1e-400, which was 0 with u = 0 and valid.
+#[test]
+fn underflow_is_told() {
+    let model = model(&json!({"a": normal("1", 1e-200, 1e-201)}), "a*a", "1");
+    let answer = answer(&model, &["--trials", "1000"]);
+    let codes: Vec<&str> = answer["warnings"].as_array().unwrap().iter().map(code).collect();
+    assert!(codes.contains(&"underflow"), "{codes:?}");
+}
+
+/// The standard deviation of n normal trials has the relative standard deviation 1/sqrt(2(n - 1)), 0.35
+/// of 5: three of five runs said that 2 a is not linear.
+#[test]
+fn few_trials_do_not_tell_that_a_model_is_not_linear() {
+    let model = model(&json!({"a": normal("1", 2.0, 0.1)}), "2*a", "1");
+    for trials in ["2", "5", "10", "30", "100"] {
+        for seed in ["1", "2", "3", "4"] {
+            let answer = answer(&model, &["--trials", trials, "--seed", seed]);
+            let warnings = answer["warnings"].as_array().unwrap();
+            assert!(warnings.iter().all(|of| code(of) != "non-linear"), "{trials} {seed}");
+        }
+    }
+}
+
+/// Three readings each: their t distributions have no variance, so the trials' coefficients were -0.2 to
+/// -0.9 with the seed. By hand: s_a^2 = 1e-4, s_b^2 = 19/3 e-4, r = (s_a^2 - s_b^2)/(s_a^2 + s_b^2).
+#[test]
+fn outputs_without_variance_are_correlated_by_the_law_of_propagation() {
+    let readings =
+        |values: [f64; 3]| json!({"unit": "V", "distribution": "readings", "values": values});
+    let model = json!({
+        "inputs": {"a": readings([1.01, 1.03, 1.02]), "b": readings([2.01, 2.03, 2.06])},
+        "equations": {"s": "a + b", "d": "a - b"},
+        "outputs": {"s": {"unit": "V"}, "d": {"unit": "V"}}
+    });
+    let right = (1.0 - 19.0 / 3.0) / (1.0 + 19.0 / 3.0);
+    for seed in ["1", "4"] {
+        let answer = answer(&model, &["--trials", "10000", "--seed", seed]);
+        let found = answer["output_correlations"][0][2].as_f64().unwrap();
+        // rounding of doubles alone
+        assert!((found - right).abs() < 1e-9, "{found} {right}");
+        let codes: Vec<&str> = answer["warnings"].as_array().unwrap().iter().map(code).collect();
+        assert!(codes.contains(&"correlations-by-propagation"), "{codes:?}");
+    }
+    let page = run(&model, &["--trials", "10000"]);
+    assert!(String::from_utf8(page.stdout).unwrap().contains("-0.727"));
+}
+
+/// A phase of 179(2) deg lies on both sides of the cut: r of the trials was +0.76 where the law of
+/// propagation has -1.
+#[test]
+fn a_phase_over_the_cut_is_correlated_by_the_law_of_propagation() {
+    let model = json!({
+        "inputs": {"p": normal("deg", 179.0, 2.0)},
+        "equations": {"z": "atan2(sin(p), cos(p))", "w": "-p"},
+        "outputs": {"z": {"unit": "deg"}, "w": {"unit": "deg"}}
+    });
+    let answer = answer(&model, &["--trials", "10000"]);
+    let found = answer["output_correlations"][0][2].as_f64().unwrap();
+    assert!((found + 1.0).abs() < 1e-9, "{found}");
+}
+
+/// Five readings of each of three paired quantities have no joint distribution with a covariance: a file
+/// with `trials` of 0 was evaluated with any `--trials`.
+#[test]
+fn the_number_of_trials_of_the_command_line_does_not_pass_by_a_refusal() {
+    let paired = |values: [f64; 5]| json!({"unit": "V", "distribution": "readings", "values": values, "paired": true});
+    let mut model = model(
+        &json!({"a": paired([5.007, 4.994, 5.005, 4.990, 4.999]),
+            "b": paired([1.9663, 1.9639, 1.9640, 1.9685, 1.9678]),
+            "c": paired([1.0456, 1.0438, 1.0468, 1.0428, 1.0433])}),
+        "a + b + c",
+        "V",
+    );
+    model["monte_carlo"] = json!({"trials": 0});
+    assert!(run(&model, &[]).status.success());
+    let said = refused(&model, &["--trials", "10000"]);
+    assert!(said.contains("at least 6 are needed (JCGM 102, 5.3)"), "{said}");
+}
+
+/// A region by the law of propagation has the factors of a normal distribution: of two outputs of five
+/// readings each its ellipsoid of 95 % holds 83 % (200,000 simulated sets).
+#[test]
+fn a_region_of_few_degrees_of_freedom_does_not_hold_what_it_says() {
+    let readings =
+        |values: [f64; 5]| json!({"unit": "V", "distribution": "readings", "values": values});
+    let model = json!({
+        "inputs": {"a": readings([1.01, 1.03, 1.02, 0.99, 1.04]),
+            "b": readings([2.01, 2.03, 2.06, 1.99, 2.04])},
+        "equations": {"s": "a + b", "d": "a - b"},
+        "outputs": {"s": {"unit": "V"}, "d": {"unit": "V"}},
+        "regions": [{"outputs": ["s", "d"], "probability": 0.95}]
+    });
+    let said = |arguments: &[&str]| {
+        let page = String::from_utf8(run(&model, arguments).stdout).unwrap();
+        let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+        page.contains("with them the regions hold less than 95 %")
+    };
+    assert!(said(&["--trials", "0"]));
+    assert!(!said(&["--trials", "20000"]));
+}

@@ -80,6 +80,13 @@ impl Readings {
         self.values.len() > self.together + 2
     }
 
+    /// What is wrong with trials of paired readings without a covariance; `None` of others.
+    pub(crate) fn without_covariance(&self) -> Option<Invalid> {
+        let (count, together) = (self.values.len(), self.together);
+        (together > 1 && !self.have_covariance())
+            .then_some(Invalid::TooFewPaired { count, together })
+    }
+
     /// The same readings with the standard deviation of their t distribution as standard uncertainty,
     /// which has no degrees of freedom (JCGM 101, 6.4.9.4).
     ///

@@ -12,11 +12,11 @@ use super::conformity::Conformity;
 use super::exact::{self, Noiseless};
 use super::gum::{self, Gum, GumRow};
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
-use super::quasi;
 use super::regions::{RegionEvaluation, regions};
 use super::second_order::{SecondOrder, second_order};
 use super::validate::{Validation, validate};
-use crate::distribution::{BLOCK, Correlation, CorrelationError, Joint};
+use super::{branch, quasi, rounding};
+use crate::distribution::{BLOCK, Correlation, CorrelationError, Distribution, Invalid, Joint};
 use crate::model::{Output, Program};
 use crate::number::{COLUMN, Column, Shortest};
 use crate::task::{MethodChoice, Row, Settings, Task, Trials};
@@ -167,6 +167,22 @@ pub enum EvaluationError {
         /// Their share.
         share: f64,
     },
+    /// Paired readings too few for a joint distribution with a covariance, which trials need.
+    Paired {
+        /// The variable that has them.
+        variable: String,
+        /// What is wrong.
+        error: Invalid,
+    },
+    /// Numbers of double precision do not hold what the trials of an output would vary.
+    Rounding {
+        /// The row.
+        row: usize,
+        /// The output, by its number.
+        output: usize,
+        /// The sentence.
+        message: String,
+    },
     /// The thread pool could not be started.
     Threads(String),
 }
@@ -174,7 +190,10 @@ pub enum EvaluationError {
 impl fmt::Display for EvaluationError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Correlation { message, .. } => f.write_str(message),
+            Self::Paired { variable, error } => write!(f, "`{variable}`: {error}"),
+            Self::Correlation { message, .. } | Self::Rounding { message, .. } => {
+                f.write_str(message)
+            }
             Self::Undefined { undefined, inputs, operation, .. } => {
                 let Undefined { count, trials, .. } = undefined;
                 write!(f, "{count} of {trials} trials have no finite result")?;
@@ -401,6 +420,7 @@ fn evaluate_row(
     let mut figures: Vec<Option<MonteCarlo>> = vec![None; gums.len()];
     let mut stopped = false;
     if task.settings.trials != Trials::Fixed(0) {
+        paired_have_covariance(task, row)?;
         let finished = known(number).unwrap_or_else(|| {
             let mut trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);
             decided(task, &mut trials, &gums, &drawn_dof, control)
@@ -417,6 +437,10 @@ fn evaluate_row(
             result.correlations = finished.correlations;
             result.correlation_errors = finished.correlation_errors;
         }
+    }
+    rounding::check(task, (number, row), &gums, &figures)?;
+    if !result.correlations.is_empty() {
+        correlations_by_law(task, (&gums, &figures), &linear, &mut result);
     }
     let of_law = if task.regions.is_empty() { Vec::new() } else { linear.correlations() };
     if figures.iter().all(Option::is_none) {
@@ -485,6 +509,59 @@ fn evaluate_row(
     Ok(result)
 }
 
+/// Refuses trials of paired readings whose joint distribution has no covariance.
+fn paired_have_covariance(task: &Task, row: &Row) -> Result<(), EvaluationError> {
+    for (variable, distribution) in task.variables.iter().zip(row.distributions.iter()) {
+        if let Distribution::Readings(readings) = &**distribution
+            && let Some(error) = readings.without_covariance()
+        {
+            return Err(EvaluationError::Paired { variable: variable.name.clone(), error });
+        }
+    }
+    Ok(())
+}
+
+/// Whether the trials of an output have a standard deviation that is its standard uncertainty, without
+/// which they have no correlation coefficients either.
+pub(super) fn scatters(
+    program: &Program,
+    output: (usize, &Output),
+    gum: Option<&Gum>,
+    figures: &MonteCarlo,
+) -> bool {
+    let jumps = || gum.is_some_and(|gum| branch::note(program, output, gum, figures).is_some());
+    figures.standard_uncertainty.is_some() && !figures.heavy_tailed && !jumps()
+}
+
+/// Takes the correlation coefficients of outputs whose trials have none from the law of propagation.
+fn correlations_by_law(
+    task: &Task,
+    (gums, figures): (&[Option<Gum>], &[Option<MonteCarlo>]),
+    linear: &GumRow,
+    result: &mut RowEvaluation,
+) {
+    let outputs = task.model.outputs.iter().enumerate().zip(gums).zip(figures);
+    let scatter: Vec<bool> = outputs
+        .map(|((output, gum), figures)| {
+            let program = &task.model.program;
+            figures.as_ref().is_none_or(|of| scatters(program, output, gum.as_ref(), of))
+        })
+        .collect();
+    let of_law = if scatter.contains(&false) { linear.correlations() } else { return };
+    let count = scatter.len();
+    let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| (i, j)));
+    let coefficients = result.correlations.iter_mut().zip(of_law);
+    for (place, ((i, j), (coefficient, of_law))) in pairs.zip(coefficients).enumerate() {
+        if scatter[i] && scatter[j] {
+            continue;
+        }
+        *coefficient = if gums[i].is_some() && gums[j].is_some() { of_law } else { f64::NAN };
+        if let Some(error) = result.correlation_errors.get_mut(place) {
+            *error = None;
+        }
+    }
+}
+
 /// Trials of a row from which on exact figures cost next to nothing beside them, and rows up to which
 /// they cost little in any case.
 const MANY_TRIALS: u64 = 100_000;
@@ -539,7 +616,7 @@ fn noiseless(problem: &exact::Problem<'_>, needed: bool) -> Option<Result<Box<No
 pub(super) const NOTEWORTHY: f64 = 0.01;
 
 /// Rows at most of an evaluation without trials for which terms of second order are computed.
-const FEW_ROWS: usize = 16;
+pub(super) const FEW_ROWS: usize = 16;
 
 /// Whether the trials' standard deviation is noteworthily another one than that of a linear model.
 pub(super) fn differs_from_linear(gum: &Gum, figures: &MonteCarlo) -> bool {
@@ -548,6 +625,9 @@ pub(super) fn differs_from_linear(gum: &Gum, figures: &MonteCarlo) -> bool {
     };
     let drawn = gum.drawn_uncertainty();
     let noteworthy = NOTEWORTHY * gum.standard_uncertainty;
+    if (u - drawn).abs() <= 3.0 * scatter_of_few(drawn, figures.trials) {
+        return false;
+    }
     match figures.errors.standard_uncertainty {
         Some(error) => (u - drawn).abs() > f64::max(3.0 * error, noteworthy),
         // of few degrees of freedom it settles slowly, and of up to 3, which have no skewness, so
@@ -559,6 +639,12 @@ pub(super) fn differs_from_linear(gum: &Gum, figures: &MonteCarlo) -> bool {
             u > 1.03 * drawn || u < least
         }
     }
+}
+
+/// The standard deviation of the standard deviation of so many normal trials (JCGM 100, E.4.3). What
+/// few trials tell of it themselves is as uncertain as it is.
+pub(super) fn scatter_of_few(u: f64, trials: u64) -> f64 {
+    u / (2.0 * (trials as f64 - 1.0).max(0.5)).sqrt()
 }
 
 /// How many times as many trials are made where clause 8 is undecided.

@@ -19,6 +19,7 @@ pub mod parts;
 mod quasi;
 mod regions;
 mod replay;
+mod rounding;
 mod second_order;
 pub mod validate;
 mod warnings;

@@ -2,13 +2,14 @@
 
 use std::collections::HashMap;
 
-use super::branch;
 use super::evaluation::{
-    Evaluation, NOTEWORTHY, OutputEvaluation, RowEvaluation, differs_from_linear,
+    Evaluation, FEW_ROWS, NOTEWORTHY, OutputEvaluation, RowEvaluation, differs_from_linear,
+    scatter_of_few, scatters,
 };
 use super::gum::{BudgetLine, Dof, Gum};
 use super::monte_carlo::{Adaptive, MonteCarlo};
 use super::second_order::SecondOrder;
+use super::{branch, rounding};
 use crate::decimal::{significant, to_digits};
 use crate::model::Output;
 use crate::number::Shortest;
@@ -48,7 +49,9 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
     }
     copula(task, evaluation, &mut found);
     let named = named(task, &evaluation.rows);
-    for row in &evaluation.rows {
+    // one more pass over the program costs little beside trials, but not beside bare budgets
+    let is_looked_at = task.settings.trials != Trials::Fixed(0) || task.rows.len() <= FEW_ROWS;
+    for (place, row) in evaluation.rows.iter().enumerate() {
         if let Some(undefined) = &row.undefined {
             let (count, all) = (undefined.count, undefined.trials);
             let text = format!("{count} of {all} trials are not finite and were left out");
@@ -66,6 +69,11 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
             of_output((task, &named), (name, jumps), row, evaluated, &mut found);
             of_noiseless(&output.quantity.name, evaluated, &mut found);
             of_capability(output, evaluated, &mut found);
+            if let Some(of) = task.rows.get(place).filter(|_| is_looked_at) {
+                let notes = rounding::notes(task, of, (number, evaluated));
+                notes.into_iter().for_each(|note| push(&mut found, note));
+            }
+            of_correlations(task, (number, output), evaluated, &mut found);
             if task.settings.trials == Trials::Fixed(0) && evaluated.conformity.is_some() {
                 push(&mut found, conformity_by_propagation(name));
             }
@@ -319,7 +327,8 @@ fn of_difference(
         return;
     };
     let (linear, drawn) = (gum.standard_uncertainty, gum.drawn_uncertainty());
-    let error = monte_carlo.errors.standard_uncertainty.unwrap_or(0.0);
+    let own = monte_carlo.errors.standard_uncertainty.unwrap_or(0.0);
+    let error = own.max(scatter_of_few(linear, monte_carlo.trials));
     if (u - linear).abs() <= f64::max(NOTEWORTHY * linear, 3.0 * error) {
         return;
     }
@@ -411,6 +420,35 @@ pub fn second_order_text(task: &Task, gum: &Gum, second: &SecondOrder) -> String
         text += &format!("; {}", products.join(", "));
     }
     text
+}
+
+/// Correlation coefficients of an output of which the trials have none.
+fn of_correlations(
+    task: &Task,
+    (number, output): (usize, &Output),
+    evaluated: &OutputEvaluation,
+    found: &mut Vec<Warning>,
+) {
+    let Some(figures) = evaluated.monte_carlo.as_ref().filter(|_| task.model.outputs.len() > 1)
+    else {
+        return;
+    };
+    let program = &task.model.program;
+    if scatters(program, (number, output), evaluated.gum.as_ref(), figures) {
+        return;
+    }
+    let name = &output.quantity.name;
+    let text = match &evaluated.gum {
+        Some(_) => format!(
+            "`{name}`: its trials have no standard deviation that means something, so its correlation \
+             coefficients are those of the law of propagation"
+        ),
+        None => format!(
+            "`{name}`: its trials have no standard deviation that means something, and there is no GUM \
+             evaluation, so it has no correlation coefficients"
+        ),
+    };
+    push(found, Warning::new("correlations-by-propagation", name.as_str(), text));
 }
 
 /// A decision without trials.

@@ -27,6 +27,26 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "eine Gauß-Copula gibt die angegebenen Korrelationskoeffizienten nur innerhalb ihrer Rundung; in den Versuchen weichen sie um bis zu {0} ab",
     ),
     (
+        "{}: numbers of double precision, with 16 digits, leave {} of it undetermined, {} % of its standard uncertainty: {} is {} with a standard uncertainty of {}; make it the difference from a reference value",
+        "{0+}: Zahlen doppelter Genauigkeit mit 16 Stellen lassen {1} davon unbestimmt, {2} % der Standardunsicherheit: {3} ist {4} mit der Standardunsicherheit {5}; anzugeben ist der Unterschied zu einem Bezugswert",
+    ),
+    (
+        "{}: numbers of double precision, with 16 digits, leave {} of it undetermined, {} % of its standard uncertainty: large numbers cancel in its equations; write them with small differences",
+        "{0+}: Zahlen doppelter Genauigkeit mit 16 Stellen lassen {1} davon unbestimmt, {2} % der Standardunsicherheit: Große Zahlen heben sich in den Gleichungen auf; sie sind mit kleinen Unterschieden zu schreiben",
+    ),
+    (
+        "{}: a product or a quotient in its equations is below the smallest number of double precision, 2.2e-308, and counts as less than it is; choose units of the size of the quantities",
+        "{0+}: Ein Produkt oder Quotient der Gleichungen liegt unter der kleinsten Zahl doppelter Genauigkeit, 2,2e-308, und zählt weniger, als es ist; zu wählen sind Einheiten von der Größe der Messgrößen",
+    ),
+    (
+        "{}: its trials have no standard deviation that means something, so its correlation coefficients are those of the law of propagation",
+        "{0+}: Die Versuche haben keine Standardabweichung, die etwas bedeutet; die Korrelationskoeffizienten sind daher die des Fortpflanzungsgesetzes",
+    ),
+    (
+        "{}: its trials have no standard deviation that means something, and there is no GUM evaluation, so it has no correlation coefficients",
+        "{0+}: Die Versuche haben keine Standardabweichung, die etwas bedeutet, und es gibt keine Auswertung nach dem GUM; es gibt daher keine Korrelationskoeffizienten",
+    ),
+    (
         "{}: figures of the trials are farther from those without their noise than {} numerical standard errors: {}",
         "{0}: Angaben der Versuche liegen weiter von denen ohne ihr Rauschen als {1} numerische Standardfehler: {2+}",
     ),

@@ -326,6 +326,10 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
     ("k of the ellipsoid", "k des Ellipsoids"),
     ("k of the box", "k des Quaders"),
     (
+        "The factors of the law of propagation are those of a normal distribution, though an output has {} of freedom: with them the regions hold less than {} %",
+        "Die Faktoren des Fortpflanzungsgesetzes sind die einer Normalverteilung, obwohl eine Ergebnisgröße nur wenige Freiheitsgrade hat ({0}): Mit ihnen liegt weniger als {1} % in den Bereichen",
+    ),
+    (
         "With a probability of {} % all outputs lie together in the ellipsoid {}, U being their covariance matrix, and in the box of half-lengths k u (JCGM 102, 6.5)",
         "Mit einer Wahrscheinlichkeit von {0} % liegen alle Ergebnisgrößen gemeinsam im Ellipsoid {1}, worin U ihre Kovarianzmatrix ist, und im Quader der halben Kantenlängen k u (JCGM 102, 6.5)",
     ),

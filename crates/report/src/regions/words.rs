@@ -1,16 +1,36 @@
 //! What is said of a coverage region.
 
-use crate::number::{exact, significant};
+use crate::number::{degrees_of_freedom, exact, significant};
 use crate::plain;
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::decimal::to_position;
-use gumption_engine::propagate::RegionEvaluation;
+use gumption_engine::propagate::gum::Dof;
+use gumption_engine::propagate::{RegionEvaluation, RowEvaluation};
 use gumption_engine::task::Task;
 
 /// The names of the outputs.
 pub(super) fn names(task: &Task, region: &RegionEvaluation) -> Vec<String> {
     let outputs = region.outputs.iter().filter_map(|output| task.model.outputs.get(*output));
     outputs.map(|output| plain(&output.quantity.name)).collect()
+}
+
+/// Effective degrees of freedom below which the factor of a t distribution is noteworthily larger than
+/// that of a normal one: 2.01 in place of 1.96 for 95 %.
+const FEW: f64 = 50.0;
+
+/// The fewest effective degrees of freedom of a region's outputs where they are few and only the law of
+/// propagation gives factors.
+fn few_degrees_of_freedom(row: &RowEvaluation, region: &RegionEvaluation) -> Option<String> {
+    let of_output = |output: &usize| row.outputs.get(*output)?.gum.as_ref();
+    let dof = region.outputs.iter().filter_map(of_output).map(|gum| match gum.dof {
+        Dof::Finite(dof) => dof,
+        Dof::Infinite => f64::INFINITY,
+        // of correlated readings, of which the components know
+        Dof::Undefined => gum.budget().map(|line| line.dof).fold(f64::INFINITY, f64::min),
+    });
+    let fewest = dof.fold(f64::INFINITY, f64::min);
+    let is_alone = region.monte_carlo.is_none() && region.gum.is_some();
+    (is_alone && fewest < FEW).then(|| significant(fewest, 2))
 }
 
 /// The factors by both methods.
@@ -32,13 +52,24 @@ pub(super) fn sheet(region: &RegionEvaluation) -> Sheet {
 }
 
 /// What the factors mean, the smallest region, and whether the two methods agree.
-pub(super) fn sentences(task: &Task, region: &RegionEvaluation) -> Vec<String> {
+pub(super) fn sentences(
+    task: &Task,
+    row: &RowEvaluation,
+    region: &RegionEvaluation,
+) -> Vec<String> {
     let percent = exact(to_position(100.0 * region.probability, -4));
     let mut said = vec![format!(
         "With a probability of {percent} % all outputs lie together in the ellipsoid \
          (y - x)' U^-1 (y - x) <= k^2, U being their covariance matrix, and in the box of half-lengths \
          k u (JCGM 102, 6.5)."
     )];
+    said.extend(few_degrees_of_freedom(row, region).map(|dof| {
+        format!(
+            "The factors of the law of propagation are those of a normal distribution, though an \
+             output has {}: with them the regions hold less than {percent} %.",
+            degrees_of_freedom(&dof)
+        )
+    }));
     if let Some((found, smallest)) =
         region.monte_carlo.as_ref().and_then(|found| Some((found, found.smallest?)))
     {

@@ -102,8 +102,16 @@ fn accuracy(output: &Quantity, noiseless: &Noiseless) -> String {
 const NOISELESS_DIGITS: u32 = 6;
 
 /// Notes that say why the two methods differ, or what one of them leaves out.
-const DIFFERENCES: [&str; 5] =
-    ["few-dof", "non-linear", "no-variance", "heavy-tails", "gum-dof-undefined"];
+const DIFFERENCES: [&str; 8] = [
+    "few-dof",
+    "non-linear",
+    "no-variance",
+    "heavy-tails",
+    "gum-dof-undefined",
+    "double-precision",
+    "underflow",
+    "correlations-by-propagation",
+];
 
 /// Why the two methods differ, where they do: the notes about it, and a factor that is fixed.
 pub(crate) fn differences(

@@ -10,10 +10,6 @@ use gumption_engine::task::Task;
 /// Decimal place of the coefficients (JCGM 100, 7.2.6).
 const PLACE: i32 = -3;
 
-/// The same of an output whose trials have no standard uncertainty, or one that few of them carry, so
-/// that coefficients scatter nobody knows how far.
-const UNKNOWN_PLACE: i32 = -1;
-
 /// Pairs of outputs on a page, at most: those of 45 outputs.
 const MOST_PAIRS: usize = 1000;
 
@@ -67,8 +63,9 @@ pub(crate) fn found(task: &Task, row: &RowEvaluation) -> Option<Coefficients> {
         .iter()
         .zip(errors.zip(places))
         .map(|(&r, (error, (i, j)))| {
-            let place = if scatters(i) && scatters(j) { PLACE } else { UNKNOWN_PLACE };
-            Figure::of(r, cell(r, error, trials, place))
+            // those of outputs without a standard deviation of trials are of the law of propagation
+            let trials = trials.filter(|_| scatters(i) && scatters(j));
+            Figure::of(r, cell(r, error, trials))
         })
         .collect();
     let sheet = matrix(&names, &coefficients);
@@ -99,7 +96,7 @@ fn pair(i: usize, j: usize, count: usize) -> Option<usize> {
 
 /// A coefficient to the digits that its numerical standard error justifies. Where that is not known,
 /// it is at least that of jointly normal outputs.
-fn cell(coefficient: f64, error: Option<f64>, trials: Option<u64>, place: i32) -> String {
+fn cell(coefficient: f64, error: Option<f64>, trials: Option<u64>) -> String {
     let normal = trials.map_or(0.0, |trials| (1.0 - coefficient.powi(2)) / (trials as f64).sqrt());
-    justified(coefficient, Some(place), error.unwrap_or(normal))
+    justified(coefficient, Some(PLACE), error.unwrap_or(normal))
 }
