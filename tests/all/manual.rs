@@ -264,3 +264,65 @@ fn the_drift_of_the_manual_is_extrapolated() {
     let dof = 4.0 * u.powi(4) / of_line.powi(4);
     assert!((found("dof") / dof - 1.0).abs() < 1e-9);
 }
+
+/// Files of the crates, without their tests.
+fn sources(folder: &Path, found: &mut Vec<String>) {
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
+        if path.is_dir() {
+            if !matches!(name.as_str(), "tests" | "german") {
+                sources(&path, found);
+            }
+        } else if name.ends_with(".rs") && name != "tests.rs" {
+            let text = fs::read_to_string(&path).expect("text");
+            found.push(
+                text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default().to_owned(),
+            );
+        }
+    }
+}
+
+/// The page of codes has every code of a note and of a mistake, and no other.
+#[test]
+fn codes_of_notes_and_mistakes_are_those_of_the_page() {
+    let page = page("notes.md");
+    let quoted =
+        |of: &str| -> Vec<String> { of.split('`').skip(1).step_by(2).map(str::to_owned).collect() };
+    let is_code = |of: &str| {
+        !of.is_empty()
+            && of.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-')
+    };
+    let mut texts = Vec::new();
+    for entry in fs::read_dir(root().join("crates")).expect("the crates") {
+        let source = entry.expect("an entry").path().join("src");
+        if source.is_dir() {
+            sources(&source, &mut texts);
+        }
+    }
+    let mut codes: Vec<&str> = Vec::new();
+    for text in &texts {
+        for before in ["Warning::new(", "code: ", " note(", "notes.push((", "Some((", "=> "] {
+            // of mistakes in their own file alone
+            if before == "=> " && !text.contains("pub enum DiagnosticKind") {
+                continue;
+            }
+            let found = text.split(before).skip(1).filter_map(|rest| {
+                let (code, _) = rest.trim_start().strip_prefix('"')?.split_once('"')?;
+                (is_code(code) && (before == "=> " || code.contains('-') || code.len() > 7))
+                    .then_some(code)
+            });
+            codes.extend(found);
+        }
+    }
+    assert!(codes.len() > 120, "{codes:?}");
+    let known = quoted(&page);
+    let missing: Vec<&&str> =
+        codes.iter().filter(|code| !known.iter().any(|known| known == *code)).collect();
+    assert!(missing.is_empty(), "not on the page: {missing:?}");
+    let all = texts.concat();
+    let (_, tables) = page.split_once("## Notes on how").expect("tables");
+    for code in quoted(tables).iter().filter(|code| is_code(code) && code.contains('-')) {
+        assert!(all.contains(&format!("\"{code}\"")), "no note or mistake has the code {code}");
+    }
+}
