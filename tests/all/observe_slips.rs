@@ -107,6 +107,22 @@ fn headings_are_checked_of_columns_by_number_and_of_scaled_ones() {
     by_number["recordings"]["run"]["time_unit"] = json!("ms");
     assert_eq!(said(folder, &by_number), "");
 
+    // quantity over unit without spaces (ISO 80000-1), by name and by number
+    recorded(folder, "t/ms,acc/mV", |i| i.to_string(), |_, value| value);
+    let mut over = recipe(&json!({"column": "acc", "unit": "V"}));
+    refused(folder, &over, &["`acc/mV` says `mV`, but its values are read in `V`"]);
+    over["channels"]["acc"] = json!({"column": 2, "unit": "mV"});
+    refused(
+        folder,
+        &over,
+        &["`t/ms` says `ms`, but its values are read in `s`", "`\"time_unit\": \"ms\"`"],
+    );
+    over["recordings"]["run"]["time_unit"] = json!("ms");
+    assert_eq!(said(folder, &over), "");
+    // a ratio's name
+    recorded(folder, "t in s,U1/U2", seconds, |_, value| value);
+    assert_eq!(said(folder, &recipe(&json!({"column": "U1/U2", "unit": "V"}))), "");
+
     // counts, and no unit at all
     let counts = recipe(&json!({"column": 2, "unit": "mV", "scale": {"value": 1, "unit": "mV"}}));
     for heading in ["t,acc [1]", "t,acc"] {
