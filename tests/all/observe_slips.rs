@@ -314,3 +314,24 @@ fn tables_have_units_and_say_rms() {
     let said = String::from_utf8(run("mV").stderr).unwrap();
     assert!(said.contains("acc_amplitude_rms"), "{said}");
 }
+
+/// Crossings of the mean upwards lie at 0.702, 1.702, ... periods of the oscillation; 0.08 s are 81
+/// samples, 1.296 periods.
+#[test]
+fn bins_without_a_whole_period_say_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    plain(folder);
+    let mut bins = millivolts();
+    bins["method"] = json!("fft");
+    assert_eq!(said(folder, &bins), "");
+    bins["recordings"]["run"]["to"] = json!(0.08);
+    refused(folder, &bins, &["1.296 periods of 16 Hz, and no whole one between two crossings"]);
+    bins["recordings"]["run"]["to"] = json!(0.05);
+    refused(folder, &bins, &["0.816 periods of 16 Hz; one at least is needed"]);
+    // 62 periods of 16 Hz are 19.4 of 5 Hz
+    let mut wrong = millivolts();
+    wrong["method"] = json!("fft");
+    wrong["frequency"] = json!(5);
+    refused(folder, &wrong, &["its crossings of the mean upwards are not whole periods of 5 Hz"]);
+}
