@@ -107,6 +107,22 @@ fn headings_are_checked_of_columns_by_number_and_of_scaled_ones() {
     by_number["recordings"]["run"]["time_unit"] = json!("ms");
     assert_eq!(said(folder, &by_number), "");
 
+    // quantity over unit without spaces (ISO 80000-1), by name and by number
+    recorded(folder, "t/ms,acc/mV", |i| i.to_string(), |_, value| value);
+    let mut over = recipe(&json!({"column": "acc", "unit": "V"}));
+    refused(folder, &over, &["`acc/mV` says `mV`, but its values are read in `V`"]);
+    over["channels"]["acc"] = json!({"column": 2, "unit": "mV"});
+    refused(
+        folder,
+        &over,
+        &["`t/ms` says `ms`, but its values are read in `s`", "`\"time_unit\": \"ms\"`"],
+    );
+    over["recordings"]["run"]["time_unit"] = json!("ms");
+    assert_eq!(said(folder, &over), "");
+    // a ratio's name
+    recorded(folder, "t in s,U1/U2", seconds, |_, value| value);
+    assert_eq!(said(folder, &recipe(&json!({"column": "U1/U2", "unit": "V"}))), "");
+
     // counts, and no unit at all
     let counts = recipe(&json!({"column": 2, "unit": "mV", "scale": {"value": 1, "unit": "mV"}}));
     for heading in ["t,acc [1]", "t,acc"] {
@@ -297,4 +313,25 @@ fn tables_have_units_and_say_rms() {
     assert!(text.contains("u_acc_amplitude_rms_2 [mV]"), "{text}");
     let said = String::from_utf8(run("mV").stderr).unwrap();
     assert!(said.contains("acc_amplitude_rms"), "{said}");
+}
+
+/// Crossings of the mean upwards lie at 0.702, 1.702, ... periods of the oscillation; 0.08 s are 81
+/// samples, 1.296 periods.
+#[test]
+fn bins_without_a_whole_period_say_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    plain(folder);
+    let mut bins = millivolts();
+    bins["method"] = json!("fft");
+    assert_eq!(said(folder, &bins), "");
+    bins["recordings"]["run"]["to"] = json!(0.08);
+    refused(folder, &bins, &["1.296 periods of 16 Hz, and no whole one between two crossings"]);
+    bins["recordings"]["run"]["to"] = json!(0.05);
+    refused(folder, &bins, &["0.816 periods of 16 Hz; one at least is needed"]);
+    // 62 periods of 16 Hz are 19.4 of 5 Hz
+    let mut wrong = millivolts();
+    wrong["method"] = json!("fft");
+    wrong["frequency"] = json!(5);
+    refused(folder, &wrong, &["its crossings of the mean upwards are not whole periods of 5 Hz"]);
 }

@@ -1,4 +1,8 @@
-//! Headings of columns with a unit: `t [degC]`, `t (degC)`, `t / degC`.
+//! Headings of columns with a unit: `t [degC]`, `t (degC)`, `t / degC`, `t/degC`, `t in degC`.
+//!
+//! What stands in brackets, or behind a slash between spaces, is a unit. What stands behind a slash
+//! without spaces (ISO 80000-1, 7.1.4: quantity over unit) or behind `in` is one where it can be read
+//! as one: `x/g` is x in g, `U1/U2` a name.
 //!
 //! A file that names a column states the unit of its values as well. Where the heading has another
 //! one, the two contradict each other, and none is taken.
@@ -15,7 +19,7 @@ pub(super) fn heading<'h>(log: &Collector, text: &'h str) -> Option<(&'h str, Un
     if let Some((name, unit)) = enclosed(text, '[', "]") {
         return Some((name, log.unit(unit).ok()?));
     }
-    let known = enclosed(text, '(', ")").or_else(|| after(text, "/"));
+    let known = named_among(text, |unit| log.unit(unit).ok());
     let known = known.and_then(|(name, unit)| Some((name, log.unit(unit).ok()?)));
     Some(known.filter(|(name, _)| !name.is_empty()).unwrap_or((text.trim(), Unit::one())))
 }
@@ -25,10 +29,32 @@ pub(super) fn bare(text: &str) -> &str {
     named(text).map(|(name, _)| name).filter(|name| !name.is_empty()).unwrap_or(text)
 }
 
-/// The name and the unit of a heading that has one in brackets or behind a slash between spaces.
+/// The name and the unit of a heading that has one.
 pub(super) fn named(text: &str) -> Option<(&str, &str)> {
+    named_among(text, |unit| Unit::parse(unit).ok())
+}
+
+/// The same with a reader of units.
+fn named_among(text: &str, unit: impl Fn(&str) -> Option<Unit>) -> Option<(&str, &str)> {
     let named = enclosed(text, '[', "]").or_else(|| enclosed(text, '(', ")"));
-    named.or_else(|| after(text, " / "))
+    named.or_else(|| after(text, " / ")).or_else(|| {
+        let is_one = |(_, text): &(&str, &str)| unit(text).is_some();
+        let worded = text.split_once(" in ").map(trimmed).filter(is_one);
+        worded.or_else(|| {
+            over(text).filter(is_one).filter(|(name, below)| !is_whole(name, below, &unit))
+        })
+    })
+}
+
+/// What stands before and behind a slash without spaces.
+fn over(text: &str) -> Option<(&str, &str)> {
+    after(text, "/").filter(|(name, _)| !name.is_empty())
+}
+
+/// Whether the last word before a slash is the upper part of a unit, `v m/s`: it says nothing then.
+fn is_whole(name: &str, below: &str, unit: impl Fn(&str) -> Option<Unit>) -> bool {
+    let last = name.rsplit_once(char::is_whitespace).map(|(_, last)| last);
+    last.is_some_and(|above| unit(&format!("{above}/{below}")).is_some())
 }
 
 /// The place of the column of that name: as it stands in the header, else the only one that has it with
@@ -44,18 +70,22 @@ pub(super) fn place_of(columns: &[String], name: &str) -> Option<usize> {
 
 /// The name and the unit of a heading that ends in brackets.
 pub(super) fn enclosed<'h>(text: &'h str, open: char, close: &str) -> Option<(&'h str, &'h str)> {
-    let (name, unit) = text.trim_end().strip_suffix(close)?.rsplit_once(open)?;
-    Some((name.trim(), unit.trim()))
+    let (name, unit) = trimmed(text.trim_end().strip_suffix(close)?.rsplit_once(open)?);
+    // `x/(m/s^2)`
+    Some((name.strip_suffix('/').map_or(name, str::trim_end), unit))
 }
 
 fn after<'h>(text: &'h str, sign: &str) -> Option<(&'h str, &'h str)> {
-    let (name, unit) = text.split_once(sign)?;
-    Some((name.trim(), unit.trim()))
+    text.split_once(sign).map(trimmed)
+}
+
+fn trimmed<'h>((name, unit): (&'h str, &'h str)) -> (&'h str, &'h str) {
+    (name.trim(), unit.trim())
 }
 
 /// Reports, at the place that names the column, that its heading has another unit than `declared`,
-/// which its values (quantities, or widths) are read in. Nothing where the heading has no unit: what stands behind a slash
-/// without spaces may be the other half of a ratio, and a number alone counts something.
+/// which its values (quantities, or widths) are read in. Nothing where the heading has no unit; a
+/// number alone counts something.
 pub(super) fn check(
     log: &Collector,
     place: &Range<usize>,
@@ -74,7 +104,12 @@ pub(super) fn contradiction(
     column: &str,
     (declared, of): (&Unit, ValueOf),
 ) -> Option<DiagnosticKind> {
-    let (name, text) = named(column)?;
+    // a heading that is a unit of the same kind, `km/h` for `m/s`, is no name with a unit
+    let whole = unit(column.trim()).filter(|whole| whole.is_compatible(declared));
+    let (name, text) = match whole.filter(|_| over(column).is_some()) {
+        Some(_) => (column, column.trim()),
+        None => named_among(column, &unit)?,
+    };
     if name.is_empty() || text.parse::<f64>().is_ok() || text == declared.text() {
         return None;
     }
@@ -85,4 +120,58 @@ pub(super) fn contradiction(
     let (column, heading) = (column.to_owned(), text.to_owned());
     let declared = declared.text().to_owned();
     (!is_same).then_some(DiagnosticKind::ColumnUnit { column, heading, declared })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_behind_slashes_and_words() {
+        for (text, expected) in [
+            ("x/g", Some(("x", "g"))),
+            ("t/ms", Some(("t", "ms"))),
+            ("x / g", Some(("x", "g"))),
+            ("x [g]", Some(("x", "g"))),
+            ("x (g)", Some(("x", "g"))),
+            ("x/(m/s^2)", Some(("x", "m/s^2"))),
+            ("x / (m/s^2)", Some(("x", "m/s^2"))),
+            ("v/km/h", Some(("v", "km/h"))),
+            ("x in g", Some(("x", "g"))),
+            ("speed in m/s", Some(("speed", "m/s"))),
+            // names
+            ("U1/U2", None),
+            ("out/in2", None),
+            ("/m", None),
+            ("drift in run2", None),
+            ("x", None),
+            // a unit behind a space alone says nothing, and not a part of itself
+            ("v m/s", None),
+        ] {
+            assert_eq!(named(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_slash_without_spaces_contradicts() {
+        let unit = |text: &str| Unit::parse(text).expect("a unit");
+        let said = |heading: &str, declared: &str| {
+            let of = (&unit(declared), ValueOf::Quantity);
+            contradiction(|text| Unit::parse(text).ok(), heading, of).map(|kind| match kind {
+                DiagnosticKind::ColumnUnit { heading, .. } => heading,
+                kind => kind.to_string(),
+            })
+        };
+        assert_eq!(said("x/g", "m/s^2").as_deref(), Some("g"));
+        assert_eq!(said("t/ms", "s").as_deref(), Some("ms"));
+        assert_eq!(said("x in mV", "V").as_deref(), Some("mV"));
+        assert_eq!(said("x/mV", "mV"), None);
+        assert_eq!(said("U1/U2", "1"), None);
+        // a heading that is a unit itself
+        assert_eq!(said("km/h", "km/h"), None);
+        assert_eq!(said("km/h", "m/s").as_deref(), Some("km/h"));
+        // a voltage in mV, whose heading is a unit of another kind
+        assert_eq!(said("V/mV", "mV"), None);
+        assert_eq!(said("V/mV", "V").as_deref(), Some("mV"));
+    }
 }

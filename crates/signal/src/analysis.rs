@@ -41,7 +41,7 @@ pub enum Refused<E> {
         /// The sampling rate.
         rate: f64,
     },
-    /// Less than one period of a frequency.
+    /// Less than one period of a frequency, or none between two crossings for bins.
     LessThanOnePeriod {
         /// The channel.
         channel: usize,

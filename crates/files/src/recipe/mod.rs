@@ -367,11 +367,23 @@ impl RecipeFile {
                 shortest(*hertz),
                 shortest(*rate)
             ),
-            Refused::LessThanOnePeriod { channel, hertz, periods } => format!(
-                "{}: the recording has {periods:.3} periods of {} Hz; one at least is needed",
-                place(*channel),
-                shortest(*hertz)
-            ),
+            Refused::LessThanOnePeriod { channel, hertz, periods } => {
+                let (place, hertz) = (place(*channel), shortest(*hertz));
+                let has = format!("{place}: the recording has {periods:.3} periods of {hertz} Hz");
+                match *periods {
+                    ..1.0 => format!("{has}; one at least is needed"),
+                    // those of `fft`
+                    ..2.5 => format!(
+                        "{has}, and no whole one between two crossings of its mean upwards, which the \
+                         method `fft` needs; record two and a half, or leave out `\"method\": \"fft\"`"
+                    ),
+                    _ => format!(
+                        "{has}, but its crossings of the mean upwards are not whole periods of {hertz} \
+                         Hz apart: noise, a drift or another oscillation is too strong for the method \
+                         `fft`; leave out `\"method\": \"fft\"`, or state the frequency that it has"
+                    ),
+                }
+            }
             Refused::NotApart { channel, samples } => format!(
                 "{}: {samples} samples are too few, or too short a time, to tell the frequencies and \
                  their multiples apart",

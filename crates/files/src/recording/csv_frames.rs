@@ -8,6 +8,7 @@ use csv::{ByteRecord, Reader};
 
 use super::wide_text::NarrowText;
 use super::{BLOCK, ColumnName, Frames, Wanted, place};
+use crate::DiagnosticKind;
 use crate::column_heading;
 use crate::separator::{DecimalMarks, Separator};
 use crate::value_text::ValueOf;
@@ -198,7 +199,7 @@ impl<R: Read> Frames for CsvFrames<R> {
 fn contradiction(wanted: &Wanted, heading: &str) -> Option<String> {
     let of = (&wanted.unit, ValueOf::Quantity);
     let found = column_heading::contradiction(|text| Unit::parse(text).ok(), heading, of)?;
-    let unit = column_heading::named(heading).map_or("", |(_, unit)| unit);
+    let DiagnosticKind::ColumnUnit { heading: unit, .. } = &found else { return None };
     let key = if wanted.is_time() { "time_unit" } else { "raw_unit" };
     Some(format!("{found}; in the recipe this is `\"{key}\": \"{unit}\"`"))
 }

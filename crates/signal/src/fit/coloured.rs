@@ -13,6 +13,8 @@ use nalgebra::{DMatrix, DVector};
 use super::dirichlet::sum_of_cosines;
 use super::residuals::{LAGS, NOT_WHITE};
 use super::sine_fit::ToneDesign;
+use crate::Phasor;
+use crate::phasor::at_turns;
 use gumption_engine::number::elementary::{ln, sin_cos_turn, tanh};
 
 /// Values that a model is fitted to at most; longer records give means of so many samples.
@@ -55,6 +57,10 @@ pub(crate) struct Coloured {
     /// Whether the noise wanders off and does not come back within the record: its level is then
     /// counted from the record's first value.
     pub(crate) walks: bool,
+    /// The process that comes nearest.
+    process: Process,
+    /// Samples of each value that it is a process of.
+    pub(crate) every: u64,
 }
 
 /// An ARMA(1, 1) process x = rho x' + e + theta e' of innovations e.
@@ -69,6 +75,24 @@ struct Process {
 }
 
 impl Coloured {
+    /// What the process leaves of residuals: errors of prediction from the values before. The first
+    /// value, which nothing predicts, has none.
+    pub(crate) fn innovations(&self, residuals: &[f64]) -> Vec<f64> {
+        let Process { rho, theta, .. } = self.process;
+        let mut error = 0.0;
+        let predicted = residuals.windows(2).map(|pair| {
+            error = pair[1] - rho * pair[0] - theta * error;
+            error
+        });
+        predicted.collect()
+    }
+
+    /// The process over its innovations at so many cycles from one value to the next.
+    pub(crate) fn response(&self, cycles: f64) -> Phasor {
+        let before = at_turns(-cycles);
+        (before * self.process.theta + 1.0) / (1.0 - before * self.process.rho)
+    }
+
     /// The variances of the tones' factors over those that white noise of a variance gives.
     pub(crate) fn over_white(&self, design: &ToneDesign, variance: f64) -> Option<Vec<[f64; 2]>> {
         let of = |(tone, [cosine, sine]): (usize, &[f64; 2])| {
@@ -133,6 +157,7 @@ impl Series {
         let whole = Regression { columns: [vec![constant.clone()], columns].concat() };
         let short = Regression { columns: vec![constant] };
         let (process, fits) = if many { &short } else { &whole }.process(&self.values)?;
+        let nearest = process;
         let (mut process, mut freedom) = (process, process.freedom(count));
         let variance = |weights: &[f64]| process.variance_of(weights);
         let mut level = variance(&whole.weights(0)?);
@@ -157,7 +182,8 @@ impl Series {
                 process = of_means;
             }
         }
-        Some(Coloured { level, tones, freedom, fits, walks: process.walks })
+        let (walks, every) = (process.walks, self.every);
+        Some(Coloured { level, tones, freedom, fits, walks, process: nearest, every })
     }
 
     /// Cosine and sine of the tones as the values have them, and whether they do: means of much of

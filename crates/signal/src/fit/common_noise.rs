@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::Phasor;
 use crate::analysed::Analysed;
 use crate::phasor::{angle, at_turns, modulus};
-use crate::residuals::LAGS;
+use crate::residuals::{LAGS, Residuals};
 use crate::turns::{Turns, oscillation};
 use gumption_engine::number::elementary::{exp, ln};
 
@@ -44,19 +44,60 @@ fn common(a: &Analysed, b: &Analysed, cycles: f64) -> Option<Phasor> {
     let (of_a, of_b) = (&of_a[..count], &of_b[..count]);
     let white = !a.residuals.correlated && !b.residuals.correlated;
     let parts = ((cycles * count as f64) as usize).min(MOST_PARTS).min(count / 16);
-    if white || parts < LEAST_PARTS {
+    if white {
         by_lags(of_a, of_b, cycles)
+    } else if parts < LEAST_PARTS {
+        by_innovations((&a.residuals, of_a), (&b.residuals, of_b), cycles)
     } else {
         by_parts(of_a, of_b, cycles, parts)
     }
 }
 
+/// The coherence of the innovations of two processes. Two records of noise with a memory have few
+/// values that count, and correlate by chance: two walks nearly always do. Their innovations do not
+/// (L. D. Haugh, J. Am. Stat. Assoc. 71 (1976) 378), and have the coherence of the processes but for
+/// the phases of these.
+fn by_innovations(
+    (a, of_a): (&Residuals, &[f64]),
+    (b, of_b): (&Residuals, &[f64]),
+    cycles: f64,
+) -> Option<Phasor> {
+    let every = a.coloured.as_ref().or(b.coloured.as_ref())?.every;
+    let cycles = cycles * every as f64;
+    if cycles > 0.25 {
+        return None;
+    }
+    let of = |residuals: &Residuals, values: &[f64]| {
+        let means: Vec<f64> = values
+            .chunks_exact(every as usize)
+            .map(|part| part.iter().sum::<f64>() / every as f64)
+            .collect();
+        if !residuals.correlated {
+            // as many as there are innovations
+            return Some((means.get(1..)?.to_vec(), Phasor::new(1.0, 0.0)));
+        }
+        let coloured = residuals.coloured.as_ref()?;
+        Some((coloured.innovations(&means), coloured.response(cycles)))
+    };
+    let ((of_a, a), (of_b, b)) = (of(a, of_a)?, of(b, of_b)?);
+    let turned = a * b.conj();
+    by_lags(&of_a, &of_b, cycles).map(|common| common * (turned / modulus(turned)))
+}
+
 /// The sum of the correlation coefficients that stand out, each turned by its lag.
 fn by_lags(a: &[f64], b: &[f64], cycles: f64) -> Option<Phasor> {
     let power = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
-    let both = (power(a) * power(b)).sqrt();
+    let (of_a, of_b) = (power(a), power(b));
+    let both = (of_a * of_b).sqrt();
+    // of values that are nearly white the coefficients of all lags scatter by the products of the
+    // autocorrelations (M. S. Bartlett, J. R. Stat. Soc. Suppl. 8 (1946) 27)
+    let own = |x: &[f64], power: f64, lag: usize| {
+        let late = x.get(lag..).unwrap_or(&[]);
+        late.iter().zip(x).map(|(x, y)| x * y).sum::<f64>() / power
+    };
+    let more: f64 = (1..=LAGS).map(|lag| own(a, of_a, lag) * own(b, of_b, lag)).sum();
     // 33 coefficients of four standard deviations: one in 500 of independent noise
-    let least = 4.0 / (a.len() as f64).sqrt();
+    let least = 4.0 * ((1.0 + 2.0 * more).max(1.0) / a.len() as f64).sqrt();
     let mut found: Option<Phasor> = None;
     for lag in -(LAGS as i64)..=LAGS as i64 {
         let by = lag.unsigned_abs() as usize;

@@ -38,7 +38,9 @@ pub enum CrossCorrelation {
 pub struct Delay {
     /// The channel's delay, in seconds; positive where it comes later than the reference.
     pub delay: Measured,
-    /// The coefficient of correlation at the maximum, -1 to 1.
+    /// The coefficient of correlation of the signals at the maximum, -1 to 1: their normalized
+    /// cross-correlation, about their offsets and with what is noise in them; of
+    /// [`CrossCorrelation::Band`], of what they have in the band.
     pub correlation: f64,
     /// The period in seconds of which any number may be added to the delay; none where the delay
     /// is the only one within the search.
@@ -134,8 +136,7 @@ fn periodic(
     let time = maximum(&terms, times[best] - step, times[best] + step);
     let [value, _, bend] = at(&terms, time);
     let power = |all: &Periodic| all.parts.iter().map(|p| p.phasor.norm_sqr()).sum::<f64>();
-    let both = (power(&x) * power(&y)).sqrt();
-    if both == 0.0 || bend >= 0.0 {
+    if power(&x) * power(&y) == 0.0 || bend >= 0.0 {
         return Err(Unsuitable::Silent { frequency: harmonics.frequency });
     }
     let variance: f64 = x
@@ -162,9 +163,25 @@ fn periodic(
             standard_uncertainty: variance.sqrt() / -bend,
             degrees_of_freedom: freedom,
         },
-        correlation: value / both,
+        correlation: with_noise([reference, channel], [&x, &y], value, time - late),
         period: Some(period),
     })
+}
+
+/// The coefficient of correlation of two signals where `value` is the sum of the products of their
+/// harmonics' amplitudes. What is left of them counts at the nearest whole sample.
+fn with_noise(signals: [&Signal; 2], fits: [&Periodic; 2], value: f64, delay: f64) -> f64 {
+    let [x, y] = [0, 1].map(|i| fits[i].without(signals[i]));
+    let lag = (delay * signals[0].rate).round();
+    let (of_x, of_y) = ((-lag).max(0.0) as usize, lag.max(0.0) as usize);
+    let [early, late] = [x.get(of_x..).unwrap_or(&[]), y.get(of_y..).unwrap_or(&[])];
+    let n = x.len() as f64;
+    let left = early.iter().zip(late).map(|(x, y)| x * y).sum::<f64>() / n;
+    let power = |fit: &Periodic, left: &[f64]| {
+        let harmonics = fit.parts.iter().map(|part| part.phasor.norm_sqr()).sum::<f64>();
+        harmonics / 2.0 + left.iter().map(|e| e * e).sum::<f64>() / n
+    };
+    (value / 2.0 + left) / (power(fits[0], &x) * power(fits[1], &y)).sqrt()
 }
 
 fn in_band(

@@ -38,7 +38,9 @@ fn delays_between_samples() {
         let found = fundamental(setting).of(&x, &y).unwrap();
         assert!((found.delay.value - delay).abs() * 1612.0 < 0.01, "sine: {found:?}");
         assert_eq!(found.period, Some(0.2));
-        assert!(found.correlation > 0.999_999);
+        // noise of 1e-6 of the reference's power and of 1e-6/0.64 of the channel's: less 1.28e-6,
+        // the standard deviation of noise powers of 64,560 values 0.6 % of it
+        assert!((1.0 - found.correlation - 1.28e-6).abs() < 4e-8, "{found:?}");
 
         let wave = |t: f64| (TAU * 5.0 * t).cos() + 0.5 * (TAU * 15.0 * t + 1.0).cos();
         let x = setting.record(&mut noise, wave);
@@ -57,6 +59,38 @@ fn delays_between_samples() {
         assert!((found.delay.value - delay).abs() < 4.0 * found.delay.standard_uncertainty);
         assert_eq!(found.period, None);
         assert!(found.correlation > 0.999);
+    }
+}
+
+/// The coefficient of correlation is that of the signals and not of their fits: amplitudes 2 and 1.5
+/// in white noise of 1 have 1.5/sqrt((2 + 1)(1.125 + 1)) = 0.594 independently, and with the same
+/// noise at the delay (1.5 + 1)/sqrt(3 x 2.125) = 0.990. Of 4000 values a coefficient of independent
+/// noise has a standard deviation of 0.016 x 0.4; 0.03 is beyond four of them. It is the same as the
+/// correlation of the values at that lag.
+#[test]
+fn noise_counts_in_the_coefficient_of_correlation() {
+    let mut noise = Noises::new("coefficient", 1);
+    let (n, lag) = (4000, 7);
+    let own: Vec<f64> = (0..n + lag).map(|_| noise.next()).collect();
+    let other: Vec<f64> = (0..n).map(|_| noise.next()).collect();
+    let sine = |i: usize| crate::phasor::at_turns(0.005 * i as f64).re;
+    let signal = |values: Vec<f64>| Signal { values, rate: 1000.0, start: 0.0 };
+    let x = signal((0..n).map(|i| 0.1 + 2.0 * sine(i + lag) + own[i + lag]).collect());
+    let harmonics = CrossCorrelation::Periodic(Harmonics { frequency: 5.0, count: 1 });
+    let independent: Vec<f64> = (0..n).map(|i| 1.5 * sine(i) + other[i] - 0.3).collect();
+    let same: Vec<f64> = (0..n).map(|i| 1.5 * sine(i) + own[i] - 0.3).collect();
+    for (y, expected) in [(independent, 0.594), (same, 0.990)] {
+        let found = harmonics.of(&x, &signal(y.clone())).unwrap().correlation;
+        assert!((found - expected).abs() < 0.03, "{found}");
+        // by values: y comes 7 samples later
+        let (early, late) = (&x.values[..n - lag], &y[lag..]);
+        let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
+        let (a, b) = (mean(early), mean(late));
+        let sum = |f: &dyn Fn(f64, f64) -> f64| {
+            early.iter().zip(late).map(|(x, y)| f(x - a, y - b)).sum::<f64>()
+        };
+        let by_values = sum(&|x, y| x * y) / (sum(&|x, _| x * x) * sum(&|_, y| y * y)).sqrt();
+        assert!((found - by_values).abs() < 0.01, "{found} {by_values}");
     }
 }
 
