@@ -23,6 +23,7 @@ pub use trace::{Recorder, Traced};
 
 use std::sync::Arc;
 
+use crate::decimal::to_digits;
 use crate::distribution::Distribution;
 use formula::Typing;
 use gumption_units::{Unit, Zero};
@@ -75,6 +76,9 @@ impl Output {
     }
 }
 
+/// Digits of a computed figure that are believed.
+pub(crate) const COMPUTED_DIGITS: u32 = 12;
+
 /// A laboratory's calibration and measurement capability (CMC), in the output's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capability {
@@ -87,9 +91,10 @@ pub struct Capability {
 }
 
 impl Capability {
-    /// The smallest expanded uncertainty at an estimate.
+    /// The smallest expanded uncertainty at an estimate, without the last bits that binary sums
+    /// leave: 0.1 + 0.02 is 0.12.
     pub fn at(&self, estimate: f64) -> f64 {
-        self.relative * estimate.abs() + self.absolute
+        to_digits(self.relative * estimate.abs() + self.absolute, COMPUTED_DIGITS)
     }
 }
 
