@@ -186,6 +186,86 @@ fn the_laboratorys_capability() {
     assert!(codes(&answer(&model(10.0, 0.1, r#""cmc": 0.05"#))).is_empty());
 }
 
+/// Where U is raised to the capability, `run` decides with the U that is to be stated, as the
+/// certificate does: u = 0.12/2 = 0.06, w = 1.644 854 u = 0.098 691, so that 1000 is above 1000.09 - w =
+/// 999.991 309 and rejected, with P = Phi(0.09/0.06) = Phi(1.5) = 0.933 193. With the evaluated u = 0.04
+/// it were accepted up to 1000.0242.
+#[test]
+fn what_is_raised_to_the_capability_is_decided_with_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let model = |floor: bool| {
+        json!({"inputs": {"x": {"unit": "mbar", "distribution": "normal", "mean": 1000, "std": 0.04}},
+            "equations": {"y": "x"},
+            "outputs": {"y": {"unit": "mbar", "cmc": "0.01 % of 1000 mbar + 0.02 mbar",
+                "cmc_floor": floor, "tolerance": {"upper": 1000.09, "risk": 0.05}}}})
+    };
+    fs::write(folder.path().join("q.json"), model(true).to_string()).expect("a file");
+    let certificate = json!({"rows": [{"model": "q.json", "output": "y"}]});
+    fs::write(folder.path().join("c.json"), certificate.to_string()).expect("a file");
+    let said = |arguments: &[&str]| {
+        let mut run = command();
+        let output = run.current_dir(folder.path()).args(arguments).output().expect("it runs");
+        (output.status.code(), String::from_utf8(output.stdout).expect("UTF-8"))
+    };
+    for trials in ["0", "100000"] {
+        let run = ["run", "q.json", "--trials", trials, "--quiet"];
+        let (_, found) = said(&[&run[..], &["--format", "json"]].concat());
+        let found: Value = serde_json::from_str(&found).expect("JSON");
+        let of = &found["outputs"]["y"]["conformity"];
+        assert!((number(&of["guard_band"]["width"]) - 0.098_691).abs() < 1e-6, "{of}");
+        assert!((number(&of["guard_band"]["upper"]) - 999.991_309).abs() < 1e-6, "{of}");
+        assert!((number(&of["probability"]) - 0.933_193).abs() < 1e-6, "{of}");
+        assert_eq!(number(&of["stated_standard_uncertainty"]), 0.06);
+        assert_eq!(of["conforms"], false);
+        // a sum of binary fractions that is 0.12 but for its last bit
+        let raised = json!({"cmc": 0.12, "expanded_uncertainty": 0.12, "raised": true});
+        assert_eq!(found["outputs"]["y"]["cmc"], raised);
+        assert_eq!(said(&[&run[..], &["--fail"]].concat()).0, Some(3));
+        for format in ["table", "markdown", "html"] {
+            let (_, page) = said(&[&run[..], &["--format", format]].concat());
+            let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(
+                page.contains("guard band 0.0987 mbar, accepted up to 999.9913 mbar"),
+                "{page}"
+            );
+            assert!(page.contains("with the laboratory's capability, u = 0.0600 mbar"), "{page}");
+            assert!(page.contains("Decision: rejected"), "{page}");
+        }
+        let certificate = ["certificate", "c.json", "--trials", trials, "--quiet"];
+        let (_, page) = said(&[&certificate[..], &["--format", "markdown"]].concat());
+        assert!(page.contains("0.0987 mbar") && page.contains("999.9913 mbar"), "{page}");
+    }
+    // a row with a capability of its own is decided with what that row states
+    let rows = json!([{"model": "q.json", "output": "y", "cmc": 0.01}]);
+    fs::write(folder.path().join("c.json"), json!({ "rows": rows }).to_string()).expect("a file");
+    let (_, page) = said(&["certificate", "c.json", "--trials", "0", "--format", "markdown"]);
+    assert!(page.contains("0.0658 mbar") && page.contains("1000.0242 mbar"), "{page}");
+    fs::write(folder.path().join("q.json"), model(false).to_string()).expect("a file");
+    assert_eq!(said(&["run", "q.json", "--trials", "0", "--quiet", "--fail"]).0, Some(0));
+}
+
+/// A U that is above the capability but for the last bit of its sum is rounded as it is: 0.1244 to
+/// 0.12, and not up to 0.13.
+#[test]
+fn a_capability_that_is_a_sum_is_its_decimal() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for cmc in ["0.01 % of 1000 mbar + 0.02 mbar", "0.12 mbar", "0.01 % + 0.02 mbar"] {
+        let model = json!({
+            "inputs": {"x": {"unit": "mbar", "distribution": "normal", "mean": 1000, "std": 0.0622}},
+            "equations": {"y": "x"}, "outputs": {"y": {"unit": "mbar", "cmc": cmc}}});
+        fs::write(folder.path().join("q.json"), model.to_string()).expect("a file");
+        let certificate = json!({"rows": [{"model": "q.json", "output": "y"}]});
+        fs::write(folder.path().join("c.json"), certificate.to_string()).expect("a file");
+        let mut run = command();
+        let run = run.current_dir(folder.path()).args(["certificate", "c.json", "--trials", "0"]);
+        let said = run.args(["--quiet", "--format", "json"]).output().expect("it runs").stdout;
+        let found: Value = serde_json::from_slice(&said).expect("JSON");
+        assert_eq!(found["rows"][0]["stated"]["expanded_uncertainty"], "0.12", "{cmc}");
+        let limit = json!({"cmc": 0.12, "below": false, "raised": false});
+        assert_eq!(found["rows"][0]["limit"], limit, "{cmc}");
+    }
+}
+
 /// Every page of a sweep says what is decided of its rows.
 #[test]
 fn sweeps_say_what_is_decided_of_each_row() {

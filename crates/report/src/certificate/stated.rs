@@ -88,14 +88,19 @@ impl Stated<'_> {
 
     pub(super) fn expanded(&self) -> Figure {
         self.statement.rounded.map_or_else(|| Figure::of(0.0, "0".to_owned()), figure)
+        let output = self.asked.task.model.outputs.get(self.line.output)?;
     }
 
     /// What is decided about a tolerance, with the uncertainty that is stated (ISO/IEC 17025, 7.8.6).
     pub(super) fn conformity(&self) -> Option<Conformity> {
         if !self.is_raised() {
-            return self.found.conformity.as_deref().copied();
+            let own = self.found.conformity.as_deref();
+            // the row may have another capability than the output
+            return match own.filter(|own| own.stated_uncertainty.is_none()) {
+                Some(own) => Some(*own),
+                None => Conformity::evaluated(output, self.found, &self.asked.task.settings),
+            };
         }
-        let output = self.asked.task.model.outputs.get(self.line.output)?;
         let Statement { value, standard_uncertainty, .. } = *self.statement;
         Conformity::with_stated(output, value, standard_uncertainty)
     }
