@@ -671,6 +671,54 @@ fn coverage_factors_have_three_digits() {
     }
 }
 
+/// A certificate is read back row by row, in both versions: where a row is not normal its standard
+/// uncertainty is that of its coverage interval, with all digits, and the interval is no further value.
+#[test]
+fn rows_that_are_not_normal_are_read_back() {
+    let model = json!({
+        "conditions": {"p": {"unit": "bar", "values": [0, 1]}},
+        "inputs": {
+            "r": {"unit": "bar", "distribution": "rectangular", "mean": 5, "half_width": "0.3 [bar] - 0.29*p"},
+            "n": {"unit": "bar", "distribution": "normal", "mean": 0, "std": 0.04}},
+        "equations": {"y": "r + n"}, "outputs": {"y": {"unit": "bar"}}});
+    let mut certificate = small().remove(0).1;
+    certificate["rows"] = json!([{"model": "m.json", "output": "y"}]);
+    let folder = folder(&[("c.json", certificate), ("m.json", model)]);
+    let name = path(folder.path(), "c.json");
+    let found: Value = serde_json::from_str(&output_of(&name, "json")).expect("JSON");
+    let (first, second) = (&found["rows"][0], &found["rows"][1]);
+    assert_eq!((&first["basis"], &second["basis"]), (&json!("monte-carlo"), &json!("normal")));
+    for version in ["3.2.1", "3.1.2"] {
+        let dcc =
+            output(&["certificate", &name, "--format", "dcc", "--dcc-version", version, "--quiet"]);
+        assert!(dcc.contains("gumption_coverageInterval"), "{dcc}");
+        // as older files have it
+        let older = dcc.replace("gumption_coverageInterval", "basic_measuredValue");
+        for text in [dcc, older] {
+            fs::write(folder.path().join("c.xml"), text).expect("a file");
+            let back = json!({
+                "conditions": {"p": {"unit": "bar", "values": [0, 1]}},
+                "inputs": {"c": {"distribution": "dcc", "file": "c.xml",
+                    "ref_type": "basic_measuredValue", "at": "p"}},
+                "equations": {"y": "c"}, "outputs": {"y": {"unit": "bar"}}});
+            fs::write(folder.path().join("b.json"), back.to_string()).expect("a file");
+            let back = path(folder.path(), "b.json");
+            let said = output(&["run", &back, "--trials", "0", "--format", "json", "--quiet"]);
+            let said: Value = serde_json::from_str(&said).expect("JSON");
+            let u = |row: usize| {
+                number(&said["rows"][row]["outputs"]["y"]["gum"]["standard_uncertainty"])
+            };
+            assert!((u(0) / number(&first["standard_uncertainty"]) - 1.0).abs() < 1e-9, "{said}");
+            let stated = &second["stated"];
+            let text =
+                |key: &str| stated[key].as_str().expect("a text").parse::<f64>().expect("a number");
+            let of_digits = text("expanded_uncertainty") / text("coverage_factor");
+            assert!((u(1) / of_digits - 1.0).abs() < 1e-9, "{said}");
+            assert!(said["warnings"].to_string().contains("interval-uncertainty"), "{said}");
+        }
+    }
+}
+
 /// What is raised to the capability states no interval that is narrower than it, and no factor's
 /// sentence.
 #[test]
