@@ -266,6 +266,105 @@ fn a_capability_that_is_a_sum_is_its_decimal() {
     }
 }
 
+/// Limits and capability at the measuring point: 5e-4 p is 0.05, 0.25 and 0.5 mbar at 100, 500 and
+/// 1000 mbar, where the errors are 7e-4 p - 0.11 mbar: -0.04, 0.24 and 0.59; 0.01 % of p + 0.02 mbar is
+/// 0.03, 0.07 and 0.12 mbar, so that the raised u is half of that and the first error conforms with
+/// Phi(0.01/0.015) - Phi(-0.09/0.015 ...) = Phi(0.6667) - Phi(-6) = 0.747 507.
+#[test]
+fn limits_and_capability_follow_the_conditions() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, content: &Value| {
+        fs::write(folder.path().join(name), content.to_string()).expect("a file");
+    };
+    let said = |arguments: &[&str]| {
+        let mut run = command();
+        let output = run.current_dir(folder.path()).args(arguments).output().expect("it runs");
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    };
+    let model = |cmc: &str| {
+        json!({"conditions": {"p": {"unit": "mbar", "values": [100, 500, 1000]}},
+            "inputs": {"e": {"unit": "mbar", "distribution": "normal",
+                "mean": "7e-4*p - 0.11 [mbar]", "std": 0.01}},
+            "equations": {"E": "e"},
+            "outputs": {"E": {"unit": "mbar", "cmc": cmc, "cmc_floor": true,
+                "tolerance": {"lower": "-5e-4*p", "upper": "5e-4*p"}}}})
+    };
+    write("c.json", &json!({"rows": [{"model": "m.json", "output": "E"}]}));
+    for cmc in ["0.01 % of p + 0.02 mbar", "1e-4*p + 0.02 [mbar]", "20 ubar + 100 ppm of p"] {
+        write("m.json", &model(cmc));
+        let run = ["run", "m.json", "--trials", "0", "--quiet"];
+        let (_, found, wrong) = said(&[&run[..], &["--format", "json"]].concat());
+        let found: Value = serde_json::from_str(&found).unwrap_or_else(|_| panic!("{wrong}"));
+        let expected = [(0.05, 0.03, true), (0.25, 0.07, true), (0.5, 0.12, false)];
+        for (row, (limit, cmc, conforms)) in expected.into_iter().enumerate() {
+            let of = &found["rows"][row]["outputs"]["E"];
+            let conformity = &of["conformity"];
+            assert_eq!(
+                (number(&conformity["lower"]), number(&conformity["upper"])),
+                (-limit, limit)
+            );
+            assert_eq!(of["cmc"], json!({"cmc": cmc, "expanded_uncertainty": cmc, "raised": true}));
+            assert_eq!(number(&conformity["stated_standard_uncertainty"]), 0.5 * cmc);
+            assert_eq!(conformity["conforms"], conforms);
+        }
+        let first = &found["rows"][0]["outputs"]["E"]["conformity"]["probability"];
+        assert!((number(first) - 0.747_507).abs() < 1e-6, "{first}");
+        assert_eq!(said(&[&run[..], &["--fail"]].concat()).0, Some(3));
+        for format in ["table", "markdown", "html"] {
+            let (_, page, _) = said(&[&run[..], &["--format", format]].concat());
+            let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+            let limits = "Tolerance of each row (from -0.05 to 0.05 mbar in the first one, from -0.5 to \
+                          0.5 mbar in the last one)";
+            assert!(page.contains(limits), "{format}: {page}");
+            assert!(page.contains("2 of 3 rows accepted, rejected: row 3"), "{format}: {page}");
+        }
+        let certificate = ["certificate", "c.json", "--trials", "0", "--quiet", "--format"];
+        let (_, page, _) = said(&[&certificate[..], &["markdown"]].concat());
+        for part in ["from -0.05 to 0.05 mbar", "from -0.25 to 0.25 mbar", "from -0.5 to 0.5 mbar"]
+        {
+            assert!(page.contains(part), "{part}: {page}");
+        }
+        let (_, answer, _) = said(&[&certificate[..], &["json"]].concat());
+        let answer: Value = serde_json::from_str(&answer).expect("JSON");
+        let limits: Vec<f64> =
+            (0..3).map(|row| number(&answer["rows"][row]["limit"]["cmc"])).collect();
+        assert_eq!(limits, [0.03, 0.07, 0.12]);
+    }
+    // a row of the certificate with a capability of its own
+    let row = json!({"model": "m.json", "output": "E", "cmc": "0.02 % of p + 0.1 mbar"});
+    write("c.json", &json!({ "rows": [row] }));
+    let (_, answer, wrong) = said(&["certificate", "c.json", "--trials", "0", "--format", "json"]);
+    let answer: Value = serde_json::from_str(&answer).unwrap_or_else(|_| panic!("{wrong}"));
+    let limits: Vec<f64> = (0..3).map(|row| number(&answer["rows"][row]["limit"]["cmc"])).collect();
+    assert_eq!(limits, [0.12, 0.2, 0.3]);
+    // what could be of the error or of the pressure is asked
+    write("m.json", &model("0.01 % + 0.02 mbar"));
+    let (code, _, wrong) = said(&["run", "m.json", "--trials", "0"]);
+    assert_eq!(code, Some(2));
+    assert!(wrong.contains("could be of the value of `E` or of the condition `p`"), "{wrong}");
+    write("m.json", &model("0.01 % of reading + 0.02 mbar"));
+    assert_eq!(said(&["run", "m.json", "--trials", "0"]).0, Some(0));
+    // each of these at its place
+    let wrong = |key: &str, text: &str| {
+        let mut model = model("0.02 mbar");
+        match key {
+            "cmc" => model["outputs"]["E"]["cmc"] = json!(text),
+            _ => model["outputs"]["E"]["tolerance"][key] = json!(text),
+        }
+        write("m.json", &model);
+        let (code, _, wrong) = said(&["check", "m.json"]);
+        assert_eq!(code, Some(2), "{wrong}");
+        wrong
+    };
+    assert!(wrong("upper", "5e-4*q").contains("`q`"));
+    assert!(wrong("upper", "5e-4*p/1[s]").contains("`upper` has the unit"));
+    let reversed = wrong("upper", "5e-4*p - 0.2 [mbar]");
+    assert!(reversed.contains("in row 1 of the conditions"), "{reversed}");
+    let negative = wrong("cmc", "1e-4*p - 0.05 [mbar]");
+    assert!(negative.contains("it is -0.04 in row 1 of the conditions"), "{negative}");
+}
+
 /// Every page of a sweep says what is decided of its rows.
 #[test]
 fn sweeps_say_what_is_decided_of_each_row() {

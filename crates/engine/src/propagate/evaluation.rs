@@ -472,9 +472,10 @@ fn evaluate_row(
             conformity: None,
             drawn_dof,
         };
+        let output = output.at(&row.conditions);
         found.capability =
-            CapabilityStatement::beside(output, &found, &task.settings).map(Box::new);
-        found.conformity = Conformity::decided(output, &found, &task.settings).map(Box::new);
+            CapabilityStatement::beside(&output, &found, &task.settings).map(Box::new);
+        found.conformity = Conformity::decided(&output, &found, &task.settings).map(Box::new);
         result.outputs.push(found);
     }
     if !task.regions.is_empty() {

@@ -511,6 +511,10 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
 /// Parts of sentences and cells, which might be found in many sentences: they are looked for last, and
 /// in short texts alone.
 pub(super) const BRIEF: &[(&str, &str)] = &[
+    (
+        "of each row ({} in the first one, {} in the last one)",
+        "je Zeile ({0:} in der ersten, {1:} in der letzten)",
+    ),
     ("from {} on {}", "ab {0} {1}"),
     ("from {} on", "ab {0}"),
     ("from {} to {}", "von {0} bis {1}"),

@@ -84,11 +84,12 @@ impl Stated<'_> {
 
     pub(super) fn expanded(&self) -> Figure {
         self.statement.rounded.map_or_else(|| Figure::of(0.0, "0".to_owned()), figure)
-        let output = self.asked.task.model.outputs.get(self.line.output)?;
     }
 
     /// What is decided about a tolerance, with the uncertainty that is stated (ISO/IEC 17025, 7.8.6).
     pub(super) fn conformity(&self) -> Option<Conformity> {
+        let output = self.asked.task.model.outputs.get(self.line.output)?;
+        let output = &*output.at(self.conditions);
         if !self.is_raised() {
             let own = self.found.conformity.as_deref();
             // the row may have another capability than the output
