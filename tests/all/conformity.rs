@@ -186,6 +186,185 @@ fn the_laboratorys_capability() {
     assert!(codes(&answer(&model(10.0, 0.1, r#""cmc": 0.05"#))).is_empty());
 }
 
+/// Where U is raised to the capability, `run` decides with the U that is to be stated, as the
+/// certificate does: u = 0.12/2 = 0.06, w = 1.644 854 u = 0.098 691, so that 1000 is above 1000.09 - w =
+/// 999.991 309 and rejected, with P = Phi(0.09/0.06) = Phi(1.5) = 0.933 193. With the evaluated u = 0.04
+/// it were accepted up to 1000.0242.
+#[test]
+fn what_is_raised_to_the_capability_is_decided_with_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let model = |floor: bool| {
+        json!({"inputs": {"x": {"unit": "mbar", "distribution": "normal", "mean": 1000, "std": 0.04}},
+            "equations": {"y": "x"},
+            "outputs": {"y": {"unit": "mbar", "cmc": "0.01 % of 1000 mbar + 0.02 mbar",
+                "cmc_floor": floor, "tolerance": {"upper": 1000.09, "risk": 0.05}}}})
+    };
+    fs::write(folder.path().join("q.json"), model(true).to_string()).expect("a file");
+    let certificate = json!({"rows": [{"model": "q.json", "output": "y"}]});
+    fs::write(folder.path().join("c.json"), certificate.to_string()).expect("a file");
+    let said = |arguments: &[&str]| {
+        let mut run = command();
+        let output = run.current_dir(folder.path()).args(arguments).output().expect("it runs");
+        (output.status.code(), String::from_utf8(output.stdout).expect("UTF-8"))
+    };
+    for trials in ["0", "100000"] {
+        let run = ["run", "q.json", "--trials", trials, "--quiet"];
+        let (_, found) = said(&[&run[..], &["--format", "json"]].concat());
+        let found: Value = serde_json::from_str(&found).expect("JSON");
+        let of = &found["outputs"]["y"]["conformity"];
+        assert!((number(&of["guard_band"]["width"]) - 0.098_691).abs() < 1e-6, "{of}");
+        assert!((number(&of["guard_band"]["upper"]) - 999.991_309).abs() < 1e-6, "{of}");
+        assert!((number(&of["probability"]) - 0.933_193).abs() < 1e-6, "{of}");
+        assert_eq!(number(&of["stated_standard_uncertainty"]), 0.06);
+        assert_eq!(of["conforms"], false);
+        // a sum of binary fractions that is 0.12 but for its last bit
+        let raised = json!({"cmc": 0.12, "expanded_uncertainty": 0.12, "raised": true});
+        assert_eq!(found["outputs"]["y"]["cmc"], raised);
+        assert_eq!(said(&[&run[..], &["--fail"]].concat()).0, Some(3));
+        for format in ["table", "markdown", "html"] {
+            let (_, page) = said(&[&run[..], &["--format", format]].concat());
+            let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(
+                page.contains("guard band 0.0987 mbar, accepted up to 999.9913 mbar"),
+                "{page}"
+            );
+            assert!(page.contains("with the laboratory's capability, u = 0.0600 mbar"), "{page}");
+            assert!(page.contains("Decision: rejected"), "{page}");
+        }
+        let certificate = ["certificate", "c.json", "--trials", trials, "--quiet"];
+        let (_, page) = said(&[&certificate[..], &["--format", "markdown"]].concat());
+        assert!(page.contains("0.0987 mbar") && page.contains("999.9913 mbar"), "{page}");
+    }
+    // a row with a capability of its own is decided with what that row states
+    let rows = json!([{"model": "q.json", "output": "y", "cmc": 0.01}]);
+    fs::write(folder.path().join("c.json"), json!({ "rows": rows }).to_string()).expect("a file");
+    let (_, page) = said(&["certificate", "c.json", "--trials", "0", "--format", "markdown"]);
+    assert!(page.contains("0.0658 mbar") && page.contains("1000.0242 mbar"), "{page}");
+    fs::write(folder.path().join("q.json"), model(false).to_string()).expect("a file");
+    assert_eq!(said(&["run", "q.json", "--trials", "0", "--quiet", "--fail"]).0, Some(0));
+}
+
+/// A U that is above the capability but for the last bit of its sum is rounded as it is: 0.1244 to
+/// 0.12, and not up to 0.13.
+#[test]
+fn a_capability_that_is_a_sum_is_its_decimal() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for cmc in ["0.01 % of 1000 mbar + 0.02 mbar", "0.12 mbar", "0.01 % + 0.02 mbar"] {
+        let model = json!({
+            "inputs": {"x": {"unit": "mbar", "distribution": "normal", "mean": 1000, "std": 0.0622}},
+            "equations": {"y": "x"}, "outputs": {"y": {"unit": "mbar", "cmc": cmc}}});
+        fs::write(folder.path().join("q.json"), model.to_string()).expect("a file");
+        let certificate = json!({"rows": [{"model": "q.json", "output": "y"}]});
+        fs::write(folder.path().join("c.json"), certificate.to_string()).expect("a file");
+        let mut run = command();
+        let run = run.current_dir(folder.path()).args(["certificate", "c.json", "--trials", "0"]);
+        let said = run.args(["--quiet", "--format", "json"]).output().expect("it runs").stdout;
+        let found: Value = serde_json::from_slice(&said).expect("JSON");
+        assert_eq!(found["rows"][0]["stated"]["expanded_uncertainty"], "0.12", "{cmc}");
+        let limit = json!({"cmc": 0.12, "below": false, "raised": false});
+        assert_eq!(found["rows"][0]["limit"], limit, "{cmc}");
+    }
+}
+
+/// Limits and capability at the measuring point: 5e-4 p is 0.05, 0.25 and 0.5 mbar at 100, 500 and
+/// 1000 mbar, where the errors are 7e-4 p - 0.11 mbar: -0.04, 0.24 and 0.59; 0.01 % of p + 0.02 mbar is
+/// 0.03, 0.07 and 0.12 mbar, so that the raised u is half of that and the first error conforms with
+/// Phi(0.01/0.015) - Phi(-0.09/0.015 ...) = Phi(0.6667) - Phi(-6) = 0.747 507.
+#[test]
+fn limits_and_capability_follow_the_conditions() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, content: &Value| {
+        fs::write(folder.path().join(name), content.to_string()).expect("a file");
+    };
+    let said = |arguments: &[&str]| {
+        let mut run = command();
+        let output = run.current_dir(folder.path()).args(arguments).output().expect("it runs");
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    };
+    let model = |cmc: &str| {
+        json!({"conditions": {"p": {"unit": "mbar", "values": [100, 500, 1000]}},
+            "inputs": {"e": {"unit": "mbar", "distribution": "normal",
+                "mean": "7e-4*p - 0.11 [mbar]", "std": 0.01}},
+            "equations": {"E": "e"},
+            "outputs": {"E": {"unit": "mbar", "cmc": cmc, "cmc_floor": true,
+                "tolerance": {"lower": "-5e-4*p", "upper": "5e-4*p"}}}})
+    };
+    write("c.json", &json!({"rows": [{"model": "m.json", "output": "E"}]}));
+    for cmc in ["0.01 % of p + 0.02 mbar", "1e-4*p + 0.02 [mbar]", "20 ubar + 100 ppm of p"] {
+        write("m.json", &model(cmc));
+        let run = ["run", "m.json", "--trials", "0", "--quiet"];
+        let (_, found, wrong) = said(&[&run[..], &["--format", "json"]].concat());
+        let found: Value = serde_json::from_str(&found).unwrap_or_else(|_| panic!("{wrong}"));
+        let expected = [(0.05, 0.03, true), (0.25, 0.07, true), (0.5, 0.12, false)];
+        for (row, (limit, cmc, conforms)) in expected.into_iter().enumerate() {
+            let of = &found["rows"][row]["outputs"]["E"];
+            let conformity = &of["conformity"];
+            assert_eq!(
+                (number(&conformity["lower"]), number(&conformity["upper"])),
+                (-limit, limit)
+            );
+            assert_eq!(of["cmc"], json!({"cmc": cmc, "expanded_uncertainty": cmc, "raised": true}));
+            assert_eq!(number(&conformity["stated_standard_uncertainty"]), 0.5 * cmc);
+            assert_eq!(conformity["conforms"], conforms);
+        }
+        let first = &found["rows"][0]["outputs"]["E"]["conformity"]["probability"];
+        assert!((number(first) - 0.747_507).abs() < 1e-6, "{first}");
+        assert_eq!(said(&[&run[..], &["--fail"]].concat()).0, Some(3));
+        for format in ["table", "markdown", "html"] {
+            let (_, page, _) = said(&[&run[..], &["--format", format]].concat());
+            let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+            let limits = "Tolerance of each row (from -0.05 to 0.05 mbar in the first one, from -0.5 to \
+                          0.5 mbar in the last one)";
+            assert!(page.contains(limits), "{format}: {page}");
+            assert!(page.contains("2 of 3 rows accepted, rejected: row 3"), "{format}: {page}");
+        }
+        let certificate = ["certificate", "c.json", "--trials", "0", "--quiet", "--format"];
+        let (_, page, _) = said(&[&certificate[..], &["markdown"]].concat());
+        for part in ["from -0.05 to 0.05 mbar", "from -0.25 to 0.25 mbar", "from -0.5 to 0.5 mbar"]
+        {
+            assert!(page.contains(part), "{part}: {page}");
+        }
+        let (_, answer, _) = said(&[&certificate[..], &["json"]].concat());
+        let answer: Value = serde_json::from_str(&answer).expect("JSON");
+        let limits: Vec<f64> =
+            (0..3).map(|row| number(&answer["rows"][row]["limit"]["cmc"])).collect();
+        assert_eq!(limits, [0.03, 0.07, 0.12]);
+    }
+    // a row of the certificate with a capability of its own
+    let row = json!({"model": "m.json", "output": "E", "cmc": "0.02 % of p + 0.1 mbar"});
+    write("c.json", &json!({ "rows": [row] }));
+    let (_, answer, wrong) = said(&["certificate", "c.json", "--trials", "0", "--format", "json"]);
+    let answer: Value = serde_json::from_str(&answer).unwrap_or_else(|_| panic!("{wrong}"));
+    let limits: Vec<f64> = (0..3).map(|row| number(&answer["rows"][row]["limit"]["cmc"])).collect();
+    assert_eq!(limits, [0.12, 0.2, 0.3]);
+    // what could be of the error or of the pressure is asked
+    write("m.json", &model("0.01 % + 0.02 mbar"));
+    let (code, _, wrong) = said(&["run", "m.json", "--trials", "0"]);
+    assert_eq!(code, Some(2));
+    assert!(wrong.contains("could be of the value of `E` or of the condition `p`"), "{wrong}");
+    write("m.json", &model("0.01 % of reading + 0.02 mbar"));
+    assert_eq!(said(&["run", "m.json", "--trials", "0"]).0, Some(0));
+    // each of these at its place
+    let wrong = |key: &str, text: &str| {
+        let mut model = model("0.02 mbar");
+        match key {
+            "cmc" => model["outputs"]["E"]["cmc"] = json!(text),
+            _ => model["outputs"]["E"]["tolerance"][key] = json!(text),
+        }
+        write("m.json", &model);
+        let (code, _, wrong) = said(&["check", "m.json"]);
+        assert_eq!(code, Some(2), "{wrong}");
+        wrong
+    };
+    assert!(wrong("upper", "5e-4*q").contains("`q`"));
+    assert!(wrong("upper", "5e-4*p/1[s]").contains("`upper` has the unit"));
+    let reversed = wrong("upper", "5e-4*p - 0.2 [mbar]");
+    assert!(reversed.contains("in row 1 of the conditions"), "{reversed}");
+    let negative = wrong("cmc", "1e-4*p - 0.05 [mbar]");
+    assert!(negative.contains("it is -0.04 in row 1 of the conditions"), "{negative}");
+}
+
 /// Every page of a sweep says what is decided of its rows.
 #[test]
 fn sweeps_say_what_is_decided_of_each_row() {

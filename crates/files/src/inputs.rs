@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::conditions::unit;
-use super::dcc::{Certified, FromCertificate};
+use super::dcc::FromCertificate;
 use super::diagnostics::Collector;
 use super::folder::Folder;
 use super::input_set::InputSet;
@@ -103,8 +103,8 @@ impl<'a> Reader<'a, '_> {
             .is_some_and(|member| matches!(&member.value.value, Json::Text(name) if name == "dcc"));
         if is_certificate && object.get("components").is_none() {
             self.certificate = self.results.of_certificate(&object);
-            let certified = self.certificate.as_ref().and_then(|of| of.certified.clone());
-            self.certified(self.name.to_owned(), &object, certified);
+            let certificate = self.certificate.clone();
+            self.certified(self.name.to_owned(), &object, certificate.as_ref());
         }
         let unit = self.unit().unwrap_or_else(|| {
             self.inputs.without_unit.push(self.name.to_owned());
@@ -481,10 +481,18 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Notes that a variable is a result of a certificate of our own.
-    fn certified(&mut self, name: String, object: &Object<'_>, of: Option<Certified>) {
+    /// Notes that a variable is a result of a certificate of our own, and what is taken from one
+    /// that states an uncertainty twice.
+    fn certified(&mut self, name: String, object: &Object<'_>, of: Option<&FromCertificate>) {
         let file = object.text("file").unwrap_or("").to_owned();
-        self.inputs.certified.extend(of.map(|of| (name, of, file)));
+        if of.is_some_and(|of| of.of_interval) {
+            let text = format!(
+                "`{name}`: where `{file}` states a standard uncertainty with a coverage interval, it is                  taken in place of U over k, whose digits are rounded"
+            );
+            self.inputs.warnings.push(Warning::new("interval-uncertainty", &name, text));
+        }
+        let certified = of.and_then(|of| of.certified.clone());
+        self.inputs.certified.extend(certified.map(|of| (name, of, file)));
     }
 
     /// Adds a variable of the budget.
@@ -739,7 +747,7 @@ impl<'a> Reader<'a, '_> {
                 if kind.name == "dcc" {
                     certificate = self.results.of_certificate(&component);
                     let Some(of) = &certificate else { continue };
-                    self.certified(full.clone(), &component, of.certified.clone());
+                    self.certified(full.clone(), &component, Some(of));
                 }
                 let object = component;
                 let read = (read, certificate);

@@ -47,6 +47,7 @@ mod number_format;
 mod object;
 mod observations;
 mod open;
+mod output_limits;
 mod outputs;
 mod overrides;
 mod paired;

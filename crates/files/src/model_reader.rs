@@ -301,7 +301,7 @@ impl<'a> ModelReader<'a> {
             None => root.required("inputs").and(None),
         };
         let outputs =
-            root.required("outputs").and_then(|member| outputs::read(log, member, results));
+            root.required("outputs").and_then(|member| outputs::read(log, member, results, &set));
         let (mut inputs, outputs) = (inputs?, outputs.unwrap_or_default());
         fits.add_to(log, &mut inputs);
         let of = Quantities { inputs, conditions, outputs, check_units };

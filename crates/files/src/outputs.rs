@@ -9,12 +9,13 @@ use super::diagnostics::Collector;
 use super::json::{Json, Member};
 use super::keys;
 use super::object::Object;
+use super::output_limits;
 use super::results::Results;
+use super::scopes::ConditionSet;
 use super::shapes::{self, Estimate, Fields};
 use super::value_text::ValueOf;
-use super::width::Width;
 use gumption_engine::distribution::{Distribution, Invalid};
-use gumption_engine::model::{Capability, Output, Quantity, Tolerance};
+use gumption_engine::model::{FollowingConditions, OfConditions, Output, Quantity, Tolerance};
 use gumption_units::Unit;
 
 /// Outputs with their places.
@@ -98,7 +99,12 @@ impl Outputs {
 }
 
 /// Reads `outputs`.
-pub(super) fn read(log: &Collector, member: &Member, results: &Results<'_>) -> Option<Outputs> {
+pub(super) fn read(
+    log: &Collector,
+    member: &Member,
+    results: &Results<'_>,
+    set: &ConditionSet<'_>,
+) -> Option<Outputs> {
     let object = Object::new(log, "`outputs`", &member.value, &member.key_span)?;
     if object.members().is_empty() {
         object.report(DiagnosticKind::NoValues { name: "outputs".into() });
@@ -128,16 +134,21 @@ pub(super) fn read(log: &Collector, member: &Member, results: &Results<'_>) -> O
             let diagnostic = DiagnosticKind::NotPositive { key: "periodic".into(), found: period };
             log.report(&member.value.span, diagnostic);
         }
-        let capability = capability(&object, &member.key, &unit);
-        let decision = Decision::read(&object, &unit, results);
+        let capability = output_limits::capability(&object, &member.key, &unit, set);
+        let decision = Decision::read(&object, &unit, results, set);
         let quantity = Quantity {
             name: member.key.clone(),
             unit,
             about: object.text("about").unwrap_or("").to_owned(),
         };
         let unit_place = object.get("unit").map_or(&member.key_span, |m| &m.value.span);
-        let Decision { tolerance, prior, risk } = decision;
+        let Decision { tolerance, prior, risk, lower, upper } = decision;
         let mut output = Output::new(quantity);
+        let (capability, of_rows) = capability.unzip();
+        let following = FollowingConditions { lower, upper, capability: of_rows.flatten() };
+        let FollowingConditions { lower, upper, capability: of_rows } = &following;
+        let follows = lower.is_some() || upper.is_some() || of_rows.is_some();
+        output.following = follows.then(|| Arc::new(following));
         (output.period, output.capability) = (period, capability);
         (output.tolerance, output.prior, output.risk) = (tolerance, prior, risk);
         outputs.outputs.push(output);
@@ -147,34 +158,26 @@ pub(super) fn read(log: &Collector, member: &Member, results: &Results<'_>) -> O
     Some(outputs)
 }
 
-/// The laboratory's capability for an output, which is where the keys stand; `name` is for messages.
-pub(super) fn capability(output: &Object<'_>, name: &str, unit: &Unit) -> Option<Capability> {
-    let floor = output.truth("cmc_floor").unwrap_or(false);
-    let Some(member) = output.get("cmc") else {
-        if let Some(floor) = output.get("cmc_floor") {
-            let diagnostic = DiagnosticKind::OnlyWith { key: "cmc_floor", with: "cmc" };
-            output.log.report(&floor.key_span, diagnostic);
-        }
-        return None;
-    };
-    let width = Width::read(output.log, &member.value, (name, "cmc"), unit);
-    let width = output.log.value(&member.value.span, width)?;
-    Some(Capability { relative: width.at(1.0) - width.at(0.0), absolute: width.at(0.0), floor })
-}
-
 /// What is to be decided about an output.
 #[derive(Debug, Default)]
 struct Decision {
     tolerance: Option<Tolerance>,
     prior: Option<Arc<Distribution>>,
     risk: Option<f64>,
+    lower: Option<OfConditions>,
+    upper: Option<OfConditions>,
 }
 
 /// Shapes that a prior cannot have: it is about many items.
 const NO_PRIORS: [&str; 4] = ["constant", "readings", "samples", "result"];
 
 impl Decision {
-    fn read(output: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Self {
+    fn read(
+        output: &Object<'_>,
+        unit: &Unit,
+        results: &Results<'_>,
+        set: &ConditionSet<'_>,
+    ) -> Self {
         let Some(member) = output.get("tolerance") else {
             return Self::default();
         };
@@ -192,7 +195,21 @@ impl Decision {
             object.log.report(&member.value.span, diagnostic);
         }
         let prior = prior(&object, unit, results).map(Arc::new);
-        Self { tolerance: tolerance(&object, unit), prior, risk }
+        let ends = ["lower", "upper"].map(|key| {
+            let member = object.get(key)?;
+            let formula = output_limits::formula(&object, member)?;
+            let of = (formula, ValueOf::Quantity);
+            Some(output_limits::following(&object, (key, member), of, unit, set))
+        });
+        let [lower, upper] = ends;
+        let is_wrong = |end: &Option<Option<OfConditions>>| matches!(end, Some(None));
+        if is_wrong(&lower) || is_wrong(&upper) {
+            return Self::default();
+        }
+        let ends = [lower.flatten(), upper.flatten()];
+        let tolerance = tolerance(&object, unit, &ends, set);
+        let [lower, upper] = ends;
+        Self { tolerance, prior, risk, lower, upper }
     }
 }
 
@@ -218,14 +235,49 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<D
     Fields::new(object, "prior", unit, Estimate::Own, results).distribution(kind)
 }
 
-/// The tolerance limits of an output.
-fn tolerance(object: &Object<'_>, unit: &Unit) -> Option<Tolerance> {
+/// The tolerance limits of an output, in the first row where they follow the conditions.
+fn tolerance(
+    object: &Object<'_>,
+    unit: &Unit,
+    ends: &[Option<OfConditions>; 2],
+    set: &ConditionSet<'_>,
+) -> Option<Tolerance> {
+    let first = set.conditions.rows.first().map_or(&[][..], Vec::as_slice);
     // null stands for a limit that is not there
-    let limit = |key: &str| match object.get(key).map(|m| &m.value.value) {
+    let limit = |key: &str, of: &Option<OfConditions>| match object.get(key).map(|m| &m.value.value)
+    {
         None | Some(Json::Null) => None,
-        Some(_) => object.value(key, unit, ValueOf::Either),
+        Some(_) => match of {
+            Some(of) => Some(of.at(first)),
+            None => object.value(key, unit, ValueOf::Either),
+        },
     };
-    let (lower, upper) = (limit("lower"), limit("upper"));
+    let (lower, upper) = (limit("lower", &ends[0]), limit("upper", &ends[1]));
+    if ends.iter().any(Option::is_some) {
+        let own = |limit: Option<f64>, of: &Option<OfConditions>, row: &[f64]| match of {
+            Some(of) => Some(of.at(row)),
+            None => limit,
+        };
+        for (row, conditions) in set.conditions.rows.iter().enumerate() {
+            let [lower, upper] =
+                [own(lower, &ends[0], conditions), own(upper, &ends[1], conditions)];
+            let name = || format!("tolerance in row {} of the conditions", row + 1);
+            for (parameter, limit) in [("lower", lower), ("upper", upper)] {
+                if let Some(value) = limit.filter(|limit| !limit.is_finite()) {
+                    let error = Invalid::NotFinite { parameter, value };
+                    object.report(DiagnosticKind::Distribution { name: name(), error });
+                    return None;
+                }
+            }
+            if let (Some(lower), Some(upper)) = (lower, upper)
+                && lower >= upper
+            {
+                let error = Invalid::LimitsReversed { lower, upper };
+                object.report(DiagnosticKind::Distribution { name: name(), error });
+                return None;
+            }
+        }
+    }
     match (lower, upper) {
         (None, None) => {
             let is_there = |key: &&str| {

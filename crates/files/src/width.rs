@@ -108,7 +108,7 @@ impl Width {
 }
 
 /// The terms between plus signs; the plus of an exponent (1e+3) does not separate.
-fn terms(text: &str) -> Vec<&str> {
+pub(super) fn terms(text: &str) -> Vec<&str> {
     let mut terms = Vec::new();
     let mut start = 0;
     let bytes = text.as_bytes();

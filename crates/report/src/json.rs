@@ -136,7 +136,7 @@ impl Serialize for Outputs<'_> {
                 why: noiseless.and_then(|found| found.as_ref().err()).map(String::as_str),
                 validation: evaluation.validation.map(Validation::from),
                 conformity: evaluation.conformity.as_deref().map(ConformitySide::of),
-                cmc: CmcSide::of(output, evaluation),
+                cmc: evaluation.capability.as_deref().map(CmcSide::of),
             };
             (&output.quantity.name, side)
         }))
@@ -374,6 +374,8 @@ struct ConformitySide {
     #[serde(skip_serializing_if = "Option::is_none")]
     probability_without_prior: Option<f64>,
     numerical_standard_error: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stated_standard_uncertainty: Option<f64>,
     conforms: bool,
     specific_risk: Risks,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -409,6 +411,7 @@ impl ConformitySide {
             probability: conformity.probability,
             probability_without_prior: conformity.without_prior,
             numerical_standard_error: conformity.numerical_standard_error,
+            stated_standard_uncertainty: conformity.stated_uncertainty,
             conforms: accepted,
             specific_risk: Risks {
                 false_acceptance: accepted.then_some(specific),
@@ -437,10 +440,9 @@ struct CmcSide {
 }
 
 impl CmcSide {
-    fn of(output: &gumption_engine::model::Output, evaluation: &OutputEvaluation) -> Option<Self> {
-        let stated = evaluation.stated(output)?;
-        let CapabilityStatement { cmc, expanded_uncertainty, raised } = stated;
-        Some(Self { cmc, expanded_uncertainty, raised })
+    fn of(stated: &CapabilityStatement) -> Self {
+        let CapabilityStatement { cmc, expanded_uncertainty, raised, .. } = *stated;
+        Self { cmc, expanded_uncertainty, raised }
     }
 }
 

@@ -12,5 +12,6 @@ mod issue;
 pub mod rounding;
 mod statement;
 
+pub use gumption_engine::propagate::Basis;
 pub use issue::{Failed, Issued, issue};
-pub use statement::{Basis, Limit, Statement};
+pub use statement::{Limit, Statement};

@@ -5,6 +5,7 @@
 
 pub mod formula;
 mod interpolation;
+mod of_conditions;
 mod program;
 mod root;
 mod schedule;
@@ -12,6 +13,7 @@ mod slopes;
 mod trace;
 pub mod typed;
 pub use interpolation::{Interpolation, InterpolationMethod, TableFault};
+pub use of_conditions::{FollowingConditions, OfConditions};
 pub use program::Node;
 pub use program::Program;
 pub use program::RoutineCall;
@@ -21,8 +23,10 @@ pub use schedule::{Following, Schedule, ScheduledOutput};
 pub(crate) use slopes::{Columns, Slope, Slopes};
 pub use trace::{Recorder, Traced};
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
+use crate::decimal::to_digits;
 use crate::distribution::Distribution;
 use formula::Typing;
 use gumption_units::{Unit, Zero};
@@ -65,15 +69,36 @@ pub struct Output {
     pub risk: Option<f64>,
     /// The smallest expanded uncertainty that the laboratory may state.
     pub capability: Option<Capability>,
+    /// Limits and capability that are others in every row of conditions. Where there are such,
+    /// `tolerance` and `capability` are those of the first row.
+    pub following: Option<Arc<FollowingConditions>>,
 }
 
 impl Output {
     /// An output without limits, period or capability.
     pub fn new(quantity: Quantity) -> Self {
         let (period, tolerance, prior, risk, capability) = (None, None, None, None, None);
-        Self { quantity, period, tolerance, prior, risk, capability }
+        Self { quantity, period, tolerance, prior, risk, capability, following: None }
+    }
+
+    /// The output with the limits and the capability that it has at these values of the conditions.
+    pub fn at(&self, conditions: &[f64]) -> Cow<'_, Self> {
+        let Some(following) = self.following.as_deref() else { return Cow::Borrowed(self) };
+        let mut own = self.clone();
+        let at = |of: &Option<OfConditions>| of.as_ref().map(|of| of.at(conditions));
+        if let Some(tolerance) = &mut own.tolerance {
+            tolerance.lower = at(&following.lower).or(tolerance.lower);
+            tolerance.upper = at(&following.upper).or(tolerance.upper);
+        }
+        if let Some(capability) = &mut own.capability {
+            capability.absolute = at(&following.capability).unwrap_or(capability.absolute);
+        }
+        Cow::Owned(own)
     }
 }
+
+/// Digits of a computed figure that are believed.
+pub(crate) const COMPUTED_DIGITS: u32 = 12;
 
 /// A laboratory's calibration and measurement capability (CMC), in the output's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,9 +112,10 @@ pub struct Capability {
 }
 
 impl Capability {
-    /// The smallest expanded uncertainty at an estimate.
+    /// The smallest expanded uncertainty at an estimate, without the last bits that binary sums
+    /// leave: 0.1 + 0.02 is 0.12.
     pub fn at(&self, estimate: f64) -> f64 {
-        self.relative * estimate.abs() + self.absolute
+        to_digits(self.relative * estimate.abs() + self.absolute, COMPUTED_DIGITS)
     }
 }
 

@@ -7,11 +7,13 @@ mod global;
 pub use global::GlobalRisks;
 use global::Inspection;
 
+use super::evaluation::OutputEvaluation;
 use super::gum::{Dof, Gum};
 use super::monte_carlo::MonteCarlo;
 use crate::model::{Output, Tolerance};
 use crate::number::elementary;
 use crate::special;
+use crate::task::{Settings, Trials};
 
 /// How probable it is that an output lies within its tolerance limits, and what is decided.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +42,9 @@ pub struct Conformity {
     /// The global risks with these acceptance limits; `None` without a prior, or without a standard
     /// uncertainty.
     pub global: Option<GlobalRisks>,
+    /// The standard uncertainty that is stated in place of the evaluated one, with which it was
+    /// decided: the laboratory's capability over its coverage factor.
+    pub stated_uncertainty: Option<f64>,
 }
 
 impl Conformity {
@@ -102,6 +107,7 @@ impl Conformity {
             guard_band,
             conforms: acceptance.is_some_and(|acceptance| acceptance.holds(figures.location())),
             global,
+            stated_uncertainty: None,
         })
     }
 
@@ -109,7 +115,42 @@ impl Conformity {
     /// evaluated one, such as a laboratory's capability: the estimate is taken to be normally
     /// distributed with it (JCGM 106, 7.2). `None` without a tolerance or an uncertainty above zero.
     pub fn with_stated(output: &Output, estimate: f64, u: f64) -> Option<Self> {
-        Self::about(output, estimate, u, f64::INFINITY)
+        let found = Self::about(output, estimate, u, f64::INFINITY)?;
+        Some(Self { stated_uncertainty: Some(u), ..found })
+    }
+
+    /// The decision about an output with its evaluated uncertainty; `None` without a tolerance.
+    pub fn evaluated(
+        output: &Output,
+        figures: &OutputEvaluation,
+        settings: &Settings,
+    ) -> Option<Self> {
+        let gum = figures.gum.as_ref();
+        let of_trials = figures.monte_carlo.as_ref().and_then(|trials| {
+            let u = gum.map(|gum| gum.standard_uncertainty);
+            let trusted = figures.validation.is_some_and(|v| v.gum_valid != Some(false));
+            let linear = gum.filter(|_| trusted);
+            let linear = linear.map(|gum| (gum.estimate, gum.standard_uncertainty));
+            Self::of(output, trials, u, linear)
+        });
+        let alone = gum.filter(|_| settings.trials == Trials::Fixed(0));
+        of_trials.or_else(|| alone.and_then(|gum| Self::by_propagation(output, gum)))
+    }
+
+    /// The decision about an output with the uncertainty that is stated of it: the evaluated one,
+    /// or the laboratory's capability that it is raised to (ISO/IEC 17025, 7.8.6).
+    pub(super) fn decided(
+        output: &Output,
+        figures: &OutputEvaluation,
+        settings: &Settings,
+    ) -> Option<Self> {
+        match figures.capability.as_deref().filter(|stated| stated.raised) {
+            Some(stated) => {
+                let u = stated.expanded_uncertainty / settings.coverage.normal_factor();
+                Self::with_stated(output, stated.estimate, u)
+            }
+            None => Self::evaluated(output, figures, settings),
+        }
     }
 
     /// The decision about an output by the law of propagation alone, where no trials are made: the
@@ -151,6 +192,7 @@ impl Conformity {
             guard_band,
             conforms: acceptance.is_some_and(|acceptance| acceptance.holds(estimate)),
             global,
+            stated_uncertainty: None,
         })
     }
 }

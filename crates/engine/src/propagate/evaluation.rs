@@ -14,10 +14,12 @@ use super::gum::{self, Gum, GumRow};
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
 use super::regions::{RegionEvaluation, regions};
 use super::second_order::{SecondOrder, second_order};
+use super::statement::Stated;
 use super::validate::{Validation, validate};
 use super::{branch, quasi, rounding};
+use crate::decimal::{position, to_digits};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Distribution, Invalid, Joint};
-use crate::model::{Output, Program};
+use crate::model::{COMPUTED_DIGITS, Capability, Output, Program};
 use crate::number::{COLUMN, Column, Shortest};
 use crate::task::{MethodChoice, Row, Settings, Task, Trials};
 
@@ -90,8 +92,11 @@ pub struct OutputEvaluation {
     pub noiseless: Option<Result<Box<Noiseless>, String>>,
     /// Their comparison.
     pub validation: Option<Validation>,
-    /// The probability that the output conforms to its tolerance; `None` without a tolerance or
-    /// without trials.
+    /// The laboratory's capability, and what may be stated beside it; `None` if there is none of
+    /// either.
+    pub capability: Option<Box<CapabilityStatement>>,
+    /// The decision about the output's tolerance with the uncertainty that is stated; `None` without
+    /// a tolerance, or an uncertainty.
     pub conformity: Option<Box<Conformity>>,
     /// The fewest degrees of freedom among the t distributions that the output depends on.
     pub drawn_dof: f64,
@@ -102,32 +107,32 @@ pub struct OutputEvaluation {
 pub struct CapabilityStatement {
     /// The capability (CMC) at the estimate.
     pub cmc: f64,
+    /// The estimate.
+    pub estimate: f64,
     /// The expanded uncertainty to be stated.
     pub expanded_uncertainty: f64,
+    /// Whether the evaluated one is below the capability.
+    pub below: bool,
     /// Whether it was raised to the capability.
     pub raised: bool,
 }
 
-impl OutputEvaluation {
-    /// The expanded uncertainty beside the laboratory's capability; `None` if there is none of
-    /// either. Of an output without a GUM side, or without a coverage factor, it is half the length
-    /// of the symmetric coverage interval.
-    pub fn stated(&self, output: &Output) -> Option<CapabilityStatement> {
-        let capability = output.capability?;
-        let of_gum = || {
-            let gum = self.gum.as_ref()?;
-            Some((gum.estimate, gum.expanded_uncertainty()?))
-        };
-        let of_trials = || {
-            let figures = self.monte_carlo.as_ref()?;
-            let [low, high] = figures.symmetric_interval;
-            Some((figures.location(), 0.5 * high - 0.5 * low))
-        };
-        let (estimate, expanded) = of_gum().or_else(of_trials)?;
+impl CapabilityStatement {
+    /// What may be stated where this expanded uncertainty of this estimate was evaluated.
+    pub fn of(capability: &Capability, estimate: f64, evaluated: f64) -> Self {
         let cmc = capability.at(estimate);
-        let raised = capability.floor && expanded < cmc;
-        let expanded_uncertainty = if raised { cmc } else { expanded };
-        Some(CapabilityStatement { cmc, expanded_uncertainty, raised })
+        let below = to_digits(evaluated, COMPUTED_DIGITS) < cmc;
+        let raised = below && capability.floor;
+        let expanded_uncertainty = if raised { cmc } else { evaluated };
+        Self { cmc, estimate, expanded_uncertainty, below, raised }
+    }
+
+    /// What may be stated of an output, as certificates do; `None` without a capability, or an
+    /// expanded uncertainty.
+    fn beside(output: &Output, figures: &OutputEvaluation, settings: &Settings) -> Option<Self> {
+        let capability = output.capability.as_ref()?;
+        let found = Stated::of(figures, settings, |u| position(u, settings.digits))?;
+        Some(Self::of(capability, found.value, found.expanded_uncertainty))
     }
 }
 
@@ -481,26 +486,21 @@ fn evaluate_row(
             .is_some_and(|(validation, figures)| is_clearly_valid(&validation, figures));
         let problem = exact::Problem { task, row, joint: &joint, output: number, drawn_dof };
         let noiseless = noiseless(&problem, needed);
-        let conformity = monte_carlo.as_ref().and_then(|figures| {
-            let u = gum.as_ref().map(|gum| gum.standard_uncertainty);
-            let trusted = validation.is_some_and(|v| v.gum_valid != Some(false));
-            let linear = gum.as_ref().filter(|_| trusted);
-            let linear = linear.map(|gum| (gum.estimate, gum.standard_uncertainty));
-            Conformity::of(output, figures, u, linear).map(Box::new)
-        });
-        let alone = gum.as_ref().filter(|_| task.settings.trials == Trials::Fixed(0));
-        let conformity = conformity.or_else(|| {
-            alone.and_then(|gum| Conformity::by_propagation(output, gum)).map(Box::new)
-        });
-        result.outputs.push(OutputEvaluation {
+        let mut found = OutputEvaluation {
             gum,
             monte_carlo,
             second_order: second_order.map(Box::new),
             noiseless,
             validation,
-            conformity,
+            capability: None,
+            conformity: None,
             drawn_dof,
-        });
+        };
+        let output = output.at(&row.conditions);
+        found.capability =
+            CapabilityStatement::beside(&output, &found, &task.settings).map(Box::new);
+        found.conformity = Conformity::decided(&output, &found, &task.settings).map(Box::new);
+        result.outputs.push(found);
     }
     if !task.regions.is_empty() {
         let trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);

@@ -21,6 +21,7 @@ mod regions;
 mod replay;
 mod rounding;
 mod second_order;
+mod statement;
 pub mod validate;
 mod warnings;
 
@@ -43,4 +44,5 @@ pub use replay::{
     convergence, for_each_block, histograms, joint_ranks, quantiles, quantiles_and_ranks,
 };
 pub use second_order::SecondOrder;
+pub use statement::{Basis, Stated};
 pub use warnings::{second_order_text, warnings};

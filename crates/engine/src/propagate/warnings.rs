@@ -74,7 +74,10 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
                 notes.into_iter().for_each(|note| push(&mut found, note));
             }
             of_correlations(task, (number, output), evaluated, &mut found);
-            if task.settings.trials == Trials::Fixed(0) && evaluated.conformity.is_some() {
+            let decided = evaluated.conformity.as_deref();
+            if task.settings.trials == Trials::Fixed(0)
+                && decided.is_some_and(|decided| decided.stated_uncertainty.is_none())
+            {
                 push(&mut found, conformity_by_propagation(name));
             }
         }
@@ -200,7 +203,7 @@ fn push(found: &mut Vec<Warning>, warning: Warning) {
 
 /// Whether the expanded uncertainty is below the laboratory's capability.
 fn of_capability(output: &Output, evaluated: &OutputEvaluation, found: &mut Vec<Warning>) {
-    let Some(stated) = evaluated.stated(output) else {
+    let Some(stated) = evaluated.capability.as_deref() else {
         return;
     };
     let (name, unit) = (&output.quantity.name, &output.quantity.unit);
@@ -212,7 +215,7 @@ fn of_capability(output: &Output, evaluated: &OutputEvaluation, found: &mut Vec<
              raised to it: {cmc} is to be stated"
         );
         ("raised-to-cmc", text)
-    } else if stated.expanded_uncertainty < stated.cmc {
+    } else if stated.below {
         let text = format!(
             "the expanded uncertainty of `{name}` is {expanded}, below the laboratory's capability \
              (CMC) of {cmc}, and must not be stated (ILAC-P14)"

@@ -50,6 +50,12 @@ impl Coverage {
         }
     }
 
+    /// The coverage factor of a normal distribution.
+    pub fn normal_factor(self) -> f64 {
+        let of_probability = || special::normal::quantile(0.5 + 0.5 * self.probability());
+        self.nominal_factor().unwrap_or_else(of_probability)
+    }
+
     /// The factor that the file gives, if it gives one.
     pub fn given_factor(self) -> Option<f64> {
         match self {

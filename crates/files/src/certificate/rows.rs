@@ -6,14 +6,16 @@ use std::path::Path;
 
 use super::super::DiagnosticKind;
 use super::super::bytes;
+use super::super::conditions::Conditions;
 use super::super::diagnostics::{Collector, Diagnostic, Diagnostics};
 use super::super::json::{Json, Member, Node};
 use super::super::keys;
 use super::super::model_file::ModelFile;
 use super::super::object::Object;
-use super::super::outputs;
+use super::super::output_limits;
 use super::super::overrides::Override;
 use super::super::reader::FileReader;
+use super::super::scopes::ConditionSet;
 use super::super::source::Place;
 use super::administrative::localized;
 use super::{Asking, CertifiedModel};
@@ -21,7 +23,7 @@ use crate::folder::{FileSource, Folder};
 use crate::open::{is_no_object, text};
 use crate::value_text::ValueOf;
 use gumption_analysis::certificate::contents::{Asked, Line, StatedFunction};
-use gumption_engine::model::Quantity;
+use gumption_engine::model::{Capability, Quantity};
 use gumption_engine::task::{Task, Warning};
 use gumption_units::Unit;
 use gumption_units::nearest;
@@ -167,12 +169,33 @@ impl<'a> Rows<'a> {
         let (evaluation, rows) = self.evaluation(&row, file, name)?;
         let quantity = self.evaluations[evaluation].task.model.outputs[place].clone();
         let unit = &quantity.quantity.unit;
-        let capability = outputs::capability(&row, wanted, unit).or(quantity.capability);
+        let task = &self.evaluations[evaluation].task;
+        let conditions = Conditions {
+            quantities: task.model.conditions.clone(),
+            rows: rows
+                .iter()
+                .filter_map(|at| task.rows.get(*at))
+                .map(|of| of.conditions.clone())
+                .collect(),
+            ..Conditions::default()
+        };
+        let set = ConditionSet { conditions: &conditions, check_units: true };
+        let own = output_limits::capability(&row, wanted, unit, &set);
         let label = localized(&row, "label");
         let nominal = row.get("nominal");
         let with_unit = nominal
             .and_then(|member| row.value_of("nominal", &member.value, unit, ValueOf::Quantity));
-        for at in rows {
+        for (at, conditions) in rows.into_iter().zip(&conditions.rows) {
+            let capability = match &own {
+                Some((capability, following)) => {
+                    let following = following.as_ref().map(|of| of.at(conditions));
+                    Some(Capability {
+                        absolute: following.unwrap_or(capability.absolute),
+                        ..*capability
+                    })
+                }
+                None => quantity.at(conditions).capability,
+            };
             let nominal = match (with_unit, nominal) {
                 (Some(value), _) => Some(value?),
                 (None, Some(member)) => Some(self.nominal(member, (evaluation, at), unit)?),

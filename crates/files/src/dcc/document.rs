@@ -30,6 +30,17 @@ pub(super) struct Stated {
     pub(super) factors: Option<Vec<f64>>,
     pub(super) probabilities: Option<Vec<f64>>,
     pub(super) distributions: Option<Vec<String>>,
+    /// The standard uncertainties of values whose coverage intervals stand in a quantity of their own.
+    pub(super) of_interval: Vec<Option<f64>>,
+}
+
+impl Measured {
+    /// The standard uncertainty of a coverage interval that is taken for a value, or for any of them.
+    pub(super) fn interval_taken(&self, place: Option<usize>) -> Option<f64> {
+        let stated = self.uncertainty.as_ref().filter(|stated| stated.standard.is_none())?;
+        let mut places = stated.of_interval.iter().enumerate();
+        places.find_map(|(at, u)| u.filter(|_| place.is_none_or(|place| place == at)))
+    }
 }
 
 /// Reads a text as a certificate.
@@ -190,6 +201,7 @@ fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Measured, Fault
         },
         distributions: texts(holder, &["distribution", "distributionXMLList"])
             .map(|(_, texts)| spread(texts.into_iter().map(str::to_lowercase).collect(), count)),
+        of_interval: Vec::new(),
     };
     let uncertain = stated.expanded.is_some() || stated.standard.is_some();
     Ok(Measured { span, unit, values, uncertainty: uncertain.then_some(stated) })

@@ -2,6 +2,7 @@
 //! quantity, or a table of it interpolated over a condition.
 
 mod document;
+mod intervals;
 mod own;
 mod quantities;
 
@@ -82,6 +83,8 @@ pub(super) struct FromCertificate {
     span: Range<usize>,
     /// Which result of a certificate of our own it is.
     pub(super) certified: Option<Certified>,
+    /// Whether a standard uncertainty is that of a coverage interval, in place of U over k.
+    pub(super) of_interval: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -123,6 +126,7 @@ fn parsed(
     let Some(chosen) = chosen(object, &all) else { return Ok(None) };
     let measured: Vec<Measured> =
         chosen.iter().map(|node| document::measured(*node)).collect::<Result<_, _>>()?;
+    let (chosen, measured) = intervals::left_out(chosen, measured, &all);
     let Some(first) = measured.first() else { return Ok(None) };
     let (unit, span) = (first.unit.clone(), first.span.clone());
     if let Some(other) = measured.iter().find(|of| of.unit.text() != unit.text()) {
@@ -132,7 +136,15 @@ fn parsed(
     if object.get("at").is_some() {
         let Some(table) = table(object, &chosen, &measured, &all)? else { return Ok(None) };
         let source = Arc::clone(source);
-        return Ok(Some(FromCertificate { unit, taken: table, source, span, certified: None }));
+        let of_interval = measured.iter().any(|of| of.interval_taken(None).is_some());
+        return Ok(Some(FromCertificate {
+            unit,
+            taken: table,
+            source,
+            span,
+            certified: None,
+            of_interval,
+        }));
     }
     let count: usize = measured.iter().map(|of| of.values.len()).sum();
     let index = match object.get("index") {
@@ -163,11 +175,12 @@ fn parsed(
     for (node, of) in chosen.iter().zip(measured) {
         if left < of.values.len() {
             let (source, span) = (Arc::clone(source), of.span.clone());
+            let of_interval = of.interval_taken(Some(left)).is_some();
             let taken = Taken::One(Box::new(of), left);
             let own = own.entry(source.name.clone());
             let own = own.or_insert_with(|| OwnCertificate::of(&document).map(Arc::new));
             let certified = own.as_ref().and_then(|own| own.part(*node, left));
-            return Ok(Some(FromCertificate { unit, taken, source, span, certified }));
+            return Ok(Some(FromCertificate { unit, taken, source, span, certified, of_interval }));
         }
         left -= of.values.len();
     }
@@ -365,7 +378,10 @@ fn known(stated: &Stated, place: usize) -> Result<Known, String> {
             let reason = "has an expanded uncertainty without a coverage factor or probability";
             return Err(reason.to_owned());
         }
-        (None, Some(expanded)) => (expanded / factor, factor),
+        (None, Some(expanded)) => match stated.of_interval.get(place).copied().flatten() {
+            Some(u) => (intervals::agreeing(u, expanded, factor)?, 1.0),
+            None => (expanded / factor, factor),
+        },
         (None, None) => return Err("has no uncertainty".to_owned()),
     };
     if !(standard >= 0.0 && standard.is_finite()) {

@@ -214,3 +214,64 @@ fn attached_models_find_their_tables() {
     let found: Vec<(&str, usize)> = carried.iter().map(|of| (of.name.as_str(), rows(of))).collect();
     assert_eq!(found, [("a.json", 1), ("b.json", 2)]);
 }
+
+/// A certificate of five rows, of which the first is not normal: its coverage interval stands in a
+/// quantity of its own, and its standard uncertainty has the digits that U and k have lost.
+const INTERVAL: &str = r#"<dcc:quantity><dcc:name><dcc:content lang="en">p</dcc:content></dcc:name>
+<si:realListXMLList><si:valueXMLList>0 1 2</si:valueXMLList><si:unitXMLList>\hertz</si:unitXMLList>
+</si:realListXMLList></dcc:quantity>
+<dcc:quantity refType="basic_measuredValue"><si:realListXMLList>
+<si:valueXMLList>0.11 0.12 0.17</si:valueXMLList><si:unitXMLList>\milli\volt</si:unitXMLList>
+<si:expandedUncXMLList><si:uncertaintyXMLList>0.13 0.16 0.18</si:uncertaintyXMLList>
+<si:coverageFactorXMLList>1.8 2.00 2.00</si:coverageFactorXMLList>
+<si:coverageProbabilityXMLList>0.9545 0.9545 0.9545</si:coverageProbabilityXMLList>
+<si:distributionXMLList>other normal normal</si:distributionXMLList></si:expandedUncXMLList>
+</si:realListXMLList></dcc:quantity>
+<dcc:quantity refType="basic_measuredValue"><si:realListXMLList>
+<si:valueXMLList>0.11</si:valueXMLList><si:unitXMLList>\milli\volt</si:unitXMLList>
+<si:coverageIntervalXMLList><si:standardUncXMLList>0.06749</si:standardUncXMLList>
+<si:intervalMinXMLList>-0.01</si:intervalMinXMLList><si:intervalMaxXMLList>0.23</si:intervalMaxXMLList>
+<si:coverageProbabilityXMLList>0.9545</si:coverageProbabilityXMLList>
+<si:distributionXMLList>other</si:distributionXMLList></si:coverageIntervalXMLList>
+</si:realListXMLList></dcc:quantity>"#;
+
+#[test]
+fn coverage_intervals_are_no_further_values() {
+    let kind = r#""ref_type": "basic_measuredValue""#;
+    let conditions = r#", "conditions": {"p": {"unit": "Hz", "values": [0, 1, 2]}}"#;
+    let newer = INTERVAL.replacen("basic_measuredValue", "here", 1);
+    let newer = newer.replace("basic_measuredValue", "gumption_coverageInterval");
+    let newer = newer.replace("here", "basic_measuredValue");
+    for (version, text) in [("3.1.2", INTERVAL), ("3.2.1", INTERVAL), ("3.2.1", &newer)] {
+        let xml = certificate(version, text);
+        let file = model(&xml, &format!(r#"{kind}, "at": "p""#), conditions).unwrap();
+        // u of the interval, and U/k = 0.16/2 and 0.18/2
+        for (row, expected) in [[0.11, 0.06749], [0.12, 0.08], [0.17, 0.09]].into_iter().enumerate()
+        {
+            near(known(&file, row), expected);
+        }
+        assert!(file.warnings.iter().any(|note| note.code == "interval-uncertainty"));
+        let file = model(&xml, &format!(r#"{kind}, "index": 0"#), "").unwrap();
+        near(known(&file, 0), [0.11, 0.06749]);
+        let file = model(&xml, &format!(r#"{kind}, "index": 2"#), "").unwrap();
+        near(known(&file, 0), [0.17, 0.09]);
+        assert!(file.warnings.iter().all(|note| note.code != "interval-uncertainty"));
+    }
+    // one row: the value stands twice, and there is one
+    let one = INTERVAL
+        .replace("0.11 0.12 0.17", "0.11")
+        .replace("0.13 0.16 0.18", "0.13")
+        .replace("1.8 2.00 2.00", "1.8")
+        .replace("0.9545 0.9545 0.9545", "0.9545")
+        .replace("other normal normal", "other");
+    near(known(&model(&certificate("3.2.1", &one), kind, "").unwrap(), 0), [0.11, 0.06749]);
+    // 0.13/1.8 = 0.072 with all that rounding may have taken is below 0.09
+    let wrong = certificate("3.2.1", &one.replace("0.06749", "0.09"));
+    let error = model(&wrong, kind, "").unwrap_err().to_string();
+    assert!(error.contains("two standard uncertainties for one value: 0.09"), "{error}");
+    // two rows of one value, either of which it may be: U over k
+    let twice = INTERVAL.replace("0.11 0.12 0.17", "0.11 0.11 0.17");
+    let twice = twice.replace("other normal normal", "other other normal");
+    let file = model(&certificate("3.2.1", &twice), &format!(r#"{kind}, "index": 0"#), "").unwrap();
+    near(known(&file, 0), [0.11, 0.13 / 1.8]);
+}

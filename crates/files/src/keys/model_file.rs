@@ -165,13 +165,24 @@ fn prior_of_tolerance() -> Value {
 
 /// Keys of `tolerance`.
 pub(crate) const TOLERANCE: &[Key] = keys![
-    "lower" => referenced("value", "Lower tolerance limit."),
-    "upper" => referenced("value", "Upper tolerance limit."),
+    "lower" => limit("Lower tolerance limit, or a formula of the conditions."),
+    "upper" => limit("Upper tolerance limit, or a formula of the conditions."),
     "prior" => prior_of_tolerance(),
     "risk" => described("number", "The wanted risk of false acceptance, for guard bands.")
                 .with("exclusiveMinimum", 0)
                 .with("exclusiveMaximum", 0.5),
 ];
+
+fn limit(about: &str) -> Value {
+    let formula = object([("type", Value::from("string"))]);
+    object([
+        ("description", Value::from(about)),
+        (
+            "anyOf",
+            Value::from(vec![reference("value"), formula, object([("type", Value::from("null"))])]),
+        ),
+    ])
+}
 
 fn tolerance() -> Value {
     let limits = ["lower", "upper"].map(|key| object([("required", texts([key]))])).to_vec();

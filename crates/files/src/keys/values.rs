@@ -47,8 +47,9 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
     );
     let specification = text_of(
         "A specification: terms of `x %` or `x ppm` (of the reading), `x % of VALUE UNIT` (of the \
-         range) and `VALUE UNIT`, joined by `+`, which add linearly; or, in an input, a formula of \
-         conditions, evaluated in SI units.",
+         range) and `VALUE UNIT`, joined by `+`, which add linearly; or, in an input and of a \
+         capability, a formula of conditions, evaluated in SI units. A capability may have `x % of \
+         CONDITION` too.",
     );
     let with_unit = text_of("A value with a unit, converted to the quantity's: `100 ohm`.")
         .with("pattern", "^\\s*[-+]?[0-9.]");

@@ -247,6 +247,10 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "die Punkte passen nicht zu {0}: Chi-Quadrat ist {1} mit {2} Freiheitsgraden, über seinem 95-%-Quantil {3}; die Form oder die angegebenen Unsicherheiten sind falsch",
     ),
     (
+        "{}: where {} states a standard uncertainty with a coverage interval, it is taken in place of U over k, whose digits are rounded",
+        "{0}: Wo {1} mit einem Überdeckungsintervall eine Standardunsicherheit angibt, wird diese genommen und nicht U geteilt durch k, deren Stellen gerundet sind",
+    ),
+    (
         "correlation coefficients between results of one certificate are kept: {}",
         "Korrelationskoeffizienten zwischen Ergebnissen eines Kalibrierscheins bleiben erhalten: {0+}",
     ),

@@ -66,6 +66,14 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
         "Toleranz {0:}: Der Schätzwert liegt {1:}, und der Wert ist mit einer Wahrscheinlichkeit von {2:} % konform (mit dem Vorwissen, nach JCGM 106, 6.3 und 7.1; ohne es {3:} %)",
     ),
     (
+        "Tolerance {}: the estimate lies {}, and the value conforms with a probability of {} % (with the laboratory's capability, u = {}; with the prior, by JCGM 106, 6.3 and 7.1; without it {} %)",
+        "Toleranz {0:}: Der Schätzwert liegt {1:}, und der Wert ist mit einer Wahrscheinlichkeit von {2:} % konform (mit der Messmöglichkeit des Laboratoriums, u = {3}; mit dem Vorwissen, nach JCGM 106, 6.3 und 7.1; ohne es {4:} %)",
+    ),
+    (
+        "Tolerance {}: the estimate lies {}, and the value conforms with a probability of {} % (with the laboratory's capability, u = {})",
+        "Toleranz {0:}: Der Schätzwert liegt {1:}, und der Wert ist mit einer Wahrscheinlichkeit von {2:} % konform (mit der Messmöglichkeit des Laboratoriums, u = {3})",
+    ),
+    (
         "Tolerance {}: the estimate lies {}, and the value conforms with a probability of {} % (all {} trials conform)",
         "Toleranz {0:}: Der Schätzwert liegt {1:}, und der Wert ist mit einer Wahrscheinlichkeit von {2:} % konform (alle {3} Versuche sind konform)",
     ),
@@ -507,6 +515,10 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
 /// Parts of sentences and cells, which might be found in many sentences: they are looked for last, and
 /// in short texts alone.
 pub(super) const BRIEF: &[(&str, &str)] = &[
+    (
+        "of each row ({} in the first one, {} in the last one)",
+        "je Zeile ({0:} in der ersten, {1:} in der letzten)",
+    ),
     ("from {} on {}", "ab {0} {1}"),
     ("from {} on", "ab {0}"),
     ("from {} to {}", "von {0} bis {1}"),

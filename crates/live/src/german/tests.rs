@@ -216,6 +216,12 @@ fn rare_sentences_are_german_too() {
         model(two(), "a + b", json!({"unit": "1", "cmc": {"value": 1, "raise": true}}), json!({})),
         model(two(), "a + b", json!({"unit": "1", "cmc": 0.1}), json!({})),
         model(two(), "a + b", json!({"unit": "1", "tolerance": {"lower": 2.5}}), json!({})),
+        model(
+            two(),
+            "a + b",
+            json!({"unit": "1", "cmc": 1, "cmc_floor": true, "tolerance": {"lower": 2.5}}),
+            json!({}),
+        ),
         model(two(), "a + b", json!({"unit": "1", "tolerance": {"upper": 2.9}}), json!({})),
         model(
             two(),

@@ -15,10 +15,6 @@ use gumption_engine::propagate::{Conformity, OutputEvaluation};
 /// Position of the last digit of coverage factors.
 const FACTOR: i32 = -2;
 
-/// Numerical standard errors of a coverage factor within one unit of its last digit: three on either
-/// side.
-const SCATTER: f64 = 6.0;
-
 /// Significant digits of percentages; more would show binary rounding.
 const PERCENT_DIGITS: u32 = 12;
 
@@ -92,10 +88,16 @@ impl Stated<'_> {
 
     /// What is decided about a tolerance, with the uncertainty that is stated (ISO/IEC 17025, 7.8.6).
     pub(super) fn conformity(&self) -> Option<Conformity> {
-        if !self.is_raised() {
-            return self.found.conformity.as_deref().copied();
-        }
         let output = self.asked.task.model.outputs.get(self.line.output)?;
+        let output = &*output.at(self.conditions);
+        if !self.is_raised() {
+            let own = self.found.conformity.as_deref();
+            // the row may have another capability than the output
+            return match own.filter(|own| own.stated_uncertainty.is_none()) {
+                Some(own) => Some(*own),
+                None => Conformity::evaluated(output, self.found, &self.asked.task.settings),
+            };
+        }
         let Statement { value, standard_uncertainty, .. } = *self.statement;
         Conformity::with_stated(output, value, standard_uncertainty)
     }
@@ -118,25 +120,7 @@ impl Stated<'_> {
 
     pub(super) fn factor(&self) -> Figure {
         let factor = self.statement.coverage_factor;
-        let place = self.factor_place();
-        Figure::of(to_position(factor, place), rounded(factor, place))
-    }
-
-    /// The last digit of the coverage factor: with trials the one that another seed would not change,
-    /// or like rows would seem to differ.
-    fn factor_place(&self) -> i32 {
-        let trials = self.found.monte_carlo.as_ref();
-        let (Basis::Shortest, Some(trials)) = (self.statement.basis, trials) else { return FACTOR };
-        // figures without noise are those of every seed
-        if self.statement.without_trials {
-            return FACTOR;
-        }
-        let interval = trials.stated_interval();
-        let farther = interval.errors.into_iter().fold(0.0, f64::max);
-        let error = farther / self.statement.standard_uncertainty;
-        // an error that is not known leaves the digits as they are
-        let unsettled = |place: &i32| SCATTER * error > Decimal::new(1, *place).value();
-        (FACTOR..0).find(|place| !unsettled(place)).unwrap_or(0)
+        Figure::of(to_position(factor, FACTOR), rounded(factor, FACTOR))
     }
 
     /// Effective degrees of freedom, where k follows from them.

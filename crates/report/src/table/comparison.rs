@@ -140,7 +140,7 @@ pub(crate) fn differences(
 
 /// What may be stated beside the laboratory's capability.
 pub(crate) fn capability(output: &Output, figures: &OutputEvaluation) -> Option<String> {
-    let stated = figures.stated(output)?;
+    let stated = figures.capability.as_deref()?;
     let unit = &output.quantity.unit;
     let number = |value: f64| in_unit(&significant(value, 3), unit);
     let (cmc, expanded) = (number(stated.cmc), number(stated.expanded_uncertainty));
@@ -148,7 +148,7 @@ pub(crate) fn capability(output: &Output, figures: &OutputEvaluation) -> Option<
         format!(
             "The laboratory's capability (CMC) is {cmc}; U is raised to it: {expanded} is to be stated."
         )
-    } else if stated.expanded_uncertainty < stated.cmc {
+    } else if stated.below {
         format!("U = {expanded} is below the laboratory's capability (CMC) of {cmc}.")
     } else {
         format!("The laboratory's capability (CMC) is {cmc}; U = {expanded} can be stated.")
@@ -162,6 +162,8 @@ pub(crate) fn conformity(
     found: &Conformity,
     trials: Option<u64>,
 ) -> [String; 3] {
+    // an uncertainty that is stated in place of the evaluated one has no trials
+    let trials = trials.filter(|_| found.stated_uncertainty.is_none());
     [conformity_text(output, found, trials), rule_text(output, found), risks_text(found, trials)]
 }
 
@@ -186,7 +188,11 @@ fn conformity_text(output: &Quantity, found: &Conformity, trials: Option<u64>) -
         let share = Percent::of(share, 0.0, trials).text();
         format!("with the prior, by JCGM 106, 6.3 and 7.1; without it {share} %")
     });
-    let notes: Vec<String> = error.or(counted).into_iter().chain(prior).collect();
+    let stated = found.stated_uncertainty.map(|u| {
+        let u = in_unit(&significant(u, 3), &output.unit);
+        format!("with the laboratory's capability, u = {u}")
+    });
+    let notes: Vec<String> = error.or(counted).into_iter().chain(stated).chain(prior).collect();
     let notes = if notes.is_empty() { String::new() } else { format!(" ({})", notes.join("; ")) };
     format!(
         "Tolerance {}: the estimate lies {side}, and the value conforms with a probability of {probability} \

@@ -79,10 +79,19 @@ pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> 
     let rejected: Vec<usize> =
         found.iter().filter(|(_, of)| !of.conforms).map(|(row, _)| *row).collect();
     let plural = if rejected.len() == 1 { "row" } else { "rows" };
+    let limits = |found: &Conformity| limits_text(quantity, &found.tolerance, None);
+    let limits = match found.last() {
+        Some((_, last)) if found.iter().any(|(_, of)| of.tolerance != first.tolerance) => format!(
+            "of each row ({} in the first one, {} in the last one)",
+            limits(first),
+            limits(last)
+        ),
+        _ => limits(first),
+    };
     Some(format!(
         "Tolerance {}, {}: {} of {} rows accepted{}. Probabilities, guard bands and risks of every row: \
          --format json.",
-        limits_text(quantity, &first.tolerance, None),
+        limits,
         rule(first),
         found.len() - rejected.len(),
         found.len(),

@@ -221,6 +221,10 @@ fn distribution(row: &Stated<'_>) -> String {
         Basis::Student => "t",
         Basis::Fixed | Basis::Shortest => "other",
     }
+/// What a quantity of coverage intervals is called: the good practice of the DKD has no reference type
+/// of them, and with that of the measured values they would be further ones.
+const INTERVAL: &str = "gumption_coverageInterval";
+
     .to_owned()
 }
 
@@ -237,7 +241,7 @@ fn intervals(
         .collect();
     let Some((first, _)) = rows.first() else { return };
     let numbers: Vec<usize> = rows.iter().map(|(row, _)| row.number).collect();
-    xml.within("dcc:quantity", &[("refType", "basic_measuredValue")], |xml| {
+    xml.within("dcc:quantity", &[("refType", INTERVAL)], |xml| {
         let rows_of = |language: &Language| {
             let said = sentences::about(&numbers, words::of(*language));
             (Some(*language), said.trim_end_matches([':', ' ']).to_owned())

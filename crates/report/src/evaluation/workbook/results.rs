@@ -233,7 +233,7 @@ fn trials(leaf: &mut Leaf, line: Line, figures: &MonteCarlo, digits: u32) -> Res
 }
 
 /// Tolerance, limits of acceptance and decision. The guard band stays in proportion to the standard
-/// uncertainty where an input is changed.
+/// uncertainty where an input is changed; that of a laboratory's capability stays as it is.
 fn decided(
     leaf: &mut Leaf,
     line: Line,
@@ -258,8 +258,12 @@ fn decided(
         let u = gum.standard_uncertainty;
         let shown = position(u, digits);
         let now = |value: f64| Cached::Number(value);
-        let band = format!("{:?}*{}", width / u, of(UNCERTAINTY));
-        leaf.formula(place(2), &band, &now(width), shown, Look::Plain)?;
+        if conformity.stated_uncertainty.is_some() {
+            leaf.number(place(2), width, shown, Look::Plain)?;
+        } else {
+            let band = format!("{:?}*{}", width / u, of(UNCERTAINTY));
+            leaf.formula(place(2), &band, &now(width), shown, Look::Plain)?;
+        }
         let mut within = Vec::new();
         let mut accepted = true;
         for (figure, limit, sign) in [(0, limits[0], 1.0), (1, limits[1], -1.0)] {

@@ -1,0 +1,190 @@
+//! What is stated of an output: value, expanded uncertainty and coverage factor, by the method that
+//! is to be believed.
+
+use super::evaluation::OutputEvaluation;
+use super::exact::Noiseless;
+use super::gum::{Dof, Gum};
+use super::monte_carlo::MonteCarlo;
+use crate::decimal::to_position;
+use crate::task::{Coverage, Settings};
+
+/// What a stated expanded uncertainty rests on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Basis {
+    /// A normal distribution (EA-4/02, 5.1).
+    Normal,
+    /// A t distribution with the effective degrees of freedom (EA-4/02, 5.3 and annex E).
+    Student,
+    /// A coverage factor that the file fixes, whatever the degrees of freedom.
+    Fixed,
+    /// The shortest coverage interval of the Monte Carlo trials, because the distribution is not
+    /// normal (JCGM 101, clause 8 fails) or the law of propagation gives no interval.
+    Shortest,
+}
+
+impl Basis {
+    /// The name that answers use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Normal => "normal",
+            Self::Student => "t",
+            Self::Fixed => "fixed-factor",
+            Self::Shortest => "monte-carlo",
+        }
+    }
+}
+
+/// Value and expanded uncertainty as they are stated, before capability and rounding, in the unit of
+/// the output.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Stated {
+    /// What they rest on.
+    pub basis: Basis,
+    /// The value: the estimate by the law of propagation, or of the trials where the statement
+    /// rests on them.
+    pub value: f64,
+    /// Its standard uncertainty.
+    pub standard_uncertainty: f64,
+    /// The expanded uncertainty: k u, or the distance of the value from the farther end of the
+    /// interval.
+    pub expanded_uncertainty: f64,
+    /// The coverage factor: the expanded uncertainty over the standard uncertainty.
+    pub coverage_factor: f64,
+    /// The shortest coverage interval, where the statement rests on it.
+    pub interval: Option<[f64; 2]>,
+    /// Whether that interval is from figures without the noise of trials.
+    pub without_trials: bool,
+}
+
+impl Stated {
+    /// What is stated of an output; `None` where there is no expanded uncertainty to be stated.
+    /// `place` tells the position of the last digit that an expanded uncertainty is printed with:
+    /// where clause 8 fails but the digits would be the same, the law of propagation stands.
+    pub fn of(
+        output: &OutputEvaluation,
+        settings: &Settings,
+        place: impl Fn(f64) -> Option<i32>,
+    ) -> Option<Self> {
+        let noiseless = output.noiseless.as_ref().and_then(|found| found.as_deref().ok());
+        let interval = output.gum.as_ref().and_then(Gum::interval);
+        let refuted = match (output.validation, noiseless, interval) {
+            (Some(validation), Some(noiseless), Some(interval)) => {
+                let ends = interval.iter().zip(noiseless.symmetric_interval);
+                ends.into_iter().any(|(gum, end)| (gum - end).abs() > validation.tolerance)
+            }
+            (validation, ..) => validation.is_some_and(|v| v.gum_valid == Some(false)),
+        };
+        let linear = || by_propagation(output.gum.as_ref()?, settings);
+        // figures without the noise of trials, so that no digit depends on a seed
+        let trials = || {
+            let gum = output.gum.as_ref();
+            let noiseless = noiseless.and_then(|noiseless| without_noise(noiseless, gum));
+            noiseless.or_else(|| by_trials(output.monte_carlo.as_ref()?, gum))
+        };
+        // a clause 8 that fails is no matter where what is stated would be the same
+        let refuted = refuted
+            && !linear().zip(trials()).is_some_and(|(linear, trials)| {
+                linear.states_as(&trials, place(linear.expanded_uncertainty))
+            });
+        if refuted { trials().or_else(linear) } else { linear().or_else(trials) }
+    }
+
+    /// Whether another's interval is the same to a place, and not by rounding alone: a coverage
+    /// factor of 2 and the words "normally distributed" stand beside the digits.
+    fn states_as(&self, other: &Self, place: Option<i32>) -> bool {
+        if (other.coverage_factor / self.coverage_factor - 1.0).abs() > ROUNDED_AWAY {
+            return false;
+        }
+        let Some(place) = place else {
+            return false;
+        };
+        let own = [self.value - self.expanded_uncertainty, self.value + self.expanded_uncertainty];
+        let ends = |ends: [f64; 2]| ends.map(|end| to_position(end, place));
+        other.interval.is_some_and(|interval| ends(interval) == ends(own))
+    }
+}
+
+fn by_propagation(gum: &Gum, settings: &Settings) -> Option<Stated> {
+    let coverage_factor = gum.coverage_factor?;
+    let basis = match (settings.coverage, gum.dof) {
+        (Coverage::Factor { fixed: true, .. }, Dof::Finite(_)) | (_, Dof::Undefined) => {
+            Basis::Fixed
+        }
+        (_, Dof::Finite(_)) if !is_normal(coverage_factor, settings.coverage) => Basis::Student,
+        _ => Basis::Normal,
+    };
+    Some(Stated {
+        basis,
+        value: gum.estimate,
+        standard_uncertainty: gum.standard_uncertainty,
+        expanded_uncertainty: coverage_factor * gum.standard_uncertainty,
+        coverage_factor,
+        interval: None,
+        without_trials: false,
+    })
+}
+
+/// Whether a coverage factor is printed like that of a normal distribution: to two decimals.
+fn is_normal(factor: f64, coverage: Coverage) -> bool {
+    to_position(factor, -2) == to_position(coverage.normal_factor(), -2)
+}
+
+/// Rounding may change an expanded uncertainty by this share (EA-4/02 M:2022, 6.3).
+const ROUNDED_AWAY: f64 = 0.05;
+
+/// A symmetric interval that is longer than the shortest one by less than this share is stated in its
+/// place.
+const AS_SHORT: f64 = 0.01;
+
+fn without_noise(figures: &Noiseless, gum: Option<&Gum>) -> Option<Stated> {
+    let length = |[low, high]: [f64; 2]| high - low;
+    let symmetric = figures.symmetric_interval;
+    let shorter = |ends: &[f64; 2]| length(*ends) < (1.0 - AS_SHORT) * length(symmetric);
+    let shortest = figures.shortest_interval.filter(|_| figures.shortest_unique).filter(shorter);
+    let ends = shortest.unwrap_or(symmetric);
+    let value = figures.estimate.unwrap_or(figures.median);
+    let found = by_interval(value, ends, figures.standard_uncertainty, gum)?;
+    Some(Stated { without_trials: true, ..found })
+}
+
+fn by_trials(figures: &MonteCarlo, gum: Option<&Gum>) -> Option<Stated> {
+    let ends = figures.stated_interval().ends;
+    by_interval(located(figures, gum), ends, figures.standard_uncertainty, gum)
+}
+
+/// Numerical standard errors within which the mean of the trials is no other than the estimate by the
+/// law of propagation.
+const SAME_ESTIMATE: f64 = 3.0;
+
+/// Where the value lies by the trials. The estimate by the law of propagation, which no seed moves,
+/// stands in its place where the trials do not tell it from theirs.
+fn located(figures: &MonteCarlo, gum: Option<&Gum>) -> f64 {
+    let of_propagation =
+        gum.map(|gum| gum.estimate).zip(figures.estimate.zip(figures.errors.estimate));
+    match of_propagation {
+        Some((linear, (mean, error))) if (linear - mean).abs() <= SAME_ESTIMATE * error => linear,
+        _ => figures.location(),
+    }
+}
+
+/// What an interval says; few readings have no variance in trials, and their standard uncertainty is
+/// that of the law of propagation.
+fn by_interval(
+    value: f64,
+    [low, high]: [f64; 2],
+    standard_uncertainty: Option<f64>,
+    gum: Option<&Gum>,
+) -> Option<Stated> {
+    let u = standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty))?;
+    let expanded_uncertainty = (high - value).max(value - low);
+    (u > 0.0 && expanded_uncertainty.is_finite()).then(|| Stated {
+        basis: Basis::Shortest,
+        value,
+        standard_uncertainty: u,
+        expanded_uncertainty,
+        coverage_factor: expanded_uncertainty / u,
+        interval: Some([low, high]),
+        without_trials: false,
+    })
+}

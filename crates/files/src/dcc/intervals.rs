@@ -1,0 +1,109 @@
+//! Coverage intervals that stand in a quantity of their own: the values again, of all results or of
+//! some, with their standard uncertainties (`si:coverageInterval`). D-SI has no place for them beside an
+//! expanded uncertainty. They are no further values, and their standard uncertainties have digits that
+//! are lost in U and k, which are rounded.
+
+use gumption_engine::decimal::Decimal;
+use gumption_units::Unit;
+use roxmltree::Node;
+
+use super::document::{self, Measured};
+
+/// Whether a quantity states coverage intervals.
+fn is_interval(node: Node<'_, '_>) -> bool {
+    node.descendants().any(|of| of.tag_name().name().starts_with("coverageInterval"))
+}
+
+/// The quantities without those that repeat values of another of them with coverage intervals; the
+/// others know the standard uncertainties of intervals in their list.
+pub(super) fn left_out<'d>(
+    chosen: Vec<Node<'d, 'd>>,
+    measured: Vec<Measured>,
+    all: &[Node<'d, 'd>],
+) -> (Vec<Node<'d, 'd>>, Vec<Measured>) {
+    let repeats = |node: Node<'d, 'd>, of: &Measured| {
+        let mut others = chosen.iter().zip(&measured);
+        is_interval(node)
+            && others.any(|(other, values)| {
+                !is_interval(*other)
+                    && other.parent() == node.parent()
+                    && places(of, values).is_some()
+            })
+    };
+    let kept: Vec<bool> =
+        chosen.iter().zip(&measured).map(|(node, of)| !repeats(*node, of)).collect();
+    let pairs = chosen.into_iter().zip(measured).zip(kept);
+    pairs
+        .filter(|(_, kept)| *kept)
+        .map(|((node, mut of), _)| {
+            beside(node, &mut of, all);
+            (node, of)
+        })
+        .unzip()
+}
+
+/// Takes the standard uncertainties of the intervals in the list of a quantity.
+fn beside<'d>(node: Node<'d, 'd>, of: &mut Measured, all: &[Node<'d, 'd>]) {
+    if is_interval(node) {
+        return;
+    }
+    let intervals = all
+        .iter()
+        .filter(|other| **other != node && other.parent() == node.parent() && is_interval(**other));
+    for interval in intervals {
+        // a damaged one matters where it is wanted
+        let Ok(interval) = document::measured(*interval) else { continue };
+        let Some(places) = places(&interval, of) else { continue };
+        let standard = interval.uncertainty.and_then(|stated| stated.standard);
+        let Some(stated) = of.uncertainty.as_mut() else { continue };
+        stated.of_interval.resize(of.values.len(), None);
+        for (place, u) in places.into_iter().zip(standard.unwrap_or_default()) {
+            if let Some(slot) = place.and_then(|place| stated.of_interval.get_mut(place)) {
+                *slot = Some(u);
+            }
+        }
+    }
+}
+
+/// For each value of the intervals its place among those of a quantity, in the same order; `None` where
+/// two places are possible. `None` for all if they are not values of it.
+fn places(interval: &Measured, of: &Measured) -> Option<Vec<Option<usize>>> {
+    if !same(&interval.unit, &of.unit) {
+        return None;
+    }
+    let distribution = |of: &Measured, place: usize| -> Option<String> {
+        of.uncertainty.as_ref()?.distributions.as_ref()?.get(place).cloned()
+    };
+    let is_it = |own: usize, place: usize| {
+        let (a, b) = (distribution(interval, own), distribution(of, place));
+        interval.values.get(own) == of.values.get(place) && (a.is_none() || b.is_none() || a == b)
+    };
+    // the first possible places, and the last ones
+    let mut next = 0..of.values.len();
+    let first = (0..interval.values.len()).map(|own| next.find(|place| is_it(own, *place)));
+    let first: Vec<usize> = first.collect::<Option<_>>()?;
+    let mut next = (0..of.values.len()).rev();
+    let last = (0..interval.values.len()).rev().map(|own| next.find(|place| is_it(own, *place)));
+    let last: Vec<usize> = last.collect::<Option<_>>()?;
+    let both = first.into_iter().zip(last.into_iter().rev());
+    Some(both.map(|(first, last)| (first == last).then_some(first)).collect())
+}
+
+fn same(a: &Unit, b: &Unit) -> bool {
+    a.text() == b.text()
+}
+
+/// The standard uncertainty of an interval, where U over k is the same but for the rounding of both to
+/// their last digit.
+pub(super) fn agreeing(u: f64, expanded: f64, factor: f64) -> Result<f64, String> {
+    let digit = |value: f64| {
+        Decimal::shortest(value).map_or(0.0, |value| Decimal::new(1, value.position()).value())
+    };
+    if (expanded - factor * u).abs() <= 1.001 * (digit(expanded) + u * digit(factor)) {
+        return Ok(u);
+    }
+    Err(format!(
+        "states two standard uncertainties for one value: {u} with its coverage interval, and U/k = \
+         {expanded}/{factor}; ask which is right, and state the value as a normal distribution"
+    ))
+}

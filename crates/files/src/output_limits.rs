@@ -1,0 +1,197 @@
+//! Tolerance limits and capabilities of outputs: numbers, specifications, or formulas of the conditions,
+//! which every row of a sweep has others of.
+
+use super::DiagnosticKind;
+use super::condition_values::ConditionValues;
+use super::conditions::Conditions;
+use super::json::{Json, Member};
+use super::object::Object;
+use super::scopes::ConditionSet;
+use super::value_text::ValueOf;
+use super::width::{self, Width};
+use gumption_engine::model::formula::Formula;
+use gumption_engine::model::{Capability, OfConditions, Quantity};
+use gumption_engine::number::Shortest;
+use gumption_units::Unit;
+
+/// A capability, and what of it follows the conditions.
+pub(super) type CapabilityOfRows = (Capability, Option<OfConditions>);
+
+/// The formula of conditions that a text is: one with names, which no value with a unit can be read as.
+pub(super) fn formula(object: &Object<'_>, member: &Member) -> Option<Formula> {
+    let Json::Text(text) = &member.value.value else { return None };
+    object.log.formula(text).ok().filter(|formula| formula.names().next().is_some())
+}
+
+/// The figure that a formula of conditions is in the output's unit; its mistakes are reported.
+pub(super) fn following(
+    object: &Object<'_>,
+    (key, member): (&str, &Member),
+    (formula, of): (Formula, ValueOf),
+    unit: &Unit,
+    set: &ConditionSet<'_>,
+) -> Option<OfConditions> {
+    if set.are_unreadable() {
+        return None;
+    }
+    if let Err(kinds) = set.check(&formula, unit, of) {
+        for mut kind in kinds {
+            if let DiagnosticKind::WrongDimension { name, .. }
+            | DiagnosticKind::WrongScale { name, .. } = &mut kind
+            {
+                key.clone_into(name);
+            }
+            object.log.report(&member.value.span, kind);
+        }
+        return None;
+    }
+    let (known, unit) = (names_of(set), unit.clone());
+    let check_units = set.check_units;
+    Some(OfConditions::new(move |values| {
+        let conditions = Conditions { rows: vec![values.to_vec()], ..known.clone() };
+        ConditionSet { conditions: &conditions, check_units }.value(&formula, 0, &unit, of)
+    }))
+}
+
+/// The conditions without their rows.
+fn names_of(set: &ConditionSet<'_>) -> Conditions {
+    let Conditions { quantities, without_unit, .. } = set.conditions;
+    let (quantities, without_unit) = (quantities.clone(), without_unit.clone());
+    Conditions { quantities, without_unit, ..Conditions::default() }
+}
+
+/// The laboratory's capability for an output, which is where the keys stand; `name` is for messages.
+pub(super) fn capability(
+    output: &Object<'_>,
+    name: &str,
+    unit: &Unit,
+    set: &ConditionSet<'_>,
+) -> Option<CapabilityOfRows> {
+    let floor = output.truth("cmc_floor").unwrap_or(false);
+    let Some(member) = output.get("cmc") else {
+        if let Some(floor) = output.get("cmc_floor") {
+            let diagnostic = DiagnosticKind::OnlyWith { key: "cmc_floor", with: "cmc" };
+            output.log.report(&floor.key_span, diagnostic);
+        }
+        return None;
+    };
+    let (relative, absolute, following) = parts(output, (name, member), unit, set)?;
+    let capability = Capability { relative, absolute, floor };
+    let Some(following) = following else { return Some((capability, None)) };
+    for (row, conditions) in set.conditions.rows.iter().enumerate() {
+        let found = following.at(conditions);
+        if !(found.is_finite() && (found > 0.0 || found == 0.0 && relative > 0.0)) {
+            let reason = format!(
+                "it is {} in row {} of the conditions, but must be above 0",
+                Shortest(found),
+                row + 1
+            );
+            output.log.report(&member.value.span, wrong(name, member, reason));
+            return None;
+        }
+    }
+    let first = set.conditions.rows.first().map_or(absolute, |row| following.at(row));
+    Some((Capability { absolute: first, ..capability }, Some(following)))
+}
+
+/// The share of the estimate, the rest, and in place of the rest what follows the conditions.
+fn parts(
+    output: &Object<'_>,
+    (name, member): (&str, &Member),
+    unit: &Unit,
+    set: &ConditionSet<'_>,
+) -> Option<(f64, f64, Option<OfConditions>)> {
+    let log = output.log;
+    if let Json::Text(text) = &member.value.value
+        && let Some((shares, others)) = shares_of_conditions(text, set)
+    {
+        let mut width = Width { relative: 0.0, absolute: 0.0 };
+        if !others.is_empty() {
+            let read = Width::specification(&others.join(" + "), unit, &log.own_units());
+            let read = read.map_err(|reason| wrong(name, member, reason));
+            width = log.value(&member.value.span, read)?;
+            refuse_bare_share(output, (name, member, &others), (unit, width), set)?;
+        }
+        let mut all: Vec<(f64, OfConditions)> = Vec::new();
+        for (share, condition) in shares {
+            let formula = log.formula(condition).ok()?;
+            let of = (formula, ValueOf::Difference);
+            all.push((share, following(output, ("cmc", member), of, unit, set)?));
+        }
+        let absolute = width.absolute;
+        let sum = move |values: &[f64]| {
+            absolute + all.iter().map(|(share, of)| share * of.at(values).abs()).sum::<f64>()
+        };
+        return Some((width.relative, absolute, Some(OfConditions::new(sum))));
+    }
+    let formula = formula(output, member)
+        .filter(|_| Width::read(log, &member.value, (name, "cmc"), unit).is_err());
+    if let Some(formula) = formula {
+        let of = (formula, ValueOf::Difference);
+        let following = following(output, ("cmc", member), of, unit, set)?;
+        return Some((0.0, 0.0, Some(following)));
+    }
+    let width = Width::read(log, &member.value, (name, "cmc"), unit);
+    let width = log.value(&member.value.span, width)?;
+    if let Json::Text(text) = &member.value.value {
+        refuse_bare_share(output, (name, member, &width::terms(text)), (unit, width), set)?;
+    }
+    Some((width.relative, width.absolute, None))
+}
+
+/// Shares of conditions, `0.01 % of p`, each with the name, and the other terms of a specification;
+/// `None` where no term is a share of a condition.
+fn shares_of_conditions<'t>(
+    text: &'t str,
+    set: &ConditionSet<'_>,
+) -> Option<(Vec<(f64, &'t str)>, Vec<&'t str>)> {
+    let known = |name: &str| set.conditions.quantities.iter().any(|of| of.name == name);
+    let share = |term: &'t str| {
+        let (value, rest) = width::number(term).ok()?;
+        let (factor, of) = width::share(rest)?;
+        (value >= 0.0 && value.is_finite() && known(of)).then_some((value * factor, of))
+    };
+    let (mut shares, mut others) = (Vec::new(), Vec::new());
+    for term in width::terms(text) {
+        match share(term) {
+            Some(share) => shares.push(share),
+            None => others.push(term),
+        }
+    }
+    (!shares.is_empty()).then_some((shares, others))
+}
+
+/// A share of which nobody says what it is of, where a condition has the output's unit: an error of
+/// indication beside the pressure at which it was found. Nothing is read in two ways.
+fn refuse_bare_share(
+    output: &Object<'_>,
+    (name, member, terms): (&str, &Member, &[&str]),
+    (unit, width): (&Unit, Width),
+    set: &ConditionSet<'_>,
+) -> Option<()> {
+    let is_bare = |term: &&&str| {
+        let rest = width::number(term).ok().and_then(|(_, rest)| width::share(rest));
+        rest.is_some_and(|(_, of)| of.is_empty())
+    };
+    let Some(term) = terms.iter().find(is_bare).filter(|_| width.relative > 0.0) else {
+        return Some(());
+    };
+    let alike =
+        |of: &&Quantity| !unit.dimension().is_none() && of.unit.dimension() == unit.dimension();
+    let Some(condition) = set.conditions.quantities.iter().find(alike) else { return Some(()) };
+    let condition = &condition.name;
+    let reason = format!(
+        "`{term}` could be of the value of `{name}` or of the condition `{condition}`, which is in the \
+         same unit: write `{term} of reading` for the value of `{name}`, or `{term} of {condition}`"
+    );
+    output.log.report(&member.value.span, wrong(name, member, reason));
+    None
+}
+
+fn wrong(name: &str, member: &Member, reason: String) -> DiagnosticKind {
+    let found = match &member.value.value {
+        Json::Text(text) => text.clone(),
+        other => other.kind().to_owned(),
+    };
+    DiagnosticKind::Width { name: name.to_owned(), found, reason }
+}
