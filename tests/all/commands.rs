@@ -320,6 +320,19 @@ fn wrong_arguments_end_with_2() {
         assert_eq!((code, answer.as_str()), (2, ""), "{arguments:?}");
         assert!(!message.is_empty(), "{arguments:?}");
     }
+    // a number below zero is a value, and the message says which ones are right
+    for (option, needed) in [
+        ("--seed", "a whole number from 0 to"),
+        ("--trials", "a whole number (0, or from 2 to 1e12) or `adaptive` is needed"),
+        ("--coverage", "a probability between 0 and 1 is needed"),
+        ("--k", "a coverage factor above 0 and at most 8 is needed"),
+        ("--memory", "a size such as 64M, 512MiB or 1G is needed"),
+        ("--threads", "a whole number from 1 to 1024 is needed"),
+        ("--digits", "-1 is not in 1..=15"),
+    ] {
+        let (code, _, message) = ended(&["run", "-", option, "-1"], SMALL);
+        assert!(code == 2 && message.contains(needed), "{option}: {message}");
+    }
     for arguments in [&["--help"][..], &["--version"], &["run", "--help"]] {
         let (code, answer, message) = ended(arguments, "");
         assert_eq!((code, message.as_str()), (0, ""), "{arguments:?}");
@@ -538,4 +551,21 @@ fn sweep(table: &str) -> String {
             "equations": {{"y": "x + f*g"}}, "outputs": {{"y": {{}}}},
             "monte_carlo": {{"trials": 1000}}}}"#
     )
+}
+
+/// A limit of the size of files is a fault of the system that is told (setrlimit(2)).
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_beyond_the_limit_of_files_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let (model, page) = (folder.path().join("m.json"), folder.path().join("x.html"));
+    fs::write(&model, SMALL).unwrap();
+    let mut command = std::process::Command::new("sh");
+    command.args(["-c", "ulimit -f 2; exec \"$0\" run \"$1\" --format html --output \"$2\""]);
+    command.arg(env!("CARGO_BIN_EXE_gumption")).args([&model, &page]);
+    let ended = command.output().unwrap();
+    let message = String::from_utf8_lossy(&ended.stderr).into_owned();
+    assert_eq!(ended.status.code(), Some(1), "{message}");
+    assert!(message.contains("File too large"), "{message}");
+    assert!(!page.exists());
 }

@@ -21,12 +21,15 @@ pub(super) struct Assumptions {
     #[command(flatten)]
     interactive: Interactive,
     /// Relative change of the expanded uncertainty that is allowed
-    #[arg(long, value_name = "SHARE", default_value = "0.05", value_parser = allowed)]
+    #[arg(
+        long, value_name = "SHARE", default_value = "0.05", value_parser = allowed,
+        allow_negative_numbers = true
+    )]
     allow: f64,
     #[command(flatten)]
     seed: Seed,
     /// Number of Monte Carlo trials of each variant, at least 20000
-    #[arg(long, value_name = "N", value_parser = trials)]
+    #[arg(long, value_name = "N", value_parser = trials, allow_negative_numbers = true)]
     trials: Option<u64>,
     #[command(flatten)]
     threads: Threads,

@@ -30,7 +30,10 @@ pub(super) struct Certificate {
     #[command(flatten)]
     seed: Seed,
     /// Number of Monte Carlo trials for each row; 0 for the law of propagation alone
-    #[arg(long, value_name = "N|adaptive", value_parser = options::trials)]
+    #[arg(
+        long, value_name = "N|adaptive", value_parser = options::trials,
+        allow_negative_numbers = true
+    )]
     trials: Option<Trials>,
     /// Where the figures come from that are stated in place of those of the law of propagation: exact
     /// ones, or those of quasi-random points, which no seed moves; those of the trials unless the model files say

@@ -27,7 +27,10 @@ pub(super) struct GapCheck {
     #[command(flatten)]
     case: Case,
     /// Number of truths to draw
-    #[arg(long, value_name = "N", default_value = "200", value_parser = draws)]
+    #[arg(
+        long, value_name = "N", default_value = "200", value_parser = draws,
+        allow_negative_numbers = true
+    )]
     draws: u64,
     /// What the noise of the draws is
     #[arg(long, value_enum, default_value_t)]

@@ -129,7 +129,7 @@ pub(super) fn workbook_in_terminal() -> Failure {
 #[derive(Debug, Args)]
 pub(super) struct Seed {
     /// Seed of the random streams
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
     seed: Option<u64>,
 }
 
@@ -144,11 +144,17 @@ impl Seed {
 #[derive(Debug, Args)]
 pub(super) struct CoverageOption {
     /// Coverage probability
-    #[arg(long, value_name = "P", value_parser = probability)]
+    #[arg(long, value_name = "P", value_parser = probability, allow_negative_numbers = true)]
     coverage: Option<f64>,
     /// Coverage factor for infinite degrees of freedom, which sets the coverage probability; 2
     /// (approximately 95 %) unless given
-    #[arg(long, value_name = "K", value_parser = factor, conflicts_with = "coverage")]
+    #[arg(
+        long,
+        value_name = "K",
+        value_parser = factor,
+        allow_negative_numbers = true,
+        conflicts_with = "coverage"
+    )]
     k: Option<f64>,
 }
 
@@ -169,7 +175,7 @@ impl CoverageOption {
 #[derive(Debug, Args)]
 pub(super) struct Threads {
     /// Number of threads; all of the machine's unless given
-    #[arg(long, value_name = "N", value_parser = threads)]
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     threads: Option<usize>,
 }
 
@@ -346,6 +352,11 @@ impl Case {
     pub(super) fn paths(&self, file: &CaseFile) -> Vec<PathBuf> {
         with_named(&self.case, file.files.iter().map(|(name, _)| name))
     }
+}
+
+/// A seed.
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("a whole number from 0 to {} is needed", u64::MAX))
 }
 
 /// A number of threads.

@@ -42,7 +42,7 @@ pub(super) struct Planning {
     #[command(flatten)]
     seed: Seed,
     /// Number of Monte Carlo trials of the plan's check, 0 for none
-    #[arg(long, value_name = "N", value_parser = options::trials)]
+    #[arg(long, value_name = "N", value_parser = options::trials, allow_negative_numbers = true)]
     trials: Option<Trials>,
     #[command(flatten)]
     threads: Threads,

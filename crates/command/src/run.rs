@@ -25,7 +25,10 @@ pub(super) struct Run {
     seed: Seed,
     /// Number of Monte Carlo trials; 0 for the GUM evaluation alone, `adaptive` for as many as the
     /// digits need (JCGM 101, 7.9)
-    #[arg(long, value_name = "N|adaptive", value_parser = options::trials)]
+    #[arg(
+        long, value_name = "N|adaptive", value_parser = options::trials,
+        allow_negative_numbers = true
+    )]
     trials: Option<Trials>,
     /// When an adaptive run stops: by JCGM 101, 7.9, or by Stein's two-stage rule, which meets the
     /// tolerance more often; 7.9 unless the file says otherwise
@@ -40,17 +43,26 @@ pub(super) struct Run {
     #[arg(long, conflicts_with = "trials")]
     validate: bool,
     /// Largest number of trials of an adaptive run
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(20_000..))]
+    #[arg(
+        long, value_name = "N", value_parser = clap::value_parser!(u64).range(20_000..),
+        allow_negative_numbers = true
+    )]
     max_trials: Option<u64>,
     #[command(flatten)]
     threads: Threads,
     /// Memory for kept trial values
-    #[arg(long, value_name = "SIZE", default_value = "64M", value_parser = options::memory)]
+    #[arg(
+        long, value_name = "SIZE", default_value = "64M", value_parser = options::memory,
+        allow_negative_numbers = true
+    )]
     memory: usize,
     #[command(flatten)]
     coverage: CoverageOption,
     /// Significant digits of the standard uncertainty that are held meaningful (clause 8)
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=15))]
+    #[arg(
+        long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=15),
+        allow_negative_numbers = true
+    )]
     digits: Option<u32>,
     /// Take the coverage factor at the real number of effective degrees of freedom
     #[arg(long, value_name = "real")]

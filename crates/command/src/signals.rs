@@ -103,6 +103,10 @@ fn received(number: u8) {
 pub(super) fn watch() {
     use nix::sys::signal::{SigSet, Signal};
 
+    // a write beyond a limit of files then fails, and is told (setrlimit(2), RLIMIT_FSIZE)
+    let mut unheard = SigSet::empty();
+    unheard.add(Signal::SIGXFSZ);
+    let _ = unheard.thread_block();
     let mut signals = SigSet::empty();
     signals.add(Signal::SIGINT);
     signals.add(Signal::SIGTERM);

@@ -9,7 +9,7 @@ use std::ops::Range;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
-use super::value_text::{grouped_digits, is_comma, number_in_parentheses};
+use super::value_text::{grouped_digits, is_comma, number_in_parentheses, with_exponents};
 use gumption_engine::special;
 use gumption_units::Unit;
 
@@ -226,11 +226,20 @@ impl Uncertainty {
 /// Reads a text: its unit (empty without one) and what it says.
 fn stated(text: &str) -> Result<(String, Stated), String> {
     let text = text.trim().replace('−', "-").replace("+/-", "±").replace("+-", "±");
+    let text = with_exponents(&text);
     // (5.0112 ± 0.0046) V (k=2)
     let (inner, outer) = match text.strip_prefix('(').and_then(|rest| rest.split_once(')')) {
         Some((inner, outer)) if inner.contains('±') => (inner.trim().to_owned(), Some(outer)),
         _ => (text.clone(), None),
     };
+    // (1.234 ± 0.005)e-3 kg
+    let (power, outer) = match outer.map(exponent) {
+        Some((power, outer)) => (power, Some(outer)),
+        None => ("", None),
+    };
+    if !power.is_empty() && inner.contains(['e', 'E']) {
+        return Err(format!("one power of ten is enough; {FORMS}"));
+    }
     let (value, rest) = digits(&inner).ok_or_else(|| {
         let first = "it does not begin with a number";
         format!("{first}; {FORMS}")
@@ -269,6 +278,7 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
             Some(_) => return Err(format!("the unit stands behind the parenthesis; {FORMS}")),
             None => behind,
         };
+        let (value, expanded) = (format!("{value}{power}"), format!("{expanded}{power}"));
         return uncertain(
             &value,
             before,
@@ -559,6 +569,12 @@ mod tests {
             ("5.0 V, u = 0.05 V", "V", expanded("5.0", "0.05", "k", "1")),
             ("5.0 V, u = 0.05 V, ν = 9", "V", with("5.0", "0.05", "k", "1", Some("9"))),
             ("3 1/s", "1/s", Stated::Exact("3".into())),
+            // the last digits of 1.234e-3 are 1e-6
+            ("1.234(5)×10⁻³ kg", "kg", standard("1.234e-3", "5e-6")),
+            ("1.234(5) x 10^-3 kg", "kg", standard("1.234e-3", "5e-6")),
+            ("(1.234 ± 0.005) × 10⁻³ kg (k=2)", "kg", expanded("1.234e-3", "0.005e-3", "k", "2")),
+            ("(1.234 ± 0.005)e-3 kg (k=2)", "kg", expanded("1.234e-3", "0.005e-3", "k", "2")),
+            ("5·10^3 V ± 2*10^1 V (k=2)", "V", expanded("5e3", "2e1", "k", "2")),
         ];
         for (text, unit, expected) in table {
             assert_eq!(read(text), (unit.to_owned(), expected), "{text}");
@@ -599,6 +615,7 @@ mod tests {
             ("5.0 V, U = , k = 2", "a number is needed behind `U =`"),
             ("5.0 V, u = 0.1 V, k = 2", "`u =` is a standard uncertainty"),
             ("5.0 V, s = 0.1 V", "is no unit"),
+            ("(5.0e3 ± 1)e-3 V (k=2)", "one power of ten is enough"),
             ("5.0, U = 2 mV, k = 2", "the value has no unit"),
             ("5.0 V ± 0.1 V (k=2, p=99 %)", "k = 2 is less than the 2.58"),
             ("5.0 V ± 0.1 V (k=1.65, 95 %)", "name it"),

@@ -53,6 +53,61 @@ pub(super) fn decimal_comma(whole: f64, rest: &str) -> String {
     }
 }
 
+/// A text with `e-3` in place of a power of ten that a number or a parenthesis is multiplied by, as tables
+/// of constants and certificates have it: `1.234(5)×10⁻³ kg`, `(1.234 ± 0.005) × 10^-3 kg`.
+pub(super) fn with_exponents(text: &str) -> String {
+    let mut written = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find(['×', '·', '⋅', '*', 'x']) {
+        let (before, behind) = rest.split_at(at);
+        let sign = behind.chars().next().map_or(0, char::len_utf8);
+        let behind = behind.get(sign..).unwrap_or_default();
+        written.push_str(before);
+        let mantissa = written.trim_end();
+        let is_mantissa =
+            mantissa.ends_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | ')'));
+        match power_of_ten(behind.trim_start()).filter(|_| is_mantissa) {
+            Some((power, after)) => {
+                written.truncate(mantissa.len());
+                written.push_str(&format!("e{power}"));
+                rest = after;
+            }
+            None => {
+                written.push_str(rest.get(at..at + sign).unwrap_or_default());
+                rest = behind;
+            }
+        }
+    }
+    written + rest
+}
+
+/// The power of `10^-3` or `10⁻³` at the start of a text, and what follows it.
+fn power_of_ten(text: &str) -> Option<(i32, &str)> {
+    const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+    let behind = text.strip_prefix("10")?;
+    let (is_raised, behind) = match behind.strip_prefix('^') {
+        Some(rest) => (false, rest.trim_start()),
+        None => (true, behind),
+    };
+    let mut power = String::new();
+    let mut length = 0;
+    for sign in behind.chars() {
+        let digit = RAISED.chars().position(|raised| raised == sign);
+        let plain = match (digit, sign) {
+            (Some(digit), _) if is_raised => char::from_digit(digit as u32, 10),
+            (None, '⁻') if is_raised && power.is_empty() => Some('-'),
+            (None, '-' | '−') if !is_raised && power.is_empty() => Some('-'),
+            (None, '+') if !is_raised && power.is_empty() => Some('+'),
+            (None, '0'..='9') if !is_raised => Some(sign),
+            _ => None,
+        };
+        let Some(plain) = plain else { break };
+        power.push(plain);
+        length += sign.len_utf8();
+    }
+    Some((power.parse().ok()?, behind.get(length..)?))
+}
+
 /// What is wrong with a unit that begins with digits, as in `1 234 V`, where the number may have been
 /// written in groups; a unit may begin with 1/.
 pub(super) fn grouped_digits(unit: &str) -> Option<String> {
@@ -150,6 +205,23 @@ mod tests {
         assert!(read("60 rpm", "Hz", ValueOf::Quantity).unwrap_err().contains("periods"));
         assert!(read("5,01 V", "V", ValueOf::Quantity).unwrap_err().contains("point"));
         assert!(read("5 furlong", "m", ValueOf::Quantity).unwrap_err().contains("furlong"));
+    }
+
+    #[test]
+    fn powers_of_ten_are_exponents() {
+        for (text, wanted) in [
+            ("1.234(5)×10⁻³ kg", "1.234(5)e-3 kg"),
+            ("(1.234 ± 0.005) × 10^-3 kg", "(1.234 ± 0.005)e-3 kg"),
+            ("6.02·10²³ 1/mol", "6.02e23 1/mol"),
+            ("5 x 10^+3 m", "5e3 m"),
+            ("1*10^−6 m", "1e-6 m"),
+            ("5 kg*10^3", "5 kg*10^3"),
+            ("5 lux", "5 lux"),
+            ("5 × 10 m", "5 × 10 m"),
+            ("5 N·m", "5 N·m"),
+        ] {
+            assert_eq!(with_exponents(text), wanted);
+        }
     }
 
     #[test]

@@ -23,7 +23,8 @@ pub(super) struct Paths {
         value_name = "N",
         default_value = "1000000",
         requires = "paths",
-        value_parser = options::trials
+        value_parser = options::trials,
+        allow_negative_numbers = true
     )]
     trials: Trials,
 }

@@ -4,6 +4,12 @@ use super::node::{With, object, texts};
 use super::{Key, closed, described, keys, referenced, text_of};
 use serde_json::Value;
 
+/// The pattern of a name, in what regular expressions have in every language (JSON Schema 2020-12 Core,
+/// 6.4), which no classes of letters are: all but the signs, spaces and controls up to U+00BF, and the
+/// punctuation of Unicode; no digit in front. It takes every name that the reader takes.
+const NAME: &str = "^[^\u{1}-@\\[-\\^`{-©«-´¶-¹»-¿×÷\u{2000}-\u{206f}]\
+                    [^\u{1}-/:-@\\[-\\^`{-©«-´¶-¹»-¿×÷\u{2000}-\u{206f}]*$";
+
 /// A number with an open lower limit, an open upper one, or both.
 fn number(about: &str, above: Option<u64>, below: Option<u64>) -> Value {
     let mut number = described("number", about);
@@ -114,7 +120,7 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
             text_of(
                 "A name: letters of any alphabet, digits and `_`; no function's name, not `pi`.",
             )
-            .with("pattern", "^[\\p{Alphabetic}_][\\p{Alphabetic}0-9_]*$"),
+            .with("pattern", NAME),
         ),
         ("file", text_of("A path, relative to the folder of this file.")),
         (

@@ -197,6 +197,30 @@ fn known_to_reader(file: &Value) -> Option<BTreeSet<String>> {
     })
 }
 
+/// Names whose pattern every language has; Python knows no classes of letters.
+#[test]
+fn the_pattern_of_names_takes_what_the_reader_takes() {
+    use gumption_engine::model::formula::is_name;
+
+    let schema = schema();
+    let pattern = schema["$defs"]["name"].clone();
+    assert!(!pattern["pattern"].as_str().unwrap().contains("\\p"), "{pattern}");
+    let validator = jsonschema::draft202012::new(&pattern).unwrap();
+    let is_valid = |name: String| validator.is_valid(&json!(name));
+    for letter in (1..=u32::from(char::MAX)).filter_map(char::from_u32) {
+        // one letter of each block above the first ones is enough
+        let code = u32::from(letter);
+        if code > 0x3000 && code % 0x80 != 0 {
+            continue;
+        }
+        for name in [format!("{letter}"), format!("a{letter}")] {
+            assert!(is_valid(name.clone()) || !is_name(&name), "{name}");
+            // signs, spaces and controls are refused
+            assert!(is_name(&name) || code > 0xff || !is_valid(name.clone()), "{name:?}");
+        }
+    }
+}
+
 /// The keys that a definition knows.
 fn known_to_schema(name: &str) -> BTreeSet<String> {
     let schema = schema();

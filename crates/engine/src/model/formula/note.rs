@@ -3,13 +3,17 @@
 use std::ops::Range;
 
 use super::evaluate::constants;
+use super::function::Function;
 use super::message::excerpt;
 use super::syntax::{Kind, Node, Operator, Tree};
-use crate::number::Shortest;
+use crate::number::{Binary, Shortest};
 use gumption_units::{Turn, Unit};
 
 /// Two factors are the same but for the digits that somebody wrote of pi.
 const SAME_FACTOR: f64 = 1e-3;
+
+/// The code of shares that a product converts once more.
+const SHARE_TWICE: &str = "share-converted-twice";
 
 /// A note on a formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,12 +41,19 @@ pub(super) fn notes<'u>(
     for node in &tree.nodes {
         found.extend(walk.turns(node));
         found.extend(walk.bare_number(node, &scaled));
+        found.extend(walk.bare_argument(node, &scaled));
         let (of, converts) = walk.scaled(node, &scaled, &unit_of);
         found.extend(converts);
         scaled.push(of);
     }
     let whole = tree.nodes.last().zip(scaled.last());
-    found.extend(whole.zip(result).and_then(|((node, of), unit)| walk.result(node, of, unit)));
+    if let Some(twice) =
+        whole.zip(result).and_then(|((node, of), unit)| walk.result(node, of, unit))
+    {
+        // the factor of `c*100/p` that is reported in % may be meant for either
+        found.retain(|note| !(note.code == SHARE_TWICE && note.span == twice.span));
+        found.push(twice);
+    }
     found
 }
 
@@ -55,10 +66,15 @@ struct Scaled<'u> {
     factor: f64,
     /// Whether there is no other factor, so that its numbers would be in the unit.
     is_bare: bool,
+    /// Whether the name is divided by: `c*100/p`.
+    is_divisor: bool,
+    /// The square of what would be in a unit: where its base stands, and the unit.
+    square: Option<(usize, &'u Unit)>,
 }
 
 impl<'u> Scaled<'u> {
-    const UNKNOWN: Self = Self { unit: None, factor: 1.0, is_bare: false };
+    const UNKNOWN: Self =
+        Self { unit: None, factor: 1.0, is_bare: false, is_divisor: false, square: None };
 
     /// Of a name with this unit.
     fn of(unit: &'u Unit) -> Self {
@@ -67,7 +83,7 @@ impl<'u> Scaled<'u> {
             && unit.factor() != 1.0
             && (counts_turns || unit.dimension().is_none());
         if is_scaled {
-            Self { unit: Some(unit), factor: 1.0, is_bare: true }
+            Self { unit: Some(unit), is_bare: true, ..Self::UNKNOWN }
         } else {
             Self::UNKNOWN
         }
@@ -80,7 +96,8 @@ impl<'u> Scaled<'u> {
 
     /// Whether its plain numbers convert from its unit to the one that formulas compute with.
     fn converts(&self) -> bool {
-        let is = |factor: f64| (self.factor.abs() / factor - 1.0).abs() < SAME_FACTOR;
+        let own = if self.is_divisor { 1.0 / self.factor } else { self.factor };
+        let is = |factor: f64| (own.abs() / factor - 1.0).abs() < SAME_FACTOR;
         self.unit.is_some_and(|unit| {
             // revolutions per second, or per minute, to radians per second
             let is_rate = !unit.dimension().is_none();
@@ -145,12 +162,46 @@ impl Walk<'_> {
             (None, Some(_)) => (*right, *left),
             _ => return None,
         };
-        let (number, unit) = (self.constant(at)?, scaled.get(name)?.bare_unit()?);
+        let of = scaled.get(name)?;
+        let square = of.square.filter(|_| *operator == Operator::Add);
+        let (name, unit) = square.or_else(|| Some((name, of.bare_unit()?)))?;
+        // `3^2`, or 9, beside the square of a quantity
+        let number = match square {
+            Some(_) => self.constant(at).filter(|square| *square >= 0.0)?.sqrt(),
+            None => self.constant(at)?,
+        };
         // the whole beside a share of it, or the first term of an expansion
         let is_whole = number.abs() == 1.0 && (unit.is_relative() || at == *left);
         if number == 0.0 || is_whole || self.has_pi(at) {
             return None;
         }
+        Some(self.number_beside(node, number, (name, unit)))
+    }
+
+    /// `min(p, 100)` of per cent: a number that is far from every share and angle.
+    fn bare_argument(&self, node: &Node, scaled: &[Scaled<'_>]) -> Option<FormulaNote> {
+        let Kind::Call { function: Some(function), arguments, .. } = &node.kind else {
+            return None;
+        };
+        let Function::Fold(of @ (Binary::Min | Binary::Max | Binary::Hypot)) = function else {
+            return None;
+        };
+        let unit = |index: &usize| Some((*index, scaled.get(*index)?.bare_unit()?));
+        let (name, unit) = arguments.iter().find_map(unit)?;
+        // the legs of a triangle are added, of which every number is wrong
+        let most = match (of, unit.turn()) {
+            (Binary::Hypot, _) => 0.0,
+            (_, Some(_)) => std::f64::consts::TAU,
+            (_, None) => 1.0,
+        };
+        let numbers = arguments.iter().filter(|index| !self.has_pi(**index));
+        let is_far = |number: &f64| number.abs() > most && number.abs() != 1.0;
+        let number = numbers.filter_map(|index| self.constant(*index)).find(is_far)?;
+        Some(self.number_beside(node, number, (name, unit)))
+    }
+
+    /// Says of a number what it is beside a quantity of that unit.
+    fn number_beside(&self, node: &Node, number: f64, (name, unit): (usize, &Unit)) -> FormulaNote {
         let written = Shortest(number);
         let is = match unit.turn() {
             Some(_) => format!("{written} rad"),
@@ -164,10 +215,10 @@ impl Walk<'_> {
             self.quoted(&node.span),
             self.quoted(&self.tree.span(name)),
         );
-        Some(FormulaNote { code: "bare-number", text, span: node.span.clone() })
+        FormulaNote { code: "bare-number", text, span: node.span.clone() }
     }
 
-    /// `phi*pi/180` of an angle in degrees, `p/100` of per cent.
+    /// `phi*pi/180` of an angle in degrees, `p/100` and `c*100/p` of per cent.
     fn converted_twice(&self, node: &Node, unit: &Unit) -> FormulaNote {
         let quoted = self.quoted(&node.span);
         let (code, text) = if unit.is_relative() {
@@ -175,7 +226,7 @@ impl Walk<'_> {
                 "`{quoted}` converts from {unit} once more: formulas have a share in {unit} as a plain \
                  number already, so that its name is enough"
             );
-            ("share-converted-twice", text)
+            (SHARE_TWICE, text)
         } else if !unit.dimension().is_none() {
             let text = format!(
                 "`{quoted}` converts to radians per second once more: formulas have what is given in \
@@ -253,7 +304,10 @@ impl Walk<'_> {
                 return Scaled::UNKNOWN;
             }
             let unit = left.unit.or(right.unit);
-            Scaled { unit, factor: left.factor * right.factor, is_bare: bare && unit.is_some() }
+            let is_divisor = left.is_divisor || right.is_divisor;
+            let factor = left.factor * right.factor;
+            let is_bare = bare && unit.is_some() && !is_divisor;
+            Scaled { unit, factor, is_bare, is_divisor, square: None }
         };
         let found = match &node.kind {
             Kind::Name => {
@@ -271,7 +325,10 @@ impl Walk<'_> {
             Kind::Infix { operator, left, right, .. } => match operator {
                 Operator::Add | Operator::Subtract => {
                     let sides = [of(*left), of(*right)].into_iter();
-                    sides.rev().rfind(|side| side.is_bare).unwrap_or(Scaled::UNKNOWN)
+                    let square = sides.clone().find_map(|side| side.square);
+                    let square = square.filter(|_| *operator == Operator::Add);
+                    let sum = sides.rev().rfind(|side| side.is_bare);
+                    sum.unwrap_or(Scaled { square, ..Scaled::UNKNOWN })
                 }
                 Operator::Multiply => {
                     let (x, y) = (of(*left), of(*right));
@@ -281,11 +338,13 @@ impl Walk<'_> {
                 }
                 Operator::Divide => {
                     let (x, y) = (of(*left), of(*right));
-                    let inverse = Scaled { factor: 1.0 / y.factor, ..y };
-                    match y.unit {
-                        Some(_) => Scaled::UNKNOWN,
-                        None => product(x, inverse, x.is_bare && is_constant(*right)),
-                    }
+                    let is_divisor = y.unit.is_some() && !y.is_divisor;
+                    let inverse = Scaled { factor: 1.0 / y.factor, is_divisor, ..y };
+                    product(x, inverse, x.is_bare && is_constant(*right))
+                }
+                Operator::Power if self.constant(*right) == Some(2.0) => {
+                    let square = of(*left).bare_unit().map(|unit| (*left, unit));
+                    Scaled { square, ..Scaled::UNKNOWN }
                 }
                 _ => Scaled::UNKNOWN,
             },
