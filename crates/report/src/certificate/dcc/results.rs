@@ -221,12 +221,12 @@ fn distribution(row: &Stated<'_>) -> String {
         Basis::Student => "t",
         Basis::Fixed | Basis::Shortest => "other",
     }
+    .to_owned()
+}
+
 /// What a quantity of coverage intervals is called: the good practice of the DKD has no reference type
 /// of them, and with that of the measured values they would be further ones.
 const INTERVAL: &str = "gumption_coverageInterval";
-
-    .to_owned()
-}
 
 /// The coverage intervals of the rows that have one.
 fn intervals(
