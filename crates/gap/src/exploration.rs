@@ -67,7 +67,7 @@ impl<'s, 'c> Exploration<'s, 'c> {
     }
 
     /// A hypothesis as its best modes with another noise have it; `None` where there are none.
-    fn again(
+    pub(super) fn again(
         &self,
         effects: &[usize],
         (setup, posterior): Before<'_, '_>,

@@ -9,21 +9,20 @@
 
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::discrepancy::Discrepancy;
 use super::latent::{Map, Role};
 use super::logarithm::ln_add;
+use super::needless::without_needless;
 use super::posterior::{
     self, Before, Beginnings, Effort, MANY_VALUES, Posterior, WeighedHypothesis,
 };
 use super::prior_widths::{self, Begun, OtherPriors, PriorWidths};
 use super::setup::Setup;
-use super::whitened::{self, WhitenedResiduals};
+use super::suspects::more_suspects;
+use super::whitened;
 use crate::{Case, Prior, UncertaintyFactor};
-use gumption_engine::linalg::dot;
-use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::elementary;
 
 /// The factor on stated uncertainties is log-uniform between these.
@@ -60,22 +59,15 @@ const MOVED: f64 = 2.0;
 /// The sizes of what is wrong with a value that is off, in standard uncertainties, with their prior
 /// probabilities: mostly a reading that went wrong a little; a digit or the decimal point that was
 /// typed wrong is off by any number of standard uncertainties.
-const SUSPECT_SIZES: [(f64, f64); 6] =
+pub(crate) const SUSPECT_SIZES: [(f64, f64); 6] =
     [(1e1, 0.9), (1e2, 0.02), (1e3, 0.02), (1e4, 0.02), (1e5, 0.02), (1e6, 0.02)];
 
-/// A value that still is off by more than this, in standard uncertainties with what is wrong with it
-/// included, is off by more than its size says.
-const STILL_OFF: f64 = 3.0;
-
 /// Values that are off, at most.
-const MOST_SUSPECTS: usize = 5;
+pub(crate) const MOST_SUSPECTS: usize = 5;
 
 /// A value is suspected, or other priors are tried, where that may come to have this posterior
 /// probability.
 pub(crate) const WORTH_TRYING: f64 = 0.02;
-
-/// Half the step of differences in the scores.
-const STEP: f64 = 1e-4;
 
 /// A measured value that may be off: a row of the case and an observed output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,7 +75,7 @@ pub(crate) struct Suspect {
     pub(crate) id: usize,
     pub(crate) output: usize,
     /// Place of the size of what is wrong with it.
-    size: usize,
+    pub(crate) size: usize,
 }
 
 impl Suspect {
@@ -93,7 +85,7 @@ impl Suspect {
     }
 
     /// The size of what is wrong with it, in standard uncertainties, and its prior probability.
-    fn size(&self) -> (f64, f64) {
+    pub(crate) fn size(&self) -> (f64, f64) {
         SUSPECT_SIZES[self.size]
     }
 }
@@ -129,7 +121,7 @@ impl NoiseModel {
     }
 
     /// With these values off.
-    fn with_suspects(suspects: Vec<Suspect>) -> Self {
+    pub(crate) fn with_suspects(suspects: Vec<Suspect>) -> Self {
         Self { suspects, ..Self::default() }
     }
 
@@ -221,7 +213,7 @@ impl NoiseModel {
     }
 
     /// Its prior probability, for data of so many values.
-    fn prior(&self, values: usize) -> f64 {
+    pub(crate) fn prior(&self, values: usize) -> f64 {
         if self.factor {
             return PRIOR_FACTOR;
         }
@@ -326,15 +318,19 @@ pub(crate) fn weighings<'c>(
             weighings.push(begun(other, (widths, widths.prior()), &weighings, [0.7, 0.8]));
         }
     }
-    while few && !effort.is_stopped() {
-        let Some(suspects) = more_suspects(&weighings) else { break };
-        if suspects.len() > MOST_SUSPECTS {
-            break;
-        }
+    let off = |suspects: Vec<Suspect>, known: &[Weighing<'c>]| {
         let model = NoiseModel::with_suspects(suspects);
         let prior = model.prior(values);
-        let setup = weighings[0].setup.with_noise(model);
-        weighings.push(weighing(setup, prior, &weighings, [0.8, 1.0]));
+        let setup = known[0].setup.with_noise(model);
+        weighing(setup, prior, known, [0.8, 1.0])
+    };
+    while few && !effort.is_stopped() {
+        let Some(suspects) = more_suspects(&weighings, seed, effort) else { break };
+        weighings.push(off(suspects, &weighings));
+    }
+    if few && !effort.is_stopped() {
+        let needed = without_needless(&weighings);
+        weighings.extend(needed.map(|suspects| off(suspects, &weighings)));
     }
     weigh(&mut weighings);
     progress(1.0);
@@ -353,7 +349,7 @@ fn ln_rivals(known: &[Weighing<'_>], prior: f64) -> f64 {
 
 impl<'c> Weighing<'c> {
     /// What another weighing learns from this one.
-    fn before(&self) -> Before<'_, 'c> {
+    pub(crate) fn before(&self) -> Before<'_, 'c> {
         (&self.setup, &self.posterior)
     }
 
@@ -391,7 +387,7 @@ fn serial_correlations(weighings: &[Weighing<'_>]) -> Vec<f64> {
 }
 
 /// By how much the logarithm of the prior probability of a hypothesis rises if the noise is another.
-fn ln_explained_away(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> f64 {
+pub(crate) fn ln_explained_away(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> f64 {
     let other = NoiseModel::other_than_stated(setup.case.prior);
     let (here, there) = (setup.prior(), other);
     let [here, there] = if hypothesis.effects.is_empty() {
@@ -457,167 +453,4 @@ pub(crate) fn most_probable(weighings: &[Weighing<'_>]) -> usize {
 /// How wide the priors are that are most probable.
 pub(crate) fn most_probable_widths(weighings: &[Weighing<'_>]) -> PriorWidths {
     weighings[most_probable(weighings)].widths
-}
-
-/// A set of values that are off which may be worth an evidence of its own: the last one that was
-/// tried and one more. `None` where no further value is suspicious.
-fn more_suspects(weighings: &[Weighing<'_>]) -> Option<Vec<Suspect>> {
-    let is_known = |w: &&Weighing<'_>| {
-        let noise = &w.setup.data.noise;
-        !noise.factor && noise.serial.is_none() && w.widths == PriorWidths::AsStated
-    };
-    let last = weighings.iter().rfind(is_known)?;
-    let values = last.setup.data.len();
-    let known = &last.setup.data.noise.suspects;
-    if let Some(larger) = larger_suspects(last) {
-        return Some(larger);
-    }
-    let total = ln_total(weighings);
-    let with = |suspect: Suspect| {
-        let mut suspects = known.clone();
-        suspects.push(suspect);
-        NoiseModel::with_suspects(suspects)
-    };
-    let of_hypothesis = |hypothesis: &WeighedHypothesis| -> Vec<SizeGains> {
-        let gains = gains(&last.setup, hypothesis);
-        let ln = hypothesis.ln_weight() + ln_explained_away(&last.setup, hypothesis);
-        gains.into_iter().map(|gains| gains.map(|gain| ln + gain)).collect()
-    };
-    let found: Vec<Vec<SizeGains>> =
-        last.posterior.hypotheses.par_iter().map(of_hypothesis).collect();
-    let sum = |value: usize, size: usize| {
-        found
-            .iter()
-            .filter_map(|of| of.get(value))
-            .fold(f64::NEG_INFINITY, |sum, gains| ln_add(sum, gains[size]))
-    };
-    let outputs = last.setup.data.outputs.len();
-    let (ln, model) = (0..values)
-        .map(|value| (value, last.setup.data.ids[value / outputs], value % outputs))
-        .filter(|&(_, id, output)| !known.iter().any(|suspect| suspect.is_of(id, output)))
-        .flat_map(|(value, id, output)| {
-            (0..SUSPECT_SIZES.len()).map(move |size| (value, Suspect { id, output, size }))
-        })
-        .map(|(value, suspect)| {
-            let model = with(suspect);
-            (sum(value, suspect.size) + elementary::ln(model.prior(values)), model)
-        })
-        .max_by(|a, b| a.0.total_cmp(&b.0))?;
-    (ln - total > elementary::ln(WORTH_TRYING)).then_some(model.suspects)
-}
-
-/// The same suspects with those of a larger size that still are off: without stated uncertainties a
-/// value that is far off hides in the scatter that it makes itself, until it is suspected.
-fn larger_suspects(weighing: &Weighing<'_>) -> Option<Vec<Suspect>> {
-    let Weighing { setup, posterior, .. } = weighing;
-    let hypotheses = posterior.hypotheses.iter();
-    let best = hypotheses.max_by(|a, b| a.probability.total_cmp(&b.probability))?;
-    let residuals = residuals_at_mode(setup, best);
-    let outputs = setup.data.outputs.len();
-    let is_off = |suspect: &Suspect| {
-        let row = setup.data.ids.iter().position(|&id| id == suspect.id)?;
-        let residual = residuals.get(row * outputs + suspect.output)?;
-        (residual.abs() > STILL_OFF && suspect.size + 1 < SUSPECT_SIZES.len()).then_some(())
-    };
-    let suspects = &setup.data.noise.suspects;
-    let larger = suspects.iter().map(|suspect| match is_off(suspect) {
-        Some(()) => Suspect { size: suspect.size + 1, ..*suspect },
-        None => *suspect,
-    });
-    let larger: Vec<Suspect> = larger.collect();
-    (larger != *suspects).then_some(larger)
-}
-
-/// A gain for each size of what is wrong with a value.
-type SizeGains = [f64; SUSPECT_SIZES.len()];
-
-/// By how much the logarithm of a hypothesis' evidence rises if each value is off by each size, in
-/// the Gaussian approximation at its best mode.
-///
-/// There the data are normal with covariance C = V + H H', H being their derivatives by the scores,
-/// and inv(C) (y - E y) = inv(V) r with the residuals r at the mode. A variance s^2 added to value i
-/// changes the logarithm of the density by -ln(1 + s^2 c)/2 + s^2 g^2/(1 + s^2 c)/2 with the i-th
-/// diagonal element c of inv(C) and the i-th element g of inv(V) r (Sherman and Morrison).
-fn gains(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<SizeGains> {
-    let Some(mode) = hypothesis.evidence.modes.first() else { return Vec::new() };
-    let likelihood = setup.likelihood(&hypothesis.effects);
-    let covariance = likelihood.covariance;
-    let unknowns = likelihood.unknowns();
-    let mut points = vec![mode.scores.clone()];
-    for i in 0..unknowns {
-        for step in [-STEP, STEP] {
-            let mut moved = mode.scores.clone();
-            moved[i] += step;
-            points.push(moved);
-        }
-    }
-    let found = whitened::residuals(&likelihood, &points);
-    let Some(WhitenedResiduals { values: residuals, ln_variances }) = found.first() else {
-        return Vec::new();
-    };
-    let values = residuals.len();
-    let outputs = setup.data.outputs.len();
-    // the whitened columns of what is integrated out, and of the scores
-    let mut columns: Vec<Vec<f64>> = if covariance.fitted {
-        let root = |(value, x): (usize, &f64)| x * elementary::exp(-0.5 * ln_variances[value]);
-        covariance.basis.iter().map(|c| c.iter().enumerate().map(root).collect()).collect()
-    } else {
-        covariance.basis.clone()
-    };
-    columns.extend((0..unknowns).filter(|&i| !likelihood.roles[i].is_noise()).map(|i| {
-        let (low, high) = (&found[1 + 2 * i].values, &found[2 + 2 * i].values);
-        low.iter().zip(high).map(|(low, high)| (high - low) / (2.0 * STEP)).collect()
-    }));
-    let k = columns.len();
-    let information = DMatrix::from_fn(k, k, |i, j| {
-        dot(&columns[i], &columns[j]) + if i == j { 1.0 } else { 0.0 }
-    });
-    let Some(root) = information.cholesky() else { return Vec::new() };
-    let products = DVector::from_fn(k, |i, _| dot(&columns[i], residuals));
-    // of what is integrated out linearly the residuals at the mode are not free yet
-    let free = covariance.basis.len();
-    let mut adjusted = residuals.clone();
-    if free > 0 {
-        let inner = root.l().view((0, 0), (free, free)).into_owned();
-        let half = inner.solve_lower_triangular(&products.rows(0, free).into_owned());
-        let solved = half.and_then(|half| inner.tr_solve_lower_triangular(&half));
-        let Some(solved) = solved else { return Vec::new() };
-        for (column, factor) in columns.iter().take(free).zip(solved.iter()) {
-            for (adjusted, x) in adjusted.iter_mut().zip(column) {
-                *adjusted -= factor * x;
-            }
-        }
-    }
-    let lower = root.l();
-    (0..values)
-        .map(|value| {
-            let (row, output) = (value / outputs, value % outputs);
-            // the whitened unit vector of the value: nothing of it lies outside of its row
-            let mut unit = vec![0.0; outputs];
-            let u = match (&setup.data.uncertainties[output], covariance.fitted) {
-                (Some(u), _) => u[row],
-                (None, _) => elementary::exp(0.5 * ln_variances[value]),
-            };
-            if covariance.fitted {
-                unit[output] = elementary::exp(-0.5 * ln_variances[value]);
-            } else {
-                let block = &covariance.roots[row * triangle(outputs)..];
-                for (i, part) in packed::rows(&block[..triangle(outputs)]).enumerate() {
-                    unit[i] = part.get(output).copied().unwrap_or(0.0);
-                }
-            }
-            let at = row * outputs;
-            let along = DVector::from_fn(k, |i, _| dot(&columns[i][at..at + outputs], &unit));
-            let Some(half) = lower.solve_lower_triangular(&along) else {
-                return [0.0; SUSPECT_SIZES.len()];
-            };
-            let c = dot(&unit, &unit) - half.norm_squared();
-            let g = dot(&unit, &adjusted[at..at + outputs]);
-            SUSPECT_SIZES.map(|(size, _)| {
-                let s2 = (size * u).powi(2);
-                let growth = 1.0 + s2 * c.max(0.0);
-                0.5 * (s2 * g * g / growth - elementary::ln(growth))
-            })
-        })
-        .collect()
 }

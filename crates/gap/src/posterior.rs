@@ -128,6 +128,19 @@ pub(crate) fn singles_again(
     Exploration::new(setup, seed, effort).singles(before, rivals)
 }
 
+/// A hypothesis as its best modes with another noise have it, with a first estimate of its evidence;
+/// `None` where there are none, or too many data to look.
+pub(crate) fn again(
+    setup: &Setup<'_>,
+    effects: &[usize],
+    before: Before<'_, '_>,
+    seed: u64,
+    effort: Effort<'_>,
+) -> Option<WeighedHypothesis> {
+    let effort = effort.for_values(setup.data.len());
+    Exploration::new(setup, seed, effort).again(effects, before)
+}
+
 /// The hypotheses that are to be weighed.
 pub(crate) struct Beginnings<'p, 'c> {
     /// Those of at most one effect, with first estimates of their evidences.

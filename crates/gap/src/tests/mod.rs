@@ -8,6 +8,7 @@ mod discrepancy;
 mod evidence;
 #[path = "../../../../examples/generator/mod.rs"]
 mod generator;
+mod influence;
 mod interrupted;
 mod likelihood;
 mod next;

@@ -119,6 +119,70 @@ fn a_value_that_is_off_is_found_and_explains_nothing_else() {
     assert!((offset.estimate - 0.3).abs() < 5.0 * 0.1 / 29f64.sqrt(), "{offset:?}");
 }
 
+/// Two or three values that are off by about as much hide each other: with one of them told the others
+/// still speak for uncertainties that are too small. All are found, with stated uncertainties and
+/// without, of the same and of opposite sign.
+#[test]
+fn several_values_that_are_off_are_found_together() {
+    let sets: [&[(usize, f64)]; 4] = [
+        &[(6, 4.0), (14, -4.0)],
+        &[(6, 4.0), (14, 4.0)],
+        &[(6, 20.0), (14, -20.0)],
+        &[(3, 4.0), (14, 3.5), (20, 4.5)],
+    ];
+    for off in sets {
+        for stated in [true, false] {
+            let mut residuals: Vec<f64> = normals(30, 5).into_iter().map(|z| 0.1 * z).collect();
+            off.iter().for_each(|&(row, wrong)| residuals[row] = wrong);
+            let mut case = line_with(&residuals);
+            if !stated {
+                case.observed[0].as_mut().unwrap().standard_uncertainties = None;
+            }
+            let found = diagnosed(&case, 1);
+            assert_eq!(found.most_probable.kind, HypothesisKind::None, "{off:?} {stated}");
+            let noise = &found.noise[0];
+            assert!(noise.factor.is_none_or(|factor| factor.probability < 0.01), "{noise:?}");
+            let mut likely: Vec<_> =
+                noise.suspects.iter().filter(|s| s.probability > 0.5).collect();
+            likely.sort_by_key(|suspect| suspect.row);
+            assert!(likely.iter().map(|s| s.row).eq(off.iter().map(|of| of.0)), "{noise:?}");
+            for (suspect, (_, wrong)) in likely.iter().zip(off) {
+                assert!(suspect.probability > 0.95, "{suspect:?}");
+                // from what the others let expect, which is known to 0.2 standard uncertainties; an
+                // estimated one is known to 13 %, 4 standard errors
+                let size = if stated { 0.8 } else { 0.52 * wrong.abs() / 0.1 };
+                assert!((suspect.size - wrong / 0.1).abs() < size, "{suspect:?}");
+            }
+        }
+    }
+}
+
+/// All values with three times the stated noise are no single values that are off.
+#[test]
+fn noise_that_is_wider_than_stated_has_no_suspects() {
+    for seed in 20..26 {
+        let residuals: Vec<f64> = normals(30, seed).into_iter().map(|z| 0.3 * z).collect();
+        let found = diagnosed(&line_with(&residuals), 1);
+        let noise = &found.noise[0];
+        assert!(noise.factor.unwrap().probability > 0.9, "{seed}: {noise:?}");
+        assert!(noise.suspects.iter().all(|s| s.probability < 0.05), "{seed}: {noise:?}");
+    }
+}
+
+/// A narrow hump that nothing of the list makes is no five values that are off.
+#[test]
+fn neighbours_that_are_off_to_one_side_are_a_departure() {
+    let hump = |n: usize| 1.5 * (-0.5 * ((n as f64 - 12.0) / 1.5).powi(2)).exp();
+    for seed in 5..8 {
+        let residuals: Vec<f64> =
+            normals(30, seed).into_iter().enumerate().map(|(n, z)| 0.1 * z + hump(n)).collect();
+        let found = diagnosed(&line_with(&residuals), 1);
+        assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained, "{seed}");
+        let suspects = &found.noise[0].suspects;
+        assert!(suspects.iter().all(|suspect| suspect.probability < 0.05), "{seed}: {suspects:?}");
+    }
+}
+
 /// A digit or the decimal point typed wrong is off by hundreds of standard uncertainties and more, with
 /// stated uncertainties and without.
 #[test]
