@@ -357,6 +357,14 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
                  uncertainty of the offset is that of the record's first value"
             );
             notes.push(("wandering-level", of.channel, text));
+        } else if !expected && residuals.coloured.as_ref().is_some_and(|coloured| coloured.flickers)
+        {
+            let text = format!(
+                "`{name}`: the noise grows towards the lowest frequencies of the record, as 1/f noise \
+                 does, which has no level of its own; the uncertainty of the offset is that against \
+                 the mean of a record ten times as long"
+            );
+            notes.push(("wandering-level", of.channel, text));
         }
         let stated = settings.channels[of.channel].resolution;
         if of.resolution > stated {

@@ -12,7 +12,8 @@ use super::polar::{Polar, polar};
 use super::recipe::RecipeSettings;
 use super::surroundings::Finding;
 use super::trials::{Scatter, scatter};
-use gumption_engine::number::elementary::{hypot, log10};
+use super::unexplained::level_wanders;
+use gumption_engine::number::elementary::{hypot, log10, sin_cos_turn};
 
 /// The least gain of a filter at a multiple that counts as distortion.
 const LEAST_GAIN: f64 = 1e-3;
@@ -245,6 +246,10 @@ fn offset(settings: &RecipeSettings, analysed: &Analysed, noise_dof: f64) -> Bud
     let white = residuals.variance * analysed.design.even[(0, 0)];
     let (noise, noise_dof) = match (&residuals.known, &residuals.coloured) {
         (Some(known), _) => (white * known.level, noise_dof),
+        // beside a tone that is not fitted nothing wanders
+        (None, Some(coloured)) if coloured.walks && !level_wanders(analysed) => {
+            (coloured.still, noise_dof)
+        }
         (None, Some(coloured)) => (coloured.level, coloured.freedom),
         // no model: as far as sixteen lags tell
         (None, None) if residuals.correlated => {
@@ -271,6 +276,13 @@ fn offset(settings: &RecipeSettings, analysed: &Analysed, noise_dof: f64) -> Bud
         join(&mut parts, UncertaintySource::Frequency, slope * tuned);
         join(&mut parts, UncertaintySource::SamplingRate, slope * of.of_rate);
         join(&mut parts, UncertaintySource::Leakage, slope * of.of_cut);
+    }
+    // of an oscillation that is not fitted the mean over the record has a part, whatever its phase
+    let samples = analysed.design.samples as f64;
+    let unfitted = analysed.spurious.iter().filter(|of| !of.fitted && of.cycles * samples > 3.0);
+    for of in unfitted.filter(|_| analysed.residuals.known.is_none()) {
+        let mean = of.amplitude / (2.0 * samples * sin_cos_turn(of.cycles / 2.0).0);
+        join(&mut parts, UncertaintySource::Leakage, mean);
     }
     BudgetedValue::new(value, parts, noise_dof)
 }
