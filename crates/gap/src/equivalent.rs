@@ -236,8 +236,12 @@ impl Surface<'_> {
             let moves: Vec<(f64, Vec<f64>)> = dampings
                 .filter_map(|damping| {
                     let mut damped = normal.clone();
-                    for n in 0..unknowns.len() {
-                        damped[(n, n)] += damping * normal[(n, n)].max(1e-12 * largest);
+                    for (n, unknown) in unknowns.iter().enumerate() {
+                        // inputs move as little as they can, in standard uncertainties: where an input
+                        // does what a parameter or another input does, each by its size
+                        let is_input = self.inputs.contains(unknown);
+                        let own = normal[(n, n)].max(1e-12 * largest);
+                        damped[(n, n)] += damping * if is_input { largest } else { own };
                     }
                     let by = damped.cholesky()?.solve(&gradient);
                     let mut next = at.clone();
