@@ -487,7 +487,8 @@ impl<'a> Reader<'a, '_> {
         let file = object.text("file").unwrap_or("").to_owned();
         if of.is_some_and(|of| of.of_interval) {
             let text = format!(
-                "`{name}`: where `{file}` states a standard uncertainty with a coverage interval, it is                  taken in place of U over k, whose digits are rounded"
+                "`{name}`: where `{file}` states a standard uncertainty with a coverage interval, it is \
+                 taken in place of U over k, whose digits are rounded"
             );
             self.inputs.warnings.push(Warning::new("interval-uncertainty", &name, text));
         }

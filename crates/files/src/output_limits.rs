@@ -139,12 +139,15 @@ fn parts(
     Some((width.relative, width.absolute, None))
 }
 
+/// Shares, each with the name of its condition.
+type Shares<'t> = Vec<(f64, &'t str)>;
+
 /// Shares of conditions, `0.01 % of p`, each with the name, and the other terms of a specification;
 /// `None` where no term is a share of a condition.
 fn shares_of_conditions<'t>(
     text: &'t str,
     set: &ConditionSet<'_>,
-) -> Option<(Vec<(f64, &'t str)>, Vec<&'t str>)> {
+) -> Option<(Shares<'t>, Vec<&'t str>)> {
     let known = |name: &str| set.conditions.quantities.iter().any(|of| of.name == name);
     let share = |term: &'t str| {
         let (value, rest) = width::number(term).ok()?;

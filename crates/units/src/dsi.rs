@@ -41,6 +41,13 @@ impl Unit {
             let symbol = match lower.as_str() {
                 "one" => "1",
                 "kilogram" => "kg",
+                // editors have the decibel in their lists; D-SI itself has `\deci\bel`
+                "decibel" if prefix.is_none() => "dB",
+                "bel" if prefix == Some("d") => {
+                    prefix = None;
+                    "dB"
+                }
+                "bel" if prefix.is_none() => "10*dB",
                 _ => {
                     let is_it = |of: &&super::names::Symbol| {
                         of.dsi_name().is_some_and(|dsi| dsi.eq_ignore_ascii_case(name))
@@ -94,6 +101,11 @@ mod tests {
             (r"\percent", "%"),
             (r"\metre\per\second", "m/s"),
             (r"\one", "1"),
+            (r"\decibel", "dB"),
+            (r"\deci\bel", "dB"),
+            (r"\bel", "10*dB"),
+            (r"\neper\metre\tothe{-1}", "Np/m"),
+            (r"\mmHg", "mmHg"),
             (r"\volt\hertz\tothe{-0.5}", "V/Hz^(1/2)"),
             ("|D·s^2/m", "D*s^2/m"),
             ("mm", "mm"),
@@ -104,7 +116,15 @@ mod tests {
             assert_eq!(found.factor(), expected.factor(), "{dsi}");
             assert_eq!(found.zero(), expected.zero(), "{dsi}");
         }
-        for none in [r"\furlong", r"\kilo", r"\metre\tothe{x}", r"\metre\per", "§unit§"] {
+        for none in [
+            r"\furlong",
+            r"\kilo",
+            r"\kilo\bel",
+            r"\milli\decibel",
+            r"\metre\tothe{x}",
+            r"\metre\per",
+            "§unit§",
+        ] {
             assert!(Unit::parse_dsi(none).is_none(), "{none}");
         }
     }

@@ -291,7 +291,7 @@ pub(super) static SYMBOLS: &[Symbol] = &[
     relative("ppb", -9),
     level("dB", None, 1, 0),
     // 20/ln(10) decibels
-    level("Np", None, 8_685_889_638_065_036_553, -18),
+    level("Np", None, 8_685_889_638_065_036_553, -18).dsi("neper"),
     above("dBm", Zero::Milliwatt),
     above("dBW", Zero::Watt),
     above("dBV", Zero::Volt),

@@ -6,9 +6,12 @@ use std::sync::Arc;
 use super::COMPUTED_DIGITS;
 use crate::decimal::to_digits;
 
+/// A function of the conditions' values.
+type Function = dyn Fn(&[f64]) -> f64 + Send + Sync;
+
 /// A figure of an output that follows the conditions, in the output's unit.
 #[derive(Clone)]
-pub struct OfConditions(Arc<dyn Fn(&[f64]) -> f64 + Send + Sync>);
+pub struct OfConditions(Arc<Function>);
 
 impl OfConditions {
     /// The figure that this function gives of the conditions' values, each in its unit.

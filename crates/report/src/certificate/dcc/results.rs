@@ -3,7 +3,7 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::unit::{is_of_the_si, unit};
+use super::unit::{definition, is_of_the_si, unit};
 use super::xml::Xml;
 use crate::certificate::functions::{self, At};
 use crate::certificate::sentences::Said;
@@ -140,10 +140,7 @@ fn explained(xml: &mut Xml, of: &Unit) {
     }
     xml.element("dcc:measurementMetaData", |xml| {
         xml.element("dcc:metaData", |xml| {
-            let dimension = of.dimension();
-            let size = exact(of.factor());
-            let si = if dimension.is_none() { "1".to_owned() } else { dimension.to_string() };
-            xml.leaf("dcc:nonSIDefinition", &format!("{} = {size} {si}", of.text()));
+            xml.leaf("dcc:nonSIDefinition", &definition(of));
             xml.leaf("dcc:nonSIUnit", of.text());
         });
     });

@@ -1,6 +1,8 @@
 //! Units as D-SI writes them: `\metre\second\tothe{-2}` for `m/s^2`.
 
-use gumption_units::{Factor, FactorBase, Unit};
+use gumption_units::{Factor, FactorBase, Unit, Zero};
+
+use crate::number::exact;
 
 /// A unit as D-SI writes it; one that D-SI does not have stands behind a bar, in a text that is the
 /// same for every spelling of the unit.
@@ -36,6 +38,51 @@ fn factor(factor: &Factor) -> Option<String> {
     }
 }
 
+/// What a unit is that D-SI does not have: its size in the SI, or what a level is the logarithm of
+/// (IEC 60027-3).
+pub(super) fn definition(unit: &Unit) -> String {
+    let text = unit.text();
+    let power = |over: &str| format!("{text} is the level 10 lg({over}) of a power P");
+    let voltage = |over: &str| format!("{text} is the level 20 lg({over}) of a voltage U");
+    match unit.zero() {
+        Some(Zero::Milliwatt) => power("P/(1 mW)"),
+        Some(Zero::Watt) => power("P/(1 W)"),
+        Some(Zero::Volt) => voltage("U/(1 V)"),
+        Some(Zero::Millivolt) => voltage("U/(1 mV)"),
+        Some(Zero::Microvolt) => voltage("U/(1 uV)"),
+        Some(Zero::FullScale) => {
+            format!("{text} is the level 20 lg(x/x_FS) of a signal x above the full scale x_FS")
+        }
+        Some(Zero::Carrier) => {
+            format!("{text} is the level 10 lg(P/P_c) of a power P above that of the carrier P_c")
+        }
+        Some(Zero::Isotropic) => {
+            format!("{text} is the gain 10 lg(G) of an antenna above the isotropic one, G = 1")
+        }
+        // a level difference: one number for powers and for the field quantities that they go with
+        _ if !unit.level_exponent().is_zero() && text == "dB" => {
+            "dB is the level difference 10 lg(P1/P2) of powers, 20 lg(x1/x2) of field quantities"
+                .to_owned()
+        }
+        _ => {
+            let dimension = unit.dimension();
+            let size = exact(unit.factor());
+            let levels = unit.level_exponent();
+            let level = match (levels.numerator(), levels.denominator()) {
+                (1, 1) => "dB".to_owned(),
+                _ => format!("dB^{levels}"),
+            };
+            let si = match (dimension.is_none(), levels.is_zero()) {
+                (true, true) => "1".to_owned(),
+                (false, true) => dimension.to_string(),
+                (true, false) => level,
+                (false, false) => format!("{level} {dimension}"),
+            };
+            format!("{text} = {size} {si}")
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -63,5 +110,16 @@ mod tests {
         assert_eq!(said("W/(m^2 lbf)"), "|W/(m^2·lbf)");
         assert_eq!(said("10^-6/K"), "|10^-6/K");
         assert_eq!(said("Qm"), "|Qm");
+    }
+    /// A level is a logarithm of a ratio, and no number of ones (IEC 60027-3).
+    #[test]
+    fn definitions_of_levels_and_others() {
+        let said = |text: &str| definition(&Unit::parse(text).unwrap());
+        assert_eq!(said("mbar"), "mbar = 100 kg m^-1 s^-2");
+        assert_eq!(said("dBm"), "dBm is the level 10 lg(P/(1 mW)) of a power P");
+        assert_eq!(said("dBuV"), "dBuV is the level 20 lg(U/(1 uV)) of a voltage U");
+        assert!(said("dB").starts_with("dB is the level difference 10 lg(P1/P2)"));
+        assert_eq!(said("dB/m"), "dB/m = 1 dB m^-1");
+        assert_eq!(said("LSB"), "LSB = 1 1");
     }
 }
