@@ -193,6 +193,7 @@ impl Budget<'_> {
             })
             .collect();
         self.understood.push(format!("line {}: columns {}", header.first + 1, shown.join(", ")));
+        self.hidden_columns(&header);
         if header.has_widths_as_values {
             let column = header.columns.iter().find(|(_, column)| *column == Column::Width);
             let text = column.map_or("", |(place, _)| header.heading(*place));

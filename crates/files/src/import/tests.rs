@@ -1104,6 +1104,28 @@ fn formulas_without_values_are_mistakes() {
     let part =
         "cell D2 is a formula without a stored value; open and save the workbook in a spreadsheet";
     assert!(error.contains(part), "{error}");
+    // nor has one that a writer stored as 0 because it never calculates
+    let error = of("<c><f>0.004/2</f><v>0</v></c>").unwrap_err().to_string();
+    assert!(error.contains("cell D2 is a formula whose stored value is 0"), "{error}");
+    let error = of("<c><v>&e;</v></c>").unwrap_err().to_string();
+    assert!(error.contains("cell D2 holds an entity"), "{error}");
     let budget = of("<c><f>0.004/2</f><v>0.002</v></c>").unwrap();
     assert_eq!(task(&budget).rows[0].distributions[0].standard_uncertainty(), 0.001);
+}
+
+/// A blank estimate may be a correction of 0; it was one without a word.
+#[test]
+fn blank_estimates_are_told() {
+    let head = "Quantity,Estimate,Standard uncertainty,Distribution,Sensitivity,Unit";
+    let text = format!("{head}\nR,,0.1,normal,1,ohm\nd,2,0.2,normal,1,ohm\n");
+    let (_, budget) = uncertainties(&text);
+    assert!(
+        guesses(&budget, "line 2: `R` has no estimate, and 0 is taken"),
+        "{:?}",
+        budget.guessed
+    );
+    assert!(!guesses(&budget, "`d` has no estimate"));
+    // a sheet of corrections alone says so by its column
+    let (_, budget) = uncertainties(&text.replace(",2,", ",,"));
+    assert!(!guesses(&budget, "has no estimate"), "{:?}", budget.guessed);
 }
