@@ -219,6 +219,17 @@ impl Budget<'_> {
                 return None;
             }
         };
+        if equations.is_empty()
+            && let Some(place) = header.possible_coefficients(self.cells)
+        {
+            let reason = format!(
+                "the column `{}` may hold sensitivity coefficients, without which the result is the sum of \
+                 the quantities: head it `Sensitivity coefficient`, or take it away",
+                header.heading(place)
+            );
+            self.fail(header.first, reason);
+            return None;
+        }
         let measured = equations.last().map(|equation| equation.name.clone());
         let used: Vec<String> = equations.iter().flat_map(Equation::names).collect();
         let Table { rows, result, stated, factor } = self.rows(&header, measured.as_deref(), &used);

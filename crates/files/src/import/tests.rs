@@ -1129,3 +1129,35 @@ fn blank_estimates_are_told() {
     let (_, budget) = uncertainties(&text.replace(",2,", ",,"));
     assert!(!guesses(&budget, "has no estimate"), "{:?}", budget.guessed);
 }
+
+/// `Coefficient` beside a divisor; before, the model was a plain sum: u = 0.30 mg and not
+/// sqrt((0.5/2)^2 + (2*0.3/sqrt(3))^2) = 0.427 mg.
+#[test]
+fn coefficients_are_taken_or_asked() {
+    let text = "Grandeur;Estimation;Unité;Incertitude;Loi;Diviseur;Coefficient\n\
+        m_s;1000,0002;g;0,0005;normale;2;1\nd;0;g;0,0003;rectangulaire;√3;-2\nm;1000,0002;g;;;;\n";
+    let (_, budget) = uncertainties(text);
+    assert!(budget.text.contains("(-2"), "{}", budget.text);
+    for heading in ["Facteur X", "Wichtungsfaktor", "Empfindlichkeits-K."] {
+        let error = refusal(&text.replace("Coefficient", heading));
+        let part = format!("the column `{heading}` may hold sensitivity coefficients");
+        assert!(error.contains(&part), "{error}");
+        // 1 in every row changes nothing
+        let (_, budget) = uncertainties(&text.replace("Coefficient", heading).replace(";-2", ";1"));
+        assert!(guesses(&budget, "is not taken"), "{:?}", budget.guessed);
+    }
+    // an equation says all of it
+    let (_, budget) =
+        uncertainties(&format!("m = m_s - 2*d\n{}", text.replace("Coeff", "X-Coeff")));
+    assert!(guesses(&budget, "`X-Coefficient` is not taken"), "{:?}", budget.guessed);
+}
+
+/// Distributions under words that are not known, by what the cells say: 0.3/sqrt(3) and not 0.3.
+#[test]
+fn cells_that_name_distributions_are_taken() {
+    for heading in ["Verteilungsfunktion", "Form", "Annahme"] {
+        let text = format!("Größe;Schätzwert;Einheit;Halbbreite;{heading}\nm;1;g;0,3;Rechteck\n");
+        let (found, _) = uncertainties(&text);
+        assert!((found[0] - 0.3 / 3f64.sqrt()).abs() < 1e-15, "{heading} {found:?}");
+    }
+}
