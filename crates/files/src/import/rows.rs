@@ -330,7 +330,9 @@ impl Budget<'_> {
             self.fail(line, reason);
         }
         if let Some((_, unit)) = read
-            && let digits = text.strip_suffix(unit).unwrap_or(text)
+            && let digits = text.strip_suffix(unit).unwrap_or(text).trim()
+            && let plain = number::without_groups(digits)
+            && let digits = plain.as_deref().unwrap_or(digits)
             && let Err(reason) = self.marks.borrow_mut().with_point(digits)
             && self.log.is_clean()
         {

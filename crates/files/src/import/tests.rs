@@ -1161,3 +1161,17 @@ fn cells_that_name_distributions_are_taken() {
         assert!((found[0] - 0.3 / 3f64.sqrt()).abs() < 1e-15, "{heading} {found:?}");
     }
 }
+
+/// Numbers with both marks have one reading.
+#[test]
+fn grouped_numbers_with_both_marks() {
+    let german = "Größe;Schätzwert;Einheit;Halbbreite;Verteilung\nm;10.000,005;g;0,3;Rechteck\n";
+    let english =
+        "Quantity,Estimate,Unit,Half-width,Distribution\nm,\"10,000.005\",g,0.3,rectangular\n";
+    for text in [german, english] {
+        let (_, budget) = uncertainties(text);
+        assert_eq!(task(&budget).rows[0].distributions[0].mean(), 10_000.005, "{text}");
+    }
+    let error = refusal(&german.replace("0,3", "0.3"));
+    assert!(error.contains("the same decimal mark"), "{error}");
+}
