@@ -161,6 +161,24 @@ impl Budget<'_> {
                 self.log.report(&self.cells.line(0), FileKind::Results.described());
                 return None;
             }
+            if let Some((line, known, unknown)) = Header::nearly(self.cells) {
+                let quoted = |of: &[String]| {
+                    let of: Vec<String> = of.iter().map(|of| format!("`{of}`")).collect();
+                    gumption_units::listed(&of, " and ")
+                };
+                let others = match unknown.len() {
+                    0 => String::new(),
+                    1 => format!(", and {} is not known", quoted(&unknown)),
+                    _ => format!(", and {} are not known", quoted(&unknown)),
+                };
+                let reason = format!(
+                    "no budget is found: {} head columns here, none of which holds an uncertainty{others}: \
+                     head the column of uncertainties `Standard uncertainty`, `Half-width` or `U (k=2)`",
+                    quoted(&known)
+                );
+                self.fail(line, reason);
+                return None;
+            }
             self.fail(
                 0,
                 "no budget is found: a header row names the columns, such as quantity, estimate, \

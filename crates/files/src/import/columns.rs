@@ -218,6 +218,13 @@ const WORDS: &[(Column, &[&str])] = &[
             "wahrscheinlichkeitsverteilung",
             "verteilungsart",
             "verteilungsform",
+            "verteilungsfunktion",
+            "verteilungsdichte",
+            "dichtefunktion",
+            "wahrscheinlichkeitsdichte",
+            "probability density",
+            "probability density function",
+            "densité de probabilité",
             "loi",
             "loi de probabilité",
             "distribution de probabilité",
@@ -381,9 +388,17 @@ pub(super) fn is_expanded_symbol(text: &str) -> bool {
 /// Whether a heading speaks of a standard deviation.
 fn is_deviation(heading: &str) -> bool {
     let words = plain(heading);
-    ["standard deviation", "standardabweichung", "écart-type", "écart type", "std"]
-        .iter()
-        .any(|deviation| words.starts_with(deviation))
+    [
+        "standard deviation",
+        "standardabweichung",
+        "écart-type",
+        "écart type",
+        "std",
+        "st. dev",
+        "stand. dev",
+    ]
+    .iter()
+    .any(|deviation| words.starts_with(deviation))
         && !words.contains("unc")
         && !words.contains("unsich")
         && !words.contains("mean")
@@ -481,7 +496,16 @@ fn column(text: &str) -> Option<Column> {
         }
         found.map(|(_, column)| column)
     };
-    exact.map(|(column, _)| *column).or_else(begins)
+    // `resolution / half-width`: one of two names
+    let one_of_two = || {
+        let mut named =
+            words.split(" / ").filter(|part| part.chars().count() > 3).filter_map(|part| {
+                let found = WORDS.iter().find(|(_, all)| all.contains(&part.trim()));
+                found.map(|(column, _)| *column)
+            });
+        named.next().filter(|_| named.next().is_none())
+    };
+    exact.map(|(column, _)| *column).or_else(begins).or_else(one_of_two)
 }
 
 /// Whether a header without its spaces speaks of degrees of freedom: `νi`, `veff`, `vi or veff`.

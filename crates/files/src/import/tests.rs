@@ -1175,3 +1175,17 @@ fn grouped_numbers_with_both_marks() {
     let error = refusal(&german.replace("0,3", "0.3"));
     assert!(error.contains("the same decimal mark"), "{error}");
 }
+
+/// Headings of uncertainties that are known by a part of them, and ones that are not.
+#[test]
+fn headings_that_are_not_known_are_named() {
+    let text = "Quantity,Value,Unit,Resolution / half-width,Distribution\nA,10,V,0.3,rectangular\n";
+    assert!((uncertainties(text).0[0] - 0.3 / 3f64.sqrt()).abs() < 1e-15);
+    let text = "Quantity,Value,Unit,Std. dev.,n,Distribution,Divisor,Sens. coeff.\nA,10,V,0.3,9,normal,,1\n";
+    let error = refusal(text);
+    assert!(error.contains("`Std. dev.` can be the standard deviation of single"), "{error}");
+    let (found, _) = uncertainties(&text.replace("normal,,", "normal,√n,"));
+    assert!((found[0] - 0.1).abs() < 1e-15, "{found:?}");
+    let error = refusal("Quantity,Value,Unit,Wobble,Distribution\nA,10,V,0.3,rectangular\n");
+    assert!(error.contains("an uncertainty, and `Wobble` is not known"), "{error}");
+}
