@@ -48,3 +48,20 @@ fn a_typed_model_and_formulas_of_complex_quantities_have_the_same_bits() {
     assert!((r.hypot(x) - 256.830).abs() < 0.01, "{r} {x}");
     assert!(((x / r).atan() - 0.17289).abs() < 1e-4, "{r} {x}");
 }
+
+/// A part may be a text, as an input may; a wrong one is one mistake.
+#[test]
+fn parts_are_written_as_texts() {
+    let of = |re: &str| {
+        format!(
+            r#"{{"inputs": {{"S": {{"complex": {{"re": "{re}", "im": "0.02(1)", "correlation": 0.5}}}}}},
+            "equations": {{"y": "abs(S)"}}, "outputs": {{"y": {{}}}}}}"#
+        )
+    };
+    let file = file::read_text("s.json", &of("0.012(5)"), Path::new("."), &[]).expect("a model");
+    let parts = &file.task.rows[0].distributions;
+    let found = parts.iter().map(|part| (part.mean(), part.standard_uncertainty()));
+    assert_eq!(found.collect::<Vec<_>>(), [(0.012, 0.005), (0.02, 0.01)]);
+    let faults = file::read_text("s.json", &of("0.012(x)"), Path::new("."), &[]).unwrap_err();
+    assert_eq!(faults.0.len(), 1, "{faults}");
+}

@@ -142,6 +142,24 @@ fn several_passes_give_the_bytes_of_one_run() {
     }
 }
 
+/// A pass that only `--save` needs is none that a plain answer waits for.
+#[test]
+fn a_plain_merge_needs_no_pass_of_a_saved_one() {
+    let place = Place::new(
+        r#"{"inputs": {"a": {"distribution": "normal", "mean": 1, "std": 0.1}},
+            "equations": {"y": "a^2"}, "outputs": {"y": {}}}"#,
+    );
+    let options = ["--trials", "600000", "--memory", "1M"];
+    let whole = place.done(&[&["run", "m.json", "--format", "json"][..], &options].concat());
+    place.make(&options, &["0..300", "300..586"], 1);
+    let (code, _, said) = place.ended(&["merge", "parts", "--save", "r.json"]);
+    assert_eq!(code, 75, "{said}");
+    assert!(place.done(&["merge", "parts", "--format", "json"]) == whole);
+    // what is to be saved still wants the pass
+    let (code, _, said) = place.ended(&["merge", "parts", "--save", "r.json"]);
+    assert!(code == 2 && said.contains("lacks blocks of pass 2"), "{said}");
+}
+
 /// Rows of conditions, an adaptive sweep, a replaced value, a model from standard input, and one that
 /// is nowhere any more.
 #[test]

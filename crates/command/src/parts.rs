@@ -264,13 +264,35 @@ impl PartsFolder {
         let parts = self.parts(run, &pass)?;
         let all = run.blocks()?;
         let missing = missing(&parts, all);
-        if !missing.is_empty() {
-            return Err(self.incomplete(&missing, all, pass.number()));
+        if missing.is_empty() {
+            return self.merge_pass(run, (&pass, parts), with_quantiles, control);
         }
+        // a further pass may have been asked for by `--save` alone
+        if self.has_pass && !with_quantiles {
+            let first = run.first(control)?;
+            if let Ok(parts) = self.parts(run, &first)
+                && self::missing(&parts, all).is_empty()
+                && let found @ MergedRun::Evaluation(..) =
+                    self.merge_pass(run, (&first, parts), with_quantiles, control)?
+            {
+                return Ok(found);
+            }
+        }
+        Err(self.incomplete(&missing, all, pass.number()))
+    }
+
+    /// Puts all parts of a pass together.
+    fn merge_pass(
+        &self,
+        run: &PartedRun<'_>,
+        (pass, parts): (&PassOfRun, Vec<(&Path, Range<u64>)>),
+        with_quantiles: bool,
+        control: &Control<'_>,
+    ) -> Result<MergedRun, Failure> {
         // half an answer would be none
         let mut whole = *control;
         whole.stop = None;
-        let mut merging = run.merging(&pass, whole)?;
+        let mut merging = run.merging(pass, whole)?;
         for (path, _) in parts {
             merging.add(&path.display(), &content(path)?)?;
         }

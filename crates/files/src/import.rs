@@ -161,6 +161,24 @@ impl Budget<'_> {
                 self.log.report(&self.cells.line(0), FileKind::Results.described());
                 return None;
             }
+            if let Some((line, known, unknown)) = Header::nearly(self.cells) {
+                let quoted = |of: &[String]| {
+                    let of: Vec<String> = of.iter().map(|of| format!("`{of}`")).collect();
+                    gumption_units::listed(&of, " and ")
+                };
+                let others = match unknown.len() {
+                    0 => String::new(),
+                    1 => format!(", and {} is not known", quoted(&unknown)),
+                    _ => format!(", and {} are not known", quoted(&unknown)),
+                };
+                let reason = format!(
+                    "no budget is found: {} head columns here, none of which holds an uncertainty{others}: \
+                     head the column of uncertainties `Standard uncertainty`, `Half-width` or `U (k=2)`",
+                    quoted(&known)
+                );
+                self.fail(line, reason);
+                return None;
+            }
             self.fail(
                 0,
                 "no budget is found: a header row names the columns, such as quantity, estimate, \
@@ -193,6 +211,7 @@ impl Budget<'_> {
             })
             .collect();
         self.understood.push(format!("line {}: columns {}", header.first + 1, shown.join(", ")));
+        self.hidden_columns(&header);
         if header.has_widths_as_values {
             let column = header.columns.iter().find(|(_, column)| *column == Column::Width);
             let text = column.map_or("", |(place, _)| header.heading(*place));
@@ -218,6 +237,17 @@ impl Budget<'_> {
                 return None;
             }
         };
+        if equations.is_empty()
+            && let Some(place) = header.possible_coefficients(self.cells)
+        {
+            let reason = format!(
+                "the column `{}` may hold sensitivity coefficients, without which the result is the sum of \
+                 the quantities: head it `Sensitivity coefficient`, or take it away",
+                header.heading(place)
+            );
+            self.fail(header.first, reason);
+            return None;
+        }
         let measured = equations.last().map(|equation| equation.name.clone());
         let used: Vec<String> = equations.iter().flat_map(Equation::names).collect();
         let Table { rows, result, stated, factor } = self.rows(&header, measured.as_deref(), &used);

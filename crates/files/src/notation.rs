@@ -47,6 +47,15 @@ pub(super) fn apply(log: &Collector, root: &mut Node) {
         quantity(log, &input.key, &mut input.value, None);
         let Json::Object(fields) = &mut input.value.value else { continue };
         let unit = unit_of(fields).unwrap_or_default();
+        let complex = fields.iter_mut().find(|field| field.key == "complex");
+        if let Some(Json::Object(parts)) = complex.map(|parts| &mut parts.value.value) {
+            for part in parts {
+                if matches!(part.value.value, Json::Text(_)) {
+                    let name = format!("{}.{}", input.key, part.key);
+                    quantity(log, &name, &mut part.value, None);
+                }
+            }
+        }
         let parts = fields.iter_mut().find(|field| field.key == "components");
         if let Some(Json::List(parts)) = parts.map(|parts| &mut parts.value.value) {
             for part in parts {

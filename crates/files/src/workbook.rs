@@ -42,7 +42,10 @@ type Cells = BTreeMap<u32, BTreeMap<u32, String>>;
 /// What is wrong with the workbook, as a sentence about it.
 pub(super) fn first_sheet(bytes: Vec<u8>) -> Result<String, String> {
     check_parts(&bytes)?;
-    csv(&cells(&mut opened(bytes)?, Sheet::First, &mut 0)?.0)
+    let layout = Layout::of(&bytes, 0);
+    let cells = cells(&mut opened(bytes)?, Sheet::First, &mut 0)?.0;
+    layout.check_shown(cells.keys())?;
+    csv(&cells)
 }
 
 /// A sheet of a workbook.
@@ -243,7 +246,7 @@ fn is_ordered(range: &str) -> bool {
 }
 
 /// The name of a column counted from 0.
-fn letters(column: u32) -> String {
+pub(super) fn letters(column: u32) -> String {
     let mut rest = column + 1;
     let mut name = String::new();
     while rest > 0 {

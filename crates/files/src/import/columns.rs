@@ -184,6 +184,13 @@ const WORDS: &[(Column, &[&str])] = &[
             "standard unc",
             "u_x",
             "standard deviation",
+            "std. dev",
+            "std dev",
+            "std.dev",
+            "stand. dev",
+            "st. dev",
+            "stdev",
+            "stddev",
             "standardunsicherheit",
             "std. unsicherheit",
             "standardabweichung",
@@ -211,6 +218,13 @@ const WORDS: &[(Column, &[&str])] = &[
             "wahrscheinlichkeitsverteilung",
             "verteilungsart",
             "verteilungsform",
+            "verteilungsfunktion",
+            "verteilungsdichte",
+            "dichtefunktion",
+            "wahrscheinlichkeitsdichte",
+            "probability density",
+            "probability density function",
+            "densité de probabilité",
             "loi",
             "loi de probabilité",
             "distribution de probabilité",
@@ -374,9 +388,17 @@ pub(super) fn is_expanded_symbol(text: &str) -> bool {
 /// Whether a heading speaks of a standard deviation.
 fn is_deviation(heading: &str) -> bool {
     let words = plain(heading);
-    ["standard deviation", "standardabweichung", "écart-type", "écart type", "std"]
-        .iter()
-        .any(|deviation| words.starts_with(deviation))
+    [
+        "standard deviation",
+        "standardabweichung",
+        "écart-type",
+        "écart type",
+        "std",
+        "st. dev",
+        "stand. dev",
+    ]
+    .iter()
+    .any(|deviation| words.starts_with(deviation))
         && !words.contains("unc")
         && !words.contains("unsich")
         && !words.contains("mean")
@@ -474,7 +496,16 @@ fn column(text: &str) -> Option<Column> {
         }
         found.map(|(_, column)| column)
     };
-    exact.map(|(column, _)| *column).or_else(begins)
+    // `resolution / half-width`: one of two names
+    let one_of_two = || {
+        let mut named =
+            words.split(" / ").filter(|part| part.chars().count() > 3).filter_map(|part| {
+                let found = WORDS.iter().find(|(_, all)| all.contains(&part.trim()));
+                found.map(|(column, _)| *column)
+            });
+        named.next().filter(|_| named.next().is_none())
+    };
+    exact.map(|(column, _)| *column).or_else(begins).or_else(one_of_two)
 }
 
 /// Whether a header without its spaces speaks of degrees of freedom: `νi`, `veff`, `vi or veff`.
@@ -694,6 +725,8 @@ impl Header {
             }
         }
         let mut best = best?;
+        best.bare_coefficients();
+        best.named_distributions(cells);
         best.widths_as_values(cells);
         best.deviations_as_widths(cells);
         best.doubts(cells);
@@ -711,6 +744,88 @@ impl Header {
         }
         best.units_below(cells);
         Some(best)
+    }
+
+    /// `Coefficient` beside a divisor is one of sensitivity where no other column is.
+    fn bare_coefficients(&mut self) {
+        const WORDS: [&str; 6] =
+            ["coefficient", "coefficients", "coeff", "coef", "koeffizient", "koeffizienten"];
+        let has = |wanted: Column| self.columns.iter().any(|(_, column)| *column == wanted);
+        if !has(Column::Divisor) || has(Column::Sensitivity) {
+            return;
+        }
+        let is_one = |place: &usize| WORDS.contains(&plain(self.heading(*place)).as_str());
+        let found: Vec<usize> = self.unknown.iter().copied().filter(is_one).collect();
+        if let [place] = found[..] {
+            self.unknown.retain(|of| *of != place);
+            self.columns.push((place, Column::Sensitivity));
+        }
+    }
+
+    /// A column under other words whose cells name distributions is one of distributions.
+    fn named_distributions(&mut self, cells: &Cells) {
+        if self.columns.iter().any(|(_, column)| *column == Column::Distribution) {
+            return;
+        }
+        let is_one = |place: &usize| {
+            let texts = (self.line + 1..cells.lines()).map(|line| cells.text(line, *place).trim());
+            let mut named = texts.filter_map(|text| Some((text, distribution(text)?))).peekable();
+            // one letter may be anything
+            named.peek().is_some()
+                && named.all(|(text, of)| of != NamedShape::Unknown && text.chars().count() > 2)
+        };
+        let found: Vec<usize> = self.unknown.iter().copied().filter(is_one).collect();
+        if let [place] = found[..] {
+            self.unknown.retain(|of| *of != place);
+            self.columns.push((place, Column::Distribution));
+        }
+    }
+
+    /// A column of numbers that nothing names and whose words may be those of sensitivity coefficients;
+    /// 1 in every row is none that changes anything.
+    pub(super) fn possible_coefficients(&self, cells: &Cells) -> Option<usize> {
+        const WORDS: [&str; 9] = [
+            "coeff",
+            "coef",
+            "koeff",
+            "c_i",
+            "facteur",
+            "faktor",
+            "factor",
+            "empfindlich",
+            "sensib",
+        ];
+        if self.columns.iter().any(|(_, column)| *column == Column::Sensitivity) {
+            return None;
+        }
+        let comma = cells.decimal_comma();
+        let may_be = |place: &&usize| {
+            let words = plain(self.heading(**place));
+            WORDS.iter().any(|word| words.contains(word)) && !is_of_correlation(&words) && {
+                let lines = self.line + 1..cells.lines();
+                let texts = lines.map(|line| cells.text(line, **place).trim());
+                let mut values = texts.filter_map(|text| number_with_unit(text, comma));
+                values.any(|(value, _)| value != 1.0)
+            }
+        };
+        self.unknown.iter().find(may_be).copied()
+    }
+
+    /// The line that most likely is a header which lacks a column of uncertainties, what is known of it,
+    /// and the headings that are not.
+    pub(super) fn nearly(cells: &Cells) -> Option<(usize, Vec<String>, Vec<String>)> {
+        let of_line = |line: usize| {
+            let headings = cells.row(line).iter().map(|cell| cell.trim());
+            let headings = headings.filter(|cell| !cell.is_empty());
+            let (known, unknown): (Vec<&str>, Vec<&str>) =
+                headings.partition(|cell| column(cell).is_some());
+            let names = [Column::Quantity, Column::Symbol];
+            let is_named =
+                known.iter().any(|cell| column(cell).is_some_and(|of| names.contains(&of)));
+            let owned = |of: Vec<&str>| of.into_iter().map(str::to_owned).collect::<Vec<_>>();
+            (is_named && known.len() >= 3).then(|| (line, owned(known), owned(unknown)))
+        };
+        (0..cells.lines()).filter_map(of_line).max_by_key(|(_, known, _)| known.len())
     }
 
     /// The first other line that names the columns of this header, or most of them.

@@ -15,12 +15,27 @@ pub(super) fn number(text: &str, decimal_comma: bool) -> Option<f64> {
         return number(percent, decimal_comma).map(|share| share / 100.0);
     }
     let text = with_exponent(&text).unwrap_or(text);
+    let text = without_groups(&text).map_or(text, |text| text.replace(',', "."));
     let plain = text.parse::<f64>().ok().filter(|_| text.contains(|c: char| c.is_ascii_digit()));
     let with_comma = || {
         let one = decimal_comma && text.matches(',').count() == 1 && !text.contains('.');
         one.then(|| text.replace(',', ".").parse::<f64>().ok()).flatten()
     };
     plain.or_else(with_comma).filter(|value| value.is_finite())
+}
+
+/// `10.000,005` and `10,000.005` without the marks between groups of three digits: of a number with both
+/// marks the last one is the decimal one. `None` of other numbers.
+pub(super) fn without_groups(text: &str) -> Option<String> {
+    let (whole, fraction) = text.rsplit_once(['.', ','])?;
+    let mark = text.get(whole.len()..)?.chars().next()?;
+    let other = if mark == '.' { ',' } else { '.' };
+    let mut groups = whole.trim_start_matches(['-', '+']).split(other);
+    let are_digits = |group: &str| group.bytes().all(|of| of.is_ascii_digit());
+    let is_first = groups.next().is_some_and(|of| (1..=3).contains(&of.len()) && are_digits(of));
+    let mut rest = groups.peekable();
+    let is_grouped = rest.peek().is_some() && rest.all(|of| of.len() == 3 && are_digits(of));
+    (is_first && is_grouped).then(|| format!("{}{mark}{fraction}", whole.replace(other, "")))
 }
 
 /// `0.41·10^-6` and `10⁻³` as `0.41e-6` and `1e-3`.
@@ -166,10 +181,12 @@ mod tests {
             ("10⁻³", 1e-3),
             ("2 %", 0.02),
             ("1e-3", 1e-3),
+            ("10.000,005", 10_000.005),
+            ("-1,234,567.5", -1_234_567.5),
         ] {
             assert_eq!(number(text, true), Some(value), "{text}");
         }
-        for text in ["", "inf", "nan", "x", "1,2,3", "1.2,3", "y10^3"] {
+        for text in ["", "inf", "nan", "x", "1,2,3", "1.2,3", "1234.567,8", "0.001,5.2", "y10^3"] {
             assert_eq!(number(text, true), None, "{text}");
         }
         for (text, value, unit) in [

@@ -166,12 +166,28 @@ impl Budget<'_> {
             table.stated.extend(self.stated(header, last.line, &last));
             table.result = Some(last);
         }
+        self.blank_estimates(header, &table.rows);
         if let Some(result) = &mut table.result
             && (columns::is_result(&result.about) || result.is_summary)
         {
             result.name = String::new();
         }
         table
+    }
+
+    /// Says which quantities have no estimate where others have one.
+    fn blank_estimates(&mut self, header: &Header, rows: &[Row]) {
+        let has_column = header.columns.iter().any(|(_, column)| *column == Column::Estimate);
+        if !has_column || rows.iter().all(|row| row.estimate.is_none()) {
+            return;
+        }
+        for row in rows.iter().filter(|row| row.estimate.is_none()) {
+            self.guessed.push(format!(
+                "line {}: `{}` has no estimate, and 0 is taken, as of a correction",
+                row.line + 1,
+                row.name
+            ));
+        }
     }
 
     /// A line of the table as it stands there; where it is `lenient`, texts in the place of numbers are
@@ -314,7 +330,9 @@ impl Budget<'_> {
             self.fail(line, reason);
         }
         if let Some((_, unit)) = read
-            && let digits = text.strip_suffix(unit).unwrap_or(text)
+            && let digits = text.strip_suffix(unit).unwrap_or(text).trim()
+            && let plain = number::without_groups(digits)
+            && let digits = plain.as_deref().unwrap_or(digits)
             && let Err(reason) = self.marks.borrow_mut().with_point(digits)
             && self.log.is_clean()
         {

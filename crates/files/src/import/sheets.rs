@@ -4,7 +4,7 @@ use super::Budget;
 use super::columns::{Column, Header};
 use super::grid::{self, Cells};
 use crate::DiagnosticKind;
-use crate::workbook::{Book, SheetName, reference};
+use crate::workbook::{Book, Place, SheetName, letters, reference};
 
 /// The sheet of a workbook that is read.
 pub(super) struct Chosen {
@@ -98,6 +98,22 @@ fn list<'a>(sheets: impl Iterator<Item = &'a SheetName>, and: &str) -> String {
 }
 
 impl Budget<'_> {
+    /// Says which columns are read though nobody sees them.
+    pub(super) fn hidden_columns(&mut self, header: &Header) {
+        let hidden = &self.cells.layout().hidden_columns;
+        for (place, column) in &header.columns {
+            let is_hidden = u32::try_from(*place).ok().filter(|place| hidden.contains(place));
+            if let Some(place) = is_hidden {
+                self.guessed.push(format!(
+                    "column {} (`{}`) is hidden, and is read as {}",
+                    letters(place),
+                    header.heading(place as usize),
+                    column.name()
+                ));
+            }
+        }
+    }
+
     /// Whether all that the budget needs is there to be seen; otherwise after a mistake.
     pub(super) fn is_shown(&self, header: Option<&Header>) -> bool {
         let layout = self.cells.layout();
@@ -123,8 +139,27 @@ impl Budget<'_> {
             self.fail(cell.0 as usize, reason);
             is_shown = false;
         }
+        let needed = |(row, column): &&Place| *row as usize >= from && has(*column as usize, false);
+        if let Some(cell) = layout.entities.iter().find(needed) {
+            let reason = format!(
+                "cell {} holds an entity of the document in place of a number; write the number",
+                reference(*cell)
+            );
+            self.fail(cell.0 as usize, reason);
+            is_shown = false;
+        }
         if header.is_none() {
             return is_shown;
+        }
+        if let Some(cell) = layout.zeros.iter().find(needed) {
+            let reason = format!(
+                "cell {} is a formula whose stored value is 0, like that of every other formula, as of a \
+                 workbook that nobody has calculated; open and save it in a spreadsheet program, or \
+                 write 0 in place of the formula",
+                reference(*cell)
+            );
+            self.fail(cell.0 as usize, reason);
+            is_shown = false;
         }
         for line in from..self.cells.lines() {
             let Ok(row) = u32::try_from(line) else { continue };

@@ -1104,6 +1104,88 @@ fn formulas_without_values_are_mistakes() {
     let part =
         "cell D2 is a formula without a stored value; open and save the workbook in a spreadsheet";
     assert!(error.contains(part), "{error}");
+    // nor has one that a writer stored as 0 because it never calculates
+    let error = of("<c><f>0.004/2</f><v>0</v></c>").unwrap_err().to_string();
+    assert!(error.contains("cell D2 is a formula whose stored value is 0"), "{error}");
+    let error = of("<c><v>&e;</v></c>").unwrap_err().to_string();
+    assert!(error.contains("cell D2 holds an entity"), "{error}");
     let budget = of("<c><f>0.004/2</f><v>0.002</v></c>").unwrap();
     assert_eq!(task(&budget).rows[0].distributions[0].standard_uncertainty(), 0.001);
+}
+
+/// A blank estimate may be a correction of 0; it was one without a word.
+#[test]
+fn blank_estimates_are_told() {
+    let head = "Quantity,Estimate,Standard uncertainty,Distribution,Sensitivity,Unit";
+    let text = format!("{head}\nR,,0.1,normal,1,ohm\nd,2,0.2,normal,1,ohm\n");
+    let (_, budget) = uncertainties(&text);
+    assert!(
+        guesses(&budget, "line 2: `R` has no estimate, and 0 is taken"),
+        "{:?}",
+        budget.guessed
+    );
+    assert!(!guesses(&budget, "`d` has no estimate"));
+    // a sheet of corrections alone says so by its column
+    let (_, budget) = uncertainties(&text.replace(",2,", ",,"));
+    assert!(!guesses(&budget, "has no estimate"), "{:?}", budget.guessed);
+}
+
+/// `Coefficient` beside a divisor; before, the model was a plain sum: u = 0.30 mg and not
+/// sqrt((0.5/2)^2 + (2*0.3/sqrt(3))^2) = 0.427 mg.
+#[test]
+fn coefficients_are_taken_or_asked() {
+    let text = "Grandeur;Estimation;Unité;Incertitude;Loi;Diviseur;Coefficient\n\
+        m_s;1000,0002;g;0,0005;normale;2;1\nd;0;g;0,0003;rectangulaire;√3;-2\nm;1000,0002;g;;;;\n";
+    let (_, budget) = uncertainties(text);
+    assert!(budget.text.contains("(-2"), "{}", budget.text);
+    for heading in ["Facteur X", "Wichtungsfaktor", "Empfindlichkeits-K."] {
+        let error = refusal(&text.replace("Coefficient", heading));
+        let part = format!("the column `{heading}` may hold sensitivity coefficients");
+        assert!(error.contains(&part), "{error}");
+        // 1 in every row changes nothing
+        let (_, budget) = uncertainties(&text.replace("Coefficient", heading).replace(";-2", ";1"));
+        assert!(guesses(&budget, "is not taken"), "{:?}", budget.guessed);
+    }
+    // an equation says all of it
+    let (_, budget) =
+        uncertainties(&format!("m = m_s - 2*d\n{}", text.replace("Coeff", "X-Coeff")));
+    assert!(guesses(&budget, "`X-Coefficient` is not taken"), "{:?}", budget.guessed);
+}
+
+/// Distributions under words that are not known, by what the cells say: 0.3/sqrt(3) and not 0.3.
+#[test]
+fn cells_that_name_distributions_are_taken() {
+    for heading in ["Verteilungsfunktion", "Form", "Annahme"] {
+        let text = format!("Größe;Schätzwert;Einheit;Halbbreite;{heading}\nm;1;g;0,3;Rechteck\n");
+        let (found, _) = uncertainties(&text);
+        assert!((found[0] - 0.3 / 3f64.sqrt()).abs() < 1e-15, "{heading} {found:?}");
+    }
+}
+
+/// Numbers with both marks have one reading.
+#[test]
+fn grouped_numbers_with_both_marks() {
+    let german = "Größe;Schätzwert;Einheit;Halbbreite;Verteilung\nm;10.000,005;g;0,3;Rechteck\n";
+    let english =
+        "Quantity,Estimate,Unit,Half-width,Distribution\nm,\"10,000.005\",g,0.3,rectangular\n";
+    for text in [german, english] {
+        let (_, budget) = uncertainties(text);
+        assert_eq!(task(&budget).rows[0].distributions[0].mean(), 10_000.005, "{text}");
+    }
+    let error = refusal(&german.replace("0,3", "0.3"));
+    assert!(error.contains("the same decimal mark"), "{error}");
+}
+
+/// Headings of uncertainties that are known by a part of them, and ones that are not.
+#[test]
+fn headings_that_are_not_known_are_named() {
+    let text = "Quantity,Value,Unit,Resolution / half-width,Distribution\nA,10,V,0.3,rectangular\n";
+    assert!((uncertainties(text).0[0] - 0.3 / 3f64.sqrt()).abs() < 1e-15);
+    let text = "Quantity,Value,Unit,Std. dev.,n,Distribution,Divisor,Sens. coeff.\nA,10,V,0.3,9,normal,,1\n";
+    let error = refusal(text);
+    assert!(error.contains("`Std. dev.` can be the standard deviation of single"), "{error}");
+    let (found, _) = uncertainties(&text.replace("normal,,", "normal,√n,"));
+    assert!((found[0] - 0.1).abs() < 1e-15, "{found:?}");
+    let error = refusal("Quantity,Value,Unit,Wobble,Distribution\nA,10,V,0.3,rectangular\n");
+    assert!(error.contains("an uncertainty, and `Wobble` is not known"), "{error}");
 }

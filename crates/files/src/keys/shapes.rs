@@ -335,12 +335,20 @@ pub(crate) const COMPLEX_INPUT: &[Key] = keys![
     "about" => text_of("What it is, in words."),
 ];
 
+/// A part of a complex input, which may be a text: `"0.012(5)"`.
+fn part(about: &str) -> Value {
+    object([
+        ("description", Value::from(about)),
+        ("anyOf", Value::from(vec![reference("input"), described("string", "A stated value.")])),
+    ])
+}
+
 /// Keys of the parts of a complex input.
 pub(crate) const COMPLEX: &[Key] = keys![
-    "re" => referenced("input", "The real part, in the quantity's unit unless it says its own."),
-    "im" => referenced("input", "The imaginary part."),
-    "modulus" => referenced("input", "The modulus, in the quantity's unit unless it says its own."),
-    "phase" => referenced("input", "The phase, in radians unless it says its own unit."),
+    "re" => part("The real part, in the quantity's unit unless it says its own."),
+    "im" => part("The imaginary part."),
+    "modulus" => part("The modulus, in the quantity's unit unless it says its own."),
+    "phase" => part("The phase, in radians unless it says its own unit."),
     "correlation" => described("number", "The correlation coefficient of the two parts.")
                 .with("minimum", -1)
                 .with("maximum", 1),

@@ -7,7 +7,7 @@ use std::io::{Cursor, Read};
 use quick_xml::events::{BytesStart, Event};
 use zip::ZipArchive;
 
-use super::{COLUMNS, MOST_OF_PART, MOST_ROWS, ROWS, attribute, place};
+use super::{COLUMNS, MOST_COLUMNS, MOST_OF_PART, MOST_ROWS, ROWS, attribute, place, reference};
 
 /// A row and a column, both counted from 0.
 pub(crate) type Place = (u32, u32);
@@ -17,8 +17,14 @@ pub(crate) type Place = (u32, u32);
 pub(crate) struct Layout {
     /// Rows that are hidden or have no height.
     pub(crate) hidden: BTreeSet<u32>,
+    /// Columns that are hidden or have no width.
+    pub(crate) hidden_columns: BTreeSet<u32>,
+    /// Cells whose value is an entity of a document type, which nothing here resolves.
+    pub(crate) entities: Vec<Place>,
     /// Formulas without a stored value.
     pub(crate) unfilled: Vec<Place>,
+    /// Formulas, where the stored value of every one is 0: a writer that never calculates stores it.
+    pub(crate) zeros: Vec<Place>,
     /// Merged cells, from the first to the last one.
     pub(crate) merged: Vec<(Place, Place)>,
     /// Cells with content that is struck through.
@@ -31,15 +37,37 @@ impl Layout {
         part_of_sheet(bytes, sheet).map(|text| Self::of_text(&text)).unwrap_or_default()
     }
 
+    /// Whether all rows of a table with these ones are to be seen, and all of its formulas calculated.
+    ///
+    /// # Errors
+    /// What is not, as a sentence about the workbook.
+    pub(super) fn check_shown<'r>(
+        &self,
+        mut rows: impl Iterator<Item = &'r u32>,
+    ) -> Result<(), String> {
+        if let Some(cell) = self.unfilled.first() {
+            return Err(format!(
+                "its cell {} is a formula without a stored value; open and save the workbook in a \
+                 spreadsheet program",
+                reference(*cell)
+            ));
+        }
+        match rows.find(|row| self.hidden.contains(row)) {
+            Some(row) => Err(format!("its row {} is hidden: show it, or delete it", row + 1)),
+            None => Ok(()),
+        }
+    }
+
     fn of_text(text: &str) -> Self {
         let mut found = Self::default();
         let mut xml = quick_xml::Reader::from_str(text);
         // the row and the column that come next, from 1
         let (mut row, mut column) = (0, 0);
         let (mut is_formula, mut has_value, mut in_value) = (false, false, false);
+        let (mut value, mut has_other) = (String::new(), false);
         loop {
             let event = match xml.read_event() {
-                Ok(Event::Eof) | Err(_) => return found,
+                Ok(Event::Eof) | Err(_) => break,
                 Ok(event) => event,
             };
             let is_empty = matches!(event, Event::Empty(_));
@@ -54,7 +82,9 @@ impl Layout {
                                 found.hidden.insert(row - 1);
                             }
                         }
+                        "col" => found.hidden_columns.extend(hidden_columns(&element)),
                         "c" => {
+                            value.clear();
                             let own = attribute(&element, "r").and_then(|r| place(&r));
                             (column, row) = own.unwrap_or(((column + 1).min(COLUMNS), row.max(1)));
                             is_formula = false;
@@ -80,12 +110,31 @@ impl Layout {
                     "c" if is_formula && !has_value => {
                         found.unfilled.push(from_zero((column, row)));
                     }
+                    "c" if is_formula && value.trim() == "0" => {
+                        found.zeros.push(from_zero((column, row)));
+                    }
+                    "c" if is_formula => has_other = true,
                     _ => {}
                 },
-                Event::Text(_) | Event::CData(_) | Event::GeneralRef(_) => has_value |= in_value,
+                Event::Text(text) if in_value => {
+                    has_value = true;
+                    value.push_str(&text);
+                }
+                Event::CData(_) if in_value => has_value = true,
+                Event::GeneralRef(of) if in_value => {
+                    has_value = true;
+                    let is_known = matches!(&*of, "amp" | "lt" | "gt" | "quot" | "apos");
+                    if !is_known && !of.is_char_ref() {
+                        found.entities.push(from_zero((column, row)));
+                    }
+                }
                 _ => {}
             }
         }
+        if has_other {
+            found.zeros.clear();
+        }
+        found
     }
 }
 
@@ -97,6 +146,17 @@ const fn from_zero((column, row): (u32, u32)) -> Place {
 fn is_hidden(row: &BytesStart<'_>) -> bool {
     let is_set = attribute(row, "hidden").is_some_and(|of| matches!(of.as_str(), "1" | "true"));
     is_set || attribute(row, "ht").and_then(|ht| ht.parse().ok()).is_some_and(|ht: f64| ht == 0.0)
+}
+
+/// The columns of an element `col`, from 0, if they are hidden; no more than a table has.
+fn hidden_columns(col: &BytesStart<'_>) -> std::ops::Range<u32> {
+    let is_set = attribute(col, "hidden").is_some_and(|of| matches!(of.as_str(), "1" | "true"));
+    let number = |name: &str| attribute(col, name).and_then(|of| of.parse::<f64>().ok());
+    if !is_set && number("width").is_none_or(|width| width > 0.0) {
+        return 0..0;
+    }
+    let end = |name: &str| number(name).map_or(0, |of| of as u32).min(MOST_COLUMNS);
+    end("min").saturating_sub(1)..end("max")
 }
 
 /// The XML of a sheet.
@@ -163,6 +223,12 @@ mod tests {
         assert_eq!(found.hidden, BTreeSet::from([1, 2]));
         assert_eq!(found.unfilled, [(2, 3), (2, 4)]);
         assert_eq!(found.merged, [((1, 2), (4, 2))]);
+        let cells = r#"<cols><col min="2" max="3" hidden="1"/><col min="5" max="16384" width="9"/></cols>
+            <row><c r="A1"><v>&e;</v></c><c><v>&#49;</v></c><c><f>1-1</f><v>0</v></c><c><f>2</f>"#;
+        let zeros = Layout::of_text(&format!("{cells}<v>0</v></c></row>"));
+        assert_eq!(zeros.hidden_columns, BTreeSet::from([1, 2]));
+        assert_eq!((zeros.entities, zeros.zeros), (vec![(0, 0)], vec![(0, 2), (0, 3)]));
+        assert!(Layout::of_text(&format!("{cells}<v>2</v></c></row>")).zeros.is_empty());
         assert_eq!(
             Layout::of_text("<row hidden=\"1\"><c"),
             Layout { hidden: BTreeSet::from([0]), ..Layout::default() }
