@@ -7,7 +7,6 @@ use super::{ANY_BENCH, Catalogue, Entry};
 use gumption_engine::model::Output;
 use gumption_engine::model::formula::Formula;
 use gumption_gap::OverridableModel;
-use gumption_units::listed;
 
 /// Why an entry does not fit a sim.
 #[derive(Clone, Debug, Default)]
@@ -34,10 +33,8 @@ impl Misfit {
     /// What is missing and what would be needed, after "the effect `x`".
     pub(super) fn reason(&self, shipped: &Catalogue, sim: &OverridableModel) -> String {
         let called = |name: &str| {
-            let alternatives = shipped.alternatives(name);
-            let quoted: Vec<String> =
-                alternatives.into_iter().map(|name| format!("`{name}`")).collect();
-            listed(&quoted, " or ")
+            let quoted = shipped.alternatives(name).into_iter().map(|name| format!("`{name}`"));
+            quoted.collect::<Vec<_>>().join(" or ")
         };
         let all =
             |names: &[String]| names.iter().map(|name| called(name)).collect::<Vec<_>>().join(", ");
