@@ -21,7 +21,10 @@ fn misspelt_commands_and_models() {
         (&["uncertainty"], "the commands are run, merge, assumptions, certificate"),
         (&["models/inclined_plane.json"], "such as `gumption run models/inclined_plane.json`"),
         (&["models", "inclined-plan"], "did you mean `inclined-plane`"),
-        (&["models", "inclined"], "`inclined-plane` or `inclined-plane-spurious`"),
+        (
+            &["models", "inclined"],
+            "`inclined-plane`, `inclined-plane-spurious` or `inclined-plane-spurious-vector`?",
+        ),
         (&["models", "nothing"], "`gumption models` lists"),
     ] {
         let text = said(arguments);

@@ -313,10 +313,10 @@ fn a_width_may_be_a_formula() {
 fn trials_of_a_staircase_are_refused() {
     let inputs = json!({"t": normal("s", 1_795_000_000.25, 5e-8)});
     let mut model = model(&inputs, "t - 1795000000 [s]", "us");
-    // half a spacing of 2^-53 times 1.795e9 s is 0.20 us
+    // half a spacing is 2^-53 times 1.795e9 s, 0.20 us
     let said = refused(&model, &["--trials", "10000"]);
-    assert!(said.contains("leave 0.20 us of it undetermined"), "{said}");
-    assert!(said.contains("`t` is 1795000000.25 s"), "{said}");
+    assert!(said.contains("leave 2.0e-7 s of `t` undetermined"), "{said}");
+    assert!(said.contains("it is 1795000000.25 s"), "{said}");
     let by_law = answer(&model, &["--trials", "0"]);
     assert_eq!(code(&by_law["warnings"][0]), "double-precision", "{by_law}");
     // 4 us: 5 % is the limit of what is evaluated, and more than 0.5 % is told

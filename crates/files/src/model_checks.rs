@@ -15,7 +15,7 @@ use super::object::Object;
 use super::outputs::Outputs;
 use super::scopes::{coherent, condition_scope, report_formula};
 use gumption_engine::model::Quantity;
-use gumption_engine::model::formula::{Scope, TableCall, TableData, Typing, check_name};
+use gumption_engine::model::formula::{Scope, TableCall, TableData, Typing, check_name, looks_of};
 use gumption_engine::model::typed::CatalogueEntry;
 use gumption_engine::task::Warning;
 use gumption_units::Unit;
@@ -96,27 +96,6 @@ pub(super) fn check_names(root: &Object<'_>, of: &Quantities, body: &Option<Mode
         }
         taken.entry(name).or_insert(kind);
     }
-}
-
-/// A name with letters in place of those of other alphabets, and of signs of units, that nobody can
-/// tell from them.
-fn looks_of(name: &str) -> String {
-    const ALIKE: [(&str, &str); 3] = [
-        // signs of units
-        ("\u{b5}\u{2126}\u{212a}\u{212b}", "\u{3bc}\u{3a9}K\u{c5}"),
-        // Cyrillic
-        ("аеорсухіјѕАВЕКМНОРСТХІЈЅ", "aeopcyxijsABEKMHOPCTXIJS"),
-        // Greek
-        ("οΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "oABEZHIKMNOPTYX"),
-    ];
-    if name.is_ascii() {
-        return name.to_owned();
-    }
-    let plain = |letter: char| {
-        let pairs = ALIKE.iter().flat_map(|(from, to)| from.chars().zip(to.chars()));
-        pairs.into_iter().find(|(from, _)| *from == letter).map_or(letter, |(_, to)| to)
-    };
-    name.chars().map(plain).collect()
 }
 
 /// Checks that a typed model has the quantities, all of those that it needs, and units that fit.

@@ -44,17 +44,6 @@ impl RoutineCall {
     }
 }
 
-/// What an output makes of the rounding of numbers.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct RoundingTerms {
-    /// The sum of the squares of the errors, in the output's unit.
-    pub(crate) squares: f64,
-    /// The variable with the largest one, and it.
-    pub(crate) largest_variable: (usize, f64),
-    /// Whether a product or a quotient of numbers that are not zero is below the smallest normal one.
-    pub(crate) underflows: bool,
-}
-
 /// A function from variables to outputs.
 #[derive(Clone, Debug, Default)]
 pub struct Program {
@@ -157,96 +146,73 @@ impl Program {
         let values: Vec<f64> = self.values(variables);
         let gradients = self.outputs.iter().map(|&output| {
             let mut gradient = vec![0.0; self.variables];
-            self.backward(&values, output, |index, slope| {
-                if let Node::Variable(v) = self.nodes[index] {
-                    gradient[v] += slope;
+            // what the output changes by with each operation's result
+            let mut slopes = vec![0.0; output + 1];
+            let mut needed = vec![false; output + 1];
+            (slopes[output], needed[output]) = (1.0, true);
+            for (index, node) in self.nodes[..=output].iter().enumerate().rev() {
+                if !needed[index] {
+                    continue;
                 }
-            });
+                let slope = slopes[index];
+                match *node {
+                    Node::Constant(_) => {}
+                    Node::Variable(v) => gradient[v] += slope,
+                    Node::Unary(operation, x) => {
+                        let [by_x] = Dual::<1>::variable(values[x], 0).unary(operation).gradient;
+                        slopes[x] += slope * by_x;
+                        needed[x] = true;
+                    }
+                    // a branch that is not taken has no say
+                    Node::Binary(Binary::When, x, y) => {
+                        if values[x] != 0.0 {
+                            (slopes[y], needed[y]) = (slopes[y] + slope, true);
+                        }
+                    }
+                    Node::Binary(Binary::Unless, x, y) => {
+                        if values[x] == 0.0 {
+                            (slopes[y], needed[y]) = (slopes[y] + slope, true);
+                        }
+                    }
+                    Node::Routine(call) => {
+                        let call = &self.routines[call];
+                        let by = call.routine.slopes(&call.values(&values), values[index]);
+                        for (&x, by) in call.operands.iter().zip(by) {
+                            slopes[x] += derivative::chain(slope, by);
+                            needed[x] = true;
+                        }
+                    }
+                    Node::Binary(operation, x, y) => {
+                        let [a, b] = [(x, 0), (y, 1)].map(|(x, i)| Dual::variable(values[x], i));
+                        let [by_x, by_y] = Dual::<2>::binary(a, operation, b).gradient;
+                        slopes[x] += slope * by_x;
+                        slopes[y] += slope * by_y;
+                        (needed[x], needed[y]) = (true, true);
+                    }
+                }
+            }
             gradient
         });
         let gradients = gradients.collect();
         (self.outputs.iter().map(|&output| values[output]).collect(), gradients)
     }
 
-    /// Calls, from an output's node back, with each node that the output is computed from and with
-    /// what the output changes by with that node's result.
-    fn backward(&self, values: &[f64], output: usize, mut each: impl FnMut(usize, f64)) {
-        let mut slopes = vec![0.0; output + 1];
-        let mut needed = vec![false; output + 1];
-        (slopes[output], needed[output]) = (1.0, true);
-        for (index, node) in self.nodes[..=output].iter().enumerate().rev() {
-            if !needed[index] {
-                continue;
-            }
-            let slope = slopes[index];
-            each(index, slope);
-            match *node {
-                Node::Constant(_) | Node::Variable(_) => {}
-                Node::Unary(operation, x) => {
-                    let [by_x] = Dual::<1>::variable(values[x], 0).unary(operation).gradient;
-                    slopes[x] += slope * by_x;
-                    needed[x] = true;
-                }
-                // a branch that is not taken has no say
-                Node::Binary(Binary::When, x, y) => {
-                    if values[x] != 0.0 {
-                        (slopes[y], needed[y]) = (slopes[y] + slope, true);
-                    }
-                }
-                Node::Binary(Binary::Unless, x, y) => {
-                    if values[x] == 0.0 {
-                        (slopes[y], needed[y]) = (slopes[y] + slope, true);
-                    }
-                }
-                Node::Routine(call) => {
-                    let call = &self.routines[call];
-                    let by = call.routine.slopes(&call.values(values), values[index]);
-                    for (&x, by) in call.operands.iter().zip(by) {
-                        slopes[x] += derivative::chain(slope, by);
-                        needed[x] = true;
-                    }
-                }
-                Node::Binary(operation, x, y) => {
-                    let [a, b] = [(x, 0), (y, 1)].map(|(x, i)| Dual::variable(values[x], i));
-                    let [by_x, by_y] = Dual::<2>::binary(a, operation, b).gradient;
-                    slopes[x] += slope * by_x;
-                    slopes[y] += slope * by_y;
-                    (needed[x], needed[y]) = (true, true);
-                }
-            }
-        }
-    }
-
-    /// What an output makes of the rounding of each number that it is computed from, where each may be
-    /// off by its value times `relative`. Constants count as exact.
-    pub(crate) fn rounding_terms(
-        &self,
-        variables: &[f64],
-        output: usize,
-        relative: f64,
-    ) -> RoundingTerms {
-        let mut terms = RoundingTerms::default();
-        let Some(&output) = self.outputs.get(output) else { return terms };
+    /// Whether a product, a quotient or a power that an output is computed from, of numbers that are not
+    /// zero, is below the smallest normal number.
+    pub(crate) fn underflows(&self, variables: &[f64], output: usize) -> bool {
+        let Some(&output) = self.outputs.get(output) else { return false };
         let values: Vec<f64> = self.values(variables);
-        self.backward(&values, output, |index, slope| {
-            let term = (slope * values[index] * relative).abs();
-            match self.nodes[index] {
-                Node::Constant(_) => return,
-                Node::Variable(v) => {
-                    if term > terms.largest_variable.1 {
-                        terms.largest_variable = (v, term);
-                    }
-                }
-                Node::Binary(Binary::Multiply | Binary::Divide | Binary::Power, x, y) => {
-                    terms.underflows |= !values[index].is_normal()
-                        && values[index].is_finite()
-                        && [x, y].iter().all(|x| values[*x] != 0.0 && values[*x].is_finite());
-                }
-                _ => {}
+        let needed = self.needed_by(&[], [output]);
+        let vanishes = |(index, node): (usize, &Node)| match *node {
+            Node::Binary(Binary::Multiply | Binary::Divide | Binary::Power, x, y) => {
+                needed[index]
+                    && values[index].is_finite()
+                    && !values[index].is_normal()
+                    && [x, y].iter().all(|x| values[*x] != 0.0 && values[*x].is_finite())
             }
-            terms.squares += term * term;
-        });
-        terms
+            _ => false,
+        };
+        self.nodes.iter().enumerate().any(vanishes)
     }
 
     /// The variables that some output depends on, in order.

@@ -426,6 +426,7 @@ fn evaluate_row(
     let mut stopped = false;
     if task.settings.trials != Trials::Fixed(0) {
         paired_have_covariance(task, row)?;
+        rounding::check(task, number, &gums)?;
         let finished = known(number).unwrap_or_else(|| {
             let mut trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);
             decided(task, &mut trials, &gums, &drawn_dof, control)
@@ -443,7 +444,6 @@ fn evaluate_row(
             result.correlation_errors = finished.correlation_errors;
         }
     }
-    rounding::check(task, (number, row), &gums, &figures)?;
     if !result.correlations.is_empty() {
         correlations_by_law(task, (&gums, &figures), &linear, &mut result);
     }
@@ -625,7 +625,8 @@ pub(super) fn differs_from_linear(gum: &Gum, figures: &MonteCarlo) -> bool {
     };
     let drawn = gum.drawn_uncertainty();
     let noteworthy = NOTEWORTHY * gum.standard_uncertainty;
-    if (u - drawn).abs() <= 3.0 * scatter_of_few(drawn, figures.trials) {
+    let few = 3.0 * scatter_of_few(drawn, figures.trials);
+    if few.is_finite() && (u - drawn).abs() <= few {
         return false;
     }
     match figures.errors.standard_uncertainty {

@@ -1,14 +1,11 @@
 //! What double precision leaves of a result.
 //!
-//! A number of double precision has a relative spacing of 2^-52. Trials of an input that is large
-//! beside its standard uncertainty, such as a time stamp of 1.8e9 s known to 50 ns, take few different
-//! values, and so does a difference of two large quantities: figures of such trials are those of a
-//! staircase, and its estimate may be off by a step. The error is propagated as uncertainties are: each
-//! operation's result is off by half a spacing at most, and the output by that times its slope.
+//! Numbers of double precision have a relative spacing of 2^-52. Trials of an input that is large beside
+//! its standard uncertainty, such as a time stamp of 1.8e9 s known to 50 ns, take few different values:
+//! their figures are those of a staircase, and the input's estimate may itself be off by half a step.
 
 use super::evaluation::{EvaluationError, OutputEvaluation};
-use super::gum::Gum;
-use super::monte_carlo::MonteCarlo;
+use super::gum::{BudgetLine, Gum};
 use crate::decimal::significant;
 use crate::number::Shortest;
 use crate::task::{Row, Task, Warning};
@@ -16,104 +13,58 @@ use crate::task::{Row, Task, Warning};
 /// Half of the relative spacing of numbers.
 const HALF_SPACING: f64 = f64::EPSILON / 2.0;
 
-/// A share of the standard uncertainty that moves the second digit of an interval's end.
+/// A share of an input's standard uncertainty that moves the second digit of an interval's end.
 const NOTEWORTHY: f64 = 0.005;
 
 /// A share from which on trials mean nothing.
 const TOO_MUCH: f64 = 0.05;
 
-/// What rounding does to an output.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Rounding {
-    /// The error of rounding, in the output's unit.
-    pub(super) error: f64,
-    /// The variable whose own rounding is most of it.
-    variable: Option<usize>,
-    /// Whether a product or a quotient of numbers that are not zero has vanished, or nearly so.
-    pub(super) underflows: bool,
+/// A contribution counts from this share of the output's standard uncertainty on.
+const COUNTS: f64 = 0.1;
+
+/// The input of an output whose standard uncertainty is the smallest beside its spacing, and that spacing
+/// as its share.
+fn coarsest(gum: &Gum) -> Option<(BudgetLine, f64)> {
+    let least = COUNTS * gum.standard_uncertainty;
+    let share = |line: BudgetLine| {
+        let share = HALF_SPACING * line.estimate.abs() / line.standard_uncertainty;
+        (line, share)
+    };
+    gum.budget()
+        .filter(|line| line.standard_uncertainty > 0.0 && line.contribution >= least)
+        .map(share)
+        .filter(|(_, share)| share.is_finite() && *share > NOTEWORTHY)
+        .max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-impl Rounding {
-    /// That of an output at the estimates of a row; `None` of a function that is not recorded.
-    pub(super) fn of(task: &Task, row: &Row, output: usize) -> Option<Self> {
-        if task.function.is_some() {
-            return None;
-        }
-        let mut values: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
-        values.extend(&row.conditions);
-        let program = &task.model.program;
-        let terms = program.rounding_terms(&values, output, HALF_SPACING);
-        let error = terms.squares.sqrt();
-        let (variable, largest) = terms.largest_variable;
-        let is_most = largest * largest > 0.2 * terms.squares && variable < row.distributions.len();
-        Some(Self { error, variable: is_most.then_some(variable), underflows: terms.underflows })
-    }
-
-    /// The share of a standard uncertainty that it is; 0 of a constant.
-    fn share(&self, u: f64) -> f64 {
-        if u > 0.0 && self.error.is_finite() { self.error / u } else { 0.0 }
-    }
-
-    /// What it says of an output, after its name.
-    fn text(&self, task: &Task, row: &Row, (output, u): (usize, f64)) -> String {
-        let named = task.model.outputs.get(output);
-        let (name, unit) =
-            named.map_or(("", ""), |of| (&*of.quantity.name, of.quantity.unit.text()));
-        let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-        let mut text = format!(
-            "`{name}`: numbers of double precision, with 16 digits, leave {}{unit} of it undetermined, \
-             {} % of its standard uncertainty",
-            significant(self.error, 2),
-            significant(100.0 * self.share(u), 2)
-        );
-        let input = self.variable.and_then(|v| task.variables.get(v).zip(row.distributions.get(v)));
-        if let Some((variable, distribution)) = input {
-            let unit = match variable.unit.text() {
-                "1" | "" => String::new(),
-                unit => format!(" {unit}"),
-            };
-            text += &format!(
-                ": `{}` is {}{unit} with a standard uncertainty of {}{unit}; make it the difference from \
-                 a reference value",
-                variable.name,
-                Shortest(distribution.mean()),
-                significant(distribution.standard_uncertainty(), 2)
-            );
-        } else {
-            text += ": large numbers cancel in its equations; write them with small differences";
-        }
-        text
-    }
+/// What is said of it.
+fn text(task: &Task, output: usize, (line, share): (&BudgetLine, f64)) -> String {
+    let name = task.model.outputs.get(output).map_or("", |of| &*of.quantity.name);
+    let variable = task.variables.get(line.variable);
+    let (input, unit) = variable.map_or(("", ""), |of| (of.name.as_str(), of.unit.text()));
+    let unit = if matches!(unit, "" | "1") { String::new() } else { format!(" {unit}") };
+    format!(
+        "`{name}`: numbers of double precision, with 16 digits, leave {}{unit} of `{input}` undetermined, \
+         {} % of its standard uncertainty: it is {}{unit} with a standard uncertainty of {}{unit}; make it \
+         the difference from a reference value",
+        significant(HALF_SPACING * line.estimate.abs(), 2),
+        significant(100.0 * share, 2),
+        Shortest(line.estimate),
+        significant(line.standard_uncertainty, 2)
+    )
 }
 
-/// The standard uncertainty that rounding is compared with: that of the law of propagation, or a larger
-/// one where the model is not linear.
-fn uncertainty(gum: &Gum, second: Option<f64>, figures: Option<&MonteCarlo>) -> f64 {
-    let of_trials = figures.map_or(0.0, |figures| {
-        let [low, high] = figures.symmetric_interval;
-        0.25 * (high - low)
-    });
-    gum.standard_uncertainty.max(second.unwrap_or(0.0)).max(of_trials)
-}
-
-/// Refuses trials that show the spacing of numbers and not the uncertainty of an output.
-pub(super) fn check(
-    task: &Task,
-    (number, row): (usize, &Row),
-    gums: &[Option<Gum>],
-    figures: &[Option<MonteCarlo>],
-) -> Result<(), EvaluationError> {
-    for (output, (gum, figures)) in gums.iter().zip(figures).enumerate() {
-        let Some((gum, figures)) = gum.as_ref().zip(figures.as_ref()) else { continue };
-        let Some(rounding) = Rounding::of(task, row, output) else { return Ok(()) };
-        let u = uncertainty(gum, None, Some(figures));
-        if rounding.share(u) > TOO_MUCH {
-            let text = rounding.text(task, row, (output, u));
+/// Refuses trials that would show the spacing of numbers and not the uncertainty of an output.
+pub(super) fn check(task: &Task, row: usize, gums: &[Option<Gum>]) -> Result<(), EvaluationError> {
+    for (output, gum) in gums.iter().enumerate() {
+        let found = gum.as_ref().and_then(coarsest).filter(|(_, share)| *share > TOO_MUCH);
+        if let Some((line, share)) = found {
             let message = format!(
-                "{text}. `trials` of 0 evaluates it by the law of propagation alone, which has the \
-                 slopes and not the digits"
+                "{}. `trials` of 0 evaluates it by the law of propagation alone, which has the slopes \
+                 and not the digits",
+                text(task, output, (&line, share))
             );
-            return Err(EvaluationError::Rounding { row: number, output, message });
+            return Err(EvaluationError::Rounding { row, output, message });
         }
     }
     Ok(())
@@ -125,20 +76,18 @@ pub(super) fn notes(
     row: &Row,
     (output, evaluated): (usize, &OutputEvaluation),
 ) -> Vec<Warning> {
-    let Some(gum) = &evaluated.gum else { return Vec::new() };
-    let Some(rounding) = Rounding::of(task, row, output) else { return Vec::new() };
     let name = task.model.outputs.get(output).map_or("", |of| &*of.quantity.name);
     let mut notes = Vec::new();
-    let second = evaluated.second_order.as_ref().map(|second| second.standard_uncertainty);
-    let u = uncertainty(gum, second, evaluated.monte_carlo.as_ref());
-    if rounding.share(u) > NOTEWORTHY {
-        let text = rounding.text(task, row, (output, u));
+    if let Some((line, share)) = evaluated.gum.as_ref().and_then(coarsest) {
+        let text = text(task, output, (&line, share));
         notes.push(Warning::new("double-precision", name, text));
     }
-    if rounding.underflows {
+    let mut values: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
+    values.extend(&row.conditions);
+    if task.function.is_none() && task.model.program.underflows(&values, output) {
         let text = format!(
-            "`{name}`: a product or a quotient in its equations is below the smallest number of double \
-             precision, 2.2e-308, and counts as less than it is; choose units of the size of the \
+            "`{name}`: a product, a quotient or a power in its equations is below the smallest number of \
+             double precision, 2.2e-308, and counts as less than it is; choose units of the size of the \
              quantities"
         );
         notes.push(Warning::new("underflow", name, text));

@@ -27,16 +27,12 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "eine Gauß-Copula gibt die angegebenen Korrelationskoeffizienten nur innerhalb ihrer Rundung; in den Versuchen weichen sie um bis zu {0} ab",
     ),
     (
-        "{}: numbers of double precision, with 16 digits, leave {} of it undetermined, {} % of its standard uncertainty: {} is {} with a standard uncertainty of {}; make it the difference from a reference value",
-        "{0+}: Zahlen doppelter Genauigkeit mit 16 Stellen lassen {1} davon unbestimmt, {2} % der Standardunsicherheit: {3} ist {4} mit der Standardunsicherheit {5}; anzugeben ist der Unterschied zu einem Bezugswert",
+        "{}: numbers of double precision, with 16 digits, leave {} of {} undetermined, {} % of its standard uncertainty: it is {} with a standard uncertainty of {}; make it the difference from a reference value",
+        "{0+}: Zahlen doppelter Genauigkeit mit 16 Stellen lassen {1} von {2} unbestimmt, {3} % der Standardunsicherheit: Die Größe ist {4} mit der Standardunsicherheit {5}; anzugeben ist der Unterschied zu einem Bezugswert",
     ),
     (
-        "{}: numbers of double precision, with 16 digits, leave {} of it undetermined, {} % of its standard uncertainty: large numbers cancel in its equations; write them with small differences",
-        "{0+}: Zahlen doppelter Genauigkeit mit 16 Stellen lassen {1} davon unbestimmt, {2} % der Standardunsicherheit: Große Zahlen heben sich in den Gleichungen auf; sie sind mit kleinen Unterschieden zu schreiben",
-    ),
-    (
-        "{}: a product or a quotient in its equations is below the smallest number of double precision, 2.2e-308, and counts as less than it is; choose units of the size of the quantities",
-        "{0+}: Ein Produkt oder Quotient der Gleichungen liegt unter der kleinsten Zahl doppelter Genauigkeit, 2,2e-308, und zählt weniger, als es ist; zu wählen sind Einheiten von der Größe der Messgrößen",
+        "{}: a product, a quotient or a power in its equations is below the smallest number of double precision, 2.2e-308, and counts as less than it is; choose units of the size of the quantities",
+        "{0+}: Ein Produkt, ein Quotient oder eine Potenz der Gleichungen liegt unter der kleinsten Zahl doppelter Genauigkeit, 2,2e-308, und zählt weniger, als es ist; zu wählen sind Einheiten von der Größe der Messgrößen",
     ),
     (
         "{}: its trials have no standard deviation that means something, so its correlation coefficients are those of the law of propagation",

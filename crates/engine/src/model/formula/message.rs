@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::error::{FormulaError, NumberFault, Operand};
 use super::function::Function;
-use super::name::{Shown, is_name};
+use super::name::{Shown, is_name, looks_of};
 use gumption_units::Dimension;
 
 /// The longest part of a formula that a message quotes, in characters.
@@ -23,6 +23,25 @@ pub(super) fn excerpt(text: &str, span: Range<usize>) -> String {
     let mut end: Vec<char> = part.chars().rev().take(half).collect();
     end.reverse();
     part.chars().take(half).chain(['…']).chain(end).map(one_line).collect()
+}
+
+/// Tells a name from one that looks like it: the first letter in which they differ.
+fn alike(f: &mut fmt::Formatter<'_>, name: &str, other: &str) -> fmt::Result {
+    let pairs = name.chars().zip(other.chars());
+    let Some((own, its)) = pairs.into_iter().find(|(own, its)| own != its) else { return Ok(()) };
+    let script = |letter: char| match letter {
+        'A'..='Z' | 'a'..='z' => "Latin ",
+        '\u{370}'..='\u{3ff}' => "Greek ",
+        '\u{400}'..='\u{4ff}' => "Cyrillic ",
+        _ => "",
+    };
+    let [own, its] =
+        [own, its].map(|of| format!("the {}letter U+{:04X}", script(of), u32::from(of)));
+    write!(
+        f,
+        ": it has {own} where `{}`, which looks like it, has {its}; write both alike",
+        short(other)
+    )
 }
 
 /// A name for a message.
@@ -106,6 +125,10 @@ impl fmt::Display for FormulaError {
             ),
             Self::UnknownName { name, nearest, known, .. } => {
                 write!(f, "`{}` is not defined", short(name))?;
+                let mut others = nearest.iter().chain(known);
+                if let Some(other) = others.find(|other| looks_of(other) == looks_of(name)) {
+                    return alike(f, name, other);
+                }
                 match (nearest.is_empty(), known.is_empty()) {
                     (false, _) => write!(f, "; did you mean {}?", listed(nearest, " or ")),
                     (true, false) => write!(f, "; names here are {}", listed(known, " and ")),

@@ -78,7 +78,7 @@ pub use error::{Arity, FormulaError, NumberFault, Operand};
 pub use function::functions;
 pub use layout::Layout;
 pub use misfit::ScaleMisfit;
-pub use name::{NameError, check_name, is_name};
+pub use name::{NameError, check_name, is_name, looks_of};
 pub use note::FormulaNote;
 pub use scale_fault::{ScaleFault, ScaledPlace};
 pub use syntax::TableCall;

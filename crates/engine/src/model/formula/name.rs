@@ -26,6 +26,27 @@ pub fn is_name(text: &str) -> bool {
     text.starts_with(begins_name) && text.chars().all(continues_name)
 }
 
+/// A name with letters in place of those of other alphabets, and of signs of units, that nobody can
+/// tell from them.
+pub fn looks_of(name: &str) -> String {
+    const ALIKE: [(&str, &str); 3] = [
+        // signs of units
+        ("\u{b5}\u{2126}\u{212a}\u{212b}", "\u{3bc}\u{3a9}K\u{c5}"),
+        // Cyrillic
+        ("аеорсухіјѕАВЕКМНОРСТХІЈЅ", "aeopcyxijsABEKMHOPCTXIJS"),
+        // Greek
+        ("οΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "oABEZHIKMNOPTYX"),
+    ];
+    if name.is_ascii() {
+        return name.to_owned();
+    }
+    let plain = |letter: char| {
+        let pairs = ALIKE.iter().flat_map(|(from, to)| from.chars().zip(to.chars()));
+        pairs.into_iter().find(|(from, _)| *from == letter).map_or(letter, |(_, to)| to)
+    };
+    name.chars().map(plain).collect()
+}
+
 /// Checks that a quantity may be called so.
 ///
 /// ```

@@ -337,6 +337,13 @@ const TABLE: &[(&str, &str, &str, Option<&str>)] = &[
     ("PI*2", "PI", "`PI` is not defined; did you mean `pi`?", Some("pi")),
     ("2*e", "e", "`e` is not defined; did you mean `exp(1)`?", Some("exp(1)")),
     (
+        "2*\u{430}",
+        "\u{430}",
+        "`\u{430}` is not defined: it has the Cyrillic letter U+0430 where `a`, which looks like it, has \
+         the Latin letter U+0061; write both alike",
+        None,
+    ),
+    (
         "2 + voltage",
         "voltage",
         "`voltage` is not defined; names here are `n`, `k`, `l`, `d`, `s`, `f`, `v`, `a`, `m`, `u`, `i` and `tilt`",
