@@ -15,6 +15,10 @@ use gumption_engine::propagate::{Conformity, OutputEvaluation};
 /// Position of the last digit of coverage factors.
 const FACTOR: i32 = -2;
 
+/// Numerical standard errors of a coverage factor within one unit of its last digit: three on either
+/// side.
+const SCATTER: f64 = 6.0;
+
 /// Significant digits of percentages; more would show binary rounding.
 const PERCENT_DIGITS: u32 = 12;
 
@@ -120,7 +124,25 @@ impl Stated<'_> {
 
     pub(super) fn factor(&self) -> Figure {
         let factor = self.statement.coverage_factor;
-        Figure::of(to_position(factor, FACTOR), rounded(factor, FACTOR))
+        let place = self.factor_place();
+        Figure::of(to_position(factor, place), rounded(factor, place))
+    }
+
+    /// The last digit of the coverage factor: with trials the one that another seed would not change,
+    /// or like rows would seem to differ.
+    fn factor_place(&self) -> i32 {
+        let trials = self.found.monte_carlo.as_ref();
+        let (Basis::Shortest, Some(trials)) = (self.statement.basis, trials) else { return FACTOR };
+        // figures without noise are those of every seed
+        if self.statement.without_trials {
+            return FACTOR;
+        }
+        let interval = trials.stated_interval();
+        let farther = interval.errors.into_iter().fold(0.0, f64::max);
+        let error = farther / self.statement.standard_uncertainty;
+        // an error that is not known leaves the digits as they are
+        let unsettled = |place: &i32| SCATTER * error > Decimal::new(1, *place).value();
+        (FACTOR..0).find(|place| !unsettled(place)).unwrap_or(0)
     }
 
     /// Effective degrees of freedom, where k follows from them.

@@ -57,7 +57,8 @@ pub(super) const WORDS: Words = Words {
         factor k = {k}. No distribution is supposed, so that no coverage probability is stated.",
     shortest: "The result is not normally distributed. The interval in the last two columns of the table is the shortest one \
         with a coverage probability of {p}, found by the Monte Carlo method (JCGM 101:2008). U is the \
-        distance of the value from its farther end, and k is U over the standard uncertainty.",
+        distance of the value from its farther end, and k is U over the standard uncertainty, to the \
+        digits that the trials justify.",
     without_trials: "The result is not normally distributed. The interval in the last two columns of the table has a \
         coverage probability of {p}; it was found by the propagation of distributions (JCGM 101:2008, \
         clause 5) without random trials, and is the shortest one, or the symmetric one where that is \

@@ -58,7 +58,7 @@ pub(super) const WORDS: Words = Words {
     shortest: "Le résultat ne suit pas une loi normale. L'intervalle des deux dernières colonnes du tableau est le plus court \
         ayant une probabilité de couverture de {p}, trouvé par la méthode de Monte-Carlo (JCGM 101:2008). U \
         est la distance de la valeur à l'extrémité la plus éloignée, et k est U divisé par \
-        l'incertitude-type.",
+        l'incertitude-type, avec les chiffres que les tirages justifient.",
     without_trials: "Le résultat ne suit pas une loi normale. L'intervalle des deux dernières colonnes du tableau a une \
         probabilité de couverture de {p} ; il a été trouvé par la propagation de distributions (JCGM \
         101:2008, article 5) sans tirages aléatoires, et c'est le plus court, ou bien le symétrique là \

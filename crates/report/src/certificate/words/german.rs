@@ -60,7 +60,8 @@ pub(super) const WORDS: Words = Words {
     shortest: "Das Ergebnis ist nicht normalverteilt. Das Intervall in den letzten beiden Spalten der \
         Tabelle ist das kürzeste mit einer Überdeckungswahrscheinlichkeit von {p}, ermittelt mit dem \
         Monte-Carlo-Verfahren (JCGM 101:2008). U ist der Abstand des Werts vom weiter entfernten Ende, \
-        und k ist U geteilt durch die Standardmessunsicherheit.",
+        und k ist U geteilt durch die Standardmessunsicherheit, auf die Stellen, die die Versuche \
+        hergeben.",
     without_trials: "Das Ergebnis ist nicht normalverteilt. Das Intervall in den letzten beiden Spalten \
         der Tabelle hat eine Überdeckungswahrscheinlichkeit von {p}; es wurde durch Fortpflanzung der \
         Verteilungen (JCGM 101:2008, Abschnitt 5) ohne Zufallsversuche ermittelt und ist das kürzeste, \

@@ -57,7 +57,8 @@ pub(super) const WORDS: Words = Words {
         k = {k}. Non si suppone alcuna distribuzione, perciò non si dichiara una probabilità di copertura.",
     shortest: "Il risultato non ha distribuzione normale. L'intervallo nelle ultime due colonne della tabella è il più corto \
         con una probabilità di copertura di {p}, trovato con il metodo Monte Carlo (JCGM 101:2008). U è la \
-        distanza del valore dall'estremo più lontano, e k è il rapporto fra U e l'incertezza tipo.",
+        distanza del valore dall'estremo più lontano, e k è il rapporto fra U e l'incertezza tipo, con le \
+        cifre che le prove Monte Carlo giustificano.",
     without_trials: "Il risultato non ha distribuzione normale. L'intervallo nelle ultime due colonne della tabella ha una \
         probabilità di copertura di {p}; è stato trovato con la propagazione delle distribuzioni (JCGM \
         101:2008, punto 5) senza prove casuali, ed è il più corto, oppure quello simmetrico dove questo \
