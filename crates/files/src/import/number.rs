@@ -71,6 +71,9 @@ fn lowered(text: &str) -> String {
     lowered
 }
 
+/// The longest number before a unit, in letters.
+const LONGEST: usize = 64;
+
 /// A number with the unit behind it, perhaps with digits in groups of three: `10 000,005 g`. The unit is
 /// empty where there is none, and not looked at.
 pub(super) fn number_with_unit(text: &str, decimal_comma: bool) -> Option<(f64, &str)> {
@@ -78,8 +81,15 @@ pub(super) fn number_with_unit(text: &str, decimal_comma: bool) -> Option<(f64, 
     if let Some(value) = number(text, decimal_comma) {
         return Some((value, ""));
     }
-    let ends = text.char_indices().map(|(at, c)| at + c.len_utf8());
-    ends.rev().find_map(|end| {
+    // of a text that begins as no number nothing else is looked at
+    let begins = |c: char| {
+        c.is_ascii_digit() || matches!(c, '+' | '-' | '\u{2212}' | '\u{2013}' | '.' | ',')
+    };
+    if !text.starts_with(begins) {
+        return None;
+    }
+    let ends = text.char_indices().take(LONGEST).map(|(at, c)| at + c.len_utf8());
+    ends.collect::<Vec<_>>().into_iter().rev().find_map(|end| {
         let (digits, unit) = text.split_at_checked(end)?;
         let value = number(&ungrouped(digits.trim_end())?, decimal_comma)?;
         Some((value, unit.trim()))
