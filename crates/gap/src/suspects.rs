@@ -55,8 +55,15 @@ pub(crate) fn more_suspects(
     if let Some(larger) = larger_suspects(last) {
         return Some(larger);
     }
+    if last.setup.data.noise.suspects.len() >= MOST_SUSPECTS {
+        return None;
+    }
     let enough = ln_total(weighings) + elementary::ln(WORTH_TRYING);
-    one_more(last, enough).or_else(|| several_more(last, enough, (seed, effort)))
+    let hypotheses = last.posterior.hypotheses.par_iter();
+    let influences: Vec<Option<Influence>> =
+        hypotheses.map(|hypothesis| Influence::of(&last.setup, hypothesis)).collect();
+    one_more(last, &influences, enough)
+        .or_else(|| several_more(last, &influences, enough, (seed, effort)))
 }
 
 /// The suspects of a weighing and these more.
@@ -84,19 +91,20 @@ fn ln_weight(last: &Weighing<'_>, hypothesis: &WeighedHypothesis) -> f64 {
 }
 
 /// The suspects of a weighing and the value whose evidences it would raise most, if that is enough.
-fn one_more(last: &Weighing<'_>, enough: f64) -> Option<Vec<Suspect>> {
+fn one_more(
+    last: &Weighing<'_>,
+    influences: &[Option<Influence>],
+    enough: f64,
+) -> Option<Vec<Suspect>> {
     let values = last.setup.data.len();
-    if last.setup.data.noise.suspects.len() >= MOST_SUSPECTS {
-        return None;
-    }
-    let of_hypothesis = |hypothesis: &WeighedHypothesis| -> Vec<SizeGains> {
+    let of_hypothesis = |(hypothesis, influence): (_, &Option<Influence>)| -> Vec<SizeGains> {
         let ln = ln_weight(last, hypothesis);
-        let Some(influence) = Influence::of(&last.setup, hypothesis) else { return Vec::new() };
+        let Some(influence) = influence else { return Vec::new() };
         let alone = influence.with(&[]);
         (0..values).map(|value| alone.more(value).map(|gain| ln + gain)).collect()
     };
-    let found: Vec<Vec<SizeGains>> =
-        last.posterior.hypotheses.par_iter().map(of_hypothesis).collect();
+    let hypotheses = last.posterior.hypotheses.par_iter().zip(influences);
+    let found: Vec<Vec<SizeGains>> = hypotheses.map(of_hypothesis).collect();
     let sum = |value: usize, size: usize| {
         found
             .iter()
@@ -119,6 +127,7 @@ type WeighedSet = (f64, Vec<(usize, usize)>);
 /// that are taken out let it go elsewhere than the approximation says.
 fn several_more(
     last: &Weighing<'_>,
+    influences: &[Option<Influence>],
     enough: f64,
     (seed, effort): (u64, Effort<'_>),
 ) -> Option<Vec<Suspect>> {
@@ -131,10 +140,11 @@ fn several_more(
         .posterior
         .hypotheses
         .par_iter()
-        .map(|hypothesis| {
+        .zip(influences)
+        .map(|(hypothesis, influence)| {
             let ln = ln_weight(last, hypothesis);
-            let influence = Influence::of(&last.setup, hypothesis).filter(|_| ln.is_finite());
-            let sets = influence.map(|of| best_sets(last, &of, most)).unwrap_or_default();
+            let influence = influence.as_ref().filter(|_| ln.is_finite());
+            let sets = influence.map(|of| best_sets(last, of, most)).unwrap_or_default();
             sets.into_iter().map(|(gain, set)| (ln + gain, set)).collect()
         })
         .collect();
