@@ -750,35 +750,41 @@ impl Header {
     fn bare_coefficients(&mut self) {
         const WORDS: [&str; 6] =
             ["coefficient", "coefficients", "coeff", "coef", "koeffizient", "koeffizienten"];
-        let has = |wanted: Column| self.columns.iter().any(|(_, column)| *column == wanted);
-        if !has(Column::Divisor) || has(Column::Sensitivity) {
+        if !self.has(Column::Divisor) || self.has(Column::Sensitivity) {
             return;
         }
-        let is_one = |place: &usize| WORDS.contains(&plain(self.heading(*place)).as_str());
-        let found: Vec<usize> = self.unknown.iter().copied().filter(is_one).collect();
+        let is_one = |header: &Self, place| WORDS.contains(&plain(header.heading(place)).as_str());
+        self.take_the_one(Column::Sensitivity, is_one);
+    }
+
+    /// Whether a column of this kind is known.
+    pub(super) fn has(&self, wanted: Column) -> bool {
+        self.columns.iter().any(|(_, column)| *column == wanted)
+    }
+
+    /// Takes an unknown column for one of this kind, if it is the only one that may be.
+    fn take_the_one(&mut self, kind: Column, may_be: impl Fn(&Self, usize) -> bool) {
+        let found: Vec<usize> =
+            self.unknown.iter().copied().filter(|place| may_be(self, *place)).collect();
         if let [place] = found[..] {
             self.unknown.retain(|of| *of != place);
-            self.columns.push((place, Column::Sensitivity));
+            self.columns.push((place, kind));
         }
     }
 
     /// A column under other words whose cells name distributions is one of distributions.
     fn named_distributions(&mut self, cells: &Cells) {
-        if self.columns.iter().any(|(_, column)| *column == Column::Distribution) {
+        if self.has(Column::Distribution) {
             return;
         }
-        let is_one = |place: &usize| {
-            let texts = (self.line + 1..cells.lines()).map(|line| cells.text(line, *place).trim());
+        self.take_the_one(Column::Distribution, |header, place| {
+            let lines = header.line + 1..cells.lines();
+            let texts = lines.map(|line| cells.text(line, place).trim());
             let mut named = texts.filter_map(|text| Some((text, distribution(text)?))).peekable();
             // one letter may be anything
             named.peek().is_some()
                 && named.all(|(text, of)| of != NamedShape::Unknown && text.chars().count() > 2)
-        };
-        let found: Vec<usize> = self.unknown.iter().copied().filter(is_one).collect();
-        if let [place] = found[..] {
-            self.unknown.retain(|of| *of != place);
-            self.columns.push((place, Column::Distribution));
-        }
+        });
     }
 
     /// A column of numbers that nothing names and whose words may be those of sensitivity coefficients;
@@ -795,7 +801,7 @@ impl Header {
             "empfindlich",
             "sensib",
         ];
-        if self.columns.iter().any(|(_, column)| *column == Column::Sensitivity) {
+        if self.has(Column::Sensitivity) {
             return None;
         }
         let comma = cells.decimal_comma();
@@ -871,7 +877,7 @@ impl Header {
     /// A standard deviation that divisors `√n` divide is no standard uncertainty yet.
     fn deviations_as_widths(&mut self, cells: &Cells) {
         if self.number_of_readings(cells).is_none()
-            || self.columns.iter().any(|(_, column)| *column == Column::Width)
+            || self.has(Column::Width)
             || !is_deviation(self.heading_of(Column::Std))
         {
             return;

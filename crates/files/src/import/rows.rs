@@ -177,8 +177,7 @@ impl Budget<'_> {
 
     /// Says which quantities have no estimate where others have one.
     fn blank_estimates(&mut self, header: &Header, rows: &[Row]) {
-        let has_column = header.columns.iter().any(|(_, column)| *column == Column::Estimate);
-        if !has_column || rows.iter().all(|row| row.estimate.is_none()) {
+        if !header.has(Column::Estimate) || rows.iter().all(|row| row.estimate.is_none()) {
             return;
         }
         for row in rows.iter().filter(|row| row.estimate.is_none()) {

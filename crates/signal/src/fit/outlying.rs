@@ -86,16 +86,7 @@ impl Farthest {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Numbers that look normal: sums of twelve even ones less 6, of standard deviation 1.
-    fn noise(count: usize) -> Vec<f64> {
-        let mut state = 1u64;
-        let mut even = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 11) as f64 / 9_007_199_254_740_992.0
-        };
-        (0..count).map(|_| (0..12).map(|_| even()).sum::<f64>() - 6.0).collect()
-    }
+    use crate::tests::simulated::normals;
 
     fn few(residuals: &[f64], resolution: f64) -> Option<(Vec<Outlying>, f64)> {
         let mut farthest = Farthest::default();
@@ -107,7 +98,7 @@ mod tests {
 
     #[test]
     fn spikes_are_found_and_noise_has_none() {
-        let plain = noise(50_000);
+        let plain = normals(1, "spikes", 50_000);
         assert!(few(&plain, 0.0).is_none());
         let mut spiked = plain.clone();
         (spiked[4321], spiked[31]) = (-20.0, 9.0);
@@ -127,7 +118,7 @@ mod tests {
         let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         let laplace: Vec<f64> = (0..50_000).map(|i| -sign(i) * even(i).ln()).collect();
         assert!(few(&laplace, 0.0).is_none());
-        let mut missing = noise(50_000);
+        let mut missing = normals(1, "missing", 50_000);
         (0..20).for_each(|i| missing[i * 1777] = 9999.0);
         assert_eq!(few(&missing, 0.0).unwrap().0.len(), 20);
     }
