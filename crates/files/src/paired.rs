@@ -3,7 +3,7 @@
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::input_set::InputSet;
-use gumption_engine::distribution::{Distribution, Invalid, Readings};
+use gumption_engine::distribution::{Distribution, Readings};
 use gumption_engine::task::Trials;
 
 /// Makes ensembles of the paired readings, all those of equal length one. The variables must be
@@ -81,8 +81,8 @@ fn mistake(
         return None;
     };
     let error = match Readings::clone(readings).paired(members.len()) {
-        Ok(paired) if paired.have_covariance() || trials == Trials::Fixed(0) => return None,
-        Ok(_) => Invalid::TooFewPaired { count: length, together: members.len() },
+        Ok(_) if trials == Trials::Fixed(0) => return None,
+        Ok(paired) => paired.without_covariance()?,
         Err(error) => error,
     };
     Some((first, DiagnosticKind::Distribution { name: name(first).to_owned(), error }))

@@ -83,9 +83,8 @@ fn undefined(read: &EffectContext<'_>, placed: Option<&Placed>) -> Option<(usize
         .map(|candidate| candidate.priors.iter().map(|prior| prior.quantile(0.5)).collect())
         .unwrap_or_default();
     for (number, row) in read.task.rows.iter().enumerate() {
-        let estimates = row.distributions.iter().map(|distribution| distribution.mean());
-        let variables: Vec<f64> =
-            estimates.chain(row.conditions.iter().copied()).chain(parameters.clone()).collect();
+        let mut variables = row.estimates();
+        variables.extend(&parameters);
         let values = program.evaluate(&variables);
         let faulty = read
             .sim

@@ -72,11 +72,8 @@ impl Data {
             // neighbours are told apart by their order, so that repeats are not taken together
             key.extend(noise.serial.map(|_| number as u64));
             let place = *known.entry(key).or_insert_with(|| {
-                let mut variables: Vec<f64> =
-                    row.distributions.iter().map(|distribution| distribution.mean()).collect();
-                let inputs = variables.len();
-                variables.extend(&row.conditions);
-                let (values, gradients) = case.task.model.program.gradients(&variables);
+                let inputs = row.distributions.len();
+                let (values, gradients) = case.task.model.program.gradients(&row.estimates());
                 let gradient = |&output: &usize| gradients[output][..inputs].to_vec();
                 points.push(Point {
                     rows: Vec::new(),

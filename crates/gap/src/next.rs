@@ -534,8 +534,7 @@ fn other_noise_at(setup: &Setup<'_>, place: &Place, outputs: &[usize], relative:
     if outputs.is_empty() {
         return NoiseAt { own: Vec::new(), shared: Vec::new() };
     }
-    let mut variables: Vec<f64> = place.row.distributions.iter().map(|d| d.mean()).collect();
-    variables.extend(&place.row.conditions);
+    let variables = place.row.estimates();
     let (values, _) = setup.case.task.model.program.gradients(&variables);
     let NoiseAt { own, shared } = of_inputs(setup, place, outputs);
     let own =

@@ -132,8 +132,7 @@ impl Kernel for Walk<'_> {
 
 /// What the model says of the observed outputs in a row at the inputs' estimates.
 pub(crate) fn nominal(setup: &Setup<'_>, row: &Row) -> Vec<f64> {
-    let mut variables: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
-    variables.extend(&row.conditions);
+    let variables = row.estimates();
     let values = setup.case.task.model.program.evaluate(&variables);
     setup.data.outputs.iter().map(|&output| values[output]).collect()
 }
@@ -151,8 +150,7 @@ pub(crate) fn variances_of(
     outputs: &[usize],
     wanted: impl Fn(usize) -> bool,
 ) -> Vec<f64> {
-    let mut variables: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
-    variables.extend(&row.conditions);
+    let variables = row.estimates();
     let (_, gradients) = setup.case.task.model.program.gradients(&variables);
     let of = |&output: &usize| {
         let parts = row.distributions.iter().enumerate().map(|(v, distribution)| {

@@ -81,7 +81,7 @@ impl Readings {
     }
 
     /// What is wrong with trials of paired readings without a covariance; `None` of others.
-    pub(crate) fn without_covariance(&self) -> Option<Invalid> {
+    pub fn without_covariance(&self) -> Option<Invalid> {
         let (count, together) = (self.values.len(), self.together);
         (together > 1 && !self.have_covariance())
             .then_some(Invalid::TooFewPaired { count, together })

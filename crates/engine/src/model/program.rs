@@ -197,22 +197,28 @@ impl Program {
         (self.outputs.iter().map(|&output| values[output]).collect(), gradients)
     }
 
-    /// Whether a product, a quotient or a power that an output is computed from, of numbers that are not
-    /// zero, is below the smallest normal number.
-    pub(crate) fn underflows(&self, variables: &[f64], output: usize) -> bool {
-        let Some(&output) = self.outputs.get(output) else { return false };
+    /// For each output whether a product, a quotient or a power that it is computed from, of numbers that
+    /// are not zero, is below the smallest normal number.
+    pub(crate) fn underflows(&self, variables: &[f64]) -> Vec<bool> {
         let values: Vec<f64> = self.values(variables);
-        let needed = self.needed_by(&[], [output]);
         let vanishes = |(index, node): (usize, &Node)| match *node {
             Node::Binary(Binary::Multiply | Binary::Divide | Binary::Power, x, y) => {
-                needed[index]
-                    && values[index].is_finite()
-                    && !values[index].is_normal()
-                    && [x, y].iter().all(|x| values[*x] != 0.0 && values[*x].is_finite())
+                let is_small = values[index].is_finite() && !values[index].is_normal();
+                let of = |x: usize| values[x] != 0.0 && values[x].is_finite();
+                is_small && of(x) && of(y)
             }
             _ => false,
         };
-        self.nodes.iter().enumerate().any(vanishes)
+        let vanishing = self.nodes.iter().enumerate().filter(|of| vanishes(*of));
+        let vanishing: Vec<usize> = vanishing.map(|(index, _)| index).collect();
+        if vanishing.is_empty() {
+            return vec![false; self.outputs.len()];
+        }
+        let has_one = |output: &usize| {
+            let needed = self.needed_by(&[], [*output]);
+            vanishing.iter().any(|index| needed[*index])
+        };
+        self.outputs.iter().map(has_one).collect()
     }
 
     /// The variables that some output depends on, in order.

@@ -521,30 +521,21 @@ fn paired_have_covariance(task: &Task, row: &Row) -> Result<(), EvaluationError>
     Ok(())
 }
 
-/// Whether the trials of an output have a standard deviation that is its standard uncertainty, without
-/// which they have no correlation coefficients either.
-pub(super) fn scatters(
-    program: &Program,
-    output: (usize, &Output),
-    gum: Option<&Gum>,
-    figures: &MonteCarlo,
-) -> bool {
-    let jumps = || gum.is_some_and(|gum| branch::note(program, output, gum, figures).is_some());
-    figures.standard_uncertainty.is_some() && !figures.heavy_tailed && !jumps()
-}
-
-/// Takes the correlation coefficients of outputs whose trials have none from the law of propagation.
+/// Takes the correlation coefficients of outputs whose trials have none, as their standard deviation is
+/// no standard uncertainty, from the law of propagation.
 fn correlations_by_law(
     task: &Task,
     (gums, figures): (&[Option<Gum>], &[Option<MonteCarlo>]),
     linear: &GumRow,
     result: &mut RowEvaluation,
 ) {
+    let program = &task.model.program;
     let outputs = task.model.outputs.iter().enumerate().zip(gums).zip(figures);
     let scatter: Vec<bool> = outputs
         .map(|((output, gum), figures)| {
-            let program = &task.model.program;
-            figures.as_ref().is_none_or(|of| scatters(program, output, gum.as_ref(), of))
+            let Some(figures) = figures else { return true };
+            let jumps = |gum| branch::note(program, output, gum, figures).is_some();
+            figures.spread().is_some() && !gum.as_ref().is_some_and(jumps)
         })
         .collect();
     let of_law = if scatter.contains(&false) { linear.correlations() } else { return };
@@ -620,7 +611,7 @@ pub(super) const FEW_ROWS: usize = 16;
 
 /// Whether the trials' standard deviation is noteworthily another one than that of a linear model.
 pub(super) fn differs_from_linear(gum: &Gum, figures: &MonteCarlo) -> bool {
-    let Some(u) = figures.standard_uncertainty.filter(|_| !figures.heavy_tailed) else {
+    let Some(u) = figures.spread() else {
         return false;
     };
     let drawn = gum.drawn_uncertainty();

@@ -4,11 +4,12 @@
 //! its standard uncertainty, such as a time stamp of 1.8e9 s known to 50 ns, take few different values:
 //! their figures are those of a staircase, and the input's estimate may itself be off by half a step.
 
-use super::evaluation::{EvaluationError, OutputEvaluation};
+use super::evaluation::EvaluationError;
 use super::gum::{BudgetLine, Gum};
 use crate::decimal::significant;
+use crate::model::Output;
 use crate::number::Shortest;
-use crate::task::{Row, Task, Warning};
+use crate::task::{Task, Warning};
 
 /// Half of the relative spacing of numbers.
 const HALF_SPACING: f64 = f64::EPSILON / 2.0;
@@ -38,31 +39,30 @@ fn coarsest(gum: &Gum) -> Option<(BudgetLine, f64)> {
 }
 
 /// What is said of it.
-fn text(task: &Task, output: usize, (line, share): (&BudgetLine, f64)) -> String {
-    let name = task.model.outputs.get(output).map_or("", |of| &*of.quantity.name);
+fn text(task: &Task, name: &str, (line, share): (&BudgetLine, f64)) -> String {
     let variable = task.variables.get(line.variable);
-    let (input, unit) = variable.map_or(("", ""), |of| (of.name.as_str(), of.unit.text()));
-    let unit = if matches!(unit, "" | "1") { String::new() } else { format!(" {unit}") };
+    let input = variable.map_or("", |of| of.name.as_str());
+    let in_unit = |number: String| variable.map_or(number.clone(), |of| of.unit.after(&number));
     format!(
-        "`{name}`: numbers of double precision, with 16 digits, leave {}{unit} of `{input}` undetermined, \
-         {} % of its standard uncertainty: it is {}{unit} with a standard uncertainty of {}{unit}; make it \
-         the difference from a reference value",
-        significant(HALF_SPACING * line.estimate.abs(), 2),
+        "`{name}`: numbers of double precision, with 16 digits, leave {} of `{input}` undetermined, {} % of \
+         its standard uncertainty: it is {} with a standard uncertainty of {}; make it the difference from \
+         a reference value",
+        in_unit(significant(HALF_SPACING * line.estimate.abs(), 2)),
         significant(100.0 * share, 2),
-        Shortest(line.estimate),
-        significant(line.standard_uncertainty, 2)
+        in_unit(Shortest(line.estimate).to_string()),
+        in_unit(significant(line.standard_uncertainty, 2))
     )
 }
 
 /// Refuses trials that would show the spacing of numbers and not the uncertainty of an output.
 pub(super) fn check(task: &Task, row: usize, gums: &[Option<Gum>]) -> Result<(), EvaluationError> {
-    for (output, gum) in gums.iter().enumerate() {
+    for ((output, of), gum) in task.model.outputs.iter().enumerate().zip(gums) {
         let found = gum.as_ref().and_then(coarsest).filter(|(_, share)| *share > TOO_MUCH);
         if let Some((line, share)) = found {
             let message = format!(
                 "{}. `trials` of 0 evaluates it by the law of propagation alone, which has the slopes \
                  and not the digits",
-                text(task, output, (&line, share))
+                text(task, &of.quantity.name, (&line, share))
             );
             return Err(EvaluationError::Rounding { row, output, message });
         }
@@ -70,27 +70,20 @@ pub(super) fn check(task: &Task, row: usize, gums: &[Option<Gum>]) -> Result<(),
     Ok(())
 }
 
-/// The notes on an output whose last digits, or all, double precision does not hold.
-pub(super) fn notes(
-    task: &Task,
-    row: &Row,
-    (output, evaluated): (usize, &OutputEvaluation),
-) -> Vec<Warning> {
-    let name = task.model.outputs.get(output).map_or("", |of| &*of.quantity.name);
-    let mut notes = Vec::new();
-    if let Some((line, share)) = evaluated.gum.as_ref().and_then(coarsest) {
-        let text = text(task, output, (&line, share));
-        notes.push(Warning::new("double-precision", name, text));
-    }
-    let mut values: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
-    values.extend(&row.conditions);
-    if task.function.is_none() && task.model.program.underflows(&values, output) {
-        let text = format!(
-            "`{name}`: a product, a quotient or a power in its equations is below the smallest number of \
-             double precision, 2.2e-308, and counts as less than it is; choose units of the size of the \
-             quantities"
-        );
-        notes.push(Warning::new("underflow", name, text));
-    }
-    notes
+/// The note on an output whose last digits, or all, double precision does not hold.
+pub(super) fn note(output: &Output, task: &Task, gum: &Gum) -> Option<Warning> {
+    let (line, share) = coarsest(gum)?;
+    let name = &output.quantity.name;
+    let text = text(task, name, (&line, share));
+    Some(Warning::new("double-precision", name.as_str(), text))
+}
+
+/// The note on an output in whose equations a number vanishes.
+pub(super) fn underflow(name: &str) -> Warning {
+    let text = format!(
+        "`{name}`: a product, a quotient or a power in its equations is below the smallest number of \
+         double precision, 2.2e-308, and counts as less than it is; choose units of the size of the \
+         quantities"
+    );
+    Warning::new("underflow", name, text)
 }

@@ -61,8 +61,7 @@ fn at_step(
     varying: &[(usize, f64)],
     step: f64,
 ) -> Vec<Option<SecondOrder>> {
-    let mut estimates: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
-    estimates.extend(&row.conditions);
+    let estimates = row.estimates();
     let slopes = |variable: usize, shift: f64| {
         let mut values = estimates.clone();
         values[variable] += shift;

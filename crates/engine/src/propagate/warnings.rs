@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::evaluation::{
     Evaluation, FEW_ROWS, NOTEWORTHY, OutputEvaluation, RowEvaluation, differs_from_linear,
-    scatter_of_few, scatters,
+    scatter_of_few,
 };
 use super::gum::{BudgetLine, Dof, Gum};
 use super::monte_carlo::{Adaptive, MonteCarlo};
@@ -52,6 +52,9 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
     // one more pass over the program costs little beside trials, but not beside bare budgets
     let is_looked_at = task.settings.trials != Trials::Fixed(0) || task.rows.len() <= FEW_ROWS;
     for (place, row) in evaluation.rows.iter().enumerate() {
+        let of = task.rows.get(place).filter(|_| is_looked_at && task.function.is_none());
+        let vanishing = of.map(|of| task.model.program.underflows(&of.estimates()));
+        let vanishing = vanishing.unwrap_or_default();
         if let Some(undefined) = &row.undefined {
             let (count, all) = (undefined.count, undefined.trials);
             let text = format!("{count} of {all} trials are not finite and were left out");
@@ -69,11 +72,16 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
             of_output((task, &named), (name, jumps), row, evaluated, &mut found);
             of_noiseless(&output.quantity.name, evaluated, &mut found);
             of_capability(output, evaluated, &mut found);
-            if let Some(of) = task.rows.get(place).filter(|_| is_looked_at) {
-                let notes = rounding::notes(task, of, (number, evaluated));
-                notes.into_iter().for_each(|note| push(&mut found, note));
+            if is_looked_at {
+                let coarse =
+                    evaluated.gum.as_ref().and_then(|gum| rounding::note(output, task, gum));
+                let vanishes = vanishing.get(number).copied().unwrap_or_default();
+                let vanishes = vanishes.then(|| rounding::underflow(name));
+                coarse.into_iter().chain(vanishes).for_each(|note| push(&mut found, note));
             }
-            of_correlations(task, (number, output), evaluated, &mut found);
+            if task.model.outputs.len() > 1 {
+                of_correlations((name, jumps), evaluated, &mut found);
+            }
             let decided = evaluated.conformity.as_deref();
             if task.settings.trials == Trials::Fixed(0)
                 && decided.is_some_and(|decided| decided.stated_uncertainty.is_none())
@@ -326,7 +334,7 @@ fn of_difference(
     (gum, output, monte_carlo): (&Gum, &OutputEvaluation, &MonteCarlo),
     found: &mut Vec<Warning>,
 ) {
-    let Some(u) = monte_carlo.standard_uncertainty.filter(|_| !monte_carlo.heavy_tailed) else {
+    let Some(u) = monte_carlo.spread() else {
         return;
     };
     let (linear, drawn) = (gum.standard_uncertainty, gum.drawn_uncertainty());
@@ -427,20 +435,13 @@ pub fn second_order_text(task: &Task, gum: &Gum, second: &SecondOrder) -> String
 
 /// Correlation coefficients of an output of which the trials have none.
 fn of_correlations(
-    task: &Task,
-    (number, output): (usize, &Output),
+    (name, jumps): (&str, bool),
     evaluated: &OutputEvaluation,
     found: &mut Vec<Warning>,
 ) {
-    let Some(figures) = evaluated.monte_carlo.as_ref().filter(|_| task.model.outputs.len() > 1)
-    else {
-        return;
-    };
-    let program = &task.model.program;
-    if scatters(program, (number, output), evaluated.gum.as_ref(), figures) {
+    if evaluated.monte_carlo.as_ref().is_none_or(|figures| figures.spread().is_some() && !jumps) {
         return;
     }
-    let name = &output.quantity.name;
     let text = match &evaluated.gum {
         Some(_) => format!(
             "`{name}`: its trials have no standard deviation that means something, so its correlation \
@@ -451,7 +452,7 @@ fn of_correlations(
              evaluation, so it has no correlation coefficients"
         ),
     };
-    push(found, Warning::new("correlations-by-propagation", name.as_str(), text));
+    push(found, Warning::new("correlations-by-propagation", name, text));
 }
 
 /// A decision without trials.

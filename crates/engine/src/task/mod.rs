@@ -62,6 +62,14 @@ pub struct Row {
     pub distributions: Arc<[Arc<Distribution>]>,
 }
 
+impl Row {
+    /// The values of a program's variables at the estimates: those of the inputs, then the conditions.
+    pub fn estimates(&self) -> Vec<f64> {
+        let inputs = self.distributions.iter().map(|distribution| distribution.mean());
+        inputs.chain(self.conditions.iter().copied()).collect()
+    }
+}
+
 /// A model with everything that its evaluation needs.
 #[derive(Clone, Debug)]
 #[non_exhaustive]

@@ -202,9 +202,7 @@ impl Target {
             Some((with_shift, value)) => {
                 let mut values = Vec::with_capacity(rows.len());
                 for (row, of) in rows.iter().enumerate() {
-                    let mut variables: Vec<f64> =
-                        of.distributions.iter().map(|d| d.mean()).collect();
-                    variables.extend(&of.conditions);
+                    let mut variables = of.estimates();
                     let (own, _) = value.gradients(&variables);
                     let own = own.first().copied().unwrap_or(f64::NAN);
                     values.push(own);

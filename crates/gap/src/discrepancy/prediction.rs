@@ -149,8 +149,7 @@ pub(crate) fn conditioned(
 
 /// What the model says in a row at the inputs' estimates, with its derivatives.
 pub(crate) fn nominal(setup: &Setup<'_>, row: &Row) -> (Vec<f64>, Vec<Vec<f64>>) {
-    let mut variables: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
-    variables.extend(&row.conditions);
+    let variables = row.estimates();
     let (values, gradients) = setup.case.task.model.program.gradients(&variables);
     let outputs = &setup.data.outputs;
     (

@@ -78,17 +78,17 @@ pub fn worse_offers(task: &Task, costs: &Costs) -> Vec<String> {
         let Some(Improvement::Offers(offers)) = improvement else { continue };
         let rows = task.rows.iter().filter_map(|row| row.distributions.get(place));
         let now = rows.map(|known| known.standard_uncertainty()).fold(0.0, f64::max);
-        let (name, unit) = (plain(&variable.name), variable.unit.text());
+        let name = plain(&variable.name);
         for offer in offers.iter().filter(|offer| offer.standard_uncertainty >= now) {
             let of = |value: f64| in_unit(&exact(to_digits(value, 4)), &variable.unit);
-            let hint = if matches!(unit, "" | "1") {
-                String::new()
-            } else {
+            let hint = if variable.unit.has_name() {
                 format!(
                     " Numbers without a unit are in {}; another unit is written with them, \
                      as `\"1.5 uV\"`.",
-                    plain(unit)
+                    plain(variable.unit.text())
                 )
+            } else {
+                String::new()
             };
             said.push(format!(
                 "The offer of {} for {name} (cost {}) is no better than what there is, {}, and helps \

@@ -28,8 +28,7 @@ impl<'a> Gradients<'a> {
 
     /// Of one row.
     pub(super) fn one(&self, row: &Row) -> Linear {
-        let mut values: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
-        values.extend(&row.conditions);
+        let values = row.estimates();
         let model = &self.task.model;
         match &self.task.function {
             Some(function) => {

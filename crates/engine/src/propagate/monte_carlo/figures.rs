@@ -203,6 +203,12 @@ impl MonteCarlo {
         }
     }
 
+    /// The standard deviation of the trials where it is a standard uncertainty: not where there is none,
+    /// nor where a few of the trials carry it.
+    pub fn spread(&self) -> Option<f64> {
+        self.standard_uncertainty.filter(|_| !self.heavy_tailed)
+    }
+
     /// Where the trials lie: the estimate, or the median where there is none.
     pub fn location(&self) -> f64 {
         self.estimate.unwrap_or(self.median)

@@ -138,8 +138,7 @@ impl Setup {
         bound.extend(row.conditions.iter().map(|&value| Some(value)));
         let schedule = Schedule::keeping_variables(&program, &bound);
         let distributions: Vec<_> = varying.iter().map(|&v| row.distributions[v].clone()).collect();
-        let mut estimates: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
-        estimates.extend(&row.conditions);
+        let estimates = row.estimates();
         let (values, gradients) = program.gradients(&estimates);
         let share = |place: usize| {
             let slope = gradients.first().map_or(0.0, |gradient| gradient[varying[place]]);

@@ -43,9 +43,8 @@ pub(in crate::evaluation) fn convergence(
 ) -> Option<Drawing> {
     let last = stages.last().filter(|_| stages.len() > 1)?;
     let shortest = last.stated_interval().shortest;
-    let size = last.standard_uncertainty.filter(|_| !last.heavy_tailed);
     // without a standard deviation half of the interval says what is large
-    let (size, unit) = match size {
+    let (size, unit) = match last.spread() {
         Some(u) => (u, "u"),
         None => {
             let [low, high] = last.stated_interval().ends;

@@ -180,8 +180,7 @@ fn tapes(report: &EvaluationReport<'_>) -> Option<Vec<Tape>> {
     }
     let mut all = Vec::new();
     for row in &report.task.rows {
-        let mut values: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
-        values.extend(&row.conditions);
+        let values = row.estimates();
         all.push(Tape::of(program, &values)?);
     }
     Some(all)
