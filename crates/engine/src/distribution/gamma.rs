@@ -3,7 +3,7 @@
 use super::characteristic::Characteristic;
 use super::shape::{Invalid, Shape, positive, within};
 use super::stream::Stream;
-use crate::number::{COLUMN, Column, elementary};
+use crate::number::{COLUMN, Column, Kernel, elementary};
 use crate::special;
 
 /// The least shape: a draw in a thousand is then below the smallest normal number, which stands for
@@ -101,21 +101,37 @@ pub(super) fn draw(shape: f64, stream: &mut Stream, out: &mut Column) {
 }
 
 /// Logarithms of draws of unit rate, which do not underflow at any shape. For shapes below 1 a draw
-/// of the shape + 1 is multiplied by a uniform number to the power 1 / shape.
-#[inline(always)]
+/// of the shape + 1 is multiplied by a uniform number to the power 1 / shape. Compiled once for each
+/// path, as [`super::normal::draw`].
 pub(super) fn draw_ln(shape: f64, stream: &mut Stream, out: &mut Column) {
-    let boosted = shape < 1.0;
-    let generator = Generator::new(if boosted { shape + 1.0 } else { shape });
-    generator.fill(stream, out);
-    let ln_d = elementary::ln(generator.d);
-    for i in 0..COLUMN {
-        out.0[i] = ln_d + 3.0 * elementary::ln(1.0 + out.0[i]);
-    }
-    if boosted {
-        let mut power = [0.0; COLUMN];
-        stream.uniform(&mut power);
-        for (x, &power) in out.0.iter_mut().zip(&power) {
-            *x += elementary::ln_uniform(power) / shape;
+    stream.path().run(LogarithmKernel { shape, stream, out });
+}
+
+struct LogarithmKernel<'a> {
+    shape: f64,
+    stream: &'a mut Stream,
+    out: &'a mut Column,
+}
+
+impl Kernel for LogarithmKernel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { shape, stream, out } = self;
+        let boosted = shape < 1.0;
+        let generator = Generator::new(if boosted { shape + 1.0 } else { shape });
+        generator.fill(stream, out);
+        let ln_d = elementary::ln(generator.d);
+        for i in 0..COLUMN {
+            out.0[i] = ln_d + 3.0 * elementary::ln(1.0 + out.0[i]);
+        }
+        if boosted {
+            let mut power = [0.0; COLUMN];
+            stream.uniform(&mut power);
+            for (x, &power) in out.0.iter_mut().zip(&power) {
+                *x += elementary::ln_uniform(power) / shape;
+            }
         }
     }
 }
@@ -125,9 +141,31 @@ pub(super) fn draw_ln(shape: f64, stream: &mut Stream, out: &mut Column) {
 ///
 /// At least 95 % of the candidates are accepted. They are made and judged side by side, then the
 /// accepted ones are taken in order, so a block's draws follow from its stream alone.
+#[derive(Clone, Copy)]
 struct Generator {
     d: f64,
     c: f64,
+}
+
+/// Fills a column with accepted t.
+struct FillKernel<'a> {
+    generator: Generator,
+    stream: &'a mut Stream,
+    out: &'a mut Column,
+}
+
+impl Kernel for FillKernel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { generator, stream, out } = self;
+        let mut filled = 0;
+        generator.round::<{ COLUMN / 2 }>(stream, out, &mut filled);
+        while filled < COLUMN {
+            generator.round::<8>(stream, out, &mut filled);
+        }
+    }
 }
 
 impl Generator {
@@ -138,13 +176,8 @@ impl Generator {
     }
 
     /// Fills a column with accepted t.
-    #[inline(always)]
-    fn fill(&self, stream: &mut Stream, out: &mut Column) {
-        let mut filled = 0;
-        self.round::<{ COLUMN / 2 }>(stream, out, &mut filled);
-        while filled < COLUMN {
-            self.round::<8>(stream, out, &mut filled);
-        }
+    fn fill(self, stream: &mut Stream, out: &mut Column) {
+        stream.path().run(FillKernel { generator: self, stream, out });
     }
 
     /// Two times `HALF` candidates, by the pairs of normals of Box and Muller.

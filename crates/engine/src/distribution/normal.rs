@@ -4,7 +4,7 @@
 use super::shape::{Invalid, Shape, drawn_degrees_of_freedom, finite, positive};
 use super::stream::Stream;
 use super::student;
-use crate::number::{COLUMN, Column, elementary};
+use crate::number::{COLUMN, Column, Kernel, elementary};
 use crate::special;
 
 /// A normal distribution, or a scaled and shifted t if it has finite degrees of freedom.
@@ -107,19 +107,36 @@ impl Normal {
 }
 
 /// Box-Muller: a pair of uniforms gives two independent normals (JCGM 101, C.4). The cosines fill
-/// the first half of the column, the sines the second.
-#[inline(always)]
+/// the first half of the column, the sines the second. Compiled once for each path and called by
+/// every distribution that begins with it, as a call is nothing beside a column.
 pub(super) fn draw(mean: f64, std: f64, stream: &mut Stream, out: &mut Column) {
-    const HALF: usize = COLUMN / 2;
-    let mut uniforms = [0.0; COLUMN];
-    stream.uniform(&mut uniforms);
-    let (radius, turn) = uniforms.split_at(HALF);
-    let (first, second) = out.0.split_at_mut(HALF);
-    for i in 0..HALF {
-        let r = (-2.0 * elementary::ln_uniform(radius[i])).sqrt();
-        let (sin, cos) = elementary::sin_cos_turn(turn[i]);
-        first[i] = mean + std * (r * cos);
-        second[i] = mean + std * (r * sin);
+    stream.path().run(DrawKernel { mean, std, stream, out });
+}
+
+struct DrawKernel<'a> {
+    mean: f64,
+    std: f64,
+    stream: &'a mut Stream,
+    out: &'a mut Column,
+}
+
+impl Kernel for DrawKernel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        const HALF: usize = COLUMN / 2;
+        let Self { mean, std, stream, out } = self;
+        let mut uniforms = [0.0; COLUMN];
+        stream.uniform(&mut uniforms);
+        let (radius, turn) = uniforms.split_at(HALF);
+        let (first, second) = out.0.split_at_mut(HALF);
+        for i in 0..HALF {
+            let r = (-2.0 * elementary::ln_uniform(radius[i])).sqrt();
+            let (sin, cos) = elementary::sin_cos_turn(turn[i]);
+            first[i] = mean + std * (r * cos);
+            second[i] = mean + std * (r * sin);
+        }
     }
 }
 

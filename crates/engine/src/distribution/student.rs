@@ -3,7 +3,7 @@
 use super::normal;
 use super::shape::{Invalid, Shape, drawn_degrees_of_freedom, finite, positive};
 use super::stream::Stream;
-use crate::number::{COLUMN, Column, elementary};
+use crate::number::{COLUMN, Column, Kernel, elementary};
 use crate::special;
 
 /// From here on the t distribution and the normal one differ by less than 1e-9 in any probability,
@@ -92,25 +92,44 @@ pub(super) fn standard_quantile(p: f64, dof: f64) -> f64 {
 }
 
 /// Bailey's polar form (Mathematics of Computation 62, 1994): exact for any degrees of freedom,
-/// one logarithm, one exponential, one root and one cosine a value, and nothing is rejected.
-#[inline(always)]
+/// one logarithm, one exponential, one root and one cosine a value, and nothing is rejected. Compiled
+/// once for each path, as [`normal::draw`].
 pub(super) fn draw(mean: f64, scale: f64, dof: f64, stream: &mut Stream, out: &mut Column) {
     if dof >= AS_GOOD_AS_NORMAL {
         normal::draw(mean, scale, stream, out);
-        return;
-    }
-    let mut radius = [0.0; COLUMN];
-    let mut turn = [0.0; COLUMN];
-    stream.uniform(&mut radius);
-    stream.uniform(&mut turn);
-    // no logarithm is below that of the least uniform number
-    if LARGEST_LOGARITHM * 2.0 / dof <= elementary::EXP_LIMIT {
-        let grown = elementary::exp_minus_one_positive;
-        fill((mean, scale, dof), (&radius, &turn), grown, out);
     } else {
-        // of less than an eighth of a degree of freedom hardly any draw is near the middle
-        let grown = |x: f64| if x < 1e-3 { x * (1.0 + 0.5 * x) } else { elementary::exp(x) - 1.0 };
-        fill((mean, scale, dof), (&radius, &turn), grown, out);
+        stream.path().run(DrawKernel { mean, scale, dof, stream, out });
+    }
+}
+
+struct DrawKernel<'a> {
+    mean: f64,
+    scale: f64,
+    dof: f64,
+    stream: &'a mut Stream,
+    out: &'a mut Column,
+}
+
+impl Kernel for DrawKernel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { mean, scale, dof, stream, out } = self;
+        let mut radius = [0.0; COLUMN];
+        let mut turn = [0.0; COLUMN];
+        stream.uniform(&mut radius);
+        stream.uniform(&mut turn);
+        // no logarithm is below that of the least uniform number
+        if LARGEST_LOGARITHM * 2.0 / dof <= elementary::EXP_LIMIT {
+            let grown = elementary::exp_minus_one_positive;
+            fill((mean, scale, dof), (&radius, &turn), grown, out);
+        } else {
+            // of less than an eighth of a degree of freedom hardly any draw is near the middle
+            let grown =
+                |x: f64| if x < 1e-3 { x * (1.0 + 0.5 * x) } else { elementary::exp(x) - 1.0 };
+            fill((mean, scale, dof), (&radius, &turn), grown, out);
+        }
     }
 }
 

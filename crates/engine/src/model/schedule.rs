@@ -209,12 +209,6 @@ impl Schedule {
         Self { steps, routines, kept, registers, used, outputs }
     }
 
-    /// Runs all steps on one column of trials, as part of a kernel.
-    #[inline(always)]
-    pub(crate) fn run(&self, registers: &mut [Column]) {
-        run_steps(&self.steps, &self.routines, registers);
-    }
-
     /// Runs all steps on one column of trials.
     pub fn run_on(&self, path: CodePath, registers: &mut [Column]) {
         run_steps_on(path, &self.steps, &self.routines, registers);
@@ -450,20 +444,8 @@ impl Step {
     }
 }
 
-#[inline(always)]
-fn run_steps(steps: &[Step], routines: &[ScheduledRoutine], registers: &mut [Column]) {
-    for step in steps {
-        match *step {
-            Step::Unary(operation, x, out) => apply_unary(registers, operation, x, out),
-            Step::Binary(operation, x, y, out) => apply_binary(registers, operation, x, y, out),
-            Step::SinCos { angle, sin, cos } => apply_sin_cos(registers, angle, sin, cos),
-            Step::Routine(number) => routines[number].run(registers),
-        }
-    }
-}
-
-/// The same compiled once for each path, for whoever does not run many columns in a loop of little
-/// else: a call is a few nanoseconds, a column takes hundreds.
+/// Runs steps on one column of trials. Compiled once for each path: a call is a few nanoseconds, a
+/// column takes hundreds.
 #[inline(never)]
 fn run_steps_on(
     path: CodePath,
@@ -485,7 +467,15 @@ impl Kernel for StepsKernel<'_> {
 
     #[inline(always)]
     fn run(self) {
-        run_steps(self.steps, self.routines, self.registers);
+        let Self { steps, routines, registers } = self;
+        for step in steps {
+            match *step {
+                Step::Unary(operation, x, out) => apply_unary(registers, operation, x, out),
+                Step::Binary(operation, x, y, out) => apply_binary(registers, operation, x, y, out),
+                Step::SinCos { angle, sin, cos } => apply_sin_cos(registers, angle, sin, cos),
+                Step::Routine(number) => routines[number].run(registers),
+            }
+        }
     }
 }
 

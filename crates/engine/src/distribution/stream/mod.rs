@@ -73,7 +73,6 @@ pub(crate) fn mix(x: u64) -> u64 {
 #[derive(Clone, Debug)]
 pub struct Stream {
     state: [[u64; LANES]; 4],
-    #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
     path: CodePath,
 }
 
@@ -89,6 +88,11 @@ impl Stream {
             }
         }
         Self { state, path }
+    }
+
+    /// The code path that the numbers are computed on.
+    pub(super) fn path(&self) -> CodePath {
+        self.path
     }
 
     #[inline(always)]

@@ -233,7 +233,7 @@ impl Kernel for BlockKernel<'_> {
                 }
                 continue;
             }
-            schedule.run(registers);
+            schedule.run_on(path, registers);
             for (output, slot) in schedule.outputs.iter().enumerate() {
                 let out = &mut outputs[output][first..first + COLUMN];
                 match *slot {
