@@ -76,7 +76,7 @@ fn replication(object: &Object<'_>, table: &Table) -> Option<String> {
     };
     let mut groups: Vec<f64> =
         table.rows.iter().filter_map(|row| row.get(place).copied()).collect();
-    groups.sort_by(f64::total_cmp);
+    groups.sort_unstable_by(f64::total_cmp);
     groups.dedup();
     if !(2..=MOST_GROUPS).contains(&groups.len()) {
         report(format!(

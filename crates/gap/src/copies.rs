@@ -216,7 +216,7 @@ impl Digits {
             .iter()
             .map(|of| {
                 let mut values: Vec<f64> = rows.iter().map(|&row| of.values[row]).collect();
-                values.sort_by(f64::total_cmp);
+                values.sort_unstable_by(f64::total_cmp);
                 let apart = values.windows(2).map(|pair| pair[1] - pair[0]);
                 let least = apart.filter(|apart| *apart > 0.0).fold(f64::INFINITY, f64::min);
                 if least.is_finite() { least } else { 0.0 }

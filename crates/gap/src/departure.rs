@@ -6,7 +6,7 @@ use super::discrepancy::{Of, Term, Weighted};
 use super::noise_model::Weighing;
 use super::shrink;
 use super::weighed::names;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, largest_first, smallest_first};
 use gumption_engine::task::Row;
 
 /// Forms are told where "unexplained" has more than this probability.
@@ -61,7 +61,7 @@ pub(crate) fn forms(weighings: &[Weighing<'_>]) -> Vec<DepartureForm> {
     }
     let weight = |group: &[&Weighted]| group.iter().map(|kind| kind.weight).sum::<f64>() / total;
     groups.retain(|group| weight(group) >= LEAST_SHARE);
-    groups.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
+    largest_first(&mut groups, |group| weight(group));
     groups.iter().map(|group| form(weighing, group, unexplained * weight(group))).collect()
 }
 
@@ -144,7 +144,7 @@ fn departures(weighing: &Weighing<'_>, group: &[&Weighted], term: &Term) -> Vec<
     let rows: Vec<Row> =
         ids.iter().map(|&row| setup.case.task.rows[setup.data.ids[row]].clone()).collect();
     let mut kinds: Vec<Weighted> = group.iter().map(|kind| (*kind).clone()).collect();
-    kinds.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+    largest_first(&mut kinds, |a| a.weight);
     let predicted = discrepancy.predict(setup, shrink::top(&kinds), &rows);
     let mut found: Vec<(f64, f64)> = Vec::new();
     for ((row, of), &id) in rows.iter().zip(&predicted).zip(&ids) {
@@ -163,7 +163,7 @@ fn departures(weighing: &Weighing<'_>, group: &[&Weighted], term: &Term) -> Vec<
             found.push((coordinate, departure));
         }
     }
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    smallest_first(&mut found, |a| a.0);
     // the mean of what shares a coordinate
     let mut means: Vec<(f64, f64, f64)> = Vec::new();
     for (coordinate, departure) in found {

@@ -25,7 +25,7 @@ use super::{next, predict, prior_conflict, replication, scan, shrink, strength};
 use crate::{Candidate, Case, OverrideError};
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::Formula;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::task::{Coverage, Row};
 
 /// Rows of the data that are handed back, at most; of longer records every so many-th.
@@ -292,7 +292,7 @@ pub(crate) fn hypotheses(
         fitted: 0,
         parameters: Vec::new(),
     });
-    all.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    largest_first(&mut all, |a| a.probability);
     all
 }
 
@@ -388,7 +388,7 @@ fn noise(
                     Some(SuspectValue { row: suspect.id, probability, size: value.after / u })
                 })
                 .collect();
-            suspects.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+            largest_first(&mut suspects, |a| a.probability);
             let serial = weighed.serial.as_ref().map(|(probability, draws)| SerialCorrelation {
                 estimate: draws.iter().map(|(r, weight)| r * weight).sum(),
                 interval: equal_tails(draws, coverage),

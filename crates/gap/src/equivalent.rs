@@ -16,7 +16,7 @@ use super::predict::Predictor;
 use super::reachable::Place;
 use super::setup::Setup;
 use super::weighed::names;
-use gumption_engine::number::COLUMN;
+use gumption_engine::number::{COLUMN, largest_first};
 use gumption_engine::task::Row;
 
 /// Hypotheses that are looked at, at most: single effects, and leading ones of several.
@@ -82,9 +82,7 @@ pub(crate) fn groups(
                 wanted && !hypothesis.evidence.modes.is_empty() && hypothesis.evidence.has_draws()
             })
             .collect();
-        chosen.sort_by(|&a, &b| {
-            posterior.hypotheses[b].probability.total_cmp(&posterior.hypotheses[a].probability)
-        });
+        largest_first(&mut chosen, |&a| posterior.hypotheses[a].probability);
         chosen.truncate(if several { MOST_SEVERAL } else { MOST_SINGLE });
         chosen
     };

@@ -9,7 +9,7 @@ use super::mixture::{Mixture, add_ln, ln_priors, standard_normals};
 use super::profile_path;
 use super::search::{self, Mode};
 use gumption_engine::distribution::StreamKey;
-use gumption_engine::number::{COLUMN, Column, elementary};
+use gumption_engine::number::{COLUMN, Column, elementary, largest_first};
 
 /// Draws of the prior from which the search starts.
 const SCREENED: usize = 4;
@@ -124,7 +124,7 @@ impl EvidenceEstimate {
                     .map(|(lane, &ln)| (ln, scores.iter().map(|column| column.0[lane]).collect())),
             );
         }
-        drawn.sort_by(|a, b| b.0.total_cmp(&a.0));
+        largest_first(&mut drawn, |a| a.0);
         let mut chosen: Vec<Vec<f64>> = Vec::new();
         let apart = 0.35 * (self.unknowns as f64).sqrt();
         for (ln, point) in drawn {

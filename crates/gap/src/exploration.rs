@@ -5,6 +5,7 @@
 //! members points of the pair. They are therefore tried on each other until nothing new turns up; and
 //! the integrals that decide the answer are made a second time with other random numbers.
 
+use gumption_engine::number::largest_first;
 use rayon::prelude::*;
 
 use super::evidence::{DISAGREE, EvidenceEstimate};
@@ -266,7 +267,7 @@ fn scanned(
     }
     let mut singles: Vec<&WeighedHypothesis> =
         known.iter().filter(|h| h.effects.len() == 1).collect();
-    singles.sort_by(|a, b| b.evidence.ln_evidence.total_cmp(&a.evidence.ln_evidence));
+    largest_first(&mut singles, |a| a.evidence.ln_evidence);
     let mut starts = Vec::new();
     for single in singles.into_iter().take(BESIDE) {
         let [own] = single.effects[..] else { continue };

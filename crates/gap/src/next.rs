@@ -18,7 +18,7 @@ use super::reachable::{self, Place};
 use super::setup::Setup;
 use super::shrink;
 use super::weighed::names;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::special::normal;
 use gumption_engine::task::Sharing;
 
@@ -165,9 +165,7 @@ fn predictive(
             hypothesis.probability > LEAST_PROBABILITY && hypothesis.evidence.has_draws()
         })
         .collect();
-    leading.sort_by(|&a, &b| {
-        posterior.hypotheses[b].probability.total_cmp(&posterior.hypotheses[a].probability)
-    });
+    largest_first(&mut leading, |&a| posterior.hypotheses[a].probability);
     leading.truncate(MOST_HYPOTHESES);
     let mut hypotheses: Vec<PredictiveHypothesis> = leading
         .into_par_iter()
@@ -333,7 +331,7 @@ impl<'p> Prospects<'p> {
                 .map(|&target| (self.loss(target, count, Detail::Normal), target))
                 .collect();
             ranked.retain(|(loss, _)| loss.is_finite());
-            ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
+            largest_first(&mut ranked, |a| a.0);
             for (_, target) in ranked.into_iter().take(FINALISTS) {
                 if !chosen.contains(&target) {
                     chosen.push(target);
@@ -422,7 +420,7 @@ impl<'p> Prospects<'p> {
             .map(Target::Input)
             .map(|target| (self.loss(target, 1, Detail::Kernels), target, 1))
             .collect();
-        inputs.sort_by(|a, b| b.0.total_cmp(&a.0));
+        largest_first(&mut inputs, |a| a.0);
         found.extend(inputs.into_iter().take(MOST_OTHERS));
         found.retain(|(loss, ..)| *loss > WORTH_PROPOSING * entropy);
         found.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.2.cmp(&b.2)));
@@ -543,6 +541,6 @@ fn other_noise_at(setup: &Setup<'_>, place: &Place, outputs: &[usize], relative:
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
+    values.sort_unstable_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }

@@ -6,7 +6,7 @@ use super::posterior::{Posterior, WeighedHypothesis};
 use super::predict;
 use super::setup::Setup;
 use super::shrink;
-use gumption_engine::number::COLUMN;
+use gumption_engine::number::{COLUMN, largest_first, smallest_first};
 use gumption_engine::task::Row;
 
 /// The candidate effects with the probability that each is part of the truth, most probable first,
@@ -44,7 +44,7 @@ pub(crate) fn present(
             }
         })
         .collect();
-    present.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    largest_first(&mut present, |a| a.probability);
     present
 }
 
@@ -60,7 +60,7 @@ pub(crate) fn summary(
         return None;
     }
     draws.iter_mut().for_each(|(_, weight)| *weight /= total);
-    draws.sort_by(|a, b| a.0.total_cmp(&b.0));
+    smallest_first(&mut draws, |a| a.0);
     let mean: f64 = draws.iter().map(|(x, w)| x * w).sum();
     let variance: f64 = draws.iter().map(|(x, w)| w * (x - mean).powi(2)).sum();
     let [lower, upper] = equal_tails(&draws, coverage);
@@ -108,7 +108,7 @@ pub(crate) fn parameters(
             let mean: f64 = weighted.iter().map(|(x, w)| x * w).sum();
             let variance: f64 = weighted.iter().map(|(x, w)| w * (x - mean).powi(2)).sum();
             let estimate = central.get(place).map_or(mean, |score| map.value(*score));
-            weighted.sort_by(|a, b| a.0.total_cmp(&b.0));
+            smallest_first(&mut weighted, |a| a.0);
             let [lower, upper] = equal_tails(&weighted, probability);
             parameters.push(EffectParameter {
                 name: format!("{}/{}", candidate.name, quantity.name),

@@ -14,7 +14,7 @@ use super::latent::{EDGE, Map};
 use super::likelihood::Likelihood;
 use super::logarithm::ln_add;
 use super::setup::Setup;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::special;
 
 /// A hypothesis that effects explain the data: none of them, or one or more together.
@@ -334,9 +334,7 @@ impl Posterior {
                 !hypothesis.effects.is_empty() && hypothesis.probability * share > 1e-3
             })
             .collect();
-        leading.sort_by(|&a, &b| {
-            self.hypotheses[b].probability.total_cmp(&self.hypotheses[a].probability)
-        });
+        largest_first(&mut leading, |&a| self.hypotheses[a].probability);
         leading.truncate(MOST_GUARDED);
         let all = setup.case.candidates.len() + setup.case.pairs().len();
         let ln_share = elementary::ln(BESIDE_AN_EFFECT / all.max(1) as f64);

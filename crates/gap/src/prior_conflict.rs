@@ -7,7 +7,7 @@ use super::prior_widths::{PriorWidths, WIDER};
 use super::weighed::names;
 use crate::Case;
 use gumption_engine::distribution::Distribution;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, largest_first};
 
 /// Conflicts below this probability are not worth a word.
 const LEAST: f64 = 0.01;
@@ -48,7 +48,7 @@ pub(crate) fn conflicts(
             }
         }
     }
-    found.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    largest_first(&mut found, |a| a.probability);
     found
 }
 

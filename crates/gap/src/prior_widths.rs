@@ -12,7 +12,7 @@ use super::posterior::{self, Effort, Posterior, WeighedHypothesis};
 use super::setup::Setup;
 use crate::Case;
 use gumption_engine::distribution::{Distribution, LogUniform, Normal, Rectangular};
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, largest_first};
 
 /// By how much priors are widened where they contradict the data.
 pub(crate) const WIDER: f64 = 10.0;
@@ -101,7 +101,7 @@ fn wider<'c>(
     let total = ln_add(own, ln_total(weighings));
     let pairs = if ln_held_back(weighings) - total > elementary::ln(WORTH_PAIRS) {
         let mut best: Vec<&WeighedHypothesis> = effects.collect();
-        best.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+        largest_first(&mut best, |a| a.ln_weight());
         best.truncate(MEMBERS);
         let has =
             |pair: &Vec<usize>| best.iter().any(|h| h.effects.iter().all(|e| pair.contains(e)));

@@ -8,7 +8,7 @@ use super::latent::EDGE;
 use super::likelihood::Likelihood;
 use super::mixture::Mixture;
 use super::search::{self, Mode};
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, smallest_first};
 
 /// Values of a parameter over its prior.
 const VALUES: usize = 16;
@@ -100,7 +100,7 @@ fn climb(likelihood: &Likelihood<'_>, starts: &[(usize, Vec<f64>)], best: f64) -
 /// The points of one ridge in order.
 fn ridge(points: &[Point], held: usize) -> Vec<&Point> {
     let mut own: Vec<&Point> = points.iter().filter(|point| point.held == held).collect();
-    own.sort_by(|a, b| a.best.scores[held].total_cmp(&b.best.scores[held]));
+    smallest_first(&mut own, |a| a.best.scores[held]);
     own
 }
 

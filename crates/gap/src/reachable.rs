@@ -50,7 +50,7 @@ pub(crate) fn places(setup: &Setup<'_>) -> Vec<Place> {
         .map(|condition| {
             let mut values: Vec<f64> =
                 measured.iter().map(|row| row.conditions[condition]).collect();
-            values.sort_by(f64::total_cmp);
+            values.sort_unstable_by(f64::total_cmp);
             values.dedup();
             values
         })
@@ -108,7 +108,7 @@ fn axes(
             let middles: Vec<f64> = axis.windows(2).map(middle).collect();
             axis.extend(middles);
         }
-        axis.sort_by(f64::total_cmp);
+        axis.sort_unstable_by(f64::total_cmp);
         axis.dedup();
     }
     axes

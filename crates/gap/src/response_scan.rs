@@ -10,6 +10,7 @@
 //! at a few values each, and the parameters in which the response is linear are solved for in closed
 //! form (variable projection; Golub and Pereyra 1973, SIAM Journal on Numerical Analysis 10, 413).
 
+use gumption_engine::number::smallest_first;
 use nalgebra::{DMatrix, DVector};
 
 use super::latent::{EDGE, Map, Role};
@@ -427,7 +428,7 @@ impl Scan<'_, '_> {
                     break;
                 }
                 stretch.extend(self.scanned(plan, held, &others, &open));
-                stretch.sort_by(|a, b| a.score.total_cmp(&b.score));
+                smallest_first(&mut stretch, |a| a.score);
             }
             last = stretch.pop();
             whole.extend(stretch.into_iter().map(Scanned::without_responses));
@@ -444,7 +445,7 @@ fn peaks(grid: Vec<Scanned>) -> Vec<Vec<f64>> {
         .filter(|&n| cost(n).is_finite())
         .filter(|&n| (n == 0 || cost(n) <= cost(n - 1)) && cost(n) <= cost(n + 1))
         .collect();
-    peaks.sort_by(|&a, &b| cost(a).total_cmp(&cost(b)));
+    smallest_first(&mut peaks, |&a| cost(a));
     peaks.truncate(PEAKS);
     let mut grid: Vec<Option<Vec<f64>>> = grid.into_iter().map(|s| Some(s.best)).collect();
     peaks.into_iter().filter_map(|n| grid[n].take()).collect()

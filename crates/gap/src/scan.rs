@@ -21,7 +21,7 @@ use crate::mixture::standard_normals;
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, triangle};
-use gumption_engine::number::{COLUMN, Column, elementary};
+use gumption_engine::number::{COLUMN, Column, elementary, smallest_first};
 use gumption_engine::special;
 
 /// Conditions with more levels than this are scanned in so many bins.
@@ -331,7 +331,7 @@ fn explained(inner: &[f64], cross: &[f64]) -> f64 {
 fn bins(setup: &Setup<'_>, condition: usize) -> Vec<(Vec<usize>, [f64; 2])> {
     let value = |row: usize| setup.case.task.rows[setup.data.ids[row]].conditions[condition];
     let mut rows: Vec<usize> = (0..setup.data.rows()).collect();
-    rows.sort_by(|&a, &b| value(a).total_cmp(&value(b)));
+    smallest_first(&mut rows, |&a| value(a));
     let mut levels: Vec<(Vec<usize>, [f64; 2])> = Vec::new();
     for row in rows {
         match levels.last_mut() {

@@ -7,7 +7,7 @@ use super::latent::EDGE;
 use super::likelihood::{Likelihood, Visitor};
 use super::logarithm::HALF_LN_TWO_PI;
 use gumption_engine::linalg::packed::{self, triangle};
-use gumption_engine::number::{COLUMN, Column, elementary};
+use gumption_engine::number::{COLUMN, Column, elementary, smallest_first};
 
 /// The step of differences, in standard normal scores: the truncation error is of its order and the
 /// rounding error about 1e-11 over it.
@@ -121,7 +121,7 @@ pub(crate) fn join(known: &mut Vec<Mode>, found: Vec<Mode>, most: usize) -> bool
     let mut new: Vec<bool> = (0..known.len()).map(|n| n >= before).collect();
     let best = known.iter().map(|mode| mode.cost).fold(f64::INFINITY, f64::min);
     let mut order: Vec<usize> = (0..known.len()).collect();
-    order.sort_by(|&a, &b| known[a].cost.total_cmp(&known[b].cost));
+    smallest_first(&mut order, |&a| known[a].cost);
     order.retain(|&n| known[n].cost < best + DEPTH);
     order.truncate(most);
     let any = order.iter().any(|&n| std::mem::take(&mut new[n]));
@@ -183,7 +183,7 @@ fn advance(likelihood: &Likelihood<'_>, walkers: &mut [Walker], farthest: &[f64]
 
 /// Sorts by cost and drops walkers that stand where a better one does.
 fn merge(walkers: &mut Vec<Walker>) {
-    walkers.sort_by(|a, b| a.local.cost.total_cmp(&b.local.cost));
+    smallest_first(walkers, |a| a.local.cost);
     let mut kept: Vec<Walker> = Vec::new();
     for walker in walkers.drain(..) {
         let same =

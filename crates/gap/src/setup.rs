@@ -11,7 +11,7 @@ use super::likelihood::Likelihood;
 use super::noise_model::NoiseModel;
 use crate::{Case, Prior};
 use gumption_engine::distribution::Distribution;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, largest_first};
 
 /// Inputs whose whole effect on the data is below so many standard uncertainties act linearly as far
 /// as anybody can tell, and are integrated out exactly.
@@ -241,7 +241,7 @@ fn unknown_inputs(case: &Case, data: &Data, spread: &Spread) -> Vec<usize> {
         .map(|v| (influence(v), v))
         .filter(|(influence, _)| *influence > NEGLIGIBLE || !influence.is_finite())
         .collect();
-    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
+    largest_first(&mut ranked, |a| a.0);
     ranked.truncate(MOST_UNKNOWN_INPUTS);
     let mut chosen: Vec<usize> = ranked.into_iter().map(|(_, v)| v).collect();
     // an input that is correlated with an unknown one is unknown as well

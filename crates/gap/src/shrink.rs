@@ -432,7 +432,7 @@ fn blocks(setup: &Setup<'_>) -> Vec<Vec<usize>> {
     };
     let levels = |condition: usize| {
         let mut values: Vec<f64> = (0..rows).map(|row| value(row, condition)).collect();
-        values.sort_by(f64::total_cmp);
+        values.sort_unstable_by(f64::total_cmp);
         values.dedup();
         values
     };
@@ -478,7 +478,7 @@ fn interval(squares: &[f64], probability: f64, seed: u64) -> [f64; 2] {
             (sum / count as f64).sqrt()
         })
         .collect();
-    roots.sort_by(f64::total_cmp);
+    roots.sort_unstable_by(f64::total_cmp);
     let tail = 0.5 * (1.0 - probability);
     let at = |p: f64| roots[((p * resamples as f64) as usize).min(resamples - 1)];
     [at(tail), at(1.0 - tail)]

@@ -2,6 +2,7 @@
 
 use super::diagnosis::{GapStrength, RowGap, StrengthPart};
 use super::setup::Setup;
+use gumption_engine::number::smallest_first;
 
 /// Parts that a condition's values are taken in, at most: its levels where it has no more.
 const MOST_PARTS: usize = 8;
@@ -27,7 +28,7 @@ fn parts(rows: &[RowGap], output: usize, condition: usize) -> Option<Vec<Strengt
             Some((*row.conditions.get(condition)?, value.before / value.u_before))
         })
         .collect();
-    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    smallest_first(&mut values, |a| a.0);
     let mut levels: Vec<f64> = values.iter().map(|(x, _)| *x).collect();
     levels.dedup();
     if levels.len() < 2 {

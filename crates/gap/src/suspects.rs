@@ -17,7 +17,7 @@ use super::noise_model::{
 };
 use super::posterior::{self, Effort, WeighedHypothesis};
 use super::prior_widths::PriorWidths;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, largest_first, smallest_first};
 
 /// A value that still is off by more than this, in standard uncertainties with what is wrong with it
 /// included, is off by more than its size says.
@@ -157,14 +157,14 @@ fn several_more(
             }
         }
         sums.retain(|(ln, _)| *ln > enough);
-        sums.sort_by(|a, b| b.0.total_cmp(&a.0));
+        largest_first(&mut sums, |a| a.0);
         sums.truncate(CONFIRMED);
         let of = |set: &Vec<(usize, usize)>| {
             let own = found.iter().zip(&last.posterior.hypotheses);
             let mut own: Vec<(f64, &WeighedHypothesis)> = own
                 .filter_map(|(of, h)| Some((of.iter().find(|(_, other)| other == set)?.0, h)))
                 .collect();
-            own.sort_by(|a, b| b.0.total_cmp(&a.0));
+            largest_first(&mut own, |a| a.0);
             own.into_iter().take(CONFIRMED).map(|(_, h)| h).collect::<Vec<_>>()
         };
         sums.into_iter().find_map(|(_, set)| {
@@ -255,7 +255,7 @@ fn is_departure(last: &Weighing<'_>, influence: &Influence, set: &[(usize, usize
     conditions.into_iter().any(|condition| {
         let at = |row: &usize| setup.case.task.rows[setup.data.ids[*row]].conditions[condition];
         let mut order: Vec<usize> = (0..setup.data.rows()).collect();
-        order.sort_by(|a, b| at(a).total_cmp(&at(b)));
+        smallest_first(&mut order, at);
         (0..outputs).flat_map(|output| [sides(output, false), sides(output, true)]).any(|off| {
             let mut run = 0;
             order.chunk_by(|a, b| at(a) == at(b)).any(|rows| {

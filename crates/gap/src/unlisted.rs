@@ -8,7 +8,7 @@ use super::parameters::parameters;
 use super::posterior::{Effort, singles};
 use super::setup::Setup;
 use crate::Case;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, largest_first};
 
 /// Effects below this probability are not handed over.
 const LEAST: f64 = 0.01;
@@ -58,6 +58,6 @@ pub(crate) fn explaining(
             })
         })
         .collect();
-    found.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    largest_first(&mut found, |a| a.probability);
     found
 }

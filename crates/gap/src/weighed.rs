@@ -21,7 +21,7 @@ use super::shrink::Correction;
 use super::unlisted;
 use super::weighed_noise::WeighedNoise;
 use crate::Case;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::task::Row;
 
 /// Two hypotheses look alike if their best predictions differ by less than this, in standard
@@ -260,9 +260,7 @@ fn indistinguishable(
         .filter(|&place| place != best && posterior.hypotheses[place].probability >= least)
         .filter(|&place| predictions[place].as_ref().is_some_and(|other| distance(other) < ALIKE))
         .collect();
-    alike.sort_by(|&a, &b| {
-        posterior.hypotheses[b].probability.total_cmp(&posterior.hypotheses[a].probability)
-    });
+    largest_first(&mut alike, |&a| posterior.hypotheses[a].probability);
     let mut group = vec![best];
     group.extend(alike);
     group

@@ -4,7 +4,7 @@ use super::latent::Role;
 use super::noise_model::{Suspect, Weighing, residuals_at_mode, serial_gain};
 use super::parameters::equal_tails;
 use super::setup::Setup;
-use gumption_engine::number::{COLUMN, elementary};
+use gumption_engine::number::{COLUMN, elementary, smallest_first};
 
 /// Hypotheses below this probability do not contribute to the factor.
 const LEAST: f64 = 1e-3;
@@ -113,7 +113,7 @@ fn factors(weighing: &Weighing<'_>) -> Vec<(usize, Vec<(f64, f64)>)> {
                 }
                 let total: f64 = draws.iter().map(|(_, w)| w).sum();
                 draws.iter_mut().for_each(|(_, w)| *w /= total);
-                draws.sort_by(|a, b| a.0.total_cmp(&b.0));
+                smallest_first(&mut draws, |a| a.0);
                 (!draws.is_empty()).then_some((*output, draws))
             }
             _ => None,

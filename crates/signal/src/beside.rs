@@ -11,6 +11,7 @@ use super::residuals::{KEPT, Remainder};
 use super::sine_fit::{ToneCoefficients, ToneDesign};
 use super::spurious::{self, MOST};
 use gumption_engine::number::elementary::hypot;
+use gumption_engine::number::largest_first;
 
 /// Records of so many samples at most are looked through: the spectrum of the first residuals tells
 /// a frequency to less than a quarter of a turn over them.
@@ -237,7 +238,7 @@ fn candidates(of: &FittedTones, samples: u64, known: &[f64]) -> Vec<f64> {
             found.push((of.amplitude / deviation, of.cycles));
         }
     }
-    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    largest_first(&mut found, |a| a.0);
     let samples = samples as f64;
     let mut new: Vec<f64> = Vec::new();
     let mut flanked = vec![false; design.tones.len()];

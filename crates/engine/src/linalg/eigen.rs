@@ -193,7 +193,7 @@ mod tests {
                     assert!((dot(vector, vector) - 1.0).abs() < 1e-13, "{n}");
                 }
                 let mut values = eigen.values;
-                values.sort_by(f64::total_cmp);
+                values.sort_unstable_by(f64::total_cmp);
                 for (k, value) in values.iter().enumerate() {
                     let angle = (k as f64 + 1.0) * std::f64::consts::PI / (f64::from(n) + 1.0);
                     let exact = 2.0 - 2.0 * angle.cos();
@@ -209,7 +209,7 @@ mod tests {
         let eigen = Eigen::of(&matrix(&[vec![3.0, 0.0], vec![0.0, -1.0]]));
         assert_eq!((eigen.values, eigen.vectors), (vec![3.0, -1.0], DMatrix::identity(2, 2)));
         let mut values = Eigen::of(&DMatrix::from_element(5, 5, 1.0)).values;
-        values.sort_by(f64::total_cmp);
+        values.sort_unstable_by(f64::total_cmp);
         assert!((values[4] - 5.0).abs() < 1e-14 && values[3].abs() < 1e-14, "{values:?}");
         assert_eq!(Eigen::of(&DMatrix::zeros(4, 4)).values, vec![0.0; 4]);
         assert_eq!(Eigen::of(&DMatrix::zeros(0, 0)).pairs().count(), 0);

@@ -17,6 +17,7 @@ mod dual;
 pub mod elementary;
 mod operation;
 mod path;
+mod ranking;
 mod routine;
 mod scalar;
 mod shortest;
@@ -28,6 +29,7 @@ pub use dual::Dual;
 pub use operation::{Binary, Unary};
 pub(crate) use path::Instructions;
 pub use path::{CodePath, Kernel, UnavailablePath};
+pub use ranking::{largest_first, smallest_first};
 pub use routine::Routine;
 pub use shortest::Shortest;
 

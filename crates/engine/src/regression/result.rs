@@ -91,7 +91,7 @@ impl Regression {
             return Err(RegressionError::OrdinatesUnknown);
         }
         let mut different = points.x.clone();
-        different.sort_by(f64::total_cmp);
+        different.sort_unstable_by(f64::total_cmp);
         different.dedup();
         if different.len() < count {
             let different = different.len();

@@ -264,7 +264,7 @@ pub fn score(case: &Case, checked: Vec<BlindDraw>, seed: u64) -> BlindCheckScore
     let held: Vec<bool> = checked.iter().flat_map(|c| c.held.clone()).collect();
     let with_gap: Vec<&BlindDraw> = checked.iter().filter(|c| c.truth != "none").collect();
     let mut left: Vec<f64> = with_gap.iter().map(|c| c.left).collect();
-    left.sort_by(f64::total_cmp);
+    left.sort_unstable_by(f64::total_cmp);
     BlindCheckScores {
         draws,
         seed,
@@ -347,7 +347,7 @@ fn perfect(verdicts: &[(f64, bool)], seed: u64) -> f64 {
             calibration_error(&reliability(&drawn), drawn.len())
         })
         .collect();
-    errors.sort_by(f64::total_cmp);
+    errors.sort_unstable_by(f64::total_cmp);
     errors.get(REPEATS / 2).copied().unwrap_or(0.0)
 }
 

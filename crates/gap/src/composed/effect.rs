@@ -17,7 +17,7 @@ use crate::weighed::names;
 use gumption_engine::decimal::to_digits;
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{NumberForm, Quantity};
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::task::Row;
 use gumption_units::Unit;
 
@@ -137,7 +137,7 @@ impl Compositions {
             effect.shrunk = self.shrunk(setup, composition);
             effects.push(effect);
         }
-        effects.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+        largest_first(&mut effects, |a| a.probability);
         effects
     }
 }

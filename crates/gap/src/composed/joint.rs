@@ -10,7 +10,7 @@ use super::{Composition, Search, Term};
 use crate::discrepancy::Base;
 use crate::posterior::{Posterior, WeighedHypothesis};
 use gumption_engine::linalg::dot;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::special;
 use nalgebra::{DMatrix, DVector};
 
@@ -82,7 +82,7 @@ impl Search<'_> {
     ) -> Vec<Composition> {
         let white = metric.white(residuals);
         let mut ranked: Vec<&Composition> = singles.iter().collect();
-        ranked.sort_by(|a, b| b.ln_weight.total_cmp(&a.ln_weight));
+        largest_first(&mut ranked, |a| a.ln_weight);
         let ln_each = elementary::ln(SHARE / 3.0);
         let mut found = self.products(metric, &white, &ranked, ln_each);
         found.extend(self.pairs(metric, &white, &ranked, ln_each));
@@ -119,7 +119,7 @@ impl Search<'_> {
             let occam = first.ln_weight - first.best;
             let ln_first = first.best - first.gain_at(self.setup, metric, white);
             let mut others = self.singles(&with, &again, REFINED);
-            others.sort_by(|a, b| b.ln_weight.total_cmp(&a.ln_weight));
+            largest_first(&mut others, |a| a.ln_weight);
             others.truncate(KEPT);
             let joined = others.into_iter().filter_map(move |other| {
                 let mut terms = vec![first.terms[0].clone()];
@@ -200,7 +200,7 @@ impl Search<'_> {
     ) -> Vec<Composition> {
         let mut listed: Vec<&WeighedHypothesis> =
             posterior.hypotheses.iter().filter(|h| h.effects.len() == 1).collect();
-        listed.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+        largest_first(&mut listed, |a| a.ln_weight());
         let ln_effect = -elementary::ln(listed.len().max(1) as f64);
         listed.truncate(FIRST);
         let white = metric.white(residuals);
@@ -239,7 +239,7 @@ impl Search<'_> {
             let gain =
                 0.5 * (square - again.dot(&again)) - (with.half_ln_det() - metric.half_ln_det());
             let mut others = self.singles(&with, &again, REFINED);
-            others.sort_by(|a, b| b.ln_weight.total_cmp(&a.ln_weight));
+            largest_first(&mut others, |a| a.ln_weight);
             others.truncate(KEPT);
             for of in &mut others {
                 of.beside.clone_from(&hypothesis.effects);

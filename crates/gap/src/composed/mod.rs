@@ -33,7 +33,7 @@ use crate::logarithm::{ln_add, ln_sum};
 use crate::posterior::Posterior;
 use crate::setup::Setup;
 use gumption_engine::linalg::dot;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, largest_first};
 use metric::{Metric, White};
 use search::{Frame, OnGrid};
 use shape::{Shape, Values};
@@ -259,8 +259,7 @@ impl Search<'_> {
                 found
             })
             .collect();
-        candidates
-            .sort_by(|a, b| (b.found.gain + b.ln_prior).total_cmp(&(a.found.gain + a.ln_prior)));
+        largest_first(&mut candidates, |a| a.found.gain + a.ln_prior);
         candidates.truncate(refined);
         candidates
             .into_par_iter()
@@ -332,7 +331,7 @@ fn weighed(
     variances: Option<Vec<f64>>,
 ) -> Compositions {
     all.retain(|composition| composition.ln_weight.is_finite());
-    all.sort_by(|a, b| b.ln_weight.total_cmp(&a.ln_weight));
+    largest_first(&mut all, |a| a.ln_weight);
     let together = ln_sum(all.iter().map(|composition| composition.ln_weight));
     // composed and smooth departures are equally probable beforehand
     let total = ln_add(together, of_process);

@@ -183,7 +183,7 @@ impl Values {
     /// `None` where they are all the same or not finite.
     pub(super) fn new(at: Vec<f64>) -> Option<Self> {
         let mut levels = at.clone();
-        levels.sort_by(f64::total_cmp);
+        levels.sort_unstable_by(f64::total_cmp);
         let (low, high) = (*levels.first()?, *levels.last()?);
         let size = low.abs().max(high.abs());
         if !low.is_finite() || !high.is_finite() || high - low <= 1e-9 * size {

@@ -57,7 +57,7 @@ impl Axis {
     }
 
     fn spaced(mut values: Vec<f64>) -> Self {
-        values.sort_by(f64::total_cmp);
+        values.sort_unstable_by(f64::total_cmp);
         values.dedup();
         let spread = |values: &[f64]| {
             let gaps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -224,7 +224,7 @@ impl Coordinates {
             })
             .filter(|distance| distance.is_finite())
             .collect();
-        nearest.sort_by(f64::total_cmp);
+        nearest.sort_unstable_by(f64::total_cmp);
         nearest.get(nearest.len() / 2).map_or(0.0, |median| SPACINGS * median)
     }
 

@@ -24,7 +24,7 @@ use super::predict;
 use super::search::Mode;
 use super::setup::Setup;
 use crate::logarithm::{HALF_LN_TWO_PI, ln_add};
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::task::Row;
 
 /// The lengths over which a smooth discrepancy varies, as shares of the range of what it is a
@@ -205,7 +205,7 @@ impl Discrepancy {
 fn weigh(mut parts: Vec<(f64, Weighted)>) -> Unexplained {
     let ln_evidence = parts.iter().fold(f64::NEG_INFINITY, |sum, (ln, _)| ln_add(sum, *ln));
     parts.retain(|(ln, _)| *ln > ln_evidence - 7.0);
-    parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+    largest_first(&mut parts, |a| a.0);
     let weighted = |(ln, kind): (f64, Weighted)| Weighted {
         weight: elementary::exp(ln - ln_evidence),
         ..kind

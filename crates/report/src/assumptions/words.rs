@@ -6,6 +6,7 @@ use crate::{conditions_text, grouped, plain};
 use gumption_analysis::assumptions::{
     EvidenceOffset, EvidenceTest, EvidenceVerdict, InputAudit, OutputAudit,
 };
+use gumption_engine::number::largest_first;
 
 pub(super) const MOVES: &str = "Changes are those of half the length of the coverage interval, \
     relative to the stated assumptions, from the same random numbers; a change below 0.05 % or \
@@ -82,7 +83,7 @@ pub(super) fn verdict(report: &AuditReport<'_>, of: &OutputAudit) -> String {
         .filter_map(|input| Some((input, input.largest_change()?)))
         .filter(|(_, change)| change.abs() > limit)
         .collect();
-    matter.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+    largest_first(&mut matter, |a| a.1.abs());
     let asked = of.inputs.iter().any(|input| !input.alternatives.is_empty());
     let limit = percent(limit);
     if !asked {

@@ -55,7 +55,7 @@ pub(super) fn levels(diagnosis: &Diagnosis, condition: usize) -> Vec<f64> {
     let rows = diagnosis.rows.iter();
     let mut levels: Vec<f64> =
         rows.filter_map(|row| row.conditions.get(condition).copied()).collect();
-    levels.sort_by(f64::total_cmp);
+    levels.sort_unstable_by(f64::total_cmp);
     levels.dedup();
     levels
 }

@@ -3,6 +3,7 @@
 use super::ObservationReport;
 use crate::number::{exact, rounded, significant, with_uncertainty};
 use crate::sheet::{Figure, Sheet};
+use gumption_engine::number::largest_first;
 use gumption_signal::{BudgetedValue, ChannelObservation, Measured, ToneComponent};
 
 /// Significant digits of standard uncertainties.
@@ -108,7 +109,7 @@ fn sources(of: &BudgetedValue) -> String {
         .map(|(source, u)| (source.name(), 100.0 * u * u / total))
         .filter(|(_, share)| *share >= 1.0)
         .collect();
-    shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+    largest_first(&mut shares, |a| a.1);
     let words: Vec<String> =
         shares.iter().map(|(name, share)| format!("{name} {} %", rounded(*share, 0))).collect();
     words.join(", ")

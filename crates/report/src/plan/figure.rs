@@ -1,5 +1,6 @@
 //! What is wanted of the output against each input, and against time.
 
+use gumption_engine::number::largest_first;
 use plotters::element::{Circle, PathElement};
 use plotters::style::Color;
 
@@ -35,7 +36,7 @@ pub(super) fn inputs(report: &PlanReport<'_>) -> Option<Drawing> {
     };
     let mut shown: Vec<&InputNeed> =
         plan.inputs.iter().filter(|need| need.curve.len() > 1 && share(need) > 0.0).collect();
-    shown.sort_by(|a, b| share(b).total_cmp(&share(a)));
+    largest_first(&mut shown, |line| share(line));
     shown.truncate(MOST);
     shown.sort_by_key(|need| need.variable);
     if shown.is_empty() {

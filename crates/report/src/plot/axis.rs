@@ -30,7 +30,7 @@ impl Axis {
     /// An axis over all values, logarithmic where the distinct ones are spaced geometrically.
     pub(crate) fn over(values: impl IntoIterator<Item = f64>) -> Self {
         let mut levels: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
-        levels.sort_by(f64::total_cmp);
+        levels.sort_unstable_by(f64::total_cmp);
         levels.dedup();
         let log = is_geometric(&levels);
         let position = |value: f64| if log { log10(value) } else { value };

@@ -8,6 +8,7 @@ use crate::number::{
 };
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::model::{Output, Quantity};
+use gumption_engine::number::largest_first;
 use gumption_engine::propagate::gum::Gum;
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, StatedInterval};
 use gumption_engine::propagate::{Conformity, OutputEvaluation, RowEvaluation, naming};
@@ -118,7 +119,7 @@ pub(crate) fn shares(task: &Task, rows: &[RowEvaluation], output: usize) -> Opti
         }
     }
     let mut chosen: Vec<usize> = (0..largest.len()).filter(|&v| largest[v] > 0.0).collect();
-    chosen.sort_by(|&a, &b| largest[b].total_cmp(&largest[a]));
+    largest_first(&mut chosen, |&a| largest[a]);
     chosen.truncate(MOST_SHARES);
     chosen.sort_unstable();
     if chosen.is_empty() {

@@ -765,7 +765,7 @@ mod tests {
                     of(reach(&r).1).unwrap().value - best
                 })
                 .collect();
-            differences.sort_by(f64::total_cmp);
+            differences.sort_unstable_by(f64::total_cmp);
             let at = |p: f64| differences[(p * 999.0) as usize];
             println!(
                 "{kappa}: {:.2} {:.2} {:.2} {:.2} {:.2} {:.2}",

@@ -15,7 +15,7 @@ const LEAST: usize = 5;
 /// The step that values are multiples of, but for a constant; none where there is none above `least`.
 pub(crate) fn step(values: &[f64], least: f64) -> Option<f64> {
     let mut sorted = values.get(..LOOKED_AT.min(values.len()))?.to_vec();
-    sorted.sort_by(f64::total_cmp);
+    sorted.sort_unstable_by(f64::total_cmp);
     let (first, last) = (*sorted.first()?, *sorted.last()?);
     let rounded = ROUNDED * first.abs().max(last.abs());
     sorted.dedup_by(|next, kept| *next - *kept <= rounded);

@@ -1,6 +1,7 @@
 //! Samples far beyond the rest: spikes, and numbers that stand for a missing value.
 
 use crate::middle::median;
+use gumption_engine::number::largest_first;
 
 /// Residuals that are kept at most.
 const KEPT: usize = 32;
@@ -54,7 +55,7 @@ impl Farthest {
     }
 
     fn sort(&mut self) {
-        self.kept.sort_by(|a, b| b.residual.abs().total_cmp(&a.residual.abs()));
+        largest_first(&mut self.kept, |a| a.residual.abs());
         self.kept.truncate(KEPT);
     }
 

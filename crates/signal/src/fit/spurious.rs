@@ -2,6 +2,7 @@
 
 use crate::frequency::{between, windowed};
 use crate::middle::median;
+use gumption_engine::number::largest_first;
 
 /// The power of a bin over the median that noise alone exceeds in less than one record in a
 /// thousand: of 2^15 exponential bins the largest is above ln 2 x 25 times the median with a
@@ -46,7 +47,7 @@ pub(crate) fn found(residuals: &[f64]) -> Vec<Spurious> {
             Spurious { cycles: bin as f64 / count as f64, amplitude, fitted: false }
         })
         .collect();
-    peaks.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+    largest_first(&mut peaks, |a| a.amplitude);
     peaks.truncate(MOST);
     peaks
 }
@@ -105,7 +106,7 @@ pub(crate) fn lines(residuals: &[f64]) -> Vec<Spurious> {
             Spurious { cycles, amplitude, fitted: false }
         })
         .collect();
-    found.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+    largest_first(&mut found, |a| a.amplitude);
     found.truncate(MOST);
     found
 }

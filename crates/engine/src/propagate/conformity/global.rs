@@ -77,7 +77,7 @@ impl<'a> Inspection<'a> {
         let peak = 1.0 / (1.0 + self.slope(least).powi(2)).sqrt();
         cuts.extend([-8.0, -4.0, -2.0, 0.0, 2.0, 4.0, 8.0].map(|step| least + step * peak));
         cuts.extend([lower, upper]);
-        cuts.sort_by(f64::total_cmp);
+        cuts.sort_unstable_by(f64::total_cmp);
         let lowest = form(least);
         let posterior = |z: f64| libm::exp(-0.5 * (form(z) - lowest));
         let inside = integral(&posterior, lower, upper, &cuts);
@@ -91,7 +91,7 @@ impl<'a> Inspection<'a> {
         let steps = 400;
         let even = (0..=steps).map(|i| FARTHEST * (2.0 * f64::from(i) / f64::from(steps) - 1.0));
         let mut all: Vec<f64> = even.chain(cuts.iter().copied()).collect();
-        all.sort_by(f64::total_cmp);
+        all.sort_unstable_by(f64::total_cmp);
         let best = (0..all.len()).min_by(|&a, &b| form(all[a]).total_cmp(&form(all[b])));
         let best = best.unwrap_or(0);
         let mut low = all[best.saturating_sub(1)];
@@ -135,7 +135,7 @@ impl<'a> Inspection<'a> {
         let values = finite.flat_map(|limit| steps.map(|step| limit + step * self.u));
         let mut cuts: Vec<f64> = values.map(|value| self.score(value)).collect();
         cuts.extend([-4.0, -2.0, 0.0, 2.0, 4.0]);
-        cuts.sort_by(f64::total_cmp);
+        cuts.sort_unstable_by(f64::total_cmp);
         cuts
     }
 }

@@ -281,7 +281,7 @@ fn trials_scatter_about_exact_ends() {
 fn trials_scatter_about_exact_ends_of_a_thousand_sums() {
     let mut scores = scores(1000, 100_000_000);
     let [mean, variance] = mean_and_variance(&scores);
-    scores.sort_by(f64::total_cmp);
+    scores.sort_unstable_by(f64::total_cmp);
     let n = scores.len() as f64;
     let departure = scores
         .iter()

@@ -380,7 +380,7 @@ mod tests {
         // beyond the ends, on the edges of the windows, between them
         let mut values: Vec<f64> = (0..4001).map(|i| f64::from(i - 2000) * 0.002).collect();
         values.extend([-1.6, -0.05, 0.04, 1.7, -3.5, 3.25, -1e300, 1e300, 0.0, -0.0]);
-        values.sort_by(f64::total_cmp);
+        values.sort_unstable_by(f64::total_cmp);
         for windows in [windows, Windows::ALL] {
             let layout = Layout::new(&[&values], &windows, 333);
             let of = |path: CodePath| {
@@ -414,7 +414,7 @@ mod tests {
         ];
         for values in cases {
             let mut sorted = values.clone();
-            sorted.sort_by(f64::total_cmp);
+            sorted.sort_unstable_by(f64::total_cmp);
             let parts: Vec<&[f64]> = values.chunks(777).collect();
             let mut buckets = BucketPartition::new(CodePath::best(), &parts, &Windows::ALL);
             for index in (0..values.len()).step_by(97) {

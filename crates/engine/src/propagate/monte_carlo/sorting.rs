@@ -34,7 +34,7 @@ mod tests {
         let mut values: Vec<f64> = special.into_iter().flat_map(|x| [x, -x, x]).collect();
         values.extend((0..1000).map(|i| (f64::from(i) * 0.7).sin()));
         let mut expected = values.clone();
-        expected.sort_by(f64::total_cmp);
+        expected.sort_unstable_by(f64::total_cmp);
         sort(&mut values);
         let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&values), bits(&expected));

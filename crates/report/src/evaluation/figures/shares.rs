@@ -1,5 +1,6 @@
 //! The shares of the variance as bars.
 
+use gumption_engine::number::largest_first;
 use plotters::element::Rectangle;
 use plotters::style::Color;
 
@@ -35,7 +36,7 @@ pub(in crate::evaluation) fn shares(task: &Task, gum: &Gum) -> Option<Drawing> {
         return None;
     }
     let all = bars.len();
-    bars.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+    largest_first(&mut bars, |a| a.1.abs());
     bars.truncate(MOST);
     let least = bars.iter().map(|bar| bar.1).fold(0.0, f64::min);
     let most = bars.iter().map(|bar| bar.1).fold(0.0, f64::max);

@@ -38,7 +38,7 @@ pub(in crate::evaluation) fn sweep(
     let levels = |place: usize| -> Vec<f64> {
         let mut values: Vec<f64> =
             rows.iter().filter_map(|row| row.conditions.get(place).copied()).collect();
-        values.sort_by(f64::total_cmp);
+        values.sort_unstable_by(f64::total_cmp);
         values.dedup();
         values
     };

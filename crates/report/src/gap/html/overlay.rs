@@ -1,6 +1,7 @@
 //! What was measured beside what the sim says and what the corrected sim says, over each condition:
 //! the first figure that a person looks for.
 
+use gumption_engine::number::smallest_first;
 use std::collections::BTreeMap;
 
 use plotters::element::PathElement;
@@ -170,7 +171,7 @@ fn sims(chart: &Chart<'_>, x: &Axis, points: &[Point]) -> Drawn {
         [(BEFORE, 1.25, |point| point.value.sim()), (AFTER, 1.75, |point| point.value.corrected())];
     for (colour, width, value) in of {
         for line in lines.values_mut().filter(|_| joined) {
-            line.sort_by(|a, b| a.x.total_cmp(&b.x));
+            smallest_first(line, |a| a.x);
             let places: Vec<(f64, f64)> =
                 line.iter().map(|point| (x.position(point.x), value(point))).collect();
             if places.len() > 1 {

@@ -33,7 +33,7 @@ pub(in crate::gap) fn draw(
     let values = |condition: usize| {
         let mut values: Vec<f64> =
             rows.iter().filter_map(|row| row.conditions.get(condition).copied()).collect();
-        values.sort_by(f64::total_cmp);
+        values.sort_unstable_by(f64::total_cmp);
         values.dedup();
         values
     };

@@ -1,5 +1,6 @@
 //! The residuals of one output before and after the correction, over each condition.
 
+use gumption_engine::number::smallest_first;
 use plotters::element::{PathElement, Polygon};
 use plotters::style::{Color, RGBColor};
 
@@ -133,7 +134,7 @@ fn scale(points: impl Iterator<Item = (f64, f64)>) -> Axis {
         (low, high) = (low.min(value), high.max(value));
         bands.push(BAND * u);
     }
-    bands.sort_by(f64::total_cmp);
+    bands.sort_unstable_by(f64::total_cmp);
     let usual = bands.get(bands.len() / 2).copied().unwrap_or(0.0);
     let (low, high) = (low.min(-usual), high.max(usual));
     let margin = 0.05 * (high - low);
@@ -174,7 +175,7 @@ fn half(
 /// Neighbouring values together, so that there are at most so many groups.
 fn groups(points: &[Point], most: usize) -> Vec<Vec<Point>> {
     let mut sorted = points.to_vec();
-    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    smallest_first(&mut sorted, |a| a.0);
     let levels: Vec<Vec<Point>> =
         sorted.chunk_by(|a, b| a.0 == b.0).map(<[Point]>::to_vec).collect();
     let size = levels.len().div_ceil(most).max(1);

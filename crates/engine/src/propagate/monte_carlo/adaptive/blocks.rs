@@ -309,7 +309,7 @@ mod tests {
         let mean = values.iter().sum::<f64>() / n;
         let squares: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
         let mut sorted = values.to_vec();
-        sorted.sort_by(f64::total_cmp);
+        sorted.sort_unstable_by(f64::total_cmp);
         let Ranks { q, r } = Ranks::new(values.len() as u64, probability);
         let at = |rank: u64| sorted[rank as usize - 1];
         [mean, (squares / (n - 1.0)).sqrt(), at(r), at((r + q).min(values.len() as u64))]

@@ -1,0 +1,75 @@
+//! Sorting by a number that goes with each element: one compiled sort for whatever is sorted.
+
+/// Sorts from the smallest number to the largest; equal ones keep their order. Numbers compare as
+/// [`f64::total_cmp`] does.
+///
+/// ```
+/// let mut words = ["ten", "two", "five"];
+/// gumption_engine::number::smallest_first(&mut words, |word| word.len() as f64);
+/// assert_eq!(words, ["ten", "two", "five"]);
+/// ```
+pub fn smallest_first<T>(items: &mut [T], number: impl FnMut(&T) -> f64) {
+    let from = order(items.iter().map(number).collect());
+    arrange(items, &from);
+}
+
+/// Sorts from the largest number to the smallest; equal ones keep their order. Numbers compare as
+/// [`f64::total_cmp`] does.
+///
+/// ```
+/// let mut shares = [("tilt", 0.3), ("level", 0.6), ("drift", 0.3)];
+/// gumption_engine::number::largest_first(&mut shares, |share| share.1);
+/// assert_eq!(shares.map(|share| share.0), ["level", "tilt", "drift"]);
+/// ```
+pub fn largest_first<T>(items: &mut [T], mut number: impl FnMut(&T) -> f64) {
+    // the total order of negated numbers is the reverse one
+    let from = order(items.iter().map(|item| -number(item)).collect());
+    arrange(items, &from);
+}
+
+/// The places of the numbers from the smallest to the largest.
+fn order(numbers: Vec<f64>) -> Vec<usize> {
+    let mut places: Vec<usize> = (0..numbers.len()).collect();
+    places.sort_unstable_by(|&a, &b| numbers[a].total_cmp(&numbers[b]).then(a.cmp(&b)));
+    places
+}
+
+/// Moves to each place what stands at `from` of it.
+fn arrange<T>(items: &mut [T], from: &[usize]) {
+    for place in 0..items.len() {
+        // what stood at an earlier place has been swapped to where that place's own came from
+        let mut at = from[place];
+        while at < place {
+            at = from[at];
+        }
+        items.swap(place, at);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As the standard library's stable sort, for numbers with many ties, infinities and zeros of
+    /// both signs.
+    #[test]
+    fn the_order_is_that_of_a_stable_sort() {
+        let special = [f64::INFINITY, f64::NEG_INFINITY, 0.0, -0.0, f64::NAN, -f64::NAN];
+        for count in 0..200_usize {
+            let number = |i: usize| match (i * 7919 + count * 31) % 17 {
+                kind if kind < special.len() => special[kind],
+                kind => kind as f64,
+            };
+            let items: Vec<(usize, f64)> = (0..count).map(|i| (i, number(i))).collect();
+            let places = |items: &[(usize, f64)]| items.iter().map(|item| item.0).collect();
+            let (mut up, mut down) = (items.clone(), items.clone());
+            smallest_first(&mut up, |item| item.1);
+            largest_first(&mut down, |item| item.1);
+            let (mut by, mut back) = (items.clone(), items);
+            by.sort_by(|a, b| a.1.total_cmp(&b.1));
+            back.sort_by(|a, b| b.1.total_cmp(&a.1));
+            let expected: [Vec<usize>; 2] = [places(&by), places(&back)];
+            assert_eq!([places(&up), places(&down)], expected, "{count}");
+        }
+    }
+}
