@@ -1,5 +1,6 @@
 //! What the columns of a budget are called, in English, German and French.
 
+use super::both::LastOfBoth;
 use super::grid::Cells;
 use super::number::number as number_of_cell;
 use super::number::{constant, number_with_unit};
@@ -628,6 +629,7 @@ impl Header {
     /// The line that names the most columns, if a quantity and an uncertainty are among them.
     pub(super) fn find(cells: &Cells) -> Option<Self> {
         let mut best: Option<Self> = None;
+        let of_both = LastOfBoth::of(cells);
         let one = (0..cells.lines()).map(|line| (line, line, cells.row(line).to_vec()));
         let two = (1..cells.lines())
             .filter_map(|line| Some((line - 1, line, of_two_lines(cells, line)?)));
@@ -709,6 +711,7 @@ impl Header {
                 let alone = columns.extract_if(.., |(_, column)| is_limit(*column));
                 unknown.extend(alone.map(|(place, _)| place));
             }
+            Self::cells_of_both(&of_both, line, &mut columns);
             let has = |wanted: Column| columns.iter().any(|(_, column)| *column == wanted);
             let enough = has(Column::Quantity) && Column::UNCERTAIN.into_iter().any(has);
             if enough && best.as_ref().is_none_or(|best| columns.len() > best.columns.len()) {
@@ -1047,12 +1050,6 @@ impl Header {
     /// The unit that a column states for its numbers.
     pub(super) fn unit(&self, column: Column) -> Option<&str> {
         self.units.iter().find(|(of, _)| *of == column).map(|(_, unit)| unit.as_str())
-    }
-
-    /// The cell of a line in a column; empty where there is none.
-    pub(super) fn cell<'c>(&self, cells: &'c Cells, line: usize, column: Column) -> &'c str {
-        let place = self.columns.iter().find(|(_, of)| *of == column);
-        place.map_or("", |(place, _)| cells.text(line, *place))
     }
 }
 

@@ -244,7 +244,7 @@ impl Budget<'_> {
 
     /// Whether a line has one cell with something in it, of those that the header names.
     fn is_alone(&self, header: &Header, line: usize) -> bool {
-        let cells = header.columns.iter().map(|(place, _)| self.cells.text(line, *place).trim());
+        let cells = header.columns.iter().map(|(_, of)| header.cell(self.cells, line, *of).trim());
         cells.filter(|cell| !cell.is_empty()).count() < 2
     }
 
@@ -305,12 +305,7 @@ impl Budget<'_> {
         }
         // an uncertainty may have its sign and its factor with it
         let text = match column {
-            Column::Width | Column::Std => {
-                let text = text.trim_start_matches(['±', ' ']);
-                text.split_once('(')
-                    .filter(|_| is_factor_of(text))
-                    .map_or(text, |(of, _)| of.trim())
-            }
+            Column::Width | Column::Std => without_factor(text.trim_start_matches(['±', ' '])),
             Column::Dof => columns::without_type(text),
             _ => text,
         };
@@ -850,6 +845,11 @@ fn is_empty(text: &str) -> bool {
 /// Whether a text states a coverage factor.
 fn is_factor_of(text: &str) -> bool {
     HeaderCoverage::of(text).factor(None).is_some()
+}
+
+/// An uncertainty without the factor or the probability in parentheses behind it, `0.2 V (k=2)`.
+pub(super) fn without_factor(text: &str) -> &str {
+    text.split_once('(').filter(|_| is_factor_of(text)).map_or(text, |(of, _)| of.trim())
 }
 
 /// Whether a number may have its digits in groups, `1.234,5` or `1,500`.

@@ -4,7 +4,7 @@ use super::Budget;
 use super::columns::{Column, Header};
 use super::grid::{self, Cells};
 use crate::DiagnosticKind;
-use crate::workbook::{Book, Place, SheetName, letters, reference};
+use crate::workbook::{Book, Place, SheetName, letters};
 
 /// The sheet of a workbook that is read.
 pub(super) struct Chosen {
@@ -125,41 +125,16 @@ impl Budget<'_> {
             };
             header.is_none_or(|header| header.columns.iter().any(is_it))
         };
-        let mut is_shown = true;
-        if let Some(cell) = layout
-            .unfilled
-            .iter()
-            .find(|(row, column)| *row as usize >= from && has(*column as usize, false))
-        {
-            let reason = format!(
-                "cell {} is a formula without a stored value; open and save the workbook in a spreadsheet \
-                 program",
-                reference(*cell)
-            );
-            self.fail(cell.0 as usize, reason);
-            is_shown = false;
+        let is_needed = |(row, column): Place| row as usize >= from && has(column as usize, false);
+        let mut missing: Vec<(Place, String)> =
+            layout.without_values(is_needed).into_iter().collect();
+        if header.is_some() {
+            missing.extend(layout.uncalculated(is_needed));
         }
-        let needed = |(row, column): &&Place| *row as usize >= from && has(*column as usize, false);
-        if let Some(cell) = layout.entities.iter().find(needed) {
-            let reason = format!(
-                "cell {} holds an entity of the document in place of a number; write the number",
-                reference(*cell)
-            );
-            self.fail(cell.0 as usize, reason);
-            is_shown = false;
-        }
+        let mut is_shown = missing.is_empty();
+        missing.into_iter().for_each(|(cell, reason)| self.fail(cell.0 as usize, reason));
         if header.is_none() {
             return is_shown;
-        }
-        if let Some(cell) = layout.zeros.iter().find(needed) {
-            let reason = format!(
-                "cell {} is a formula whose stored value is 0, like that of every other formula, as of a \
-                 workbook that nobody has calculated; open and save it in a spreadsheet program, or \
-                 write 0 in place of the formula",
-                reference(*cell)
-            );
-            self.fail(cell.0 as usize, reason);
-            is_shown = false;
         }
         for line in from..self.cells.lines() {
             let Ok(row) = u32::try_from(line) else { continue };

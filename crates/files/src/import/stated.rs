@@ -8,7 +8,7 @@ use std::path::Path;
 use super::Budget;
 use super::columns::{self, Column, Header, HeaderCoverage};
 use super::number::{constant, number_with_unit};
-use super::rows::Row;
+use super::rows::{Row, without_factor};
 use crate::reader::read_text;
 use gumption_engine::decimal::significant;
 use gumption_engine::number::elementary;
@@ -72,14 +72,14 @@ impl Budget<'_> {
         let mut found = Vec::new();
         for column in columns {
             let text = header.cell(self.cells, line, column).trim();
-            let digits = text.trim_start_matches(['±', ' ']);
+            let digits = without_factor(text.trim_start_matches(['±', ' ']));
             let Some((value, unit)) = number_with_unit(digits, comma) else { continue };
             let expanded = Figure::ExpandedUncertainty(coverage, row.dof);
             let figure = match column {
                 Column::Estimate if !is_uncertainty => Figure::Estimate,
                 Column::Width if !is_expanded => {
-                    let both = [coverage, header.coverage(column)];
-                    let stated = both.into_iter().find(|of| of.factor(None).is_some());
+                    let all = [coverage, HeaderCoverage::of(text), header.coverage(column)];
+                    let stated = all.into_iter().find(|of| of.factor(None).is_some());
                     let Some(coverage) = stated else { continue };
                     Figure::ExpandedUncertainty(coverage, row.dof)
                 }

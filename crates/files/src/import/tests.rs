@@ -99,6 +99,31 @@ fn headings_say_their_units_in_many_ways() {
     assert!(error.contains("a second column `Unit` stands behind `Uncertainty`"), "{error}");
 }
 
+/// An estimate and its uncertainty in one cell, below a heading of either, with factors and units; and
+/// beside a column of uncertainties that is empty there.
+#[test]
+fn cells_hold_an_estimate_and_its_uncertainty() {
+    let root = 3f64.sqrt();
+    for text in [
+        "Quantity;Estimate;Distribution\nA;10.000 V ± 0.002 V (k=2);normal\nB;0 V ± 0.5 mV;rectangular\n",
+        "Quantity;Value ± U;Distribution\nA;10.000 V +/- 2 mV (k=2);normal\nB;0 ± 0.0005 V;rectangular\n",
+        "Quantity;Value;Uncertainty;Distribution\nA;10.000 ± 0.002 V (k=2);;normal\nB;0 V;± 0.5 mV;rectangular\n",
+        "Quantity;Value;Unit;Distribution;Divisor\nA;10.000 ± 0.002;V;normal;2\nB;0 ± 0.0005;V;rectangular;√3\n",
+        "Quantity;Estimate;Distribution\nA;10.000 V ± 0.02 % (k=2);normal\nB;0 V ± 0.5 mV;rectangular\n",
+    ] {
+        let (found, budget) = uncertainties(text);
+        let of = &task(&budget).rows[0].distributions;
+        assert_eq!([of[0].mean(), of[1].mean()], [10.0, 0.0], "{text}");
+        // roundings of a conversion and a divisor
+        assert!((found[0] / 1e-3 - 1.0).abs() < 1e-12, "{text}: {found:?}");
+        assert!((found[1] / (5e-4 / root) - 1.0).abs() < 1e-12, "{text}: {found:?}");
+    }
+    // two uncertainties of one estimate
+    let text = "Quantity;Value;Uncertainty;Distribution\nA;10 ± 0.002 V;0.001 V;rectangular\n";
+    let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("`10 ± 0.002 V` in the column of the estimate is no number"), "{error}");
+}
+
 /// `u` that is the quotient already is not divided again, and a standard uncertainty beside a standard
 /// deviation is the one that counts.
 #[test]

@@ -12,6 +12,16 @@ use super::{COLUMNS, MOST_COLUMNS, MOST_OF_PART, MOST_ROWS, ROWS, attribute, pla
 /// A row and a column, both counted from 0.
 pub(crate) type Place = (u32, u32);
 
+/// The first of the needed cells, with a sentence that begins with it.
+fn first(
+    cells: &[Place],
+    is_needed: impl Fn(Place) -> bool,
+    reason: &str,
+) -> Option<(Place, String)> {
+    let cell = cells.iter().find(|cell| is_needed(**cell))?;
+    Some((*cell, format!("cell {} {reason}", reference(*cell))))
+}
+
 /// The layout of a sheet.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Layout {
@@ -43,19 +53,50 @@ impl Layout {
     /// What is not, as a sentence about the workbook.
     pub(super) fn check_shown<'r>(
         &self,
-        mut rows: impl Iterator<Item = &'r u32>,
+        rows: impl Iterator<Item = &'r u32>,
     ) -> Result<(), String> {
-        if let Some(cell) = self.unfilled.first() {
-            return Err(format!(
-                "its cell {} is a formula without a stored value; open and save the workbook in a \
-                 spreadsheet program",
-                reference(*cell)
-            ));
+        let rows: BTreeSet<u32> = rows.copied().collect();
+        let is_zero = self.uncalculated(|(row, _)| rows.contains(&row));
+        let without = self.without_values(|_| true).into_iter().chain(is_zero).next();
+        if let Some((_, reason)) = without {
+            return Err(format!("its {reason}"));
         }
-        match rows.find(|row| self.hidden.contains(row)) {
+        match rows.intersection(&self.hidden).next() {
             Some(row) => Err(format!("its row {} is hidden: show it, or delete it", row + 1)),
             None => Ok(()),
         }
+    }
+
+    /// The first of the needed cells that is a formula without a stored value, and the first one that
+    /// holds an entity, each with what is to be done about it.
+    pub(crate) fn without_values(
+        &self,
+        is_needed: impl Fn(Place) -> bool,
+    ) -> impl IntoIterator<Item = (Place, String)> {
+        let kinds = [
+            (
+                &self.unfilled,
+                "is a formula without a stored value; open and save the workbook in a spreadsheet \
+                 program",
+            ),
+            (
+                &self.entities,
+                "holds an entity of the document in place of a number; write the number",
+            ),
+        ];
+        kinds.map(|(cells, reason)| first(cells, &is_needed, reason)).into_iter().flatten()
+    }
+
+    /// The first of the needed cells that is a formula, where the stored value of all is 0, with what is
+    /// to be done about it.
+    pub(crate) fn uncalculated(
+        &self,
+        is_needed: impl Fn(Place) -> bool,
+    ) -> Option<(Place, String)> {
+        let reason = "is a formula whose stored value is 0, like that of every other formula, as of a \
+            workbook that nobody has calculated; open and save it in a spreadsheet program, or write \
+            0 in place of the formula";
+        first(&self.zeros, is_needed, reason)
     }
 
     fn of_text(text: &str) -> Self {
@@ -227,8 +268,13 @@ mod tests {
             <row><c r="A1"><v>&e;</v></c><c><v>&#49;</v></c><c><f>1-1</f><v>0</v></c><c><f>2</f>"#;
         let zeros = Layout::of_text(&format!("{cells}<v>0</v></c></row>"));
         assert_eq!(zeros.hidden_columns, BTreeSet::from([1, 2]));
-        assert_eq!((zeros.entities, zeros.zeros), (vec![(0, 0)], vec![(0, 2), (0, 3)]));
+        assert_eq!((&*zeros.entities, &*zeros.zeros), (&[(0, 0)][..], &[(0, 2), (0, 3)][..]));
         assert!(Layout::of_text(&format!("{cells}<v>2</v></c></row>")).zeros.is_empty());
+        // of a table, the zeros of its own rows alone
+        let zeros = Layout { entities: Vec::new(), ..zeros };
+        let said = zeros.check_shown([0].iter()).unwrap_err();
+        assert!(said.starts_with("its cell C1 is a formula whose stored value is 0"), "{said}");
+        assert_eq!(zeros.check_shown([1, 2].iter()), Ok(()));
         assert_eq!(
             Layout::of_text("<row hidden=\"1\"><c"),
             Layout { hidden: BTreeSet::from([0]), ..Layout::default() }

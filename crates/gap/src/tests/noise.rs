@@ -183,6 +183,26 @@ fn neighbours_that_are_off_to_one_side_are_a_departure() {
     }
 }
 
+/// Rows at the end that a departure without a name moves look off one by one. With the departure weighed
+/// they are not needed; the value that is off besides is.
+#[test]
+fn values_that_a_departure_explains_are_not_off() {
+    for (rate, first) in [(0.3, 20.0), (0.4, 23.0), (0.5, 24.0)] {
+        let grows = |n: usize| 0.1 * (rate * (n as f64 - first)).exp();
+        for seed in 5..8 {
+            let noise = normals(30, seed).into_iter().enumerate();
+            let mut residuals: Vec<f64> = noise.map(|(n, z)| 0.1 * z + grows(n)).collect();
+            residuals[8] += 3.0;
+            let found = diagnosed(&line_with(&residuals), 1);
+            assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained, "{rate} {seed}");
+            let suspects = &found.noise[0].suspects;
+            let off = suspects.iter().filter(|suspect| suspect.probability > 0.5);
+            let rows: Vec<usize> = off.map(|suspect| suspect.row).collect();
+            assert_eq!(rows, [8], "{rate} {seed}: {suspects:?}");
+        }
+    }
+}
+
 /// A digit or the decimal point typed wrong is off by hundreds of standard uncertainties and more, with
 /// stated uncertainties and without.
 #[test]

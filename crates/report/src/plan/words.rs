@@ -83,9 +83,9 @@ pub fn worse_offers(task: &Task, costs: &Costs) -> Vec<String> {
             let of = |value: f64| in_unit(&exact(to_digits(value, 4)), &variable.unit);
             let hint = if variable.unit.has_name() {
                 format!(
-                    " Numbers without a unit are in {}; another unit is written with them, \
-                     as `\"1.5 uV\"`.",
-                    plain(variable.unit.text())
+                    " Numbers without a unit are in {unit}; a number in another has it behind it, \
+                     written as `\"1.5 {unit}\"` is.",
+                    unit = plain(variable.unit.text())
                 )
             } else {
                 String::new()
