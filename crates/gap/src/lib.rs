@@ -4,6 +4,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 #![allow(clippy::needless_range_loop)] // lanes and small matrices read best by their places
 
+mod beside_departure;
 mod case;
 pub mod check;
 mod composed;

@@ -3,10 +3,8 @@
 //! Which values are off is looked for beside the hypotheses of the list. Where none of them explains
 //! the data, a departure that does may need fewer: those that it does not need are taken out again.
 
-use super::data::by_rows;
-use super::discrepancy::Discrepancy;
-use super::noise_model::{NoiseModel, Suspect, Weighing};
-use gumption_engine::number::elementary;
+use super::beside_departure::ln_departure;
+use super::noise_model::{Suspect, Weighing};
 
 /// The probability of "unexplained", with the values that are off, from which on it is asked which of
 /// them it needs.
@@ -21,21 +19,13 @@ pub(crate) fn without_needless(weighings: &[Weighing<'_>]) -> Option<Vec<Suspect
     if best.posterior.probability < LEADS {
         return None;
     }
-    let weight = |suspects: &[Suspect]| {
-        let model = NoiseModel::with_suspects(suspects.to_vec());
-        let prior = model.prior(best.setup.data.len());
-        let setup = best.setup.with_noise(model);
-        let residuals = by_rows(&setup.data.nominal_residuals());
-        let found = Discrepancy::new(&setup).evidence(&setup, &residuals, f64::NEG_INFINITY);
-        elementary::ln(prior) + found.ln_evidence
-    };
     let mut needed = suspects(best);
-    let mut ln = weight(&needed);
+    let mut ln = ln_departure(best, &needed);
     while needed.len() > 1 {
         let without = (0..needed.len()).map(|member| {
             let mut fewer = needed.clone();
             fewer.remove(member);
-            (weight(&fewer), fewer)
+            (ln_departure(best, &fewer), fewer)
         });
         let Some((other, fewer)) = without.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
         if other < ln {

@@ -18,7 +18,7 @@ use super::reachable::{self, Place};
 use super::setup::Setup;
 use super::shrink;
 use super::weighed::names;
-use gumption_engine::number::{elementary, largest_first};
+use gumption_engine::number::{elementary, largest_first, median};
 use gumption_engine::special::normal;
 use gumption_engine::task::Sharing;
 
@@ -495,7 +495,7 @@ fn noise_at(setup: &Setup<'_>, place: &Place, variances: &[f64]) -> NoiseAt {
             let stretch = data.noise.stretch(data.ids[row], output);
             variances[row * outputs + output] / (stretch * stretch)
         };
-        median(rows.map(of).collect())
+        median(rows.map(of).collect()).unwrap_or(f64::NAN)
     };
     let NoiseAt { own, shared } = of_inputs(setup, place, &data.outputs);
     let own = own.into_iter().enumerate().map(|(output, own)| own + typical(output)).collect();
@@ -522,7 +522,7 @@ fn relative_uncertainty(setup: &Setup<'_>, variances: &[f64]) -> f64 {
             let size = data.points[data.point_of[row]].nominal[output].abs();
             variances[row * outputs + output].sqrt() / size
         });
-        median(relative.filter(|relative| relative.is_finite()).collect())
+        median(relative.filter(|relative| relative.is_finite()).collect()).unwrap_or(f64::NAN)
     };
     (0..outputs).map(of).filter(|relative| *relative > 0.0).fold(f64::INFINITY, f64::min)
 }
@@ -538,9 +538,4 @@ fn other_noise_at(setup: &Setup<'_>, place: &Place, outputs: &[usize], relative:
     let own =
         outputs.iter().zip(own).map(|(&output, own)| own + (relative * values[output]).powi(2));
     NoiseAt { own: own.collect(), shared }
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_unstable_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }

@@ -292,7 +292,7 @@ impl WeighedHypothesis {
 }
 
 /// The logarithm of a prior probability times an evidence.
-fn ln_weight(prior: f64, ln_evidence: f64) -> f64 {
+pub(crate) fn ln_weight(prior: f64, ln_evidence: f64) -> f64 {
     if prior > 0.0 { elementary::ln(prior) + ln_evidence } else { f64::NEG_INFINITY }
 }
 

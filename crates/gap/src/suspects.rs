@@ -9,6 +9,7 @@
 
 use rayon::prelude::*;
 
+use super::beside_departure::beside_departure;
 use super::influence::{Influence, SizeGains, suspect};
 use super::logarithm::ln_add;
 use super::noise_model::{
@@ -64,6 +65,7 @@ pub(crate) fn more_suspects(
         hypotheses.map(|hypothesis| Influence::of(&last.setup, hypothesis)).collect();
     one_more(last, &influences, enough)
         .or_else(|| several_more(last, &influences, enough, (seed, effort)))
+        .or_else(|| beside_departure(last, enough))
 }
 
 /// The suspects of a weighing and these more.

@@ -10,7 +10,7 @@
 /// ```
 pub fn smallest_first<T>(items: &mut [T], number: impl FnMut(&T) -> f64) {
     let from = order(items.iter().map(number).collect());
-    arrange(items, &from);
+    arrange(items, from);
 }
 
 /// Sorts from the largest number to the smallest; equal ones keep their order. Numbers compare as
@@ -24,7 +24,7 @@ pub fn smallest_first<T>(items: &mut [T], number: impl FnMut(&T) -> f64) {
 pub fn largest_first<T>(items: &mut [T], mut number: impl FnMut(&T) -> f64) {
     // the total order of negated numbers is the reverse one
     let from = order(items.iter().map(|item| -number(item)).collect());
-    arrange(items, &from);
+    arrange(items, from);
 }
 
 /// The places of the numbers from the smallest to the largest.
@@ -34,16 +34,32 @@ fn order(numbers: Vec<f64>) -> Vec<usize> {
     places
 }
 
-/// Moves to each place what stands at `from` of it.
-fn arrange<T>(items: &mut [T], from: &[usize]) {
-    for place in 0..items.len() {
-        // what stood at an earlier place has been swapped to where that place's own came from
-        let mut at = from[place];
-        while at < place {
-            at = from[at];
+/// Moves to each place what stands at `from` of it, cycle by cycle.
+fn arrange<T>(items: &mut [T], mut from: Vec<usize>) {
+    for start in 0..items.len() {
+        let mut at = start;
+        while from[at] != start {
+            let next = from[at];
+            items.swap(at, next);
+            from[at] = at;
+            at = next;
         }
-        items.swap(place, at);
+        from[at] = at;
     }
+}
+
+/// The number in the middle of the sorted ones, of an even number of them the upper one of the two;
+/// `None` of no numbers.
+///
+/// ```
+/// use gumption_engine::number::median;
+///
+/// assert_eq!(median(vec![3.0, 1.0, 2.0]), Some(2.0));
+/// assert_eq!(median(vec![3.0, 1.0, 2.0, 4.0]), Some(3.0));
+/// ```
+pub fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_unstable_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
 }
 
 #[cfg(test)]
@@ -71,5 +87,12 @@ mod tests {
             let expected: [Vec<usize>; 2] = [places(&by), places(&back)];
             assert_eq!([places(&up), places(&down)], expected, "{count}");
         }
+    }
+    /// One long cycle, as of a sorted table with a row that comes late.
+    #[test]
+    fn the_last_of_a_million_goes_first() {
+        let mut items: Vec<f64> = (1..1_000_000).map(f64::from).chain([0.0]).collect();
+        smallest_first(&mut items, |item| *item);
+        assert!(items.iter().zip(0..).all(|(item, place)| *item == f64::from(place)));
     }
 }

@@ -203,6 +203,39 @@ fn values_that_a_departure_explains_are_not_off() {
     }
 }
 
+/// A value that is off is found beside a departure without a name, which hides it from every hypothesis
+/// of the list.
+#[test]
+fn a_value_that_is_off_beside_a_departure_is_found() {
+    let shapes: [&dyn Fn(usize) -> f64; 3] =
+        [&|n| 2.0 * ((n as f64 - 14.5) / 14.5).powi(3), &|n| 0.6 * (n as f64 / 3.0).sin(), &|n| {
+            2.0 * (-0.5 * ((n as f64 - 20.0) / 2.0).powi(2)).exp()
+        }];
+    for (shape, departure) in shapes.into_iter().enumerate() {
+        for wrong in [3.0, -3.0, 50.0, 0.0] {
+            for stated in [true, false] {
+                let noise = normals(30, 5).into_iter().enumerate();
+                let mut residuals: Vec<f64> = noise.map(|(n, z)| 0.1 * z + departure(n)).collect();
+                residuals[8] += wrong;
+                let mut case = line_with(&residuals);
+                if !stated {
+                    case.observed[0].as_mut().unwrap().standard_uncertainties = None;
+                }
+                let found = diagnosed(&case, 1);
+                let context = format!("{shape} {wrong} {stated}: {:?}", found.noise[0]);
+                assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained, "{context}");
+                let suspects = found.noise[0].suspects.iter();
+                let off: Vec<_> = suspects.filter(|suspect| suspect.probability > 0.5).collect();
+                let rows: Vec<usize> = off.iter().map(|suspect| suspect.row).collect();
+                assert_eq!(rows, if wrong == 0.0 { vec![] } else { vec![8] }, "{context}");
+                // its own noise, and what the neighbours leave of the departure
+                let is_of = |size: f64| (size - wrong / 0.1).abs() < 4.0;
+                assert!(off.iter().all(|of| !stated || is_of(of.size)), "{context}");
+            }
+        }
+    }
+}
+
 /// A digit or the decimal point typed wrong is off by hundreds of standard uncertainties and more, with
 /// stated uncertainties and without.
 #[test]

@@ -6,7 +6,6 @@ pub(super) mod common_noise;
 pub(super) mod dirichlet;
 pub(super) mod frequency;
 pub(super) mod lattice;
-pub(super) mod middle;
 pub(super) mod outlying;
 pub(super) mod periodic;
 pub(super) mod polar;
