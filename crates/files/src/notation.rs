@@ -9,7 +9,9 @@ use std::ops::Range;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
-use super::value_text::{grouped_digits, is_comma, number_in_parentheses, with_exponents};
+use super::value_text::{
+    grouped_digits, is_comma, number_in_parentheses, with_exponents, with_plus_minus,
+};
 use gumption_engine::special;
 use gumption_units::Unit;
 
@@ -234,7 +236,7 @@ impl Uncertainty {
 
 /// Reads a text: its unit (empty without one) and what it says.
 fn stated(text: &str) -> Result<(String, Stated), String> {
-    let text = text.trim().replace('−', "-").replace("+/-", "±").replace("+-", "±");
+    let text = with_plus_minus(&text.trim().replace('−', "-"));
     let text = with_exponents(&text);
     // (5.0112 ± 0.0046) V (k=2)
     let (inner, outer) = match text.strip_prefix('(').and_then(|rest| rest.split_once(')')) {

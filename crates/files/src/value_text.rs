@@ -53,6 +53,15 @@ pub(super) fn decimal_comma(whole: f64, rest: &str) -> String {
     }
 }
 
+/// The ways to write the sign before an uncertainty, the one that is understood everywhere first.
+pub(super) const PLUS_MINUS: [&str; 3] = ["±", "+/-", "+-"];
+
+/// A text with `±` in place of the other ways to write it.
+pub(super) fn with_plus_minus(text: &str) -> String {
+    let [sign, others @ ..] = PLUS_MINUS;
+    others.into_iter().fold(text.to_owned(), |text, other| text.replace(other, sign))
+}
+
 /// A text with `e-3` in place of a power of ten that a number or a parenthesis is multiplied by, as tables
 /// of constants and certificates have it: `1.234(5)×10⁻³ kg`, `(1.234 ± 0.005) × 10^-3 kg`.
 pub(super) fn with_exponents(text: &str) -> String {

@@ -6,10 +6,10 @@
 
 use super::data::by_rows;
 use super::discrepancy::Discrepancy;
-use super::noise_model::{NoiseModel, SUSPECT_SIZES, Suspect, Weighing};
+use super::noise_model::{NoiseModel, STILL_OFF, SUSPECT_SIZES, Suspect, Weighing};
 use super::posterior::ln_weight;
 use super::setup::Setup;
-use gumption_engine::number::{elementary, largest_first, median, smallest_first};
+use gumption_engine::number::{elementary, largest_first, median};
 
 /// Neighbours on each side that a value is compared with, at most.
 const BESIDE: usize = 2;
@@ -44,7 +44,7 @@ pub(crate) fn beside_departure(last: &Weighing<'_>, enough: f64) -> Option<Vec<S
             return None;
         }
         // the least size that makes such a value usual
-        let is_usual = |size: &(f64, f64)| ratio <= STILL_USUAL * size.0;
+        let is_usual = |size: &(f64, f64)| ratio <= STILL_OFF * size.0;
         let size = SUSPECT_SIZES.iter().position(is_usual).unwrap_or(SUSPECT_SIZES.len() - 1);
         let mut more = known.clone();
         more.push(Suspect { id, output, size });
@@ -52,22 +52,12 @@ pub(crate) fn beside_departure(last: &Weighing<'_>, enough: f64) -> Option<Vec<S
     })
 }
 
-/// A value of a size is off by less than so many times that.
-const STILL_USUAL: f64 = 3.0;
-
 /// Values that differ from their neighbours along each condition, most first, by how much over the
 /// median of their output.
 fn standing_out(setup: &Setup<'_>) -> Vec<(f64, usize, usize)> {
     let rows = setup.data.rows();
     let conditions = setup.case.model.conditions.len();
-    let orders: Vec<Vec<usize>> = (0..conditions)
-        .map(|condition| {
-            let at = |row: &usize| setup.case.task.rows[setup.data.ids[*row]].conditions[condition];
-            let mut order: Vec<usize> = (0..rows).collect();
-            smallest_first(&mut order, at);
-            order
-        })
-        .collect();
+    let orders: Vec<Vec<usize>> = (0..conditions).map(|of| setup.rows_along(of)).collect();
     let mut found = Vec::new();
     for (output, residuals) in setup.data.nominal_residuals().into_iter().enumerate() {
         let scaled = |row: usize| match &setup.data.uncertainties[output] {

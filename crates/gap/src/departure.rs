@@ -141,8 +141,7 @@ fn departures(weighing: &Weighing<'_>, group: &[&Weighted], term: &Term) -> Vec<
     let outputs = setup.data.outputs.len();
     let ids: Vec<usize> =
         setup.data.points.iter().filter_map(|point| point.rows.first().copied()).collect();
-    let rows: Vec<Row> =
-        ids.iter().map(|&row| setup.case.task.rows[setup.data.ids[row]].clone()).collect();
+    let rows: Vec<Row> = ids.iter().map(|&row| setup.row(row).clone()).collect();
     let mut kinds: Vec<Weighted> = group.iter().map(|kind| (*kind).clone()).collect();
     largest_first(&mut kinds, |a| a.weight);
     let predicted = discrepancy.predict(setup, shrink::top(&kinds), &rows);

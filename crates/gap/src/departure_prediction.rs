@@ -32,7 +32,7 @@ fn distances(setup: &Setup<'_>, rows: &[Row]) -> Vec<f64> {
     let measured = case.model.conditions.len() - case.simulated;
     let boxes: Vec<(f64, f64)> = (0..measured)
         .map(|c| {
-            let values = setup.data.ids.iter().map(|&id| case.task.rows[id].conditions[c]);
+            let values = (0..setup.data.rows()).map(|row| setup.row(row).conditions[c]);
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
         })
         .collect();

@@ -62,6 +62,10 @@ const MOVED: f64 = 2.0;
 pub(crate) const SUSPECT_SIZES: [(f64, f64); 6] =
     [(1e1, 0.9), (1e2, 0.02), (1e3, 0.02), (1e4, 0.02), (1e5, 0.02), (1e6, 0.02)];
 
+/// A value that still is off by more than this, in standard uncertainties with what is wrong with it
+/// included, is off by more than its size says.
+pub(crate) const STILL_OFF: f64 = 3.0;
+
 /// Values that are off, at most.
 pub(crate) const MOST_SUSPECTS: usize = 5;
 

@@ -138,7 +138,7 @@ fn central_draw(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
         .iter()
         .step_by(step)
         .filter_map(|point| point.rows.first())
-        .map(|&row| setup.case.task.rows[setup.data.ids[row]].clone())
+        .map(|&row| setup.row(row).clone())
         .collect();
     let values = predict::values(setup, &hypothesis.effects, &draws, &rows);
     let moments = shrink::moments(&values);

@@ -21,7 +21,7 @@ use crate::mixture::standard_normals;
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, triangle};
-use gumption_engine::number::{COLUMN, Column, elementary, smallest_first};
+use gumption_engine::number::{COLUMN, Column, elementary};
 use gumption_engine::special;
 
 /// Conditions with more levels than this are scanned in so many bins.
@@ -329,11 +329,9 @@ fn explained(inner: &[f64], cross: &[f64]) -> f64 {
 
 /// The rows at each level of a condition, in order; many levels are put together.
 fn bins(setup: &Setup<'_>, condition: usize) -> Vec<(Vec<usize>, [f64; 2])> {
-    let value = |row: usize| setup.case.task.rows[setup.data.ids[row]].conditions[condition];
-    let mut rows: Vec<usize> = (0..setup.data.rows()).collect();
-    smallest_first(&mut rows, |&a| value(a));
+    let value = |row: usize| setup.row(row).conditions[condition];
     let mut levels: Vec<(Vec<usize>, [f64; 2])> = Vec::new();
-    for row in rows {
+    for row in setup.rows_along(condition) {
         match levels.last_mut() {
             Some((level, range)) if range[1] == value(row) => level.push(row),
             _ => levels.push((vec![row], [value(row); 2])),

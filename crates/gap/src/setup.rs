@@ -11,7 +11,8 @@ use super::likelihood::Likelihood;
 use super::noise_model::NoiseModel;
 use crate::{Case, Prior};
 use gumption_engine::distribution::Distribution;
-use gumption_engine::number::{elementary, largest_first};
+use gumption_engine::number::{elementary, largest_first, smallest_first};
+use gumption_engine::task::Row;
 
 /// Inputs whose whole effect on the data is below so many standard uncertainties act linearly as far
 /// as anybody can tell, and are integrated out exactly.
@@ -119,6 +120,23 @@ impl<'c> Setup<'c> {
             ln_sizes,
             evaluators,
         }
+    }
+
+    /// The conditions and inputs of a row of the data.
+    pub(crate) fn row(&self, row: usize) -> &'c Row {
+        &self.case.task.rows[self.data.ids[row]]
+    }
+
+    /// Those of all rows of the data.
+    pub(crate) fn all_rows(&self) -> Vec<Row> {
+        (0..self.data.rows()).map(|row| self.row(row).clone()).collect()
+    }
+
+    /// The rows of the data in the order of a condition.
+    pub(crate) fn rows_along(&self, condition: usize) -> Vec<usize> {
+        let mut rows: Vec<usize> = (0..self.data.rows()).collect();
+        smallest_first(&mut rows, |&row| self.row(row).conditions[condition]);
+        rows
     }
 
     /// Prior probabilities of the hypotheses.

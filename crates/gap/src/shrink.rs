@@ -49,7 +49,7 @@ pub(crate) fn shrinkage(
 ) -> (Shrinkage, Vec<RowGap>) {
     let data = &setup.data;
     let outputs = data.outputs.len();
-    let rows: Vec<Row> = data.ids.iter().map(|&id| setup.case.task.rows[id].clone()).collect();
+    let rows = setup.all_rows();
     let before = by_rows(&data.nominal_residuals());
     // what the correction says of the data that it was fitted to
     let fitted = in_sample(setup, discrepancy, posterior, correction, &rows);
@@ -195,8 +195,7 @@ pub(crate) fn claim(
     correction: &Correction,
     variances: &[f64],
 ) -> f64 {
-    let rows: Vec<Row> =
-        setup.data.ids.iter().map(|&id| setup.case.task.rows[id].clone()).collect();
+    let rows = setup.all_rows();
     let fitted = in_sample(setup, discrepancy, posterior, correction, &rows);
     claimed(setup, &fitted, variances)
 }
@@ -340,8 +339,7 @@ fn fold(
         .filter(|row| block.binary_search(row).is_err())
         .map(|row| setup.data.ids[row])
         .collect();
-    let rows: Vec<Row> =
-        block.iter().map(|&row| setup.case.task.rows[setup.data.ids[row]].clone()).collect();
+    let rows: Vec<Row> = block.iter().map(|&row| setup.row(row).clone()).collect();
     let part = Setup::with_data_and_inputs(
         setup.case,
         Data::of(setup.case, others, setup.data.noise.clone()),
@@ -427,9 +425,7 @@ fn blocks(setup: &Setup<'_>) -> Vec<Vec<usize>> {
         return Vec::new();
     }
     let conditions = setup.case.model.conditions.len() - setup.case.simulated;
-    let value = |row: usize, condition: usize| {
-        setup.case.task.rows[setup.data.ids[row]].conditions[condition]
-    };
+    let value = |row: usize, condition: usize| setup.row(row).conditions[condition];
     let levels = |condition: usize| {
         let mut values: Vec<f64> = (0..rows).map(|row| value(row, condition)).collect();
         values.sort_unstable_by(f64::total_cmp);

@@ -13,16 +13,12 @@ use super::beside_departure::beside_departure;
 use super::influence::{Influence, SizeGains, suspect};
 use super::logarithm::ln_add;
 use super::noise_model::{
-    MOST_SUSPECTS, NoiseModel, SUSPECT_SIZES, Suspect, WORTH_TRYING, Weighing, ln_explained_away,
-    ln_total, residuals_at_mode,
+    MOST_SUSPECTS, NoiseModel, STILL_OFF, SUSPECT_SIZES, Suspect, WORTH_TRYING, Weighing,
+    ln_explained_away, ln_total, residuals_at_mode,
 };
 use super::posterior::{self, Effort, WeighedHypothesis};
 use super::prior_widths::PriorWidths;
-use gumption_engine::number::{elementary, largest_first, smallest_first};
-
-/// A value that still is off by more than this, in standard uncertainties with what is wrong with it
-/// included, is off by more than its size says.
-const STILL_OFF: f64 = 3.0;
+use gumption_engine::number::{elementary, largest_first};
 
 /// One of so many values may be off, where several at once are looked for: what most of the data say
 /// is no mistake.
@@ -255,9 +251,8 @@ fn is_departure(last: &Weighing<'_>, influence: &Influence, set: &[(usize, usize
     };
     let conditions = 0..setup.case.model.conditions.len();
     conditions.into_iter().any(|condition| {
-        let at = |row: &usize| setup.case.task.rows[setup.data.ids[*row]].conditions[condition];
-        let mut order: Vec<usize> = (0..setup.data.rows()).collect();
-        smallest_first(&mut order, at);
+        let at = |row: &usize| setup.row(*row).conditions[condition];
+        let order = setup.rows_along(condition);
         (0..outputs).flat_map(|output| [sides(output, false), sides(output, true)]).any(|off| {
             let mut run = 0;
             order.chunk_by(|a, b| at(a) == at(b)).any(|rows| {

@@ -211,7 +211,7 @@ fn best_predictions(setup: &Setup<'_>, posterior: &Posterior) -> Vec<Option<Vec<
         .points
         .iter()
         .filter_map(|point| point.rows.first())
-        .map(|&row| setup.case.task.rows[setup.data.ids[row]].clone())
+        .map(|&row| setup.row(row).clone())
         .collect();
     let most = posterior.hypotheses.iter().map(|h| h.probability).fold(0.0, f64::max);
     posterior

@@ -88,6 +88,7 @@ mod tests {
             assert_eq!([places(&up), places(&down)], expected, "{count}");
         }
     }
+
     /// One long cycle, as of a sorted table with a row that comes late.
     #[test]
     fn the_last_of_a_million_goes_first() {

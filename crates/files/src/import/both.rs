@@ -5,14 +5,14 @@
 
 use std::collections::HashMap;
 
-use super::columns::{Column, Header};
+use super::columns::{Column, Header, place_of};
 use super::grid::Cells;
 use super::number::number_with_unit;
+use crate::value_text::PLUS_MINUS;
 
 /// What a cell holds before and behind the sign; `None` where it holds one thing.
 fn sides(cell: &str) -> Option<(&str, &str)> {
-    let (estimate, uncertainty) =
-        ["±", "+/-", "+-"].into_iter().find_map(|of| cell.split_once(of))?;
+    let (estimate, uncertainty) = PLUS_MINUS.into_iter().find_map(|sign| cell.split_once(sign))?;
     let (estimate, uncertainty) = (estimate.trim(), uncertainty.trim());
     // both: `±` alone begins an uncertainty
     let is_both = number_with_unit(estimate, true).is_some() && !uncertainty.is_empty();
@@ -47,13 +47,11 @@ impl Header {
         line: usize,
         columns: &mut Vec<(usize, Column)>,
     ) {
-        let place_of = |wanted: Column| {
-            columns.iter().find(|(_, column)| *column == wanted).map(|(place, _)| *place)
-        };
-        let uncertain = BEHIND.into_iter().find_map(|of| Some((place_of(of)?, of)));
-        let (place, other) = match (place_of(Column::Estimate), uncertain) {
-            (Some(place), None) if place_of(Column::Upper).is_none() => (place, Column::Width),
-            (None, Some((place, _))) => (place, Column::Estimate),
+        let of = |wanted| place_of(columns, wanted);
+        let uncertain = BEHIND.into_iter().find_map(of);
+        let (place, other) = match (of(Column::Estimate), uncertain) {
+            (Some(place), None) if of(Column::Upper).is_none() => (place, Column::Width),
+            (None, Some(place)) => (place, Column::Estimate),
             _ => return,
         };
         if last.is_below(line, place) {
@@ -64,29 +62,24 @@ impl Header {
     /// The cell of a line in a column, or its side of a cell that holds an estimate and its uncertainty;
     /// empty where there is none.
     pub(super) fn cell<'c>(&self, cells: &'c Cells, line: usize, column: Column) -> &'c str {
-        let of = |column: Column| {
-            let mut places = self.columns.iter().filter(|(_, of)| *of == column);
-            places.next().map(|(place, _)| (*place, cells.text(line, *place)))
+        let of = |column| place_of(&self.columns, column);
+        let text = of(column).map_or("", |place| cells.text(line, place));
+        let beside = BEHIND.into_iter().find_map(|column| Some((column, of(column)?)));
+        let (Some(place), Some((behind, other))) = (of(Column::Estimate), beside) else {
+            return text;
         };
-        let own = of(column);
-        let text = own.map_or("", |(_, text)| text);
-        if column != Column::Estimate && !BEHIND.contains(&column) {
+        let is_free = place == other || cells.text(line, other).trim().is_empty();
+        if !is_free || column != Column::Estimate && column != behind {
             return text;
         }
-        let Some((place, both)) = of(Column::Estimate) else { return text };
-        let beside = BEHIND.into_iter().find_map(|column| Some((column, of(column)?)));
-        let Some((behind, (of_uncertainty, uncertainty))) = beside else { return text };
-        let is_shared = place == of_uncertainty;
-        let is_free = is_shared || uncertainty.trim().is_empty();
-        match sides(both).filter(|_| is_free) {
+        match sides(cells.text(line, place)) {
             Some((estimate, _)) if column == Column::Estimate => estimate,
-            Some((_, uncertainty)) if column == behind => uncertainty,
-            // a single number is what the heading of the column names first
-            None if is_shared => {
-                let named = self.columns.iter().find(|(of, _)| *of == place);
-                if named.is_some_and(|(_, named)| *named == column) { text } else { "" }
+            Some((_, uncertainty)) => uncertainty,
+            None => {
+                // a single number is what the heading of its column names, and that was taken first
+                let named = self.columns.iter().find(|(at, _)| *at == place);
+                named.filter(|(_, named)| *named == column).map_or("", |_| text)
             }
-            _ => text,
         }
     }
 }

@@ -4,6 +4,7 @@ use super::both::LastOfBoth;
 use super::grid::Cells;
 use super::number::number as number_of_cell;
 use super::number::{constant, number_with_unit};
+use crate::value_text::PLUS_MINUS;
 use gumption_engine::special::student;
 use gumption_units::Unit;
 
@@ -474,7 +475,7 @@ fn column(text: &str) -> Option<Column> {
         _ => {}
     }
     // `Value (±)` is no value
-    if compact.contains('±') || compact.contains("+/-") || compact.contains("+-") {
+    if PLUS_MINUS.into_iter().any(|sign| compact.contains(sign)) {
         return Some(Column::Width);
     }
     let words = plain(text);
@@ -604,6 +605,11 @@ fn is_of_estimate(words: &str) -> bool {
     ESTIMATE.contains(&words.trim().to_lowercase().as_str())
 }
 
+/// The place of the first column that holds what is wanted.
+pub(super) fn place_of(columns: &[(usize, Column)], wanted: Column) -> Option<usize> {
+    columns.iter().find(|(_, column)| *column == wanted).map(|(place, _)| *place)
+}
+
 /// The header of a budget.
 #[derive(Clone, Debug)]
 pub(super) struct Header {
@@ -671,9 +677,6 @@ impl Header {
                     _ => unknown.push(place),
                 }
             }
-            let place_of = |columns: &[(usize, Column)], wanted: Column| {
-                columns.iter().find(|(_, column)| *column == wanted).map(|(place, _)| *place)
-            };
             // the names of the contributions may head the list of them
             let list = [Column::Symbol, Column::Contribution];
             if place_of(&columns, Column::Quantity).is_none()
@@ -895,9 +898,7 @@ impl Header {
     /// `Value` heads the half-widths and expanded uncertainties where its numbers over the divisors are
     /// the standard uncertainties in every row that has all three, and in two rows at least.
     fn widths_as_values(&mut self, cells: &Cells) {
-        let place_of = |wanted: Column| {
-            self.columns.iter().find(|(_, column)| *column == wanted).map(|(place, _)| *place)
-        };
+        let place_of = |wanted: Column| place_of(&self.columns, wanted);
         // `u` beside a divisor may be what is left after it
         let of_quotients = match place_of(Column::Width) {
             None => Column::Std,

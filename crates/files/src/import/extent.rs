@@ -7,6 +7,7 @@ use gumption_engine::number::Shortest;
 use super::Budget;
 use super::columns::{Column, Header, HeaderCoverage};
 use super::rows::{Row, divisor_of, near};
+use crate::value_text::with_plus_minus;
 
 /// How much of a shape a number spans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,7 +53,7 @@ impl Extent {
             "etendue",
             "largeurtotale",
         ];
-        let signed = text.to_lowercase().replace("+/-", "±").replace("+-", "±");
+        let signed = with_plus_minus(&text.to_lowercase());
         let compact: String = signed.chars().filter(|c| c.is_alphabetic() || *c == '±').collect();
         let has = |words: &[&str]| words.iter().any(|word| compact.contains(word));
         if has(&HALF) { Some(Self::Half) } else { has(&FULL).then_some(Self::Full) }

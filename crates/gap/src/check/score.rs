@@ -6,7 +6,7 @@ use super::truth::{Truth, TruthKind};
 use crate::Case;
 use crate::ModelSelection;
 use crate::diagnosis::HypothesisKind;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, median};
 
 /// A correction is within the uncertainties if its errors are, in the root mean square.
 const WITHIN: f64 = 1.0;
@@ -263,8 +263,6 @@ pub fn score(case: &Case, checked: Vec<BlindDraw>, seed: u64) -> BlindCheckScore
     let reliability = reliability(&verdicts);
     let held: Vec<bool> = checked.iter().flat_map(|c| c.held.clone()).collect();
     let with_gap: Vec<&BlindDraw> = checked.iter().filter(|c| c.truth != "none").collect();
-    let mut left: Vec<f64> = with_gap.iter().map(|c| c.left).collect();
-    left.sort_unstable_by(f64::total_cmp);
     BlindCheckScores {
         draws,
         seed,
@@ -281,7 +279,7 @@ pub fn score(case: &Case, checked: Vec<BlindDraw>, seed: u64) -> BlindCheckScore
         reliability,
         interval_coverage: mean(&mut held.iter().map(|held| f64::from(u8::from(*held)))),
         intervals: held.len(),
-        left: left.get(left.len() / 2).copied().unwrap_or(0.0),
+        left: median(with_gap.iter().map(|c| c.left).collect()).unwrap_or(0.0),
         worse_than_none: mean(&mut with_gap.iter().map(|c| f64::from(u8::from(c.left > 1.0)))),
         claim_bias: mean(&mut checked.iter().filter_map(|c| c.fractions).map(|[a, b]| a - b)),
         smallest: smallest(case, &checked),

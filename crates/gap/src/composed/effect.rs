@@ -146,7 +146,7 @@ impl Compositions {
 pub(super) fn rows_of_points(setup: &Setup<'_>) -> Vec<Row> {
     let first = |point: &crate::data::Point| point.rows.first().copied().unwrap_or(0);
     let rows = setup.data.points.iter().map(first);
-    rows.map(|row| setup.case.task.rows[setup.data.ids[row]].clone()).collect()
+    rows.map(|row| setup.row(row).clone()).collect()
 }
 
 impl Composition {

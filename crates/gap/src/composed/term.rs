@@ -40,7 +40,7 @@ pub(super) fn conditions(setup: &Setup<'_>) -> Vec<(Argument, Values)> {
         .filter_map(|c| {
             let rows = setup.data.points.iter().map(|point| {
                 let first = point.rows.first().copied().unwrap_or(0);
-                case.task.rows[setup.data.ids[first]].conditions[c]
+                setup.row(first).conditions[c]
             });
             Some((Argument::Condition(c), Values::new(rows.collect())?))
         })

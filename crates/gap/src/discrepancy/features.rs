@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::grammar::{Of, Term};
 use crate::Case;
 use crate::data::Data;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, median};
 
 /// Distinct coordinates beyond which the covariance is taken from nodes (Nystroem).
 const MOST_COORDINATES: usize = 160;
@@ -215,7 +215,7 @@ impl Coordinates {
         let distance = |a: &[f64], b: &[f64]| -> f64 {
             a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
         };
-        let mut nearest: Vec<f64> = (0..self.distinct.len())
+        let nearest: Vec<f64> = (0..self.distinct.len())
             .map(|i| {
                 let others = (0..self.distinct.len()).filter(|j| *j != i);
                 others
@@ -224,8 +224,7 @@ impl Coordinates {
             })
             .filter(|distance| distance.is_finite())
             .collect();
-        nearest.sort_unstable_by(f64::total_cmp);
-        nearest.get(nearest.len() / 2).map_or(0.0, |median| SPACINGS * median)
+        median(nearest).map_or(0.0, |distance| SPACINGS * distance)
     }
 
     /// The values that the term touches.

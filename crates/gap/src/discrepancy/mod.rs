@@ -25,7 +25,6 @@ use super::search::Mode;
 use super::setup::Setup;
 use crate::logarithm::{HALF_LN_TWO_PI, ln_add};
 use gumption_engine::number::{elementary, largest_first};
-use gumption_engine::task::Row;
 
 /// The lengths over which a smooth discrepancy varies, as shares of the range of what it is a
 /// function of.
@@ -99,8 +98,7 @@ impl Base {
     pub(crate) fn at(setup: &Setup<'_>, effects: &[usize], mode: &Mode) -> Option<Self> {
         let mut scores = mode.scores.clone();
         scores.iter_mut().take(setup.roles.len()).for_each(|score| *score = 0.0);
-        let rows: Vec<Row> =
-            setup.data.ids.iter().map(|&id| setup.case.task.rows[id].clone()).collect();
+        let rows = setup.all_rows();
         let values = predict::values(setup, effects, &[scores.clone()], &rows);
         let first = |draws: Vec<f64>| draws.first().copied();
         let values: Option<Vec<f64>> = values.into_iter().flatten().map(first).collect();

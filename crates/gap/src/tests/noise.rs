@@ -1,6 +1,7 @@
 //! What the noise may be, and modes that are hard to find.
 
 use super::{candidate, case, formulas, normal, observed, quantity};
+use crate::diagnosis::SuspectValue;
 use crate::{Candidate, Case, Diagnosis, DiagnosisOptions, Effect, HypothesisKind, diagnose};
 use gumption_engine::distribution::{Distribution, LogUniform, Rectangular, StreamKey};
 use gumption_engine::task::Sharing;
@@ -37,6 +38,18 @@ fn line_with(residuals: &[f64]) -> Case {
 
 fn diagnosed(case: &Case, seed: u64) -> Diagnosis {
     diagnose(case, None, DiagnosisOptions::new(seed), &|_| {}).unwrap()
+}
+
+/// The values that are off more likely than not, by their rows.
+fn likely(found: &Diagnosis) -> Vec<&SuspectValue> {
+    let suspects = found.noise[0].suspects.iter();
+    let mut likely: Vec<_> = suspects.filter(|suspect| suspect.probability > 0.5).collect();
+    likely.sort_by_key(|suspect| suspect.row);
+    likely
+}
+
+fn rows(suspects: &[&SuspectValue]) -> Vec<usize> {
+    suspects.iter().map(|suspect| suspect.row).collect()
 }
 
 fn present(diagnosis: &Diagnosis, effect: &str) -> f64 {
@@ -142,10 +155,8 @@ fn several_values_that_are_off_are_found_together() {
             assert_eq!(found.most_probable.kind, HypothesisKind::None, "{off:?} {stated}");
             let noise = &found.noise[0];
             assert!(noise.factor.is_none_or(|factor| factor.probability < 0.01), "{noise:?}");
-            let mut likely: Vec<_> =
-                noise.suspects.iter().filter(|s| s.probability > 0.5).collect();
-            likely.sort_by_key(|suspect| suspect.row);
-            assert!(likely.iter().map(|s| s.row).eq(off.iter().map(|of| of.0)), "{noise:?}");
+            let likely = likely(&found);
+            assert!(rows(&likely).into_iter().eq(off.iter().map(|of| of.0)), "{noise:?}");
             for (suspect, (_, wrong)) in likely.iter().zip(off) {
                 assert!(suspect.probability > 0.95, "{suspect:?}");
                 // from what the others let expect, which is known to 0.2 standard uncertainties; an
@@ -195,10 +206,7 @@ fn values_that_a_departure_explains_are_not_off() {
             residuals[8] += 3.0;
             let found = diagnosed(&line_with(&residuals), 1);
             assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained, "{rate} {seed}");
-            let suspects = &found.noise[0].suspects;
-            let off = suspects.iter().filter(|suspect| suspect.probability > 0.5);
-            let rows: Vec<usize> = off.map(|suspect| suspect.row).collect();
-            assert_eq!(rows, [8], "{rate} {seed}: {suspects:?}");
+            assert_eq!(rows(&likely(&found)), [8], "{rate} {seed}: {:?}", found.noise[0]);
         }
     }
 }
@@ -224,10 +232,8 @@ fn a_value_that_is_off_beside_a_departure_is_found() {
                 let found = diagnosed(&case, 1);
                 let context = format!("{shape} {wrong} {stated}: {:?}", found.noise[0]);
                 assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained, "{context}");
-                let suspects = found.noise[0].suspects.iter();
-                let off: Vec<_> = suspects.filter(|suspect| suspect.probability > 0.5).collect();
-                let rows: Vec<usize> = off.iter().map(|suspect| suspect.row).collect();
-                assert_eq!(rows, if wrong == 0.0 { vec![] } else { vec![8] }, "{context}");
+                let off = likely(&found);
+                assert_eq!(rows(&off), if wrong == 0.0 { vec![] } else { vec![8] }, "{context}");
                 // its own noise, and what the neighbours leave of the departure
                 let is_of = |size: f64| (size - wrong / 0.1).abs() < 4.0;
                 assert!(off.iter().all(|of| !stated || is_of(of.size)), "{context}");

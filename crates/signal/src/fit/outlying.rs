@@ -1,7 +1,6 @@
 //! Samples far beyond the rest: spikes, and numbers that stand for a missing value.
 
-use gumption_engine::number::largest_first;
-use gumption_engine::number::median;
+use gumption_engine::number::{largest_first, median};
 
 /// Residuals that are kept at most.
 const KEPT: usize = 32;

@@ -1,8 +1,7 @@
 //! Oscillations that a fit does not have: found in the spectrum of its residuals.
 
 use crate::frequency::{between, windowed};
-use gumption_engine::number::largest_first;
-use gumption_engine::number::median;
+use gumption_engine::number::{largest_first, median};
 
 /// The power of a bin over the median that noise alone exceeds in less than one record in a
 /// thousand: of 2^15 exponential bins the largest is above ln 2 x 25 times the median with a

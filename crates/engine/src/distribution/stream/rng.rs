@@ -85,7 +85,7 @@ mod tests {
         let mut random = StreamRng::new(3, "x");
         for u in uniform {
             let word = random.next_u64();
-            assert_eq!(u, ((word >> 12) as f64 + 0.5) / 2f64.powi(52));
+            assert_eq!(u, ((word >> 12) as f64 + 0.5) / (1u64 << 52) as f64);
         }
     }
 

@@ -147,3 +147,33 @@ pub(super) fn keep(path: CodePath, block: &[f64], windows: &Windows, kept: &mut 
     kept.extend_from_slice(&buffer[..length]);
     block.iter().map(|&v| u64::from(v < windows.median_low)).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The same values in the same order on every path, behind those that were kept before, whatever
+    /// part of a register the last values fill.
+    #[test]
+    fn kept_values_are_the_same_on_every_path() {
+        let some = Windows {
+            low: -0.6,
+            median_low: -0.05,
+            median_high: 0.04,
+            high: 0.7,
+            ends: [-1.0, 1.0],
+        };
+        for count in (0..=33).chain([BLOCK]) {
+            let block: Vec<f64> = (0..count).map(|i| (i * 37 % 101) as f64 / 50.0 - 1.0).collect();
+            for windows in [some, Windows::ALL] {
+                let of = |path| {
+                    let mut kept = vec![7.0];
+                    (keep(path, &block, &windows, &mut kept), kept)
+                };
+                for path in CodePath::available() {
+                    assert_eq!(of(path), of(CodePath::BASELINE), "{count} values, {path:?}");
+                }
+            }
+        }
+    }
+}

@@ -400,6 +400,7 @@ mod tests {
     /// Order statistics and the shortest interval against a full sort, for values that fill the
     /// buckets evenly, pile up in one, or are all equal.
     #[test]
+    #[cfg_attr(miri, ignore = "many numbers, and no unsafe code that the other test does not run")]
     fn values_are_found_as_in_order() {
         let of = |f: &dyn Fn(f64) -> f64| -> Vec<f64> {
             (0..5000u64).map(|i| f((i * 2_654_435_761 % 5003) as f64 / 5003.0)).collect()

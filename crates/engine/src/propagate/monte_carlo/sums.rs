@@ -73,3 +73,21 @@ fn powers(path: CodePath, values: &[f64], reference: Reference) -> [[f64; LANES]
     }
     lanes
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The same bits on every path, whatever part of a register the last values fill.
+    #[test]
+    fn powers_are_the_same_on_every_path() {
+        let reference = Reference { middle: 0.01, scale: 0.3, limits: [0.0, 1.0] };
+        for count in 0..=4 * LANES {
+            let values: Vec<f64> = (0..count).map(|i| 1.0 / (i as f64 - 13.7)).collect();
+            let of = |path| powers(path, &values, reference).map(|lanes| lanes.map(f64::to_bits));
+            for path in CodePath::available() {
+                assert_eq!(of(path), of(CodePath::BASELINE), "{count} values, {path:?}");
+            }
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! The residuals of one output before and after the correction, over each condition.
 
-use gumption_engine::number::smallest_first;
+use gumption_engine::number::{median, smallest_first};
 use plotters::element::{PathElement, Polygon};
 use plotters::style::{Color, RGBColor};
 
@@ -134,8 +134,7 @@ fn scale(points: impl Iterator<Item = (f64, f64)>) -> Axis {
         (low, high) = (low.min(value), high.max(value));
         bands.push(BAND * u);
     }
-    bands.sort_unstable_by(f64::total_cmp);
-    let usual = bands.get(bands.len() / 2).copied().unwrap_or(0.0);
+    let usual = median(bands).unwrap_or(0.0);
     let (low, high) = (low.min(-usual), high.max(usual));
     let margin = 0.05 * (high - low);
     if margin > 0.0 && margin.is_finite() {
