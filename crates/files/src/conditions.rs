@@ -260,7 +260,7 @@ fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<
         None => table,
     };
     let mut without_unit = Vec::new();
-    let quantities = table
+    let quantities: Vec<Quantity> = table
         .columns
         .iter()
         .map(|column| {
@@ -289,6 +289,15 @@ fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<
             Quantity { name: name.to_owned(), unit, about: String::new() }
         })
         .collect();
+    for (column, of) in quantities.iter().enumerate() {
+        if let Some(first) = quantities[..column].iter().position(|other| other.name == of.name) {
+            let [a, b] = [first, column].map(|place| &table.columns[place]);
+            let reason =
+                format!("the columns `{a}` and `{b}` both are the condition `{}`", of.name);
+            log.report(&file.value.span, DiagnosticKind::Table { reason });
+            return None;
+        }
+    }
     let places = vec![file.value.span.clone(); table.columns.len()];
     let (rows, files) = (table.rows, vec![(name.to_owned(), bytes)]);
     let reachable = vec![None; places.len()];

@@ -362,6 +362,10 @@ fn uncertain(
     Ok((unit(first)?, Stated::Expanded { value, expanded, coverage }))
 }
 
+/// A stated coverage factor is that of a distribution where it differs by no more than this share: two
+/// digits, of which the least are 1.0, are rounded by up to 5 %.
+const LIKE: f64 = 0.05;
+
 /// What stands behind an uncertainty: `(k=2)`, `(p=95 %)`, `(p=0.95)`, `(95 %)`; of `(k=2, p=95 %)`, as
 /// certificates have it, the factor, which that probability must allow; degrees of freedom behind
 /// them, `(k=2.28, dof=10)`. All of it also without parentheses behind a comma or a semicolon,
@@ -438,6 +442,18 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
                     gumption_engine::decimal::significant(needed, 3),
                     gumption_engine::decimal::exact(100.0 * p)
                 ));
+            }
+            // of t, to the digits that a factor is written with
+            if let Some(Ok(dof)) = dof.as_ref().map(|text| text.parse::<f64>()) {
+                let of_t = special::student::two_sided_factor(p, dof);
+                if (k - of_t).abs() > LIKE * of_t && (k - needed).abs() > LIKE * needed {
+                    return Err(format!(
+                        "k = {k} is not the {} of a t distribution with {dof} degrees of freedom and \
+                         {} %; which of the three is wrong?",
+                        gumption_engine::decimal::significant(of_t, 3),
+                        gumption_engine::decimal::exact(100.0 * p)
+                    ));
+                }
             }
             Ok(Coverage { key: "k", factor, dof })
         }
@@ -570,6 +586,7 @@ mod tests {
             ("5.01 V ± 0.02 V (k=2, p=95 %)", "V", expanded("5.01", "0.02", "k", "2")),
             ("5.01 V ± 0.02 V (k = 2.28; 95 %)", "V", expanded("5.01", "0.02", "k", "2.28")),
             ("5 V ± 0.1 V (k=2.28, dof=10)", "V", with("5", "0.1", "k", "2.28", Some("10"))),
+            ("5 V ± 0.1 V (k=2.2, 95 %, dof=10)", "V", with("5", "0.1", "k", "2.2", Some("10"))),
             ("5 V ± 0.1 V (95 %; νeff = 10)", "V", with("5", "0.1", "p", "0.95", Some("10"))),
             ("5.0 V ± 0.1 V, k = 2.0", "V", expanded("5.0", "0.1", "k", "2.0")),
             ("(5.0 ± 0.1) V; k=2; 95 %", "V", expanded("5.0", "0.1", "k", "2")),
@@ -618,6 +635,9 @@ mod tests {
             ("5.0112 V ± 0.0046 V (n=2)", "must be said"),
             ("5.0 V ± 0.1 V (k=2, rectangular)", "`rectangular` is not known there"),
             ("5.0 V ± 0.1 V (k=2, k=3)", "`k` is said twice"),
+            // t of 3 degrees of freedom: 3.18 for 95 %, 0.765 for 50 %
+            ("5.0 V ± 0.1 V (k=2.5, p=0.95, dof=3)", "is not the 3.18 of a t distribution"),
+            ("5.0 V ± 0.1 V (k=3, p=0.5, dof=3)", "is not the 0.765 of a t distribution"),
             ("5.0 V ± 0,1 V (k=2)", "with a point"),
             ("5.0 V ± 0.1 V, k = 2,28", "with a point"),
             ("5.0 V ± 0.1 V, k = 2 (95 %", "not closed"),

@@ -96,7 +96,7 @@ pub(crate) fn parameters(
         return Vec::new();
     }
     let likelihood = setup.likelihood(&hypothesis.effects);
-    let central = central_draw(setup, hypothesis);
+    let central = CentralPoint::of(setup, hypothesis);
     let mut parameters = Vec::new();
     for &effect in &hypothesis.effects {
         let places = setup.parameters(&hypothesis.effects, effect);
@@ -107,7 +107,10 @@ pub(crate) fn parameters(
             let mut weighted: Vec<(f64, f64)> = weighted(hypothesis, place, map).collect();
             let mean: f64 = weighted.iter().map(|(x, w)| x * w).sum();
             let variance: f64 = weighted.iter().map(|(x, w)| w * (x - mean).powi(2)).sum();
-            let estimate = central.get(place).map_or(mean, |score| map.value(*score));
+            let estimate = match &central {
+                CentralPoint::Mean => mean,
+                CentralPoint::At(scores) => scores.get(place).map_or(mean, |s| map.value(*s)),
+            };
             smallest_first(&mut weighted, |a| a.0);
             let [lower, upper] = equal_tails(&weighted, probability);
             parameters.push(EffectParameter {
@@ -122,39 +125,70 @@ pub(crate) fn parameters(
     parameters
 }
 
-/// The draw whose prediction of the data is nearest to the mean prediction; the most probable point
-/// where the hypothesis is not worth that.
-fn central_draw(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
-    let mode =
-        hypothesis.evidence.modes.first().map(|mode| mode.scores.clone()).unwrap_or_default();
-    if hypothesis.effects.is_empty() || hypothesis.probability < 1e-3 {
-        return mode;
+/// Where the estimates of a hypothesis' parameters are taken.
+enum CentralPoint {
+    /// The mean of each parameter, with which the model predicts what it does on average.
+    Mean,
+    /// The scores of one draw.
+    At(Vec<f64>),
+}
+
+/// The mean of the draws predicts the data like their mean prediction where its squared distance from
+/// that is below this share of the mean one of the draws, of each output.
+const LIKE_THE_MEAN: f64 = 0.1;
+
+impl CentralPoint {
+    /// The means, if they predict the data like the draws do on average. They do not where parameters can
+    /// be exchanged or mirrored: then the draw whose prediction is nearest to the mean prediction. The most
+    /// probable point where the hypothesis is not worth that.
+    fn of(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Self {
+        let evidence = &hypothesis.evidence;
+        let mode = evidence.modes.first().map(|mode| mode.scores.clone()).unwrap_or_default();
+        if hypothesis.effects.is_empty() || hypothesis.probability < 1e-3 {
+            return Self::At(mode);
+        }
+        let draws = evidence.resampled(128);
+        let step = setup.data.points.len().div_ceil(500).max(1);
+        let points = setup.data.points.iter().step_by(step);
+        let rows = points.filter_map(|point| point.rows.first());
+        let rows: Vec<Row> = rows.map(|&row| setup.row(row).clone()).collect();
+        let values = predict::values(setup, &hypothesis.effects, &draws, &rows);
+        let moments = shrink::moments(&values);
+        let spread: Vec<f64> = (0..setup.data.outputs.len())
+            .map(|output| {
+                moments.iter().map(|row| row[output].1).sum::<f64>().max(f64::MIN_POSITIVE)
+            })
+            .collect();
+        let distance = |values: &[Vec<Vec<f64>>], draw: usize| -> f64 {
+            values
+                .iter()
+                .zip(&moments)
+                .flat_map(|(row, means)| row.iter().zip(means).zip(&spread))
+                .map(|((draws, (mean, _)), spread)| (draws[draw] - mean).powi(2) / spread)
+                .sum()
+        };
+        let mean = mean_scores(hypothesis, mode.len());
+        let of_mean = predict::values(setup, &hypothesis.effects, &[mean], &rows);
+        if distance(&of_mean, 0) < LIKE_THE_MEAN * spread.len() as f64 {
+            return Self::Mean;
+        }
+        let of_draws = |&draw: &usize| distance(&values, draw);
+        let nearest = (0..draws.len()).min_by(|a, b| of_draws(a).total_cmp(&of_draws(b)));
+        Self::At(nearest.map_or(mode, |nearest| draws[nearest].clone()))
     }
-    let draws = hypothesis.evidence.resampled(128);
-    let step = setup.data.points.len().div_ceil(500).max(1);
-    let rows: Vec<Row> = setup
-        .data
-        .points
-        .iter()
-        .step_by(step)
-        .filter_map(|point| point.rows.first())
-        .map(|&row| setup.row(row).clone())
-        .collect();
-    let values = predict::values(setup, &hypothesis.effects, &draws, &rows);
-    let moments = shrink::moments(&values);
-    let spread: Vec<f64> = (0..setup.data.outputs.len())
-        .map(|output| moments.iter().map(|row| row[output].1).sum::<f64>().max(f64::MIN_POSITIVE))
-        .collect();
-    let distance = |draw: usize| -> f64 {
-        values
-            .iter()
-            .zip(&moments)
-            .flat_map(|(row, means)| row.iter().zip(means).zip(&spread))
-            .map(|((draws, (mean, _)), spread)| (draws[draw] - mean).powi(2) / spread)
-            .sum()
-    };
-    let nearest = (0..draws.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
-    nearest.map_or(mode, |nearest| draws[nearest].clone())
+}
+
+/// The mean score of each unknown quantity.
+fn mean_scores(hypothesis: &WeighedHypothesis, unknowns: usize) -> Vec<f64> {
+    let evidence = &hypothesis.evidence;
+    let weights = evidence.weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
+    let mut mean = vec![0.0; unknowns];
+    for (n, &weight) in weights {
+        for (mean, column) in mean.iter_mut().zip(&evidence.columns[n / COLUMN]) {
+            *mean += weight * column.0[n % COLUMN];
+        }
+    }
+    mean
 }
 
 /// The interval with equal tails; values are in order, with weights that sum to one. Half of each

@@ -110,8 +110,8 @@ impl fmt::Display for Impossible {
         f.write_str(match self {
             Self::TooFew => "a comparison needs at least two laboratories",
             Self::NotDefinite => {
-                "the correlation matrix of the laboratories is not positive definite, so their \
-                 results cannot be weighted"
+                "the laboratories cannot be weighted: their correlation matrix is not positive \
+                 definite, or their uncertainties differ by more than double precision can square"
             }
         })
     }

@@ -2,17 +2,18 @@
 //! specific risk of the decision, the acceptance limits for a wanted risk, and the global risks of
 //! deciding about many items of which a prior distribution is known.
 
+mod error_law;
 mod global;
 
+pub(super) use error_law::ErrorLaw;
 pub use global::GlobalRisks;
 use global::Inspection;
 
 use super::evaluation::OutputEvaluation;
-use super::gum::{Dof, Gum};
+use super::gum::Gum;
 use super::monte_carlo::MonteCarlo;
 use crate::model::{Output, Tolerance};
 use crate::number::elementary;
-use crate::special;
 use crate::task::{Settings, Trials};
 
 /// How probable it is that an output lies within its tolerance limits, and what is decided.
@@ -55,14 +56,16 @@ impl Conformity {
     }
 
     /// The decision about an output from its trials; `None` without a tolerance. The posterior
-    /// probability, guard bands and global risks take the measured value to be normally distributed
-    /// about the true one, with `u` as standard uncertainty. `linear` are estimate and standard
-    /// uncertainty by the law of propagation, where that may be trusted.
-    pub fn of(
+    /// probability, global risks and guard bands with a prior take the measured value to be normally
+    /// distributed about the true one, with `u` as standard uncertainty. `linear` is the law of
+    /// propagation where that may be trusted; the guard band without a prior is then that of its
+    /// normal or t distribution, and otherwise the one of the trials.
+    fn of(
         output: &Output,
         figures: &MonteCarlo,
         u: Option<f64>,
-        linear: Option<(f64, f64)>,
+        linear: Option<&Gum>,
+        of_trials: Option<f64>,
     ) -> Option<Self> {
         let tolerance = output.tolerance?;
         let share = figures.inside;
@@ -74,7 +77,10 @@ impl Conformity {
             (None, ..) => Some(0.0),
             (Some(_), None, _) => None,
             (Some(risk), Some(_), Some(inspection)) => inspection.guard_band(risk),
-            (Some(risk), Some(u), None) => guard_band(risk, u, limits),
+            (Some(risk), Some(u), None) => match linear {
+                Some(gum) => ErrorLaw::of(gum).guard_band(risk, limits),
+                None => of_trials.or_else(|| ErrorLaw::normal(u).guard_band(risk, limits)),
+            },
         };
         let acceptance = guard_band.map(|width| tolerance.narrowed(width));
         let acceptance_ends = acceptance.map(|acceptance| acceptance.ends());
@@ -82,8 +88,8 @@ impl Conformity {
         let global = inspection.as_ref().zip(acceptance_ends).map(|(of, ends)| of.risks(ends));
         let posterior = output.prior.as_deref().zip(u).map(|(prior, spread)| {
             let at = |y: f64, u: f64| Inspection::new(prior, u, limits).conformance(y);
-            if let Some((y, u)) = linear.filter(|(_, u)| *u > 0.0) {
-                return (at(y, u), 0.0);
+            if let Some(gum) = linear.filter(|gum| gum.standard_uncertainty > 0.0) {
+                return (at(gum.estimate, gum.standard_uncertainty), 0.0);
             }
             // the trials know both to their numerical standard errors
             let of_y = figures.errors.estimate.unwrap_or(figures.errors.median);
@@ -115,7 +121,7 @@ impl Conformity {
     /// evaluated one, such as a laboratory's capability: the estimate is taken to be normally
     /// distributed with it (JCGM 106, 7.2). `None` without a tolerance or an uncertainty above zero.
     pub fn with_stated(output: &Output, estimate: f64, u: f64) -> Option<Self> {
-        let found = Self::about(output, estimate, u, f64::INFINITY)?;
+        let found = Self::about(output, estimate, &ErrorLaw::normal(u))?;
         Some(Self { stated_uncertainty: Some(u), ..found })
     }
 
@@ -128,10 +134,7 @@ impl Conformity {
         let gum = figures.gum.as_ref();
         let of_trials = figures.monte_carlo.as_ref().and_then(|trials| {
             let u = gum.map(|gum| gum.standard_uncertainty);
-            let trusted = figures.validation.is_some_and(|v| v.gum_valid != Some(false));
-            let linear = gum.filter(|_| trusted);
-            let linear = linear.map(|gum| (gum.estimate, gum.standard_uncertainty));
-            Self::of(output, trials, u, linear)
+            Self::of(output, trials, u, figures.trusted(), figures.guard_band_of_trials)
         });
         let alone = gum.filter(|_| settings.trials == Trials::Fixed(0));
         of_trials.or_else(|| alone.and_then(|gum| Self::by_propagation(output, gum)))
@@ -157,17 +160,14 @@ impl Conformity {
     /// output is normally distributed (JCGM 106, 7.2), or as t with its effective degrees of freedom
     /// (JCGM 100, G.3). `None` without a tolerance or an uncertainty above zero.
     pub fn by_propagation(output: &Output, gum: &Gum) -> Option<Self> {
-        let dof = match gum.dof {
-            Dof::Finite(dof) => dof,
-            Dof::Infinite | Dof::Undefined => f64::INFINITY,
-        };
-        Self::about(output, gum.estimate, gum.standard_uncertainty, dof)
+        Self::about(output, gum.estimate, &ErrorLaw::of(gum))
     }
 
-    /// The decision about an estimate about which the output is distributed as t.
-    fn about(output: &Output, estimate: f64, u: f64, dof: f64) -> Option<Self> {
+    /// The decision about an estimate about which the output is distributed by a law.
+    fn about(output: &Output, estimate: f64, law: &ErrorLaw) -> Option<Self> {
         let tolerance = output.tolerance?;
         let limits = tolerance.ends();
+        let u = law.scale();
         if !(u > 0.0 && u.is_finite()) {
             return None;
         }
@@ -175,11 +175,10 @@ impl Conformity {
         let guard_band = match (output.risk, &inspection) {
             (None, _) => Some(0.0),
             (Some(risk), Some(inspection)) => inspection.guard_band(risk),
-            (Some(risk), None) => guard_band(risk, u, limits),
+            (Some(risk), None) => law.guard_band(risk, limits),
         };
         let acceptance = guard_band.map(|width| tolerance.narrowed(width));
-        let [lower, upper] = limits.map(|limit| (limit - estimate) / u);
-        let share = special::student::cdf(upper, dof) - special::student::cdf(lower, dof);
+        let share = law.share(limits.map(|limit| limit - estimate));
         let global = inspection.as_ref().zip(acceptance).map(|(of, to)| of.risks(to.ends()));
         Some(Self {
             tolerance,
@@ -195,20 +194,6 @@ impl Conformity {
             stated_uncertainty: None,
         })
     }
-}
-
-/// The guard band with which a value measured at an acceptance limit does not conform with at most
-/// this probability (JCGM 106, 8.3.2); `None` if the middle of the tolerance has a larger one.
-fn guard_band(risk: f64, u: f64, [lower, upper]: [f64; 2]) -> Option<f64> {
-    // what lies beyond the near limit and, where there is one, beyond the far one
-    let at = |width: f64| {
-        special::normal::sf(width / u) + special::normal::sf((upper - lower - width) / u)
-    };
-    let most = if (upper - lower).is_finite() { 0.5 * (upper - lower) } else { 40.0 * u };
-    if at(most) > risk {
-        return None;
-    }
-    Some(smallest(0.0, most, |width| at(width) <= risk))
 }
 
 /// The smallest width between two at which something holds, which it does at the larger one and

@@ -1,5 +1,6 @@
 //! The evaluation of a task: both methods, every row, side by side.
 
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -8,7 +9,7 @@ use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::Control;
-use super::conformity::Conformity;
+use super::conformity::{Conformity, ErrorLaw};
 use super::exact::{self, Noiseless};
 use super::gum::{self, Gum, GumRow};
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
@@ -21,7 +22,7 @@ use crate::decimal::{position, to_digits};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Distribution, Invalid, Joint};
 use crate::model::{COMPUTED_DIGITS, Capability, Output, Program};
 use crate::number::{COLUMN, Column, Shortest};
-use crate::task::{MethodChoice, Row, Settings, Task, Trials};
+use crate::task::{Coverage, MethodChoice, Row, Settings, Task, Trials};
 
 /// The evaluation of a whole task.
 #[derive(Clone, Debug)]
@@ -100,6 +101,16 @@ pub struct OutputEvaluation {
     pub conformity: Option<Box<Conformity>>,
     /// The fewest degrees of freedom among the t distributions that the output depends on.
     pub drawn_dof: f64,
+    /// The guard band for the wanted specific risk, by the distribution of the trials.
+    pub(super) guard_band_of_trials: Option<f64>,
+}
+
+impl OutputEvaluation {
+    /// The law of propagation where the trials do not refute it.
+    pub(super) fn trusted(&self) -> Option<&Gum> {
+        let is_trusted = self.validation.is_some_and(|v| v.gum_valid != Some(false));
+        self.gum.as_ref().filter(|_| is_trusted)
+    }
 }
 
 /// The expanded uncertainty that a laboratory may state beside its capability.
@@ -117,10 +128,27 @@ pub struct CapabilityStatement {
     pub raised: bool,
 }
 
+/// Coverage probabilities that are approximately 95 %, of factors from 1.92 to 2.06.
+const ABOUT_95: std::ops::RangeInclusive<f64> = 0.945..=0.96;
+
+/// A capability, which is stated for approximately 95 % and the factor 2 (ILAC-P14:09/2020, 4.2), with
+/// another coverage: it grows with the factor of a normal distribution.
+fn with_coverage(cmc: f64, coverage: Coverage) -> f64 {
+    if ABOUT_95.contains(&coverage.probability()) {
+        return cmc;
+    }
+    to_digits(0.5 * coverage.normal_factor() * cmc, COMPUTED_DIGITS)
+}
+
 impl CapabilityStatement {
-    /// What may be stated where this expanded uncertainty of this estimate was evaluated.
-    pub fn of(capability: &Capability, estimate: f64, evaluated: f64) -> Self {
-        let cmc = capability.at(estimate);
+    /// What may be stated where this expanded uncertainty of this estimate was evaluated, with this
+    /// coverage.
+    pub fn of(
+        capability: &Capability,
+        estimate: f64,
+        (evaluated, coverage): (f64, Coverage),
+    ) -> Self {
+        let cmc = with_coverage(capability.at(estimate), coverage);
         let below = to_digits(evaluated, COMPUTED_DIGITS) < cmc;
         let raised = below && capability.floor;
         let expanded_uncertainty = if raised { cmc } else { evaluated };
@@ -132,7 +160,7 @@ impl CapabilityStatement {
     fn beside(output: &Output, figures: &OutputEvaluation, settings: &Settings) -> Option<Self> {
         let capability = output.capability.as_ref()?;
         let found = Stated::of(figures, settings, |u| position(u, settings.digits))?;
-        Some(Self::of(capability, found.value, found.expanded_uncertainty))
+        Some(Self::of(capability, found.value, (found.expanded_uncertainty, settings.coverage)))
     }
 }
 
@@ -398,6 +426,20 @@ impl Notes {
     }
 }
 
+/// Trials that a guard band is taken from, at most.
+const GUARDING: u64 = 1 << 20;
+
+/// The wanted risk, the limits and the figures of an output whose guard band is that of its trials: for a
+/// specific risk, where the law of propagation may not be trusted.
+fn guarded<'f>(
+    output: &Output,
+    found: &'f OutputEvaluation,
+) -> Option<(f64, [f64; 2], &'f MonteCarlo)> {
+    let figures = found.monte_carlo.as_ref()?;
+    let (limits, risk) = (output.tolerance?.ends(), output.risk?);
+    (output.prior.is_none() && found.trusted().is_none()).then_some((risk, limits, figures))
+}
+
 fn evaluate_row(
     task: &Task,
     (number, row, mut linear): (usize, &Row, GumRow),
@@ -467,6 +509,7 @@ fn evaluate_row(
     }
     let evaluated = gums.into_iter().zip(figures).zip(drawn_dof).zip(&task.model.outputs);
     let evaluated = evaluated.zip(second).enumerate();
+    let again = OnceCell::new();
     for (number, ((((gum, monte_carlo), drawn_dof), output), second_order)) in evaluated {
         // only where there is something to say
         let second_order = second_order.filter(|second| {
@@ -495,8 +538,20 @@ fn evaluate_row(
             capability: None,
             conformity: None,
             drawn_dof,
+            guard_band_of_trials: None,
         };
         let output = output.at(&row.conditions);
+        found.guard_band_of_trials =
+            guarded(&output, &found).and_then(|(risk, limits, figures)| {
+                let values = again.get_or_init(|| {
+                    let trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);
+                    let room = control.memory / (2 * size_of::<f64>() * trials.outputs().max(1));
+                    let count = figures.trials.min(GUARDING).min(room as u64);
+                    monte_carlo::collected(&trials, count, control)
+                });
+                let values = values.as_ref()?.get(number)?.clone();
+                ErrorLaw::of_trials(values, figures.location()).guard_band(risk, limits)
+            });
         found.capability =
             CapabilityStatement::beside(&output, &found, &task.settings).map(Box::new);
         found.conformity = Conformity::decided(&output, &found, &task.settings).map(Box::new);

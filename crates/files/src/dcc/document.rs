@@ -6,6 +6,7 @@
 
 use std::ops::Range;
 
+use gumption_engine::decimal::Decimal;
 use gumption_units::Unit;
 use roxmltree::{Document, Node};
 
@@ -30,6 +31,8 @@ pub(super) struct Stated {
     pub(super) factors: Option<Vec<f64>>,
     pub(super) probabilities: Option<Vec<f64>>,
     pub(super) distributions: Option<Vec<String>>,
+    /// What one in the last written digit of each expanded uncertainty and of each factor is.
+    pub(super) last_digits: [Option<Vec<f64>>; 2],
     /// The standard uncertainties of values whose coverage intervals stand in a quantity of their own.
     pub(super) of_interval: Vec<Option<f64>>,
 }
@@ -166,6 +169,9 @@ fn join(all: &mut Measured, next: Measured) {
     numbers(&mut all.standard, next.standard);
     numbers(&mut all.factors, next.factors);
     numbers(&mut all.probabilities, next.probabilities);
+    for (all, next) in all.last_digits.iter_mut().zip(next.last_digits) {
+        numbers(all, next);
+    }
     match (all.distributions.as_mut(), next.distributions) {
         (Some(all), Some(next)) => all.extend(next),
         _ => all.distributions = None,
@@ -191,10 +197,16 @@ fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Measured, Fault
     let expanded = [&expanded[..], &["valueExpandedMUXMLList"]].concat();
     let standard = ["standardUnc", "valueStandardMU", "standardUncXMLList"];
     let standard = [&standard[..], &["valueStandardMUXMLList"]].concat();
+    let factors = ["coverageFactor", "coverageFactorXMLList"];
+    let last_digits = |names: &[&str]| {
+        let (_, words) = texts(holder, names)?;
+        Some(spread(words.into_iter().map(last_digit).collect(), count))
+    };
     let stated = Stated {
+        last_digits: [last_digits(&expanded), last_digits(&factors)],
         expanded: numbers(holder, &expanded, count)?,
         standard: numbers(holder, &standard, count)?,
-        factors: numbers(holder, &["coverageFactor", "coverageFactorXMLList"], count)?,
+        factors: numbers(holder, &factors, count)?,
         probabilities: {
             let names = ["coverageProbability", "coverageProbabilityXMLList"];
             numbers(holder, &names, count)?
@@ -205,6 +217,14 @@ fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Measured, Fault
     };
     let uncertain = stated.expanded.is_some() || stated.standard.is_some();
     Ok(Measured { span, unit, values, uncertainty: uncertain.then_some(stated) })
+}
+
+/// What one in the last digit of a number is, zeros at its end included: 0.001 of `0.100`.
+fn last_digit(number: &str) -> f64 {
+    let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    Decimal::new(1, exponent.saturating_sub(i32::try_from(decimals).unwrap_or(i32::MAX))).value()
 }
 
 /// One value for all, where a list has one.

@@ -3,7 +3,6 @@
 //! expanded uncertainty. They are no further values, and their standard uncertainties have digits that
 //! are lost in U and k, which are rounded.
 
-use gumption_engine::decimal::Decimal;
 use gumption_units::Unit;
 use roxmltree::Node;
 
@@ -94,12 +93,13 @@ fn same(a: &Unit, b: &Unit) -> bool {
 }
 
 /// The standard uncertainty of an interval, where U over k is the same but for the rounding of both to
-/// their last digit.
-pub(super) fn agreeing(u: f64, expanded: f64, factor: f64) -> Result<f64, String> {
-    let digit = |value: f64| {
-        Decimal::shortest(value).map_or(0.0, |value| Decimal::new(1, value.position()).value())
-    };
-    if (expanded - factor * u).abs() <= 1.001 * (digit(expanded) + u * digit(factor)) {
+/// their last written digit: of U to the nearest or up, of k to the nearest.
+pub(super) fn agreeing(
+    u: f64,
+    (expanded, factor): (f64, f64),
+    [of_expanded, of_factor]: [f64; 2],
+) -> Result<f64, String> {
+    if (expanded - factor * u).abs() <= 1.001 * (of_expanded + 0.5 * u * of_factor) {
         return Ok(u);
     }
     Err(format!(

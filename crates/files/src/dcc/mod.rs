@@ -363,12 +363,12 @@ fn known(stated: &Stated, place: usize) -> Result<Known, String> {
     if let Some(p) = probability
         && !(p > 0.0 && p < 1.0)
     {
-        return Err(format!("its coverage probability is {p}, but must be between 0 and 1"));
+        return Err(format!("has a coverage probability of {p}, which must be between 0 and 1"));
     }
     let normal = |p: f64| special::student::two_sided_factor(p, f64::INFINITY);
     let factor = match (at(&stated.factors), probability) {
         (Some(k), _) if k > 0.0 => k,
-        (Some(k), _) => return Err(format!("its coverage factor is {k}, but must be above 0")),
+        (Some(k), _) => return Err(format!("has a coverage factor of {k}, which must be above 0")),
         (None, Some(p)) => normal(p),
         (None, None) => 1.0,
     };
@@ -379,13 +379,16 @@ fn known(stated: &Stated, place: usize) -> Result<Known, String> {
             return Err(reason.to_owned());
         }
         (None, Some(expanded)) => match stated.of_interval.get(place).copied().flatten() {
-            Some(u) => (intervals::agreeing(u, expanded, factor)?, 1.0),
+            Some(u) => {
+                let digits = stated.last_digits.each_ref().map(|all| at(all).unwrap_or(0.0));
+                (intervals::agreeing(u, (expanded, factor), digits)?, 1.0)
+            }
             None => (expanded / factor, factor),
         },
         (None, None) => return Err("has no uncertainty".to_owned()),
     };
     if !(standard >= 0.0 && standard.is_finite()) {
-        return Err(format!("its standard uncertainty is {standard}"));
+        return Err(format!("has a standard uncertainty of {standard}"));
     }
     // the degrees of freedom that a t has whose factor at this probability is this one
     let dof = match probability {

@@ -269,6 +269,15 @@ fn coverage_intervals_are_no_further_values() {
     let wrong = certificate("3.2.1", &one.replace("0.06749", "0.09"));
     let error = model(&wrong, kind, "").unwrap_err().to_string();
     assert!(error.contains("two standard uncertainties for one value: 0.09"), "{error}");
+    // 0.130 and 1.80 leave no more than half a digit: 1.8 x 0.0675 = 0.1215, and 0.100 is not 0.1
+    for (expanded, factor) in [("0.130", "1.8"), ("0.13", "2.10"), ("0.100", "1.80"), ("0.11", "2")]
+    {
+        let text = one.replace(">0.13<", &format!(">{expanded}<"));
+        let text = text.replace(">1.8<", &format!(">{factor}<"));
+        assert_ne!(text, one);
+        let found = model(&certificate("3.2.1", &text), kind, "");
+        assert_eq!(found.is_err(), (expanded, factor) != ("0.11", "2"), "{expanded} {factor}");
+    }
     // two rows of one value, either of which it may be: U over k
     let twice = INTERVAL.replace("0.11 0.12 0.17", "0.11 0.11 0.17");
     let twice = twice.replace("other normal normal", "other other normal");

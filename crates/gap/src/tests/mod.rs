@@ -5,6 +5,7 @@ mod copies;
 #[path = "../../../../examples/departures/mod.rs"]
 mod departures;
 mod discrepancy;
+mod estimates;
 mod evidence;
 #[path = "../../../../examples/generator/mod.rs"]
 mod generator;

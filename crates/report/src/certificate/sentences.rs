@@ -143,7 +143,7 @@ fn kinds(rows: &[Stated<'_>]) -> Vec<Kind> {
 fn probability(of: Said, p: Option<f64>) -> String {
     match p {
         Some(0.9545) => of.words().approximately.replace("{p}", "95 %"),
-        Some(p) => format!("{} %", of.in_marks(&exact(stated::percent(p)))),
+        Some(p) => format!("{} %", of.in_marks(&exact(stated::percent_of_coverage(p)))),
         None => String::new(),
     }
 }

@@ -7,7 +7,7 @@ use crate::sheet::Figure;
 use crate::{conditions_text, plain};
 use gumption_analysis::certificate::contents::{Asked, Language, Line};
 use gumption_analysis::certificate::{Basis, Statement};
-use gumption_engine::decimal::{Decimal, to_digits, to_position};
+use gumption_engine::decimal::{Decimal, position, to_digits, to_position};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::propagate::{Conformity, OutputEvaluation};
@@ -169,7 +169,7 @@ impl Stated<'_> {
 
     /// The coverage probability in percent.
     pub(super) fn percent(&self) -> Figure {
-        Figure::rounded(self.statement.coverage_probability.map(percent), exact)
+        Figure::rounded(self.statement.coverage_probability.map(percent_of_coverage), exact)
     }
 
     pub(super) fn nominal(&self) -> Figure {
@@ -225,6 +225,13 @@ impl Stated<'_> {
         };
         self.asked.set.iter().map(one).collect()
     }
+}
+
+/// A coverage probability in percent, to three decimals or two digits of what is missing from 100: 99.73
+/// and 99.9937 of the factors 3 and 4.
+pub(super) fn percent_of_coverage(share: f64) -> f64 {
+    let missing = position(100.0 - 100.0 * share, 2).unwrap_or(-3);
+    to_position(100.0 * share, missing.min(-3))
 }
 
 /// A share in percent, without the digits that its binary form adds.

@@ -37,6 +37,18 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
     if verdict.probability < LIKELY && verdict.kind != HypothesisKind::Unexplained {
         return most_probable_of_several(diagnosis);
     }
+    if verdict.kind != HypothesisKind::None && 1.0 - no_gap(diagnosis) < SURE {
+        return format!(
+            "Whether there is a gap is not decided: that {} has the probability {}, and that there is \
+             none {}.",
+            match verdict.kind {
+                HypothesisKind::Explained => format!("{} makes one", quoted(&verdict.effects)),
+                _ => "none of the candidate effects explains the data".to_owned(),
+            },
+            probability(verdict.probability),
+            probability(no_gap(diagnosis))
+        );
+    }
     match verdict.kind {
         HypothesisKind::None if diagnosis.notes.iter().any(|note| note.code == "scatter") => {
             format!(
@@ -85,9 +97,7 @@ fn most_probable_of_several(diagnosis: &Diagnosis) -> String {
         None => "no candidate effect".to_owned(),
         Some(effects) => quoted(effects),
     };
-    let none = diagnosis.hypotheses.iter().find(|h| h.effects.as_ref().is_some_and(Vec::is_empty));
-    let none = none.map_or(0.0, |none| none.probability);
-    let start = if 1.0 - none >= SURE {
+    let start = if 1.0 - no_gap(diagnosis) >= SURE {
         format!(
             "There is a gap, but what explains it is not decided: {} is only the most probable of \
              several explanations",
@@ -114,6 +124,12 @@ fn most_probable_of_several(diagnosis: &Diagnosis) -> String {
         return format!("{start} (probability {own}).");
     }
     format!("{start} (probability {own}; {}).", next.join(", "))
+}
+
+/// The probability that there is no gap.
+fn no_gap(diagnosis: &Diagnosis) -> f64 {
+    let none = diagnosis.hypotheses.iter().find(|h| h.effects.as_ref().is_some_and(Vec::is_empty));
+    none.map_or(0.0, |none| none.probability)
 }
 
 /// The probability that effects of the case explain the gap, whichever.

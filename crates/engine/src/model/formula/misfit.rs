@@ -102,6 +102,10 @@ impl Typing {
         if self.level != level {
             return match (self.level, level) {
                 (Exponent::ZERO, _) => Err(ScaleMisfit::RatioAsLevel),
+                // what a number of decibels is above would be lost
+                (_, Exponent::ZERO) if self.zero.is_some() => {
+                    Err(ScaleMisfit::OtherReference { found: self.zero, expected: None })
+                }
                 // the number of decibels, as a number
                 (_, Exponent::ZERO) if unit.factors().is_empty() => Ok(()),
                 _ => Err(ScaleMisfit::LevelAsRatio),

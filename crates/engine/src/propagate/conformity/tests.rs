@@ -1,5 +1,6 @@
 use super::*;
 use crate::distribution::{Distribution, Gamma, Normal, Rectangular};
+use crate::special;
 
 /// An independent quadrature: the trapezoidal rule over the values themselves, with the prior's
 /// density written out. With steps of u/200 over the whole prior its error is below 1e-8 for smooth
@@ -89,15 +90,15 @@ fn ball_bearings() {
 /// accepted.
 #[test]
 fn guard_bands_for_a_specific_risk() {
-    let one = guard_band(0.05, 2.0, [f64::NEG_INFINITY, 10.0]).unwrap();
+    let one = ErrorLaw::normal(2.0).guard_band(0.05, [f64::NEG_INFINITY, 10.0]).unwrap();
     assert!((one - 2.0 * 1.644_853_626_95).abs() < 1e-7, "{one}");
-    let far = guard_band(0.05, 2.0, [-90.0, 10.0]).unwrap();
+    let far = ErrorLaw::normal(2.0).guard_band(0.05, [-90.0, 10.0]).unwrap();
     assert!((far - one).abs() < 1e-7);
-    let near = guard_band(0.05, 2.0, [2.0, 10.0]).unwrap();
+    let near = ErrorLaw::normal(2.0).guard_band(0.05, [2.0, 10.0]).unwrap();
     assert!(near > one + 1e-4 && near < 4.0, "{near}");
     let risk = special::normal::sf(near / 2.0) + special::normal::sf((8.0 - near) / 2.0);
     assert!((risk - 0.05).abs() < 1e-8);
-    assert_eq!(guard_band(0.05, 2.0, [7.0, 10.0]), None);
+    assert_eq!(ErrorLaw::normal(2.0).guard_band(0.05, [7.0, 10.0]), None);
 }
 
 /// The posterior of a normal prior and a normal error is normal (JCGM 106, 6.3, example): mean

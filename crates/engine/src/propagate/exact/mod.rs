@@ -22,7 +22,7 @@ use self::separate::{Group, Outer, Separated, separate};
 use self::term::{Inputs, Term};
 use crate::distribution::characteristic::Characteristic;
 use crate::distribution::{Dependence, Distribution, Joint, Normal, StudentT};
-use crate::model::{Node, Output, fold};
+use crate::model::{Node, Output, Tolerance, fold};
 use crate::task::{Row, Task};
 
 /// Figures of an output that no seed moves.
@@ -104,6 +104,11 @@ pub(crate) struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
+    /// The limits of the row's output.
+    pub(crate) fn tolerance(&self) -> Option<Tolerance> {
+        self.quantity().at(&self.row.conditions).tolerance
+    }
+
     pub(crate) fn quantity(&self) -> &'a Output {
         &self.task.model.outputs[self.output]
     }
@@ -318,7 +323,7 @@ fn figures(problem: &Problem<'_>, law: &Law, mean: f64, std: f64) -> Result<Nois
     if let Some((ends, _)) = &shortest {
         bound = bound.max(ends[0].bound).max(ends[1].bound);
     }
-    let inside = problem.quantity().tolerance.map(|tolerance| {
+    let inside = problem.tolerance().map(|tolerance| {
         let [low, high] = tolerance.ends();
         (law.probability(high) - law.probability(low)).clamp(0.0, 1.0)
     });

@@ -69,9 +69,8 @@ impl RowTrials {
             })
             .collect();
         let unlimited = [f64::NEG_INFINITY, f64::INFINITY];
-        let limits = task.model.outputs.iter();
-        let limits =
-            limits.map(|output| output.tolerance.map_or(unlimited, |t| t.ends())).collect();
+        let limits = task.model.outputs.iter().map(|output| output.at(&row.conditions).tolerance);
+        let limits = limits.map(|of| of.map_or(unlimited, |of| of.ends())).collect();
         Self {
             registers: (0..varying.len()).collect(),
             varying: Varying::new(&row.distributions, &varying, joint),

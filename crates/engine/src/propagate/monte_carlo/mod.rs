@@ -62,6 +62,6 @@ pub(crate) use joint_ranks::{joint_ranks, quantiles_and_ranks};
 pub use parts::Damaged;
 pub(crate) use parts::{Gathered, Prepared, Reader, RowOutcome, RowPass, Writer, share};
 pub(crate) use quantiles::quantiles;
-pub(crate) use repeat::repeat;
+pub(crate) use repeat::{collected, repeat};
 pub(crate) use request::Request;
 pub(crate) use run::run;

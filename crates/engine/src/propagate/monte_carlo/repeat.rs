@@ -45,7 +45,7 @@ pub(crate) fn repeat<E: Send>(
 }
 
 /// The values of all outputs in the first `count` trials, which are made again; `None` if stopped.
-pub(super) fn collected(
+pub(crate) fn collected(
     trials: &RowTrials,
     count: u64,
     control: &Control<'_>,

@@ -500,7 +500,7 @@ impl Solved<'_> {
         let median = median.ok_or_else(missing)?;
         let (low, high) = (low.ok_or_else(missing)?, high.ok_or_else(missing)?);
         let shortest = self.shortest(p, [low, high], scale);
-        let inside = problem.quantity().tolerance.map(|tolerance| {
+        let inside = problem.tolerance().map(|tolerance| {
             let mut at = |y: f64, beyond: f64| -> Vec<f64> {
                 if y.is_finite() {
                     self.at(y, all).iter().map(|of| of[0]).collect()

@@ -77,8 +77,8 @@ fn letter(name: &str, font: &str) -> String {
             format!("\\mathrm{{{}}}", name.get(..1).unwrap_or_default())
         }
         Some(_) => format!("\\{name}"),
-        None if name.chars().count() == 1 && name.is_ascii() => name.to_owned(),
-        None if name.is_ascii() => format!("{font}{{{name}}}"),
+        None if name.len() == 1 && name != "_" => name.to_owned(),
+        None if name.is_ascii() => format!("{font}{{{}}}", name.replace('_', "\\_")),
         None => format!("\\mbox{{{}}}", escaped(name)),
     }
 }
@@ -112,6 +112,8 @@ mod tests {
             equation("sqrt(a_ref^2 + 1e-3)/theta"),
             "\\rule[-2.6ex]{0pt}{6.2ex}$\\displaystyle \\frac{\\sqrt{{a_{\\mathrm{ref}}}^{2} + 1 \\cdot 10^{-3}}}{\\theta}$"
         );
+        // names that begin or end with a line
+        assert_eq!(equation("_x_ + _"), "$\\mathit{\\_x\\_} + \\mathit{\\_}$");
         assert_eq!(equation("abs(a*sin(tilt))"), "$| a \\cdot \\mathrm{sin} ( \\mathit{tilt} ) |$");
         assert_eq!(equation("r*w with w = 2*pi"), "$r \\cdot w$, $w = 2 \\cdot \\pi$");
         assert_eq!(equation("50 % of it"), escaped("50 % of it"));

@@ -174,6 +174,26 @@ fn a_headline_below_one_half_says_that_it_is_not_decided() {
     );
 }
 
+/// A hypothesis that is more probable than all others together does not make a gap sure: that there is none
+/// must have less than 0.05.
+#[test]
+fn a_headline_above_one_half_says_where_no_gap_is_possible() {
+    let mut unsure = diagnosis();
+    unsure.most_probable.effects = strings(&["offset"]);
+    unsure.most_probable.probability = 0.64;
+    let of = |effects: Option<&[&str]>, p| hypothesis(effects, [0.2, p, 0.0, 0.0, 100.0], vec![]);
+    let mut with = |none: f64| {
+        unsure.hypotheses = vec![of(Some(&["offset"]), 0.64), of(Some(&[]), none)];
+        page(&unsure).split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let text = with(0.3);
+    let said = "Whether there is a gap is not decided: that offset makes one has the probability 0.640, \
+                and that there is none 0.300.";
+    assert!(text.contains(said), "{text}");
+    let text = with(0.04);
+    assert!(text.contains("There is a gap, and offset explains it (probability 0.640)."), "{text}");
+}
+
 /// Without a range nothing is said about where the conditions could be set.
 #[test]
 fn a_condition_without_a_range_is_told() {
