@@ -763,6 +763,11 @@ impl Header {
         self.take_the_one(Column::Sensitivity, is_one);
     }
 
+    /// How many cells its lines have.
+    pub(super) fn width(&self, cells: &Cells) -> usize {
+        (self.first..=self.line).map(|line| cells.row(line).len()).max().unwrap_or(0)
+    }
+
     /// Whether a column of this kind is known.
     pub(super) fn has(&self, wanted: Column) -> bool {
         self.columns.iter().any(|(_, column)| *column == wanted)

@@ -9,6 +9,7 @@ use super::columns::{self, Column, Header, HeaderCoverage, NamedShape};
 use super::linear::{CONTRIBUTIONS_DIFFER, standard_uncertainty};
 use super::stated::Stated;
 use super::{Budget, equation, number};
+use crate::separator::Separator;
 use crate::value_text::grouped_digits;
 use crate::width::Width;
 
@@ -134,6 +135,7 @@ impl Budget<'_> {
                 continue;
             }
             if is_result || is_symbol {
+                self.surplus(header, line);
                 table.stated.extend(self.stated(header, line, &row));
                 self.result_row(&mut table, row, is_symbol);
                 continue;
@@ -142,6 +144,7 @@ impl Budget<'_> {
                 self.guessed.push(format!("line {}: `{label}` has no numbers; left out", line + 1));
                 continue;
             }
+            self.surplus(header, line);
             let mut row = row;
             let plain = columns::with_unit_in_brackets(words);
             let words = plain.as_ref().map_or(words.as_str(), |(name, _)| *name);
@@ -167,6 +170,7 @@ impl Budget<'_> {
             table.result = Some(last);
         }
         self.blank_estimates(header, &table.rows);
+        self.blank_uncertainties(header, &table.rows);
         if let Some(result) = &mut table.result
             && (columns::is_result(&result.about) || result.is_summary)
         {
@@ -186,6 +190,54 @@ impl Budget<'_> {
                 row.line + 1,
                 row.name
             ));
+        }
+    }
+
+    /// Says which quantities have no uncertainty; of a shape without one that is told already.
+    fn blank_uncertainties(&mut self, header: &Header, rows: &[Row]) {
+        let is_blank =
+            |row: &&Row| row.width.is_none() && row.std.is_none() && row.distribution.is_none();
+        for row in rows.iter().filter(is_blank) {
+            let column = Column::UNCERTAIN.into_iter().find(|column| header.has(*column));
+            self.guessed.push(format!(
+                "line {}: `{}` has no uncertainty below `{}` and is taken for a constant",
+                row.line + 1,
+                row.name,
+                column.map_or("", |column| header.heading_of(column)).trim()
+            ));
+        }
+    }
+
+    /// A row with cells beyond the columns of its header: in a text a number may have been torn at its
+    /// decimal comma; beside the table of a workbook they are told.
+    fn surplus(&mut self, header: &Header, line: usize) {
+        let columns = header.width(self.cells);
+        let row = self.cells.row(line);
+        let count = row.iter().rposition(|cell| !cell.trim().is_empty()).map_or(0, |last| last + 1);
+        let Some(cell) =
+            row.iter().skip(columns).map(|cell| cell.trim()).find(|cell| !cell.is_empty())
+        else {
+            return;
+        };
+        match self.cells.separator() {
+            None => {
+                let said =
+                    format!("line {}: `{cell}` stands below no heading and is not taken", line + 1);
+                self.guessed.push(said);
+            }
+            Some(separator) => {
+                let hint = if separator == Separator::Comma {
+                    "; numbers with decimal commas between commas are written in quotes, or between \
+                     semicolons"
+                } else {
+                    ""
+                };
+                let reason = format!(
+                    "the row has {count} cells, the header {columns}, so that `{cell}` stands below no \
+                     heading{hint}"
+                );
+                self.fail(line, reason);
+            }
         }
     }
 
@@ -816,6 +868,18 @@ impl Budget<'_> {
                 None
             }
             NamedShape::Student => Some("normal"),
+            NamedShape::Unknown
+                if !lenient
+                    && self.cells.separator() == Some(Separator::Comma)
+                    && number::number(text, true).is_some() =>
+            {
+                let reason = format!(
+                    "the number `{text}` stands in the column of the distribution: has a cell of this row \
+                     a comma too much?"
+                );
+                self.fail(row.line, reason);
+                None
+            }
             NamedShape::Unknown if needs => {
                 let reason = format!(
                     "the distribution `{text}` is not known, and there is no divisor; normal, \

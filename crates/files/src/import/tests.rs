@@ -1214,3 +1214,30 @@ fn headings_that_are_not_known_are_named() {
     let error = refusal("Quantity,Value,Unit,Wobble,Distribution\nA,10,V,0.3,rectangular\n");
     assert!(error.contains("an uncertainty, and `Wobble` is not known"), "{error}");
 }
+
+/// Decimal commas between commas tear numbers; before, both quantities were constants without a word.
+#[test]
+fn rows_with_more_cells_than_the_header_are_refused() {
+    let head = "Quantity,Unit,Estimate,Standard uncertainty";
+    let error = refusal(&format!("{head}\na,m,10,0,25\nb,m,2,0,5\nY = a + b\n"));
+    let part =
+        "the row has 5 cells, the header 4, so that `25` stands below no heading; numbers with";
+    assert!(error.contains(part), "{error}");
+    let error = refusal(&format!("{head},Distribution\na,m,10,0,25\nb,m,2,0,5\n"));
+    assert!(error.contains("the number `25` stands in the column of the distribution"), "{error}");
+    let error = refusal("Quantity;Unit;Estimate;u\na;m;3;0,1;extra;cells\n");
+    assert!(error.contains("the row has 6 cells, the header 4, so that `extra`"), "{error}");
+    // cells that a spreadsheet pads are no headings, and sentences no rows
+    for text in [
+        format!("{head},,\na,m,10,0.25,,\nb,m,2,0.5,,a remark\n"),
+        format!("{head}\na,m,10,0.25,,\nb,m,2,0.5\n\n\nsee the report, of 2024, page 3, and 4,5\n"),
+    ] {
+        assert_eq!(uncertainties(&text).0, [0.25, 0.5], "{text}");
+    }
+    // a constant is one, and told
+    let (found, budget) = uncertainties(&format!("{head}\na,m,10,0.25\nb,m,2\nc,m,1,0.5\n"));
+    assert_eq!(found, [0.25, 0.0, 0.5]);
+    let part =
+        "line 3: `b` has no uncertainty below `Standard uncertainty` and is taken for a constant";
+    assert!(guesses(&budget, part), "{:?}", budget.guessed);
+}
