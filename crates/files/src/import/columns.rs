@@ -580,6 +580,77 @@ fn unit_of_header(text: &str) -> Result<Option<String>, String> {
     doubtful.map_or(Ok(None), Err)
 }
 
+/// What a cell right below the header says of the numbers of its column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Below {
+    /// Their unit: `mV`, `in mV`, `[mV]`, `u_i / mV`.
+    Unit(String),
+    /// Their symbol, or another word for them.
+    Symbol,
+    /// What looks like a unit, or can be one as well as a symbol.
+    Doubtful,
+    /// What belongs to no header.
+    Row,
+}
+
+impl Below {
+    fn of(column: Column, text: &str, is_of_symbols: bool) -> Self {
+        let bare = without_in(text.trim_matches(['(', ')', '[', ']']).trim());
+        let bare = bare.trim_matches(['(', ')', '[', ']']);
+        let is_unit = Unit::parse(bare).is_ok();
+        if is_of_symbols && is_symbol_of(column, text) {
+            return if bare == "s" { Self::Doubtful } else { Self::Symbol };
+        }
+        if is_symbol(text) {
+            return Self::Symbol;
+        }
+        if is_unit {
+            return Self::Unit(bare.to_owned());
+        }
+        // the sign of a quotient without spaces: `u_i/mV`
+        let behind = text
+            .split_once('/')
+            .filter(|(symbol, _)| is_symbol(symbol.trim()) || is_symbol_of(column, symbol.trim()));
+        let behind = behind.map(|(_, unit)| unit.trim_matches(['(', ')', '[', ']', ' ']));
+        match (behind.filter(|unit| Unit::parse(unit).is_ok()), unit_of_header(text)) {
+            (Some(unit), _) => Self::Unit(unit.to_owned()),
+            (None, Ok(Some(unit))) => Self::Unit(unit),
+            (None, _) if super::columns::column(text).is_some() => Self::Symbol,
+            _ if text.contains(['/', '[', '%']) || text.starts_with("in ") => Self::Doubtful,
+            _ if text.chars().count() <= 8 => Self::Symbol,
+            _ => Self::Row,
+        }
+    }
+}
+
+/// Whether a text is a symbol with an index or an argument, as `x_i`, `u(x_i)` and `u_i(y)`.
+fn is_symbol(text: &str) -> bool {
+    let compact: String = text.split_whitespace().collect();
+    let compact = compact.replace('_', "");
+    const SYMBOLS: [&str; 22] = [
+        "Xi", "xi", "yi", "ui", "Ui", "ci", "ai", "si", "|ci|", "νi", "vi", "νeff", "veff", "uc",
+        "u(xi)", "u(x)", "U(xi)", "U(x)", "ui(y)", "u(y)", "uc(y)", "Δxi",
+    ];
+    SYMBOLS.contains(&compact.as_str())
+}
+
+/// Whether a letter may be the symbol of what a column holds.
+fn is_symbol_of(column: Column, text: &str) -> bool {
+    match column {
+        Column::Estimate => matches!(text, "x" | "X" | "y"),
+        Column::Width => matches!(text, "a" | "u" | "U" | "s" | "±"),
+        Column::Std | Column::Contribution => matches!(text, "u" | "s"),
+        _ => false,
+    }
+}
+
+/// A unit without the word before it: `in mV` is `mV`, and no product with an inch.
+pub(super) fn without_in(text: &str) -> &str {
+    let behind = text.strip_prefix("in ").map(str::trim);
+    let is_unit = |unit: &&str| Unit::parse(unit.trim_matches(['(', ')', '[', ']'])).is_ok();
+    behind.filter(is_unit).unwrap_or(text)
+}
+
 /// Whether words behind a share say that it is one of the estimate.
 fn is_of_estimate(words: &str) -> bool {
     const ESTIMATE: [&str; 18] = [
@@ -1004,7 +1075,8 @@ impl Header {
         }
     }
 
-    /// A line of units right below the header, `;mm;µm;;;µm`, is part of it, and so is one of symbols.
+    /// A line of units right below the header, `;mm;µm;;;µm` or `X_i;x_i;in mV`, is part of it, and so
+    /// is one of symbols.
     fn units_below(&mut self, cells: &Cells) {
         let line = self.line + 1;
         let numbers = self.columns.iter().filter(|(_, column)| column.is_of_numbers());
@@ -1016,24 +1088,45 @@ impl Header {
         let has_number = texts.iter().any(|(_, text)| {
             number_with_unit(text, comma).is_some() || !text.contains(char::is_alphabetic)
         });
-        let unit = |text: &str| text.trim_matches(['(', ')', '[', ']']).to_owned();
         if texts.len() < 2 || has_number {
             return;
         }
-        let has_name = self.columns.iter().any(|(place, column)| {
-            *column == Column::Quantity && !cells.text(line, *place).trim().is_empty()
-        });
-        let are_units = texts.iter().all(|(_, text)| Unit::parse(&unit(text)).is_ok());
-        let are_symbols = texts.iter().all(|(_, text)| text.chars().count() <= 8);
-        if are_units && !has_name {
-            for (column, text) in texts {
-                if !self.units.iter().any(|(known, _)| *known == column) {
-                    self.units.push((column, unit(text)));
-                }
+        let name = place_of(&self.columns, Column::Quantity)
+            .map_or("", |place| cells.text(line, place).trim());
+        let is_of_symbols = !name.is_empty() || texts.iter().any(|(_, text)| is_symbol(text));
+        let below: Vec<(Column, &str, Below)> = texts
+            .into_iter()
+            .map(|(column, text)| (column, text, Below::of(column, text, is_of_symbols)))
+            .collect();
+        if below.iter().any(|(_, _, below)| *below == Below::Row) {
+            return;
+        }
+        self.line = line;
+        let has_units = below.iter().any(|(_, _, below)| matches!(below, Below::Unit(_)));
+        if has_units && !name.is_empty() && column(name).is_none() && !is_symbol(name) {
+            self.doubtful.push(format!(
+                "line {}: `{name}` has units in place of numbers: a line of units below the header has no \
+                 name",
+                line + 1
+            ));
+        }
+        for (column, text, below) in below {
+            match below {
+                Below::Unit(unit) => match self.unit(column) {
+                    Some(known) if known != unit => self.doubtful.push(format!(
+                        "line {}: `{text}` stands below a heading that says `{known}`",
+                        line + 1
+                    )),
+                    Some(_) => {}
+                    None => self.units.push((column, unit)),
+                },
+                Below::Doubtful => self.doubtful.push(format!(
+                    "line {}: `{text}` below the header is neither a unit nor a symbol that is known: write \
+                     the unit of the column alone (`mV`)",
+                    line + 1
+                )),
+                Below::Symbol | Below::Row => {}
             }
-            self.line = line;
-        } else if are_symbols {
-            self.line = line;
         }
     }
 

@@ -362,7 +362,8 @@ impl Budget<'_> {
             _ => text,
         };
         let comma = self.cells.decimal_comma();
-        let read = number::number_with_unit(text, comma);
+        let read = number::number_with_unit(text, comma)
+            .map(|(value, unit)| (value, columns::without_in(unit)));
         let is_unit = |unit: &str| grouped_digits(unit).is_none() && Unit::parse(unit).is_ok();
         let read = read.filter(|(_, unit)| unit.is_empty() || is_unit(unit)).or_else(|| {
             let of_text = (column == Column::Sensitivity).then(|| number::constant(text, comma));
@@ -792,7 +793,8 @@ impl Budget<'_> {
     }
 
     fn unit(&mut self, header: &Header, line: usize, lenient: bool) -> String {
-        let text = header.cell(self.cells, line, Column::Unit).trim();
+        let text = columns::without_in(header.cell(self.cells, line, Column::Unit).trim());
+        let text = text.trim_matches(['[', ']']);
         if text.is_empty() || matches!(text, "-" | "–" | "1") {
             return String::new();
         }

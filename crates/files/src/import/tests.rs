@@ -1241,3 +1241,44 @@ fn rows_with_more_cells_than_the_header_are_refused() {
         "line 3: `b` has no uncertainty below `Standard uncertainty` and is taken for a constant";
     assert!(guesses(&budget, part), "{:?}", budget.guessed);
 }
+
+/// A line of symbols and units below the header, as EA-4/02 has it: 0.4 mV at k = 2 are 0.2 mV, 0.05 mV
+/// over the root of 3 are 0.0289 mV. Before, they were volts, inch-volts or plain numbers without a word.
+#[test]
+fn a_line_of_symbols_and_units_below_the_header() {
+    let head = "Größe;Schätzwert;Unsicherheit;Verteilung;Divisor;c_i;u_i(y)";
+    let rows = "Normal;10,000;0,4;normal;2;1;0,2\nAuflösung;0;0,05;rect.;√3;1;0,0289\n";
+    for below in [
+        "X_i;x_i / V;in mV;;;;in mV",
+        ";in V;in mV;;;;in mV",
+        "Xi;xi / V;a / mV;;;;ui / mV",
+        "Xi;xi/V;a/mV;;;;ui(y)/mV",
+        "X_i;x_i [V];a [mV];;;;u_i(y) [mV]",
+        "Einheit;V;mV;;;;mV",
+        ";V;[mV];;;;(mV)",
+        ";[in V];in [mV];;;;mV",
+    ] {
+        let (found, budget) = uncertainties(&format!("{head}\n{below}\n{rows}"));
+        assert!((found[0] - 2e-4).abs() < 1e-15, "{below}: {found:?}");
+        assert!((found[1] - 5e-5 / 3f64.sqrt()).abs() < 1e-15, "{below}: {found:?}");
+        assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "V", "{below}");
+        assert!(!guesses(&budget, "contributes"), "{below}: {:?}", budget.guessed);
+    }
+    // symbols alone
+    let below = "X_i;x_i;a;;;c_i;u_i(y)";
+    let (found, _) = uncertainties(&format!("{head}\n{below}\n{rows}"));
+    assert_eq!(found[0], 0.2);
+    for (below, part) in [
+        ("Xi;xi;in foo;;;;", "line 2: `in foo` below the header is neither a unit nor a symbol"),
+        ("Xi;xi;s;;;;", "line 2: `s` below the header is neither a unit"),
+        ("Cable;V;mV;;;;", "line 2: `Cable` has units in place of numbers"),
+    ] {
+        let error = refusal(&format!("{head}\n{below}\n{rows}"));
+        assert!(error.contains(part), "{below}: {error}");
+    }
+    let text = "Quantity;Estimate (V);Half-width (mV);Distribution\n;V;V;\na;1;2;rectangular\n";
+    assert!(refusal(text).contains("line 2: `V` stands below a heading that says `mV`"));
+    let (found, _) = uncertainties("Quantity;Estimate;Unit;u\na;1;in mV;2\n");
+    let (of_cells, _) = uncertainties("Quantity;Estimate;u\na;1 in mV;2 in mV\n");
+    assert_eq!((found[0], of_cells[0]), (2.0, 2.0));
+}
