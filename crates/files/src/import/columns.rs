@@ -15,6 +15,8 @@ pub(super) enum Column {
     Quantity,
     Estimate,
     Unit,
+    /// The unit of the uncertainties alone.
+    UnitOfUncertainty,
     Width,
     /// The limits of a quantity, or of its deviations from the estimate.
     Lower,
@@ -432,6 +434,7 @@ impl Column {
             Self::Quantity => "quantity",
             Self::Estimate => "estimate",
             Self::Unit => "unit",
+            Self::UnitOfUncertainty => "unit of the uncertainty",
             Self::Width => "stated uncertainty (+-)",
             Self::Lower => "lower limit",
             Self::Upper => "upper limit",
@@ -474,6 +477,9 @@ fn column(text: &str) -> Option<Column> {
         _ if is_dof(&compact) => return Some(Column::Dof),
         _ => {}
     }
+    if let Some(column) = unit_column(text) {
+        return Some(column);
+    }
     // `Value (±)` is no value
     if PLUS_MINUS.into_iter().any(|sign| compact.contains(sign)) {
         return Some(Column::Width);
@@ -508,6 +514,38 @@ fn column(text: &str) -> Option<Column> {
         named.next().filter(|_| named.next().is_none())
     };
     exact.map(|(column, _)| *column).or_else(begins).or_else(one_of_two)
+}
+
+/// What a header that speaks of units beside another column's words names: `Uncertainty unit`, `Unit of
+/// estimate`; `None` where it speaks of units alone, or of other ones.
+fn unit_column(text: &str) -> Option<Column> {
+    const UNITS: [&str; 6] = ["unit", "units", "einheit", "einheiten", "unité", "unités"];
+    const UNCERTAINTIES: [&str; 6] = ["unc", "uncert", "uncertainty", "u", "unsicherheit", "±"];
+    let words = text.to_lowercase();
+    let sign = |c: char| !(c.is_alphanumeric() || matches!(c, '±' | '_'));
+    let words: Vec<&str> = words.split(sign).filter(|word| !word.is_empty()).collect();
+    let (units, others): (Vec<&str>, Vec<&str>) =
+        words.iter().partition(|word| UNITS.contains(*word));
+    let is_joined = !others.iter().any(|word| matches!(*word, "per" | "pro" | "par"));
+    if units.is_empty() || others.is_empty() || !is_joined {
+        return None;
+    }
+    let of = |word: &&str| {
+        let is_uncertain = UNCERTAINTIES.contains(word)
+            || ["uncertaint", "unsicherheit", "incertitude", "halbbreite"]
+                .iter()
+                .any(|part| word.contains(part));
+        let found = WORDS.iter().find(|(_, all)| all.contains(word)).map(|(column, _)| *column);
+        if is_uncertain { Some(Column::Width) } else { found }
+    };
+    let found: Vec<Column> = others.iter().filter_map(of).collect();
+    if found.iter().any(|column| matches!(column, Column::Width | Column::Std)) {
+        Some(Column::UnitOfUncertainty)
+    } else if found.contains(&Column::Estimate) {
+        Some(Column::Unit)
+    } else {
+        None
+    }
 }
 
 /// Whether a header without its spaces speaks of degrees of freedom: `νi`, `veff`, `vi or veff`.

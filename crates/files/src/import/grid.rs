@@ -64,8 +64,9 @@ impl Cells {
     /// Writes what merged cells hold into all rows that they span, in columns of what several rows can
     /// have in common; what was taken, as sentences.
     fn spread_merged(&mut self, header: &Header) -> Vec<String> {
-        const COMMON: [Column; 6] = [
+        const COMMON: [Column; 7] = [
             Column::Unit,
+            Column::UnitOfUncertainty,
             Column::Distribution,
             Column::Divisor,
             Column::Dof,

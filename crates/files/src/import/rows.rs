@@ -435,6 +435,25 @@ impl Budget<'_> {
             self.fail(line, format!("the {} `{text}` is below zero", column.name()));
             return None;
         }
+        let unit = match self.unit_of_uncertainty(header, line, column) {
+            "" => unit,
+            own if unit.is_empty() && !text.contains('%') => own.to_owned(),
+            own if own == unit || own == "%" && text.contains('%') => unit,
+            own => {
+                if !lenient {
+                    let column = header.heading_of(Column::UnitOfUncertainty);
+                    let reason = format!("`{text}` stands beside `{own}` below `{column}`");
+                    self.fail(line, reason);
+                }
+                return None;
+            }
+        };
+        if !unit.is_empty() && Unit::parse(&unit).is_err() {
+            if !lenient {
+                self.fail(line, format!("the unit `{unit}` of the uncertainty is not known"));
+            }
+            return None;
+        }
         let of_header = header.unit(column).unwrap_or_default();
         let is_percent = text.contains('%') && unit.is_empty();
         if !of_header.is_empty() && (is_percent || !unit.is_empty()) && !lenient {
@@ -463,6 +482,13 @@ impl Budget<'_> {
             _ if unit.is_empty() => Some(value),
             _ => self.converted((value, unit), line, (column, lenient), row),
         }
+    }
+
+    /// What the column of the units of uncertainties has for a number; empty where it has nothing.
+    fn unit_of_uncertainty(&self, header: &Header, line: usize, column: Column) -> &str {
+        let text = header.cell(self.cells, line, Column::UnitOfUncertainty).trim();
+        let is_uncertain = matches!(column, Column::Width | Column::Std);
+        if is_uncertain && !is_empty(text) { columns::without_in(text) } else { "" }
     }
 
     /// A width as data sheets have it, `0.02 % + 2 mV`, at the estimate.

@@ -1282,3 +1282,32 @@ fn a_line_of_symbols_and_units_below_the_header() {
     let (of_cells, _) = uncertainties("Quantity;Estimate;u\na;1 in mV;2 in mV\n");
     assert_eq!((found[0], of_cells[0]), (2.0, 2.0));
 }
+
+/// A column of the units of uncertainties: 20 ppm of 10 V are 200 µV, at k = 2 100 µV; 5 µV over the root
+/// of 3. Before, they were 20 V and 5 V.
+#[test]
+fn a_column_of_the_units_of_uncertainties() {
+    for heading in [
+        "Uncertainty unit",
+        "Unc. unit",
+        "Unit of uncertainty",
+        "Unit (u)",
+        "Unsicherheit Einheit",
+        "Einheit der Unsicherheit",
+    ] {
+        let text = format!(
+            "Quantity,Estimate,Unit,Uncertainty,{heading},Distribution,Divisor\n\
+             Ref,10.000,V,20,ppm,normal,2\nOffset,0.010,V,5,µV,rect.,1.73\n"
+        );
+        let (found, budget) = uncertainties(&text);
+        assert!((found[0] / 1e-4 - 1.0).abs() < 1e-12, "{heading}: {found:?}");
+        assert!((found[1] / (5e-6 / 3f64.sqrt()) - 1.0).abs() < 1e-12, "{heading}: {found:?}");
+        assert!(!guesses(&budget, "not taken"), "{heading}: {:?}", budget.guessed);
+        let error = refusal(&text.replace(",5,µV", ",5 nV,µV"));
+        assert!(error.contains("`5 nV` stands beside `µV`"), "{error}");
+        let error = refusal(&text.replace(",µV", ",foo"));
+        assert!(error.contains("the unit `foo` of the uncertainty is not known"), "{error}");
+    }
+    let text = "Quantity,Value,Value unit,Uncertainty,Uncertainty unit\na,10,V,5,mV\n";
+    assert_eq!(uncertainties(text).0, [0.005]);
+}
