@@ -253,7 +253,7 @@ impl Budget<'_> {
         let used: Vec<String> = equations.iter().flat_map(Equation::names).collect();
         let Table { rows, result, stated, factor } = self.rows(&header, measured.as_deref(), &used);
         let has_coefficients = rows.iter().any(|row| row.sensitivity.is_some());
-        self.unread(&unread, has_coefficients || !equations.is_empty());
+        self.unread(&unread, has_coefficients || !equations.is_empty(), &equations, &known);
         self.remarks(&header, &equations);
         if rows.is_empty() && self.log.is_clean() {
             self.fail(header.line, "no row below this header is a quantity".to_owned());

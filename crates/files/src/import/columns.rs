@@ -389,6 +389,17 @@ pub(super) fn is_expanded_symbol(text: &str) -> bool {
     plain_case(text) == "U" && HeaderCoverage::of(text).factor(None).is_some()
 }
 
+/// Whether a heading is the symbol of standard uncertainties, `u`.
+pub(super) fn is_standard_symbol(heading: &str) -> bool {
+    plain_case(heading) == "u"
+}
+
+/// Whether a heading speaks of nominal values.
+fn is_nominal(heading: &str) -> bool {
+    let words = plain(heading);
+    ["nominal", "nennwert", "valeur nominale"].iter().any(|of| words.starts_with(of))
+}
+
 /// Whether a heading speaks of a standard deviation.
 fn is_deviation(heading: &str) -> bool {
     let words = plain(heading);
@@ -767,6 +778,16 @@ impl Header {
                         *of = Column::Std;
                     }
                 }
+                // a nominal value is no estimate beside one
+                if found == Some(Column::Estimate)
+                    && !is_nominal(cell)
+                    && let Some((known, _)) =
+                        columns.iter_mut().find(|(_, known)| *known == Column::Estimate)
+                    && is_nominal(&headings[*known])
+                {
+                    unknown.push(std::mem::replace(known, place));
+                    continue;
+                }
                 match found {
                     Some(found) if !columns.iter().any(|(_, known)| *known == found) => {
                         columns.push((place, found));
@@ -840,6 +861,7 @@ impl Header {
             }
         }
         let mut best = best?;
+        best.measured_values(cells);
         best.bare_coefficients();
         best.named_distributions(cells);
         best.widths_as_values(cells);
@@ -870,6 +892,93 @@ impl Header {
         }
         let is_one = |header: &Self, place| WORDS.contains(&plain(header.heading(place)).as_str());
         self.take_the_one(Column::Sensitivity, is_one);
+    }
+
+    /// Places of columns that are not taken though their words are those of a kind of column that is,
+    /// with that kind; a nominal value is no estimate beside one, nor `u` behind the coefficients an
+    /// uncertainty of the quantity.
+    pub(super) fn others_of_known_kinds(&self) -> Vec<(usize, Column)> {
+        const KINDS: [Column; 6] = [
+            Column::Estimate,
+            Column::Width,
+            Column::Std,
+            Column::Divisor,
+            Column::Sensitivity,
+            Column::Dof,
+        ];
+        let of = |place: &usize| {
+            let heading = self.heading(*place);
+            let kind = column(heading).filter(|kind| KINDS.contains(kind))?;
+            let kind = if is_standard_symbol(heading) && self.has(Column::Std) {
+                Column::Std
+            } else {
+                kind
+            };
+            let own = place_of(&self.columns, kind)?;
+            let is_product = matches!(kind, Column::Std | Column::Width)
+                && place_of(&self.columns, Column::Sensitivity).is_some_and(|c| *place > c);
+            let units = [heading, self.heading(own)].map(|of| unit_of_header(of).ok().flatten());
+            let are_of_other_units = matches!(&units, [Some(unit), Some(known)] if unit != known);
+            // `Facteur X` may be anything
+            let is_known = kind != Column::Divisor
+                || WORDS
+                    .iter()
+                    .any(|(of, all)| *of == kind && all.contains(&plain(heading).as_str()));
+            let is_other = !is_known
+                || is_deviation(heading)
+                || kind == Column::Estimate && is_nominal(heading)
+                || is_product
+                || are_of_other_units;
+            (!is_other).then_some((*place, kind))
+        };
+        self.unknown.iter().filter_map(|place| Some(of(place)?)).collect()
+    }
+
+    /// A measured value is the estimate where no other column is one but that of nominal values, which
+    /// is none beside it.
+    fn measured_values(&mut self, cells: &Cells) {
+        const WORDS: [&str; 13] = [
+            "measured value",
+            "measured",
+            "measurement",
+            "reading",
+            "indication",
+            "observed value",
+            "messwert",
+            "gemessener wert",
+            "anzeige",
+            "anzeigewert",
+            "ablesung",
+            "valeur mesurée",
+            "lecture",
+        ];
+        let own = place_of(&self.columns, Column::Estimate);
+        if own.is_some_and(|own| !is_nominal(self.heading(own))) {
+            return;
+        }
+        let comma = cells.decimal_comma();
+        let is_measured = |header: &Self, place: usize| {
+            WORDS.contains(&plain(header.heading(place)).as_str())
+                && (header.line + 1..cells.lines())
+                    .any(|line| number_with_unit(cells.text(line, place), comma).is_some())
+        };
+        let found: Vec<usize> =
+            self.unknown.iter().copied().filter(|place| is_measured(self, *place)).collect();
+        match found[..] {
+            [] => {}
+            [place] => {
+                self.unknown.retain(|of| *of != place);
+                self.columns.retain(|(_, column)| *column != Column::Estimate);
+                self.unknown.extend(own);
+                self.columns.push((place, Column::Estimate));
+                self.columns.sort_by_key(|(place, _)| *place);
+            }
+            [first, second, ..] => self.doubtful.push(format!(
+                "the columns `{}` and `{}` may both be the estimate: head one of them `Estimate`",
+                self.heading(first),
+                self.heading(second)
+            )),
+        }
     }
 
     /// How many cells its lines have.

@@ -148,7 +148,7 @@ impl Budget<'_> {
             let mut row = row;
             let plain = columns::with_unit_in_brackets(words);
             let words = plain.as_ref().map_or(words.as_str(), |(name, _)| *name);
-            row.name = self.name(words, &table.rows, line);
+            row.name = self.name(words, &table.rows, line, used);
             self.coverage(header, &mut row);
             self.contradictions(&row);
             table.rows.push(row);
@@ -171,6 +171,7 @@ impl Budget<'_> {
         }
         self.blank_estimates(header, &table.rows);
         self.blank_uncertainties(header, &table.rows);
+        self.stated_twice(header, &table.rows);
         if let Some(result) = &mut table.result
             && (columns::is_result(&result.about) || result.is_summary)
         {
@@ -205,6 +206,54 @@ impl Budget<'_> {
                 row.name,
                 column.map_or("", |column| header.heading_of(column)).trim()
             ));
+        }
+    }
+
+    /// Refuses a row of which two columns that may hold the same thing say something else.
+    fn stated_twice(&self, header: &Header, rows: &[Row]) {
+        let comma = self.cells.decimal_comma();
+        let number = |text: &str| {
+            let text = without_factor(text.trim().trim_start_matches(['±', ' ']));
+            let read = number::number_with_unit(text, comma);
+            let read = read.map(|(value, unit)| (value, unit.to_owned()));
+            read.or_else(|| Some((number::constant(text, comma)?, String::new())))
+        };
+        for (place, column) in header.others_of_known_kinds() {
+            let own = header.heading_of(column).trim();
+            for row in rows {
+                let text = self.cells.text(row.line, place);
+                let Some((second, unit)) = number(text) else { continue };
+                let first = header.cell(self.cells, row.line, column).trim();
+                let differs = match number(first) {
+                    // another unit may say the same
+                    Some((_, of_first)) if of_first != unit => false,
+                    Some((first, _)) => match column {
+                        Column::Estimate => first != second,
+                        Column::Sensitivity => !is_near(first.abs(), second.abs(), SAME),
+                        // a standard or an expanded uncertainty beside what they are made of
+                        Column::Width => {
+                            let ratio = second / standard_uncertainty(row).unwrap_or(first);
+                            let usual = [1.0, 1.96, 2.0, 3.0, first / second * ratio];
+                            !usual.into_iter().any(|of| is_near(ratio, of, SAME))
+                        }
+                        _ => !is_near(first, second, SAME),
+                    },
+                    None => is_empty(first) && second != 0.0,
+                };
+                if differs {
+                    let first =
+                        if is_empty(first) { "nothing".to_owned() } else { format!("`{first}`") };
+                    let reason = format!(
+                        "the columns `{own}` and `{}` may both be the {}, and have {first} and `{}` here: \
+                         take one of them away, or head it with what it is",
+                        header.heading(place).trim(),
+                        column.name(),
+                        text.trim()
+                    );
+                    self.fail(row.line, reason);
+                    break;
+                }
+            }
         }
     }
 
@@ -325,13 +374,23 @@ impl Budget<'_> {
         }
     }
 
-    /// A name for formulas.
-    fn name(&mut self, words: &str, rows: &[Row], line: usize) -> String {
+    /// A name for formulas; `used` are those that the equations need, of which each is of one row.
+    fn name(&mut self, words: &str, rows: &[Row], line: usize, used: &[String]) -> String {
         let mut name = columns::identifier(words);
         if check_name(&name).is_err() {
             name = format!("x_{}", rows.len() + 1);
         }
         let wanted = name.clone();
+        if used.contains(&wanted)
+            && let Some(first) = rows.iter().find(|row| row.name == wanted)
+        {
+            let reason = format!(
+                "the lines {} and {} are both called `{wanted}`, which the equation uses: which one is it?",
+                first.line + 1,
+                line + 1
+            );
+            self.fail(line, reason);
+        }
         let mut number = 2;
         while rows.iter().any(|row| row.name == name) {
             name = format!("{wanted}_{number}");
@@ -649,7 +708,21 @@ impl Budget<'_> {
         }
         let line = row.line + 1;
         if let Some(std) = row.std.filter(|std| *std > 0.0) {
-            row.divisor = Some(width / std);
+            let [stated, standard] =
+                [Column::Width, Column::Std].map(|of| header.heading_of(of).trim());
+            // `u` is a standard uncertainty as well
+            let are_alike = columns::is_standard_symbol(stated);
+            if width < std * (1.0 - SAME) || are_alike && width > std * (1.0 + SAME) {
+                let reason = format!(
+                    "`{}` is {} below `{stated}` and {} below `{standard}`: which is its standard \
+                     uncertainty?",
+                    row.name,
+                    Shortest(width),
+                    Shortest(std)
+                );
+                self.fail(row.line, reason);
+            }
+            row.divisor = Some(if are_alike { 1.0 } else { width / std });
             return;
         }
         if of_header == HeaderCoverage::Expanded {
@@ -994,7 +1067,14 @@ pub(super) fn divisor_of(shape: &str) -> Option<f64> {
 }
 
 pub(super) fn near(a: f64, b: f64) -> bool {
-    (a / b - 1.0).abs() < 0.01
+    is_near(a, b, 0.01)
+}
+
+/// Two digits, of which the least are 1.0, are rounded by up to this share.
+const SAME: f64 = 0.05;
+
+fn is_near(a: f64, b: f64, share: f64) -> bool {
+    a == b || (a / b - 1.0).abs() < share
 }
 
 /// Whether a row whose shape is not normal becomes a normal input: its uncertainty is divided by

@@ -1311,3 +1311,109 @@ fn a_column_of_the_units_of_uncertainties() {
     let text = "Quantity,Value,Value unit,Uncertainty,Uncertainty unit\na,10,V,5,mV\n";
     assert_eq!(uncertainties(text).0, [0.005]);
 }
+
+/// What is stated twice and differs is taken from neither place; before, it was from one of them.
+#[test]
+fn what_is_stated_twice_and_differs_is_refused() {
+    let head = "Quantity;Estimate;Unit;u\na;3;1;0.1\nb;2;1;0.1\n";
+    let twice = "`Y` is `a + b` in line 4 and `a - b` in line 5: leave one equation";
+    for (rows, part) in [
+        ("Y = a + b\nY = a - b\n", twice),
+        ("Y = 2a + b\nY = a - b\n", "another equation of `Y` stands in line 5"),
+        ("Y = a - b\nY = 2a + b\n", "another equation of `Y` stands in line 4"),
+    ] {
+        let error = refusal(&format!("{head}{rows}"));
+        assert!(error.contains(part), "{rows}: {error}");
+    }
+    // repeated, of other quantities, and the statement of the result
+    for line in ["Y = a+b", "Y = k*u_c", "Y = (5,0 ± 0,3) mm (k = 2)", "Y = 5 mm + d"] {
+        let budget = import("b.csv", format!("{head}Y = a + b\n{line}\n").as_bytes());
+        let budget = budget.unwrap_or_else(|error| panic!("{line}: {error}"));
+        assert!(budget.text.contains(r#"{"Y":"a + b"}"#), "{line}: {}", budget.text);
+    }
+    for (head, row, part) in [
+        (
+            "Quantity;Estimate;Unit;u;Standard uncertainty",
+            "a;3;V;0.1;0.2",
+            "`a` is 0.1 below `u` and 0.2 below `Standard uncertainty`",
+        ),
+        (
+            "Quantity;Estimate;Unit;u;Standard uncertainty",
+            "a;3;V;0.2;0.1",
+            "`a` is 0.2 below `u` and 0.1 below `Standard uncertainty`",
+        ),
+        (
+            "Quantity;Estimate;Unit;±;Standard uncertainty",
+            "a;3;V;0.1;0.2",
+            "`a` is 0.1 below `±` and 0.2 below `Standard uncertainty`",
+        ),
+        (
+            "Quantity;Estimate;Unit;Std. unc.;Standard uncertainty",
+            "a;3;V;0.1;0.2",
+            "the columns `Std. unc.` and `Standard uncertainty` may both be the standard uncertainty",
+        ),
+        (
+            "Quantity;Estimate;Unit;±;Coverage factor;Divisor",
+            "a;3;V;0.1;2;3",
+            "the columns `Coverage factor` and `Divisor` may both be the divisor, and have `2` and `3`",
+        ),
+        (
+            "Quantity;Estimate;Unit;±;Coverage factor;Divisor",
+            "a;3;V;0.1;;√3",
+            "and have nothing and `√3` here",
+        ),
+        (
+            "Quantity;Estimate;Unit;Half-width;Expanded uncertainty",
+            "a;3;V;;0.2",
+            "may both be the stated uncertainty (+-), and have nothing and `0.2`",
+        ),
+    ] {
+        let error = refusal(&format!("{head}\n{row}\n"));
+        assert!(error.contains(part), "{head}: {error}");
+    }
+    // the same in both columns, and an expanded uncertainty that is k times what is taken
+    for (head, row) in [
+        ("Quantity;Estimate;Unit;±;Coverage factor;Divisor", "a;3;V;0.2;2;2"),
+        ("Quantity;Estimate;Unit;u;Standard uncertainty", "a;3;V;0.1;0.10"),
+        ("Quantity;Estimate;Unit;Uncertainty;Divisor;Expanded uncertainty", "a;3;V;0.1;1;0.2"),
+    ] {
+        assert_eq!(uncertainties(&format!("{head}\n{row}\n")).0, [0.1], "{head}");
+    }
+    let rows = "a;3;V;0.1\na;4;V;0.1\n";
+    let error = refusal(&format!("Y = a\nQuantity;Estimate;Unit;u\n{rows}"));
+    assert!(error.contains("the lines 3 and 4 are both called `a`, which the equation"), "{error}");
+    // of a sum both are parts
+    let (found, budget) = uncertainties(&format!("Quantity;Estimate;Unit;u\n{rows}"));
+    assert_eq!(found, [0.1, 0.1]);
+    assert!(guesses(&budget, "`a` is called `a_2`"));
+}
+
+/// A nominal value beside a measured one is no estimate, whichever comes first; two columns that may be
+/// the estimate are asked.
+#[test]
+fn nominal_values_are_no_estimates_beside_others() {
+    for head in [
+        "Quantity;Nominal;Value;Unit;U;k",
+        "Quantity;Nominal value;Estimate;Unit;U;k",
+        "Größe;Nennwert;Messwert;Einheit;U;k",
+        "Quantity;Nominal;Indication;Unit;U;k",
+        "Quantity;Nominal;Measured value (ohm);Unit;U;k",
+    ] {
+        let (_, budget) = uncertainties(&format!("{head}\na;100;100.0135;ohm;0.010;2\n"));
+        let found = task(&budget).rows[0].distributions[0].mean();
+        assert_eq!(found, 100.0135, "{head}: {}", budget.text);
+        assert!(guesses(&budget, "is not taken"), "{head}: {:?}", budget.guessed);
+    }
+    let (_, budget) =
+        uncertainties("Quantity;Value;Nominal;Unit;U;k\na;100.0135;100;ohm;0.010;2\n");
+    assert_eq!(task(&budget).rows[0].distributions[0].mean(), 100.0135);
+    let (_, budget) = uncertainties("Quantity;Nominal;Unit;U;k\na;100;ohm;0.010;2\n");
+    assert_eq!(task(&budget).rows[0].distributions[0].mean(), 100.0);
+    for (head, part) in [
+        ("Quantity;Estimate;Value;Unit;U;k", "the columns `Estimate` and `Value` may both be the"),
+        ("Quantity;Reading;Indication;Unit;U;k", "the columns `Reading` and `Indication` may both"),
+    ] {
+        let error = refusal(&format!("{head}\na;100;100.0135;ohm;0.010;2\n"));
+        assert!(error.contains(part), "{head}: {error}");
+    }
+}
