@@ -108,9 +108,16 @@ impl Cells {
         said
     }
 
-    /// The decimal marks of its numbers; of a workbook, whose numbers have none, those of any text.
+    /// The decimal marks of its numbers; of a workbook those of its texts, since its numbers have none.
     pub(super) fn marks(&self) -> DecimalMarks {
-        DecimalMarks::of(self.separator.unwrap_or(Separator::Comma))
+        DecimalMarks::of(self.separator.unwrap_or(Separator::Semicolon))
+    }
+
+    /// Whether a cell holds what somebody wrote, and no number of a workbook.
+    pub(super) fn is_written(&self, line: usize, place: usize) -> bool {
+        let of = |of: usize| u32::try_from(of).ok();
+        let of_texts = |place| self.layout.texts.contains(&place);
+        self.separator.is_some() || of(line).zip(of(place)).is_some_and(of_texts)
     }
 }
 

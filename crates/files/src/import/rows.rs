@@ -435,7 +435,12 @@ impl Budget<'_> {
                 format!("`{text}` in the column of the {} is no number{hint}", column.name());
             self.fail(line, reason);
         }
+        let is_written = header.columns.iter().any(|(place, of)| {
+            let is_of_cell = *of == column || self.cells.text(line, *place).contains(text);
+            is_of_cell && self.cells.is_written(line, *place)
+        });
         if let Some((_, unit)) = read
+            && is_written
             && let digits = text.strip_suffix(unit).unwrap_or(text).trim()
             && let plain = number::without_groups(digits)
             && let digits = plain.as_deref().unwrap_or(digits)
