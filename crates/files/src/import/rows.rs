@@ -958,7 +958,7 @@ impl Budget<'_> {
             && !lenient;
         let needs = is_undivided && !is_factor_of(text);
         // a probability has its factor with degrees of freedom alone, which may be infinite
-        let is_without_dof = header.cell(self.cells, row.line, Column::Dof).trim().is_empty();
+        let is_without_dof = is_empty(header.cell(self.cells, row.line, Column::Dof).trim());
         let is_stated = [HeaderCoverage::of(text), header.coverage(Column::Width)]
             .iter()
             .any(|of| of.factor(None).is_some() && (of.probability().is_none() || !is_without_dof));
@@ -969,6 +969,16 @@ impl Budget<'_> {
                 let reason = format!(
                     "`{text}` needs a divisor or degrees of freedom: what is the stated uncertainty \
                      divided by?"
+                );
+                self.fail(row.line, reason);
+                None
+            }
+            NamedShape::Student
+                if is_without_dof && !lenient && row.width.or(row.std).is_some_and(|u| u > 0.0) =>
+            {
+                let reason = format!(
+                    "`{text}` has degrees of freedom, and none are stated: write them in a column `Degrees of \
+                     freedom`, or `normal` where they are infinite"
                 );
                 self.fail(row.line, reason);
                 None
