@@ -866,6 +866,7 @@ impl Header {
         best.named_distributions(cells);
         best.widths_as_values(cells);
         best.deviations_as_widths(cells);
+        best.contributions_of_quotients(cells);
         best.doubts(cells);
         for (place, column) in best.columns.iter().filter(|(_, column)| column.is_of_numbers()) {
             let heading = best.headings.get(*place).map_or("", String::as_str);
@@ -931,7 +932,7 @@ impl Header {
                 || are_of_other_units;
             (!is_other).then_some((*place, kind))
         };
-        self.unknown.iter().filter_map(|place| Some(of(place)?)).collect()
+        self.unknown.iter().filter_map(of).collect()
     }
 
     /// A measured value is the estimate where no other column is one but that of nominal values, which
@@ -1161,6 +1162,41 @@ impl Header {
                 }
             }
             self.has_widths_as_values = true;
+        }
+    }
+
+    /// `u` beside a divisor is what is left after it where the contributions are its products with the
+    /// coefficients, and not those of its quotients.
+    fn contributions_of_quotients(&mut self, cells: &Cells) {
+        let places = [Column::Width, Column::Divisor, Column::Contribution];
+        let [Some(u), Some(divisor), Some(contribution)] =
+            places.map(|of| place_of(&self.columns, of))
+        else {
+            return;
+        };
+        if !is_standard_symbol(self.heading(u)) || self.has(Column::Std) {
+            return;
+        }
+        let comma = cells.decimal_comma();
+        let number = |line: usize, place: usize| {
+            let text = cells.text(line, place).trim();
+            number_with_unit(text, comma).map(|(value, _)| value).or_else(|| constant(text, comma))
+        };
+        let c = place_of(&self.columns, Column::Sensitivity);
+        let rows: Vec<[f64; 3]> = (self.line + 1..cells.lines())
+            .filter_map(|line| {
+                let c = c.map_or(Some(1.0), |place| number(line, place))?;
+                let product = (c * number(line, u)?).abs();
+                Some([product, number(line, divisor)?, number(line, contribution)?.abs()])
+            })
+            .filter(|[product, divisor, _]| *product > 0.0 && *divisor > 1.1)
+            .collect();
+        let near = |a: f64, b: f64| (a - b).abs() <= ROUNDED * b;
+        let are_left = rows.iter().all(|[product, _, stated]| near(*product, *stated));
+        if are_left && !rows.is_empty() {
+            for (_, column) in self.columns.iter_mut().filter(|(_, of)| *of == Column::Width) {
+                *column = Column::Std;
+            }
         }
     }
 

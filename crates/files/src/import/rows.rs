@@ -149,6 +149,7 @@ impl Budget<'_> {
             let plain = columns::with_unit_in_brackets(words);
             let words = plain.as_ref().map_or(words.as_str(), |(name, _)| *name);
             row.name = self.name(words, &table.rows, line, used);
+            self.divided(header, &row);
             self.coverage(header, &mut row);
             self.contradictions(&row);
             table.rows.push(row);
@@ -741,6 +742,30 @@ impl Budget<'_> {
                 "line {line}: nothing says what the uncertainty of `{}` is divided by: k = 1 is taken, as \
                  of a standard uncertainty",
                 row.name
+            ));
+        }
+    }
+
+    /// Says how a divisor beside nothing but standard uncertainties is taken: below `u` they are still to
+    /// be divided, below words they are what is left.
+    fn divided(&mut self, header: &Header, row: &Row) {
+        if row.divisor.is_none_or(|divisor| near(divisor, 1.0)) {
+            return;
+        }
+        let column = if header.has(Column::Width) { Column::Width } else { Column::Std };
+        let heading = header.heading_of(column).trim();
+        let is_to_be_divided = column == Column::Width && columns::is_standard_symbol(heading);
+        let (own, other) = if is_to_be_divided {
+            (row.width.filter(|_| row.std.is_none()), "still to be divided")
+        } else {
+            (row.std.filter(|_| !header.has(Column::Width)), "already divided")
+        };
+        if let Some(u) = own.filter(|u| *u > 0.0) {
+            self.guessed.push(format!(
+                "line {}: {} below `{heading}` is taken as {other} by {}",
+                row.line + 1,
+                Shortest(u),
+                header.cell(self.cells, row.line, Column::Divisor).trim(),
             ));
         }
     }
