@@ -437,7 +437,10 @@ impl Budget<'_> {
             self.fail(line, reason);
         }
         let is_written = header.columns.iter().any(|(place, of)| {
-            let is_of_cell = *of == column || self.cells.text(line, *place).contains(text);
+            // its side of a cell that holds an estimate and its uncertainty
+            let is_side = *of == Column::Estimate || Column::UNCERTAIN.contains(of);
+            let is_of_cell =
+                *of == column || is_side && self.cells.text(line, *place).contains(text);
             is_of_cell && self.cells.is_written(line, *place)
         });
         if let Some((_, unit)) = read
