@@ -358,3 +358,24 @@ fn merged_cells_count_for_their_rows() {
     }
     assert!(said.contains("the merged cell `triangular` counts for lines 2 to 3"), "{said}");
 }
+
+/// The rows of a certificate's workbook are results; before, they were inputs of a sum.
+#[test]
+fn the_workbook_of_a_certificate_is_no_budget() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::write(at.join("power.json"), MODEL).unwrap();
+    let rows = r#"{"rows": [{"model": "power.json", "output": "power", "nominal": 0.5}], "monte_carlo": {"trials": 0}}"#;
+    fs::write(at.join("c.json"), rows).unwrap();
+    let export = ["certificate", "c.json", "--format", "xlsx", "--output", "c.xlsx"];
+    let (_, said, code) = told(at, &export);
+    assert_eq!(code, Some(0), "{said}");
+    for sheet in [&[][..], &["--sheet", "Certificate"], &["--sheet", "Unrounded"]] {
+        let (text, said, code) = told(at, &[&["import", "c.xlsx"], sheet].concat());
+        assert_eq!((text.as_str(), code), ("", Some(2)), "{said}");
+        assert!(
+            said.contains("it is the workbook of a certificate, whose rows are results"),
+            "{said}"
+        );
+    }
+}

@@ -33,7 +33,7 @@ use super::{DiagnosticKind, bytes};
 use columns::{Column, Header};
 use document::document;
 use equation::{Equation, Equations};
-use gumption_engine::model::formula::{Scope, Typing};
+use gumption_engine::model::formula::{Formula, FormulaError, Scope, Typing};
 use gumption_units::Unit;
 use rows::{Row, Table};
 use sheets::Chosen;
@@ -253,7 +253,7 @@ impl Budget<'_> {
         let used: Vec<String> = equations.iter().flat_map(Equation::names).collect();
         let Table { rows, result, stated, factor } = self.rows(&header, measured.as_deref(), &used);
         let has_coefficients = rows.iter().any(|row| row.sensitivity.is_some());
-        self.unread(&unread, has_coefficients || !equations.is_empty());
+        self.unread(&unread, has_coefficients || !equations.is_empty(), &equations, &known);
         self.remarks(&header, &equations);
         if rows.is_empty() && self.log.is_clean() {
             self.fail(header.line, "no row below this header is a quantity".to_owned());
@@ -286,9 +286,11 @@ impl Budget<'_> {
             let unit =
                 if unit.is_empty() { self.unit_of_equation(&rows, &equations) } else { unit };
             let model = |checked| document(title, &rows, &formulas, &unit, checked);
-            self.checked(&rows, &unit, model)?
+            let line = equations.last().map_or(0, |equation| equation.line);
+            let made = self.checked(&rows, &unit, line, &model)?;
+            self.of_numbers(made, &stated, &model)
         };
-        self.compare(&made, &stated, factor);
+        self.compare(&made, &stated, factor)?;
         Some(made)
     }
 
@@ -340,12 +342,14 @@ impl Budget<'_> {
     }
 
     /// The model with a check of units where it passes; without it only where numbers in the units of
-    /// the sheet give the same as those in SI units.
+    /// the sheet give the same as those in SI units, and no two quantities of different dimension are
+    /// added or compared; `line` is that of the equation.
     fn checked(
         &mut self,
         rows: &[Row],
         unit: &str,
-        model: impl Fn(bool) -> String,
+        line: usize,
+        model: &impl Fn(bool) -> String,
     ) -> Option<String> {
         let with = model(true);
         let Err(first) = read_text("the model", &with, Path::new(""), &[]) else {
@@ -356,16 +360,24 @@ impl Budget<'_> {
             Ok(_) => {
                 let reason = first.0.first().map(|fault| fault.kind.to_string());
                 let reason = reason.unwrap_or_default();
+                if first.0.iter().any(|fault| is_of_two_quantities(&fault.kind)) {
+                    self.fail(
+                        line,
+                        format!("the equation does not pass the check of units: {reason}"),
+                    );
+                    return None;
+                }
                 let units = rows.iter().map(|row| row.unit.as_str()).chain([unit]);
                 let scaled = units.into_iter().find(|unit| {
-                    Unit::parse(unit).is_ok_and(|unit| unit.factor() != 1.0 || unit.offset() != 0.0)
+                    Unit::parse(unit)
+                        .is_ok_and(|unit| unit.factor() != 1.0 || unit.zero().is_some())
                 });
                 if let Some(scaled) = scaled {
                     let text = format!(
                         "the equation does not pass the check of units, without which `{scaled}` would \
                          not be converted: {reason}"
                     );
-                    self.fail(0, text);
+                    self.fail(line, text);
                     return None;
                 }
                 self.guessed.push(format!(
@@ -383,6 +395,20 @@ impl Budget<'_> {
                 None
             }
         }
+    }
+}
+
+/// Whether a mistake is that two quantities of different dimension are added or compared; a bare number
+/// beside one may be in its unit.
+fn is_of_two_quantities(kind: &DiagnosticKind) -> bool {
+    match kind {
+        DiagnosticKind::Formula { error: FormulaError::MixedDimensions { operands, .. } } => {
+            operands.iter().all(|operand| {
+                let parsed = Formula::parse(&operand.text);
+                parsed.map_or(true, |formula| formula.names().next().is_some())
+            })
+        }
+        _ => false,
     }
 }
 

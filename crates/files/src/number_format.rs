@@ -13,21 +13,29 @@ pub(super) enum Behind {
     Nothing,
     /// The number is shown a hundred times as large.
     Percent,
+    /// As per cent, with letters: `0.1 % FS`.
+    PercentOf(String),
     /// Letters, as those of a unit.
     Letters(String),
+    /// Nothing, and the number is shown divided by so many thousands.
+    Thousands(u32),
 }
 
 impl Behind {
     /// By the format's section for positive numbers, its first.
     pub(super) fn of(format: &str) -> Self {
         let mut letters = String::new();
-        let mut has_number = false;
+        let (mut has_number, mut is_percent) = (false, false);
+        // commas behind the last digit divide, and those between digits group
+        let (mut commas, mut thousands) = (0, 0);
         let digits = format.replacen("General", "0", 1);
         let mut signs = digits.chars();
         while let Some(sign) = signs.next() {
             match sign {
                 ';' => break,
-                '%' => return Self::Percent,
+                '%' => is_percent = true,
+                ',' if has_number => commas += 1,
+                '.' => thousands += std::mem::take(&mut commas),
                 '"' => letters.extend(signs.by_ref().take_while(|c| *c != '"')),
                 '\\' => letters.extend(signs.next()),
                 // room of a sign's width, and a sign that fills the cell
@@ -40,23 +48,38 @@ impl Behind {
                 }
                 '0' | '#' | '?' => {
                     has_number = true;
+                    commas = 0;
                     letters.clear();
                 }
                 _ => {}
             }
         }
         let letters = letters.trim();
+        if thousands + commas > 0 {
+            return Self::Thousands(thousands + commas);
+        }
+        if is_percent {
+            let is_bare = !letters.contains(char::is_alphabetic);
+            return if is_bare { Self::Percent } else { Self::PercentOf(letters.to_owned()) };
+        }
         let is_unit = letters == "%"
             || has_number
                 && letters.contains(|c: char| c.is_alphabetic() || matches!(c, '°' | '‰'));
         if is_unit { Self::Letters(letters.to_owned()) } else { Self::Nothing }
     }
 
-    /// A number with what stands behind it.
+    /// A number with what stands behind it; no number where it is shown divided, so that who needs one
+    /// refuses it.
     pub(super) fn text(&self, value: f64) -> String {
         match self {
             Self::Nothing => value.to_string(),
             Self::Percent => format!("{}%", decimal::to_15_digits(100.0 * value)),
+            Self::PercentOf(letters) => {
+                format!("{}% {letters}", decimal::to_15_digits(100.0 * value))
+            }
+            Self::Thousands(count) => {
+                format!("{value} shown divided by 1{}", "000".repeat((*count).min(100) as usize))
+            }
             Self::Letters(letters) => format!("{value} {letters}"),
         }
     }
@@ -88,6 +111,14 @@ mod tests {
             ("[Red]0.0", "0.0002"),
             ("@", "0.0002"),
             ("\"unfinished", "0.0002"),
+            ("0.0%\" FS\"", "0.02% FS"),
+            ("0.0%\\ \\F\\S", "0.02% FS"),
+            ("0.00%_)", "0.02%"),
+            ("0.0,", "0.0002 shown divided by 1000"),
+            ("0,,\" M\"", "0.0002 shown divided by 1000000"),
+            ("0,.0", "0.0002 shown divided by 1000"),
+            ("#,##0.00", "0.0002"),
+            ("#,###", "0.0002"),
         ] {
             assert_eq!(Behind::of(format).text(0.0002), shown, "{format}");
         }

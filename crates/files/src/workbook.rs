@@ -131,8 +131,8 @@ impl Book {
     /// What is wrong with the workbook, as a sentence about it.
     pub(super) fn sheet(&mut self, of: &SheetName) -> Result<(Vec<Vec<String>>, Layout), String> {
         let sheet = Sheet::Named(&of.name);
-        let (cells, struck) = cells(&mut self.workbook, sheet, &mut self.size)?;
-        Ok((rows(&cells), Layout { struck, ..Layout::of(&self.bytes, of.place) }))
+        let (cells, Told { struck, texts }) = cells(&mut self.workbook, sheet, &mut self.size)?;
+        Ok((rows(&cells), Layout { struck, texts, ..Layout::of(&self.bytes, of.place) }))
     }
 }
 
@@ -267,12 +267,21 @@ fn opened(bytes: Vec<u8>) -> Result<Xlsx<Cursor<Vec<u8>>>, String> {
     Xlsx::new(Cursor::new(bytes)).map_err(is_none)
 }
 
-/// The cells of a sheet, and which of them are struck through; `size` counts the bytes of their texts.
+/// What the cells of a sheet say besides their values.
+#[derive(Default)]
+struct Told {
+    /// Those that are struck through.
+    struck: BTreeSet<Place>,
+    /// Those that hold texts.
+    texts: BTreeSet<Place>,
+}
+
+/// The cells of a sheet, and what they say besides; `size` counts the bytes of their texts.
 fn cells(
     workbook: &mut Xlsx<Cursor<Vec<u8>>>,
     sheet: Sheet<'_>,
     size: &mut usize,
-) -> Result<(Cells, BTreeSet<Place>), String> {
+) -> Result<(Cells, Told), String> {
     let names = workbook.sheet_names();
     let sheet = match sheet {
         Sheet::First => names.first().cloned(),
@@ -287,7 +296,7 @@ fn cells(
     let formats: Vec<Behind> = reader.styles().iter().map(behind).collect();
     let is_struck = |style: &Style| style.font.as_ref().is_some_and(|font| font.strikethrough);
     let struck_styles: Vec<bool> = reader.styles().iter().map(is_struck).collect();
-    let (mut cells, mut struck) = (Cells::new(), BTreeSet::new());
+    let (mut cells, mut told) = (Cells::new(), Told::default());
     while let Some((cell, style)) = reader.next_cell_with_style_id().map_err(is_none)? {
         let ((row, column), value) = (cell.get_position(), cell.get_value());
         if row >= ROWS || column >= COLUMNS {
@@ -299,6 +308,7 @@ fn cells(
             other => Data::from(other.clone()),
         };
         let format = formats.get(style).unwrap_or(&Behind::Nothing);
+        let is_text = matches!(value, Data::String(_));
         let text = match value {
             Data::Float(value) => format.text(value),
             Data::Int(value) if *format != Behind::Nothing => format.text(value as f64),
@@ -312,7 +322,10 @@ fn cells(
             continue;
         }
         if struck_styles.get(style).is_some_and(|is_struck| *is_struck) {
-            struck.insert((row, column));
+            told.struck.insert((row, column));
+        }
+        if is_text {
+            told.texts.insert((row, column));
         }
         *size += text.len() + 1;
         if *size > MOST_OF_TEXT {
@@ -323,7 +336,7 @@ fn cells(
         }
         cells.entry(row).or_default().insert(column, text);
     }
-    Ok((cells, struck))
+    Ok((cells, told))
 }
 
 /// The table's text: its columns are those of the first row that is no comment, and a cell outside

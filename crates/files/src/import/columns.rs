@@ -15,6 +15,8 @@ pub(super) enum Column {
     Quantity,
     Estimate,
     Unit,
+    /// The unit of the uncertainties alone.
+    UnitOfUncertainty,
     Width,
     /// The limits of a quantity, or of its deviations from the estimate.
     Lower,
@@ -387,6 +389,17 @@ pub(super) fn is_expanded_symbol(text: &str) -> bool {
     plain_case(text) == "U" && HeaderCoverage::of(text).factor(None).is_some()
 }
 
+/// Whether a heading is the symbol of standard uncertainties, `u`.
+pub(super) fn is_standard_symbol(heading: &str) -> bool {
+    plain_case(heading) == "u"
+}
+
+/// Whether a heading speaks of nominal values.
+fn is_nominal(heading: &str) -> bool {
+    let words = plain(heading);
+    ["nominal", "nennwert", "valeur nominale"].iter().any(|of| words.starts_with(of))
+}
+
 /// Whether a heading speaks of a standard deviation.
 fn is_deviation(heading: &str) -> bool {
     let words = plain(heading);
@@ -432,6 +445,7 @@ impl Column {
             Self::Quantity => "quantity",
             Self::Estimate => "estimate",
             Self::Unit => "unit",
+            Self::UnitOfUncertainty => "unit of the uncertainty",
             Self::Width => "stated uncertainty (+-)",
             Self::Lower => "lower limit",
             Self::Upper => "upper limit",
@@ -474,6 +488,9 @@ fn column(text: &str) -> Option<Column> {
         _ if is_dof(&compact) => return Some(Column::Dof),
         _ => {}
     }
+    if let Some(column) = unit_column(text) {
+        return Some(column);
+    }
     // `Value (±)` is no value
     if PLUS_MINUS.into_iter().any(|sign| compact.contains(sign)) {
         return Some(Column::Width);
@@ -508,6 +525,38 @@ fn column(text: &str) -> Option<Column> {
         named.next().filter(|_| named.next().is_none())
     };
     exact.map(|(column, _)| *column).or_else(begins).or_else(one_of_two)
+}
+
+/// What a header that speaks of units beside another column's words names: `Uncertainty unit`, `Unit of
+/// estimate`; `None` where it speaks of units alone, or of other ones.
+fn unit_column(text: &str) -> Option<Column> {
+    const UNITS: [&str; 6] = ["unit", "units", "einheit", "einheiten", "unité", "unités"];
+    const UNCERTAINTIES: [&str; 6] = ["unc", "uncert", "uncertainty", "u", "unsicherheit", "±"];
+    let words = text.to_lowercase();
+    let sign = |c: char| !(c.is_alphanumeric() || matches!(c, '±' | '_'));
+    let words: Vec<&str> = words.split(sign).filter(|word| !word.is_empty()).collect();
+    let (units, others): (Vec<&str>, Vec<&str>) =
+        words.iter().partition(|word| UNITS.contains(*word));
+    let is_joined = !others.iter().any(|word| matches!(*word, "per" | "pro" | "par"));
+    if units.is_empty() || others.is_empty() || !is_joined {
+        return None;
+    }
+    let of = |word: &&str| {
+        let is_uncertain = UNCERTAINTIES.contains(word)
+            || ["uncertaint", "unsicherheit", "incertitude", "halbbreite"]
+                .iter()
+                .any(|part| word.contains(part));
+        let found = WORDS.iter().find(|(_, all)| all.contains(word)).map(|(column, _)| *column);
+        if is_uncertain { Some(Column::Width) } else { found }
+    };
+    let found: Vec<Column> = others.iter().filter_map(of).collect();
+    if found.iter().any(|column| matches!(column, Column::Width | Column::Std)) {
+        Some(Column::UnitOfUncertainty)
+    } else if found.contains(&Column::Estimate) {
+        Some(Column::Unit)
+    } else {
+        None
+    }
 }
 
 /// Whether a header without its spaces speaks of degrees of freedom: `νi`, `veff`, `vi or veff`.
@@ -578,6 +627,77 @@ fn unit_of_header(text: &str) -> Result<Option<String>, String> {
         }
     }
     doubtful.map_or(Ok(None), Err)
+}
+
+/// What a cell right below the header says of the numbers of its column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Below {
+    /// Their unit: `mV`, `in mV`, `[mV]`, `u_i / mV`.
+    Unit(String),
+    /// Their symbol, or another word for them.
+    Symbol,
+    /// What looks like a unit, or can be one as well as a symbol.
+    Doubtful,
+    /// What belongs to no header.
+    Row,
+}
+
+impl Below {
+    fn of(column: Column, text: &str, is_of_symbols: bool) -> Self {
+        let bare = without_in(text.trim_matches(['(', ')', '[', ']']).trim());
+        let bare = bare.trim_matches(['(', ')', '[', ']']);
+        let is_unit = Unit::parse(bare).is_ok();
+        if is_of_symbols && is_symbol_of(column, text) {
+            return if bare == "s" { Self::Doubtful } else { Self::Symbol };
+        }
+        if is_symbol(text) {
+            return Self::Symbol;
+        }
+        if is_unit {
+            return Self::Unit(bare.to_owned());
+        }
+        // the sign of a quotient without spaces: `u_i/mV`
+        let behind = text
+            .split_once('/')
+            .filter(|(symbol, _)| is_symbol(symbol.trim()) || is_symbol_of(column, symbol.trim()));
+        let behind = behind.map(|(_, unit)| unit.trim_matches(['(', ')', '[', ']', ' ']));
+        match (behind.filter(|unit| Unit::parse(unit).is_ok()), unit_of_header(text)) {
+            (Some(unit), _) => Self::Unit(unit.to_owned()),
+            (None, Ok(Some(unit))) => Self::Unit(unit),
+            (None, _) if super::columns::column(text).is_some() => Self::Symbol,
+            _ if text.contains(['/', '[', '%']) || text.starts_with("in ") => Self::Doubtful,
+            _ if text.chars().count() <= 8 => Self::Symbol,
+            _ => Self::Row,
+        }
+    }
+}
+
+/// Whether a text is a symbol with an index or an argument, as `x_i`, `u(x_i)` and `u_i(y)`.
+fn is_symbol(text: &str) -> bool {
+    let compact: String = text.split_whitespace().collect();
+    let compact = compact.replace('_', "");
+    const SYMBOLS: [&str; 22] = [
+        "Xi", "xi", "yi", "ui", "Ui", "ci", "ai", "si", "|ci|", "νi", "vi", "νeff", "veff", "uc",
+        "u(xi)", "u(x)", "U(xi)", "U(x)", "ui(y)", "u(y)", "uc(y)", "Δxi",
+    ];
+    SYMBOLS.contains(&compact.as_str())
+}
+
+/// Whether a letter may be the symbol of what a column holds.
+fn is_symbol_of(column: Column, text: &str) -> bool {
+    match column {
+        Column::Estimate => matches!(text, "x" | "X" | "y"),
+        Column::Width => matches!(text, "a" | "u" | "U" | "s" | "±"),
+        Column::Std | Column::Contribution => matches!(text, "u" | "s"),
+        _ => false,
+    }
+}
+
+/// A unit without the word before it: `in mV` is `mV`, and no product with an inch.
+pub(super) fn without_in(text: &str) -> &str {
+    let behind = text.strip_prefix("in ").map(str::trim);
+    let is_unit = |unit: &&str| Unit::parse(unit.trim_matches(['(', ')', '[', ']'])).is_ok();
+    behind.filter(is_unit).unwrap_or(text)
 }
 
 /// Whether words behind a share say that it is one of the estimate.
@@ -658,6 +778,16 @@ impl Header {
                         *of = Column::Std;
                     }
                 }
+                // a nominal value is no estimate beside one
+                if found == Some(Column::Estimate)
+                    && !is_nominal(cell)
+                    && let Some((known, _)) =
+                        columns.iter_mut().find(|(_, known)| *known == Column::Estimate)
+                    && is_nominal(&headings[*known])
+                {
+                    unknown.push(std::mem::replace(known, place));
+                    continue;
+                }
                 match found {
                     Some(found) if !columns.iter().any(|(_, known)| *known == found) => {
                         columns.push((place, found));
@@ -731,10 +861,12 @@ impl Header {
             }
         }
         let mut best = best?;
+        best.measured_values(cells);
         best.bare_coefficients();
         best.named_distributions(cells);
         best.widths_as_values(cells);
         best.deviations_as_widths(cells);
+        best.contributions_of_quotients(cells);
         best.doubts(cells);
         for (place, column) in best.columns.iter().filter(|(_, column)| column.is_of_numbers()) {
             let heading = best.headings.get(*place).map_or("", String::as_str);
@@ -761,6 +893,98 @@ impl Header {
         }
         let is_one = |header: &Self, place| WORDS.contains(&plain(header.heading(place)).as_str());
         self.take_the_one(Column::Sensitivity, is_one);
+    }
+
+    /// Places of columns that are not taken though their words are those of a kind of column that is,
+    /// with that kind; a nominal value is no estimate beside one, nor `u` behind the coefficients an
+    /// uncertainty of the quantity.
+    pub(super) fn others_of_known_kinds(&self) -> Vec<(usize, Column)> {
+        const KINDS: [Column; 6] = [
+            Column::Estimate,
+            Column::Width,
+            Column::Std,
+            Column::Divisor,
+            Column::Sensitivity,
+            Column::Dof,
+        ];
+        let of = |place: &usize| {
+            let heading = self.heading(*place);
+            let kind = column(heading).filter(|kind| KINDS.contains(kind))?;
+            let kind = if is_standard_symbol(heading) && self.has(Column::Std) {
+                Column::Std
+            } else {
+                kind
+            };
+            let own = place_of(&self.columns, kind)?;
+            let is_product = matches!(kind, Column::Std | Column::Width)
+                && place_of(&self.columns, Column::Sensitivity).is_some_and(|c| *place > c);
+            let units = [heading, self.heading(own)].map(|of| unit_of_header(of).ok().flatten());
+            let are_of_other_units = matches!(&units, [Some(unit), Some(known)] if unit != known);
+            // `Facteur X` may be anything
+            let is_known = kind != Column::Divisor
+                || WORDS
+                    .iter()
+                    .any(|(of, all)| *of == kind && all.contains(&plain(heading).as_str()));
+            let is_other = !is_known
+                || is_deviation(heading)
+                || kind == Column::Estimate && is_nominal(heading)
+                || is_product
+                || are_of_other_units;
+            (!is_other).then_some((*place, kind))
+        };
+        self.unknown.iter().filter_map(of).collect()
+    }
+
+    /// A measured value is the estimate where no other column is one but that of nominal values, which
+    /// is none beside it.
+    fn measured_values(&mut self, cells: &Cells) {
+        const WORDS: [&str; 13] = [
+            "measured value",
+            "measured",
+            "measurement",
+            "reading",
+            "indication",
+            "observed value",
+            "messwert",
+            "gemessener wert",
+            "anzeige",
+            "anzeigewert",
+            "ablesung",
+            "valeur mesurée",
+            "lecture",
+        ];
+        let own = place_of(&self.columns, Column::Estimate);
+        if own.is_some_and(|own| !is_nominal(self.heading(own))) {
+            return;
+        }
+        let comma = cells.decimal_comma();
+        let is_measured = |header: &Self, place: usize| {
+            WORDS.contains(&plain(header.heading(place)).as_str())
+                && (header.line + 1..cells.lines())
+                    .any(|line| number_with_unit(cells.text(line, place), comma).is_some())
+        };
+        let found: Vec<usize> =
+            self.unknown.iter().copied().filter(|place| is_measured(self, *place)).collect();
+        match found[..] {
+            [] => {}
+            [place] => {
+                self.unknown.retain(|of| *of != place);
+                self.columns.retain(|(_, column)| *column != Column::Estimate);
+                self.unknown.extend(own);
+                self.columns.push((place, Column::Estimate));
+                self.columns.sort_by_key(|(place, _)| *place);
+            }
+            [first, second, ..] => self.doubtful.push(format!(
+                "the columns `{}` and `{}` may both be the estimate: head one of them `Estimate`",
+                self.heading(first),
+                self.heading(second)
+            )),
+        }
+    }
+
+    /// How many cells its lines have.
+    pub(super) fn width(&self, cells: &Cells) -> usize {
+        (self.first..=self.line).map(|line| cells.row(line).len()).max().unwrap_or(0)
     }
 
     /// Whether a column of this kind is known.
@@ -941,6 +1165,41 @@ impl Header {
         }
     }
 
+    /// `u` beside a divisor is what is left after it where the contributions are its products with the
+    /// coefficients, and not those of its quotients.
+    fn contributions_of_quotients(&mut self, cells: &Cells) {
+        let places = [Column::Width, Column::Divisor, Column::Contribution];
+        let [Some(u), Some(divisor), Some(contribution)] =
+            places.map(|of| place_of(&self.columns, of))
+        else {
+            return;
+        };
+        if !is_standard_symbol(self.heading(u)) || self.has(Column::Std) {
+            return;
+        }
+        let comma = cells.decimal_comma();
+        let number = |line: usize, place: usize| {
+            let text = cells.text(line, place).trim();
+            number_with_unit(text, comma).map(|(value, _)| value).or_else(|| constant(text, comma))
+        };
+        let c = place_of(&self.columns, Column::Sensitivity);
+        let rows: Vec<[f64; 3]> = (self.line + 1..cells.lines())
+            .filter_map(|line| {
+                let c = c.map_or(Some(1.0), |place| number(line, place))?;
+                let product = (c * number(line, u)?).abs();
+                Some([product, number(line, divisor)?, number(line, contribution)?.abs()])
+            })
+            .filter(|[product, divisor, _]| *product > 0.0 && *divisor > 1.1)
+            .collect();
+        let near = |a: f64, b: f64| (a - b).abs() <= ROUNDED * b;
+        let are_left = rows.iter().all(|[product, _, stated]| near(*product, *stated));
+        if are_left && !rows.is_empty() {
+            for (_, column) in self.columns.iter_mut().filter(|(_, of)| *of == Column::Width) {
+                *column = Column::Std;
+            }
+        }
+    }
+
     /// What could be meant in two ways: standard deviations of a stated number of readings, and a second
     /// column of units right behind uncertainties.
     fn doubts(&mut self, cells: &Cells) {
@@ -999,7 +1258,8 @@ impl Header {
         }
     }
 
-    /// A line of units right below the header, `;mm;µm;;;µm`, is part of it, and so is one of symbols.
+    /// A line of units right below the header, `;mm;µm;;;µm` or `X_i;x_i;in mV`, is part of it, and so
+    /// is one of symbols.
     fn units_below(&mut self, cells: &Cells) {
         let line = self.line + 1;
         let numbers = self.columns.iter().filter(|(_, column)| column.is_of_numbers());
@@ -1011,24 +1271,45 @@ impl Header {
         let has_number = texts.iter().any(|(_, text)| {
             number_with_unit(text, comma).is_some() || !text.contains(char::is_alphabetic)
         });
-        let unit = |text: &str| text.trim_matches(['(', ')', '[', ']']).to_owned();
         if texts.len() < 2 || has_number {
             return;
         }
-        let has_name = self.columns.iter().any(|(place, column)| {
-            *column == Column::Quantity && !cells.text(line, *place).trim().is_empty()
-        });
-        let are_units = texts.iter().all(|(_, text)| Unit::parse(&unit(text)).is_ok());
-        let are_symbols = texts.iter().all(|(_, text)| text.chars().count() <= 8);
-        if are_units && !has_name {
-            for (column, text) in texts {
-                if !self.units.iter().any(|(known, _)| *known == column) {
-                    self.units.push((column, unit(text)));
-                }
+        let name = place_of(&self.columns, Column::Quantity)
+            .map_or("", |place| cells.text(line, place).trim());
+        let is_of_symbols = !name.is_empty() || texts.iter().any(|(_, text)| is_symbol(text));
+        let below: Vec<(Column, &str, Below)> = texts
+            .into_iter()
+            .map(|(column, text)| (column, text, Below::of(column, text, is_of_symbols)))
+            .collect();
+        if below.iter().any(|(_, _, below)| *below == Below::Row) {
+            return;
+        }
+        self.line = line;
+        let has_units = below.iter().any(|(_, _, below)| matches!(below, Below::Unit(_)));
+        if has_units && !name.is_empty() && column(name).is_none() && !is_symbol(name) {
+            self.doubtful.push(format!(
+                "line {}: `{name}` has units in place of numbers: a line of units below the header has no \
+                 name",
+                line + 1
+            ));
+        }
+        for (column, text, below) in below {
+            match below {
+                Below::Unit(unit) => match self.unit(column) {
+                    Some(known) if known != unit => self.doubtful.push(format!(
+                        "line {}: `{text}` stands below a heading that says `{known}`",
+                        line + 1
+                    )),
+                    Some(_) => {}
+                    None => self.units.push((column, unit)),
+                },
+                Below::Doubtful => self.doubtful.push(format!(
+                    "line {}: `{text}` below the header is neither a unit nor a symbol that is known: write \
+                     the unit of the column alone (`mV`)",
+                    line + 1
+                )),
+                Below::Symbol | Below::Row => {}
             }
-            self.line = line;
-        } else if are_symbols {
-            self.line = line;
         }
     }
 

@@ -28,10 +28,14 @@ impl Equation {
 #[derive(Clone, Debug)]
 pub(super) struct Unread {
     pub(super) line: usize,
+    /// The name on its left side.
+    name: String,
     pub(super) text: String,
     pub(super) reason: String,
     /// Whether a label calls it the equation.
     pub(super) is_labelled: bool,
+    /// Whether an equation of that name stands before it.
+    is_repeated: bool,
 }
 
 /// The equations of a sheet, that of the result last, and what could not be read.
@@ -86,16 +90,22 @@ impl Equations {
     fn add(&mut self, cells: &Cells, line: usize, written: &str, is_labelled: bool) {
         let Some((left, right)) = written.split_once('=') else { return };
         let name = columns::identifier(left);
-        if check_name(&name).is_err() || self.read.iter().any(|known| known.name == name) {
+        if check_name(&name).is_err() {
             return;
         }
+        let is_known = self.read.iter().any(|known| known.name == name);
         let right = right.trim();
         let comma = cells.decimal_comma();
         let formula = expression(&if comma { with_points(right) } else { right.to_owned() });
         let formula = formula.replace(';', ",");
         match Formula::parse(&formula) {
             Ok(parsed) => {
-                if parsed.names().next().is_some() {
+                let same = |text: &str| text.split_whitespace().collect::<String>();
+                let is_repeated = self
+                    .read
+                    .iter()
+                    .any(|known| known.name == name && same(&known.formula) == same(&formula));
+                if parsed.names().next().is_some() && !is_repeated {
                     self.read.push(Equation { line, name, formula });
                 }
             }
@@ -105,9 +115,11 @@ impl Equations {
                 let has_operator = formula.contains(['*', '/', '^', '+', '-', '(']);
                 let is_short = left.split_whitespace().count() <= 2;
                 let is_one = has_operator && is_short && formula.contains(char::is_alphabetic);
-                if is_labelled || (is_one && !is_quantity) {
+                if is_labelled && !is_known || (is_one && !is_quantity) {
                     let (text, reason) = (written.trim().to_owned(), error.to_string());
-                    self.unread.push(Unread { line, text, reason, is_labelled });
+                    let unread =
+                        Unread { line, name, text, reason, is_labelled, is_repeated: is_known };
+                    self.unread.push(unread);
                 }
             }
         }
@@ -118,6 +130,7 @@ impl Equations {
     /// # Errors
     /// The line and the reason where it is not clear which one is the result's.
     pub(super) fn of_result(mut self, known: &[String]) -> Result<Self, (usize, String)> {
+        self.one_of_a_name(known)?;
         let names: Vec<Vec<String>> = self.read.iter().map(Equation::names).collect();
         let is_known = |name: &String| {
             known.contains(name) || self.read.iter().any(|equation| equation.name == *name)
@@ -172,6 +185,43 @@ impl Equations {
     }
 }
 
+impl Equations {
+    /// Leaves one equation of each name, that of quantities which the sheet has where others are of
+    /// something else.
+    ///
+    /// # Errors
+    /// The line and the reason where two are of such quantities.
+    fn one_of_a_name(&mut self, known: &[String]) -> Result<(), (usize, String)> {
+        let defined: Vec<String> = self.read.iter().map(|of| of.name.clone()).collect();
+        let is_whole = |equation: &Equation| {
+            equation.names().iter().all(|name| {
+                known.contains(name) || *name != equation.name && defined.contains(name)
+            })
+        };
+        let mut left: Vec<Equation> = Vec::new();
+        for equation in std::mem::take(&mut self.read) {
+            match left.iter_mut().find(|of| of.name == equation.name) {
+                None => left.push(equation),
+                Some(first) if is_whole(first) && is_whole(&equation) => {
+                    let reason = format!(
+                        "`{0}` is `{1}` in line {2} and `{3}` in line {4}: leave one equation",
+                        equation.name,
+                        first.formula,
+                        first.line + 1,
+                        equation.formula,
+                        equation.line + 1
+                    );
+                    return Err((equation.line, reason));
+                }
+                Some(first) if is_whole(&equation) => *first = equation,
+                Some(_) => {}
+            }
+        }
+        self.read = left;
+        Ok(())
+    }
+}
+
 /// Decimal commas of a formula as points; other commas separate arguments.
 pub(super) fn with_points(text: &str) -> String {
     let characters: Vec<char> = text.chars().collect();
@@ -200,11 +250,34 @@ impl Budget<'_> {
     }
 
     /// Says which texts look like equations and could not be read; a mistake where nothing else tells
-    /// how the result is made.
-    pub(super) fn unread(&mut self, unread: &[Unread], has_other: bool) {
-        for Unread { line, text, reason, is_labelled } in unread {
+    /// how the result is made, or where the text is of a name of which another equation is read and
+    /// names quantities; `known` are the names of the rows.
+    pub(super) fn unread(
+        &mut self,
+        unread: &[Unread],
+        has_other: bool,
+        equations: &[Equation],
+        known: &[String],
+    ) {
+        for Unread { line, name, text, reason, is_labelled, is_repeated } in unread {
             let said = format!("`{text}` cannot be read as an equation: {reason}");
-            if has_other && !is_labelled {
+            let right = text.split_once('=').map_or("", |(_, right)| right);
+            let mut words = right.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+            // `2a`
+            let names = words.any(|word| {
+                let word = word.trim_start_matches(|c: char| c.is_ascii_digit());
+                known.iter().any(|name| name == word)
+            });
+            let other = equations.iter().find(|equation| equation.name == *name);
+            if let Some(other) = other.filter(|_| names) {
+                let reason = format!(
+                    "{said}; another equation of `{name}` stands in line {}",
+                    other.line + 1
+                );
+                self.fail(*line, reason);
+            } else if *is_repeated {
+                // a statement of the result
+            } else if has_other && !is_labelled {
                 self.guessed.push(format!("line {}: {said}; it is not taken", line + 1));
             } else {
                 self.fail(*line, said);

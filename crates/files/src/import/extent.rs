@@ -81,12 +81,26 @@ fn unknown_word(text: &str) -> Option<&str> {
     // `2s`, of standard deviations
     let deviations = || {
         text.split(|c: char| !c.is_alphanumeric()).find(|word| {
+            let word = word.to_lowercase();
             let digits = word.strip_suffix("sd").or(word.strip_suffix('s')).unwrap_or_default();
             !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
         })
     };
     let words = text.split(|c: char| !c.is_alphabetic()).skip(1);
     words.into_iter().find(changes).or(sign).or_else(deviations)
+}
+
+/// A number of standard deviations as two words, `2 SD` or `2 s`: the number, and the second word.
+fn standard_deviations(text: &str) -> Option<(f64, &str)> {
+    const WORDS: [&str; 7] = ["s", "sd", "sds", "std", "stdev", "stddev", "standard"];
+    let mut words = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    let mut before = words.next()?;
+    words.find_map(|word| {
+        let number = std::mem::replace(&mut before, word);
+        let is_number = number.bytes().all(|byte| byte.is_ascii_digit());
+        let is_it = is_number && WORDS.contains(&word.to_lowercase().as_str());
+        Some((number.parse().ok().filter(|_| is_it)?, word))
+    })
 }
 
 impl Budget<'_> {
@@ -104,6 +118,20 @@ impl Budget<'_> {
             return;
         }
         let heading = header.heading_of(Column::Width).to_owned();
+        // a divisor of that number says the same
+        let says = |text| {
+            standard_deviations(text).filter(|(k, _)| row.divisor.is_none_or(|of| !near(of, *k)))
+        };
+        let of_row = says(&text).map(|(_, word)| (&text, word));
+        let of_heading =
+            || says(&heading).filter(|_| row.divisor.is_none()).map(|(_, word)| (&heading, word));
+        if let Some((text, word)) = of_row.or_else(of_heading) {
+            let reason = format!(
+                "`{text}`: what `{word}` says of the uncertainty is not understood; a factor (`k=2`, `2σ`) is"
+            );
+            self.fail(row.line, reason);
+            return;
+        }
         let (of_cell, of_heading) = (Extent::of(&text), Extent::of(&heading));
         let whole = match (of_cell, of_heading) {
             (Some(cell), Some(head)) if cell != head => {
@@ -188,6 +216,7 @@ mod tests {
             ("rectangular (p-p)", Some("p-p")),
             ("normal (k)", Some("k")),
             ("normal (2s)", Some("2s")),
+            ("normal, 2SD", Some("2SD")),
             ("rectangular (manufacturer's)", None),
             ("rectangular (range)", Some("range")),
             ("rectangular (5 %)", Some("%")),
@@ -200,6 +229,19 @@ mod tests {
             ("rectangular (full width)", None),
         ] {
             assert_eq!(unknown_word(text), word, "{text}");
+        }
+    }
+
+    #[test]
+    fn numbers_of_standard_deviations() {
+        for (text, found) in [
+            ("normal (2 SD)", Some((2.0, "SD"))),
+            ("normal (2 s)", Some((2.0, "s"))),
+            ("U (3 standard deviations)", Some((3.0, "standard"))),
+            ("normal (certificate no. 2, standards)", None),
+            ("s", None),
+        ] {
+            assert_eq!(standard_deviations(text), found, "{text}");
         }
     }
 }

@@ -64,8 +64,9 @@ impl Cells {
     /// Writes what merged cells hold into all rows that they span, in columns of what several rows can
     /// have in common; what was taken, as sentences.
     fn spread_merged(&mut self, header: &Header) -> Vec<String> {
-        const COMMON: [Column; 6] = [
+        const COMMON: [Column; 7] = [
             Column::Unit,
+            Column::UnitOfUncertainty,
             Column::Distribution,
             Column::Divisor,
             Column::Dof,
@@ -107,9 +108,16 @@ impl Cells {
         said
     }
 
-    /// The decimal marks of its numbers; of a workbook, whose numbers have none, those of any text.
+    /// The decimal marks of its numbers; of a workbook those of its texts, since its numbers have none.
     pub(super) fn marks(&self) -> DecimalMarks {
-        DecimalMarks::of(self.separator.unwrap_or(Separator::Comma))
+        DecimalMarks::of(self.separator.unwrap_or(Separator::Semicolon))
+    }
+
+    /// Whether a cell holds what somebody wrote, and no number of a workbook.
+    pub(super) fn is_written(&self, line: usize, place: usize) -> bool {
+        let of = |of: usize| u32::try_from(of).ok();
+        let of_texts = |place| self.layout.texts.contains(&place);
+        self.separator.is_some() || of(line).zip(of(place)).is_some_and(of_texts)
     }
 }
 

@@ -9,6 +9,7 @@ use super::columns::{self, Column, Header, HeaderCoverage, NamedShape};
 use super::linear::{CONTRIBUTIONS_DIFFER, standard_uncertainty};
 use super::stated::Stated;
 use super::{Budget, equation, number};
+use crate::separator::Separator;
 use crate::value_text::grouped_digits;
 use crate::width::Width;
 
@@ -134,6 +135,7 @@ impl Budget<'_> {
                 continue;
             }
             if is_result || is_symbol {
+                self.surplus(header, line);
                 table.stated.extend(self.stated(header, line, &row));
                 self.result_row(&mut table, row, is_symbol);
                 continue;
@@ -142,10 +144,12 @@ impl Budget<'_> {
                 self.guessed.push(format!("line {}: `{label}` has no numbers; left out", line + 1));
                 continue;
             }
+            self.surplus(header, line);
             let mut row = row;
             let plain = columns::with_unit_in_brackets(words);
             let words = plain.as_ref().map_or(words.as_str(), |(name, _)| *name);
-            row.name = self.name(words, &table.rows, line);
+            row.name = self.name(words, &table.rows, line, used);
+            self.divided(header, &row);
             self.coverage(header, &mut row);
             self.contradictions(&row);
             table.rows.push(row);
@@ -167,6 +171,8 @@ impl Budget<'_> {
             table.result = Some(last);
         }
         self.blank_estimates(header, &table.rows);
+        self.blank_uncertainties(header, &table.rows);
+        self.stated_twice(header, &table.rows);
         if let Some(result) = &mut table.result
             && (columns::is_result(&result.about) || result.is_summary)
         {
@@ -186,6 +192,102 @@ impl Budget<'_> {
                 row.line + 1,
                 row.name
             ));
+        }
+    }
+
+    /// Says which quantities have no uncertainty; of a shape without one that is told already.
+    fn blank_uncertainties(&mut self, header: &Header, rows: &[Row]) {
+        let is_blank =
+            |row: &&Row| row.width.is_none() && row.std.is_none() && row.distribution.is_none();
+        for row in rows.iter().filter(is_blank) {
+            let column = Column::UNCERTAIN.into_iter().find(|column| header.has(*column));
+            self.guessed.push(format!(
+                "line {}: `{}` has no uncertainty below `{}` and is taken for a constant",
+                row.line + 1,
+                row.name,
+                column.map_or("", |column| header.heading_of(column)).trim()
+            ));
+        }
+    }
+
+    /// Refuses a row of which two columns that may hold the same thing say something else.
+    fn stated_twice(&self, header: &Header, rows: &[Row]) {
+        let comma = self.cells.decimal_comma();
+        let number = |text: &str| {
+            let text = without_factor(text.trim().trim_start_matches(['±', ' ']));
+            let read = number::number_with_unit(text, comma);
+            let read = read.map(|(value, unit)| (value, unit.to_owned()));
+            read.or_else(|| Some((number::constant(text, comma)?, String::new())))
+        };
+        for (place, column) in header.others_of_known_kinds() {
+            let own = header.heading_of(column).trim();
+            for row in rows {
+                let text = self.cells.text(row.line, place);
+                let Some((second, unit)) = number(text) else { continue };
+                let first = header.cell(self.cells, row.line, column).trim();
+                let differs = match number(first) {
+                    // another unit may say the same
+                    Some((_, of_first)) if of_first != unit => false,
+                    Some((first, _)) => match column {
+                        Column::Estimate => first != second,
+                        Column::Sensitivity => !is_near(first.abs(), second.abs(), SAME),
+                        // a standard or an expanded uncertainty beside what they are made of
+                        Column::Width => {
+                            let ratio = second / standard_uncertainty(row).unwrap_or(first);
+                            let usual = [1.0, 1.96, 2.0, 3.0, first / second * ratio];
+                            !usual.into_iter().any(|of| is_near(ratio, of, SAME))
+                        }
+                        _ => !is_near(first, second, SAME),
+                    },
+                    None => is_empty(first) && second != 0.0,
+                };
+                if differs {
+                    let first =
+                        if is_empty(first) { "nothing".to_owned() } else { format!("`{first}`") };
+                    let reason = format!(
+                        "the columns `{own}` and `{}` may both be the {}, and have {first} and `{}` here: \
+                         take one of them away, or head it with what it is",
+                        header.heading(place).trim(),
+                        column.name(),
+                        text.trim()
+                    );
+                    self.fail(row.line, reason);
+                    break;
+                }
+            }
+        }
+    }
+
+    /// A row with cells beyond the columns of its header: in a text a number may have been torn at its
+    /// decimal comma; beside the table of a workbook they are told.
+    fn surplus(&mut self, header: &Header, line: usize) {
+        let columns = header.width(self.cells);
+        let row = self.cells.row(line);
+        let count = row.iter().rposition(|cell| !cell.trim().is_empty()).map_or(0, |last| last + 1);
+        let Some(cell) =
+            row.iter().skip(columns).map(|cell| cell.trim()).find(|cell| !cell.is_empty())
+        else {
+            return;
+        };
+        match self.cells.separator() {
+            None => {
+                let said =
+                    format!("line {}: `{cell}` stands below no heading and is not taken", line + 1);
+                self.guessed.push(said);
+            }
+            Some(separator) => {
+                let hint = if separator == Separator::Comma {
+                    "; numbers with decimal commas between commas are written in quotes, or between \
+                     semicolons"
+                } else {
+                    ""
+                };
+                let reason = format!(
+                    "the row has {count} cells, the header {columns}, so that `{cell}` stands below no \
+                     heading{hint}"
+                );
+                self.fail(line, reason);
+            }
         }
     }
 
@@ -273,13 +375,23 @@ impl Budget<'_> {
         }
     }
 
-    /// A name for formulas.
-    fn name(&mut self, words: &str, rows: &[Row], line: usize) -> String {
+    /// A name for formulas; `used` are those that the equations need, of which each is of one row.
+    fn name(&mut self, words: &str, rows: &[Row], line: usize, used: &[String]) -> String {
         let mut name = columns::identifier(words);
         if check_name(&name).is_err() {
             name = format!("x_{}", rows.len() + 1);
         }
         let wanted = name.clone();
+        if used.contains(&wanted)
+            && let Some(first) = rows.iter().find(|row| row.name == wanted)
+        {
+            let reason = format!(
+                "the lines {} and {} are both called `{wanted}`, which the equation uses: which one is it?",
+                first.line + 1,
+                line + 1
+            );
+            self.fail(line, reason);
+        }
         let mut number = 2;
         while rows.iter().any(|row| row.name == name) {
             name = format!("{wanted}_{number}");
@@ -310,7 +422,8 @@ impl Budget<'_> {
             _ => text,
         };
         let comma = self.cells.decimal_comma();
-        let read = number::number_with_unit(text, comma);
+        let read = number::number_with_unit(text, comma)
+            .map(|(value, unit)| (value, columns::without_in(unit)));
         let is_unit = |unit: &str| grouped_digits(unit).is_none() && Unit::parse(unit).is_ok();
         let read = read.filter(|(_, unit)| unit.is_empty() || is_unit(unit)).or_else(|| {
             let of_text = (column == Column::Sensitivity).then(|| number::constant(text, comma));
@@ -323,7 +436,15 @@ impl Budget<'_> {
                 format!("`{text}` in the column of the {} is no number{hint}", column.name());
             self.fail(line, reason);
         }
+        let is_written = header.columns.iter().any(|(place, of)| {
+            // its side of a cell that holds an estimate and its uncertainty
+            let is_side = *of == Column::Estimate || Column::UNCERTAIN.contains(of);
+            let is_of_cell =
+                *of == column || is_side && self.cells.text(line, *place).contains(text);
+            is_of_cell && self.cells.is_written(line, *place)
+        });
         if let Some((_, unit)) = read
+            && is_written
             && let digits = text.strip_suffix(unit).unwrap_or(text).trim()
             && let plain = number::without_groups(digits)
             && let digits = plain.as_deref().unwrap_or(digits)
@@ -382,6 +503,25 @@ impl Budget<'_> {
             self.fail(line, format!("the {} `{text}` is below zero", column.name()));
             return None;
         }
+        let unit = match self.unit_of_uncertainty(header, line, column) {
+            "" => unit,
+            own if unit.is_empty() && !text.contains('%') => own.to_owned(),
+            own if own == unit || own == "%" && text.contains('%') => unit,
+            own => {
+                if !lenient {
+                    let column = header.heading_of(Column::UnitOfUncertainty);
+                    let reason = format!("`{text}` stands beside `{own}` below `{column}`");
+                    self.fail(line, reason);
+                }
+                return None;
+            }
+        };
+        if !unit.is_empty() && Unit::parse(&unit).is_err() {
+            if !lenient {
+                self.fail(line, format!("the unit `{unit}` of the uncertainty is not known"));
+            }
+            return None;
+        }
         let of_header = header.unit(column).unwrap_or_default();
         let is_percent = text.contains('%') && unit.is_empty();
         if !of_header.is_empty() && (is_percent || !unit.is_empty()) && !lenient {
@@ -410,6 +550,13 @@ impl Budget<'_> {
             _ if unit.is_empty() => Some(value),
             _ => self.converted((value, unit), line, (column, lenient), row),
         }
+    }
+
+    /// What the column of the units of uncertainties has for a number; empty where it has nothing.
+    fn unit_of_uncertainty(&self, header: &Header, line: usize, column: Column) -> &str {
+        let text = header.cell(self.cells, line, Column::UnitOfUncertainty).trim();
+        let is_uncertain = matches!(column, Column::Width | Column::Std);
+        if is_uncertain && !is_empty(text) { columns::without_in(text) } else { "" }
     }
 
     /// A width as data sheets have it, `0.02 % + 2 mV`, at the estimate.
@@ -570,7 +717,21 @@ impl Budget<'_> {
         }
         let line = row.line + 1;
         if let Some(std) = row.std.filter(|std| *std > 0.0) {
-            row.divisor = Some(width / std);
+            let [stated, standard] =
+                [Column::Width, Column::Std].map(|of| header.heading_of(of).trim());
+            // `u` is a standard uncertainty as well
+            let are_alike = columns::is_standard_symbol(stated);
+            if width < std * (1.0 - SAME) || are_alike && width > std * (1.0 + SAME) {
+                let reason = format!(
+                    "`{}` is {} below `{stated}` and {} below `{standard}`: which is its standard \
+                     uncertainty?",
+                    row.name,
+                    Shortest(width),
+                    Shortest(std)
+                );
+                self.fail(row.line, reason);
+            }
+            row.divisor = Some(if are_alike { 1.0 } else { width / std });
             return;
         }
         if of_header == HeaderCoverage::Expanded {
@@ -584,6 +745,30 @@ impl Budget<'_> {
                 "line {line}: nothing says what the uncertainty of `{}` is divided by: k = 1 is taken, as \
                  of a standard uncertainty",
                 row.name
+            ));
+        }
+    }
+
+    /// Says how a divisor beside nothing but standard uncertainties is taken: below `u` they are still to
+    /// be divided, below words they are what is left.
+    fn divided(&mut self, header: &Header, row: &Row) {
+        if row.divisor.is_none_or(|divisor| near(divisor, 1.0)) {
+            return;
+        }
+        let column = if header.has(Column::Width) { Column::Width } else { Column::Std };
+        let heading = header.heading_of(column).trim();
+        let is_to_be_divided = column == Column::Width && columns::is_standard_symbol(heading);
+        let (own, other) = if is_to_be_divided {
+            (row.width.filter(|_| row.std.is_none()), "still to be divided")
+        } else {
+            (row.std.filter(|_| !header.has(Column::Width)), "already divided")
+        };
+        if let Some(u) = own.filter(|u| *u > 0.0) {
+            self.guessed.push(format!(
+                "line {}: {} below `{heading}` is taken as {other} by {}",
+                row.line + 1,
+                Shortest(u),
+                header.cell(self.cells, row.line, Column::Divisor).trim(),
             ));
         }
     }
@@ -740,7 +925,8 @@ impl Budget<'_> {
     }
 
     fn unit(&mut self, header: &Header, line: usize, lenient: bool) -> String {
-        let text = header.cell(self.cells, line, Column::Unit).trim();
+        let text = columns::without_in(header.cell(self.cells, line, Column::Unit).trim());
+        let text = text.trim_matches(['[', ']']);
         if text.is_empty() || matches!(text, "-" | "–" | "1") {
             return String::new();
         }
@@ -800,7 +986,7 @@ impl Budget<'_> {
             && !lenient;
         let needs = is_undivided && !is_factor_of(text);
         // a probability has its factor with degrees of freedom alone, which may be infinite
-        let is_without_dof = header.cell(self.cells, row.line, Column::Dof).trim().is_empty();
+        let is_without_dof = is_empty(header.cell(self.cells, row.line, Column::Dof).trim());
         let is_stated = [HeaderCoverage::of(text), header.coverage(Column::Width)]
             .iter()
             .any(|of| of.factor(None).is_some() && (of.probability().is_none() || !is_without_dof));
@@ -815,7 +1001,29 @@ impl Budget<'_> {
                 self.fail(row.line, reason);
                 None
             }
+            NamedShape::Student
+                if is_without_dof && !lenient && row.width.or(row.std).is_some_and(|u| u > 0.0) =>
+            {
+                let reason = format!(
+                    "`{text}` has degrees of freedom, and none are stated: write them in a column `Degrees of \
+                     freedom`, or `normal` where they are infinite"
+                );
+                self.fail(row.line, reason);
+                None
+            }
             NamedShape::Student => Some("normal"),
+            NamedShape::Unknown
+                if !lenient
+                    && self.cells.separator() == Some(Separator::Comma)
+                    && number::number(text, true).is_some() =>
+            {
+                let reason = format!(
+                    "the number `{text}` stands in the column of the distribution: has a cell of this row \
+                     a comma too much?"
+                );
+                self.fail(row.line, reason);
+                None
+            }
             NamedShape::Unknown if needs => {
                 let reason = format!(
                     "the distribution `{text}` is not known, and there is no divisor; normal, \
@@ -902,7 +1110,14 @@ pub(super) fn divisor_of(shape: &str) -> Option<f64> {
 }
 
 pub(super) fn near(a: f64, b: f64) -> bool {
-    (a / b - 1.0).abs() < 0.01
+    is_near(a, b, 0.01)
+}
+
+/// Two digits, of which the least are 1.0, are rounded by up to this share.
+const SAME: f64 = 0.05;
+
+fn is_near(a: f64, b: f64, share: f64) -> bool {
+    a == b || (a / b - 1.0).abs() < share
 }
 
 /// Whether a row whose shape is not normal becomes a normal input: its uncertainty is divided by

@@ -22,6 +22,9 @@ impl Chosen {
         let unreadable = |message| DiagnosticKind::Unreadable { message };
         let mut book = Book::open(content).map_err(unreadable)?;
         let sheets = book.sheets();
+        if let Some(message) = of_certificate(&mut book, &sheets) {
+            return Err(unreadable(message));
+        }
         let mut read = |sheet: &SheetName| {
             let (rows, layout) = book.sheet(sheet).map_err(unreadable)?;
             let (cells, text, said) = grid::of_sheet(rows, layout);
@@ -81,6 +84,20 @@ impl Chosen {
         }
         self
     }
+}
+
+/// Why the workbook of a certificate of this program is no budget; `None` of other ones.
+fn of_certificate(book: &mut Book, sheets: &[SheetName]) -> Option<String> {
+    let named = |name: &str| sheets.iter().find(|sheet| sheet.name == name);
+    let (certificate, _) = named("Certificate").zip(named("Unrounded"))?;
+    let (rows, _) = book.sheet(certificate).ok()?;
+    let is_ours = |cell: &String| cell.starts_with("certificate file, SHA-256:");
+    rows.iter().flatten().any(is_ours).then(|| {
+        "it is the workbook of a certificate, whose rows are results and no inputs of a sum: take its \
+         quantities from the digital certificate (`gumption certificate --format dcc`), each by an input \
+         of the distribution `dcc`"
+            .to_owned()
+    })
 }
 
 /// Names of sheets in a sentence; not more than the first ten.

@@ -44,6 +44,23 @@ const ROUNDED_PARTS: f64 = 0.02;
 /// Estimates differ from this share of the standard uncertainty on.
 const MATTERS: f64 = 0.1;
 
+/// An estimate that differs by more than this share, and by more than its expanded uncertainty, is that of
+/// another model.
+const LARGE: f64 = 0.05;
+
+/// Uncertainties that differ by more than this factor, and by more than rounding, are those of other rows
+/// or divisors; parts that are neglected or rounded make less.
+const FAR: f64 = 1.25;
+
+/// The estimate of a model's result, and its unit.
+fn estimate_of(model: &str) -> Option<(f64, Unit)> {
+    let file = read_text("the model", model, Path::new(""), &[]).ok()?;
+    let evaluated = gum::evaluate(&file.task, file.task.rows.first()?);
+    let gum = evaluated.outputs.first()?.as_ref()?;
+    let output = file.task.model.outputs.first()?;
+    Some((gum.estimate, output.quantity.unit.clone()))
+}
+
 impl Budget<'_> {
     /// What a row of the result, or of a summary, states.
     pub(super) fn stated(&self, header: &Header, line: usize, row: &Row) -> Vec<Stated> {
@@ -106,15 +123,79 @@ impl Budget<'_> {
         found
     }
 
-    /// Tells where the sheet's figures of the result are not those of the model; `factor` is the
-    /// coverage factor that the sheet states for all.
-    pub(super) fn compare(&mut self, model: &str, stated: &[Stated], factor: Option<f64>) {
+    /// The model without a check of units where numbers stand for units in its equation: its estimate is
+    /// that of the sheet times a power of ten, and without the check it is that of the sheet. `model` is
+    /// the model file with the check or without it.
+    pub(super) fn of_numbers(
+        &mut self,
+        made: String,
+        stated: &[Stated],
+        model: &impl Fn(bool) -> String,
+    ) -> String {
+        let estimates = || stated.iter().filter(|stated| stated.figure == Figure::Estimate);
+        let of = |text: &str, stated: &Stated| {
+            let (estimate, unit) = estimate_of(text)?;
+            let scale = match stated.unit.as_str() {
+                "" => Some(1.0),
+                own => {
+                    let own = Unit::parse(own).ok().filter(|own| own.has_zero_of(&unit))?;
+                    Unit::conversion_factor(&own, &unit).ok()
+                }
+            };
+            Some(estimate / scale?)
+        };
+        let is_scaled = |stated: &Stated| {
+            let own = of(&made, stated)?;
+            let ratio = elementary::log10(own / stated.value);
+            let power = ratio.round();
+            let value = stated.value * elementary::pow(10.0, power);
+            let half = stated.half_digit * elementary::pow(10.0, power);
+            Some(power != 0.0 && (own - value).abs() <= 1.2 * half)
+        };
+        let Some(first) = estimates().find(|stated| is_scaled(stated) == Some(true)) else {
+            return made;
+        };
+        let without = model(false);
+        let is_it = |stated: &Stated| {
+            let own = of(&without, stated);
+            own.is_some_and(|own| (own - stated.value).abs() <= 1.2 * stated.half_digit)
+        };
+        if without == made || !estimates().all(is_it) {
+            return made;
+        }
+        self.guessed.push(format!(
+            "line {}: the equation has numbers in place of units: it gives the estimate {} of the sheet with \
+             the numbers of the rows in their own units, and another one with a check of units; units are \
+             not checked",
+            first.line + 1,
+            first.text
+        ));
+        without
+    }
+
+    /// Tells where the sheet's figures of the result are not those of the model, and refuses what no
+    /// rounding explains, unless the sheet has a correlation that is not taken; `factor` is the coverage
+    /// factor that the sheet states for all.
+    pub(super) fn compare(
+        &mut self,
+        model: &str,
+        stated: &[Stated],
+        factor: Option<f64>,
+    ) -> Option<()> {
+        let is_clean = self.log.is_clean();
+        self.compare_figures(model, stated, factor);
+        (!is_clean || self.log.is_clean()).then_some(())
+    }
+
+    fn compare_figures(&mut self, model: &str, stated: &[Stated], factor: Option<f64>) {
         let Ok(file) = read_text("the model", model, Path::new(""), &[]) else { return };
         let Some(row) = file.task.rows.first() else { return };
         let evaluated = gum::evaluate(&file.task, row);
         let found = evaluated.outputs.first().and_then(Option::as_ref);
         let Some((gum, output)) = found.zip(file.task.model.outputs.first()) else { return };
         let of_result = &output.quantity.unit;
+        let is_correlated = (0..self.cells.lines())
+            .any(|line| self.cells.row(line).iter().any(|cell| columns::is_of_correlation(cell)));
         for stated in stated {
             let unit = match stated.unit.as_str() {
                 "" => Some(of_result.clone()),
@@ -156,10 +237,22 @@ impl Budget<'_> {
             let digits = digits_for(stated.figure, own, u);
             let written = with_unit(significant(own / scale, digits));
             let text = with_unit(stated.text.clone());
-            self.guessed.push(format!(
-                "line {}: the sheet says that {what} of the result is {text}, this model {written}",
-                stated.line + 1
-            ));
+            let said =
+                format!("the sheet says that {what} of the result is {text}, this model {written}");
+            let far = (value - own).abs() - 1.2 * half;
+            let is_far = match stated.figure {
+                // an estimate near 0 has no share
+                Figure::Estimate => far > LARGE * own.abs() && far > 2.0 * u,
+                _ => far > 0.0 && (value / own).max(own / value) > FAR,
+            };
+            if is_far && !is_correlated {
+                let reason = format!(
+                    "{said}: correct the row or the equation that is misread, or take this figure away"
+                );
+                self.fail(stated.line, reason);
+            } else {
+                self.guessed.push(format!("line {}: {said}", stated.line + 1));
+            }
         }
     }
 }

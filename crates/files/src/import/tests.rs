@@ -563,9 +563,8 @@ fn the_sheet_s_result_is_compared() {
     assert!(!told("36,4 nm", "49,999926"));
     assert!(told("34,3 nm", "49,999926"));
     for (rows, part) in [
-        ("E;11,1;%;;", "the estimate of the result is 11,1 %, this model 1111"),
-        ("E;1111,1;%;0,5;2", "the expanded uncertainty of the result is 0,5 %, this model 0."),
-        ("E;1111,1;%;;\nExpanded uncertainty (k=3);5;%;;", "is 5 %, this model 0."),
+        ("E;1111,1;%;0,58;2", "the expanded uncertainty of the result is 0,58 %, this model 0.66"),
+        ("E;1111,1;%;;\nExpanded uncertainty (k=3);1,1;%;;", "is 1,1 %, this model 0.99"),
     ] {
         let text = format!(
             "E = (m1-m2)/m2*100\nQuantity;Estimate;Unit;±;Divisor\n\
@@ -921,18 +920,18 @@ fn sums_and_totals_are_no_inputs() {
         assert!(!guesses(&budget, "the sheet says"), "{:?}", budget.guessed);
     }
     for (row, told) in [
-        ("Total,7,V,1.7,", "the standard uncertainty of the result is 1.7 V, this model 1.30 V"),
-        ("Summe,7,V,1.7,", "the standard uncertainty of the result is 1.7 V, this model 1.30 V"),
+        ("Total,7,V,1.5,", "the standard uncertainty of the result is 1.5 V, this model 1.30 V"),
+        ("Summe,7,V,1.5,", "the standard uncertainty of the result is 1.5 V, this model 1.30 V"),
         (
-            "Expanded (k=2),,V,3.9,",
-            "the expanded uncertainty of the result is 3.9 V, this model 2.60 V",
+            "Expanded (k=2),,V,3.0,",
+            "the expanded uncertainty of the result is 3.0 V, this model 2.60 V",
         ),
         (
-            "Expanded (k=2),3.9,V,,",
-            "the expanded uncertainty of the result is 3.9 V, this model 2.60 V",
+            "Expanded (k=2),3.0,V,,",
+            "the expanded uncertainty of the result is 3.0 V, this model 2.60 V",
         ),
-        ("U (k=2),,V,3.9,", "the expanded uncertainty of the result is 3.9 V, this model 2.60 V"),
-        ("U (k=2),3.9,V,,", "the expanded uncertainty of the result is 3.9 V, this model 2.60 V"),
+        ("U (k=2),,V,3.0,", "the expanded uncertainty of the result is 3.0 V, this model 2.60 V"),
+        ("U (k=2),3.0,V,,", "the expanded uncertainty of the result is 3.0 V, this model 2.60 V"),
         ("Expanded (k=2),,V,2.6,", ""),
         ("U (k=2),,V,2.6,1", ""),
         ("Expanded,2.6,V,,", ""),
@@ -940,7 +939,7 @@ fn sums_and_totals_are_no_inputs() {
         let (found, budget) =
             uncertainties(&format!("{head}a,5,V,0.3,1\nb,2,V,0.4,1\nc,0,V,1.2,1\n{row}\n"));
         assert_eq!(found, [0.3, 0.4, 1.2], "{row}");
-        assert!(!budget.text.contains("2.6") && !budget.text.contains("3.9"), "{}", budget.text);
+        assert!(!budget.text.contains("2.6") && !budget.text.contains("3.0"), "{}", budget.text);
         let is_told = guesses(&budget, "the sheet says");
         assert_eq!(is_told, !told.is_empty(), "{row}: {:?}", budget.guessed);
         assert!(told.is_empty() || guesses(&budget, told), "{row}: {:?}", budget.guessed);
@@ -1213,4 +1212,361 @@ fn headings_that_are_not_known_are_named() {
     assert!((found[0] - 0.1).abs() < 1e-15, "{found:?}");
     let error = refusal("Quantity,Value,Unit,Wobble,Distribution\nA,10,V,0.3,rectangular\n");
     assert!(error.contains("an uncertainty, and `Wobble` is not known"), "{error}");
+}
+
+/// Decimal commas between commas tear numbers; before, both quantities were constants without a word.
+#[test]
+fn rows_with_more_cells_than_the_header_are_refused() {
+    let head = "Quantity,Unit,Estimate,Standard uncertainty";
+    let error = refusal(&format!("{head}\na,m,10,0,25\nb,m,2,0,5\nY = a + b\n"));
+    let part =
+        "the row has 5 cells, the header 4, so that `25` stands below no heading; numbers with";
+    assert!(error.contains(part), "{error}");
+    let error = refusal(&format!("{head},Distribution\na,m,10,0,25\nb,m,2,0,5\n"));
+    assert!(error.contains("the number `25` stands in the column of the distribution"), "{error}");
+    let error = refusal("Quantity;Unit;Estimate;u\na;m;3;0,1;extra;cells\n");
+    assert!(error.contains("the row has 6 cells, the header 4, so that `extra`"), "{error}");
+    // cells that a spreadsheet pads are no headings, and sentences no rows
+    for text in [
+        format!("{head},,\na,m,10,0.25,,\nb,m,2,0.5,,a remark\n"),
+        format!("{head}\na,m,10,0.25,,\nb,m,2,0.5\n\n\nsee the report, of 2024, page 3, and 4,5\n"),
+    ] {
+        assert_eq!(uncertainties(&text).0, [0.25, 0.5], "{text}");
+    }
+    // a constant is one, and told
+    let (found, budget) = uncertainties(&format!("{head}\na,m,10,0.25\nb,m,2\nc,m,1,0.5\n"));
+    assert_eq!(found, [0.25, 0.0, 0.5]);
+    let part =
+        "line 3: `b` has no uncertainty below `Standard uncertainty` and is taken for a constant";
+    assert!(guesses(&budget, part), "{:?}", budget.guessed);
+}
+
+/// A line of symbols and units below the header, as EA-4/02 has it: 0.4 mV at k = 2 are 0.2 mV, 0.05 mV
+/// over the root of 3 are 0.0289 mV. Before, they were volts, inch-volts or plain numbers without a word.
+#[test]
+fn a_line_of_symbols_and_units_below_the_header() {
+    let head = "Größe;Schätzwert;Unsicherheit;Verteilung;Divisor;c_i;u_i(y)";
+    let rows = "Normal;10,000;0,4;normal;2;1;0,2\nAuflösung;0;0,05;rect.;√3;1;0,0289\n";
+    for below in [
+        "X_i;x_i / V;in mV;;;;in mV",
+        ";in V;in mV;;;;in mV",
+        "Xi;xi / V;a / mV;;;;ui / mV",
+        "Xi;xi/V;a/mV;;;;ui(y)/mV",
+        "X_i;x_i [V];a [mV];;;;u_i(y) [mV]",
+        "Einheit;V;mV;;;;mV",
+        ";V;[mV];;;;(mV)",
+        ";[in V];in [mV];;;;mV",
+    ] {
+        let (found, budget) = uncertainties(&format!("{head}\n{below}\n{rows}"));
+        assert!((found[0] - 2e-4).abs() < 1e-15, "{below}: {found:?}");
+        assert!((found[1] - 5e-5 / 3f64.sqrt()).abs() < 1e-15, "{below}: {found:?}");
+        assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "V", "{below}");
+        assert!(!guesses(&budget, "contributes"), "{below}: {:?}", budget.guessed);
+    }
+    // symbols alone
+    let below = "X_i;x_i;a;;;c_i;u_i(y)";
+    let (found, _) = uncertainties(&format!("{head}\n{below}\n{rows}"));
+    assert_eq!(found[0], 0.2);
+    for (below, part) in [
+        ("Xi;xi;in foo;;;;", "line 2: `in foo` below the header is neither a unit nor a symbol"),
+        ("Xi;xi;s;;;;", "line 2: `s` below the header is neither a unit"),
+        ("Cable;V;mV;;;;", "line 2: `Cable` has units in place of numbers"),
+    ] {
+        let error = refusal(&format!("{head}\n{below}\n{rows}"));
+        assert!(error.contains(part), "{below}: {error}");
+    }
+    let text = "Quantity;Estimate (V);Half-width (mV);Distribution\n;V;V;\na;1;2;rectangular\n";
+    assert!(refusal(text).contains("line 2: `V` stands below a heading that says `mV`"));
+    let (found, _) = uncertainties("Quantity;Estimate;Unit;u\na;1;in mV;2\n");
+    let (of_cells, _) = uncertainties("Quantity;Estimate;u\na;1 in mV;2 in mV\n");
+    assert_eq!((found[0], of_cells[0]), (2.0, 2.0));
+}
+
+/// A column of the units of uncertainties: 20 ppm of 10 V are 200 µV, at k = 2 100 µV; 5 µV over the root
+/// of 3. Before, they were 20 V and 5 V.
+#[test]
+fn a_column_of_the_units_of_uncertainties() {
+    for heading in [
+        "Uncertainty unit",
+        "Unc. unit",
+        "Unit of uncertainty",
+        "Unit (u)",
+        "Unsicherheit Einheit",
+        "Einheit der Unsicherheit",
+    ] {
+        let text = format!(
+            "Quantity,Estimate,Unit,Uncertainty,{heading},Distribution,Divisor\n\
+             Ref,10.000,V,20,ppm,normal,2\nOffset,0.010,V,5,µV,rect.,1.73\n"
+        );
+        let (found, budget) = uncertainties(&text);
+        assert!((found[0] / 1e-4 - 1.0).abs() < 1e-12, "{heading}: {found:?}");
+        assert!((found[1] / (5e-6 / 3f64.sqrt()) - 1.0).abs() < 1e-12, "{heading}: {found:?}");
+        assert!(!guesses(&budget, "not taken"), "{heading}: {:?}", budget.guessed);
+        let error = refusal(&text.replace(",5,µV", ",5 nV,µV"));
+        assert!(error.contains("`5 nV` stands beside `µV`"), "{error}");
+        let error = refusal(&text.replace(",µV", ",foo"));
+        assert!(error.contains("the unit `foo` of the uncertainty is not known"), "{error}");
+    }
+    let text = "Quantity,Value,Value unit,Uncertainty,Uncertainty unit\na,10,V,5,mV\n";
+    assert_eq!(uncertainties(text).0, [0.005]);
+}
+
+/// What is stated twice and differs is taken from neither place; before, it was from one of them.
+#[test]
+fn what_is_stated_twice_and_differs_is_refused() {
+    let head = "Quantity;Estimate;Unit;u\na;3;1;0.1\nb;2;1;0.1\n";
+    let twice = "`Y` is `a + b` in line 4 and `a - b` in line 5: leave one equation";
+    for (rows, part) in [
+        ("Y = a + b\nY = a - b\n", twice),
+        ("Y = 2a + b\nY = a - b\n", "another equation of `Y` stands in line 5"),
+        ("Y = a - b\nY = 2a + b\n", "another equation of `Y` stands in line 4"),
+    ] {
+        let error = refusal(&format!("{head}{rows}"));
+        assert!(error.contains(part), "{rows}: {error}");
+    }
+    // repeated, of other quantities, and the statement of the result
+    for line in ["Y = a+b", "Y = k*u_c", "Y = (5,0 ± 0,3) mm (k = 2)", "Y = 5 mm + d"] {
+        let budget = import("b.csv", format!("{head}Y = a + b\n{line}\n").as_bytes());
+        let budget = budget.unwrap_or_else(|error| panic!("{line}: {error}"));
+        assert!(budget.text.contains(r#"{"Y":"a + b"}"#), "{line}: {}", budget.text);
+    }
+    for (head, row, part) in [
+        (
+            "Quantity;Estimate;Unit;u;Standard uncertainty",
+            "a;3;V;0.1;0.2",
+            "`a` is 0.1 below `u` and 0.2 below `Standard uncertainty`",
+        ),
+        (
+            "Quantity;Estimate;Unit;u;Standard uncertainty",
+            "a;3;V;0.2;0.1",
+            "`a` is 0.2 below `u` and 0.1 below `Standard uncertainty`",
+        ),
+        (
+            "Quantity;Estimate;Unit;±;Standard uncertainty",
+            "a;3;V;0.1;0.2",
+            "`a` is 0.1 below `±` and 0.2 below `Standard uncertainty`",
+        ),
+        (
+            "Quantity;Estimate;Unit;Std. unc.;Standard uncertainty",
+            "a;3;V;0.1;0.2",
+            "the columns `Std. unc.` and `Standard uncertainty` may both be the standard uncertainty",
+        ),
+        (
+            "Quantity;Estimate;Unit;±;Coverage factor;Divisor",
+            "a;3;V;0.1;2;3",
+            "the columns `Coverage factor` and `Divisor` may both be the divisor, and have `2` and `3`",
+        ),
+        (
+            "Quantity;Estimate;Unit;±;Coverage factor;Divisor",
+            "a;3;V;0.1;;√3",
+            "and have nothing and `√3` here",
+        ),
+        (
+            "Quantity;Estimate;Unit;Half-width;Expanded uncertainty",
+            "a;3;V;;0.2",
+            "may both be the stated uncertainty (+-), and have nothing and `0.2`",
+        ),
+    ] {
+        let error = refusal(&format!("{head}\n{row}\n"));
+        assert!(error.contains(part), "{head}: {error}");
+    }
+    // the same in both columns, and an expanded uncertainty that is k times what is taken
+    for (head, row) in [
+        ("Quantity;Estimate;Unit;±;Coverage factor;Divisor", "a;3;V;0.2;2;2"),
+        ("Quantity;Estimate;Unit;u;Standard uncertainty", "a;3;V;0.1;0.10"),
+        ("Quantity;Estimate;Unit;Uncertainty;Divisor;Expanded uncertainty", "a;3;V;0.1;1;0.2"),
+    ] {
+        assert_eq!(uncertainties(&format!("{head}\n{row}\n")).0, [0.1], "{head}");
+    }
+    let rows = "a;3;V;0.1\na;4;V;0.1\n";
+    let error = refusal(&format!("Y = a\nQuantity;Estimate;Unit;u\n{rows}"));
+    assert!(error.contains("the lines 3 and 4 are both called `a`, which the equation"), "{error}");
+    // of a sum both are parts
+    let (found, budget) = uncertainties(&format!("Quantity;Estimate;Unit;u\n{rows}"));
+    assert_eq!(found, [0.1, 0.1]);
+    assert!(guesses(&budget, "`a` is called `a_2`"));
+}
+
+/// A nominal value beside a measured one is no estimate, whichever comes first; two columns that may be
+/// the estimate are asked.
+#[test]
+fn nominal_values_are_no_estimates_beside_others() {
+    for head in [
+        "Quantity;Nominal;Value;Unit;U;k",
+        "Quantity;Nominal value;Estimate;Unit;U;k",
+        "Größe;Nennwert;Messwert;Einheit;U;k",
+        "Quantity;Nominal;Indication;Unit;U;k",
+        "Quantity;Nominal;Measured value (ohm);Unit;U;k",
+    ] {
+        let (_, budget) = uncertainties(&format!("{head}\na;100;100.0135;ohm;0.010;2\n"));
+        let found = task(&budget).rows[0].distributions[0].mean();
+        assert_eq!(found, 100.0135, "{head}: {}", budget.text);
+        assert!(guesses(&budget, "is not taken"), "{head}: {:?}", budget.guessed);
+    }
+    let (_, budget) =
+        uncertainties("Quantity;Value;Nominal;Unit;U;k\na;100.0135;100;ohm;0.010;2\n");
+    assert_eq!(task(&budget).rows[0].distributions[0].mean(), 100.0135);
+    let (_, budget) = uncertainties("Quantity;Nominal;Unit;U;k\na;100;ohm;0.010;2\n");
+    assert_eq!(task(&budget).rows[0].distributions[0].mean(), 100.0);
+    for (head, part) in [
+        ("Quantity;Estimate;Value;Unit;U;k", "the columns `Estimate` and `Value` may both be the"),
+        ("Quantity;Reading;Indication;Unit;U;k", "the columns `Reading` and `Indication` may both"),
+    ] {
+        let error = refusal(&format!("{head}\na;100;100.0135;ohm;0.010;2\n"));
+        assert!(error.contains(part), "{head}: {error}");
+    }
+}
+
+/// Texts of a workbook have the marks that somebody wrote, and are decided as those of a CSV file; before,
+/// 1,234 beside 1,234.5 was 1.234.
+#[test]
+fn marks_in_texts_of_a_workbook() {
+    let of = |words: &str, cells: &[&str]| {
+        let text = |of: &str| format!(r#"<c t="inlineStr"><is><t>{of}</t></is></c>"#);
+        let row = |cells: &[&str]| cells.iter().map(|of| text(of)).collect::<String>();
+        let head: Vec<&str> = words.split(',').collect();
+        let mut rows = format!("<row>{}</row>", row(&head));
+        for (number, cell) in cells.iter().enumerate() {
+            let name = format!("q{number}");
+            let estimate = cell.strip_prefix('#');
+            let estimate = estimate.map_or_else(|| text(cell), |v| format!("<c><v>{v}</v></c>"));
+            let rest = format!("{}<c><v>1</v></c>{}", text("mm"), text("normal (k=2)"));
+            rows += &format!("<row>{}{estimate}{rest}</row>", text(&name));
+        }
+        let book =
+            crate::workbook::tests::workbook(|out| out.write_all(rows.as_bytes()), |_| Ok(()));
+        import("b.xlsx", &book)
+    };
+    let english = "Quantity,Estimate,Unit,Uncertainty,Distribution";
+    let german = "Größe,Schätzwert,Einheit,Unsicherheit,Verteilung";
+    for (words, cells, part) in [
+        (english, ["1,234.5", "1,234"], "with the same decimal mark"),
+        (english, ["1.234", "2.500,5"], "with the same decimal mark"),
+        (english, ["1,234", "2,500.5"], "with the same decimal mark"),
+        (english, ["1,234", "2,500"], "`1,234` can be `1.234` or `1234`"),
+        (english, ["1,234", "#2.5"], "`1,234` can be `1.234` or `1234`"),
+        (german, ["1.234", "#2500.5"], "`1.234` can be `1,234` or `1234`"),
+    ] {
+        let error = of(words, &cells).unwrap_err().to_string();
+        assert!(error.contains(part), "{cells:?}: {error}");
+    }
+    for (words, cells, right) in [
+        (english, ["1,234.5", "2,000.5"], [1234.5, 2000.5]),
+        (english, ["1.234", "#2500.5"], [1.234, 2500.5]),
+        (german, ["1,234", "2,5"], [1.234, 2.5]),
+        (german, ["1.234,5", "#2.5"], [1234.5, 2.5]),
+    ] {
+        let budget = of(words, &cells).unwrap_or_else(|error| panic!("{cells:?} {error}"));
+        let task = task(&budget);
+        let found = [0, 1].map(|at| task.rows[0].distributions[at].mean());
+        assert_eq!(found, right, "{cells:?}");
+    }
+    let error = refusal("Quantity;Estimate;Unit;u\na;1,234;V;1\nb;2,500;V;2\n");
+    assert!(error.contains("`1,234` can be `1.234` or `1234`"), "{error}");
+}
+
+/// Quantities of other dimension are not added; before, volts and amperes were, with a note.
+#[test]
+fn equations_of_unlike_quantities_are_refused() {
+    let head = "Quantity;Estimate;Unit;Standard uncertainty\n";
+    for (rows, part) in [
+        ("a;3;V;0.1\nb;5;A;0.1\nY = a + b\n", "`a` is a voltage"),
+        ("a;3;V;0.1\nb;5;;0.1\nY = a - b\n", "`a` is a voltage"),
+        (
+            "T;300;K;1 K\na;20;degC;0.1 K\nY = T + a\n",
+            "without which `degC` would not be converted",
+        ),
+    ] {
+        let error = refusal(&format!("{head}{rows}"));
+        assert!(error.contains(part) && error.contains("b.csv:4:1"), "{error}");
+    }
+    // a bare number may be in the unit of what is beside it
+    let (_, budget) = uncertainties(&format!("{head}a;3;V;0.1\nY = a + 5\n"));
+    assert!(guesses(&budget, "units are not checked"), "{:?}", budget.guessed);
+}
+
+/// QUAM, example A1: c = 1000 m P/V with m in mg and V in mL, where 1000 stands for mL/L. Published:
+/// 1002.7 mg/L with 0.9 mg/L; before, the model gave a thousand times that.
+#[test]
+fn numbers_in_place_of_units_are_told_by_the_result() {
+    let head = "Quantity,Estimate,Unit,Std uncertainty,Distribution\n";
+    let rows = "m,100.28,mg,0.05,normal\nP,0.9999,1,0.000058,normal\nV,100.0,mL,0.07,normal\n";
+    let text = format!("{head}{rows}\"c = 1000*m*P/V\",1002.7,mg/L,0.9,\n");
+    let (_, budget) = uncertainties(&text);
+    assert!(budget.text.contains(r#""check_units": false"#), "{}", budget.text);
+    let part = "line 5: the equation has numbers in place of units: it gives the estimate 1002.7";
+    assert!(guesses(&budget, part), "{:?}", budget.guessed);
+    assert!(!guesses(&budget, "the sheet says"), "{:?}", budget.guessed);
+    // per cent
+    let text = |result: &str| {
+        format!(
+            "E = (m1-m2)/m2*100\nQuantity;Estimate;Unit;±;Divisor\n\
+             m1;10;g;0,0004;2\nm2;9;g;0,0004;2\n{result}\n"
+        )
+    };
+    let (_, budget) = uncertainties(&text("E;11,1;%;;"));
+    assert!(budget.text.contains(r#""check_units": false"#), "{}", budget.text);
+    // a power of ten that nothing explains, another estimate, and uncertainties of other rows
+    for (result, part) in [
+        ("E;111,1;%;;", "the estimate of the result is 111,1 %, this model 1111"),
+        ("E;1311,1;%;;", "the estimate of the result is 1311,1 %, this model 1111"),
+        ("E;1111,1;%;5;2", "the expanded uncertainty of the result is 5 %, this model 0.66"),
+    ] {
+        let error = refusal(&text(result));
+        assert!(error.contains(part), "{result}: {error}");
+        assert!(error.contains("b.csv:5:1") && error.contains("take this figure away"), "{error}");
+    }
+    // a correlation that is not taken may be why
+    let text = text("E;1111,1;%;5;2") + "r(m1, m2) = 0,9;;;;\n";
+    assert!(guesses(&uncertainties(&text).1, "is 5 %, this model 0.66"));
+}
+
+/// A standard uncertainty beside a divisor: below `u` it is still to be divided, unless the contributions
+/// say otherwise, below words it is divided already. Each is said.
+#[test]
+fn standard_uncertainties_beside_divisors_are_said() {
+    let text = |heading: &str| {
+        format!("Quantity;Estimate;Unit;{heading};Distribution;Divisor\nRef;10;V;0,004;normal;2\n")
+    };
+    let (found, budget) = uncertainties(&text("u"));
+    assert_eq!(found, [0.002]);
+    assert!(guesses(&budget, "line 2: 0.004 below `u` is taken as still to be divided by 2"));
+    let (found, budget) = uncertainties(&text("Std. unc."));
+    assert_eq!(found, [0.004]);
+    assert!(guesses(&budget, "line 2: 0.004 below `Std. unc.` is taken as already divided by 2"));
+    for (contribution, u) in [("0,008", 0.004), ("0,004", 0.002)] {
+        let text = format!(
+            "Quantity;Estimate;Unit;u;Distribution;Divisor;c_i;u_i(y)\n\
+             Ref;10;V;0,004;normal;2;2;{contribution}\n"
+        );
+        let (found, budget) = uncertainties(&text);
+        assert_eq!(found, [u], "{contribution}");
+        assert!(!guesses(&budget, "contributes"), "{:?}", budget.guessed);
+    }
+}
+
+/// A t distribution has degrees of freedom; without them its factor gave a normal one.
+#[test]
+fn a_t_distribution_without_degrees_of_freedom_is_asked() {
+    let text = |head: &str, rest: &str| {
+        format!("Quantity;Estimate;Unit;{head};Distribution\nRef;10;V;{rest};t\n")
+    };
+    for (head, rest) in [
+        ("Expanded uncertainty;Coverage factor", "0,004;2,65"),
+        ("Standard uncertainty", "0,004"),
+        ("Expanded uncertainty;Coverage factor;dof", "0,004;2,65;-"),
+    ] {
+        let error = refusal(&text(head, rest));
+        assert!(error.contains("`t` has degrees of freedom, and none are stated"), "{error}");
+    }
+    let (found, budget) = uncertainties(&text("Expanded uncertainty;k;dof", "0,0053;2,65;5"));
+    assert!((found[0] - 0.002).abs() < 1e-15 && known_dof(&budget) == [5.0]);
+    let error = refusal("Quantity;Estimate;Unit;U (2 SD)\nRef;10;V;0,004\n");
+    assert!(error.contains("`U (2 SD)`: what `SD` says of the uncertainty is not"), "{error}");
+    let text = |divisor: &str| {
+        format!("Quantity;Estimate;Unit;±;Distribution;Divisor\nA;1;V;0,4;normal (2 s);{divisor}\n")
+    };
+    assert!(refusal(&text("")).contains("`normal (2 s)`: what `s` says"));
+    assert!(refusal(&text("1")).contains("`normal (2 s)`: what `s` says"));
+    assert_eq!(uncertainties(&text("2")).0, [0.2]);
 }

@@ -39,6 +39,8 @@ pub(crate) struct Layout {
     pub(crate) merged: Vec<(Place, Place)>,
     /// Cells with content that is struck through.
     pub(crate) struck: BTreeSet<Place>,
+    /// Cells that hold a text, in which a number has the marks that somebody wrote.
+    pub(crate) texts: BTreeSet<Place>,
 }
 
 impl Layout {
