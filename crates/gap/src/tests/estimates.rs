@@ -20,7 +20,7 @@ fn an_estimate_is_the_mean_where_that_predicts_the_same() {
         vec![observed(&values, Some(&[0.1; 20]))],
         vec![candidate("offset", "o", normal(0.0, 0.4), &[("y", "y + o")])],
     );
-    let v2 = 0.1 * 0.1 / 20.0 + 0.01 * 0.01;
+    let v2: f64 = 0.1 * 0.1 / 20.0 + 0.01 * 0.01;
     let expected = 0.3 * 0.16 / (0.16 + v2);
     let u = (0.16 * v2 / (0.16 + v2)).sqrt();
     for seed in 1..=3 {
