@@ -298,8 +298,7 @@ impl Gathered {
             autocorrelation,
             first: self.first,
             farthest: self.farthest,
-            // a step below a third of the noise adds less than a hundredth to its variance
-            lattice: lattice::step(&self.values, variance.sqrt() / 3.0),
+            lattice: lattice::step(&self.values, variance.sqrt()),
             known: None,
         }
     }
