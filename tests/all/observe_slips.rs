@@ -131,6 +131,46 @@ fn headings_are_checked_of_columns_by_number_and_of_scaled_ones() {
     }
 }
 
+/// `g` is the gram here and standard gravity on an accelerometer: 9.806 65 m/s^2 (ISO 80000-3).
+#[test]
+fn a_heading_in_g_is_standard_gravity_where_the_recipe_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    recorded(folder, "t [s],acc [g]", seconds, |_, value| value);
+    let channel = |raw: &str| recipe(&json!({"column": 2, "unit": "m/s^2", "raw_unit": raw}));
+    let amplitude = |recipe: &Value| {
+        let answer = answer(folder, recipe);
+        let component = &answer["rows"][0]["channels"]["acc"]["components"][0];
+        component["amplitude"]["value"].as_f64().unwrap()
+    };
+    assert!((amplitude(&channel("g_n")) / (200.0 * 9.80665) - 1.0).abs() < 1e-4);
+    assert_eq!(said(folder, &channel("g_n")), "");
+    let in_gravity = recipe(&json!({"column": "acc", "unit": "g_n"}));
+    assert!((amplitude(&in_gravity) / 200.0 - 1.0).abs() < 1e-4);
+    assert_eq!(said(folder, &in_gravity), "");
+
+    let plain = recipe(&json!({"column": 2, "unit": "m/s^2"}));
+    refused(folder, &plain, &["says `g`", "`g` is the gram", "`\"raw_unit\": \"g_n\"`"]);
+    refused(folder, &channel("g"), &["`g` is the gram", "write `g_n`"]);
+    recorded(folder, "t [s],acc", seconds, |_, value| value);
+    let scaled =
+        recipe(&json!({"column": 2, "unit": "m/s^2", "scale": {"value": 0.1, "unit": "g"}}));
+    refused(folder, &scaled, &["`g` is the gram", "write `g_n`"]);
+    let sensitivity = json!({"column": 2, "unit": "m/s^2", "raw_unit": "V",
+        "sensitivity": {"value": 100, "unit": "mV/g"}});
+    refused(folder, &recipe(&sensitivity), &["`g` is the gram", "write `mV/g_n`"]);
+    let of_channel =
+        recipe(&json!({"column": 2, "unit": "g", "scale": {"value": 0.1, "unit": "g_n"}}));
+    refused(folder, &of_channel, &["`g` is the gram", "write `g_n`"]);
+    // no advice of a wrong dimension, and a word about grams
+    recorded(folder, "t [s],acc [V]", seconds, |_, value| value);
+    refused(folder, &plain, &["`\"raw_unit\": \"V\"` and a `scale` or a `sensitivity`"]);
+    recorded(folder, "t [s],acc [g]", seconds, |_, value| value);
+    let grams = recipe(&json!({"column": 2, "unit": "g"}));
+    let note = note(folder, &grams, "grams");
+    assert!(note.contains("that of a mass") && note.contains("`g_n`"), "{note}");
+}
+
 #[test]
 fn rates_that_contradict_the_file_are_told() {
     let folder = tempfile::tempdir().unwrap();

@@ -5,12 +5,14 @@
 //! as one: `x/g` is x in g, `U1/U2` a name.
 //!
 //! A file that names a column states the unit of its values as well. Where the heading has another
-//! one, the two contradict each other, and none is taken.
+//! one, the two contradict each other, and none is taken. A heading in `g` is that of `g_n` where the
+//! file reads its column in `g_n`.
 
 use std::ops::Range;
 
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
+use super::gravity;
 use super::value_text::ValueOf;
 use gumption_units::Unit;
 
@@ -114,9 +116,13 @@ pub(super) fn contradiction(
         return None;
     }
     let unit = unit(text)?;
-    let is_same = unit.is_compatible(declared)
-        && unit.factor() == declared.factor()
-        && (of == ValueOf::Difference || unit.has_zero_of(declared));
+    let is_declared = |unit: &Unit| {
+        unit.is_compatible(declared)
+            && unit.factor() == declared.factor()
+            && (of == ValueOf::Difference || unit.has_zero_of(declared))
+    };
+    let meant = || gravity::meant(text, declared.dimension());
+    let is_same = is_declared(&unit) || meant().as_ref().is_some_and(is_declared);
     let (column, heading) = (column.to_owned(), text.to_owned());
     let declared = declared.text().to_owned();
     (!is_same).then_some(DiagnosticKind::ColumnUnit { column, heading, declared })
@@ -173,5 +179,10 @@ mod tests {
         // a voltage in mV, whose heading is a unit of another kind
         assert_eq!(said("V/mV", "mV"), None);
         assert_eq!(said("V/mV", "V").as_deref(), Some("mV"));
+        // a `g` that is no gram
+        assert_eq!(said("x [g]", "g_n"), None);
+        assert_eq!(said("x [mg]", "mg_n"), None);
+        assert_eq!(said("x [mg]", "g_n").as_deref(), Some("mg"));
+        assert_eq!(said("x [g]", "g"), None);
     }
 }

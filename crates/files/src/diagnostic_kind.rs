@@ -3,6 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
+use super::gravity;
 use super::keys::SHAPES;
 use super::value_text::with_point;
 use gumption_engine::distribution::Invalid;
@@ -720,7 +721,8 @@ impl fmt::Display for DiagnosticKind {
             Self::WrongDimension { name, found, found_as, expected, expected_as } => write!(
                 f,
                 "`{name}` has the unit `{found}`, {found_as}, but must be {expected_as}, such as \
-                 `{expected}`"
+                 `{expected}`{}",
+                gravity::hint_of(found, expected)
             ),
             Self::WrongScale { name, unit, misfit } => {
                 write!(f, "`{name}` cannot be given in `{unit}`: it {misfit}")
@@ -819,7 +821,8 @@ impl fmt::Display for DiagnosticKind {
             Self::ColumnUnit { column, heading, declared } => write!(
                 f,
                 "the heading of the column `{column}` says `{heading}`, but its values are read in \
-                 `{declared}`; state the unit that they have, or change the heading"
+                 `{declared}`; state the unit that they have, or change the heading{}",
+                gravity::hint_of(heading, declared)
             ),
             Self::Table { reason }
             | Self::Cost { reason }

@@ -30,6 +30,7 @@ mod either;
 mod fits;
 mod folder;
 mod formula_notes;
+mod gravity;
 mod import;
 mod input_set;
 mod inputs;

@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use super::analysed::{Analysed, local};
 use super::analysis::{Group, MOST_HELD, Refused, Through, unreadable};
+use super::coloured::Memory;
 use super::common_noise::correlation;
 use super::effects::{Effects, StepEffect};
 use super::observation::{ChannelObservation, Observation};
@@ -320,10 +321,22 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
                      uncertainties may be too small"
                     .to_owned(),
             };
+            let suspected = residuals.memory == Memory::Suspected;
+            let (code, are) = if suspected {
+                ("short-record", "may be correlated, which the record is too short to tell")
+            } else {
+                ("correlated-residuals", "are correlated")
+            };
+            let text =
+                format!("`{name}`: the residuals {are} (coefficient {lag:.2} at lag 1); {way}");
+            notes.push((code, of.channel, text));
+        }
+        if residuals.memory == Memory::Open && !expected {
             let text = format!(
-                "`{name}`: the residuals are correlated (coefficient {lag:.2} at lag 1); {way}"
+                "`{name}`: the record is too short to tell white noise from noise with a memory; the \
+                 standard uncertainties are those of white noise, and may be too small"
             );
-            notes.push(("correlated-residuals", of.channel, text));
+            notes.push(("short-record", of.channel, text));
         }
         let found: Vec<Spurious> = of.fitted_besides().collect();
         if !found.is_empty() {

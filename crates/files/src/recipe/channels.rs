@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::super::DiagnosticKind;
 use super::super::column_heading;
 use super::super::diagnostics::Collector;
+use super::super::gravity;
 use super::super::json::Member;
 use super::super::keys;
 use super::super::object::Object;
@@ -14,6 +15,7 @@ use super::column::column;
 use super::quantity::{of_member, positive, unit};
 use super::recordings::{RecordingFile, SearchFile};
 use super::{check_name, steps};
+use gumption_engine::task::Warning;
 use gumption_signal::{Channel, ChannelRateSearch};
 use gumption_units::Unit;
 use gumption_units::nearest;
@@ -30,6 +32,8 @@ pub(super) struct ChannelFile {
     column: ColumnName,
     /// The unit of its raw values; 1 of counts.
     raw_unit: Unit,
+    /// The unit of its values before the steps.
+    own_unit: Unit,
     zero: f64,
     range: Option<[f64; 2]>,
 }
@@ -84,6 +88,7 @@ fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Op
         step_places: steps.places,
         column: column?,
         raw_unit: raw?,
+        own_unit: own?,
         zero,
         range,
     })
@@ -141,11 +146,22 @@ fn scale(of: &Object<'_>, own: &Unit, raw: &Unit) -> Option<(f64, f64)> {
         dimension.checked_mul(quantity.unit.dimension())
     };
     if becomes != Some(own.dimension()) {
+        let wanted = if divides {
+            dimension.checked_div(own.dimension())
+        } else {
+            own.dimension().checked_div(dimension)
+        };
         let expected = if divides { format!("{raw}/({own})") } else { format!("{own}/({raw})") };
         let reason = format!(
             "raw values in `{raw}` with a `{key}` in `{}` do not become `{own}`; its unit must be such \
-             as `{expected}`",
-            quantity.unit
+             as `{expected}`{}",
+            quantity.unit,
+            match (wanted, becomes) {
+                (Some(wanted), _) if gravity::meant(quantity.unit.text(), wanted).is_some() =>
+                    gravity::hint(quantity.unit.text(), wanted),
+                (_, Some(becomes)) => gravity::hint(own.text(), becomes),
+                _ => String::new(),
+            }
         );
         of.log.report(&member.value.span, DiagnosticKind::Recipe { reason });
         return None;
@@ -199,12 +215,25 @@ fn resolution(of: &Object<'_>, range: Option<[f64; 2]>) -> f64 {
 }
 
 impl ChannelFile {
+    /// A note where it is in grams: what oscillates and is written in `g` is an acceleration as a rule.
+    pub(super) fn in_grams(&self) -> Option<Warning> {
+        let acceleration = super::quantity::own_unit("m/s^2").dimension();
+        let meant = gravity::meant(self.own_unit.text(), acceleration)?;
+        let (name, unit) = (&self.channel.name, &self.own_unit);
+        let text = format!(
+            "`{name}`: its unit `{unit}` is that of a mass, of grams; an acceleration in units of \
+             standard gravity is in `{meant}`"
+        );
+        Some(Warning::new("grams", name.clone(), text))
+    }
+
     /// Its column, and what its raw values become.
     pub(super) fn wanted(&self) -> (Wanted, Conversion) {
         let wanted = Wanted {
             column: self.column.clone(),
             channel: self.channel.name.clone(),
             unit: self.raw_unit.clone(),
+            becomes: self.own_unit.clone(),
         };
         (wanted, Conversion { zero: self.zero, gain: self.gain, range: self.range })
     }

@@ -317,6 +317,9 @@ impl RecipeFile {
                         }
                     }
                     opened.warnings.extend(recording.warnings.iter().cloned());
+                    let in_grams =
+                        channels.iter().map(|channel| self.channels[*channel].in_grams());
+                    opened.warnings.extend(in_grams.flatten());
                     opened.digests.push((name.clone(), recording.digest.clone()));
                     let base = TimeBase {
                         rate: recording.rate,

@@ -10,6 +10,7 @@ use super::wide_text::NarrowText;
 use super::{BLOCK, ColumnName, Frames, Wanted, place};
 use crate::DiagnosticKind;
 use crate::column_heading;
+use crate::gravity;
 use crate::separator::{DecimalMarks, Separator};
 use crate::value_text::ValueOf;
 use gumption_units::{Unit, nearest};
@@ -201,7 +202,23 @@ fn contradiction(wanted: &Wanted, heading: &str) -> Option<String> {
     let found = column_heading::contradiction(|text| Unit::parse(text).ok(), heading, of)?;
     let DiagnosticKind::ColumnUnit { heading: unit, .. } = &found else { return None };
     let key = if wanted.is_time() { "time_unit" } else { "raw_unit" };
-    Some(format!("{found}; in the recipe this is `\"{key}\": \"{unit}\"`"))
+    let of = Unit::parse(unit).ok()?;
+    let gravity = || gravity::meant(unit, wanted.becomes.dimension());
+    let advice = if of.is_compatible(&wanted.unit) {
+        format!("; in the recipe this is `\"{key}\": \"{unit}\"`")
+    } else if let Some(meant) = gravity() {
+        format!("; in the recipe this is `\"{key}\": \"{meant}\"`")
+    } else if wanted.is_time() || gravity::meant(wanted.becomes.text(), of.dimension()).is_some() {
+        // another unit for this key would be of the wrong dimension
+        String::new()
+    } else {
+        format!(
+            "; in the recipe this is `\"{key}\": \"{unit}\"` and a `scale` or a `sensitivity` by \
+             which it becomes `{}`",
+            wanted.becomes
+        )
+    };
+    Some(format!("{found}{advice}"))
 }
 
 /// The number in a cell, if it is one.

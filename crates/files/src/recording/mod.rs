@@ -95,6 +95,8 @@ pub(super) struct Wanted {
     pub(super) channel: String,
     /// The unit that its values are read in, which its heading may not contradict; 1 of counts.
     pub(super) unit: Unit,
+    /// The unit of what becomes of them; the same of values that are not scaled.
+    pub(super) becomes: Unit,
 }
 
 /// What stands in the place of a channel's name for the column of instants.
@@ -188,6 +190,7 @@ impl Reading {
             column: column.clone(),
             channel: THE_TIME.to_owned(),
             unit: unit.clone(),
+            becomes: unit.clone(),
         });
         self.channels.iter().map(|(wanted, _)| wanted.clone()).chain(time).collect()
     }

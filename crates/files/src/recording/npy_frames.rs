@@ -112,6 +112,7 @@ mod tests {
             column: ColumnName::Number(number),
             channel: format!("c{number}"),
             unit: Unit::one(),
+            becomes: Unit::one(),
         }
     }
 

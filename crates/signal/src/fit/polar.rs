@@ -77,7 +77,13 @@ pub(crate) fn polar(
             let [aa, ab, bb] = rounding.tones.get(tone).copied().unwrap_or([0.0; 3]);
             let along = ca * ca * aa + 2.0 * ca * cb * ab + cb * cb * bb;
             let across = cb * cb * aa - 2.0 * ca * cb * ab + ca * ca * bb;
-            ([along.max(0.0), across.max(0.0)], quantization * (1.0 - rounding.repeated))
+            // what repeats is no noise near the tone: where that was measured, it is not left out of
+            // it once more
+            let near = f64::midpoint(of_cosine, of_sine);
+            let left_out = quantization * (1.0 - rounding.repeated);
+            let measured = if near > 0.0 { rounding.scattered / near - noise } else { 0.0 };
+            let scattered = measured.min(quantization).max(left_out);
+            ([along.max(0.0), across.max(0.0)], scattered)
         }
         (None, None) => ([0.0; 2], quantization),
     };

@@ -1,6 +1,6 @@
 //! What a fit leaves: its size, whether it is white, and how strong it is near each tone.
 
-use crate::coloured::{Coloured, Series};
+use crate::coloured::{Coloured, Memory, Series};
 use crate::effects::KnownNoise;
 use crate::lattice;
 use crate::outlying::Farthest;
@@ -31,8 +31,10 @@ pub(crate) struct Residuals {
     pub(crate) degrees_of_freedom: f64,
     /// The autocorrelation coefficients at lags 1, 2, ...
     pub(crate) autocorrelation: Vec<f64>,
-    /// Whether they are correlated beyond what white noise shows.
+    /// Whether they are correlated beyond what white noise shows, or may be in a short record.
     pub(crate) correlated: bool,
+    /// What a short record tells of a memory of the noise.
+    pub(crate) memory: Memory,
     /// The variance of the cosine's and the sine's factor of each tone over that which white noise of
     /// the same variance gives; none where neither parts of the record nor a model of the noise tell.
     pub(crate) local: Option<Vec<[f64; 2]>>,
@@ -274,7 +276,12 @@ impl Gathered {
         let power = if self.squares > 0.0 { self.squares } else { 1.0 };
         let autocorrelation: Vec<f64> = self.products.iter().map(|p| p / power).collect();
         let statistic = samples * autocorrelation.iter().map(|r| r * r).sum::<f64>();
-        let correlated = statistic > NOT_WHITE;
+        let by_lags = statistic > NOT_WHITE;
+        let memory = match self.series.memory(design) {
+            _ if by_lags => Memory::None,
+            memory => memory,
+        };
+        let correlated = by_lags || matches!(memory, Memory::Suspected | Memory::Told);
         let mut parts = self.part.as_ref().map_or(0, |part| part.count);
         let coloured = (correlated || self.series.wanders(variance))
             .then(|| self.series.coloured(design, parts > 0))
@@ -291,6 +298,7 @@ impl Gathered {
             variance,
             degrees_of_freedom,
             correlated,
+            memory,
             parts,
             local,
             coloured,
@@ -298,8 +306,7 @@ impl Gathered {
             autocorrelation,
             first: self.first,
             farthest: self.farthest,
-            // a step below a third of the noise adds less than a hundredth to its variance
-            lattice: lattice::step(&self.values, variance.sqrt() / 3.0),
+            lattice: lattice::step(&self.values, variance.sqrt()),
             known: None,
         }
     }

@@ -32,6 +32,9 @@ pub(crate) struct Rounding {
     /// The part of the rounding's variance, resolution^2/12, that is a function of the oscillation;
     /// the rest is noise.
     pub(crate) repeated: f64,
+    /// The variance of the rounded values about what repeats: of the noise, and of the rounding that
+    /// it scatters.
+    pub(crate) scattered: f64,
     /// The variance of the constant from that part.
     pub(crate) offset: f64,
     /// For each tone the variance of the cosine's factor, the covariance of both, the variance of the
@@ -75,13 +78,21 @@ impl Rounding {
         });
         let sums: Vec<Vec<[Sums; 2]>> =
             beside.map(|fit| Self::sums(design, &fit, resolution, terms)).collect();
-        // what the terms that are left out would add, taken as like those that are not
         let summed: f64 = (1..=terms).map(share).sum();
-        let (mut offset, mut tones) = (0.0, vec![[0.0; 3]; design.tones.len()]);
+        // terms that are left out turn so fast from one place to the next that they are as white as
+        // noise, but over phases only that are different to them: it is these terms that act across a
+        // sine that is sampled evenly
+        let whole = quantization_variance(resolution);
+        let different = self::phases(design, fit, resolution / f64::from(terms.max(1)));
+        let again = design.samples as f64 / different.unwrap_or(design.samples) as f64;
+        let rest = whole * (repeated - summed).max(0.0) * again;
+        let mut offset = rest * design.even[(0, 0)];
+        let of_rest =
+            |k: usize| [rest * design.even[(k + 1, k + 1)], 0.0, rest * design.odd[(k, k)]];
+        let mut tones: Vec<[f64; 3]> = (0..design.tones.len()).map(of_rest).collect();
         let each = sums.iter().flat_map(|sums| (1..=terms).zip(sums));
         for (k, [re, im]) in each {
-            let size = quantization_variance(resolution) * share(k) * repeated / summed;
-            let size = size / f64::from(PLACES);
+            let size = whole * share(k) / f64::from(PLACES);
             let [re, im] = [design.solve(re), design.solve(im)];
             offset += size * (re.offset * re.offset + im.offset * im.offset);
             for (tone, of) in tones.iter_mut().enumerate() {
@@ -92,7 +103,8 @@ impl Rounding {
                 of[2] += size * (b.0 * b.0 + b.1 * b.1);
             }
         }
-        Some(Self { repeated, offset, tones, phases })
+        let scattered = noise * noise + whole * (1.0 - repeated).max(0.0);
+        Some(Self { repeated, scattered, offset, tones, phases })
     }
 
     /// Sums of cosine and sine of 2 pi k x/q with the waves of the fit, for each k.
