@@ -41,6 +41,19 @@ fn normal(unit: &str, mean: f64, std: f64) -> Value {
     json!({"unit": unit, "distribution": "normal", "mean": mean, "std": std})
 }
 
+/// Figures without noise whose squares leave the range of double precision were computed for ever.
+#[test]
+fn exact_figures_of_enormous_widths_are_refused() {
+    let width = |half_width: f64| json!({"unit": "mm", "distribution": "rectangular", "mean": 0, "half_width": half_width});
+    let inputs = json!({"a": width(0.0008), "b": width(1e305), "c": width(0.05)});
+    for method in ["exact", "quasi", "auto"] {
+        let options = ["--trials", "100000", "--method", method];
+        let found = answer(&model(&inputs, "a + b + c", "mm"), &options);
+        let said = found["outputs"]["y"].to_string();
+        assert!(said.contains("is beyond double precision"), "{method}: {said}");
+    }
+}
+
 /// Formula by formula: inputs, formula and unit, what was said, and what is right: a number (by hand,
 /// or of the source named) with the share that its digits allow, or the mistake.
 #[test]

@@ -648,6 +648,14 @@ fn noiseless(problem: &exact::Problem<'_>, needed: bool) -> Option<Result<Box<No
     if task.function.is_some() {
         return Some(Err("the model's function is not recorded".to_owned()));
     }
+    // a t distribution may have none
+    let is_large =
+        |of: &Arc<Distribution>| (LARGE..f64::INFINITY).contains(&of.standard_uncertainty());
+    if problem.row.distributions.iter().any(is_large) {
+        return Some(Err(
+            "the square of a standard uncertainty is beyond double precision".to_owned()
+        ));
+    }
     let found = match wanted {
         MethodChoice::Quasi => quasi::evaluate(problem),
         MethodChoice::Auto if settings.quasi_otherwise && needed => {
@@ -657,6 +665,9 @@ fn noiseless(problem: &exact::Problem<'_>, needed: bool) -> Option<Result<Box<No
     };
     Some(found.map(Box::new))
 }
+
+/// A standard uncertainty whose square, summed up over inputs, may leave the range of double precision.
+const LARGE: f64 = 1e150;
 
 /// A difference of two standard uncertainties below this share is not worth a word.
 pub(super) const NOTEWORTHY: f64 = 0.01;
