@@ -109,6 +109,10 @@ pub(crate) fn notes(
             ),
         );
     }
+    let name_of = |output: usize| {
+        let output = setup.data.outputs[output];
+        &setup.case.model.outputs[output].quantity.name
+    };
     if let Some((output, change)) = row_drift::drift(setup, winner) {
         note(
             "row-drift",
@@ -122,8 +126,22 @@ pub(crate) fn notes(
                     HypothesisKind::Explained => "the verdict",
                     _ => "the best hypothesis",
                 },
-                setup.case.model.outputs[setup.data.outputs[output]].quantity.name,
+                name_of(output),
                 change
+            ),
+        );
+    } else if verdict.kind == HypothesisKind::None
+        && noise.iter().any(|of| of.factor.is_some_and(|factor| factor.probability > LIKELY))
+        && let Some((output, coefficient)) = row_drift::memory(setup, winner)
+    {
+        note(
+            "row-drift",
+            format!(
+                "What is left of `{}` changes slowly along the rows: neighbouring ones have a coefficient \
+                 of correlation of {coefficient:.2} (as large by chance in one of 10 000 tables). If that is \
+                 the order in which they were taken, something changes with time, and the stated \
+                 uncertainties may be right: give the time as a condition, or an effect that changes with it.",
+                name_of(output)
             ),
         );
     }

@@ -8,12 +8,13 @@ use super::noise_model::residuals_at_mode;
 use super::posterior::WeighedHypothesis;
 use super::setup::Setup;
 use gumption_engine::linalg::dot;
-use gumption_engine::special::student;
+use gumption_engine::special::{normal, student};
 
 /// Fewer rows tell a drift from nothing else.
 const LEAST_ROWS: usize = 10;
 
-/// A slope as steep as that of one in so many sets of residuals without a drift is told.
+/// A slope as steep, or a correlation as large, as that of one in so many sets of residuals without a
+/// drift is told.
 const SELDOM: f64 = 1e4;
 
 /// So much of the order of the rows, as a share of its variance, must be apart from the conditions: in
@@ -57,6 +58,29 @@ pub(crate) fn drift(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Option
     };
     let found = (0..outputs).filter_map(of_output);
     found.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+}
+
+/// What is left by a hypothesis, if neighbouring rows are alike more than in one of many sets of
+/// independent residuals: the place of the output among the observed ones, and the coefficient of
+/// correlation of neighbours, which has a standard deviation of 1/sqrt(n) by chance.
+pub(crate) fn memory(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Option<(usize, f64)> {
+    let rows = setup.data.rows();
+    if rows < LEAST_ROWS {
+        return None;
+    }
+    let residuals = residuals_at_mode(setup, hypothesis);
+    let outputs = setup.data.outputs.len();
+    let critical = normal::quantile(1.0 - 1.0 / SELDOM) / (rows as f64).sqrt();
+    let of_output = |output: usize| {
+        let own: Vec<f64> = residuals.iter().skip(output).step_by(outputs).copied().collect();
+        let own = (own.len() == rows).then_some(own)?;
+        let own = rest(own, &[unit(vec![1.0; rows])?])?;
+        let products: f64 = own.windows(2).map(|pair| pair[0] * pair[1]).sum();
+        let coefficient = products / dot(&own, &own);
+        (coefficient > critical).then_some((output, coefficient))
+    };
+    let found = (0..outputs).filter_map(of_output);
+    found.max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// A vector less its parts along orthonormal ones; `None` where it is not finite.

@@ -304,6 +304,31 @@ fn a_drift_along_the_rows_is_told() {
     assert_eq!(noted(0.05, &|row| row).map(|note| note.text), None);
 }
 
+/// A wave over the rows that no condition knows is not only noise that is stated too small: the residuals
+/// of neighbouring rows say so. Without the wave the noise is as stated, and five times as large as stated
+/// without any memory.
+#[test]
+fn a_wave_along_the_rows_is_told() {
+    let noted = |wave: f64, scale: f64| {
+        let z = normals(30, 4).into_iter().enumerate();
+        let turn = |row: usize| (std::f64::consts::TAU * 1.3 * row as f64 / 30.0).sin();
+        let residuals: Vec<f64> = z.map(|(row, z)| 0.1 * scale * z + wave * turn(row)).collect();
+        // rows in another order than the condition
+        let mut case = line_with(&residuals);
+        for row in 0..30 {
+            let x = row * 11 % 30;
+            case.task.rows[row].conditions[0] = x as f64;
+            case.observed[0].as_mut().unwrap().values[row] = 1.0 + 0.5 * x as f64 + residuals[row];
+        }
+        let found = diagnosed(&case, 1);
+        assert_eq!(found.most_probable.kind, HypothesisKind::None);
+        found.notes.into_iter().find(|note| note.code == "row-drift").map(|note| note.text)
+    };
+    let text = noted(0.5, 1.0).unwrap();
+    assert!(text.contains("`y` changes slowly along the rows"), "{text}");
+    assert_eq!((noted(0.0, 1.0), noted(0.0, 5.0)), (None, None));
+}
+
 #[test]
 fn noise_that_neighbours_share_is_no_effect() {
     let mut before = 0.0;
