@@ -740,11 +740,9 @@ mod tests {
                 .map(|wanted| found.iter().filter(|found| **found == wanted).count())
         };
         let [suspected, told] = counts(1000, 0.0);
-        println!("white: {suspected} {told}");
         assert!((21..=79).contains(&(suspected + told)) && told <= 6, "{suspected} {told}");
         for (rho, least) in [(0.5, 80), (0.8, 95)] {
             let [suspected, told] = counts(100, rho);
-            println!("{rho}: {suspected} {told}");
             assert!(suspected + told >= least, "{rho}: {suspected} {told}");
         }
     }
