@@ -26,7 +26,11 @@ fn run(text: &str, more: &[&str]) -> (Option<i32>, String, String) {
 }
 
 fn answer(text: &str) -> Value {
-    let (code, answer, said) = run(text, &["--format", "json"]);
+    answer_with(text, &[])
+}
+
+fn answer_with(text: &str, more: &[&str]) -> Value {
+    let (code, answer, said) = run(text, &[&["--format", "json"], more].concat());
     assert_eq!(code, Some(0), "{said}");
     serde_json::from_str(&answer).expect("JSON")
 }
@@ -190,8 +194,7 @@ fn guard_bands_follow_the_distribution() {
     ];
     for (model, expected, tolerance, conforms) in cases {
         for trials in ["300000", "0"] {
-            let (_, found, said) = run(&model, &["--trials", trials, "--format", "json"]);
-            let found: Value = serde_json::from_str(&found).unwrap_or_else(|_| panic!("{said}"));
+            let found = answer_with(&model, &["--trials", trials]);
             let of = &found["outputs"]["y"]["conformity"];
             if conforms && trials == "0" {
                 // the law of propagation takes it to be normal: 2.326 a/sqrt(3)
@@ -215,9 +218,7 @@ fn a_capability_is_brought_to_the_coverage() {
         "equations": {"y": "x"}, "outputs": {"y": {"unit": "V", "cmc": "0.05 %", "cmc_floor": true,
         "tolerance": {"upper": 1.0006, "risk": 0.025}}}}"#;
     for (coverage, expected) in [("2", 0.0005), ("3", 0.00075)] {
-        let options = ["--k", coverage, "--trials", "0", "--format", "json"];
-        let (_, found, said) = run(text, &options);
-        let found: Value = serde_json::from_str(&found).unwrap_or_else(|_| panic!("{said}"));
+        let found = answer_with(text, &["--k", coverage, "--trials", "0"]);
         let of = &found["outputs"]["y"];
         assert_eq!(number(&of["cmc"]["expanded_uncertainty"]), expected, "{of}");
         let of = &of["conformity"];
@@ -318,8 +319,7 @@ fn trials_are_counted_against_the_limits_of_their_row() {
         "outputs": {"e": {"unit": "V", "tolerance": {"lower": "-0.001*p", "upper": "0.001*p"}}},
         "monte_carlo": {"trials": 300000}}"#;
     for method in ["monte-carlo", "exact"] {
-        let (_, found, said) = run(text, &["--method", method, "--format", "json"]);
-        let found: Value = serde_json::from_str(&found).unwrap_or_else(|_| panic!("{said}"));
+        let found = answer_with(text, &["--method", method]);
         for row in found["rows"].as_array().expect("rows") {
             let of = &row["outputs"]["e"];
             let p = number(&of["conformity"]["probability"]);

@@ -3,7 +3,7 @@
 use super::both::LastOfBoth;
 use super::grid::Cells;
 use super::number::number as number_of_cell;
-use super::number::{constant, number_with_unit};
+use super::number::{number_with_unit, value};
 use crate::value_text::PLUS_MINUS;
 use gumption_engine::special::student;
 use gumption_units::Unit;
@@ -772,9 +772,9 @@ impl Header {
                 if let Some((known, of)) = width
                     && found == Some(Column::Width)
                 {
-                    if plain_case(cell) == "u" {
+                    if is_standard_symbol(cell) {
                         found = Some(Column::Std);
-                    } else if plain_case(&headings[*known]) == "u" {
+                    } else if is_standard_symbol(&headings[*known]) {
                         *of = Column::Std;
                     }
                 }
@@ -824,7 +824,7 @@ impl Header {
                 && of(Column::Width).is_some()
                 && of(Column::Contribution).is_none()
                 && (matches!(plain(&headings[u]).as_str(), "ui" | "u_i")
-                    || plain_case(&headings[u]) == "u")
+                    || is_standard_symbol(&headings[u]))
                 && let Some((_, column)) = columns.iter_mut().find(|(place, _)| *place == u)
             {
                 *column = Column::Contribution;
@@ -832,7 +832,7 @@ impl Header {
             // `u` is a standard uncertainty, unless it is still to be divided; `U` is an expanded one
             let known = [Column::Std, Column::Divisor, Column::Width];
             if let [None, None, Some(place)] = known.map(|of| place_of(&columns, of))
-                && plain_case(&headings[place]) == "u"
+                && is_standard_symbol(&headings[place])
                 && HeaderCoverage::of(&headings[place]) == HeaderCoverage::None
                 && let Some((_, column)) = columns.iter_mut().find(|(at, _)| *at == place)
             {
@@ -989,7 +989,7 @@ impl Header {
 
     /// Whether a column of this kind is known.
     pub(super) fn has(&self, wanted: Column) -> bool {
-        self.columns.iter().any(|(_, column)| *column == wanted)
+        place_of(&self.columns, wanted).is_some()
     }
 
     /// Takes an unknown column for one of this kind, if it is the only one that may be.
@@ -1126,7 +1126,7 @@ impl Header {
         // `u` beside a divisor may be what is left after it
         let of_quotients = match place_of(Column::Width) {
             None => Column::Std,
-            Some(place) if plain_case(self.heading(place)) == "u" => Column::Width,
+            Some(place) if is_standard_symbol(self.heading(place)) => Column::Width,
             Some(_) => return,
         };
         if place_of(Column::Divisor).is_none()
@@ -1135,10 +1135,7 @@ impl Header {
             return;
         }
         let comma = cells.decimal_comma();
-        let of = |line: usize, column: Column| {
-            let text = self.cell(cells, line, column).trim();
-            number_with_unit(text, comma).map(|(value, _)| value).or_else(|| constant(text, comma))
-        };
+        let of = |line: usize, column: Column| value(self.cell(cells, line, column).trim(), comma);
         let rows: Vec<[f64; 3]> = (self.line + 1..cells.lines())
             .filter_map(|line| {
                 let all = [Column::Estimate, Column::Divisor, of_quotients];
@@ -1178,10 +1175,7 @@ impl Header {
             return;
         }
         let comma = cells.decimal_comma();
-        let number = |line: usize, place: usize| {
-            let text = cells.text(line, place).trim();
-            number_with_unit(text, comma).map(|(value, _)| value).or_else(|| constant(text, comma))
-        };
+        let number = |line: usize, place: usize| value(cells.text(line, place).trim(), comma);
         let c = place_of(&self.columns, Column::Sensitivity);
         let rows: Vec<[f64; 3]> = (self.line + 1..cells.lines())
             .filter_map(|line| {
@@ -1320,8 +1314,7 @@ impl Header {
 
     /// The words at the head of what is such a column; empty where there is none.
     pub(super) fn heading_of(&self, column: Column) -> &str {
-        let place = self.columns.iter().find(|(_, of)| *of == column);
-        place.map_or("", |(place, _)| self.heading(*place))
+        place_of(&self.columns, column).map_or("", |place| self.heading(place))
     }
 
     /// The words at the head of a column.

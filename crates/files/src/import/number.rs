@@ -128,6 +128,12 @@ fn ungrouped(digits: &str) -> Option<String> {
     Some(whole)
 }
 
+/// The value of a cell that holds a number, perhaps with a unit, or an expression.
+pub(super) fn value(text: &str, decimal_comma: bool) -> Option<f64> {
+    let number = number_with_unit(text, decimal_comma).map(|(value, _)| value);
+    number.or_else(|| constant(text, decimal_comma))
+}
+
 /// A number that may be written as an expression: `√3`, `2*√3`, `1/3`, `3^0.5`, `sqrt(3)`, and what
 /// repeats it: `√3 (1.73)`, `√3 = 1.732`, `2 (k=2)`, `k = 2`.
 pub(super) fn constant(text: &str, decimal_comma: bool) -> Option<f64> {

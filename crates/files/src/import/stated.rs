@@ -12,7 +12,7 @@ use super::rows::{Row, without_factor};
 use crate::reader::read_text;
 use gumption_engine::decimal::significant;
 use gumption_engine::number::elementary;
-use gumption_engine::propagate::gum::{self, Dof};
+use gumption_engine::propagate::gum::{self, Dof, Gum};
 use gumption_units::Unit;
 
 /// A figure of the result.
@@ -52,13 +52,25 @@ const LARGE: f64 = 0.05;
 /// or divisors; parts that are neglected or rounded make less.
 const FAR: f64 = 1.25;
 
-/// The estimate of a model's result, and its unit.
-fn estimate_of(model: &str) -> Option<(f64, Unit)> {
+/// A model's result by the law of propagation, and its unit.
+fn result_of(model: &str) -> Option<(Gum, Unit)> {
     let file = read_text("the model", model, Path::new(""), &[]).ok()?;
     let evaluated = gum::evaluate(&file.task, file.task.rows.first()?);
-    let gum = evaluated.outputs.first()?.as_ref()?;
     let output = file.task.model.outputs.first()?;
-    Some((gum.estimate, output.quantity.unit.clone()))
+    Some((evaluated.outputs.into_iter().next()??, output.quantity.unit.clone()))
+}
+
+impl Stated {
+    /// What one of the sheet's unit is in that of the result; `None` where one is not the other, or an
+    /// estimate counts from another zero.
+    fn scale(&self, of_result: &Unit) -> Option<f64> {
+        let unit = match self.unit.as_str() {
+            "" => of_result.clone(),
+            unit => Unit::parse(unit).ok()?,
+        };
+        let counts_alike = unit.has_zero_of(of_result) || self.figure != Figure::Estimate;
+        Unit::conversion_factor(&unit, of_result).ok().filter(|_| counts_alike)
+    }
 }
 
 impl Budget<'_> {
@@ -133,19 +145,12 @@ impl Budget<'_> {
         model: &impl Fn(bool) -> String,
     ) -> String {
         let estimates = || stated.iter().filter(|stated| stated.figure == Figure::Estimate);
-        let of = |text: &str, stated: &Stated| {
-            let (estimate, unit) = estimate_of(text)?;
-            let scale = match stated.unit.as_str() {
-                "" => Some(1.0),
-                own => {
-                    let own = Unit::parse(own).ok().filter(|own| own.has_zero_of(&unit))?;
-                    Unit::conversion_factor(&own, &unit).ok()
-                }
-            };
-            Some(estimate / scale?)
+        let of = |result: &(Gum, Unit), stated: &Stated| {
+            Some(result.0.estimate / stated.scale(&result.1)?)
         };
+        let Some(checked) = result_of(&made) else { return made };
         let is_scaled = |stated: &Stated| {
-            let own = of(&made, stated)?;
+            let own = of(&checked, stated)?;
             let ratio = elementary::log10(own / stated.value);
             let power = ratio.round();
             let value = stated.value * elementary::pow(10.0, power);
@@ -156,8 +161,9 @@ impl Budget<'_> {
             return made;
         };
         let without = model(false);
+        let unchecked = result_of(&without);
         let is_it = |stated: &Stated| {
-            let own = of(&without, stated);
+            let own = unchecked.as_ref().and_then(|result| of(result, stated));
             own.is_some_and(|own| (own - stated.value).abs() <= 1.2 * stated.half_digit)
         };
         if without == made || !estimates().all(is_it) {
@@ -188,23 +194,11 @@ impl Budget<'_> {
     }
 
     fn compare_figures(&mut self, model: &str, stated: &[Stated], factor: Option<f64>) {
-        let Ok(file) = read_text("the model", model, Path::new(""), &[]) else { return };
-        let Some(row) = file.task.rows.first() else { return };
-        let evaluated = gum::evaluate(&file.task, row);
-        let found = evaluated.outputs.first().and_then(Option::as_ref);
-        let Some((gum, output)) = found.zip(file.task.model.outputs.first()) else { return };
-        let of_result = &output.quantity.unit;
+        let Some((gum, of_result)) = result_of(model) else { return };
         let is_correlated = (0..self.cells.lines())
             .any(|line| self.cells.row(line).iter().any(|cell| columns::is_of_correlation(cell)));
         for stated in stated {
-            let unit = match stated.unit.as_str() {
-                "" => Some(of_result.clone()),
-                unit => Unit::parse(unit).ok(),
-            };
-            let scale = unit
-                .filter(|unit| unit.has_zero_of(of_result) || stated.figure != Figure::Estimate);
-            let scale = scale.and_then(|unit| Unit::conversion_factor(&unit, of_result).ok());
-            let Some(scale) = scale else { continue };
+            let Some(scale) = stated.scale(&of_result) else { continue };
             let (value, half) = (stated.value * scale, stated.half_digit * scale.abs());
             let u = gum.standard_uncertainty;
             let near = |own: f64, slack: f64| (value - own).abs() <= 1.2 * half + slack;

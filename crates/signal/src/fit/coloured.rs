@@ -200,13 +200,13 @@ impl Series {
         if self.values.len() >= parameters + TELLS {
             return Memory::None;
         }
+        if self.values.len() < parameters + 5 {
+            return Memory::Open;
+        }
         let mut columns = vec![vec![1.0; self.values.len()]];
         columns.extend(self.waves(design).0);
         let columns = columns.iter().map(Vec::as_slice).chain([self.values.as_slice()]);
         let fitted = Fitted { columns: columns.collect() };
-        if self.values.len() < parameters + 5 {
-            return Memory::Open;
-        }
         let products = Products::of(&fitted);
         let at = |rho: f64| products.likelihood(&fitted, rho);
         let found = along(|place| at(tanh(place)), reach(&fitted));
