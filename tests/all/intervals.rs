@@ -148,7 +148,7 @@ fn contents_from_kept_tails() {
 #[test]
 fn contents_from_several_passes() {
     let memory = 64 << 10;
-    contents_follow_beta(70_000, 900, 50, &Control::default().with_memory(memory));
+    contents_follow_beta(70_000, 900, 20, &Control::default().with_memory(memory));
 }
 
 /// The shortest interval is no longer than the symmetric one, and holds its share of the

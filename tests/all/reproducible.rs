@@ -145,7 +145,7 @@ fn capped_runs_are_the_same_on_any_number_of_threads() {
 /// their numerical standard errors are those of the same trials, bit for bit.
 #[test]
 fn capped_memory_gives_the_same_figures() {
-    let trials = 3_000_000;
+    let trials = 1_200_000;
     for task in [curved(trials), curved(300_001), {
         let mut task = task(&root().join("models/inclined_plane_spurious.json"));
         task.settings.trials = Trials::Fixed(trials);

@@ -387,11 +387,11 @@ fn two_effects_far_outside_their_priors_are_named() {
 }
 
 /// With the noise estimated, chance makes a slope or an offset of two standard uncertainties in one
-/// set of twenty for each. Three of 24 sets come by chance in 5 % of all runs where 4 % are alarms;
-/// the seeds are fixed.
+/// set of twenty for each. Three of twelve sets come by chance in 2 % of all runs where 5 % are
+/// alarms; the seeds are fixed.
 #[test]
 fn noise_that_is_not_stated_is_seldom_a_gap() {
-    let alarms = (0..24).filter(|seed| {
+    let alarms = (0..12).filter(|seed| {
         let residuals: Vec<f64> = normals(30, 100 + seed).into_iter().map(|z| 0.1 * z).collect();
         let mut case = line_with(&residuals);
         case.observed[0].as_mut().unwrap().standard_uncertainties = None;
@@ -462,7 +462,7 @@ fn oscillation() -> Case {
 #[test]
 fn a_needle_is_found_whatever_the_seed() {
     let case = oscillation();
-    let found: Vec<Diagnosis> = (1..=3).map(|seed| diagnosed(&case, seed)).collect();
+    let found: Vec<Diagnosis> = (1..=2).map(|seed| diagnosed(&case, seed)).collect();
     for diagnosis in &found {
         assert_eq!(diagnosis.most_probable.effects, ["oscillation"]);
         // as wanted of any two seeds
@@ -497,12 +497,12 @@ fn gap_free_data_with_another_noise_are_seldom_called_a_gap() {
     let mut alarms = [0; 3];
     for (alarms, (correlation, size)) in alarms.iter_mut().zip(correlations.into_iter().zip(sizes))
     {
-        for seed in 0..8 {
+        for seed in 0..6 {
             let found = diagnosed(&line_with(&noise_of(100 + seed, correlation, size)), 1);
             *alarms += usize::from(found.most_probable.kind != HypothesisKind::None);
         }
     }
-    // with 5 % of alarms more than three of 24 have a probability of 0.03
+    // with 5 % of alarms more than three of 18 have a probability of 0.01
     assert!(alarms.iter().sum::<usize>() <= 3, "{alarms:?}");
 }
 

@@ -7,6 +7,8 @@ mod sentences;
 mod tests;
 mod words;
 
+use std::sync::LazyLock;
+
 use notes::NOTES;
 use sentences::{BRIEF, BRIEF_LENGTH, SENTENCES};
 use words::{BETWEEN, SHAPES, WORDS};
@@ -121,27 +123,50 @@ fn word(text: &str) -> Option<&'static str> {
     all.find(|(english, _)| *english == text).map(|(_, german)| *german)
 }
 
+/// A sentence of the tables in both languages.
+struct Sentence {
+    /// What stands between the places of the English one: one piece more than it has places.
+    pieces: Vec<&'static str>,
+    /// The length of all pieces in bytes: no shorter text has them.
+    least: usize,
+    german: &'static str,
+}
+
+impl Sentence {
+    fn all<'a>(of: impl Iterator<Item = &'a (&'static str, &'static str)>) -> Vec<Self> {
+        let sentence = |&(english, german): &'a (&'static str, &'static str)| {
+            let pieces: Vec<&'static str> = english.split("{}").collect();
+            Self { least: pieces.iter().map(|piece| piece.len()).sum(), pieces, german }
+        };
+        of.map(sentence).collect()
+    }
+}
+
+static OF_ANY_LENGTH: LazyLock<Vec<Sentence>> =
+    LazyLock::new(|| Sentence::all(SENTENCES.iter().chain(NOTES)));
+static OF_BRIEF_TEXTS: LazyLock<Vec<Sentence>> = LazyLock::new(|| Sentence::all(BRIEF.iter()));
+
 /// The first sentence of a text in German, and what follows it.
 fn sentence(text: &str) -> Option<(String, &str)> {
-    let brief = if text.len() <= BRIEF_LENGTH { BRIEF } else { &[] };
-    SENTENCES.iter().chain(NOTES).chain(brief).find_map(|(english, german)| {
-        let (captured, rest) = fitted(english, text)?;
-        Some((filled(german, &captured), rest))
+    let brief = if text.len() <= BRIEF_LENGTH { OF_BRIEF_TEXTS.as_slice() } else { &[] };
+    let mut all = OF_ANY_LENGTH.iter().chain(brief).filter(|sentence| sentence.least <= text.len());
+    all.find_map(|sentence| {
+        let (captured, rest) = fitted(&sentence.pieces, text)?;
+        Some((filled(sentence.german, &captured), rest))
     })
 }
 
-/// What stands in the places of a pattern at the beginning of a text, and what follows it: nothing, or
-/// a full stop.
-fn fitted<'t>(pattern: &str, text: &'t str) -> Option<(Vec<&'t str>, &'t str)> {
-    let mut pieces = pattern.split("{}");
-    let mut rest = beginning(text, pieces.next()?)?;
+/// What stands between the pieces of a pattern at the beginning of a text, and what follows them:
+/// nothing, or a full stop.
+fn fitted<'t>(pieces: &[&str], text: &'t str) -> Option<(Vec<&'t str>, &'t str)> {
+    let (first, pieces) = pieces.split_first()?;
+    let mut rest = beginning(text, first)?;
     let mut captured = Vec::new();
-    let mut pieces = pieces.peekable();
-    if pieces.peek().is_none() {
+    if pieces.is_empty() {
         return ends(rest).then_some((captured, rest));
     }
-    while let Some(piece) = pieces.next() {
-        let is_last = pieces.peek().is_none();
+    for (number, piece) in pieces.iter().enumerate() {
+        let is_last = number + 1 == pieces.len();
         if is_last && piece.is_empty() {
             let whole = rest.strip_suffix('.').unwrap_or(rest);
             captured.push(whole);

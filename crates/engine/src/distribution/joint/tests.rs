@@ -92,7 +92,7 @@ fn drawn_coefficients_are_the_declared_ones() {
         let both = [a, b];
         let joint = Joint::new(&both, &[correlation(0, 1, coefficient)]).unwrap();
         assert_eq!(joint.copula, [0, 1]);
-        let values = draws(&both, &joint, number as u64, 1000);
+        let values = draws(&both, &joint, number as u64, 300);
         let [x, y] = [0, 1].map(|q| standardized(&values[q], &both[q]));
         let (drawn, error) = product(&x, &y);
         assert!(

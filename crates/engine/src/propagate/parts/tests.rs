@@ -70,8 +70,8 @@ fn text(evaluation: &Evaluation) -> String {
 fn parts_have_the_bits_of_the_whole() {
     for (trials, memory, passes, cuts) in [
         (5000, 64 << 20, 1, &[1, 3, 7, 40][..]),
-        (300_001, 64 << 20, 1, &[1, 7, 40]),
-        (300_001, 400 << 10, 3, &[1, 3, 40]),
+        (300_001, 64 << 20, 1, &[7]),
+        (300_001, 400 << 10, 3, &[3]),
         (2_200_000, 64 << 20, 1, &[5]),
         (2_200_000, 4 << 20, 3, &[5]),
     ] {
@@ -220,7 +220,7 @@ fn damaged_bytes_are_refused_or_taken() {
             let part = pass.part(&task, 0..all, &control).unwrap().unwrap();
             let carried = pass.to_bytes();
             let mut refused = 0;
-            for case in 0..150 {
+            for case in 0..60 {
                 let original = if case % 3 == 0 { &carried } else { &part };
                 let mut bytes = original.clone();
                 match case % 4 {
@@ -250,7 +250,7 @@ fn damaged_bytes_are_refused_or_taken() {
                     Err(_) => refused += 1,
                 }
             }
-            assert!(refused > 50, "only {refused} of 150 are refused");
+            assert!(refused > 20, "only {refused} of 60 are refused");
             let mut merging = Merging::new(&task, &pass, control).unwrap();
             merging.add(0..all, &part).unwrap();
             match merging.finish(true).unwrap() {

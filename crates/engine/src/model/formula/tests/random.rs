@@ -229,7 +229,7 @@ fn random_sentences() {
 fn deep_and_long_texts() {
     let (scope, values) = surroundings();
     let mut random = Random(4);
-    for _ in 0..300 {
+    for _ in 0..60 {
         let piece: String = (0..1 + random.below(4)).map(|_| random.pick(PIECES)).collect();
         let times = random.below(99_000 / piece.len().max(1));
         exercise(&piece.repeat(times), &scope, &values);
