@@ -8,12 +8,12 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
-use rayon::prelude::*;
 
 use super::options::{Answer, Case, Interactive, Seed, Threads};
 use super::shared_draws::SharedCheck;
 use super::signals::{self, Temporary};
 use super::{CommandLine, Exit, Failure, output, parts, progress, run};
+use gumption_engine::parallel;
 use gumption_files::CaseFile;
 use gumption_gap as gap;
 use gumption_gap::check::{BlindDraw, CheckedNoise, Truth, score, truth};
@@ -198,7 +198,7 @@ impl GapCheck {
         };
         let sealed = folder.join("sealed");
         make(&sealed)?;
-        range.into_par_iter().try_for_each(|number| {
+        let written = parallel::map(range, |number| {
             let drawn = truth(&file.case, noise, self.noise.into(), seed, number);
             let (truth, measured) = drawn.map_err(impossible)?;
             let own = folder.join(format!("{number:05}"));
@@ -217,7 +217,8 @@ impl GapCheck {
             let text = serde_json::to_vec_pretty(&truth)
                 .map_err(|error| Failure::System(format!("cannot write a truth: {error}")))?;
             write(&sealed.join(format!("{number:05}.json")), &text)
-        })
+        });
+        written.into_iter().collect()
     }
 
     /// Diagnoses every case from its own folder; `None` if it was interrupted.
@@ -229,20 +230,19 @@ impl GapCheck {
         stop: &AtomicBool,
     ) -> Result<Option<Vec<gap::ModelSelection>>, Failure> {
         let bar = progress::counted(range.end - range.start, "draws", self.answer.quiet);
-        let answers: Result<Vec<Option<gap::ModelSelection>>, Failure> = range
-            .into_par_iter()
-            .map(|number| {
-                if stop.load(Ordering::Relaxed) {
-                    return Ok(None);
-                }
-                let path = folder.join(format!("{number:05}")).join("case.json");
-                let file = program.files().case(&path)?;
-                let answer = gap::select_model(&file.case, seed).map_err(impossible)?;
-                bar.inc(1);
-                Ok(Some(answer))
-            })
-            .collect();
+        let answers = parallel::map(range, |number| {
+            if stop.load(Ordering::Relaxed) {
+                return Ok(None);
+            }
+            let path = folder.join(format!("{number:05}")).join("case.json");
+            let file = program.files().case(&path)?;
+            let answer = gap::select_model(&file.case, seed).map_err(impossible)?;
+            bar.inc(1);
+            Ok(Some(answer))
+        });
         bar.finish_and_clear();
+        let answers: Result<Vec<Option<gap::ModelSelection>>, Failure> =
+            answers.into_iter().collect();
         Ok(answers?.into_iter().collect())
     }
 }

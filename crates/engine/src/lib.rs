@@ -9,6 +9,7 @@ pub mod distribution;
 pub mod linalg;
 pub mod model;
 pub mod number;
+pub mod parallel;
 pub mod propagate;
 pub mod regression;
 pub mod special;

@@ -8,8 +8,8 @@
 
 use std::rc::Rc;
 
+use gumption_engine::parallel;
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::posterior::Posterior;
 use super::predict::Predictor;
@@ -94,44 +94,38 @@ pub(crate) fn groups(
             (own.iter().sum::<f64>() / own.len().max(1) as f64).sqrt().max(f64::MIN_POSITIVE)
         })
         .collect();
-    let surfaces: Vec<Surface<'_>> = chosen
-        .par_iter()
-        .map(|&h| {
-            let hypothesis = &posterior.hypotheses[h];
-            let inputs = 0..setup.unknown_inputs.len();
-            let mut draws = hypothesis.evidence.resampled(DRAWS);
-            for draw in &mut draws {
-                draw[inputs.clone()].fill(0.0);
-            }
-            let predictor = Predictor::new(setup, &hypothesis.effects, &rows, &setup.data.outputs);
-            let values = predictor.values(&draws);
-            let targets = (0..draws.len()).map(|draw| column(&values, &scales, draw)).collect();
-            Surface {
-                effects: names(setup, &hypothesis.effects),
-                predictor,
-                scales: scales.clone(),
-                targets,
-                draws,
-                inputs,
-                parameters: setup.roles.len()..hypothesis.evidence.unknowns(),
-            }
-        })
-        .collect();
+    let surfaces: Vec<Surface<'_>> = parallel::map(chosen, |h| {
+        let hypothesis = &posterior.hypotheses[h];
+        let inputs = 0..setup.unknown_inputs.len();
+        let mut draws = hypothesis.evidence.resampled(DRAWS);
+        for draw in &mut draws {
+            draw[inputs.clone()].fill(0.0);
+        }
+        let predictor = Predictor::new(setup, &hypothesis.effects, &rows, &setup.data.outputs);
+        let values = predictor.values(&draws);
+        let targets = (0..draws.len()).map(|draw| column(&values, &scales, draw)).collect();
+        Surface {
+            effects: names(setup, &hypothesis.effects),
+            predictor,
+            scales: scales.clone(),
+            targets,
+            draws,
+            inputs,
+            parameters: setup.roles.len()..hypothesis.evidence.unknowns(),
+        }
+    });
     let nominal = Predictor::new(setup, &[], &rows, &setup.data.outputs);
     let at_estimates = vec![vec![0.0; setup.roles.len()]];
     let nominal: Vec<f64> = first(&nominal.values(&at_estimates), &scales);
     let pairs: Vec<(usize, usize)> =
         (0..surfaces.len()).flat_map(|a| (a + 1..surfaces.len()).map(move |b| (a, b))).collect();
-    let same: Vec<(usize, usize)> = pairs
-        .into_par_iter()
-        .filter(|&(a, b)| {
-            let (a, b) = (&surfaces[a], &surfaces[b]);
-            a.follows(b, &nominal) && b.follows(a, &nominal)
-        })
-        .collect();
+    let same = parallel::map(pairs, |(first, second)| {
+        let (a, b) = (&surfaces[first], &surfaces[second]);
+        (a.follows(b, &nominal) && b.follows(a, &nominal)).then_some((first, second))
+    });
     // what is the same as the same is the same
     let mut group: Vec<usize> = (0..surfaces.len()).collect();
-    for (a, b) in same {
+    for (a, b) in same.into_iter().flatten() {
         let (from, to) = (group[a].max(group[b]), group[a].min(group[b]));
         group.iter_mut().filter(|of| **of == from).for_each(|of| *of = to);
     }

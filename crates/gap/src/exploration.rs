@@ -6,7 +6,7 @@
 //! the integrals that decide the answer are made a second time with other random numbers.
 
 use gumption_engine::number::largest_first;
-use rayon::prelude::*;
+use gumption_engine::parallel;
 
 use super::evidence::{DISAGREE, EvidenceEstimate};
 use super::likelihood::Likelihood;
@@ -120,10 +120,8 @@ impl<'s, 'c> Exploration<'s, 'c> {
         let leads = rivals.max(none.ln_weight());
         let known = std::slice::from_ref(&none);
         let count = self.setup.case.candidates.len();
-        let singles: Vec<WeighedHypothesis> = (0..count)
-            .into_par_iter()
-            .filter_map(|one| self.begin(vec![one], known, before, leads))
-            .collect();
+        let single = |one| self.begin(vec![one], known, before, leads);
+        let singles = parallel::map(0..count, single).into_iter().flatten();
         std::iter::once(none).chain(singles).collect()
     }
 
@@ -162,16 +160,14 @@ impl<'s, 'c> Exploration<'s, 'c> {
         for _ in 0..ROUNDS {
             let (fewer, pairs) = hypotheses.split_at_mut(pairs);
             let tells = |pair: &WeighedHypothesis| pair.ln_weight() >= least;
-            let gained: Vec<Vec<usize>> = fewer
-                .par_iter_mut()
-                .filter(|single| single.effects.len() == 1)
-                .filter_map(|single| {
-                    let starts = self.projected(&single.effects, pairs.iter().filter(|p| tells(p)));
-                    let likelihood = self.setup.likelihood(&single.effects);
-                    let new = single.evidence.explore(&likelihood, &starts);
-                    new.then(|| single.effects.clone())
-                })
-                .collect();
+            let singles = fewer.iter_mut().filter(|single| single.effects.len() == 1);
+            let gained = parallel::map(singles, |single| {
+                let starts = self.projected(&single.effects, pairs.iter().filter(|p| tells(p)));
+                let likelihood = self.setup.likelihood(&single.effects);
+                let new = single.evidence.explore(&likelihood, &starts);
+                new.then(|| single.effects.clone())
+            });
+            let gained: Vec<Vec<usize>> = gained.into_iter().flatten().collect();
             if gained.is_empty() {
                 return;
             }
@@ -179,7 +175,7 @@ impl<'s, 'c> Exploration<'s, 'c> {
             let has = |pair: &WeighedHypothesis| {
                 tells(pair) && gained.iter().flatten().any(|effect| pair.effects.contains(effect))
             };
-            pairs.par_iter_mut().filter(|pair| has(pair)).for_each(|pair| {
+            parallel::map(pairs.iter_mut().filter(|pair| has(pair)), |pair| {
                 let starts = seeds(self.setup, &pair.effects, fewer);
                 let likelihood = self.setup.likelihood(&pair.effects);
                 pair.evidence.explore(&likelihood, &starts);

@@ -5,7 +5,7 @@
 //! entropy at the best place. What is measured at one place is told by its mean, so that a proposal of
 //! many rows costs no more than one of a single row.
 
-use rayon::prelude::*;
+use gumption_engine::parallel;
 
 use super::composed::Compositions;
 use super::diagnosis::{NamedQuantity, NextMeasurements, ProposalKind, ProposedMeasurement};
@@ -167,24 +167,21 @@ fn predictive(
         .collect();
     largest_first(&mut leading, |&a| posterior.hypotheses[a].probability);
     leading.truncate(MOST_HYPOTHESES);
-    let mut hypotheses: Vec<PredictiveHypothesis> = leading
-        .into_par_iter()
-        .map(|h| {
-            let hypothesis = &posterior.hypotheses[h];
-            let draws = hypothesis.evidence.resampled(DRAWS);
-            let of = |outputs: &[usize]| {
-                Predictor::new(setup, &hypothesis.effects, &rows, outputs).values(&draws)
-            };
-            let input = |place: usize| draws.iter().map(|draw| draw[place]).collect();
-            PredictiveHypothesis {
-                effects: Some(names(setup, &hypothesis.effects)),
-                probability: hypothesis.probability,
-                values: of(&setup.data.outputs),
-                unobserved: (!others.is_empty()).then(|| of(&others)),
-                inputs: (0..setup.unknown_inputs.len()).map(input).collect(),
-            }
-        })
-        .collect();
+    let mut hypotheses = parallel::map(leading, |h| {
+        let hypothesis = &posterior.hypotheses[h];
+        let draws = hypothesis.evidence.resampled(DRAWS);
+        let of = |outputs: &[usize]| {
+            Predictor::new(setup, &hypothesis.effects, &rows, outputs).values(&draws)
+        };
+        let input = |place: usize| draws.iter().map(|draw| draw[place]).collect();
+        PredictiveHypothesis {
+            effects: Some(names(setup, &hypothesis.effects)),
+            probability: hypothesis.probability,
+            values: of(&setup.data.outputs),
+            unobserved: (!others.is_empty()).then(|| of(&others)),
+            inputs: (0..setup.unknown_inputs.len()).map(input).collect(),
+        }
+    });
     let scores: Vec<f64> =
         (0..DRAWS).map(|n| normal::quantile((n as f64 + 0.5) / DRAWS as f64)).collect();
     let draws = |&(mean, variance): &(f64, f64)| -> Vec<f64> {
@@ -326,10 +323,8 @@ impl<'p> Prospects<'p> {
     fn finalists(&self, targets: &[Target]) -> Vec<Target> {
         let mut chosen: Vec<Target> = Vec::new();
         for count in ROUGHLY {
-            let mut ranked: Vec<(f64, Target)> = targets
-                .par_iter()
-                .map(|&target| (self.loss(target, count, Detail::Normal), target))
-                .collect();
+            let loss = |&target: &Target| (self.loss(target, count, Detail::Normal), target);
+            let mut ranked = parallel::map(targets, loss);
             ranked.retain(|(loss, _)| loss.is_finite());
             largest_first(&mut ranked, |a| a.0);
             for (_, target) in ranked.into_iter().take(FINALISTS) {
@@ -343,11 +338,8 @@ impl<'p> Prospects<'p> {
 
     /// The best of some targets with so many measurements.
     fn best(&self, targets: &[Target], count: usize) -> Option<(f64, Target)> {
-        let losses: Vec<(f64, Target)> = targets
-            .par_iter()
-            .map(|&target| (self.loss(target, count, Detail::Kernels), target))
-            .collect();
-        losses.into_iter().rev().max_by(|a, b| a.0.total_cmp(&b.0))
+        let loss = |&target: &Target| (self.loss(target, count, Detail::Kernels), target);
+        parallel::map(targets, loss).into_iter().rev().max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// After how many measurements odds of 20 to 1 for the truth are as likely as not.

@@ -9,7 +9,7 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
+use gumption_engine::parallel;
 
 use super::discrepancy::Discrepancy;
 use super::latent::{Map, Role};
@@ -370,15 +370,11 @@ fn serial_correlations(weighings: &[Weighing<'_>]) -> Vec<f64> {
         return Vec::new();
     }
     let total = ln_total(weighings);
-    let found: Vec<Vec<f64>> = posterior
-        .hypotheses
-        .par_iter()
-        .map(|hypothesis| {
-            let residuals = residuals_at_mode(setup, hypothesis);
-            let ln = hypothesis.ln_weight() + ln_explained_away(setup, hypothesis);
-            SERIAL.iter().map(|&of| ln + serial_gain(setup, &residuals, of)).collect()
-        })
-        .collect();
+    let found: Vec<Vec<f64>> = parallel::map(&posterior.hypotheses, |hypothesis| {
+        let residuals = residuals_at_mode(setup, hypothesis);
+        let ln = hypothesis.ln_weight() + ln_explained_away(setup, hypothesis);
+        SERIAL.iter().map(|&of| ln + serial_gain(setup, &residuals, of)).collect()
+    });
     let ln_prior = elementary::ln(NoiseModel::with_serial(0.0).prior(setup.data.len()));
     let worth = |n: &usize| {
         let sum = found

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use rayon::prelude::*;
+use gumption_engine::parallel;
 
 use super::data::by_rows;
 use super::discrepancy::{Base, Discrepancy, Unexplained};
@@ -175,8 +175,8 @@ pub(crate) fn posterior(
     if prior.two > 0.0 && !effort.is_stopped() {
         let leads = leading(&hypotheses, rivals);
         let begin = |of: Vec<usize>| exploration.begin(of, &hypotheses, before, leads);
-        let of_pairs: Vec<WeighedHypothesis> = pairs.into_par_iter().filter_map(begin).collect();
-        hypotheses.extend(of_pairs);
+        let of_pairs = parallel::map(pairs, begin);
+        hypotheses.extend(of_pairs.into_iter().flatten());
         if !effort.is_stopped() {
             let least = before.map_or(f64::NEG_INFINITY, |_| leads - HOPELESS);
             exploration.reconcile(&mut hypotheses, least);
@@ -197,7 +197,7 @@ pub(crate) fn posterior(
     let leads = |h: &&mut WeighedHypothesis| {
         h.probability * share > LEADING && !h.effects.is_empty() && !effort.is_stopped()
     };
-    posterior.hypotheses.par_iter_mut().filter(leads).for_each(|hypothesis| {
+    parallel::map(posterior.hypotheses.iter_mut().filter(leads), |hypothesis| {
         let likelihood = setup.likelihood(&hypothesis.effects);
         if effort.generations > 0 {
             hypothesis.evidence.along_profile_paths(&likelihood, setup.roles.len());
@@ -215,13 +215,12 @@ pub(crate) fn posterior(
         if effort.is_stopped() || !open.iter().any(|open| *open) {
             break;
         }
-        posterior.hypotheses.par_iter_mut().zip(open).filter(|(_, open)| *open).for_each(
-            |(hypothesis, _)| {
-                let likelihood: Likelihood<'_> = setup.likelihood(&hypothesis.effects);
-                let columns = (2 + round / 2).min(8);
-                hypothesis.evidence.refine(&likelihood, columns);
-            },
-        );
+        let open = posterior.hypotheses.iter_mut().zip(open).filter(|(_, open)| *open);
+        parallel::map(open, |(hypothesis, _)| {
+            let likelihood: Likelihood<'_> = setup.likelihood(&hypothesis.effects);
+            let columns = (2 + round / 2).min(8);
+            hypothesis.evidence.refine(&likelihood, columns);
+        });
         posterior.weigh();
         progress(0.6 + 0.4 * (round + 1) as f64 / effort.rounds as f64);
     }
@@ -231,7 +230,7 @@ pub(crate) fn posterior(
     };
     let (none, others) = posterior.hypotheses.split_at_mut(1);
     let none = &*none;
-    others.par_iter_mut().filter(leads).for_each(|hypothesis| {
+    parallel::map(others.iter_mut().filter(leads), |hypothesis| {
         exploration.replicate(hypothesis, none);
     });
     posterior.weigh();
@@ -249,7 +248,7 @@ pub(crate) fn posterior(
         if effort.is_stopped() || !posterior.hypotheses.iter().any(worth) {
             break;
         }
-        posterior.hypotheses.par_iter_mut().filter(|h| worth(h)).for_each(|hypothesis| {
+        parallel::map(posterior.hypotheses.iter_mut().filter(|h| worth(h)), |hypothesis| {
             let likelihood = setup.likelihood(&hypothesis.effects);
             hypothesis.evidence.refine(&likelihood, 4);
         });

@@ -13,7 +13,7 @@
 //! Statistics: Theory and Methods 26, 1481, has it). Sums of products over the bins of a condition are
 //! cumulated once, so that every interval costs a difference and a small Cholesky factorization.
 
-use rayon::prelude::*;
+use gumption_engine::parallel;
 
 use super::diagnosis::GapRegion;
 use super::setup::Setup;
@@ -65,16 +65,12 @@ pub(crate) fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<Ga
     let residuals = crate::data::by_rows(&setup.data.nominal_residuals());
     let white: Vec<f64> = residuals.iter().zip(variances).map(|(r, v)| r / v.sqrt()).collect();
     let design = Design::new(setup, variances);
-    let null: Vec<f64> = (0..SIMULATED / COLUMN)
-        .into_par_iter()
-        .flat_map(|block| {
-            let drawn = design.simulated(StreamKey::new(seed, "gap/where"), block as u64);
-            drawn
-                .iter()
-                .map(|white| design.scan(white, &[]).map_or(0.0, |best| best.surprise))
-                .collect::<Vec<_>>()
-        })
-        .collect();
+    let of_block = |block| -> Vec<f64> {
+        let drawn = design.simulated(StreamKey::new(seed, "gap/where"), block as u64);
+        let surprise = |white: &Vec<f64>| design.scan(white, &[]).map_or(0.0, |best| best.surprise);
+        drawn.iter().map(surprise).collect()
+    };
+    let null = parallel::map(0..SIMULATED / COLUMN, of_block).concat();
     let mut found: Vec<GapRegion> = Vec::new();
     let mut taken: Vec<usize> = Vec::new();
     let total: f64 = white.iter().map(|z| z * z).sum::<f64>() - white.len() as f64;

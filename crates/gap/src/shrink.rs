@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use rayon::prelude::*;
+use gumption_engine::parallel;
 
 use super::composed::Compositions;
 use super::data::Data;
@@ -56,13 +56,13 @@ pub(crate) fn shrinkage(
     let stopped = || stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
     let blocks = blocks(setup);
     // without each block in turn
-    let left_out: Option<Vec<(Vec<usize>, Fold)>> = blocks
-        .par_iter()
-        .map(|block| {
-            let fold = || fold(setup, discrepancy, posterior, correction, block, seed);
-            (!stopped()).then(|| (block.clone(), fold()))
+    let left_out = parallel::map(blocks, |block| {
+        (!stopped()).then(|| {
+            let fold = fold(setup, discrepancy, posterior, correction, &block, seed);
+            (block, fold)
         })
-        .collect();
+    });
+    let left_out: Option<Vec<(Vec<usize>, Fold)>> = left_out.into_iter().collect();
     let blocks = left_out.as_ref().map_or(0, Vec::len);
     let mut predicted: Vec<(f64, f64)> = fitted.iter().flatten().copied().collect();
     let mut gain = 0.0;

@@ -7,7 +7,7 @@
 //! place others have taken (floating search: Pudil, Novovicova, Kittler 1994, Pattern Recognition
 //! Letters 15, 1119).
 
-use rayon::prelude::*;
+use gumption_engine::parallel;
 
 use super::beside_departure::beside_departure;
 use super::influence::{Influence, SizeGains, suspect};
@@ -56,9 +56,8 @@ pub(crate) fn more_suspects(
         return None;
     }
     let enough = ln_total(weighings) + elementary::ln(WORTH_TRYING);
-    let hypotheses = last.posterior.hypotheses.par_iter();
-    let influences: Vec<Option<Influence>> =
-        hypotheses.map(|hypothesis| Influence::of(&last.setup, hypothesis)).collect();
+    let influence = |hypothesis| Influence::of(&last.setup, hypothesis);
+    let influences = parallel::map(&last.posterior.hypotheses, influence);
     one_more(last, &influences, enough)
         .or_else(|| several_more(last, &influences, enough, (seed, effort)))
         .or_else(|| beside_departure(last, enough))
@@ -101,8 +100,7 @@ fn one_more(
         let alone = influence.with(&[]);
         (0..values).map(|value| alone.more(value).map(|gain| ln + gain)).collect()
     };
-    let hypotheses = last.posterior.hypotheses.par_iter().zip(influences);
-    let found: Vec<Vec<SizeGains>> = hypotheses.map(of_hypothesis).collect();
+    let found = parallel::map(last.posterior.hypotheses.iter().zip(influences), of_hypothesis);
     let sum = |value: usize, size: usize| {
         found
             .iter()
@@ -134,18 +132,13 @@ fn several_more(
     if most < 2 {
         return None;
     }
-    let found: Vec<Vec<WeighedSet>> = last
-        .posterior
-        .hypotheses
-        .par_iter()
-        .zip(influences)
-        .map(|(hypothesis, influence)| {
-            let ln = ln_weight(last, hypothesis);
-            let influence = influence.as_ref().filter(|_| ln.is_finite());
-            let sets = influence.map(|of| best_sets(last, of, most)).unwrap_or_default();
-            sets.into_iter().map(|(gain, set)| (ln + gain, set)).collect()
-        })
-        .collect();
+    let hypotheses = last.posterior.hypotheses.iter().zip(influences);
+    let found: Vec<Vec<WeighedSet>> = parallel::map(hypotheses, |(hypothesis, influence)| {
+        let ln = ln_weight(last, hypothesis);
+        let influence = influence.as_ref().filter(|_| ln.is_finite());
+        let sets = influence.map(|of| best_sets(last, of, most)).unwrap_or_default();
+        sets.into_iter().map(|(gain, set)| (ln + gain, set)).collect()
+    });
     (2..=most).find_map(|count| {
         let mut sums: Vec<WeighedSet> = Vec::new();
         for (ln, set) in found.iter().flatten().filter(|(_, set)| set.len() == count) {

@@ -33,6 +33,7 @@ mod fft;
 mod fit;
 mod found;
 mod measured;
+mod near_noise;
 mod observation;
 mod passes;
 mod phasor;

@@ -7,6 +7,7 @@ use super::analysis::{Group, MOST_HELD, Refused, Through, unreadable};
 use super::coloured::Memory;
 use super::common_noise::correlation;
 use super::effects::{Effects, StepEffect};
+use super::near_noise;
 use super::observation::{ChannelObservation, Observation};
 use super::passes::{InMemorySamples, SampleSource, gathered};
 use super::recipe::{Frequency, Method, RecipeSettings, TimeBase};
@@ -118,7 +119,9 @@ fn row<P: SampleSource>(
     let count = if settings.method == Method::Fft { 1 } else { frequencies.len() };
     let mut notes = notes(settings, &analysed);
     notes.extend(of_steps);
-    let observation = Observation { frequencies: (0..count).map(at).collect(), notes };
+    let observed: Vec<Vec<ChannelObservation>> = (0..count).map(at).collect();
+    notes.extend(observed.iter().flatten().filter_map(|of| near_noise::note(settings, of)));
+    let observation = Observation { frequencies: observed, notes };
     Ok((observation, analysed.into_iter().filter_map(|of| of.trace).collect()))
 }
 

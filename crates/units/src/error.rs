@@ -89,6 +89,18 @@ pub enum UnitError {
         /// The same as a division: `(Hz^1)/2`.
         as_quotient: String,
     },
+    /// A product that is written with a space or a dot after a quotient, as in `J/kg K`: joule per
+    /// kilogram and kelvin, or kelvin times joule per kilogram?
+    AmbiguousProduct {
+        /// The quotient and the factor behind it.
+        found: String,
+        /// Where the two stand.
+        span: Range<usize>,
+        /// The same divided by that factor as well: `J/(kg K)`.
+        as_divisor: String,
+        /// The same multiplied by it: `(J/kg) K`.
+        as_factor: String,
+    },
     /// A factor that is zero, or too large or too small for a floating-point number.
     FactorOutOfRange {
         /// What has that factor.
@@ -134,6 +146,7 @@ impl UnitError {
             | Self::ExponentNotANumber { span, .. }
             | Self::ExponentTooLarge { span, .. }
             | Self::AmbiguousPower { span, .. }
+            | Self::AmbiguousProduct { span, .. }
             | Self::FactorOutOfRange { span }
             | Self::NestedTooDeep { span, .. } => span.clone(),
             Self::TooLong { length, .. } => 0..*length,
@@ -149,6 +162,7 @@ impl UnitError {
                 suggestion.iter().map(String::as_str).collect()
             }
             Self::AmbiguousPower { as_root, as_quotient, .. } => vec![as_root, as_quotient],
+            Self::AmbiguousProduct { as_divisor, as_factor, .. } => vec![as_divisor, as_factor],
             _ => Vec::new(),
         }
     }
@@ -206,6 +220,10 @@ impl fmt::Display for UnitError {
                 f,
                 "a power followed by a division by a number can be read in two ways; write \
                  `{as_root}` or `{as_quotient}`"
+            ),
+            Self::AmbiguousProduct { found, as_divisor, as_factor, .. } => write!(
+                f,
+                "`{found}` can be read in two ways; write `{as_divisor}` or `{as_factor}`"
             ),
             Self::FactorOutOfRange { .. } => f.write_str(
                 "the factor of this unit is zero, or too large or too small to calculate with; it \

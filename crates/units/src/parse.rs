@@ -18,8 +18,10 @@
 //!          | "%" or "‰", then letters | apostrophes, primes, quotation marks
 //! ```
 //!
-//! Products and quotients have the same rank and are taken from left to right: `J/kg*K` and
-//! `J/kg K` are `(J/kg)*K`, `a/b/c` is `a/(b*c)`. Spaces are allowed around every operator.
+//! Products and quotients have the same rank and are taken from left to right, as in formulas:
+//! `J/kg*K` is `(J/kg)*K`, `a/b/c` is `a/(b*c)`. A product that is written with a space or a dot after
+//! a quotient, `J/kg K`, means `J/(kg K)` to most who write it: it is refused, and both are named
+//! (ISO 80000-1:2022 allows it with parentheses only). Spaces are allowed around every operator.
 
 use std::ops::Range;
 
@@ -175,29 +177,38 @@ impl<'t> Parser<'t> {
         let mut last = self.power(depth)?;
         let start = last.start;
         let mut product = last.meaning;
+        let mut quotient = None;
         loop {
             let end = self.at;
             let spaced = self.skip_space();
-            let divide = match self.peek() {
+            let (divide, typeset) = match self.peek() {
                 None | Some(')') => return Ok(product),
                 Some('*') if self.rest().starts_with("**") => {
                     return Err(self.unexpected(SECOND_EXPONENT, None));
                 }
                 Some(operator) if is_operator(operator) => {
+                    let at = self.at;
                     self.operator()?;
-                    operator == '/'
+                    if operator == '/' {
+                        quotient = Some(at);
+                    }
+                    (operator == '/', !matches!(operator, '*' | '/'))
                 }
                 Some(next)
                     if starts_factor(next)
                         && !next.is_ascii_digit()
                         && (spaced || last.kind == Kind::Number && !last.has_exponent) =>
                 {
-                    false
+                    // half a millimetre, 1/2 mm, is read in one way only
+                    (false, last.kind != Kind::Number)
                 }
                 Some(_) => return Err(self.no_operator(&last, end)),
             };
             let from = self.factors.len();
             last = self.power(depth)?;
+            if let Some(solidus) = quotient.filter(|_| typeset) {
+                return Err(self.ambiguous_product(start, solidus, end));
+            }
             let fits = !divide || self.raise(from, MINUS_ONE);
             product = self.combine(product, last.meaning, divide, start, fits)?;
         }
@@ -214,6 +225,20 @@ impl<'t> Parser<'t> {
                 let operator = self.slice(span.clone()).to_owned();
                 Err(UnitError::MissingFactor { operator, span, side: MissingSide::After })
             }
+        }
+    }
+
+    /// What has been read since `start` has a factor behind the quotient that ends at `end`, whose
+    /// solidus stands at `solidus`: is the quotient divided by it, or multiplied?
+    fn ambiguous_product(&self, start: usize, solidus: usize, end: usize) -> UnitError {
+        let [whole, dividend, divisor] = [start..self.at, start..solidus, solidus + 1..self.at]
+            .map(|span| self.slice(span).trim());
+        let (quotient, factor) = (self.slice(start..end), self.slice(end..self.at));
+        UnitError::AmbiguousProduct {
+            found: whole.to_owned(),
+            span: start..self.at,
+            as_divisor: format!("{dividend}/({divisor})"),
+            as_factor: format!("({quotient}){factor}"),
         }
     }
 

@@ -19,7 +19,7 @@ mod width_change;
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
+use gumption_engine::parallel;
 
 pub use alternatives::Kept;
 pub use evidence::{EvidenceOffset, EvidenceTest, EvidenceVerdict, SupportedWidth, agreement};
@@ -282,15 +282,12 @@ impl Auditor<'_> {
         let probability = task.settings.coverage.probability();
         let widths =
             WidthSearch::new(&sampler, (question.trials, probability), question.allowed, control);
-        let allowed: Vec<Vec<Option<[f64; 2]>>> = (0..sampler.variables.len())
-            .into_par_iter()
-            .map(|place| match self.stated(&sampler, place) {
-                Some(stated) if !control.is_stopped() => {
-                    widths.allowed(place, stated.mean(), control)
-                }
-                _ => Vec::new(),
-            })
-            .collect();
+        let allowed_of = |place| match self.stated(&sampler, place) {
+            Some(stated) if !control.is_stopped() => widths.allowed(place, stated.mean(), control),
+            _ => Vec::new(),
+        };
+        let allowed: Vec<Vec<Option<[f64; 2]>>> =
+            parallel::map(0..sampler.variables.len(), allowed_of);
         if control.is_stopped() {
             return Ok(None);
         }

@@ -7,7 +7,7 @@
 //!
 //! Quantities that are drawn together are taken from B together: they have one index as a set.
 
-use rayon::prelude::*;
+use gumption_engine::parallel;
 
 use super::lanes::{LANES, in_lanes};
 use super::sampler::{PreparedSet, Sampler, Taker};
@@ -193,7 +193,8 @@ fn indices_of(
         }
         Some(lanes.lanes.iter().map(|lanes| lanes.sums(made as f64)).collect())
     };
-    let batches: Option<Vec<Vec<Sums>>> = batches(trials).into_par_iter().map(batch).collect();
+    let batches: Option<Vec<Vec<Sums>>> =
+        parallel::map(batches(trials), batch).into_iter().collect();
     let batches = batches?;
     let of = |output: usize, set: usize| {
         let parts = || batches.iter().filter_map(|batch| batch.get(output));

@@ -4,7 +4,7 @@
 //! both have in common cancels in it. Of each output only the values about the ends of the coverage
 //! interval are kept, between limits that a pilot of the first blocks fixes.
 
-use rayon::prelude::*;
+use gumption_engine::parallel;
 
 use super::lanes::{LANES, in_lanes};
 use super::sampler::{Change, Prepared, Sampler, Taker};
@@ -238,7 +238,7 @@ fn tallies(
         }
         Some(found)
     };
-    batches(trials).into_par_iter().map(batch).collect()
+    parallel::map(batches(trials), batch).into_iter().collect()
 }
 
 /// Moves the trials whose outputs are all finite to the front, and tells how many there are.

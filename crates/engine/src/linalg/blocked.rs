@@ -8,7 +8,7 @@
 //! numbers below the least normal one, on which processors work a hundred times slower. Such an
 //! entry is zero here (see [`NEGLIGIBLE`]), and tiles of zeros are passed over.
 
-use rayon::prelude::*;
+use crate::parallel;
 
 use crate::number::{CodePath, Kernel};
 
@@ -61,19 +61,16 @@ impl BlockedRoot {
             // the row of tiles left of the diagonal, turned so that its columns lie side by side
             let turned: Vec<Vec<f64>> = (0..j).map(|k| panels(&tiles[at(j, k)])).collect();
             let done = &tiles;
-            let column: Vec<Vec<f64>> = (j..count)
-                .into_par_iter()
-                .map(|i| {
-                    let mut tile = filled(order, i, j, &entry);
-                    for (k, right) in turned.iter().enumerate() {
-                        let left = &done[at(i, k)];
-                        if !left.is_empty() && !right.is_empty() {
-                            path.run(Subtract { from: &mut tile, left, right });
-                        }
+            let column: Vec<Vec<f64>> = parallel::map(j..count, |i| {
+                let mut tile = filled(order, i, j, &entry);
+                for (k, right) in turned.iter().enumerate() {
+                    let left = &done[at(i, k)];
+                    if !left.is_empty() && !right.is_empty() {
+                        path.run(Subtract { from: &mut tile, left, right });
                     }
-                    tile
-                })
-                .collect();
+                }
+                tile
+            });
             let mut column = column.into_iter();
             let Some(mut diagonal) = column.next() else { break };
             factor(&mut diagonal, &negligible[j * TILE..], |row| {
@@ -83,15 +80,11 @@ impl BlockedRoot {
             .map_err(|row| j * TILE + row)?;
             let right = transposed(&diagonal);
             tiles[at(j, j)] = diagonal;
-            let below: Vec<Vec<f64>> = column
-                .zip(negligible[(j + 1) * TILE..].chunks_exact(TILE))
-                .collect::<Vec<_>>()
-                .into_par_iter()
-                .map(|(mut tile, negligible)| {
-                    path.run(Divide { tile: &mut tile, root: &right, negligible });
-                    if tile.iter().any(|x| *x != 0.0) { tile } else { Vec::new() }
-                })
-                .collect();
+            let below = column.zip(negligible[(j + 1) * TILE..].chunks_exact(TILE));
+            let below: Vec<Vec<f64>> = parallel::map(below, |(mut tile, negligible)| {
+                path.run(Divide { tile: &mut tile, root: &right, negligible });
+                if tile.iter().any(|x| *x != 0.0) { tile } else { Vec::new() }
+            });
             for (i, tile) in below.into_iter().enumerate() {
                 tiles[at(j + 1 + i, j)] = tile;
             }

@@ -6,7 +6,7 @@ mod gradients;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use rayon::prelude::*;
+use crate::parallel;
 
 pub use super::budget::{BudgetLine, CorrelationLine};
 use crate::distribution::{Correlation, Distribution, RootName, paired};
@@ -234,7 +234,7 @@ impl GumRow {
         if count < MANY_OUTPUTS {
             return (0..count).flat_map(of_first).collect();
         }
-        (0..count).into_par_iter().flat_map_iter(of_first).collect()
+        parallel::map(0..count, of_first).concat()
     }
 }
 

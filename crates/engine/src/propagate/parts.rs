@@ -47,7 +47,7 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-use rayon::prelude::*;
+use crate::parallel;
 
 use super::Control;
 use super::evaluation::{
@@ -299,13 +299,13 @@ fn rows(
         let mut trials = RowTrials::new(task, row, &linear.estimates, &joint);
         Ok(decided(task, &mut trials, &linear.outputs, &drawn_dof(&reaches, row), control))
     };
-    let found = rows.par_chunks(COLUMN).map(|rows| {
+    let found = parallel::map(rows.chunks(COLUMN), |rows| {
         let linear = gum.evaluate_all(rows, control.path);
-        rows.par_iter().zip(linear).map(of_row).collect::<Result<Vec<_>, _>>()
+        parallel::map(rows.iter().zip(linear), of_row)
     });
-    let found: Vec<Vec<Finished>> = found.collect::<Result<_, _>>()?;
+    let found: Vec<Finished> = found.into_iter().flatten().collect::<Result<_, _>>()?;
     let mut out = Writer::default();
-    found.iter().flatten().for_each(|row| row.write(&mut out));
+    found.iter().for_each(|row| row.write(&mut out));
     Ok((!control.is_stopped()).then(|| out.into_bytes()))
 }
 

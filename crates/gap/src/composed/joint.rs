@@ -1,7 +1,7 @@
 //! Two at once where one term does not do: pairs of terms, products of functions of two conditions, and
 //! a term beside an effect of the list.
 
-use rayon::prelude::*;
+use gumption_engine::parallel;
 
 use super::metric::{Metric, White};
 use super::search::solved;
@@ -109,7 +109,7 @@ impl Search<'_> {
             }
         }
         let square = white.dot(white);
-        let of_first = |first: &&Composition| {
+        let of_first = |first: &Composition| {
             let (with, _) = self.beside_term(metric, first);
             // the residuals in the new metric, whitened by the same blocks
             let again = with.rewhitened(white);
@@ -126,11 +126,11 @@ impl Search<'_> {
                 terms.extend(other.terms);
                 let two = terms.len() == 2 && !terms[0].is_same_as(&terms[1]);
                 let ln_weight = ln_share + ln_first + occam + gain + other.ln_weight;
-                two.then(|| Composition { terms, ln_weight, best: ln_weight, ..(*first).clone() })
+                two.then(|| Composition { terms, ln_weight, best: ln_weight, ..first.clone() })
             });
             joined.collect::<Vec<Composition>>()
         };
-        leading.par_iter().flat_map_iter(of_first).collect()
+        parallel::map(leading, of_first).concat()
     }
 
     /// Products of functions of two conditions.
@@ -205,7 +205,7 @@ impl Search<'_> {
         listed.truncate(FIRST);
         let white = metric.white(residuals);
         let square = white.dot(&white);
-        let beside = |hypothesis: &&WeighedHypothesis| {
+        let beside = |hypothesis: &WeighedHypothesis| {
             let setup = self.setup;
             let mode = hypothesis.evidence.modes.first()?;
             let at = |moved: Option<(usize, f64)>| {
@@ -247,7 +247,7 @@ impl Search<'_> {
             }
             Some(others)
         };
-        listed.par_iter().filter_map(beside).flatten_iter().collect()
+        parallel::map(listed, beside).into_iter().flatten().flatten().collect()
     }
 }
 

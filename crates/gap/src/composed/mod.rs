@@ -24,7 +24,7 @@ mod tests;
 pub use effect::{ComposedEffect, ComposedParameter, ComposedPrior, ComposedTerm};
 pub use shape::ComposedForm;
 
-use rayon::prelude::*;
+use gumption_engine::parallel;
 
 use crate::data::by_rows;
 use crate::diagnosis::DepartureKind;
@@ -112,17 +112,14 @@ struct Tabulated {
 /// All shapes of values, with the functions at their grids.
 fn tabulated(values: &Values) -> Vec<Tabulated> {
     let shapes = Shape::all(values);
-    shapes
-        .into_par_iter()
-        .map(|shape| {
-            let at = |shares: Vec<f64>| {
-                let columns = shape.columns(&values.at, &shape.parameters(&shares));
-                (shares, columns)
-            };
-            let grid = shape.grid().into_iter().map(at).collect();
-            Tabulated { shape, grid }
-        })
-        .collect()
+    parallel::map(shapes, |shape| {
+        let at = |shares: Vec<f64>| {
+            let columns = shape.columns(&values.at, &shape.parameters(&shares));
+            (shares, columns)
+        };
+        let grid = shape.grid().into_iter().map(at).collect();
+        Tabulated { shape, grid }
+    })
 }
 
 /// Composes departures for data of a setup that "unexplained" is probable for.
@@ -141,7 +138,7 @@ pub(crate) fn compose(
     let residuals = by_rows(&setup.data.nominal_residuals());
     let white = metric.white(&residuals);
     let targets = target::targets(setup);
-    let responses: Vec<Response> = targets.par_iter().map(|t| t.in_data(setup)).collect();
+    let responses: Vec<Response> = parallel::map(&targets, |target| target.in_data(setup));
     let search = Search { setup, targets: &targets, responses: &responses };
     let mut found = search.singles(&metric, &white, REFINED);
     let of_process = of_process(setup, discrepancy, unexplained, &metric, &residuals);
@@ -208,91 +205,86 @@ impl Search<'_> {
             .map(|(argument, values)| (*argument, values, tabulated(values)))
             .collect();
         let ln_way = -elementary::ln(ways.len().max(1) as f64);
-        let mut candidates: Vec<Candidate> = ways
-            .par_iter()
-            .enumerate()
-            .flat_map_iter(|(number, way)| {
-                let own = way.value.as_ref().filter(|_| way.kind == DepartureKind::Additive);
-                let own = own.map(|values| {
-                    // a departure in proportion to the value itself is a proportional constant
-                    let mut table = tabulated(values);
-                    table.retain(|of| of.shape.form() != ComposedForm::Slope);
-                    (Argument::Value, values, table)
-                });
-                // what is a function of the value is often one of a condition too, which can be set
-                let own_weight = match (&own, targets[way.target].outputs.is_empty()) {
-                    (None, _) => 0.0,
-                    (Some(_), false) => OWN_VALUE,
-                    (Some(_), true) => OWN_VALUE_WITHIN,
-                };
-                let arguments = 1.0 + tables.len() as f64 + own_weight;
-                let ln_of = |argument: Argument| {
-                    let weight = if argument == Argument::Value { own_weight } else { 1.0 };
-                    ln_way + elementary::ln(weight / arguments)
-                };
-                let constant = Shape::constant();
-                let points = setup.data.points.len();
-                let grid = vec![(Vec::new(), constant.columns(&vec![0.0; points], &[]))];
-                let mut found: Vec<Candidate> = Vec::new();
-                let mut add = |argument, shape: &Shape, grid: &[_], ln_prior| {
-                    if let Some(on_grid) = way.frame.on_grid(grid) {
-                        let shape = shape.clone();
-                        let candidate =
-                            Candidate { way: number, argument, shape, found: on_grid, ln_prior };
-                        found.push(candidate);
-                    }
-                };
-                add(Argument::Nothing, &constant, &grid, ln_of(Argument::Nothing));
-                for (argument, _, table) in tables.iter().chain(&own) {
-                    let forms: Vec<ComposedForm> = table.iter().map(|of| of.shape.form()).collect();
-                    let mut each = forms.clone();
-                    each.sort_by_key(|form| form.name());
-                    each.dedup();
-                    let ln_form = ln_of(*argument) - elementary::ln(each.len().max(1) as f64);
-                    for of in table {
-                        let form = of.shape.form();
-                        let variants = forms.iter().filter(|other| **other == form).count();
-                        let ln_prior = ln_form - elementary::ln(variants as f64);
-                        add(*argument, &of.shape, &of.grid, ln_prior);
-                    }
+        let of_way = |(number, way): (usize, &Way<'_>)| {
+            let own = way.value.as_ref().filter(|_| way.kind == DepartureKind::Additive);
+            let own = own.map(|values| {
+                // a departure in proportion to the value itself is a proportional constant
+                let mut table = tabulated(values);
+                table.retain(|of| of.shape.form() != ComposedForm::Slope);
+                (Argument::Value, values, table)
+            });
+            // what is a function of the value is often one of a condition too, which can be set
+            let own_weight = match (&own, targets[way.target].outputs.is_empty()) {
+                (None, _) => 0.0,
+                (Some(_), false) => OWN_VALUE,
+                (Some(_), true) => OWN_VALUE_WITHIN,
+            };
+            let arguments = 1.0 + tables.len() as f64 + own_weight;
+            let ln_of = |argument: Argument| {
+                let weight = if argument == Argument::Value { own_weight } else { 1.0 };
+                ln_way + elementary::ln(weight / arguments)
+            };
+            let constant = Shape::constant();
+            let points = setup.data.points.len();
+            let grid = vec![(Vec::new(), constant.columns(&vec![0.0; points], &[]))];
+            let mut found: Vec<Candidate> = Vec::new();
+            let mut add = |argument, shape: &Shape, grid: &[_], ln_prior| {
+                if let Some(on_grid) = way.frame.on_grid(grid) {
+                    let shape = shape.clone();
+                    let candidate =
+                        Candidate { way: number, argument, shape, found: on_grid, ln_prior };
+                    found.push(candidate);
                 }
-                found
-            })
-            .collect();
+            };
+            add(Argument::Nothing, &constant, &grid, ln_of(Argument::Nothing));
+            for (argument, _, table) in tables.iter().chain(&own) {
+                let forms: Vec<ComposedForm> = table.iter().map(|of| of.shape.form()).collect();
+                let mut each = forms.clone();
+                each.sort_by_key(|form| form.name());
+                each.dedup();
+                let ln_form = ln_of(*argument) - elementary::ln(each.len().max(1) as f64);
+                for of in table {
+                    let form = of.shape.form();
+                    let variants = forms.iter().filter(|other| **other == form).count();
+                    let ln_prior = ln_form - elementary::ln(variants as f64);
+                    add(*argument, &of.shape, &of.grid, ln_prior);
+                }
+            }
+            found
+        };
+        let mut candidates: Vec<Candidate> =
+            parallel::map(ways.iter().enumerate(), of_way).into_iter().flatten().collect();
         largest_first(&mut candidates, |a| a.found.gain + a.ln_prior);
         candidates.truncate(refined);
-        candidates
-            .into_par_iter()
-            .map(|Candidate { way, argument, shape, found, ln_prior }| {
-                let way = &ways[way];
-                let nothing = vec![0.0; setup.data.points.len()];
-                let at = match argument {
-                    Argument::Nothing => &nothing,
-                    Argument::Value => way.value.as_ref().map_or(&nothing, |values| &values.at),
-                    Argument::Condition(_) => conditions
-                        .iter()
-                        .find(|(of, _)| *of == argument)
-                        .map_or(&nothing, |(_, values)| &values.at),
-                };
-                let found = way.frame.refined(&shape, at, found);
-                let term = Term {
-                    target: targets[way.target].clone(),
-                    kind: way.kind,
-                    argument,
-                    shape,
-                    shares: found.shares,
-                    widths: found.widths,
-                };
-                Composition {
-                    terms: vec![term],
-                    product: false,
-                    beside: Vec::new(),
-                    ln_weight: ln_prior + found.ln_evidence,
-                    best: ln_prior + found.best,
-                    share: 0.0,
-                }
-            })
-            .collect()
+        parallel::map(candidates, |Candidate { way, argument, shape, found, ln_prior }| {
+            let way = &ways[way];
+            let nothing = vec![0.0; setup.data.points.len()];
+            let at = match argument {
+                Argument::Nothing => &nothing,
+                Argument::Value => way.value.as_ref().map_or(&nothing, |values| &values.at),
+                Argument::Condition(_) => conditions
+                    .iter()
+                    .find(|(of, _)| *of == argument)
+                    .map_or(&nothing, |(_, values)| &values.at),
+            };
+            let found = way.frame.refined(&shape, at, found);
+            let term = Term {
+                target: targets[way.target].clone(),
+                kind: way.kind,
+                argument,
+                shape,
+                shares: found.shares,
+                widths: found.widths,
+            };
+            Composition {
+                terms: vec![term],
+                product: false,
+                beside: Vec::new(),
+                ln_weight: ln_prior + found.ln_evidence,
+                best: ln_prior + found.best,
+                share: 0.0,
+            }
+        })
     }
 
     /// The ways in which the targets can depart, without those that do the same as one before.

@@ -19,8 +19,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use gumption_engine::parallel;
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::form::Form;
 use super::{AMPLITUDES, Discrepancy, Unexplained, Weighted, weigh};
@@ -125,11 +125,10 @@ pub(crate) fn evidence(
         found
     };
     let ends: Vec<Range<usize>> = ends.collect();
-    let mut parts: Vec<Vec<Part>> =
-        ends.into_par_iter().map(of_term).collect::<Vec<_>>().into_iter().flatten().collect();
+    let mut parts: Vec<Vec<Part>> = parallel::map(ends, of_term).into_iter().flatten().collect();
     let best = |parts: &[Part]| parts.iter().map(|part| part.ln).fold(f64::NEG_INFINITY, f64::max);
     let leads = parts.iter().map(|parts| best(parts)).fold(floor, f64::max);
-    parts.par_iter_mut().enumerate().for_each(|(place, parts)| {
+    parallel::map(parts.iter_mut().enumerate(), |(place, parts)| {
         if best(parts) + reach(place) <= leads - HOPELESS {
             return;
         }

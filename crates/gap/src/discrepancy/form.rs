@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use gumption_engine::parallel;
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::LENGTHS;
 use super::features::{Axes, Coordinates, Nodes, sites};
@@ -86,20 +86,17 @@ pub(crate) fn forms(
     let ln_term = -elementary::ln(terms.len() as f64);
     let sites = sites(setup.case, &setup.data);
     let outputs = setup.data.outputs.len();
-    let with_lengths: Vec<(&Term, Coordinates, f64, f64)> = terms
-        .par_iter()
-        .flat_map_iter(|term| {
-            let coordinates = Coordinates::new(term, axes, &sites, outputs);
-            let lengths = if term.is_smooth() { &LENGTHS[..] } else { &LENGTHS[..1] };
-            let lengths: Vec<f64> = lengths
-                .iter()
-                .copied()
-                .filter(|&length| wanted(term, length, &coordinates))
-                .collect();
-            let ln_weight = ln_term - elementary::ln(lengths.len().max(1) as f64);
-            lengths.into_iter().map(move |length| (term, coordinates.clone(), length, ln_weight))
-        })
-        .collect();
+    let of_term = |term| -> Vec<(&Term, Coordinates, f64, f64)> {
+        let coordinates = Coordinates::new(term, axes, &sites, outputs);
+        let lengths = if term.is_smooth() { &LENGTHS[..] } else { &LENGTHS[..1] };
+        let lengths: Vec<f64> =
+            lengths.iter().copied().filter(|&length| wanted(term, length, &coordinates)).collect();
+        let ln_weight = ln_term - elementary::ln(lengths.len().max(1) as f64);
+        let of_length = |length| (term, coordinates.clone(), length, ln_weight);
+        lengths.into_iter().map(of_length).collect()
+    };
+    let with_lengths: Vec<(&Term, Coordinates, f64, f64)> =
+        parallel::map(&terms, of_term).into_iter().flatten().collect();
     // terms that are functions of the same at the same places have their nodes in common
     let mut distinct: Vec<usize> = Vec::new();
     let mut nodes_of = Vec::with_capacity(with_lengths.len());
@@ -114,49 +111,40 @@ pub(crate) fn forms(
             distinct.push(place);
         }
     }
-    let nodes: Vec<(usize, Arc<Nodes>)> = distinct
-        .into_par_iter()
-        .map(|place| {
-            let (term, coordinates, length, _) = &with_lengths[place];
-            let nodes = Nodes::new(term, *length, coordinates, setup.linear.fitted);
-            (place, Arc::new(nodes))
-        })
-        .collect();
+    let nodes: Vec<(usize, Arc<Nodes>)> = parallel::map(distinct, |place| {
+        let (term, coordinates, length, _) = &with_lengths[place];
+        let nodes = Nodes::new(term, *length, coordinates, setup.linear.fitted);
+        (place, Arc::new(nodes))
+    });
     let with_nodes = with_lengths.into_iter().zip(nodes_of).filter_map(|(of, place)| {
         Some((of, nodes.iter().find(|(other, _)| *other == place)?.1.clone()))
     });
-    with_nodes
-        .collect::<Vec<_>>()
-        .into_par_iter()
-        .map(|((term, coordinates, length, ln_weight), nodes)| {
-            let roots = coordinates.roots(term, length, &nodes);
-            let features = coordinates.features(&roots, setup.data.len());
-            let touched: Vec<usize> = coordinates.touched().collect();
-            let mut scale = 1.0;
-            if !setup.linear.fitted {
-                let squares: f64 = touched
-                    .iter()
-                    .map(|&value| {
-                        features.row(value).norm_squared() / setup.linear.variances[value]
-                    })
-                    .sum();
-                scale = (touched.len().max(1) as f64 / squares.max(f64::MIN_POSITIVE)).sqrt();
-            }
-            let features = features * scale;
-            let keep = setup.data.len() <= MOST_KEPT;
-            Form {
-                term: term.clone(),
-                length,
-                ln_weight,
-                nodes,
-                scale,
-                factored: (keep && !setup.linear.fitted)
-                    .then(|| Factored::new(setup, &features))
-                    .flatten(),
-                features: keep.then_some(features),
-            }
-        })
-        .collect()
+    parallel::map(with_nodes, |((term, coordinates, length, ln_weight), nodes)| {
+        let roots = coordinates.roots(term, length, &nodes);
+        let features = coordinates.features(&roots, setup.data.len());
+        let touched: Vec<usize> = coordinates.touched().collect();
+        let mut scale = 1.0;
+        if !setup.linear.fitted {
+            let squares: f64 = touched
+                .iter()
+                .map(|&value| features.row(value).norm_squared() / setup.linear.variances[value])
+                .sum();
+            scale = (touched.len().max(1) as f64 / squares.max(f64::MIN_POSITIVE)).sqrt();
+        }
+        let features = features * scale;
+        let keep = setup.data.len() <= MOST_KEPT;
+        Form {
+            term: term.clone(),
+            length,
+            ln_weight,
+            nodes,
+            scale,
+            factored: (keep && !setup.linear.fitted)
+                .then(|| Factored::new(setup, &features))
+                .flatten(),
+            features: keep.then_some(features),
+        }
+    })
 }
 
 impl Form {

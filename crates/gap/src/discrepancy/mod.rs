@@ -17,8 +17,8 @@ pub(crate) use prediction::{conditioned, nominal};
 
 use std::sync::Arc;
 
+use gumption_engine::parallel;
 use nalgebra::DVector;
-use rayon::prelude::*;
 
 use super::predict;
 use super::search::Mode;
@@ -194,7 +194,7 @@ impl Discrepancy {
             }
             parts
         };
-        let parts: Vec<_> = self.forms.par_iter().enumerate().map(of_form).collect();
+        let parts = parallel::map(self.forms.iter().enumerate(), of_form);
         weigh(parts.into_iter().flatten().collect())
     }
 }

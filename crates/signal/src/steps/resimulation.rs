@@ -7,7 +7,7 @@
 //!
 //! Source: JCGM 101:2008, 7; for blocks H. R. Künsch, Ann. Statist. 17 (1989) 1217.
 
-use rayon::prelude::*;
+use gumption_engine::parallel;
 
 use crate::Signal;
 use gumption_engine::distribution::{Normal, Stream, StreamKey};
@@ -75,14 +75,11 @@ impl Resimulation {
     ) -> Option<Scatter> {
         let source = UncertaintySource::of(residuals, self.colour, self.parameters);
         let key = StreamKey::new(self.seed, "observe/resimulation");
-        let results: Vec<Option<Vec<f64>>> = (0..self.trials as u64)
-            .into_par_iter()
-            .map(|trial| {
-                let mut signal = model.clone();
-                source.add(&mut signal.values, key.block(trial));
-                step(&signal)
-            })
-            .collect();
+        let results: Vec<Option<Vec<f64>>> = parallel::map(0..self.trials as u64, |trial| {
+            let mut signal = model.clone();
+            source.add(&mut signal.values, key.block(trial));
+            step(&signal)
+        });
         let failed = results.iter().filter(|result| result.is_none()).count();
         let results: Vec<Vec<f64>> = results.into_iter().flatten().collect();
         let (n, first) = (results.len(), results.first()?);

@@ -413,3 +413,27 @@ fn short_records_of_noise_with_a_memory() {
         }
     }
 }
+
+/// A channel without the oscillation is told in 95 of 100 records, one with six times its standard
+/// uncertainty in exp(-(6 - 2.45)^2/2)/2, two of a thousand. Of 60 records 57 are told, with a standard
+/// deviation of 1.7, four of which are left; of the others, none in nine of ten runs (the seeds are fixed).
+#[test]
+fn amplitudes_that_noise_alone_makes_are_told() {
+    let told = |ratio: f64| {
+        // standard uncertainty of an amplitude: noise sqrt(2/n)
+        let amplitude = ratio * 0.01 * (2.0f64 / 2000.0).sqrt();
+        let large = (1.0, 0.2);
+        let channels = vec![vec![large, large], vec![(amplitude, 0.7), large]];
+        let bench = Bench { channels, ..Bench::default() };
+        let notes = (1..=60).flat_map(|seed| bench.observe(bench.values(seed)).notes);
+        let near: Vec<String> = notes
+            .filter_map(|(code, channel, text)| {
+                (code == "near-noise" && channel == 1).then_some(text)
+            })
+            .collect();
+        assert!(near.iter().all(|text| text.contains("that at 10.3 Hz in ")), "{near:?}");
+        near.len()
+    };
+    assert!((50..=60).contains(&told(0.0)));
+    assert_eq!(told(6.0), 0);
+}

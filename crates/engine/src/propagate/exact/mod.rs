@@ -5,14 +5,18 @@
 //! summands, or of the logarithms of the factors ([`invert`]); of one quantity alone from its quantile
 //! function. All figures then come with a bound of what they may be off.
 
+mod existence;
 mod invert;
 mod law;
 mod separate;
+mod tails;
 mod term;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
 pub(super) use tests::task as test_task;
+
+pub(super) use existence::of_moments as moments_exist;
 
 use std::sync::Arc;
 
@@ -153,16 +157,40 @@ pub(crate) fn evaluate(problem: &Problem<'_>) -> Result<Noiseless, String> {
     if separated.groups.is_empty() {
         return Err("the output does not vary".to_owned());
     }
-    let (law, [mean, std]) = distribution(problem, &inputs, &separated)?;
-    figures(problem, &law, mean, std)
+    let (law, moments) = distribution(problem, &inputs, &separated)?;
+    figures(problem, &law, moments)
 }
 
-/// The distribution of the output, and its mean and standard deviation.
+/// Expectation and standard deviation of an output; not finite where there are none.
+#[derive(Clone, Copy, Debug)]
+struct Moments {
+    mean: f64,
+    std: f64,
+    /// How far the two may be off.
+    off: f64,
+}
+
+impl Moments {
+    /// Those that are known to rounding.
+    fn known(mean: f64, std: f64) -> Self {
+        Self { mean, std, off: 0.0 }
+    }
+
+    /// Of a constant and summands.
+    fn of_sum(constant: f64, terms: &[Term]) -> Self {
+        let mean = constant + terms.iter().map(Term::expectation).sum::<f64>();
+        let std = terms.iter().map(Term::variance).sum::<f64>().sqrt();
+        let off = |of: usize| terms.iter().map(|term| term.beyond[of].off).sum::<f64>();
+        Self { mean, std, off: f64::max(off(0), 0.5 * off(1) / std) }
+    }
+}
+
+/// The distribution of the output, and its moments.
 fn distribution(
     problem: &Problem<'_>,
     inputs: &Inputs<'_>,
     separated: &Separated,
-) -> Result<(Law, [f64; 2]), String> {
+) -> Result<(Law, Moments), String> {
     if let ([group], Outer::Sum) = (separated.groups.as_slice(), separated.outer) {
         return one(inputs, group, separated.constant);
     }
@@ -191,11 +219,12 @@ fn distribution(
     let mean = separated.constant + terms.iter().map(|term| term.mean).sum::<f64>();
     let symmetric = terms.iter().all(|term| term.law.is_symmetric_unimodal());
     let moments = match separated.outer {
-        Outer::Sum => [mean, terms.iter().map(Term::variance).sum::<f64>().sqrt()],
+        Outer::Sum => Moments::of_sum(separated.constant, &terms),
         Outer::Product { factor, shift } => {
             let scale = factor * crate::number::elementary::exp(separated.constant);
             // the relative variance of a product, from those of its factors
             let (mut expectation, mut excess) = (scale, 0.0);
+            let mut off = [0.0; 2];
             for term in &terms {
                 let [first, second] = match (term.powers, &term.law) {
                     (Some(powers), _) => powers,
@@ -204,16 +233,22 @@ fn distribution(
                         let power = |n: f64| {
                             crate::number::elementary::exp(n * term.mean + 0.5 * n * n * s * s)
                         };
-                        [power(1.0), power(2.0)]
+                        [[power(1.0), 0.0], [power(2.0), 0.0]]
                     }
                     // a factor that is the exponential of a quantity
-                    _ => [f64::NAN; 2],
+                    _ => [[f64::NAN, 0.0]; 2],
                 };
+                off[0] += first[1];
+                off[1] += second[1] + 2.0 * first[1];
+                let [first, second] = [first[0], second[0]];
                 expectation *= first;
                 let own = second / (first * first) - 1.0;
                 excess = excess + own + excess * own;
             }
-            [shift + expectation, expectation.abs() * excess.max(0.0).sqrt()]
+            let std = expectation.abs() * excess.max(0.0).sqrt();
+            let of_square = 0.5 * off[1] * (expectation * expectation + std * std) / std;
+            let off = f64::max(off[0] * expectation.abs(), of_square);
+            Moments { mean: shift + expectation, std, off }
         }
     };
     let outer = separated.outer;
@@ -222,7 +257,7 @@ fn distribution(
 }
 
 /// The distribution of a function of one quantity.
-fn one(inputs: &Inputs<'_>, group: &Group, constant: f64) -> Result<(Law, [f64; 2]), String> {
+fn one(inputs: &Inputs<'_>, group: &Group, constant: f64) -> Result<(Law, Moments), String> {
     let closed = term::closed(inputs, group);
     let linear = |variable: Option<usize>| -> Option<Law> {
         let (leaf, v) = (group.leaves.first()?, variable?);
@@ -243,7 +278,8 @@ fn one(inputs: &Inputs<'_>, group: &Group, constant: f64) -> Result<(Law, [f64; 
         let distribution = &inputs.distributions[v];
         let factor = group.leaves[0].factor;
         let mean = constant + factor * term::middle(distribution);
-        return Ok((law, [mean, factor.abs() * distribution.standard_deviation()]));
+        let std = factor.abs() * distribution.standard_deviation();
+        return Ok((law, Moments::known(mean, std)));
     }
     if let Some(term) = closed {
         let scale = term.factor.abs();
@@ -263,7 +299,7 @@ fn one(inputs: &Inputs<'_>, group: &Group, constant: f64) -> Result<(Law, [f64; 
         let function = Box::new(move |x: f64| mean + x);
         return Ok((
             Law::One { distribution: Arc::new(made), rising: true, function },
-            [mean, std],
+            Moments::known(mean, std),
         ));
     }
     let [v] = group.variables.as_slice() else {
@@ -294,12 +330,13 @@ fn one(inputs: &Inputs<'_>, group: &Group, constant: f64) -> Result<(Law, [f64; 
     }
     let frequency = 1e-3 / (pairs[pairs.len() / 2][1] - pairs[0][1]).abs();
     let found = term::term(inputs, group, frequency, false)?;
-    let moments = [constant + found.mean, found.variance().sqrt()];
+    let moments = Moments::of_sum(constant, &[found]);
     Ok((Law::One { distribution, rising, function: Box::new(value) }, moments))
 }
 
 /// The figures of a distribution.
-fn figures(problem: &Problem<'_>, law: &Law, mean: f64, std: f64) -> Result<Noiseless, String> {
+fn figures(problem: &Problem<'_>, law: &Law, moments: Moments) -> Result<Noiseless, String> {
+    let Moments { mean, std, off } = moments;
     let p = problem.probability();
     let tail = 0.5 * (1.0 - p);
     let missing =
@@ -316,6 +353,17 @@ fn figures(problem: &Problem<'_>, law: &Law, mean: f64, std: f64) -> Result<Nois
             "the ends of the interval would be known to {:.0e} of the standard uncertainty only",
             bound / scale
         ));
+    }
+    // of moments that do not exist nothing is off
+    if std.is_finite() && mean.is_finite() {
+        if off.is_nan() || off > EXACT * scale {
+            return Err(format!(
+                "the tails beyond probabilities of 1e-17 hold so much of the standard uncertainty \
+                 that it would be known to {:.0e} of itself only",
+                off / scale
+            ));
+        }
+        bound = bound.max(off);
     }
     let shortest = law.shortest(p, symmetric);
     let exact = |ends: &[Found; 2]| ends.iter().all(|end| end.bound <= EXACT * scale);

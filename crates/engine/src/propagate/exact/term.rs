@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::invert::Decay;
 use super::separate::{Group, Leaf};
+use super::tails::{Beyond, PANELS, RINGS};
 use crate::distribution::characteristic::{Characteristic, Complex, Reach};
 use crate::distribution::{Dependence, Distribution, Linked};
 use crate::linalg::packed;
@@ -22,13 +23,22 @@ pub(super) struct Term {
     pub(super) law: Characteristic,
     /// How far the characteristic function of the points may be off.
     pub(super) error: f64,
-    /// Expectations of the exponential of the summand and of its square, where they were asked for.
-    pub(super) powers: Option<[f64; 2]>,
+    /// Expectations of the exponential of the summand and of its square, where they were asked for, and
+    /// how far each may be off, relative to itself.
+    pub(super) powers: Option<[[f64; 2]; 2]>,
+    /// What lies beyond the points of the law: to be added to the mean, and to the expectation of the
+    /// square about `mean`.
+    pub(super) beyond: [Beyond; 2],
 }
 
 impl Term {
     fn closed(mean: f64, factor: f64, law: Characteristic) -> Self {
-        Self { mean, factor, law, error: 0.0, powers: None }
+        Self { mean, factor, law, error: 0.0, powers: None, beyond: [Beyond::default(); 2] }
+    }
+
+    /// The expectation, infinite or not a number where there is none.
+    pub(super) fn expectation(&self) -> f64 {
+        self.mean + self.beyond[0].value
     }
 
     /// The characteristic function of the summand less its mean.
@@ -51,7 +61,11 @@ impl Term {
     }
 
     pub(super) fn variance(&self) -> f64 {
-        self.law.variance() * self.factor * self.factor
+        let [mean, square] = self.beyond.map(|beyond| beyond.value);
+        if square.is_infinite() {
+            return square;
+        }
+        self.law.variance() * self.factor * self.factor + square - mean * mean
     }
 
     pub(super) fn width(&self) -> f64 {
@@ -117,7 +131,7 @@ pub(super) fn closed(inputs: &Inputs<'_>, group: &Group) -> Option<Term> {
                     let f = n * leaf.factor;
                     elementary::exp(f * mean + 0.5 * f * f * std * std)
                 };
-                term.powers = Some([power(1.0), power(2.0)]);
+                term.powers = Some([[power(1.0), 0.0], [power(2.0), 0.0]]);
                 Some(term)
             }
             _ if leaf.logarithm || !bare => None,
@@ -175,8 +189,26 @@ enum Coordinate {
     Probability(Arc<Distribution>),
 }
 
-/// A place on a coordinate: the score, or the value of the quantity; and its weight.
-type Place = [f64; 2];
+/// A place on a coordinate.
+#[derive(Clone, Copy)]
+struct Place {
+    /// The score, or the value of the quantity.
+    at: f64,
+    weight: f64,
+    /// At which end, and in which ring, the innermost first, if it lies in one.
+    ring: Option<(End, usize)>,
+}
+
+/// An end of a coordinate.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum End {
+    Lower,
+    Upper,
+}
+
+impl End {
+    pub(super) const BOTH: [Self; 2] = [Self::Lower, Self::Upper];
+}
 
 /// Why quantities that are drawn in sets have no distribution here.
 pub(super) const DRAWN_TOGETHER: &str =
@@ -200,8 +232,8 @@ impl Coordinate {
                 let step = 2.0 * FARTHEST / f64::from(steps);
                 let scale = step / std::f64::consts::TAU.sqrt();
                 let at = |k: u32| {
-                    let z = -FARTHEST + step * f64::from(k);
-                    [z, scale * elementary::exp(-0.5 * z * z)]
+                    let at = -FARTHEST + step * f64::from(k);
+                    Place { at, weight: scale * elementary::exp(-0.5 * at * at), ring: None }
                 };
                 (0..=steps).map(at).collect()
             }
@@ -232,40 +264,85 @@ fn is_smooth(distribution: &Distribution) -> bool {
     }
 }
 
-/// Values and weights of a rule over the probability, finer towards both ends unless the quantile
-/// function is smooth there.
-fn probabilities(distribution: &Distribution, level: u32) -> Vec<Place> {
+/// The probabilities between which the quantile function is smooth.
+fn edges(distribution: &Distribution) -> Vec<f64> {
     let mut edges = vec![0.0, 0.5, 1.0];
     edges.extend(kinks(distribution));
     edges.retain(|p| (0.0..=1.0).contains(p));
     edges.sort_unstable_by(f64::total_cmp);
     edges.dedup();
-    let rule = legendre::nodes();
+    edges
+}
+
+/// The probability between an end and the edge next to it.
+fn last_stretch(distribution: &Distribution, end: End) -> f64 {
+    let edges = edges(distribution);
+    match end {
+        End::Lower => edges[1],
+        End::Upper => 1.0 - edges[edges.len() - 2],
+    }
+}
+
+/// Panels at an end: to probabilities of 1e-17, each a quarter of the one before.
+const AT_END: u32 = 27;
+
+/// Places of a panel of so many pieces, whose probabilities are counted from an end.
+fn panel(
+    distribution: &Distribution,
+    end: End,
+    (start, width): (f64, f64),
+    pieces: u32,
+    ring: Option<usize>,
+) -> impl Iterator<Item = Place> {
+    let width = width / f64::from(pieces);
+    let piece = move |piece: u32| legendre::nodes().map(|node| (piece, node));
+    (0..pieces).flat_map(piece).map(move |(piece, [node, weight])| {
+        let p = start + width * (f64::from(piece) + node);
+        let at = match end {
+            End::Lower => distribution.quantile(p),
+            End::Upper => distribution.quantile_upper(p),
+        };
+        Place { at, weight: weight * width, ring: ring.map(|ring| (end, ring)) }
+    })
+}
+
+/// Values and weights of a ring at an end, the innermost first.
+pub(super) fn ring_at_end(
+    distribution: &Distribution,
+    end: End,
+    ring: usize,
+) -> impl Iterator<Item = [f64; 2]> {
+    let stretch = last_stretch(distribution, end);
+    let last = AT_END - 1 - ring as u32 * PANELS;
+    (last + 1 - PANELS..=last).flat_map(move |depth| {
+        let outer = stretch * 0.25f64.powi(depth as i32);
+        let places = panel(distribution, end, (0.25 * outer, 0.75 * outer), 1, None);
+        places.map(|place| [place.at, place.weight])
+    })
+}
+
+/// Values and weights of a rule over the probability, finer towards both ends unless the quantile
+/// function is smooth there.
+fn probabilities(distribution: &Distribution, level: u32) -> Vec<Place> {
     let mut places = Vec::new();
-    let mut panel = |start: f64, width: f64, pieces: u32, upper: bool| {
-        let width = width / f64::from(pieces);
-        for piece in 0..pieces {
-            for [node, weight] in rule {
-                let p = start + width * (f64::from(piece) + node);
-                let value =
-                    if upper { distribution.quantile_upper(p) } else { distribution.quantile(p) };
-                places.push([value, weight * width]);
-            }
-        }
-    };
     let pieces = 1 << level;
-    for pair in edges.windows(2) {
-        let upper = pair[0] >= 0.5;
-        let [low, high] = if upper { [1.0 - pair[1], 1.0 - pair[0]] } else { [pair[0], pair[1]] };
+    for pair in edges(distribution).windows(2) {
+        let end = if pair[0] >= 0.5 { End::Upper } else { End::Lower };
+        let [low, high] = match end {
+            End::Upper => [1.0 - pair[1], 1.0 - pair[0]],
+            End::Lower => [pair[0], pair[1]],
+        };
         if low > 0.0 || is_smooth(distribution) {
-            panel(low, high - low, pieces, upper);
+            places.extend(panel(distribution, end, (low, high - low), pieces, None));
             continue;
         }
-        // to probabilities of 1e-17, each panel a quarter of the one before
-        let mut end = high;
-        for depth in 0..27 {
-            panel(0.25 * end, 0.75 * end, if depth < 5 { pieces } else { 1 }, upper);
-            end *= 0.25;
+        let mut outer = high;
+        for depth in 0..AT_END {
+            let stretch = (0.25 * outer, 0.75 * outer);
+            let ring = Some(((AT_END - 1 - depth) / PANELS) as usize).filter(|ring| *ring < RINGS);
+            let pieces = if depth < 5 { pieces } else { 1 };
+            places.extend(panel(distribution, end, stretch, pieces, ring));
+            outer *= 0.25;
         }
     }
     places
@@ -374,14 +451,41 @@ impl Part {
     }
 }
 
-/// Values and weights of the summand at one level.
+/// Points of a summand.
+struct Points {
+    /// Values and weights.
+    points: Vec<[f64; 2]>,
+    /// Which of them lie in a ring at an end of a coordinate: the point, the coordinate, end and ring.
+    in_rings: Vec<(usize, usize, End, usize)>,
+}
+
+impl Points {
+    /// The expectation of a function of the summand.
+    fn expectation(&self, of: impl Fn(f64) -> f64) -> f64 {
+        self.points.iter().map(|&[value, weight]| weight * of(value)).sum()
+    }
+
+    /// What the rings of a coordinate's end contribute to the expectation of a function.
+    fn rings(&self, coordinate: usize, end: End, of: impl Fn(f64) -> f64) -> [f64; RINGS] {
+        let mut rings = [0.0; RINGS];
+        for &(point, at, side, ring) in &self.in_rings {
+            if (at, side) == (coordinate, end) {
+                let [value, weight] = self.points[point];
+                rings[ring] += weight * of(value);
+            }
+        }
+        rings
+    }
+}
+
+/// Points of the summand at one level.
 fn level_points(
     inputs: &Inputs<'_>,
     group: &Group,
     part: &Part,
     coordinates: &[Coordinate],
     level: u32,
-) -> Result<Vec<[f64; 2]>, String> {
+) -> Result<Points, String> {
     let places: Vec<Vec<Place>> = coordinates.iter().map(|c| c.places(level)).collect();
     let count = places.iter().map(Vec::len).try_fold(1usize, usize::checked_mul);
     let count = count.filter(|&count| count <= MOST_POINTS).ok_or_else(|| {
@@ -389,23 +493,24 @@ fn level_points(
         format!("{names} inputs come together in one function that is no sum of their own ones")
     })?;
     let mut points = Vec::with_capacity(count);
+    let mut in_rings = Vec::new();
     let mut signs = vec![0.0; part.leaves.len()];
     let mut at = vec![0usize; places.len()];
     let mut values = vec![0.0; places.len()];
     loop {
         let mut weight = 1.0;
         for ((value, places), &at) in values.iter_mut().zip(&places).zip(&at) {
-            let [place, w] = places[at];
-            *value = place;
-            weight *= w;
+            *value = places[at].at;
+            weight *= places[at].weight;
         }
         if weight > 1e-22 {
             place_values(inputs, group, coordinates, &mut values);
-            let value = part.value(&values, &mut signs).ok_or_else(|| {
-                "a quantity under a logarithm, a quotient or a root changes its sign or has no \
-                 finite value"
-                    .to_owned()
-            })?;
+            let value = part.value(&values, &mut signs).ok_or_else(no_value)?;
+            for (coordinate, (places, &at)) in places.iter().zip(&at).enumerate() {
+                if let Some((end, ring)) = places[at].ring {
+                    in_rings.push((points.len(), coordinate, end, ring));
+                }
+            }
             points.push([value, weight]);
         }
         let mut done = true;
@@ -425,7 +530,73 @@ fn level_points(
     for point in &mut points {
         point[1] /= sum;
     }
-    Ok(points)
+    Ok(Points { points, in_rings })
+}
+
+fn no_value() -> String {
+    "a quantity under a logarithm, a quotient or a root changes its sign or has no finite value"
+        .to_owned()
+}
+
+/// Panels beyond those of the quadrature in which a tail is followed: to probabilities of 1e-290.
+const FARTHER: u32 = 150;
+
+/// What lies beyond the points of a summand for the expectations of some functions of it.
+///
+/// # Errors
+/// A tail has no value.
+fn beyond<const N: usize>(
+    part: &Part,
+    coordinates: &[Coordinate],
+    points: &Points,
+    of: [&dyn Fn(f64) -> f64; N],
+) -> Result<[Beyond; N], String> {
+    let scales = of.map(|of| points.expectation(|value| of(value).abs()));
+    let mut all = [Beyond::default(); N];
+    for (number, coordinate) in coordinates.iter().enumerate() {
+        let Coordinate::Probability(distribution) = coordinate else { continue };
+        for end in End::BOTH {
+            let mut rings = of.map(|of| points.rings(number, end, of));
+            let mut added = [0.0; N];
+            let open = |rings: &[[f64; RINGS]; N]| {
+                let mut each = rings.iter().zip(scales);
+                each.any(|(rings, scale)| {
+                    let beyond = Beyond::of(*rings, scale);
+                    !beyond.is_negligible() && beyond.value.is_finite()
+                })
+            };
+            // the tail of one quantity alone is followed
+            if coordinates.len() == 1 && open(&rings) {
+                let mut signs = vec![0.0; part.leaves.len()];
+                let mut outer = last_stretch(distribution, end) * 0.25f64.powi(AT_END as i32);
+                for _ in 0..FARTHER {
+                    let mut ring = [0.0; N];
+                    for _ in 0..PANELS {
+                        for place in panel(distribution, end, (0.25 * outer, 0.75 * outer), 1, None)
+                        {
+                            let value = part.value(&[place.at], &mut signs).ok_or_else(no_value)?;
+                            for (ring, of) in ring.iter_mut().zip(of) {
+                                *ring += place.weight * of(value);
+                            }
+                        }
+                        outer *= 0.25;
+                    }
+                    for ((rings, added), ring) in rings.iter_mut().zip(&mut added).zip(ring) {
+                        *added += ring;
+                        *rings = [ring, rings[0], rings[1]];
+                    }
+                    if !open(&rings) {
+                        break;
+                    }
+                }
+            }
+            for (((all, added), rings), scale) in all.iter_mut().zip(added).zip(rings).zip(scales) {
+                *all += Beyond { value: added, off: 0.0 };
+                *all += Beyond::of(rings, scale);
+            }
+        }
+    }
+    Ok(all)
 }
 
 /// Turns scores into values, in place.
@@ -510,16 +681,14 @@ fn points(
         let Ok(finer) = at(level) else {
             break;
         };
-        let mean: f64 = finer.iter().map(|[value, weight]| value * weight).sum();
-        let square = |points: &[[f64; 2]]| -> f64 {
-            points.iter().map(|[value, weight]| weight * (value - mean).powi(2)).sum()
-        };
+        let mean = finer.expectation(|value| value);
+        let square = |points: &Points| points.expectation(|value| (value - mean).powi(2));
         let spread = square(&finer).sqrt();
-        let shift = before.iter().map(|[v, w]| w * (v - mean)).sum::<f64>().abs() / spread;
+        let shift = before.expectation(|value| value - mean).abs() / spread;
         let wider = (square(&before) / (spread * spread) - 1.0).abs();
         error = f64::max(shift, wider);
         for share in [1.0, 0.7, 0.4, 0.1] {
-            let [a, b] = [&before, &finer].map(|points| transform(points, mean, share * frequency));
+            let [a, b] = [&before, &finer].map(|of| transform(&of.points, mean, share * frequency));
             error = error.max((a[0] - b[0]).abs()).max((a[1] - b[1]).abs());
         }
         before = finer;
@@ -533,12 +702,26 @@ fn points(
                 .to_owned(),
         );
     }
-    let mean: f64 = before.iter().map(|[value, weight]| value * weight).sum();
-    let powers = exponentials
-        .then(|| [1.0, 2.0].map(|n| before.iter().map(|[v, w]| w * elementary::exp(n * v)).sum()));
+    let mean = before.expectation(|value| value);
+    let moments: [&dyn Fn(f64) -> f64; 2] =
+        [&|value| value - mean, &|value| (value - mean).powi(2)];
+    let exponentials = if exponentials {
+        let of: [&dyn Fn(f64) -> f64; 2] =
+            [&|value| elementary::exp(value), &|value| elementary::exp(2.0 * value)];
+        let beyond = beyond(&part, &coordinates, &before, of)?;
+        let mut all = of.into_iter().zip(beyond).map(|(of, beyond)| {
+            let value = before.expectation(of) + beyond.value;
+            [value, beyond.off / value]
+        });
+        all.next().zip(all.next()).map(|(first, second)| [first, second])
+    } else {
+        None
+    };
+    let beyond = beyond(&part, &coordinates, &before, moments)?;
     let points: Vec<[f64; 2]> =
-        before.iter().map(|[value, weight]| [value - mean, *weight]).collect();
-    Ok(Term { mean, factor: 1.0, law: Characteristic::Points(points), error, powers })
+        before.points.iter().map(|[value, weight]| [value - mean, *weight]).collect();
+    let law = Characteristic::Points(points);
+    Ok(Term { mean, factor: 1.0, law, error, powers: exponentials, beyond })
 }
 
 /// Arguments of the table of a decay for an octave.
@@ -553,7 +736,9 @@ pub(super) fn decay(inputs: &Inputs<'_>, group: &Group) -> Result<Decay, String>
     check_dependence(inputs, group)?;
     let part = Part::new(inputs, group);
     let coordinates = coordinates(inputs, group)?;
-    let at = |level: u32| level_points(inputs, group, &part, &coordinates, level);
+    let at = |level: u32| {
+        level_points(inputs, group, &part, &coordinates, level).map(|made| made.points)
+    };
     let mut level = 1;
     let (mut rough, mut fine) = (at(0)?, at(1)?);
     let mean: f64 = fine.iter().map(|[value, weight]| value * weight).sum();

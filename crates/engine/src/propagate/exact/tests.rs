@@ -301,3 +301,53 @@ fn trials_scatter_about_exact_ends_of_a_thousand_sums() {
     assert!(mean.abs() < 4.0 / n.sqrt() && (variance - 1.0).abs() < 4.0 * (2.0 / n).sqrt());
     assert!(departure < 1.95 / n.sqrt());
 }
+
+/// Quotients whose divisor comes near to zero: what the quadrature leaves out beyond probabilities of
+/// 1e-17 is up to all of the moments. Of a gamma divisor with shape k and rate 1 the moments are
+/// E(1/c) = 1/(k - 1) and E(1/c^2) = 1/((k - 1)(k - 2)); of a beta one (a + b - 1)/(a - 1) and that times
+/// (a + b - 2)/(a - 2); a with mean 2 and standard deviation 0.5 has E(a^2) = 4.25.
+#[test]
+fn moments_of_quotients() {
+    let numerator = || -> Distribution { Lognormal::new(2.0, 0.5).unwrap().into() };
+    let quotient = |divisor: Distribution| task(vec![numerator(), divisor], "x0/x1", 0.95);
+    let gamma = |shape: f64| -> Distribution { Gamma::new(shape, 1.0).unwrap().into() };
+    let of_inverse = |first: f64, second: f64| {
+        let mean = 2.0 * first;
+        [mean, (4.25 * second - mean * mean).sqrt()]
+    };
+    for shape in [4.5, 2.5, 2.2, 2.05] {
+        let found = exact_of(&quotient(gamma(shape))).unwrap();
+        let [mean, std] = of_inverse(1.0 / (shape - 1.0), 1.0 / ((shape - 1.0) * (shape - 2.0)));
+        let limit = bound(&found).max(1e-13 * std);
+        assert!(limit < 1e-9 * std, "{shape}: {limit}");
+        assert!((found.estimate.unwrap() - mean).abs() < limit, "{shape}: {found:?} {mean}");
+        let u = found.standard_uncertainty.unwrap();
+        assert!((u - std).abs() < limit, "{shape}: {u} {std}");
+    }
+    let (a, b) = (2.3, 2.0);
+    let found = exact_of(&quotient(Beta::new(a, b).unwrap().into())).unwrap();
+    let first = (a + b - 1.0) / (a - 1.0);
+    let [mean, std] = of_inverse(first, first * (a + b - 2.0) / (a - 2.0));
+    assert!((found.estimate.unwrap() - mean).abs() < 1e-12 * mean, "{found:?} {mean}");
+    assert!((found.standard_uncertainty.unwrap() / std - 1.0).abs() < 1e-10, "{found:?} {std}");
+    // no variance, and neither
+    for shape in [2.0, 1.5, 1.05] {
+        let found = exact_of(&quotient(gamma(shape))).unwrap();
+        assert_eq!(found.standard_uncertainty, None, "{shape}");
+        let mean = 2.0 / (shape - 1.0);
+        let estimate = found.estimate.unwrap();
+        assert!((estimate / mean - 1.0).abs() < 1e-9, "{shape}: {estimate} {mean}");
+    }
+    for divisor in [gamma(1.0), gamma(0.8), Exponential::new(2.0).unwrap().into()] {
+        let found = exact_of(&quotient(divisor)).unwrap();
+        assert_eq!((found.estimate, found.standard_uncertainty), (None, None));
+    }
+    let falling = || -> Distribution { Triangular::between(0.0, 1.0, Some(1.0)).unwrap().into() };
+    let found = exact_of(&quotient(falling())).unwrap();
+    assert_eq!(found.standard_uncertainty, None);
+    assert!((found.estimate.unwrap() - 4.0).abs() < 1e-9, "{found:?}");
+    // one quantity alone
+    let inverse = exact_of(&task(vec![gamma(2.5)], "1/x0", 0.95)).unwrap();
+    let std = (1.0 / 0.75 - 1.0f64 / 2.25).sqrt();
+    assert!((inverse.standard_uncertainty.unwrap() / std - 1.0).abs() < 1e-10, "{inverse:?}");
+}

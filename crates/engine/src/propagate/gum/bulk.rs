@@ -8,7 +8,7 @@ use std::fmt;
 use std::ops::Range;
 use std::slice::ChunksMut;
 
-use rayon::prelude::*;
+use crate::parallel;
 
 use super::{Dof, Factors};
 use crate::distribution::Correlation;
@@ -226,10 +226,9 @@ pub fn budgets(
             pieces[number].push(piece);
         }
     }
-    pieces
-        .into_par_iter()
-        .enumerate()
-        .for_each(|(number, mut outputs)| bulk.fill(number * PIECE, &mut outputs));
+    parallel::map(pieces.into_iter().enumerate(), |(number, mut outputs)| {
+        bulk.fill(number * PIECE, &mut outputs);
+    });
     Ok(made)
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
+use crate::parallel;
 
 use super::condensed::Condensed;
 use crate::distribution::{BLOCK, Draws, Joint, StreamKey, Varying};
@@ -96,8 +96,7 @@ impl RowTrials {
             self.block(path, block, workspace);
             workspace.outputs.clone().into_boxed_slice()
         };
-        let blocks = (first..end).into_par_iter().map_init(|| self.workspace(), make);
-        let made: Vec<_> = blocks.collect();
+        let made = parallel::map_with(first..end, || self.workspace(), make);
         self.held.extend(made);
     }
 

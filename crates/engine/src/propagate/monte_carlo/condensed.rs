@@ -8,7 +8,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use crate::parallel;
 
 use super::accumulate::{AccumulateKernel, Accumulated, AccumulatedOutput, drop_undefined, keep};
 use super::block::{RowTrials, Workspace};
@@ -150,7 +150,7 @@ pub(super) fn condense(
         trials.block(path, block, workspace);
         Some(CondensedBlock::of(path, plans, workspace, (block, edge), room))
     };
-    blocks.into_par_iter().map_init(room, make).collect()
+    parallel::map_with(blocks, room, make).into_iter().collect()
 }
 
 impl CondensedBlock {

@@ -4,7 +4,7 @@
 //! greatest value; the cells of the first pass are 0.002 of a quartile's distance wide, and wider
 //! ones (in far tails) are kept or split in further passes.
 
-use rayon::prelude::*;
+use crate::parallel;
 
 use super::block::RowTrials;
 use super::partition::{Leaf, Partition};
@@ -47,7 +47,7 @@ pub(super) fn of_all(values: Vec<Vec<f64>>, scores: &[f64]) -> Option<Vec<Vec<f6
     if values.iter().any(Vec::is_empty) {
         return None;
     }
-    Some(values.into_par_iter().map(|values| of_values(values, scores)).collect())
+    Some(parallel::map(values, |values| of_values(values, scores)))
 }
 
 fn of_values(mut values: Vec<f64>, scores: &[f64]) -> Vec<f64> {

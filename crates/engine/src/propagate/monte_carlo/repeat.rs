@@ -1,6 +1,6 @@
 //! The trials of a run once more, handed over in order.
 
-use rayon::prelude::*;
+use crate::parallel;
 
 use super::accumulate::drop_undefined;
 use super::block::{RowTrials, Workspace};
@@ -33,10 +33,8 @@ pub(crate) fn repeat<E: Send>(
                 drop_undefined(control.path, &mut workspace.outputs, trials_in(block, count));
             workspace.outputs.iter().map(|values| values[..left].to_vec()).collect()
         };
-        let made: Vec<Vec<Vec<f64>>> = (first..(first + held).min(blocks))
-            .into_par_iter()
-            .map_init(|| trials.workspace(), make)
-            .collect();
+        let numbers = first..(first + held).min(blocks);
+        let made: Vec<Vec<Vec<f64>>> = parallel::map_with(numbers, || trials.workspace(), make);
         for values in &made {
             take(values)?;
         }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use crate::parallel;
 
 use super::accumulate::{AccumulateKernel, Accumulated, AccumulatedOutput, drop_undefined};
 use super::block::{RowTrials, Workspace};
@@ -107,7 +107,7 @@ pub(super) fn scatters(
     };
     let numbers = 0..count.div_ceil(BLOCK as u64).div_ceil(chunk);
     let found: Vec<Vec<Option<BatchInterval>>> =
-        numbers.into_par_iter().map_init(|| trials.workspace(), of_batch).collect();
+        parallel::map_with(numbers, || trials.workspace(), of_batch);
     (0..plans.len())
         .map(|output| {
             // made once more: seldom, and so that no more than a batch of each thread is held
@@ -118,7 +118,7 @@ pub(super) fn scatters(
                     let mut order = order_of(control.path, own, &plans[output].windows);
                     interval.nearest(&mut order, end)
                 };
-                batches.par_iter().map_init(|| trials.workspace(), of_batch).collect()
+                parallel::map_with(batches, || trials.workspace(), of_batch)
             };
             let batches = found.iter().filter_map(|intervals| intervals.get(output)?.clone());
             ShortestScatter::of(batches.collect(), request.trials, near)
@@ -170,7 +170,7 @@ pub(super) fn accumulate_chunks(
     let accumulate = |workspace: &mut Workspace, number: usize| {
         accumulate_chunk(trials, count, plans, control, workspace, number as u64)
     };
-    chunks.into_par_iter().map_init(|| trials.workspace(), accumulate).collect()
+    parallel::map_with(chunks, || trials.workspace(), accumulate)
 }
 
 /// Accumulates one chunk of the first `count` trials.
@@ -327,15 +327,14 @@ fn shortest_scatter(
 ) -> ShortestScatter {
     let total = chunks.iter().map(|chunk| chunk.trials).sum();
     let order = |number: u64| order_of(path, &chunks[number as usize..][..1], windows);
-    let numbers = (0..chunks.len().min(BATCHES) as u64).into_par_iter();
+    let numbers = 0..chunks.len().min(BATCHES) as u64;
     let numbers = numbers.filter(|number| chunks[*number as usize].trials > 0);
-    let intervals = numbers
-        .filter_map(|number| BatchInterval::of(&mut order(number), probability, number))
-        .collect();
+    let of_number = |number| BatchInterval::of(&mut order(number), probability, number);
+    let intervals = parallel::map(numbers, of_number).into_iter().flatten().collect();
     let near = |batches: &[BatchInterval], end: usize| {
         let of_batch =
             |interval: &BatchInterval| interval.nearest(&mut order(interval.number()), end);
-        batches.par_iter().map(of_batch).collect()
+        parallel::map(batches, of_batch)
     };
     ShortestScatter::of(intervals, total, near)
 }

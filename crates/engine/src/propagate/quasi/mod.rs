@@ -15,12 +15,12 @@ mod points;
 #[cfg(test)]
 mod tests;
 
-use rayon::prelude::*;
+use crate::parallel;
 
 use self::cdf::Cdf;
 use self::pieces::Parts;
 use self::points::Inputs;
-use super::exact::{Accuracy, Noiseless, Problem, Scatter};
+use super::exact::{Accuracy, Noiseless, Problem, Scatter, moments_exist};
 use crate::model::{Program, Schedule, ScheduledOutput};
 use crate::number::{COLUMN, CodePath, Column};
 
@@ -61,9 +61,9 @@ pub(super) fn evaluate_with(
         return Err("a phase comes round: no input has a monotone effect".to_owned());
     }
     let setup = Setup::new(problem)?;
-    let nets: Vec<Net> = (0..RANDOMIZATIONS)
-        .into_par_iter()
-        .map(|r| setup.net(seed.wrapping_add(u64::from(r)), log2))
+    let net = |r| setup.net(seed.wrapping_add(u64::from(r)), log2);
+    let nets: Vec<Net> = parallel::map(0..RANDOMIZATIONS, net)
+        .into_iter()
         .collect::<Option<_>>()
         .ok_or("the output has no finite value at some points")?;
     let Candidate { place, cdf, parts } = setup.candidate(&nets)?;
@@ -198,7 +198,8 @@ impl Setup {
             let Some(cdf) = Cdf::of(&self.distributions[place]) else {
                 continue;
             };
-            if nets.par_iter().all(|net| self.is_monotone(net, place)) {
+            let monotone = parallel::map(nets, |net| self.is_monotone(net, place));
+            if monotone.into_iter().all(|is| is) {
                 return Ok(Candidate { place, cdf, parts: None });
             }
             tried.push((place, cdf));
@@ -209,8 +210,8 @@ impl Setup {
             );
         }
         for (place, cdf) in tried {
-            let parts = nets.par_iter().map(|net| pieces::parts(self, net, place, &cdf));
-            if let Some(parts) = parts.collect() {
+            let parts = parallel::map(nets, |net| pieces::parts(self, net, place, &cdf));
+            if let Some(parts) = parts.into_iter().collect() {
                 return Ok(Candidate { place, cdf, parts: Some(parts) });
             }
         }
@@ -305,7 +306,7 @@ impl<'s> Solved<'s> {
         let mut parts = parts.map(Vec::into_iter);
         let ways: Vec<Option<Vec<Parts>>> =
             nets.iter().map(|_| parts.as_mut().and_then(Iterator::next)).collect();
-        let prepared = nets.into_par_iter().zip(ways).map(|(net, parts)| {
+        let nets = parallel::map(nets.into_iter().zip(ways), |(net, parts)| {
             let mut registers = setup.registers();
             let way = match parts {
                 Some(parts) => Way::Parts(parts),
@@ -313,7 +314,6 @@ impl<'s> Solved<'s> {
             };
             SolvedNet { net, way, registers }
         });
-        let nets = prepared.collect();
         Self { setup, place, cdf, nets, width }
     }
 
@@ -326,7 +326,7 @@ impl<'s> Solved<'s> {
             Way::Whole(last) => integrated.whole(net, last, registers, y, columns),
             Way::Parts(parts) => integrated.in_parts(net, parts, registers, y, columns),
         };
-        nets.par_iter_mut().map(of).collect()
+        parallel::map(nets, of)
     }
 }
 
@@ -512,8 +512,9 @@ impl Solved<'_> {
             let (below, up_to) = (at(lower, 0.0), at(upper, 1.0));
             mean(up_to.iter().zip(&below).map(|(high, low)| high - low))
         });
-        let has_mean = problem.drawn_dof > 1.0;
-        let has_deviation = problem.drawn_dof > 2.0;
+        let [mean_exists, square_exists] = moments_exist(problem);
+        let has_mean = problem.drawn_dof > 1.0 && mean_exists;
+        let has_deviation = problem.drawn_dof > 2.0 && square_exists;
         // without a variance nothing tells how far the mean scatters
         Ok(Noiseless {
             estimate: has_mean.then_some(middle + shift),
@@ -525,7 +526,7 @@ impl Solved<'_> {
             inside: inside.map(|inside| inside[0].clamp(0.0, 1.0)),
             accuracy: Accuracy::Scatter(Box::new(Scatter {
                 estimate: has_deviation.then_some(shift_error),
-                standard_uncertainty: (problem.drawn_dof > 4.0).then_some(u_error),
+                standard_uncertainty: (has_deviation && problem.drawn_dof > 4.0).then_some(u_error),
                 median: median[1],
                 symmetric_interval: [low[1], high[1]],
                 shortest_interval: shortest.map(|ends| ends.map(|end| end[1])),

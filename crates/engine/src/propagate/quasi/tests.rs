@@ -159,3 +159,20 @@ fn a_weight() {
     let error = found.scatter().unwrap().symmetric_interval[0];
     assert!(error < 2e-4, "{error}");
 }
+
+/// A quotient whose divisor is exponential has no expectation, one by a gamma quantity of shape 1.5 no
+/// standard deviation: 2/(1.5 - 1) is its expectation. Both figures were given, with standard errors.
+#[test]
+fn moments_that_do_not_exist() {
+    let quotient = |shape: f64| {
+        let divisor = crate::distribution::Gamma::new(shape, 1.0).unwrap().into();
+        let inputs = vec![Distribution::from(Normal::new(2.0, 0.1).unwrap()), divisor];
+        let found = quasi_of(&task(inputs, "x0/x1", 0.95), 1, 10).unwrap();
+        (found.estimate, found.standard_uncertainty)
+    };
+    assert_eq!(quotient(1.0), (None, None));
+    let (estimate, u) = quotient(1.5);
+    assert!(estimate.is_some_and(|estimate| (estimate - 4.0).abs() < 2.0), "{estimate:?}");
+    assert_eq!(u, None);
+    assert!(matches!(quotient(3.5), (Some(_), Some(_))));
+}

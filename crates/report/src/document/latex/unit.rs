@@ -95,7 +95,7 @@ mod tests {
         assert_eq!(unit("m/s^2"), r"\unit{\metre\per\second\squared}");
         assert_eq!(unit("kg*m^-3"), r"\unit{\kilo\gram\per\metre\cubed}");
         assert_eq!(unit("mV/(m/s^2)"), r"\unit{\milli\volt\per\metre\second\squared}");
-        assert_eq!(unit("J/kg K"), r"\unit{\joule\per\kilo\gram\kelvin}");
+        assert_eq!(unit("J/kg*K"), r"\unit{\joule\per\kilo\gram\kelvin}");
         assert_eq!(unit("µm"), r"\unit{\micro\metre}");
         assert_eq!(unit("1"), "1");
         assert_eq!(unit("1/K"), r"\unit{\per\kelvin}");

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use crate::parallel;
 
 use super::{FIGURES, Search};
 use crate::distribution::BLOCK;
@@ -58,7 +58,7 @@ pub(super) fn figures(
         run.figures_of_condensed(&block, number)
             .unwrap_or_else(|| run.figures_of_drawn(trials, workspace, number))
     };
-    let found = numbers.into_par_iter().map_init(|| trials.workspace(), of_block).collect();
+    let found = parallel::map_with(numbers, || trials.workspace(), of_block);
     if from == known {
         trials.condensed.extend(made, control.memory);
     }
@@ -117,7 +117,7 @@ impl Run<'_> {
         let of_block = |workspace: &mut Workspace, number: u64| {
             self.figures_of_drawn(trials, workspace, number)
         };
-        numbers.into_par_iter().map_init(|| trials.workspace(), of_block).collect()
+        parallel::map_with(numbers, || trials.workspace(), of_block)
     }
 
     /// The figures of every output in a block, from all of its values.
