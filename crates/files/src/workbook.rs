@@ -483,6 +483,48 @@ pub(super) mod tests {
         zip.finish().unwrap().into_inner()
     }
 
+    /// A workbook of one sheet; a cell may begin with the number of its style and a colon: 1 shows a date, 2
+    /// two decimals, 3 is struck through.
+    pub(crate) fn styled(rows: &[&[&str]]) -> Vec<u8> {
+        const STYLES: &str = r#"<styleSheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><fonts><font/><font><strike/></font></fonts><cellXfs><xf numFmtId="0" fontId="0"/><xf numFmtId="14" fontId="0"/><xf numFmtId="2" fontId="0"/><xf numFmtId="0" fontId="1"/></cellXfs></styleSheet>"#;
+        let mut sheet = String::new();
+        for row in rows {
+            sheet.push_str("<row>");
+            for cell in *row {
+                let (style, text) = cell.split_once(':').unwrap_or(("0", cell));
+                sheet.push_str(&match text.parse::<f64>() {
+                    Ok(_) => format!(r#"<c s="{style}"><v>{text}</v></c>"#),
+                    Err(_) => {
+                        format!(r#"<c s="{style}" t="inlineStr"><is><t>{text}</t></is></c>"#)
+                    }
+                });
+            }
+            sheet.push_str("</row>");
+        }
+        let relation = r#"<Relationship Id="r3" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/styles" Target="styles.xml"/></Relationships>"#;
+        let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
+        let options = zip::write::SimpleFileOptions::default();
+        let mut part = |name: &str, text: &str| {
+            zip.start_file(name, options).unwrap();
+            zip.write_all(text.as_bytes()).unwrap();
+        };
+        for (name, text) in PARTS {
+            let text = if name.ends_with("workbook.xml.rels") {
+                text.replace("</Relationships>", relation)
+            } else {
+                text.to_owned()
+            };
+            part(name, &text);
+        }
+        let space = "http://schemas.openxmlformats.org/spreadsheetml/2006/main";
+        part("xl/sharedStrings.xml", &format!("<sst xmlns=\"{space}\"></sst>"));
+        part("xl/styles.xml", STYLES);
+        let sheet =
+            format!("<worksheet xmlns=\"{space}\"><sheetData>{sheet}</sheetData></worksheet>");
+        part("xl/worksheets/sheet1.xml", &sheet);
+        zip.finish().unwrap().into_inner()
+    }
+
     fn first_sheet(bytes: Vec<u8>) -> Result<String, String> {
         let mut book = Book::open(bytes)?;
         let sheet = book.sheets().remove(0);
