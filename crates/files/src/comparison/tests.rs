@@ -55,7 +55,7 @@ fn all_mistakes_are_told_at_once() {
         .lines()
         .filter_map(|line| Some(line.strip_prefix("t.csv:")?.split(": ").next()?.to_owned()))
         .collect();
-    assert_eq!(places, ["2:4", "3:1", "4:3", "4:9", "5:1", "6:5", "6:12"], "{said}");
+    assert_eq!(places, ["2:4", "3:1", "4:3", "4:9", "4:12", "5:1", "6:5", "6:12"], "{said}");
     let said = read("label;x;U\na;z;1\nb;1,5;0.1\nc;1,5;0.1\n").unwrap_err().to_string();
     assert!(said.contains("`z`") && said.matches("one table").count() == 1, "{said}");
     let said = read("label,x,U,kk,u_c\na,1,1,1,1\nb,1,1,1,1\n").unwrap_err().to_string();
@@ -235,7 +235,7 @@ fn other_files_than_answers_are_told() {
 /// Cells of workbooks: styles 1 is a date, 2 shows two decimals, 3 is struck through.
 mod of_workbooks {
     use super::*;
-    use crate::workbook::tests::styled;
+    use crate::workbook::tests::{sheets, styled};
 
     fn read(rows: &[&[&str]]) -> Result<ReadComparison, String> {
         let folder = tempfile::tempdir().unwrap();
@@ -280,5 +280,43 @@ mod of_workbooks {
             (found.value, found.printed, found.rounding),
             (10.016667, [10.02, 0.1], [0.005; 2])
         );
+    }
+
+    /// The hidden sheet of earlier results is not read, nor the one of remarks; two tables are asked.
+    #[test]
+    fn the_sheet_is_the_one_that_is_shown() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.xlsx");
+        let read = |all: &[(&str, bool, &[&[&str]])], sheet: Option<&str>| {
+            std::fs::write(&path, sheets(all)).unwrap();
+            let options = ComparisonOptions { sheet, ..Default::default() };
+            match read_comparison(&path, options) {
+                Ok(ReadComparison {
+                    table: ComparisonTable::Laboratories { laboratories, .. },
+                    warnings,
+                }) => {
+                    let said = warnings.iter().map(|warning| warning.text.clone());
+                    Ok((laboratories[0].label.clone(), said.collect::<String>()))
+                }
+                Ok(other) => panic!("{other:?}"),
+                Err(said) => Err(said.to_string()),
+            }
+        };
+        let old: &[&[&str]] = &[&["label", "x", "U"], &["OLD1", "5", "1"], &["OLD2", "6", "1"]];
+        let new: &[&[&str]] = &[&["Lab", "Value", "u"], &["C", "5", "1"], &["D", "6", "1"]];
+        let words: &[&[&str]] = &[&["Read me"]];
+        let (label, said) = read(&[("old", true, old), ("final", false, new)], None).unwrap();
+        assert_eq!((&*label, &*said), ("C", "sheet `final` is read, not `old` (hidden)"));
+        let found = read(&[("Read me", false, words), ("final", false, new)], None).unwrap();
+        assert_eq!(found.0, "C");
+        let two = [("old", false, old), ("final", false, new)];
+        let said = read(&two, None).unwrap_err();
+        assert!(
+            said.contains("the sheets `old` and `final` hold a table of results each"),
+            "{said}"
+        );
+        assert_eq!(read(&two, Some("old")).unwrap().0, "OLD1");
+        let said = read(&[("old", true, old), ("a", false, words)], None).unwrap_err();
+        assert!(said.contains("the hidden sheet `old` does"), "{said}");
     }
 }

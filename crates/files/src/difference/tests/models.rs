@@ -287,8 +287,8 @@ fn changed_evidence_is_named() {
         model(&input, "a", "")
     };
     let plain = with("");
-    let stated = with(r#", "evidence": [1.1, 0.9, 1.2, 0.8]"#);
-    let changed = with(r#", "evidence": [1.1, 0.9, 1.2, 0.7]"#);
+    let stated = with(r#", "evidence": {"values": [1.1, 0.9, 1.2, 0.8]}"#);
+    let changed = with(r#", "evidence": {"values": [1.1, 0.9, 1.2, 0.7]}"#);
     assert!(compare(&stated, &stated).changes.is_empty());
     let said = |a, b| compare(a, b).changes.join("; ");
     assert!(
