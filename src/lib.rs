@@ -188,7 +188,7 @@
 //! ```
 //! use gumption::compare::{ResultPair, StatedResult};
 //!
-//! let result = |value, expanded| StatedResult { value, expanded, factor: 2.0, rounding: [0.0; 2] };
+//! let result = |value, expanded| StatedResult::new(value, expanded, 2.0);
 //! let pair = ResultPair {
 //!     label: "S_x".to_owned(),
 //!     results: [result(10.3, 0.4), result(10.0, 0.3)],

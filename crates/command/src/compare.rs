@@ -6,9 +6,9 @@ use clap::{Args, ValueEnum};
 
 use super::options::{self, Answer, Interactive};
 use super::{Exit, Failure};
-use gumption_analysis::compare::{Estimator, ResultPair, laboratories};
+use gumption_analysis::compare::{Estimator, Impossible, ResultPair, laboratories};
 use gumption_files as file;
-use gumption_files::{ComparisonOptions, ComparisonTable};
+use gumption_files::{ComparisonOptions, ComparisonTable, ReadComparison};
 use gumption_report::compare::{self as report, Compare as ComparedPair};
 use gumption_units::nearest;
 
@@ -18,11 +18,14 @@ pub(super) struct Compare {
     /// The table, CSV or XLSX: columns label, x1, U1, x2, U2 and perhaps k1, k2, r; or of
     /// laboratories label, x, U and perhaps k; - for CSV on standard input
     table: PathBuf,
+    /// The sheet of the workbook, where several hold a table
+    #[arg(long, value_name = "NAME")]
+    sheet: Option<String>,
     /// Take the second results from the JSON answer of a run: the label names the output
     #[arg(long, value_name = "RUN.json")]
     against: Option<PathBuf>,
     /// Correlation coefficients between laboratories: a header of their names, then the rows in that
-    /// order
+    /// order, or with their names before them; one half of the matrix is enough
     #[arg(long, value_name = "FILE")]
     correlations: Option<PathBuf>,
     /// How the reference value of laboratories is made; without it the weighted mean, or that of the
@@ -77,10 +80,11 @@ impl Compare {
         let options = ComparisonOptions {
             against: self.against.as_deref(),
             correlations: self.correlations.as_deref(),
+            sheet: self.sheet.as_deref(),
         };
         let text = |text: &str| file::read_comparison_text("<stdin>", text, options);
         let table = options::given(&self.table, text, |path| file::read_comparison(path, options));
-        let table = table??;
+        let ReadComparison { table, warnings } = table??;
         let read = [Some(&self.table), self.against.as_ref(), self.correlations.as_ref()];
         let read: Vec<PathBuf> = read.into_iter().flatten().cloned().collect();
         let place = self.answer.open(&read)?;
@@ -97,16 +101,21 @@ impl Compare {
             }
             ComparisonTable::Laboratories { laboratories, correlations } => {
                 let found = laboratories::compare_by(&laboratories, &correlations, self.estimator);
+                let of_file = |error: Impossible| match &self.correlations {
+                    Some(path) => format!("{}: {error}", path.display()),
+                    None => error.to_string(),
+                };
                 ComparedPair::Laboratories(
-                    found.map_err(|error| Failure::Argument(error.to_string()))?,
+                    found.map_err(|error| Failure::Argument(of_file(error)))?,
                 )
             }
         };
+        self.answer.say(&warnings);
         let answer = match self.answer.format {
             Format::Table => report::table(&found),
-            Format::Html => page(report::html(&found)),
-            Format::Markdown => report::markdown(&found),
-            Format::Json => report::json(&found),
+            Format::Html => page(report::html(&found, &warnings)),
+            Format::Markdown => report::markdown(&found, &warnings),
+            Format::Json => report::json(&found, &warnings),
             Format::Csv => report::csv(&found),
         };
         place.write(&answer)?;

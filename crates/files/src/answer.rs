@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::{Map, Value};
 
 use super::diagnostics::Collector;
+use super::open::{FileKind, json_as_table};
 use super::source::{Place, SourceText};
 use super::{DiagnosticKind, bytes};
 use gumption_analysis::compare::StatedResult;
@@ -34,6 +35,10 @@ pub(super) fn read(log: &Collector, path: &Path) -> Option<Answer> {
     let answer: Value = serde_json::from_slice(&bytes)
         .map_err(|error| report("", DiagnosticKind::NotJson { message: error.to_string() }))
         .ok()?;
+    if let Some((place, kind)) = of_another_kind(&name, &bytes) {
+        log.report_at(place, kind);
+        return None;
+    }
     let object = |value: Option<&Value>| value.and_then(Value::as_object).cloned();
     let rows = match answer.get("rows").and_then(Value::as_array) {
         Some(rows) => rows
@@ -47,6 +52,16 @@ pub(super) fn read(log: &Collector, path: &Path) -> Option<Answer> {
         report("", DiagnosticKind::Table { reason });
     }
     Some(Answer { name, rows: rows? })
+}
+
+/// What a JSON file is that is no answer of a run, where its keys tell.
+fn of_another_kind(name: &str, bytes: &[u8]) -> Option<(Place, DiagnosticKind)> {
+    let source = SourceText::new(name, &bytes::text(bytes).ok()?);
+    let (span, kind) = json_as_table(&source)?;
+    let is_answer = kind == FileKind::Answer.described();
+    // a file of an unknown kind is told as such below
+    let is_known = matches!(kind, DiagnosticKind::WrongFile { .. });
+    (is_known && !is_answer).then(|| (Place { source: source.clone(), span }, kind))
 }
 
 impl Answer {
@@ -99,12 +114,12 @@ impl Answer {
 fn of_gum(output: &Value) -> Option<StatedResult> {
     let number = |key: &str| output.get("gum")?.get(key)?.as_f64();
     let (value, expanded) = (number("estimate")?, number("expanded_uncertainty")?);
-    Some(StatedResult { value, expanded, factor: number("coverage_factor")?, rounding: [0.0; 2] })
+    Some(StatedResult::new(value, expanded, number("coverage_factor")?))
 }
 
 /// The factor is 2: expanded is 2 u.
 fn of_trials(output: &Value) -> Option<StatedResult> {
     let number = |key: &str| output.get("monte_carlo")?.get(key)?.as_f64();
     let (value, u) = (number("estimate")?, number("standard_uncertainty")?);
-    Some(StatedResult { value, expanded: 2.0 * u, factor: 2.0, rounding: [0.0; 2] })
+    Some(StatedResult::new(value, 2.0 * u, 2.0))
 }

@@ -4,7 +4,7 @@
 //! the result, perhaps the equation. What is found is said, and so is what had to be guessed.
 
 mod both;
-mod columns;
+pub(crate) mod columns;
 mod document;
 mod equation;
 mod extent;
@@ -12,7 +12,7 @@ mod grid;
 mod limits;
 mod linear;
 mod mark;
-mod number;
+pub(crate) mod number;
 mod own;
 mod pint;
 mod rows;

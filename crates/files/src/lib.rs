@@ -67,6 +67,7 @@ mod scopes;
 mod separator;
 mod settings;
 mod shapes;
+mod share;
 mod shared_run;
 mod sharing;
 mod simulated;
@@ -86,7 +87,9 @@ pub use case::CaseFile;
 pub use catalogue::{EffectListing, ListedEffect, ListedParameter, catalogue};
 pub use certificate::{CertificateFile, CertifiedModel};
 pub use checked::TextKind;
-pub use comparison::{ComparisonOptions, ComparisonTable, read_comparison, read_comparison_text};
+pub use comparison::{
+    ComparisonOptions, ComparisonTable, ReadComparison, read_comparison, read_comparison_text,
+};
 pub use costs::{CostFile, read_costs, read_costs_text};
 pub use diagnostic_kind::DiagnosticKind;
 pub use diagnostics::{Diagnostic, Diagnostics};

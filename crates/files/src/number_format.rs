@@ -85,6 +85,41 @@ impl Behind {
     }
 }
 
+/// The power of ten of the last digit that a format shows of a number, which is shown a hundred times as
+/// large in per cent; `None` where the format does not tell, as `General`, fractions and texts do not.
+pub(super) fn last_digit(format: &str, value: f64) -> Option<i32> {
+    // the placeholders of digits, the decimal mark and the exponent of the first section
+    let mut core = String::new();
+    let mut signs = format.chars();
+    while let Some(sign) = signs.next() {
+        match sign {
+            ';' => break,
+            '"' => drop(signs.by_ref().find(|c| *c == '"')),
+            '[' => drop(signs.by_ref().find(|c| *c == ']')),
+            '\\' | '_' | '*' => drop(signs.next()),
+            '0' | '#' | '?' => core.push('0'),
+            '.' | '%' | 'E' | 'e' | '/' | '@' => core.push(sign.to_ascii_uppercase()),
+            c if c.is_alphabetic() => return None,
+            _ => {}
+        }
+    }
+    let value = if core.contains('%') { 100.0 * value } else { value };
+    let core = core.replace('%', "");
+    let (mantissa, exponent) = core.split_once('E').map_or((&*core, None), |(m, e)| (m, Some(e)));
+    let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let are_zeros = |text: &str| text.bytes().all(|of| of == b'0');
+    if mantissa.is_empty() || !are_zeros(whole) || !are_zeros(decimals) {
+        return None;
+    }
+    let decimals = u32::try_from(decimals.len()).ok()?;
+    match exponent {
+        None => Some(-i32::try_from(decimals).ok()?),
+        // several digits before the mark go with exponents that are their multiples
+        Some(_) if whole.len() == 1 => decimal::position(value, decimals + 1),
+        Some(_) => None,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -121,6 +156,21 @@ mod tests {
             ("#,###", "0.0002"),
         ] {
             assert_eq!(Behind::of(format).text(0.0002), shown, "{format}");
+        }
+        for (format, value, last) in [
+            ("0.00", 10.016_67, Some(-2)),
+            ("#,##0.000_);(#,##0.000)", 1234.5, Some(-3)),
+            ("0", 2.5, Some(0)),
+            ("0.0##\" mV\"", 2.5, Some(-3)),
+            ("0.00%", 0.0412, Some(-2)),
+            ("0.00E+00", 1234.0, Some(1)),
+            ("[Red]0.0\\ \\V", 1.0, Some(-1)),
+            ("##0.0E+0", 1234.0, None),
+            ("General", 1.5, None),
+            ("# ?/?", 1.5, None),
+            ("@", 1.5, None),
+        ] {
+            assert_eq!(last_digit(format, value), last, "{format}");
         }
         assert_eq!(Behind::Percent.text(0.07), "7%");
         assert_eq!(Behind::Percent.text(-1.5), "-150%");

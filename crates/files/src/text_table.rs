@@ -3,11 +3,11 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::DiagnosticKind;
 use super::diagnostics::Collector;
-use super::separator::{DecimalMarks, Separator, is_skipped};
+use super::separator::{Separator, is_skipped};
 use super::source::{Place, SourceText};
 use super::table::place_of_cell;
-use super::{DiagnosticKind, column_heading};
 
 /// At most so many rows.
 const MOST_ROWS: usize = 10_000;
@@ -62,10 +62,21 @@ impl TextTable {
                 table = Some(Self::begin(log, source, span, cells, separator)?);
                 continue;
             };
-            let (found, expected) = (cells.len(), table.columns.len());
+            let mut cells = cells;
+            let expected = table.columns.len();
+            // spreadsheets write as many separators as their widest row needs
+            while cells.len() > expected && cells.last().is_some_and(String::is_empty) {
+                cells.pop();
+            }
+            let found = cells.len();
             if found != expected {
                 let row = table.rows.len() + 1;
-                log.report_at(place, DiagnosticKind::ShortRow { row, found, expected });
+                let held: Vec<&String> = cells.iter().filter(|cell| !cell.is_empty()).collect();
+                let kind = match held[..] {
+                    [words] if expected > 1 => DiagnosticKind::Table { reason: alone(words) },
+                    _ => DiagnosticKind::ShortRow { row, found, expected },
+                };
+                log.report_at(place, kind);
             }
             table.rows.push((span, cells));
             if table.rows.len() > MOST_ROWS {
@@ -89,12 +100,16 @@ impl TextTable {
         log: &Collector,
         source: &Arc<SourceText>,
         header: Range<usize>,
-        columns: Vec<String>,
+        mut columns: Vec<String>,
         separator: Separator,
     ) -> Option<Self> {
+        while columns.last().is_some_and(String::is_empty) {
+            columns.pop();
+        }
         let twice = columns
             .iter()
             .enumerate()
+            .filter(|(_, name)| !name.is_empty())
             .find(|(n, name)| columns.iter().take(*n).any(|earlier| earlier == *name));
         if let Some((_, name)) = twice {
             let reason = format!("the header has the name `{name}` twice");
@@ -108,12 +123,6 @@ impl TextTable {
         &self.columns
     }
 
-    /// The place of the column of that name: as it stands in the header, else the only one that has it
-    /// with a unit behind it.
-    pub(super) fn column(&self, name: &str) -> Option<usize> {
-        column_heading::place_of(&self.columns, name)
-    }
-
     pub(super) fn rows(&self) -> usize {
         self.rows.len()
     }
@@ -124,14 +133,20 @@ impl TextTable {
     }
 
     /// The text of a cell; empty where there is no such column.
-    pub(crate) fn text(&self, row: usize, column: &str) -> &str {
-        let cell = self.column(column).and_then(|place| self.rows.get(row)?.1.get(place));
+    pub(super) fn text(&self, row: usize, column: usize) -> &str {
+        let cell = self.rows.get(row).and_then(|(_, cells)| cells.get(column));
         cell.map_or("", String::as_str)
     }
 
-    /// The decimal marks of its numbers.
-    pub(super) fn marks(&self) -> DecimalMarks {
-        DecimalMarks::of(self.separator)
+    /// The line of the text that a row begins on, from 0.
+    pub(super) fn line(&self, row: usize) -> usize {
+        let start = self.rows.get(row).map_or(0, |(span, _)| span.start);
+        self.source.position(start).0.saturating_sub(1)
+    }
+
+    /// What separates its cells.
+    pub(super) fn separator(&self) -> Separator {
+        self.separator
     }
 
     /// Where the header stands.
@@ -140,12 +155,18 @@ impl TextTable {
     }
 
     /// Where a cell stands.
-    pub(super) fn place(&self, row: usize, column: &str) -> Place {
+    pub(super) fn place(&self, row: usize, column: usize) -> Place {
         let span = self.rows.get(row).map_or(self.header.clone(), |(span, _)| span.clone());
-        let line = Place { source: self.source.clone(), span };
-        self.column(column)
-            .map_or(line.clone(), |place| place_of_cell(&line, place, self.separator))
+        place_of_cell(&Place { source: self.source.clone(), span }, column, self.separator)
     }
+}
+
+/// What is to be done about a row with one cell, such as a footnote.
+pub(super) fn alone(words: &str) -> String {
+    let words: String = words.chars().take(40).collect();
+    format!(
+        "`{words}` stands alone in its row: remove the row, or begin it with `#` if it is a remark"
+    )
 }
 
 /// The length of the record that a text begins with, its line's end included; `None` where a cell in
@@ -214,9 +235,9 @@ mod tests {
         let source = SourceText::new("t", text);
         let log = Collector::new(source.clone());
         let table = TextTable::parse(&log, &source).unwrap();
-        assert_eq!((table.rows(), table.text(0, "label")), (2, "two\r\nlines"));
-        assert_eq!(table.text(1, "x"), "2");
-        let place = table.place(1, "x");
+        assert_eq!((table.rows(), table.text(0, 0)), (2, "two\r\nlines"));
+        assert_eq!(table.text(1, 1), "2");
+        let place = table.place(1, 1);
         assert_eq!(source.position(place.span.start), (5, 3));
     }
 

@@ -1,10 +1,12 @@
-//! The first sheet of a workbook as the text of a CSV table.
+//! The sheets of a workbook: their cells, and a sheet as the text of a CSV table.
 //!
 //! What a workbook of a few kilobytes unpacks to has no bounds of its own: a part may be a thousand
 //! times as large as it is in the file, and a single stray cell in the last corner spans a sheet of
 //! seventeen thousand million. So every part is unpacked within a limit before anybody reads it,
 //! cells are read one by one, and only those that hold something are kept.
 
+pub(super) mod choice;
+mod date;
 mod layout;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,7 +16,7 @@ use calamine::{Data, DataRef, Reader as _, SheetType, SheetVisible, Style, Xlsx}
 use quick_xml::events::{BytesStart, Event};
 use zip::ZipArchive;
 
-use super::number_format::Behind;
+use super::number_format::{Behind, last_digit};
 pub(super) use layout::{Layout, Place};
 
 /// Bytes of an unpacked part, at most. A table of ten thousand rows has less than a quarter of it.
@@ -36,23 +38,34 @@ const COLUMNS: u32 = 1 << 14;
 /// The cells of a sheet that hold something: rows, then columns, both counted from 0.
 type Cells = BTreeMap<u32, BTreeMap<u32, String>>;
 
-/// The first sheet as CSV, its rows the lines of the text.
-///
-/// # Errors
-/// What is wrong with the workbook, as a sentence about it.
-pub(super) fn first_sheet(bytes: Vec<u8>) -> Result<String, String> {
-    check_parts(&bytes)?;
-    let layout = Layout::of(&bytes, 0);
-    let cells = cells(&mut opened(bytes)?, Sheet::First, &mut 0)?.0;
-    layout.check_shown(cells.keys())?;
-    csv(&cells)
+/// A sheet as a table: its rows are the lines of a text of CSV.
+#[derive(Debug)]
+pub(super) struct SheetTable {
+    cells: Cells,
+    layout: Layout,
+}
+
+impl SheetTable {
+    /// The cells of its header, the first row that is no comment.
+    pub(super) fn header(&self) -> Vec<String> {
+        let header = header(&self.cells).map(BTreeMap::values);
+        header.into_iter().flatten().map(|text| unquoted(text)).collect()
+    }
+
+    /// The table's text, the column that it begins with, and what the sheet says besides.
+    ///
+    /// # Errors
+    /// What is wrong with the sheet, as a sentence about the workbook.
+    pub(super) fn text(self) -> Result<(String, u32, Layout), String> {
+        self.layout.check_shown(self.cells.keys())?;
+        let first = header(&self.cells).and_then(|header| header.keys().next().copied());
+        Ok((csv(&self.cells)?, first.unwrap_or(0), self.layout))
+    }
 }
 
 /// A sheet of a workbook.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sheet<'a> {
-    /// The first one.
-    First,
     /// The last one.
     Last,
     /// That of a name; one that is not there has no cells.
@@ -79,12 +92,17 @@ fn rows(cells: &Cells) -> Vec<Vec<String>> {
         let mut line: Vec<String> = Vec::new();
         for (column, text) in cells.range(..MOST_COLUMNS) {
             line.resize(*column as usize, String::new());
-            let inside = text.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
-            line.push(inside.map_or_else(|| text.clone(), |text| text.replace("\"\"", "\"")));
+            line.push(unquoted(text));
         }
         rows.push(line);
     }
     rows
+}
+
+/// A cell's text without the quotes that CSV has about it.
+fn unquoted(text: &str) -> String {
+    let inside = text.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
+    inside.map_or_else(|| text.to_owned(), |text| text.replace("\"\"", "\""))
 }
 
 /// A workbook of which several sheets are read.
@@ -130,9 +148,20 @@ impl Book {
     /// # Errors
     /// What is wrong with the workbook, as a sentence about it.
     pub(super) fn sheet(&mut self, of: &SheetName) -> Result<(Vec<Vec<String>>, Layout), String> {
+        let SheetTable { cells, layout } = self.table(of)?;
+        Ok((rows(&cells), layout))
+    }
+
+    /// A sheet as a table.
+    ///
+    /// # Errors
+    /// What is wrong with the workbook, as a sentence about it.
+    pub(super) fn table(&mut self, of: &SheetName) -> Result<SheetTable, String> {
         let sheet = Sheet::Named(&of.name);
-        let (cells, Told { struck, texts }) = cells(&mut self.workbook, sheet, &mut self.size)?;
-        Ok((rows(&cells), Layout { struck, texts, ..Layout::of(&self.bytes, of.place) }))
+        let (cells, told) = cells(&mut self.workbook, sheet, &mut self.size)?;
+        let Told { struck, texts, dates, last_digits } = told;
+        let layout = Layout::of(&self.bytes, of.place);
+        Ok(SheetTable { cells, layout: Layout { struck, texts, dates, last_digits, ..layout } })
     }
 }
 
@@ -274,6 +303,10 @@ struct Told {
     struck: BTreeSet<Place>,
     /// Those that hold texts.
     texts: BTreeSet<Place>,
+    /// Those that show a date or a time.
+    dates: BTreeMap<Place, String>,
+    /// The powers of ten of the last digits that they show.
+    last_digits: BTreeMap<Place, i32>,
 }
 
 /// The cells of a sheet, and what they say besides; `size` counts the bytes of their texts.
@@ -284,7 +317,6 @@ fn cells(
 ) -> Result<(Cells, Told), String> {
     let names = workbook.sheet_names();
     let sheet = match sheet {
-        Sheet::First => names.first().cloned(),
         Sheet::Last => names.last().cloned(),
         Sheet::Named(name) if !names.iter().any(|known| known == name) => {
             return Ok(Default::default());
@@ -294,6 +326,8 @@ fn cells(
     let sheet = sheet.ok_or_else(|| "the workbook has no sheet".to_owned())?;
     let mut reader = workbook.worksheet_cells_reader(&sheet).map_err(is_none)?;
     let formats: Vec<Behind> = reader.styles().iter().map(behind).collect();
+    let code = |style: &Style| style.number_format.as_ref().map(|of| of.format_code.clone());
+    let codes: Vec<Option<_>> = reader.styles().iter().map(code).collect();
     let is_struck = |style: &Style| style.font.as_ref().is_some_and(|font| font.strikethrough);
     let struck_styles: Vec<bool> = reader.styles().iter().map(is_struck).collect();
     let (mut cells, mut told) = (Cells::new(), Told::default());
@@ -309,7 +343,23 @@ fn cells(
         };
         let format = formats.get(style).unwrap_or(&Behind::Nothing);
         let is_text = matches!(value, Data::String(_));
+        let number = match value {
+            Data::Float(value) => Some(value),
+            Data::Int(value) => Some(value as f64),
+            _ => None,
+        };
+        if let Some(value) = number
+            && let Some(Some(code)) = codes.get(style)
+            && let Some(last) = last_digit(code, value)
+        {
+            told.last_digits.insert((row, column), last);
+        }
+        let date = date::shown(&value);
+        if let Some(shown) = &date {
+            told.dates.insert((row, column), shown.clone());
+        }
         let text = match value {
+            _ if date.is_some() => date.unwrap_or_default(),
             Data::Float(value) => format.text(value),
             Data::Int(value) if *format != Behind::Nothing => format.text(value as f64),
             // a line of the text is a row of the sheet
@@ -339,14 +389,20 @@ fn cells(
     Ok((cells, told))
 }
 
+fn is_comment(row: &BTreeMap<u32, String>) -> bool {
+    row.first_key_value().is_some_and(|(_, text)| text.trim_start_matches('"').starts_with('#'))
+}
+
+/// The first row that is no comment.
+fn header(cells: &Cells) -> Option<&BTreeMap<u32, String>> {
+    cells.values().find(|row| !is_comment(row))
+}
+
 /// The table's text: its columns are those of the first row that is no comment, and a cell outside
 /// of them is a mistake, such as what a stray keystroke leaves.
 fn csv(cells: &Cells) -> Result<String, String> {
-    let is_comment = |row: &BTreeMap<u32, String>| {
-        row.first_key_value().is_some_and(|(_, text)| text.trim_start_matches('"').starts_with('#'))
-    };
-    let header = cells.values().find(|row| !is_comment(row));
-    let ends = header.and_then(|header| Some([*header.keys().next()?, *header.keys().last()?]));
+    let ends =
+        header(cells).and_then(|header| Some([*header.keys().next()?, *header.keys().last()?]));
     let Some([first, last]) = ends else { return Ok(String::new()) };
     let mut text = String::new();
     let mut line = 0;
@@ -425,6 +481,78 @@ pub(super) mod tests {
         sheet(&mut zip).unwrap();
         zip.write_all(b"</sheetData></worksheet>").unwrap();
         zip.finish().unwrap().into_inner()
+    }
+
+    /// A workbook of one sheet; a cell may begin with the number of its style and a colon: 1 shows a date, 2
+    /// two decimals, 3 is struck through.
+    pub(crate) fn styled(rows: &[&[&str]]) -> Vec<u8> {
+        sheets(&[("a", false, rows)])
+    }
+
+    /// A workbook of sheets with their names and whether they are hidden; cells as of [`styled`].
+    pub(crate) fn sheets(all: &[(&str, bool, &[&[&str]])]) -> Vec<u8> {
+        const SPACE: &str = "http://schemas.openxmlformats.org/spreadsheetml/2006/main";
+        const RELATIONS: &str =
+            "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
+        let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
+        let options = zip::write::SimpleFileOptions::default();
+        let mut part = |name: &str, text: &str| {
+            zip.start_file(name, options).unwrap();
+            zip.write_all(text.as_bytes()).unwrap();
+        };
+        let relation = |id: &str, kind: &str, target: &str| {
+            format!(r#"<Relationship Id="{id}" Type="{RELATIONS}/{kind}" Target="{target}"/>"#)
+        };
+        let mut relations = relation("styles", "styles", "styles.xml");
+        let mut names = String::new();
+        for (number, (name, is_hidden, rows)) in all.iter().enumerate() {
+            let (id, target) = (format!("r{number}"), format!("worksheets/sheet{number}.xml"));
+            relations += &relation(&id, "worksheet", &target);
+            let state = if *is_hidden { "hidden" } else { "visible" };
+            let place = number + 1;
+            names +=
+                &format!(r#"<sheet name="{name}" sheetId="{place}" state="{state}" r:id="{id}"/>"#);
+            let cell = |cell: &&str| {
+                let styled = cell.split_once(':').filter(|(style, _)| style.len() == 1);
+                let (style, text) = styled.unwrap_or(("0", cell));
+                match text.parse::<f64>() {
+                    Ok(_) => format!(r#"<c s="{style}"><v>{text}</v></c>"#),
+                    Err(_) => format!(r#"<c s="{style}" t="inlineStr"><is><t>{text}</t></is></c>"#),
+                }
+            };
+            let rows = rows
+                .iter()
+                .map(|row| format!("<row>{}</row>", row.iter().map(cell).collect::<String>()));
+            let rows: String = rows.collect();
+            let sheet =
+                format!(r#"<worksheet xmlns="{SPACE}"><sheetData>{rows}</sheetData></worksheet>"#);
+            part(&format!("xl/{target}"), &sheet);
+        }
+        for (name, text) in &PARTS[..2] {
+            part(name, text);
+        }
+        let book = format!(
+            r#"<workbook xmlns="{SPACE}" xmlns:r="{RELATIONS}"><sheets>{names}</sheets></workbook>"#
+        );
+        part("xl/workbook.xml", &book);
+        let space = "http://schemas.openxmlformats.org/package/2006/relationships";
+        let relations = format!(r#"<Relationships xmlns="{space}">{relations}</Relationships>"#);
+        part("xl/_rels/workbook.xml.rels", &relations);
+        let fonts = "<fonts><font/><font><strike/></font></fonts>";
+        let styles: String = [(0, 0), (14, 0), (2, 0), (0, 1)]
+            .map(|(format, font)| format!(r#"<xf numFmtId="{format}" fontId="{font}"/>"#))
+            .concat();
+        let styles = format!(
+            r#"<styleSheet xmlns="{SPACE}">{fonts}<cellXfs>{styles}</cellXfs></styleSheet>"#
+        );
+        part("xl/styles.xml", &styles);
+        zip.finish().unwrap().into_inner()
+    }
+
+    fn first_sheet(bytes: Vec<u8>) -> Result<String, String> {
+        let mut book = Book::open(bytes)?;
+        let sheet = book.sheets().remove(0);
+        Ok(book.table(&sheet)?.text()?.0)
     }
 
     fn of(sheet: &str) -> Result<String, String> {

@@ -215,7 +215,7 @@ mod tests {
     fn laboratories(results: &[(f64, f64)]) -> Vec<Laboratory> {
         let of = |(number, &(value, u)): (usize, &(f64, f64))| Laboratory {
             label: number.to_string(),
-            result: StatedResult { value, expanded: 2.0 * u, factor: 2.0, rounding: [0.0; 2] },
+            result: StatedResult::new(value, 2.0 * u, 2.0),
         };
         results.iter().enumerate().map(of).collect()
     }

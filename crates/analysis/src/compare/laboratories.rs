@@ -12,8 +12,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::consensus::{self, ConsensusValue, Estimator};
 use super::pair::StatedResult;
-use super::subset::{self, SubsetSearch};
-use super::{FACTOR, probability};
+use super::subset::{self, Found, SubsetSearch, Ties};
+use super::{FACTOR, definite, probability};
 use gumption_engine::special;
 
 /// The result of a laboratory.
@@ -78,6 +78,14 @@ pub struct DegreeOfEquivalence {
     pub member: bool,
 }
 
+impl DegreeOfEquivalence {
+    /// Whether the result is compatible with the reference value: the normalized error is at most 1.
+    /// `None` of a laboratory whose result is the reference value, where nothing is compared.
+    pub fn is_compatible(&self) -> Option<bool> {
+        (!self.normalized_error.is_nan()).then_some(self.normalized_error <= 1.0)
+    }
+}
+
 /// The comparison of many laboratories.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
@@ -92,6 +100,8 @@ pub struct Comparison {
     pub estimators: Vec<ConsensusValue>,
     /// How the subset was found; `None` where all are consistent.
     pub search: Option<SubsetSearch>,
+    /// The other subsets that would do as well as the largest consistent one.
+    pub ties: Ties,
     /// One entry for each laboratory.
     pub rows: Vec<DegreeOfEquivalence>,
 }
@@ -103,17 +113,52 @@ pub enum Impossible {
     TooFew,
     /// The covariance matrix is not positive definite.
     NotDefinite,
+    /// Two laboratories are correlated by 1 or -1, so that a combination of their results has no
+    /// uncertainty.
+    FullyCorrelated {
+        /// Their names.
+        laboratories: [String; 2],
+        /// Their coefficient.
+        coefficient: f64,
+    },
+    /// The coefficients of a laboratory and those before it are of no joint distribution, or of one in
+    /// which its result follows from theirs.
+    Dependent {
+        /// Its name.
+        laboratory: String,
+        /// The part of its variance that the others leave, 1 where it is independent of them.
+        left: f64,
+    },
 }
 
 impl fmt::Display for Impossible {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::TooFew => "a comparison needs at least two laboratories",
-            Self::NotDefinite => {
+        match self {
+            Self::TooFew => f.write_str("a comparison needs at least two laboratories"),
+            Self::NotDefinite => f.write_str(
+                "the laboratories cannot be weighted: their uncertainties differ by more than double \
+                 precision can square, or their correlation matrix is not positive definite",
+            ),
+            Self::FullyCorrelated { laboratories: [a, b], coefficient } => write!(
+                f,
+                "the laboratories cannot be weighted: `{a}` and `{b}` are correlated by \
+                 {coefficient}, so that their results combined have no uncertainty and the correlation \
+                 matrix has no inverse; state the coefficient that their common part gives, which is \
+                 between -1 and 1"
+            ),
+            Self::Dependent { laboratory, left } if *left < -1e-9 => write!(
+                f,
                 "the laboratories cannot be weighted: their correlation matrix is not positive \
-                 definite, or their uncertainties differ by more than double precision can square"
-            }
-        })
+                 definite, because the coefficients of `{laboratory}` contradict those among the \
+                 laboratories before it"
+            ),
+            Self::Dependent { laboratory, .. } => write!(
+                f,
+                "the laboratories cannot be weighted: by the coefficients the result of \
+                 `{laboratory}` follows from those of the laboratories before it, so that the \
+                 correlation matrix has no inverse"
+            ),
+        }
     }
 }
 
@@ -249,6 +294,9 @@ pub fn compare_by(
         let given = correlations.get(i).and_then(|row| row.get(j)).copied();
         given.unwrap_or(if i == j { 1.0 } else { 0.0 })
     };
+    if !correlations.is_empty() {
+        definite::check(laboratories, coefficient)?;
+    }
     let results = Results {
         values: laboratories.iter().map(|l| l.result.value).collect(),
         covariance: DMatrix::from_fn(n, n, |i, j| coefficient(i, j) * u[i] * u[j]),
@@ -260,7 +308,10 @@ pub fn compare_by(
     } else {
         Some(subset::largest(&results, n).ok_or(Impossible::NotDefinite)?)
     };
-    let (subset, search) = subset.unzip();
+    let (subset, (search, ties)) = match subset {
+        Some(Found { reference, search, ties }) => (Some(reference), (Some(search), ties)),
+        None => (None, (None, Ties::default())),
+    };
     let estimator = match wanted {
         Some(Estimator::LargestConsistentSubset) | None if subset.is_some() => {
             Estimator::LargestConsistentSubset
@@ -287,7 +338,11 @@ pub fn compare_by(
     let (reference, results) = taken.ok_or(Impossible::NotDefinite)?;
     let rows = laboratories.iter().enumerate().map(|(number, laboratory)| {
         let difference = laboratory.result.value - reference.value;
-        let u = results.of_difference(number, &reference.members)?;
+        let u = match reference.members[..] {
+            // of a result from itself there is nothing to be known
+            [only] if only == number => 0.0,
+            _ => results.of_difference(number, &reference.members)?,
+        };
         Some(DegreeOfEquivalence {
             label: laboratory.label.clone(),
             value: laboratory.result.value,
@@ -302,7 +357,7 @@ pub fn compare_by(
         })
     });
     let rows = rows.collect::<Option<Vec<DegreeOfEquivalence>>>().ok_or(Impossible::NotDefinite)?;
-    Ok(Comparison { all, reference, estimator, estimators, search, rows })
+    Ok(Comparison { all, reference, estimator, estimators, search, ties, rows })
 }
 
 #[cfg(test)]

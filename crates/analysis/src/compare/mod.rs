@@ -2,6 +2,7 @@
 //! reference value ([`laboratories`]; where they disagree [`consensus`]).
 
 pub mod consensus;
+mod definite;
 pub mod laboratories;
 pub mod pair;
 mod subset;
@@ -9,6 +10,7 @@ mod subset;
 pub use consensus::{ConsensusValue, Estimator, HartungKnapp};
 pub use laboratories::{Comparison, DegreeOfEquivalence, Impossible, Laboratory};
 pub use pair::{ComparedPair, ResultPair, StatedResult};
+pub use subset::Ties;
 
 use gumption_engine::special;
 

@@ -12,11 +12,18 @@ pub struct StatedResult {
     pub expanded: f64,
     /// Its coverage factor k, above 0.
     pub factor: f64,
-    /// By how much x and U may be rounded: half a unit of their last printed digits, or 0.
+    /// x and U as they are printed: with all their digits, unless a workbook shows fewer of them.
+    pub printed: [f64; 2],
+    /// By how much these may be rounded: half a unit of their last printed digits, or 0.
     pub rounding: [f64; 2],
 }
 
 impl StatedResult {
+    /// A result that is printed with all its digits and not rounded.
+    pub fn new(value: f64, expanded: f64, factor: f64) -> Self {
+        Self { value, expanded, factor, printed: [value, expanded], rounding: [0.0; 2] }
+    }
+
     /// Standard uncertainty U/k.
     pub fn standard_uncertainty(&self) -> f64 {
         self.expanded / self.factor
@@ -84,10 +91,10 @@ impl ResultPair {
     /// these do.
     fn range(&self) -> [f64; 2] {
         let [a, b] = self.results;
-        let (d, slack) = ((a.value - b.value).abs(), a.rounding[0] + b.rounding[0]);
+        let (d, slack) = ((a.printed[0] - b.printed[0]).abs(), a.rounding[0] + b.rounding[0]);
         let ends = self.results.map(|result| {
-            let [low, high] =
-                [result.expanded - result.rounding[1], result.expanded + result.rounding[1]];
+            let [_, expanded] = result.printed;
+            let [low, high] = [expanded - result.rounding[1], expanded + result.rounding[1]];
             [low.max(0.0) / result.factor, high / result.factor]
         });
         let (least, greatest) = extremes(ends, self.correlation);
@@ -121,7 +128,7 @@ mod tests {
     use super::*;
 
     fn stated(value: f64, expanded: f64, factor: f64) -> StatedResult {
-        StatedResult { value, expanded, factor, rounding: [0.5, 0.5] }
+        StatedResult { rounding: [0.5, 0.5], ..StatedResult::new(value, expanded, factor) }
     }
 
     /// By hand: d = 3, u = sqrt(1.5^2 + 2^2) = 2.5, U = 5.
@@ -164,6 +171,24 @@ mod tests {
             // a grid of step 0.05 misses the ends by little
             assert!(least - from < 0.01 && (greatest - to).abs() < 0.02 * to || to.is_infinite());
         }
+    }
+
+    /// By hand: 10.0167 and 0.0396 printed as 10.02 and 0.04, beside 10.06 and 0.04: |d| is from 0.03 to
+    /// 0.05, U of each from 0.035 to 0.045.
+    #[test]
+    fn the_range_is_about_what_is_printed() {
+        let of = |value, expanded, printed| StatedResult {
+            printed,
+            rounding: [0.005; 2],
+            ..StatedResult::new(value, expanded, 2.0)
+        };
+        let results = [of(10.0167, 0.0396, [10.02, 0.04]), of(10.06, 0.0433, [10.06, 0.04])];
+        let pair = ResultPair { label: "a".into(), results, correlation: 0.0 };
+        let found = pair.compare().unwrap();
+        let [from, to] = found.range;
+        assert!((from - 0.03 / (0.045 * 2f64.sqrt())).abs() < 1e-12, "{from}");
+        assert!((to - 0.05 / (0.035 * 2f64.sqrt())).abs() < 1e-12, "{to}");
+        assert!((found.normalized_error - 0.0433 / 0.0396f64.hypot(0.0433)).abs() < 1e-12);
     }
 
     #[test]

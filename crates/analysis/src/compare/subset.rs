@@ -26,19 +26,44 @@ impl SubsetSearch {
 /// At most so many subsets are looked at.
 const MOST: u64 = 200_000;
 
+/// Other subsets that would do as well as the one that is taken: of the same size, with the same
+/// chi-squared.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Ties {
+    /// How many there are; of subsets that are made by taking out one laboratory at a time, how many
+    /// times another one could have been taken out.
+    pub count: usize,
+    /// The members of the first of them, in the order of the rows; none where one laboratory is taken
+    /// out at a time.
+    pub subsets: Vec<Vec<usize>>,
+}
+
+/// Of so many other subsets the members are kept.
+const MOST_KEPT: usize = 10;
+
+/// The largest consistent subset and how it was found.
+#[derive(Debug)]
+pub(super) struct Found {
+    pub(super) reference: ReferenceValue,
+    pub(super) search: SubsetSearch,
+    pub(super) ties: Ties,
+}
+
 /// The largest consistent subset of `count` laboratories; `None` if a covariance matrix is not
 /// positive definite. One laboratory alone is consistent.
-pub(super) fn largest(results: &Results, count: usize) -> Option<(ReferenceValue, SubsetSearch)> {
+pub(super) fn largest(results: &Results, count: usize) -> Option<Found> {
+    let noise = noise(results.reference(&(0..count).collect::<Vec<_>>())?.chi_squared);
     let mut looked_at = 0u64;
     for out in 1..count {
         looked_at = looked_at.saturating_add(binomial(count as u64, out as u64));
         if looked_at > MOST {
-            return one_at_a_time(results, count).map(|found| (found, SubsetSearch::OneAtATime));
+            return one_at_a_time(results, count);
         }
-        let found = results.reference(&smallest(results, count, out)?)?;
+        let (members, ties) = smallest(results, (count, out), noise)?;
+        let reference = results.reference(&members)?;
         // the others of its size have larger chi-squared
-        if found.is_consistent() {
-            return Some((found, SubsetSearch::All));
+        if reference.is_consistent() {
+            return Some(Found { reference, search: SubsetSearch::All, ties });
         }
     }
     None
@@ -60,10 +85,22 @@ fn next(chosen: &mut [usize], count: usize) -> bool {
 /// Differences of chi-squared below this share are rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The subset without `out` laboratories that has the smallest chi-squared; the first one of equals.
-fn smallest(results: &Results, count: usize, out: usize) -> Option<Vec<usize>> {
+/// What rounding makes of chi-squared of some laboratories, which is computed as that of all without
+/// the part of the others: the doubles that are subtracted have 1.1e-16 each, a few hundred times.
+fn noise(of_all: f64) -> f64 {
+    1e-13 * of_all
+}
+
+/// The subset without `out` laboratories that has the smallest chi-squared, the first one of equals, and
+/// the equals.
+fn smallest(
+    results: &Results,
+    (count, out): (usize, usize),
+    noise: f64,
+) -> Option<(Vec<usize>, Ties)> {
     let precision = results.precision(&(0..count).collect::<Vec<_>>())?;
     let mut best: Option<(f64, Vec<usize>)> = None;
+    let mut ties = Ties::default();
     let mut members: Vec<usize> = (0..count - out).collect();
     loop {
         // what is left of a few is told best by themselves
@@ -77,31 +114,49 @@ fn smallest(results: &Results, count: usize, out: usize) -> Option<Vec<usize>> {
                 None => results.reference(&members)?.chi_squared,
             }
         };
-        if best.as_ref().is_none_or(|(least, _)| chi_squared < least * (1.0 - ROUNDING)) {
-            best = Some((chi_squared, members.clone()));
+        let within = |least: f64| ROUNDING * least.abs() + noise;
+        match &best {
+            Some((least, _)) if chi_squared > least + within(*least) => {}
+            Some((least, _)) if chi_squared >= least - within(*least) => {
+                ties.count += 1;
+                if ties.subsets.len() < MOST_KEPT {
+                    ties.subsets.push(members.clone());
+                }
+            }
+            _ => {
+                best = Some((chi_squared, members.clone()));
+                ties = Ties::default();
+            }
         }
         if !next(&mut members, count) {
-            return best.map(|(_, members)| members);
+            return best.map(|(_, members)| (members, ties));
         }
     }
 }
 
-fn one_at_a_time(results: &Results, count: usize) -> Option<ReferenceValue> {
+fn one_at_a_time(results: &Results, count: usize) -> Option<Found> {
     let mut members: Vec<usize> = (0..count).collect();
-    let mut found = results.reference(&members)?;
-    while !found.is_consistent() {
+    let mut reference = results.reference(&members)?;
+    let mut ties = Ties::default();
+    while !reference.is_consistent() {
         let precision = results.precision(&members)?;
+        let noise = noise(reference.chi_squared);
         let mut best: Option<(f64, usize)> = None;
+        let mut equals = 0;
         for place in 0..members.len() {
             let Some(chi_squared) = precision.chi_squared_without(&[place]) else { continue };
-            if best.is_none_or(|(least, _)| chi_squared < least * (1.0 - ROUNDING)) {
-                best = Some((chi_squared, place));
+            let within = |least: f64| ROUNDING * least.abs() + noise;
+            match best {
+                Some((least, _)) if chi_squared > least + within(least) => {}
+                Some((least, _)) if chi_squared >= least - within(least) => equals += 1,
+                _ => (best, equals) = (Some((chi_squared, place)), 0),
             }
         }
         members.remove(best?.1);
-        found = results.reference(&members)?;
+        ties.count += equals;
+        reference = results.reference(&members)?;
     }
-    Some(found)
+    Some(Found { reference, search: SubsetSearch::OneAtATime, ties })
 }
 
 fn binomial(n: u64, k: u64) -> u64 {

@@ -45,7 +45,24 @@ pub(super) fn list(first: &ModelFile, second: &ModelFile) -> Vec<String> {
             changes.extend(change(&format!("{what} `{name}`"), values));
         }
     }
+    changes.extend(of_evidence(&first, &second));
     changes
+}
+
+/// The changes of the evidence of inputs: readings that support what is stated are no part of an
+/// evaluation, and say what it is worth.
+fn of_evidence(first: &Map<String, Value>, second: &Map<String, Value>) -> Vec<String> {
+    let [a, b] = [first, second].map(|file| file.get("inputs").and_then(Value::as_object));
+    let names = |of: Option<&Map<String, Value>>| -> Vec<String> {
+        of.map(|inputs| inputs.keys().cloned().collect()).unwrap_or_default()
+    };
+    let mut all = names(a);
+    all.extend(names(b).into_iter().filter(|name| a.is_none_or(|a| !a.contains_key(name))));
+    let changed = all.iter().filter_map(|name| {
+        let values = [a, b].map(|inputs| inputs?.get(name)?.get("evidence"));
+        change(&format!("evidence of `{name}`"), values)
+    });
+    changed.collect()
 }
 
 fn change(what: &str, values: [Option<&Value>; 2]) -> Option<String> {

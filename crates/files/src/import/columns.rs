@@ -10,7 +10,7 @@ use gumption_units::Unit;
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Column {
+pub(crate) enum Column {
     Symbol,
     Quantity,
     Estimate,
@@ -462,7 +462,7 @@ impl Column {
 }
 
 /// A text without what stands in brackets, in small letters.
-pub(super) fn plain(text: &str) -> String {
+pub(crate) fn plain(text: &str) -> String {
     let mut depth = 0_u32;
     let mut plain = String::new();
     for c in text.chars() {
@@ -478,7 +478,7 @@ pub(super) fn plain(text: &str) -> String {
 }
 
 /// What a header's cell names.
-fn column(text: &str) -> Option<Column> {
+pub(crate) fn column(text: &str) -> Option<Column> {
     let compact: String = text.to_lowercase().split_whitespace().collect();
     match compact.as_str() {
         "u(xi)" | "u(x_i)" | "u(x)" => return Some(Column::Std),
@@ -578,7 +578,7 @@ fn is_dof(compact: &str) -> bool {
 ///
 /// # Errors
 /// What stands in the place of a unit and looks like one, but is none that numbers could be read in.
-fn unit_of_header(text: &str) -> Result<Option<String>, String> {
+pub(crate) fn unit_of_header(text: &str) -> Result<Option<String>, String> {
     const SYMBOLS: [&str; 10] = ["a", "u", "U", "k", "c", "d", "s", "n", "A", "B"];
     let mut pieces: Vec<&str> = Vec::new();
     let mut rest = text;
@@ -694,14 +694,14 @@ fn is_symbol_of(column: Column, text: &str) -> bool {
 }
 
 /// A unit without the word before it: `in mV` is `mV`, and no product with an inch.
-pub(super) fn without_in(text: &str) -> &str {
+pub(crate) fn without_in(text: &str) -> &str {
     let behind = text.strip_prefix("in ").map(str::trim);
     let is_unit = |unit: &&str| Unit::parse(unit.trim_matches(['(', ')', '[', ']'])).is_ok();
     behind.filter(is_unit).unwrap_or(text)
 }
 
 /// Whether words behind a share say that it is one of the estimate.
-fn is_of_estimate(words: &str) -> bool {
+pub(crate) fn is_of_estimate(words: &str) -> bool {
     const ESTIMATE: [&str; 18] = [
         "of reading",
         "of the reading",
@@ -1364,7 +1364,7 @@ pub(super) fn is_of_factors(heading: &str) -> bool {
 
 /// What a column of expanded uncertainties says of its coverage in its header.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum HeaderCoverage {
+pub(crate) enum HeaderCoverage {
     /// Nothing: the header does not speak of expanded uncertainties.
     None,
     /// The factor: `U (k=2)`.
@@ -1377,7 +1377,7 @@ pub(super) enum HeaderCoverage {
 
 impl HeaderCoverage {
     /// Of a header's cell.
-    pub(super) fn of(text: &str) -> Self {
+    pub(crate) fn of(text: &str) -> Self {
         let compact: String = text.to_lowercase().split_whitespace().collect();
         let behind = |sign: &str| {
             let number = compact.split_once(sign)?.1;
@@ -1422,7 +1422,7 @@ impl HeaderCoverage {
 
     /// The factor of uncertainties with these degrees of freedom, `None` where they are infinite: of a
     /// probability that of the t distribution (JCGM 100, G.3.2).
-    pub(super) fn factor(self, dof: Option<f64>) -> Option<f64> {
+    pub(crate) fn factor(self, dof: Option<f64>) -> Option<f64> {
         match self {
             Self::Factor(factor) => Some(factor),
             Self::Probability(p) => {
@@ -1434,7 +1434,7 @@ impl HeaderCoverage {
     }
 
     /// The coverage probability, if that is what is stated.
-    pub(super) fn probability(self) -> Option<f64> {
+    pub(crate) fn probability(self) -> Option<f64> {
         if let Self::Probability(p) = self { Some(p) } else { None }
     }
 }
@@ -1445,7 +1445,7 @@ fn plain_case(text: &str) -> &str {
 }
 
 /// Whether a row's words are those of a coverage factor.
-pub(super) fn is_factor(words: &str) -> bool {
+pub(crate) fn is_factor(words: &str) -> bool {
     const FACTORS: [&str; 7] = [
         "k",
         "k factor",

@@ -113,6 +113,11 @@ impl Cells {
         DecimalMarks::of(self.separator.unwrap_or(Separator::Semicolon))
     }
 
+    /// Why a cell of a workbook holds no number, though its value is one.
+    pub(super) fn no_number(&self, line: usize, place: usize) -> Option<String> {
+        self.layout.no_number((u32::try_from(line).ok()?, u32::try_from(place).ok()?))
+    }
+
     /// Whether a cell holds what somebody wrote, and no number of a workbook.
     pub(super) fn is_written(&self, line: usize, place: usize) -> bool {
         let of = |of: usize| u32::try_from(of).ok();

@@ -9,24 +9,41 @@ const SPACES: [char; 4] = [' ', '\u{a0}', '\u{202f}', '\u{2009}'];
 
 /// A number as spreadsheets write them; `1,5` where commas are decimal ones, `0.41·10⁻⁶`. Per cent are a
 /// share.
-pub(super) fn number(text: &str, decimal_comma: bool) -> Option<f64> {
-    let text = text.trim().replace(&SPACES[1..], "").replace(['−', '–'], "-");
-    if let Some(percent) = text.strip_suffix('%') {
+pub(crate) fn number(text: &str, decimal_comma: bool) -> Option<f64> {
+    if let Some(percent) = text.trim().strip_suffix('%') {
         return number(percent, decimal_comma).map(|share| share / 100.0);
     }
+    plain(text, decimal_comma).map(|(value, _)| value)
+}
+
+/// A number as spreadsheets write it, and its digits as programs do.
+fn plain(text: &str, decimal_comma: bool) -> Option<(f64, String)> {
+    let text = text.trim().replace(&SPACES[1..], "").replace(['−', '–'], "-");
     let text = with_exponent(&text).unwrap_or(text);
     let text = without_groups(&text).map_or(text, |text| text.replace(',', "."));
-    let plain = text.parse::<f64>().ok().filter(|_| text.contains(|c: char| c.is_ascii_digit()));
-    let with_comma = || {
-        let one = decimal_comma && text.matches(',').count() == 1 && !text.contains('.');
-        one.then(|| text.replace(',', ".").parse::<f64>().ok()).flatten()
+    let read = |text: String| {
+        let value = text.parse::<f64>().ok().filter(|value| value.is_finite())?;
+        text.contains(|c: char| c.is_ascii_digit()).then_some((value, text))
     };
-    plain.or_else(with_comma).filter(|value| value.is_finite())
+    let one = decimal_comma && text.matches(',').count() == 1 && !text.contains('.');
+    let with_comma = one.then(|| text.replace(',', "."));
+    read(text).or_else(|| with_comma.and_then(read))
+}
+
+/// A number of a cell, its digits as programs write them, and the unit behind it: also per cent are one.
+/// The unit is empty where there is none, and not looked at.
+pub(crate) fn written(text: &str, decimal_comma: bool) -> Option<(f64, String, &str)> {
+    let text = text.trim();
+    let (_, unit) = number_with_unit(text, decimal_comma)?;
+    let unit = if unit.is_empty() && text.ends_with('%') { "%" } else { unit };
+    let digits = text.strip_suffix(unit)?.trim_end();
+    let (value, digits) = plain(&ungrouped(digits)?, decimal_comma)?;
+    Some((value, digits, unit))
 }
 
 /// `10.000,005` and `10,000.005` without the marks between groups of three digits: of a number with both
 /// marks the last one is the decimal one. `None` of other numbers.
-pub(super) fn without_groups(text: &str) -> Option<String> {
+pub(crate) fn without_groups(text: &str) -> Option<String> {
     let (whole, fraction) = text.rsplit_once(['.', ','])?;
     let mark = text.get(whole.len()..)?.chars().next()?;
     let other = if mark == '.' { ',' } else { '.' };
@@ -215,6 +232,16 @@ mod tests {
         ] {
             assert_eq!(number_with_unit(text, true), Some((value, unit)), "{text}");
         }
+        for (text, value, digits, unit) in [
+            ("10 000,005 g", 10_000.005, "10000.005", "g"),
+            ("−1,50", -1.5, "-1.50", ""),
+            ("0.050%", 0.05, "0.050", "%"),
+            ("0,410·10^-6 V", 0.41e-6, "0.410e-6", "V"),
+            ("10,000.50", 10_000.5, "10000.50", ""),
+        ] {
+            assert_eq!(written(text, true), Some((value, digits.to_owned(), unit)), "{text}");
+        }
+        assert_eq!(written("inf", true), None);
         for text in ["50 12", "1,00 05", "1,000 0105"] {
             let found = number_with_unit(text, true);
             assert!(found.is_none_or(|(_, unit)| !unit.is_empty()), "{text} {found:?}");

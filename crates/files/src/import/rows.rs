@@ -10,6 +10,7 @@ use super::linear::{CONTRIBUTIONS_DIFFER, standard_uncertainty};
 use super::stated::Stated;
 use super::{Budget, equation, number};
 use crate::separator::Separator;
+use crate::share::{self, Share};
 use crate::value_text::grouped_digits;
 use crate::width::Width;
 
@@ -415,6 +416,13 @@ impl Budget<'_> {
         if is_empty(text) {
             return None;
         }
+        let own = header.columns.iter().find(|(_, of)| *of == column).map(|(place, _)| *place);
+        if let Some(reason) = own.and_then(|place| self.cells.no_number(line, place)) {
+            if !lenient {
+                self.fail(line, reason);
+            }
+            return None;
+        }
         // an uncertainty may have its sign and its factor with it
         let text = match column {
             Column::Width | Column::Std => without_factor(text.trim_start_matches(['±', ' '])),
@@ -540,12 +548,18 @@ impl Budget<'_> {
         };
         // the number of a cell in per cent is a share already
         let value = if is_percent { 100.0 * value } else { value };
-        let share = Unit::parse(unit).ok().filter(Unit::is_relative);
-        let is_relative = Unit::parse(&row.unit).is_ok_and(|own| own.is_relative());
-        match share {
-            Some(share) if !is_relative => {
+        let (share, own) = (Unit::parse(unit).ok(), Unit::parse(&row.unit).ok());
+        let of_value = share.as_ref().map(|share| Share::of(share, own.as_ref()));
+        match (of_value, share) {
+            (Some(Share::OfValue), Some(share)) => {
                 let share = (value * share.factor(), unit);
                 self.share(share, line, (column, lenient), row)
+            }
+            (Some(Share::Doubtful), _) if !column.is_of_place() => {
+                if !lenient {
+                    self.fail(line, format!("`{text}`: {}", share::two_meanings(unit, &row.unit)));
+                }
+                None
             }
             _ if unit.is_empty() => Some(value),
             _ => self.converted((value, unit), line, (column, lenient), row),

@@ -4,6 +4,7 @@ use super::Budget;
 use super::columns::{Column, Header};
 use super::grid::{self, Cells};
 use crate::DiagnosticKind;
+use crate::workbook::choice::{self, Wanted};
 use crate::workbook::{Book, Place, SheetName, letters};
 
 /// The sheet of a workbook that is read.
@@ -25,66 +26,19 @@ impl Chosen {
         if let Some(message) = of_certificate(&mut book, &sheets) {
             return Err(unreadable(message));
         }
-        let mut read = |sheet: &SheetName| {
+        let read = |book: &mut Book, sheet: &SheetName| {
             let (rows, layout) = book.sheet(sheet).map_err(unreadable)?;
             let (cells, text, said) = grid::of_sheet(rows, layout);
             Ok(Self { cells, text, said })
         };
-        if let Some(name) = wanted {
-            let Some(sheet) = sheets.iter().find(|sheet| sheet.name == name) else {
-                let message = format!(
-                    "it has no sheet `{name}`; its sheets are {}",
-                    list(sheets.iter(), "and")
-                );
-                return Err(unreadable(message));
-            };
-            return Ok(read(sheet)?.told(sheet, &sheets));
-        }
-        let (mut first, mut found): (Option<Self>, Vec<(&SheetName, Self)>) = (None, Vec::new());
-        for sheet in sheets.iter().filter(|sheet| !sheet.is_hidden) {
-            let chosen = read(sheet)?;
-            if Header::find(&chosen.cells).is_some() {
-                found.push((sheet, chosen));
-            } else if first.is_none() {
-                first = Some(chosen);
-            }
-        }
-        if found.len() > 1 {
-            let reason = format!(
-                "the sheets {} hold a budget each: say which one with `--sheet NAME`, or keep one budget \
-                 in a workbook",
-                list(found.iter().map(|(sheet, _)| *sheet), "and")
-            );
-            return Err(DiagnosticKind::Table { reason });
-        }
-        if found.is_empty() {
-            for sheet in sheets.iter().filter(|sheet| sheet.is_hidden) {
-                if Header::find(&read(sheet)?.cells).is_some() {
-                    let name = &sheet.name;
-                    let reason = format!(
-                        "no sheet that is shown holds a budget, and the hidden sheet `{name}` does: show \
-                         it, or say it with `--sheet`"
-                    );
-                    return Err(DiagnosticKind::Table { reason });
-                }
-            }
-        }
-        match found.pop() {
-            Some((sheet, chosen)) => Ok(chosen.told(sheet, &sheets)),
-            None => first.ok_or_else(|| unreadable("the workbook has no sheet".to_owned())),
-        }
-    }
-
-    /// Says which of several sheets it is.
-    fn told(mut self, own: &SheetName, sheets: &[SheetName]) -> Self {
-        let others: Vec<&SheetName> = sheets.iter().filter(|sheet| *sheet != own).collect();
-        if !others.is_empty() {
-            let others = list(others.into_iter(), "or");
-            self.said.insert(0, format!("sheet `{}` is read, not {others}", own.name));
-        }
-        self
+        let holds = |chosen: &Self| Header::find(&chosen.cells).is_some();
+        let (mut chosen, told) = choice::of(&mut book, wanted, &BUDGET, read, holds)?;
+        chosen.said.splice(0..0, told);
+        Ok(chosen)
     }
 }
+
+const BUDGET: Wanted = Wanted { a: "a budget", one: "one budget", has_option: true };
 
 /// Why the workbook of a certificate of this program is no budget; `None` of other ones.
 fn of_certificate(book: &mut Book, sheets: &[SheetName]) -> Option<String> {
@@ -98,20 +52,6 @@ fn of_certificate(book: &mut Book, sheets: &[SheetName]) -> Option<String> {
          of the distribution `dcc`"
             .to_owned()
     })
-}
-
-/// Names of sheets in a sentence; not more than the first ten.
-fn list<'a>(sheets: impl Iterator<Item = &'a SheetName>, and: &str) -> String {
-    const MOST: usize = 10;
-    let named = |sheet: &SheetName| {
-        format!("`{}`{}", sheet.name, if sheet.is_hidden { " (hidden)" } else { "" })
-    };
-    let mut names: Vec<String> = sheets.map(named).collect();
-    if names.len() > MOST {
-        let rest = names.split_off(MOST).len();
-        names.push(format!("{rest} more"));
-    }
-    gumption_units::listed(&names, &format!(" {and} "))
 }
 
 impl Budget<'_> {
@@ -160,13 +100,7 @@ impl Budget<'_> {
                 cells.filter(|(place, cell)| has(*place, true) && !cell.trim().is_empty());
             let Some((place, cell)) = held.next() else { continue };
             let is_struck = u32::try_from(place).is_ok_and(|of| layout.struck.contains(&(row, of)));
-            let (how, undo) = if layout.hidden.contains(&row) {
-                ("hidden", "show it")
-            } else if is_struck {
-                ("struck through", "take the line through it away")
-            } else {
-                continue;
-            };
+            let Some((how, undo)) = layout.withdrawn(row, is_struck) else { continue };
             let reason =
                 format!("row {} (`{}`) is {how}: {undo}, or delete it", line + 1, cell.trim());
             self.fail(line, reason);

@@ -1570,3 +1570,22 @@ fn a_t_distribution_without_degrees_of_freedom_is_asked() {
     assert!(refusal(&text("1")).contains("`normal (2 s)`: what `s` says"));
     assert_eq!(uncertainties(&text("2")).0, [0.2]);
 }
+
+/// `10.1` that a spreadsheet has turned into 10 January 2026, day 46032; and per cent beside ppm.
+#[test]
+fn dates_and_shares_of_shares_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("t.xlsx");
+    let header: &[&str] =
+        &["Quantity", "Estimate", "Unit", "Standard uncertainty", "Sensitivity coefficient"];
+    for (row, said) in [
+        (["R1", "1:46032", "ohm", "0.1", "1"], "cell B2 is a date (2026-01-10), not a number"),
+        (["R1", "10", "ohm", "1:46032", "1"], "cell D2 is a date (2026-01-10), not a number"),
+        (["R1", "50", "ppm", "4 %", "1"], "can be a share of the value, or be counted"),
+    ] {
+        let rows: [&[&str]; 3] = [header, &row, &["R2", "5", "ohm", "0.1", "1"]];
+        std::fs::write(&path, crate::workbook::tests::styled(&rows)).unwrap();
+        let found = import_budget(&path).unwrap_err().to_string();
+        assert!(found.contains(said), "{found}");
+    }
+}

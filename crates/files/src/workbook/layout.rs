@@ -1,13 +1,15 @@
 //! What a sheet says of its rows and cells besides their values: hidden rows, formulas that nobody has
 //! calculated, merged and struck-through cells.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Cursor, Read};
 
 use quick_xml::events::{BytesStart, Event};
 use zip::ZipArchive;
 
-use super::{COLUMNS, MOST_COLUMNS, MOST_OF_PART, MOST_ROWS, ROWS, attribute, place, reference};
+use super::{
+    COLUMNS, MOST_COLUMNS, MOST_OF_PART, MOST_ROWS, ROWS, attribute, date, place, reference,
+};
 
 /// A row and a column, both counted from 0.
 pub(crate) type Place = (u32, u32);
@@ -41,6 +43,10 @@ pub(crate) struct Layout {
     pub(crate) struck: BTreeSet<Place>,
     /// Cells that hold a text, in which a number has the marks that somebody wrote.
     pub(crate) texts: BTreeSet<Place>,
+    /// Cells that show a date or a time, with what they show.
+    pub(crate) dates: BTreeMap<Place, String>,
+    /// The power of ten of the last digit that a cell shows of its number, where its format tells.
+    pub(crate) last_digits: BTreeMap<Place, i32>,
 }
 
 impl Layout {
@@ -49,7 +55,29 @@ impl Layout {
         part_of_sheet(bytes, sheet).map(|text| Self::of_text(&text)).unwrap_or_default()
     }
 
-    /// Whether all rows of a table with these ones are to be seen, and all of its formulas calculated.
+    /// Why a cell holds no number though its value is one: it shows a date or a time.
+    pub(crate) fn no_number(&self, cell: Place) -> Option<String> {
+        let shown = self.dates.get(&cell)?;
+        Some(format!("cell {} {}", reference(cell), date::no_number(shown)))
+    }
+
+    /// How a row is withdrawn that has a cell struck through, or is hidden, and what undoes it.
+    pub(crate) fn withdrawn(
+        &self,
+        row: u32,
+        is_struck: bool,
+    ) -> Option<(&'static str, &'static str)> {
+        if self.hidden.contains(&row) {
+            Some(("hidden", "show it"))
+        } else if is_struck {
+            Some(("struck through", "take the line through it away"))
+        } else {
+            None
+        }
+    }
+
+    /// Whether all rows of a table with these ones are to be seen and stand, and all of its formulas
+    /// calculated.
     ///
     /// # Errors
     /// What is not, as a sentence about the workbook.
@@ -63,8 +91,12 @@ impl Layout {
         if let Some((_, reason)) = without {
             return Err(format!("its {reason}"));
         }
-        match rows.intersection(&self.hidden).next() {
-            Some(row) => Err(format!("its row {} is hidden: show it, or delete it", row + 1)),
+        let struck: BTreeSet<u32> = self.struck.iter().map(|(row, _)| *row).collect();
+        let withdrawn = |row: &u32| Some((*row, self.withdrawn(*row, struck.contains(row))?));
+        match rows.iter().find_map(withdrawn) {
+            Some((row, (how, undo))) => {
+                Err(format!("its row {} is {how}: {undo}, or delete it", row + 1))
+            }
             None => Ok(()),
         }
     }

@@ -48,7 +48,7 @@ pub fn csv(compare: &Compare) -> String {
                     row.zeta,
                     row.probability,
                 ]));
-                record.push((row.normalized_error <= 1.0).to_string());
+                record.push(row.is_compatible().map_or_else(String::new, |is| is.to_string()));
                 record.push(row.member.to_string());
                 records.push(record);
             }

@@ -6,19 +6,29 @@ use gumption_analysis::compare::laboratories::ReferenceValue;
 use gumption_analysis::compare::{
     ComparedPair, Comparison, DegreeOfEquivalence, FACTOR, HartungKnapp, consensus,
 };
+use gumption_engine::task::Warning;
 use serde_json::Value;
 
 /// The comparison as JSON, ending in a newline.
-pub fn json(compare: &Compare) -> String {
+pub fn json(compare: &Compare, warnings: &[Warning]) -> String {
+    let warnings = warnings.iter().map(|warning| {
+        object([
+            ("code", Value::from(warning.code)),
+            ("where", warning.place.as_str().into()),
+            ("text", warning.text.as_str().into()),
+        ])
+    });
+    let warnings = ("warnings", list(warnings));
     let version = ("gumption", Value::from(env!("CARGO_PKG_VERSION")));
     match compare {
         Compare::Pairs { compared, rounding, .. } => {
             let rows = compared.iter().map(|row| pair(row, *rounding));
-            pretty(&object([version, ("rows", list(rows))]))
+            pretty(&object([version, ("rows", list(rows)), warnings]))
         }
         Compare::Laboratories(comparison) => {
             let mut entries = vec![version];
             entries.extend(laboratories(comparison));
+            entries.push(warnings);
             pretty(&object(entries))
         }
     }
@@ -67,6 +77,10 @@ fn laboratories(comparison: &Comparison) -> Vec<(&'static str, Value)> {
     });
     let (recommended, why) = consensus::recommended(&comparison.all);
     let search = comparison.search.map_or(Value::Null, |search| search.name().into());
+    let ties = &comparison.ties;
+    let subsets = ties.subsets.iter().map(|members| list(members.iter().map(label)));
+    let subsets_as_good =
+        object([("count", Value::from(ties.count as u64)), ("first", list(subsets))]);
     vec![
         ("reference", reference(&comparison.reference)),
         ("estimator", comparison.estimator.name().into()),
@@ -74,6 +88,7 @@ fn laboratories(comparison: &Comparison) -> Vec<(&'static str, Value)> {
         ("recommended", object([("estimator", recommended.name()), ("why", why)])),
         ("weighted_mean", reference(&comparison.all)),
         ("largest_consistent_subset", search),
+        ("subsets_as_good", subsets_as_good),
         ("rows", list(comparison.rows.iter().map(row))),
     ]
 }
@@ -96,7 +111,7 @@ fn row(row: &DegreeOfEquivalence) -> Value {
         ("en", row.normalized_error.into()),
         ("zeta", row.zeta.into()),
         ("probability", row.probability.into()),
-        ("compatible", (row.normalized_error <= 1.0).into()),
+        ("compatible", row.is_compatible().into()),
         ("in_reference", row.member.into()),
     ])
 }

@@ -5,10 +5,11 @@ use std::borrow::Cow;
 use maud::html;
 
 use super::{Compare, figure, sheets, words};
-use crate::document::{self, Block, Document};
+use crate::document::{self, Block, Document, sentence};
 use crate::html::{figure as numbered, page, table as html_table};
 use crate::sheet::Sheet;
-use crate::{Grid, table::width, wrapped};
+use crate::{Grid, plain, table::width, wrapped};
+use gumption_engine::task::Warning;
 
 fn sheet(compare: &Compare) -> Sheet {
     match compare {
@@ -52,12 +53,15 @@ pub fn table(compare: &Compare) -> String {
 }
 
 /// The comparison as one HTML file that needs nothing else.
-pub fn html(compare: &Compare) -> String {
+pub fn html(compare: &Compare, warnings: &[Warning]) -> String {
     let title = words::title(compare);
     let drawing = figure::draw(compare);
     let body = html! {
         h1 { (title) }
         div.verdict { @for said in words::verdict(compare) { p { (said) } } }
+        @if !warnings.is_empty() {
+            ul { @for warning in warnings { li { (sentence(&plain(&warning.text))) } } }
+        }
         (html_table(&sheet(compare)))
         (numbered(1, &drawing))
         @if let Some((sheet, said)) = estimators(compare) { (html_table(&sheet)) p { (said) } }
@@ -68,10 +72,14 @@ pub fn html(compare: &Compare) -> String {
 }
 
 /// The comparison as Markdown, as GitHub shows it.
-pub fn markdown(compare: &Compare) -> String {
+pub fn markdown(compare: &Compare, warnings: &[Warning]) -> String {
     let mut document = Document { title: words::title(compare), ..Document::default() };
     let verdict = words::verdict(compare);
     document.blocks.push(Block::Text(verdict.join(" ")));
+    if !warnings.is_empty() {
+        let said = warnings.iter().map(|warning| sentence(&plain(&warning.text)));
+        document.blocks.push(Block::List(said.collect()));
+    }
     document.blocks.push(Block::Table(sheet(compare)));
     if let Some((sheet, said)) = estimators(compare) {
         document.table(sheet);

@@ -54,7 +54,10 @@ pub(super) fn laboratories(comparison: &Comparison) -> Sheet {
     sheet.numbers("En", rows.iter().map(|row| score(row.normalized_error)));
     sheet.numbers("zeta", rows.iter().map(|row| score(row.zeta)));
     sheet.numbers("probability", rows.iter().map(|row| probability(row.probability)));
-    sheet.text("compatible", rows.iter().map(|row| yes(row.normalized_error <= 1.0)));
+    sheet.text(
+        "compatible",
+        rows.iter().map(|row| row.is_compatible().map_or_else(|| MISSING.to_owned(), yes)),
+    );
     sheet.text("in the\nreference", rows.iter().map(|row| yes(row.member)));
     sheet
 }
@@ -90,7 +93,8 @@ pub(super) fn estimators(comparison: &Comparison) -> Sheet {
 fn stated(of: &StatedResult) -> String {
     let [own, of_u] = of.rounding.map(|half| position(2.0 * half, 1));
     let fine = position(of.expanded, DIGITS + 1);
-    let (x, u) = (to(of.value, own.or(fine)), to(of.expanded, of_u.or(fine)));
+    let [x, u] = of.printed;
+    let (x, u) = (to(x, own.or(fine)), to(u, of_u.or(fine)));
     let factor =
         if of.factor == 2.0 { String::new() } else { format!(", k = {}", factor(of.factor)) };
     format!("{x} ± {u}{factor}")

@@ -159,11 +159,49 @@ fn of_laboratories(comparison: &Comparison) -> Vec<String> {
                 _ => "the subsets with one laboratory fewer at a time",
             }
         ),
+        ties(comparison),
         advice(comparison),
     ]
     .into_iter()
     .filter(|said| !said.is_empty())
     .collect()
+}
+
+/// That other subsets would do as well, and that the order of the rows has decided; empty where none
+/// would.
+fn ties(comparison: &Comparison) -> String {
+    let ties = &comparison.ties;
+    if ties.count == 0 {
+        return String::new();
+    }
+    let order = "which one is taken follows from the order of the rows alone";
+    if ties.subsets.is_empty() {
+        return format!(
+            "Taking out one laboratory at a time, {} would have lowered chi-squared as much: {order}.",
+            if ties.count == 1 { "another one" } else { "others" }
+        );
+    }
+    let label = |place: &usize| comparison.rows.get(*place).map(|row| plain(&row.label));
+    let without = |members: &Vec<usize>| {
+        let out: Vec<usize> =
+            (0..comparison.rows.len()).filter(|place| !members.contains(place)).collect();
+        format!("without {}", out.iter().filter_map(label).collect::<Vec<_>>().join(", "))
+    };
+    let mut named: Vec<String> = ties.subsets.iter().map(without).collect();
+    if ties.count > named.len() {
+        named.push(format!("{} more", ties.count - named.len()));
+    }
+    let (are, do_so) = if ties.count == 1 { ("is", "does") } else { ("are", "do") };
+    format!(
+        "There {are} {} of the same size with the same chi-squared ({}), which {do_so} as well: \
+         {order}. Give it only with a technical reason.",
+        if ties.count == 1 {
+            "another subset".to_owned()
+        } else {
+            format!("{} other subsets", ties.count)
+        },
+        named.join("; ")
+    )
 }
 
 /// That another estimator is to be taken than the one that the figures are from, and how; empty where

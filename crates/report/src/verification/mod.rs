@@ -121,6 +121,7 @@ pub fn table(found: &[RecomputedExample]) -> String {
         for cells in block {
             page += &line(cells.each_ref().map(String::as_str));
         }
+        page += &reasons(example);
         if let Some(failure) = &example.failure {
             page += &wrapped(failure, "  ");
         }
@@ -149,12 +150,31 @@ fn folded(
         if !block.is_empty() {
             page += &grid.render(width());
         }
+        page += &reasons(example);
         if let Some(failure) = &example.failure {
             page += &wrapped(failure, "  ");
         }
         page.push('\n');
     }
     page + &wrapped(&summary(found), "")
+}
+
+/// A tolerance of more than this share of the published value is wide: one digit of it is not certain.
+const WIDE: f64 = 0.05;
+
+/// Where wide tolerances come from, each reason once.
+fn reasons(example: &RecomputedExample) -> String {
+    let mut said: Vec<String> = Vec::new();
+    let is_wide = |row: &&RecomputedValue| {
+        row.published.tolerance > WIDE * row.published.value.abs() && !row.published.why.is_empty()
+    };
+    for row in example.rows.iter().filter(is_wide) {
+        let reason = line(&row.published.why);
+        if !said.contains(&reason) {
+            said.push(reason);
+        }
+    }
+    said.iter().map(|reason| wrapped(&format!("tolerance from: {reason}"), "   ")).collect()
 }
 
 /// The lines of an example, decimal points under each other.

@@ -2,7 +2,7 @@ use super::*;
 use gumption_engine::distribution::{BLOCK, StreamKey};
 
 fn laboratory(label: &str, value: f64, u: f64) -> Laboratory {
-    let result = StatedResult { value, expanded: 2.0 * u, factor: 2.0, rounding: [0.0; 2] };
+    let result = StatedResult::new(value, 2.0 * u, 2.0);
     Laboratory { label: label.into(), result }
 }
 
@@ -38,7 +38,9 @@ fn correlated_results() {
     assert!((found.reference.chi_squared - 0.5 / (1.0 - r)).abs() < 1e-13);
     assert!((found.rows[0].expanded - 2.0 * 0.2f64.sqrt()).abs() < 1e-14);
     let contradictory = [vec![1.0, 1.0], vec![1.0, 1.0]];
-    assert_eq!(compare(&all, &contradictory), Err(Impossible::NotDefinite));
+    let pair =
+        Impossible::FullyCorrelated { laboratories: ["a".into(), "b".into()], coefficient: 1.0 };
+    assert_eq!(compare(&all, &contradictory), Err(pair));
     assert_eq!(compare(&all[..1], &[]), Err(Impossible::TooFew));
 }
 
@@ -143,4 +145,54 @@ fn a_hundred_inconsistent_laboratories() {
         assert_eq!(found.search, Some(SubsetSearch::OneAtATime));
         assert!(found.reference.is_consistent() && found.reference.members.len() < count);
     }
+}
+
+/// r = 1 of two laboratories with different uncertainties gives a combination of their results without
+/// uncertainty (3 A - 2 B of 0.02 and 0.03), whose rounding was stated as U = 1.9e-9; three coefficients
+/// can do the same without one of them being 1, or be of no distribution at all. Nine nines pass, and
+/// give the uncertainty that the formula for two has: u^2 = u1^2 u2^2 (1 - r^2)/(u1^2 + u2^2 - 2 r u1 u2).
+#[test]
+fn singular_correlations_are_refused() {
+    let all =
+        [laboratory("A", 10.02, 0.02), laboratory("B", 9.98, 0.03), laboratory("C", 10.05, 0.025)];
+    let matrix =
+        |ab: f64, ac: f64, bc: f64| [vec![1.0, ab, ac], vec![ab, 1.0, bc], vec![ac, bc, 1.0]];
+    for ab in [1.0, -1.0, 0.999_999_999_9] {
+        let error = compare(&all, &matrix(ab, 0.0, 0.0)).unwrap_err();
+        assert!(error.to_string().contains("`A` and `B` are correlated by"), "{error}");
+    }
+    // c = (a + b)/sqrt(2)
+    let half = 0.5f64.sqrt();
+    let error = compare(&all, &matrix(0.0, half, half)).unwrap_err();
+    assert!(error.to_string().contains("the result of `C` follows"), "{error}");
+    let error = compare(&all, &matrix(0.9, 0.9, -0.9)).unwrap_err();
+    assert!(error.to_string().contains("the coefficients of `C` contradict"), "{error}");
+    let r = 0.999_999;
+    let found = compare(&all[..2], &[vec![1.0, r], vec![r, 1.0]]).unwrap();
+    let [a, b] = [0.02f64, 0.03];
+    let u = (a * a * b * b * (1.0 - r * r) / (a * a + b * b - 2.0 * r * a * b)).sqrt();
+    assert!((found.all.standard_uncertainty / u - 1.0).abs() < 1e-9);
+}
+
+/// Two pairs that agree among themselves and not with each other: each is a largest consistent subset
+/// with chi-squared 0, in whatever order the rows stand. The single subset of three that agree has none
+/// beside it.
+#[test]
+fn ties_of_the_largest_subset_are_told() {
+    let ends = [("a", 1.0), ("b", 1.0), ("c", 3.0), ("d", 3.0)];
+    for order in [[0, 1, 2, 3], [2, 3, 0, 1], [0, 2, 1, 3]] {
+        let all = order.map(|of| laboratory(ends[of].0, ends[of].1, 0.1));
+        let found = compare(&all, &[]).unwrap();
+        assert_eq!((found.reference.members.len(), found.ties.count), (2, 1));
+        let mut both = [found.reference.members.clone(), found.ties.subsets[0].clone()].concat();
+        both.sort_unstable();
+        assert_eq!(both, [0, 1, 2, 3]);
+    }
+    let all = [1.0, 1.1, 1.2, 3.0].map(|value| laboratory("a", value, 0.1));
+    assert_eq!(compare(&all, &[]).unwrap().ties, Ties::default());
+    // of three far from each other any one does as well, and it is not compared with itself
+    let found = compare(&[1.0, 2.0, 3.0].map(|value| laboratory("a", value, 0.07)), &[]).unwrap();
+    assert_eq!(found.ties.count, 2);
+    let compatible: Vec<_> = found.rows.iter().map(DegreeOfEquivalence::is_compatible).collect();
+    assert_eq!(compatible, [None, Some(false), Some(false)]);
 }

@@ -278,3 +278,24 @@ fn nothing_changed() {
     assert_eq!(output.expanded[0], output.expanded[1]);
     assert_eq!((output.parts[0].change, output.parts[0].share), (Some(0.0), None));
 }
+
+/// Evidence changes no number, and is named where it comes, goes or changes.
+#[test]
+fn changed_evidence_is_named() {
+    let with = |evidence: &str| {
+        let input = format!(r#""a": {{"distribution": "normal", "mean": 1, "std": 1{evidence}}}"#);
+        model(&input, "a", "")
+    };
+    let plain = with("");
+    let stated = with(r#", "evidence": {"values": [1.1, 0.9, 1.2, 0.8]}"#);
+    let changed = with(r#", "evidence": {"values": [1.1, 0.9, 1.2, 0.7]}"#);
+    assert!(compare(&stated, &stated).changes.is_empty());
+    let said = |a, b| compare(a, b).changes.join("; ");
+    assert!(
+        said(&stated, &plain).starts_with("evidence of `a` removed"),
+        "{}",
+        said(&stated, &plain)
+    );
+    assert!(said(&plain, &stated).starts_with("evidence of `a` added"));
+    assert!(said(&stated, &changed).starts_with("evidence of `a`: from"));
+}

@@ -1,0 +1,43 @@
+//! Whether correlation coefficients of laboratories can be those of one joint distribution, and one
+//! whose inverse is worth anything.
+
+use super::laboratories::{Impossible, Laboratory};
+
+/// The least part of a laboratory's variance that the others must leave. What is computed by the inverse
+/// of the matrix has the rounding of double precision (1.1e-16, at most 200 times) over this part: 1e-9
+/// leaves four digits of weights and uncertainties. Coefficients are stated with fewer digits than the
+/// nine nines that come so near to 1.
+const LEAST: f64 = 1e-9;
+
+/// Whether the matrix of coefficients is positive definite, and not only by rounding.
+///
+/// The pivots of Cholesky's decomposition of a correlation matrix are the parts of each variance that
+/// the laboratories before it do not explain.
+pub(super) fn check(
+    laboratories: &[Laboratory],
+    coefficient: impl Fn(usize, usize) -> f64,
+) -> Result<(), Impossible> {
+    let n = laboratories.len();
+    let name = |place: usize| laboratories.get(place).map_or("", |of| &of.label).to_owned();
+    let pairs = || (0..n).flat_map(|i| (0..i).map(move |j| (j, i)));
+    if let Some((j, i)) = pairs().find(|&(j, i)| 1.0 - coefficient(j, i).powi(2) < LEAST) {
+        let coefficient = coefficient(j, i);
+        return Err(Impossible::FullyCorrelated { laboratories: [name(j), name(i)], coefficient });
+    }
+    let mut lower: Vec<Vec<f64>> = Vec::with_capacity(n);
+    for i in 0..n {
+        let mut row: Vec<f64> = Vec::with_capacity(i + 1);
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        for (j, other) in lower.iter().enumerate() {
+            let rest = coefficient(i, j) - dot(&row, other);
+            row.push(rest / other.get(j).copied().unwrap_or(1.0));
+        }
+        let left = 1.0 - dot(&row, &row);
+        if left.is_nan() || left < LEAST {
+            return Err(Impossible::Dependent { laboratory: name(i), left });
+        }
+        row.push(left.sqrt());
+        lower.push(row);
+    }
+    Ok(())
+}

@@ -1,0 +1,322 @@
+//! Tables of results: what is read, and what is a mistake.
+
+use super::*;
+
+fn read(text: &str) -> Result<ComparisonTable, Diagnostics> {
+    noted(text).map(|read| read.table)
+}
+
+fn noted(text: &str) -> Result<ReadComparison, Diagnostics> {
+    read_comparison_text("t.csv", text, ComparisonOptions::default())
+}
+
+fn laboratories(text: &str) -> Vec<Laboratory> {
+    match read(text) {
+        Ok(ComparisonTable::Laboratories { laboratories, .. }) => laboratories,
+        other => panic!("{text}: {other:?}"),
+    }
+}
+
+#[test]
+fn pairs_with_and_without_factors() {
+    let text = "label;x1;U1;x2;U2;k2\n\"a; b\";1,50;0,2;1,6;0,3;3\n# note\nc;1;0;2;1;2\n";
+    let Ok(ComparisonTable::Pairs(pairs)) = read(text) else { panic!() };
+    assert_eq!((pairs.len(), pairs[0].label.as_str()), (2, "a; b"));
+    let [a, b] = pairs[0].results;
+    assert_eq!((a.value, a.factor, a.rounding), (1.5, 2.0, [0.005, 0.05]));
+    assert_eq!((b.factor, b.rounding), (3.0, [0.05, 0.05]));
+}
+
+/// 10.012 V and 10 011.5 mV differ by 0.5 mV; the last digits are worth 0.5 mV, 0.05 mV and 5 uV.
+#[test]
+fn units_stand_in_headings() {
+    let text = "label,x1 [V],U1 [mV],x2 [mV],U2 / mV,k1\na,10.012,0.4,10011.5,0.30,2\n";
+    let Ok(ComparisonTable::Pairs(pairs)) = read(text) else { panic!() };
+    let [a, b] = pairs[0].results;
+    let near = |found: f64, wanted: f64| (found / wanted - 1.0).abs() < 1e-12;
+    assert!((a.value - b.value - 5e-4).abs() < 1e-14);
+    assert!(near(a.expanded, 4e-4) && near(b.expanded, 3e-4));
+    assert!(near(a.rounding[0], 5e-4) && near(a.rounding[1], 5e-5));
+    assert!(near(b.rounding[0], 5e-5) && near(b.rounding[1], 5e-6));
+    // differences of temperatures have no zero
+    let text = "label;x (degC);U (K)\na;20,1;0,2\nb;20,3;0,1\n";
+    let Ok(ComparisonTable::Laboratories { laboratories, .. }) = read(text) else { panic!() };
+    assert_eq!((laboratories[0].result.value, laboratories[0].result.expanded), (20.1, 0.2));
+}
+
+/// Rows that are too short or too long hide nothing of the others, and neither does a first bad
+/// cell.
+#[test]
+fn all_mistakes_are_told_at_once() {
+    let text =
+        "label,x1,U1,x2,U2,k1\na,1,,2,1,2\nb,1,1\nc,x,1,2,-1,0\nd,1,1,2,1,2,9\ne,1,-1,2,1,0\n";
+    let said = read(text).unwrap_err().to_string();
+    let places: Vec<String> = said
+        .lines()
+        .filter_map(|line| Some(line.strip_prefix("t.csv:")?.split(": ").next()?.to_owned()))
+        .collect();
+    assert_eq!(places, ["2:4", "3:1", "4:3", "4:9", "4:12", "5:1", "6:5", "6:12"], "{said}");
+    let said = read("label;x;U\na;z;1\nb;1,5;0.1\nc;1,5;0.1\n").unwrap_err().to_string();
+    assert!(said.contains("`z`") && said.matches("one table").count() == 1, "{said}");
+    let said = read("label,x,U,kk,u_c\na,1,1,1,1\nb,1,1,1,1\n").unwrap_err().to_string();
+    assert!(said.contains("`kk` is not known") && said.contains("`u_c` is not known"), "{said}");
+}
+
+#[test]
+fn mistakes_have_places() {
+    let said = |text: &str| read(text).unwrap_err().to_string();
+    let cases = [
+        ("label,x1,U1,x2,U2\na,1,,2,1\nb,1,1,x,1\n", "t.csv:2:4:"),
+        ("label,x1,U1,x2,U2\na,1,-1,2,1\n", "at least 0"),
+        ("label,x1,U1,x2,U2\na,1,0,2,0\n", "no uncertainty"),
+        ("label,x1,U1,x2,U2,r\na,1,1,2,1,2\n", "from -1 to 1"),
+        ("label,x1,U1,x2\na,1,1,2\n", "no column U2"),
+        ("label,x1,U1,x2,U2,k3\na,1,1,2,1,2\n", "`k3` is not known"),
+        ("label,x [V],U\na,1,1\nb,1,1\n", "has the unit `V` and `U` none"),
+        ("label,x [V],U [mA]\na,1,1\nb,1,1\n", "`U [mA]` cannot be converted to `V`"),
+        ("label,x [ppm],U [%]\na,1,1\nb,1,1\n", "can be a share of the value, or be counted"),
+        ("label,x [%],U [ppm]\na,1,1\nb,1,1\n", "write it in `%`"),
+        ("label,x [V],U [%]\na,0,1\nb,1,1\n", "`1 %` of the value 0 is nothing"),
+        ("label,x,Uncertainty\na,1,1\nb,1,1\n", "the standard uncertainty or an expanded one"),
+        ("label,x,u,k\na,1,1,2\nb,1,1,2\n", "divided by it already or not"),
+        ("label,x,U,dof\na,1,1,2\nb,1,1,2\n", "without degrees of freedom"),
+        ("label,x,U (k=2),k\na,1,1,3\nb,1,1,2\n", "which factor is it?"),
+        ("label,x,U,u\na,1,1,2\nb,1,1,2\n", "both state the uncertainty"),
+        ("label,x,U,s\na,1,1,2\nb,1,1,2\n", "`s` is not known"),
+        ("label,x,U,r\na,1,1,2\nb,1,1,2\n", "does not belong to a table of laboratories"),
+        ("label,x [V],U [V],Unit\na,1,1,V\nb,1,1,V\n", "leave one of them"),
+        ("label,x,U\nNPL,,\nb,1,1\n", "`NPL` stands alone in its row: remove the row"),
+        ("label,x,U,lot\nNPL,-,-,7\nb,1,1,8\n", "`NPL` has no result: remove the row"),
+        ("label,x,U\na,1,1\nb,1,1\n* provisional\n", "t.csv:4:1: `* provisional` stands alone"),
+        ("label,x,U\n,1,1\nb,1,1\n", "every result has a name"),
+        ("label,x,U\na,\"10,0012\",1\nb,1,1\n", "written with a point, such as `10.0012`"),
+        ("label,x,U\na,\"10,001\",1\nb,1,1\n", "can be 10.001 or 10001"),
+        ("label,x [V],U [V]\na,10 mV,1\nb,1,1\n", "a column whose heading says `V`"),
+        ("label,x,U\na,10 mV,1 mV\nb,1,1\n", "some numbers have a unit and others none"),
+        ("label,x [V],U [Vv]\na,1,1\nb,1,1\n", "`Vv` is no unit"),
+        ("label,x,U\na,1,1\n", "at least two laboratories"),
+        ("label,x,U\na,1,1\na,2,1\n", "a second time"),
+        ("label,x,U\na,1,0\nb,2,1\n", "t.csv:2:5:"),
+        ("label,x,U\na,1\n", "t.csv:2:1:"),
+        ("", "the table is empty"),
+    ];
+    for (text, expected) in cases {
+        let found = said(text);
+        assert!(found.contains(expected), "{text:?}: {found}");
+    }
+    assert_eq!(said("label,x1,U1,x2,U2\na,1,,2,1\nb,1,1,x,1\n").lines().count(), 2);
+}
+
+/// By hand: 4 % of 50.2 mg/kg, 3 % of 51.0 and of 60.1 (found as 40000 and 30000 mg/kg).
+#[test]
+fn uncertainties_in_per_cent_are_shares_of_the_values() {
+    let text = "label,x [mg/kg],U [%]\nA,50.2,4\nB,51.0,3\nC,-60.1,3\n";
+    let found = laboratories(text);
+    for (found, expected) in found.iter().zip([2.008, 1.53, 1.803]) {
+        assert!((found.result.expanded / expected - 1.0).abs() < 1e-12, "{found:?}");
+    }
+    // half a unit of `4` is 0.5 %
+    assert!((found[0].result.rounding[1] / 0.251 - 1.0).abs() < 1e-12);
+    let said = noted(text).unwrap().warnings;
+    assert_eq!(said[0].text, "uncertainties in `%` are shares of the values");
+    // per cent of per cent are per cent, and words decide what is doubtful
+    assert_eq!(laboratories("label,x [%],U [%]\na,50,4\nb,51,3\n")[0].result.expanded, 4.0);
+    let found = laboratories("label,x [ppm],U (% of reading)\na,50,4\nb,51,3\n");
+    assert!((found[0].result.expanded - 2.0).abs() < 1e-12);
+    let found = laboratories("label,x,U\na,50 mV,4%\nb,51 mV,3%\n");
+    assert!((found[0].result.expanded - 2.0).abs() < 1e-12);
+    let text = "label,x1 [um/m],U1 [%],x2 [um/m],U2 [um/m]\na,50.2,4,51,2\n";
+    let Ok(ComparisonTable::Pairs(pairs)) = read(text) else { panic!() };
+    assert!((pairs[0].results[0].expanded - 2.008).abs() < 1e-12);
+}
+
+/// The same table under the words that laboratories have; the factors of 95 % are those of the normal
+/// distribution, 1.959964, and of t with 10 degrees of freedom, 2.228139 (tables).
+#[test]
+fn headings_are_words_and_symbols() {
+    for heading in [
+        "Lab,Value,U",
+        "Laboratory,Result,Expanded uncertainty",
+        "Labor,Messwert,U(k=2)",
+        "Participant,X,U",
+        "Label,x / mV,U (k = 2) / mV",
+        "LABEL,x [mV],\"U, k=2 [mV]\"",
+    ] {
+        let found = laboratories(&format!("{heading},\nA,10,4,\nB,11,4,\n"));
+        let of =
+            |of: &Laboratory| (of.label.clone(), of.result.value, of.result.standard_uncertainty());
+        assert_eq!(of(&found[0]), ("A".to_owned(), 10.0, 2.0), "{heading}");
+    }
+    let u = |text: &str| laboratories(text)[0].result.standard_uncertainty();
+    assert_eq!(u("Lab,Value,u\nA,10,2\nB,11,2\n"), 2.0);
+    assert_eq!(u("Lab,Value,Standard uncertainty\nA,10,2\nB,11,2\n"), 2.0);
+    assert_eq!(u("Lab,Value,U,u\nA,10,5,2\nB,11,5,2\n"), 2.0);
+    assert_eq!(u("Lab,Value,Uncertainty,k\nA,10,6,3\nB,11,5,2\n"), 2.0);
+    assert!((u("Lab,Value,U95\nA,10,4,\nB,11,4\n") - 4.0 / 1.959_964).abs() < 1e-6);
+    let of_t = u("Lab,Value,U (95 %),dof\nA,10,4,10\nB,11,4,inf\n");
+    assert!((of_t - 4.0 / 2.228_139).abs() < 1e-6);
+    let read = noted("label,date,x,U,method\na,2024,1,1,m\nb,2025,1,1,n\n").unwrap();
+    assert_eq!(read.warnings[0].text, "the columns `date` and `method` are not read");
+}
+
+#[test]
+fn numbers_are_those_of_sheets() {
+    let of = |x: &str| laboratories(&format!("label,x,U\na,{x},1\nb,1,1\n"))[0].result.value;
+    assert_eq!(of("\u{2212}1.5"), -1.5);
+    assert_eq!(of("1 000.6"), 1000.6);
+    let text = "label,x,U,Unit\na,10.002 mV,0.1 mV,\nb,10.003,0.2,mV\nc,0.010004,0.1,V\n";
+    let found = laboratories(text);
+    assert_eq!((found[0].result.value, found[1].result.value), (10.002, 10.003));
+    assert!((found[2].result.value - 10.004).abs() < 1e-12);
+    assert_eq!(found[0].result.rounding[0], 0.0005);
+}
+
+/// A matrix in the order of the laboratories, with names before its rows in another order, and one half
+/// of it.
+#[test]
+fn correlation_matrices_of_every_layout() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("r.csv");
+    let read = |matrix: &str| {
+        std::fs::write(&path, matrix).unwrap();
+        let options = ComparisonOptions { correlations: Some(&path), ..Default::default() };
+        let text = "label,x,U\nA,1,1\nB,2,1\nC,3,1\n";
+        match read_comparison_text("t.csv", text, options) {
+            Ok(ReadComparison {
+                table: ComparisonTable::Laboratories { correlations, .. },
+                ..
+            }) => Ok(correlations),
+            Ok(other) => panic!("{other:?}"),
+            Err(said) => Err(said.to_string()),
+        }
+    };
+    let expected = vec![vec![1.0, 0.5, 0.0], vec![0.5, 1.0, 0.3], vec![0.0, 0.3, 1.0]];
+    for matrix in [
+        "A,B,C\n1,0.5,0\n0.5,1,0.3\n0,0.3,1\n",
+        "C,A,B\n1,0,0.3\n0,1,0.5\n0.3,0.5,1\n",
+        ",A,B,C\nA,1,0.5,0\nB,0.5,1,0.3\nC,0,0.3,1\n",
+        "label,A,B,C\nC,0,0.3,1\nA,1,0.5,0\nB,0.5,1,0.3\n",
+        ",A,B,C\nA,1,0.5,0\nB,,1,0.3\nC,,,1\n",
+        "A;B;C\n1;;\n0,5;;\n0;0,3;\n",
+    ] {
+        assert_eq!(read(matrix), Ok(expected.clone()), "{matrix}");
+    }
+    for (matrix, said) in [
+        ("A,B,C\n1,0.5,0\n0.4,1,0.3\n0,0.3,1\n", "is 0.4 in the row of `B` and 0.5 in that of `A`"),
+        ("A,B,C\n1,0.5,0\n0.5,1,\n0,,1\n", "no coefficient of `C` and `B`"),
+        ("A,B,C\n1,0.5,0\n0.5,2,0\n0,0,1\n", "`B` with itself has the coefficient 2"),
+        ("A,B,C\n1,1.5,0\n1.5,1,0\n0,0,1\n", "from -1 to 1"),
+        ("A,B\n1,0.5\n0.5,1\n", "`C` has no column"),
+        ("A,B,D\n1,0,0\n0,1,0\n0,0,1\n", "no laboratory of the table is called `D`"),
+        (",A,B,C\nA,1,0,0\nB,0,1,0\nD,0,0,1\n", "no row of the matrix begins with `C`"),
+        ("A,B,C\n1,x,0\n0,1,0\n0,0,1\n", "`x` is not a finite number"),
+    ] {
+        let found = read(matrix).unwrap_err();
+        assert!(found.contains(said) && found.contains("r.csv:"), "{matrix}: {found}");
+    }
+}
+
+/// What `--against` names and is no answer of a run is told as what it is.
+#[test]
+fn other_files_than_answers_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.json");
+    for (text, said) in [
+        (r#"{"inputs": {}, "outputs": {"y": {}}, "equations": {"y": "1"}}"#, "a model file"),
+        (r#"{"outputs": {"y": {}}, "result": 1}"#, "a saved result"),
+    ] {
+        std::fs::write(&path, text).unwrap();
+        let options = ComparisonOptions { against: Some(&path), ..Default::default() };
+        let found = read_comparison_text("t.csv", "label,x1,U1\ny,1,1\n", options).unwrap_err();
+        assert!(found.to_string().contains(said), "{found}");
+    }
+}
+
+/// Cells of workbooks: styles 1 is a date, 2 shows two decimals, 3 is struck through.
+mod of_workbooks {
+    use super::*;
+    use crate::workbook::tests::{sheets, styled};
+
+    fn read(rows: &[&[&str]]) -> Result<ReadComparison, String> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.xlsx");
+        std::fs::write(&path, styled(rows)).unwrap();
+        read_comparison(&path, ComparisonOptions::default()).map_err(|said| said.to_string())
+    }
+
+    #[test]
+    fn dates_are_no_numbers() {
+        let said =
+            read(&[&["label", "x", "U"], &["A", "1:45293", "1"], &["B", "10", "1"]]).unwrap_err();
+        assert!(said.contains("cell B2 is a date (2024-01-02), not a number"), "{said}");
+        let said =
+            read(&[&["label", "x", "U"], &["A", "10", "1:0.5"], &["B", "10", "1"]]).unwrap_err();
+        assert!(said.contains("cell C2 is a time (12:00:00), not a number"), "{said}");
+        let read =
+            read(&[&["label", "x", "U"], &["1:45293", "9", "1"], &["B", "10", "1"]]).unwrap();
+        let ComparisonTable::Laboratories { laboratories, .. } = read.table else { panic!() };
+        assert_eq!(laboratories[0].label, "2024-01-02");
+    }
+
+    #[test]
+    fn struck_through_rows_are_refused() {
+        let said =
+            read(&[&["label", "x", "U"], &["A", "10", "1"], &["3:B", "3:11", "3:1"]]).unwrap_err();
+        assert!(
+            said.contains("its row 3 is struck through: take the line through it away"),
+            "{said}"
+        );
+    }
+
+    /// 10.016667 with the format `0.00` is printed as 10.02, within 0.005.
+    #[test]
+    fn printed_digits_are_those_of_the_format() {
+        let read = read(&[&["label", "x", "U"], &["A", "2:10.016667", "2:0.1"], &["B", "10", "1"]]);
+        let ComparisonTable::Laboratories { laboratories, .. } = read.unwrap().table else {
+            panic!()
+        };
+        let found = laboratories[0].result;
+        assert_eq!(
+            (found.value, found.printed, found.rounding),
+            (10.016667, [10.02, 0.1], [0.005; 2])
+        );
+    }
+
+    /// The hidden sheet of earlier results is not read, nor the one of remarks; two tables are asked.
+    #[test]
+    fn the_sheet_is_the_one_that_is_shown() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.xlsx");
+        let read = |all: &[(&str, bool, &[&[&str]])], sheet: Option<&str>| {
+            std::fs::write(&path, sheets(all)).unwrap();
+            let options = ComparisonOptions { sheet, ..Default::default() };
+            match read_comparison(&path, options) {
+                Ok(ReadComparison {
+                    table: ComparisonTable::Laboratories { laboratories, .. },
+                    warnings,
+                }) => {
+                    let said = warnings.iter().map(|warning| warning.text.clone());
+                    Ok((laboratories[0].label.clone(), said.collect::<String>()))
+                }
+                Ok(other) => panic!("{other:?}"),
+                Err(said) => Err(said.to_string()),
+            }
+        };
+        let old: &[&[&str]] = &[&["label", "x", "U"], &["OLD1", "5", "1"], &["OLD2", "6", "1"]];
+        let new: &[&[&str]] = &[&["Lab", "Value", "u"], &["C", "5", "1"], &["D", "6", "1"]];
+        let words: &[&[&str]] = &[&["Read me"]];
+        let (label, said) = read(&[("old", true, old), ("final", false, new)], None).unwrap();
+        assert_eq!((&*label, &*said), ("C", "sheet `final` is read, not `old` (hidden)"));
+        let found = read(&[("Read me", false, words), ("final", false, new)], None).unwrap();
+        assert_eq!(found.0, "C");
+        let two = [("old", false, old), ("final", false, new)];
+        let said = read(&two, None).unwrap_err();
+        assert!(
+            said.contains("the sheets `old` and `final` hold a table of results each"),
+            "{said}"
+        );
+        assert_eq!(read(&two, Some("old")).unwrap().0, "OLD1");
+        let said = read(&[("old", true, old), ("a", false, words)], None).unwrap_err();
+        assert!(said.contains("the hidden sheet `old` does"), "{said}");
+    }
+}
