@@ -5,7 +5,7 @@ use std::cell::{Cell, RefCell};
 use std::path::Path;
 
 use super::diagnostics::{Collector, Diagnostics};
-use super::open::{json_as_table, open_as};
+use super::open::{no_table, open_as};
 use super::separator::DecimalMarks;
 use super::source::{Place, SourceText};
 use super::text_table::TextTable;
@@ -71,7 +71,7 @@ pub fn read_comparison_text(
 ) -> Result<ComparisonTable, Diagnostics> {
     let source = SourceText::new(name, text);
     let log = Collector::new(source.clone());
-    if let Some((place, kind)) = json_as_table(&source) {
+    if let Some((place, kind)) = no_table(&source) {
         log.report(&place, kind);
         return log.finish(None);
     }

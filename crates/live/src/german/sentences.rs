@@ -114,6 +114,22 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
         "Entscheidungsregel: einfache Annahme (JCGM 106, 8.2), angenommen wird, wenn der Schätzwert innerhalb der Toleranz liegt. Entscheidung: {0:}",
     ),
     (
+        "Tolerance {}, guarded acceptance (ILAC-G8, guard band of {} U): {} of {} rows accepted",
+        "Toleranz {0:}, Annahme mit Schutzabstand (ILAC-G8, Schutzabstand von {1} U): {2} von {3} Zeilen angenommen",
+    ),
+    (
+        "Tolerance {}, guarded acceptance (ILAC-G8, guard band of {} U): {} of {} rows accepted, rejected: row {}",
+        "Toleranz {0:}, Annahme mit Schutzabstand (ILAC-G8, Schutzabstand von {1} U): {2} von {3} Zeilen angenommen, zurückgewiesen: Zeile {4}",
+    ),
+    (
+        "Tolerance {}, guarded acceptance (ILAC-G8, guard band of {} U): {} of {} rows accepted, rejected: rows {}",
+        "Toleranz {0:}, Annahme mit Schutzabstand (ILAC-G8, Schutzabstand von {1} U): {2} von {3} Zeilen angenommen, zurückgewiesen: Zeilen {4}",
+    ),
+    (
+        "Decision rule: guarded acceptance (ILAC-G8, guard band of {} U): {}, accepted {}. Decision: {}",
+        "Entscheidungsregel: Annahme mit Schutzabstand (ILAC-G8, Schutzabstand von {0} U): {1}, angenommen {2:}. Entscheidung: {3:}",
+    ),
+    (
         "Decision rule: guarded acceptance (JCGM 106, 8.3) for a {} risk of false acceptance of at most {} %; no value has so small a one. Decision: {}",
         "Entscheidungsregel: Annahme mit Schutzabstand (JCGM 106, 8.3) für ein {0:} Risiko fälschlicher Annahme von höchstens {1} %; kein Wert hat ein so kleines. Entscheidung: {2:}",
     ),
