@@ -342,3 +342,45 @@ fn certificates_are_no_budgets() {
         "{error}"
     );
 }
+
+/// A guard band of w = U (ILAC-G8:09/2019, 4.2.2): with U = 0.10 V below 1.1 V, 0.99 V is accepted and
+/// 1.05 V is not shown to conform. The specification and the agreement of the rule are said.
+#[test]
+fn a_guard_band_may_be_a_multiple_of_u() {
+    let tolerance = |more: Value| {
+        let mut tolerance = json!({"upper": 1.1, "specification": "DIN 1", "agreed": true});
+        let more = more.as_object().expect("an object").clone();
+        tolerance.as_object_mut().expect("an object").extend(more);
+        tolerance
+    };
+    let page = |mean: f64, trials: u64| {
+        let inputs = json!({"x": normal("V", mean, 0.05)});
+        let file = model(inputs, "x", Some(tolerance(json!({"guard_band": 1}))));
+        let settings = json!({"monte_carlo": {"trials": trials}});
+        let certificate = certificate(rows(&["y"]), settings);
+        let folder = folder(&[("m.json", &file), ("c.json", &certificate)]);
+        let found = answer(folder.path(), &["certificate", "c.json"])["rows"][0].clone();
+        assert_eq!(number(&found["conformity"]["guard_band"]["factor"]), 1.0);
+        let width = number(&found["conformity"]["guard_band"]["width"]);
+        assert!((width - 0.1).abs() < 1e-12, "{width}");
+        output(folder.path(), &["certificate", "c.json", "--format", "markdown", "--quiet"])
+    };
+    for trials in [0, 100_000] {
+        let said = page(0.99, trials);
+        for part in ["Specification: DIN 1.", "guard band of 1 U", "agreed with the customer"] {
+            assert!(said.contains(part), "{part}: {said}");
+        }
+        assert!(said.contains("guard band 0.100 V, accepted up to 1.000 V"), "{said}");
+        assert!(said.contains("The result conforms"), "{said}");
+        assert!(page(1.05, trials).contains("It is not shown that the result conforms"));
+    }
+    for (more, part) in [
+        (json!({"guard_band": 1, "risk": 0.05}), "`guard_band`"),
+        (json!({"guard_band": -1}), "above 0, in multiples of U"),
+    ] {
+        let file = model(json!({"x": normal("V", 1.0, 0.05)}), "x", Some(tolerance(more)));
+        let folder = folder(&[("m.json", &file)]);
+        let (success, _, error) = said(folder.path(), &["check", "m.json"]);
+        assert!(!success && error.contains(part), "{error}");
+    }
+}

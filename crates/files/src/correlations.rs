@@ -305,13 +305,15 @@ impl Reader<'_> {
             return None;
         }
         let stated: Vec<f64> = self.found.iter().map(|c| c.coefficient).collect();
-        // each turn moves a coefficient, none twice but by rounding
-        for _ in 0..=2 * self.found.len() {
+        // each turn moves a coefficient, none often
+        let mut turns = 2 * self.found.len();
+        loop {
             let errors = self.contradictions(fits);
-            if errors.is_empty() || !errors.iter().all(|error| self.moves(error)) {
+            if turns == 0 || errors.is_empty() || !errors.iter().all(|error| self.moves(error)) {
                 errors.into_iter().for_each(|error| self.report(root, &error));
                 break;
             }
+            turns -= 1;
         }
         let moved: Vec<String> = self
             .found
