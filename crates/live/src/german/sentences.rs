@@ -10,6 +10,11 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
         "{0} = {1}; k = {2}, Überdeckungswahrscheinlichkeit {3:}",
     ),
     (
+        "{} = {}; k = {}, raised to the laboratory's capability (CMC)",
+        "{0} = {1}; k = {2}, auf die Messmöglichkeit (CMC) des Laboratoriums angehoben",
+    ),
+    ("{} = {}; k = {}, an agreed factor", "{0} = {1}; k = {2}, ein vereinbarter Faktor"),
+    (
         "{} = {}; coverage interval from {} to {} (Monte Carlo, shortest), coverage probability {}",
         "{0} = {1}; Überdeckungsintervall von {2} bis {3} (Monte Carlo, kürzestes), Überdeckungswahrscheinlichkeit {4:}",
     ),
