@@ -13,6 +13,7 @@ mod benches;
 mod cases;
 mod catalogue;
 mod certificate;
+mod certificate_claims;
 mod commands;
 mod compare;
 mod complex;

@@ -48,7 +48,12 @@ pub(super) fn read(log: &Collector, path: &Path) -> Option<Answer> {
         None => object(answer.get("outputs")).map(|outputs| vec![(Map::new(), outputs)]),
     };
     if rows.is_none() {
-        let reason = "this is not the JSON answer of an evaluation".to_owned();
+        let of_certificate = ["gumption", "rows", "correlations"];
+        let what = match of_certificate.iter().all(|key| answer.get(*key).is_some()) {
+            true => "this is the JSON answer of a certificate, and not",
+            false => "this is not",
+        };
+        let reason = format!("{what} that of an evaluation (`gumption run --format json`)");
         report("", DiagnosticKind::Table { reason });
     }
     Some(Answer { name, rows: rows? })

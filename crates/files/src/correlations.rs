@@ -34,8 +34,16 @@ pub(super) fn read(
     let places = found.iter().map(place).collect();
     let shown = inputs.variables.iter().enumerate().filter(|(_, variable)| variable.shown);
     let by_name = shown.map(|(place, variable)| (variable.name.as_str(), place)).collect();
-    let mut reader =
-        Reader { log: root.log, inputs, rows, by_name, found, pairs: HashSet::new(), places };
+    let mut reader = Reader {
+        log: root.log,
+        inputs,
+        rows,
+        by_name,
+        found,
+        pairs: HashSet::new(),
+        places,
+        from_certificates: usize::MAX,
+    };
     for (first, coefficient, place) in &inputs.pairs {
         reader.add(*first, first + 1, *coefficient, place);
     }
@@ -47,9 +55,10 @@ pub(super) fn read(
     if let Some(member) = root.get("correlation_matrix") {
         reader.matrix(root.log, member, folder, files);
     }
+    reader.from_certificates = reader.found.len();
     warnings.extend(reader.certified());
     if reader.are_shared_alike(root) {
-        reader.check(root, fits);
+        warnings.extend(reader.check(root, fits));
     }
     warnings.extend(reader.with_constants());
     (reader.found, warnings)
@@ -71,6 +80,8 @@ struct Reader<'a> {
     found: Vec<Correlation>,
     pairs: HashSet<(usize, usize)>,
     places: Vec<Range<usize>>,
+    /// From which of `found` on they are those of certificates.
+    from_certificates: usize,
 }
 
 impl Reader<'_> {
@@ -287,12 +298,45 @@ impl Reader<'_> {
         alike
     }
 
-    /// Whether the quantities can have these coefficients.
-    fn check(&self, root: &Object<'_>, fits: &Fits) {
-        let mut seen: Vec<CorrelationError> = Vec::new();
+    /// Whether the quantities can have these coefficients. Those of certificates, which the file does not
+    /// state, become the nearest that they can have, with a note.
+    fn check(&mut self, root: &Object<'_>, fits: &Fits) -> Option<Warning> {
         if !self.inputs.known.is_complete(self.inputs.variables.len()) {
-            return;
+            return None;
         }
+        let stated: Vec<f64> = self.found.iter().map(|c| c.coefficient).collect();
+        // each turn moves a coefficient, none often
+        let mut turns = 2 * self.found.len();
+        loop {
+            let errors = self.contradictions(fits);
+            if turns == 0 || errors.is_empty() || !errors.iter().all(|error| self.moves(error)) {
+                errors.into_iter().for_each(|error| self.report(root, &error));
+                break;
+            }
+            turns -= 1;
+        }
+        let moved: Vec<String> = self
+            .found
+            .iter()
+            .zip(stated)
+            .filter(|(c, stated)| c.coefficient != *stated)
+            .map(|(c, stated)| {
+                let [first, second] = [c.first, c.second].map(|v| self.name(v));
+                let [from, to] = [stated, c.coefficient].map(|r| decimal::rounded(r, -4));
+                format!("{first} and {second} ({from} to {to})")
+            })
+            .collect();
+        let text = format!(
+            "correlation coefficients of a certificate that its results cannot have with the \
+             distributions that they are read with are the nearest possible: {}",
+            links::some(&moved)
+        );
+        (!moved.is_empty()).then(|| Warning::new("certificate-correlation-moved", "", text))
+    }
+
+    /// What contradicts the coefficients in some row.
+    fn contradictions(&self, fits: &Fits) -> Vec<CorrelationError> {
+        let mut seen: Vec<CorrelationError> = Vec::new();
         let mut before: Option<Arc<[Arc<Distribution>]>> = None;
         for row in self.inputs.known.rows(self.rows.rows.len()) {
             if before.as_ref().is_some_and(|before| Arc::ptr_eq(before, &row)) {
@@ -300,19 +344,56 @@ impl Reader<'_> {
             }
             let joint = fits.joint(&row, &self.found);
             before = Some(row);
-            let Err(error) = joint else {
-                continue;
-            };
-            if seen.contains(&error) {
-                continue;
+            if let Err(error) = joint
+                && !seen.contains(&error)
+            {
+                seen.push(error);
             }
-            seen.push(error.clone());
-            let name = |v: usize| {
-                format!("`{}`", self.inputs.variables.get(v).map_or("", |v| v.name.as_str()))
-            };
-            let place = self.found.iter().position(|c| error.concerns(c));
-            let place = place.and_then(|p| self.places.get(p)).unwrap_or(root.place());
-            self.log.report(place, DiagnosticKind::Correlation { reason: error.describe(&name) });
         }
+        seen
+    }
+
+    /// Moves the coefficients at fault to the nearest possible ones, where all are those of
+    /// certificates.
+    fn moves(&mut self, error: &CorrelationError) -> bool {
+        let from = self.from_certificates;
+        let mut concerned = self.found.iter().enumerate().filter(|(_, c)| error.concerns(c));
+        if !concerned.all(|(place, _)| place >= from) {
+            return false;
+        }
+        let nearest = match error {
+            CorrelationError::OutOfReach { declared, attainable: [least, most] } => {
+                let coefficient = declared.coefficient.clamp(*least, *most);
+                vec![Correlation { coefficient, ..*declared }]
+            }
+            CorrelationError::Contradiction { nearest, .. }
+            | CorrelationError::BeyondCopula { nearest, .. } => nearest.clone(),
+            _ => return false,
+        };
+        let mut any = false;
+        for to in nearest {
+            let pair = (to.first.min(to.second), to.first.max(to.second));
+            let own = self.found.iter_mut().skip(from);
+            for c in own.filter(|c| (c.first.min(c.second), c.first.max(c.second)) == pair) {
+                any |= c.coefficient != to.coefficient;
+                c.coefficient = to.coefficient;
+            }
+        }
+        any
+    }
+
+    fn name(&self, variable: usize) -> String {
+        format!("`{}`", self.inputs.variables.get(variable).map_or("", |v| v.name.as_str()))
+    }
+
+    fn report(&self, root: &Object<'_>, error: &CorrelationError) {
+        let concerned = self.found.iter().position(|c| error.concerns(c));
+        let place = concerned.and_then(|p| self.places.get(p)).unwrap_or(root.place());
+        let mut reason = error.describe(&|v| self.name(v));
+        if concerned.is_some_and(|place| place >= self.from_certificates) {
+            reason +=
+                "; the coefficient is the certificate's: state one in `correlations`, such as 0";
+        }
+        self.log.report(place, DiagnosticKind::Correlation { reason });
     }
 }

@@ -31,6 +31,7 @@ mod fits;
 mod folder;
 mod formula_notes;
 mod gravity;
+mod implied_dof;
 mod import;
 mod input_set;
 mod inputs;

@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
+use super::implied_dof;
 use super::json::{Json, Member, Node};
 use super::value_text::{
     grouped_digits, is_comma, number_in_parentheses, with_exponents, with_plus_minus,
@@ -367,8 +368,8 @@ fn uncertain(
 const LIKE: f64 = 0.05;
 
 /// What stands behind an uncertainty: `(k=2)`, `(p=95 %)`, `(p=0.95)`, `(95 %)`; of `(k=2, p=95 %)`, as
-/// certificates have it, the factor, which that probability must allow; degrees of freedom behind
-/// them, `(k=2.28, dof=10)`. All of it also without parentheses behind a comma or a semicolon,
+/// certificates have it, the factor, which that probability must allow, with the degrees of freedom of
+/// the t distribution that both belong to; degrees of freedom behind them, `(k=2.28, dof=10)`. All of it also without parentheses behind a comma or a semicolon,
 /// `, k = 2`. A standard uncertainty has degrees of freedom at the most.
 fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
     const MISSING: &str = "what the uncertainty is must be said: `(k=2)`, `(p=95 %)`, or `(k=1)` for \
@@ -386,6 +387,7 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
         }
     };
     let (mut k, mut p, mut dof) = (None, None, None);
+    let mut last_digit_of_p = None;
     let parts = inside.split([',', ';']).map(str::trim);
     for part in parts.filter(|part| of == Uncertainty::Expanded || !part.is_empty()) {
         let (key, number) = part.split_once('=').unwrap_or(("p", part));
@@ -408,6 +410,10 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
             }
             Err(_) => return Err(format!("`{part}` is not known there; {MISSING}")),
         };
+        if key.trim() == "p" {
+            let share = if percent { 0.01 } else { 1.0 };
+            last_digit_of_p = Some(share * implied_dof::last_digit(digits));
+        }
         let found = if percent {
             (gumption_engine::decimal::exact(found / 100.0), found / 100.0)
         } else {
@@ -455,6 +461,12 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
                     ));
                 }
             }
+            let dof = dof.or_else(|| {
+                let last_digit_of_p = last_digit_of_p.unwrap_or(0.0);
+                let stated = implied_dof::Factor::new(k, implied_dof::last_digit(&factor));
+                let implied = stated.dof_of_nothing_named(p, last_digit_of_p);
+                implied.is_finite().then(|| gumption_engine::decimal::exact(implied))
+            });
             Ok(Coverage { key: "k", factor, dof })
         }
         (Some((factor, _)), None) => Ok(Coverage { key: "k", factor, dof }),
@@ -584,7 +596,11 @@ mod tests {
             ("5.01 V ± 0.5 % (k=2)", "V", expanded("5.01", "0.5 %", "k", "2")),
             ("(5.01 ± 0.02) % (k=2)", "%", expanded("5.01", "0.02", "k", "2")),
             ("5.01 V ± 0.02 V (k=2, p=95 %)", "V", expanded("5.01", "0.02", "k", "2")),
-            ("5.01 V ± 0.02 V (k = 2.28; 95 %)", "V", expanded("5.01", "0.02", "k", "2.28")),
+            ("5.01 V ± 0.02 V (k=2.00, 95 %)", "V", expanded("5.01", "0.02", "k", "2.00")),
+            // EA-4/02 M:2022, table E.1
+            ("5 V ± 0.1 V (k = 2.28; 95 %)", "V", with("5", "0.1", "k", "2.28", Some("10"))),
+            ("5 V ± 0.1 V (k=3.31, p=95.45 %)", "V", with("5", "0.1", "k", "3.31", Some("3"))),
+            ("5 V ± 0.1 V (k=2.65, 95 %)", "V", with("5", "0.1", "k", "2.65", Some("5"))),
             ("5 V ± 0.1 V (k=2.28, dof=10)", "V", with("5", "0.1", "k", "2.28", Some("10"))),
             ("5 V ± 0.1 V (k=2.2, 95 %, dof=10)", "V", with("5", "0.1", "k", "2.2", Some("10"))),
             ("5 V ± 0.1 V (95 %; νeff = 10)", "V", with("5", "0.1", "p", "0.95", Some("10"))),

@@ -123,11 +123,17 @@ pub(super) enum FileKind {
     SavedResult,
     /// The JSON answer of a run.
     Answer,
+    /// The JSON answer of a certificate.
+    CertificateAnswer,
     /// A file of costs.
     Costs,
     /// A table of results to be compared.
     Results,
 }
+
+/// How quantities are taken from a certificate.
+pub(super) const FROM_CERTIFICATES: &str = "a model takes quantities from the digital certificate \
+    (`gumption certificate --format dcc`), each by an input of the distribution `dcc`";
 
 impl FileKind {
     /// The kind that the keys of a root show beyond doubt.
@@ -135,6 +141,8 @@ impl FileKind {
         let has = |key: &str| root.get(key).is_some();
         if has("outputs") && has("result") && !has("equations") && !has("model") {
             Some(Self::SavedResult)
+        } else if has("gumption") && has("rows") && has("correlations") {
+            Some(Self::CertificateAnswer)
         } else if has("gumption") && (has("outputs") || has("rows")) && !has("result") {
             Some(Self::Answer)
         } else if has("outputs") && (has("equations") || has("model")) && !has("rows") {
@@ -153,6 +161,12 @@ impl FileKind {
     /// What it is, in words, and the command that reads it.
     pub(super) fn described(self) -> DiagnosticKind {
         let (what, command) = match self {
+            Self::CertificateAnswer => {
+                let reason = format!(
+                    "this is the JSON answer of a certificate, for programs; {FROM_CERTIFICATES}"
+                );
+                return DiagnosticKind::Table { reason };
+            }
             Self::Model => ("a model file", "gumption run"),
             Self::Certificate => ("the file of a certificate", "gumption certificate"),
             Self::Recipe => ("a recipe of recordings", "gumption observe"),
@@ -176,14 +190,20 @@ pub(super) fn refuse_other_kind(root: &Object<'_>, expected: FileKind) -> bool {
     }
 }
 
-/// What is wrong with a JSON file where a table is read, and where; nothing of any other text.
-pub(super) fn json_as_table(source: &Arc<SourceText>) -> Option<(Range<usize>, DiagnosticKind)> {
+/// What is wrong with a JSON file or a digital certificate where a table is read, and where; nothing of
+/// any other text.
+pub(super) fn no_table(source: &Arc<SourceText>) -> Option<(Range<usize>, DiagnosticKind)> {
+    let place = 0..source.text.find('\n').unwrap_or(source.text.len());
+    if source.text.trim_start().starts_with('<') {
+        let is_certificate = source.text.contains("digitalCalibrationCertificate");
+        let reason = format!("this is a Digital Calibration Certificate; {FROM_CERTIFICATES}");
+        return is_certificate.then_some((place, DiagnosticKind::Table { reason }));
+    }
     if !source.text.trim_start().starts_with('{') {
         return None;
     }
     let node = json::parse(source).ok()?;
     let log = Collector::new(source.clone());
-    let place = 0..source.text.find('\n').unwrap_or(source.text.len());
     let root = Object::new(&log, "a file", &node, &place)?;
     let reason = "this is a JSON file, and a table is CSV or XLSX with a header row".to_owned();
     let kind = FileKind::of(&root).map_or(DiagnosticKind::Table { reason }, FileKind::described);

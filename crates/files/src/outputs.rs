@@ -142,7 +142,8 @@ pub(super) fn read(
             about: object.text("about").unwrap_or("").to_owned(),
         };
         let unit_place = object.get("unit").map_or(&member.key_span, |m| &m.value.span);
-        let Decision { tolerance, prior, risk, lower, upper } = decision;
+        let Decision { guard_factor, specification, agreed, tolerance, prior, risk, lower, upper } =
+            decision;
         let mut output = Output::new(quantity);
         let (capability, of_rows) = capability.unzip();
         let following = FollowingConditions { lower, upper, capability: of_rows.flatten() };
@@ -151,6 +152,8 @@ pub(super) fn read(
         output.following = follows.then(|| Arc::new(following));
         (output.period, output.capability) = (period, capability);
         (output.tolerance, output.prior, output.risk) = (tolerance, prior, risk);
+        output.guard_factor = guard_factor;
+        (output.specification, output.rule_agreed) = (specification, agreed);
         outputs.outputs.push(output);
         outputs.places.push(member.key_span.clone());
         outputs.unit_places.push(unit_place.clone());
@@ -164,6 +167,9 @@ struct Decision {
     tolerance: Option<Tolerance>,
     prior: Option<Arc<Distribution>>,
     risk: Option<f64>,
+    guard_factor: Option<f64>,
+    specification: Option<Arc<str>>,
+    agreed: bool,
     lower: Option<OfConditions>,
     upper: Option<OfConditions>,
 }
@@ -194,6 +200,9 @@ impl Decision {
             let diagnostic = DiagnosticKind::OutOfRange { key: "risk".into(), found: risk, range };
             object.log.report(&member.value.span, diagnostic);
         }
+        let guard_factor = guard_factor(&object);
+        let specification = object.text("specification").map(Arc::from);
+        let agreed = object.truth("agreed").unwrap_or(false);
         let prior = prior(&object, unit, results).map(Arc::new);
         let ends = ["lower", "upper"].map(|key| {
             let member = object.get(key)?;
@@ -209,8 +218,26 @@ impl Decision {
         let ends = [lower.flatten(), upper.flatten()];
         let tolerance = tolerance(&object, unit, &ends, set);
         let [lower, upper] = ends;
-        Self { tolerance, prior, risk, lower, upper }
+        Self { tolerance, prior, risk, guard_factor, specification, agreed, lower, upper }
     }
+}
+
+/// The guard band in multiples of U, which is a decision rule of its own beside a wanted risk.
+fn guard_factor(tolerance: &Object<'_>) -> Option<f64> {
+    let member = tolerance.get("guard_band")?;
+    if tolerance.get("risk").is_some() {
+        let diagnostic = DiagnosticKind::Exclusive { first: "risk", second: "guard_band" };
+        tolerance.log.report(&member.key_span, diagnostic);
+        return None;
+    }
+    let found = tolerance.number("guard_band")?;
+    if !(found > 0.0 && found.is_finite()) {
+        let (key, range) = ("guard_band".into(), "above 0, in multiples of U");
+        let diagnostic = DiagnosticKind::OutOfRange { key, found, range };
+        tolerance.log.report(&member.value.span, diagnostic);
+        return None;
+    }
+    Some(found)
 }
 
 /// What was known about the items before measuring.

@@ -32,9 +32,12 @@ const COLUMNS: [&str; 19] = [
     "equation",
 ];
 
+/// The last columns, where some output has a capability.
+const CAPABILITY: [&str; 2] = ["cmc", "stated_expanded_uncertainty"];
+
 /// The results as comma-separated values: a header, then one line for each output in each row of
-/// conditions. Numbers have full precision; an empty cell stands for what is infinite or not
-/// defined.
+/// conditions, where some output has a capability with it and the expanded uncertainty that is to be
+/// stated. Numbers have full precision; an empty cell stands for what is infinite or not defined.
 ///
 /// A text that a spreadsheet would take for a formula gets an apostrophe in front. A run that was
 /// stopped says so in a comment at the end.
@@ -51,10 +54,13 @@ pub fn write_csv(report: &EvaluationReport<'_>, mut out: impl Write) -> io::Resu
     let mut writer = csv::Writer::from_writer(&mut out);
     let conditions = task.model.conditions.iter().filter(|_| task.swept);
     let names = conditions.map(|condition| text(&condition.name));
-    let header: Vec<String> = names.chain(COLUMNS.map(str::to_owned)).collect();
+    let outputs = evaluation.rows.iter().flat_map(|row| &row.outputs);
+    let limited = outputs.into_iter().any(|figures| figures.capability.is_some());
+    let last = CAPABILITY.map(str::to_owned).into_iter().filter(|_| limited);
+    let header: Vec<String> = names.chain(COLUMNS.map(str::to_owned)).chain(last).collect();
     writer.write_record(&header)?;
     for row in &evaluation.rows {
-        for record in records(task, row) {
+        for record in records(task, row, limited) {
             writer.write_record(&record)?;
         }
     }
@@ -66,7 +72,11 @@ pub fn write_csv(report: &EvaluationReport<'_>, mut out: impl Write) -> io::Resu
     }
 }
 
-fn records<'a>(task: &'a Task, row: &'a RowEvaluation) -> impl Iterator<Item = Vec<String>> + 'a {
+fn records<'a>(
+    task: &'a Task,
+    row: &'a RowEvaluation,
+    limited: bool,
+) -> impl Iterator<Item = Vec<String>> + 'a {
     let conditions: Vec<String> = (0..task.model.conditions.len())
         .filter(|_| task.swept)
         .map(|place| number(row.conditions.get(place).copied()))
@@ -77,6 +87,11 @@ fn records<'a>(task: &'a Task, row: &'a RowEvaluation) -> impl Iterator<Item = V
         record.push(text(output.quantity.unit.text()));
         record.extend(cells(figures));
         record.push(equation(task, &output.quantity.name));
+        if limited {
+            let stated = figures.capability.as_deref();
+            record.push(number(stated.map(|stated| stated.cmc)));
+            record.push(number(stated.map(|stated| stated.expanded_uncertainty)));
+        }
         record
     })
 }

@@ -391,13 +391,22 @@ struct Risks {
     false_rejection: Option<f64>,
 }
 
-/// The guard band for a wanted risk; `null` where no value has so small a one.
+/// The guard band for a wanted risk, or in multiples of U; `null` where no value has so small a one.
 #[derive(Serialize)]
 struct GuardBand {
-    risk: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    risk: Option<f64>,
+    /// In expanded uncertainties.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    factor: Option<f64>,
     width: Option<f64>,
     lower: Option<f64>,
     upper: Option<f64>,
+}
+
+/// What is decided about a tolerance, as answers have it.
+pub(crate) fn decision_value(found: &Conformity) -> serde_json::Value {
+    serde_json::to_value(ConformitySide::of(found)).unwrap_or(serde_json::Value::Null)
 }
 
 impl ConformitySide {
@@ -421,8 +430,9 @@ impl ConformitySide {
                 false_acceptance: Some(risks.false_acceptance),
                 false_rejection: Some(risks.false_rejection),
             }),
-            guard_band: conformity.wanted_risk.map(|risk| GuardBand {
-                risk,
+            guard_band: conformity.is_guarded().then_some(GuardBand {
+                risk: conformity.wanted_risk,
+                factor: conformity.guard_factor,
                 width: conformity.guard_band,
                 lower: acceptance.and_then(|limits| limits.lower),
                 upper: acceptance.and_then(|limits| limits.upper),

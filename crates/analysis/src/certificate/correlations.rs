@@ -18,12 +18,14 @@ use gumption_engine::task::{Row, Sharing};
 /// An unknown value: model file, input, and what tells values of the same input apart.
 type Key = (Arc<str>, Arc<str>, String);
 
-/// The matrix of the correlation coefficients between all rows.
+/// The matrix of the correlation coefficients between all rows, and the standard uncertainties that they
+/// go with. Rows that are `raised` to the laboratory's capability have the standard uncertainty of that,
+/// where it is larger; what it adds is no input that another row shares.
 pub(super) fn between(
     certificate: &Certificate,
     evaluations: &[Evaluation],
-    digests: &[Arc<str>],
-) -> Vec<Vec<Option<f64>>> {
+    (digests, raised): (&[Arc<str>], &[Option<f64>]),
+) -> (Vec<Vec<Option<f64>>>, Vec<Option<f64>>) {
     let mut unknowns = Unknowns { certificate, places: BTreeMap::new(), links: BTreeMap::new() };
     let mut found: BTreeMap<(usize, usize), Vec<Option<Parts>>> = BTreeMap::new();
     let parts: Vec<Option<Parts>> = certificate
@@ -41,6 +43,8 @@ pub(super) fn between(
     let spread: Vec<Option<f64>> = parts
         .iter()
         .map(|part| part.as_ref().map(|p| covariance(p, p).sqrt()).filter(|u| *u > 0.0))
+        .zip(raised)
+        .map(|(evaluated, raised)| Some(evaluated?.max(raised.unwrap_or(0.0))))
         .collect();
     let coefficient = |i: usize, j: usize| {
         let (a, b) = (parts[i].as_ref()?, parts[j].as_ref()?);
@@ -50,7 +54,8 @@ pub(super) fn between(
     let count = parts.len();
     // each of the two halves of the matrix from the same sum
     let row = |i: usize| (0..count).map(|j| coefficient(i.min(j), i.max(j))).collect();
-    (0..count).map(row).collect()
+    let matrix = (0..count).map(row).collect();
+    (matrix, spread)
 }
 
 /// Contributions c u of a result by unknown value.

@@ -17,8 +17,11 @@ pub struct Issued {
     pub statements: Vec<Statement>,
     /// Correlation coefficients between the rows, by the law of propagation: the whole matrix, with
     /// 1 on its diagonal. `None` where a result has no finite sensitivity coefficients, or does not
-    /// vary.
+    /// vary. What raises a row to the laboratory's capability is correlated with no other row.
     pub correlations: Vec<Vec<Option<f64>>>,
+    /// The standard uncertainties that the coefficients go with: by the law of propagation, or the stated
+    /// one of a row that is raised to the laboratory's capability.
+    pub spreads: Vec<Option<f64>>,
     /// Whether the evaluation was stopped before all trials were made.
     pub stopped: bool,
 }
@@ -27,7 +30,7 @@ impl Issued {
     /// Standard uncertainty of the difference between two rows of the same unit; `None` where their
     /// correlation is not known.
     pub fn difference(&self, first: usize, second: usize) -> Option<f64> {
-        let u = |row: usize| self.statements.get(row).map(|s| s.standard_uncertainty);
+        let u = |row: usize| self.spreads.get(row).copied().flatten();
         let (a, b) = (u(first)?, u(second)?);
         let r = (*self.correlations.get(first)?.get(second)?)?;
         Some((a * a + b * b - 2.0 * r * a * b).max(0.0).sqrt())
@@ -96,6 +99,12 @@ pub fn issue(
         });
         statements.push(wanted.ok_or(Failed::NoUncertainty { line: number })?);
     }
-    let correlations = correlations::between(certificate, &evaluations, digests);
-    Ok(Issued { evaluations, statements, correlations, stopped })
+    let raised = statements.iter().map(|statement| {
+        let limit = statement.limit.filter(|limit| limit.raised);
+        limit.map(|_| statement.standard_uncertainty)
+    });
+    let raised: Vec<Option<f64>> = raised.collect();
+    let (correlations, spreads) =
+        correlations::between(certificate, &evaluations, (digests, &raised));
+    Ok(Issued { evaluations, statements, correlations, spreads, stopped })
 }

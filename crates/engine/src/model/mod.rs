@@ -67,6 +67,12 @@ pub struct Output {
     pub prior: Option<Arc<Distribution>>,
     /// The risk of false acceptance that is wanted; simple acceptance without one.
     pub risk: Option<f64>,
+    /// The width of the guard band in expanded uncertainties (ILAC-G8:09/2019, 4.2.2).
+    pub guard_factor: Option<f64>,
+    /// What the tolerance is that of, in words: `DIN EN 60751 class A`.
+    pub specification: Option<Arc<str>>,
+    /// Whether the decision rule was agreed with the customer (ISO/IEC 17025, 7.1.3).
+    pub rule_agreed: bool,
     /// The smallest expanded uncertainty that the laboratory may state.
     pub capability: Option<Capability>,
     /// Limits and capability that are others in every row of conditions. Where there are such,
@@ -78,7 +84,18 @@ impl Output {
     /// An output without limits, period or capability.
     pub fn new(quantity: Quantity) -> Self {
         let (period, tolerance, prior, risk, capability) = (None, None, None, None, None);
-        Self { quantity, period, tolerance, prior, risk, capability, following: None }
+        Self {
+            quantity,
+            period,
+            tolerance,
+            prior,
+            risk,
+            guard_factor: None,
+            specification: None,
+            rule_agreed: false,
+            capability,
+            following: None,
+        }
     }
 
     /// The output with the limits and the capability that it has at these values of the conditions.

@@ -12,6 +12,8 @@ use global::Inspection;
 use super::evaluation::OutputEvaluation;
 use super::gum::Gum;
 use super::monte_carlo::MonteCarlo;
+use super::statement::Stated;
+use crate::decimal::position;
 use crate::model::{Output, Tolerance};
 use crate::number::elementary;
 use crate::task::{Settings, Trials};
@@ -33,6 +35,9 @@ pub struct Conformity {
     pub numerical_standard_error: f64,
     /// The risk of false acceptance that is wanted.
     pub wanted_risk: Option<f64>,
+    /// The width of the guard band in expanded uncertainties, where that is the rule (ILAC-G8:09/2019,
+    /// 4.2.2).
+    pub guard_factor: Option<f64>,
     /// The acceptance limits: the tolerance limits moved inwards by the guard band. `None` if no
     /// value has so small a risk.
     pub acceptance: Option<Tolerance>,
@@ -49,6 +54,11 @@ pub struct Conformity {
 }
 
 impl Conformity {
+    /// Whether the acceptance limits are not the tolerance's (JCGM 106, 8.3).
+    pub fn is_guarded(&self) -> bool {
+        self.wanted_risk.is_some() || self.guard_factor.is_some()
+    }
+
     /// The specific risk of the decision (JCGM 106, 9.3): that the accepted value does not conform,
     /// or that the rejected one does.
     pub fn specific_risk(&self) -> f64 {
@@ -63,7 +73,7 @@ impl Conformity {
     fn of(
         output: &Output,
         figures: &MonteCarlo,
-        u: Option<f64>,
+        (u, expanded): (Option<f64>, Option<f64>),
         linear: Option<&Gum>,
         of_trials: Option<f64>,
     ) -> Option<Self> {
@@ -74,7 +84,7 @@ impl Conformity {
         let inspection = output.prior.as_deref().zip(u);
         let inspection = inspection.map(|(prior, u)| Inspection::new(prior, u, limits));
         let guard_band = match (output.risk, u, &inspection) {
-            (None, ..) => Some(0.0),
+            (None, ..) => multiple(output, expanded),
             (Some(_), None, _) => None,
             (Some(risk), Some(_), Some(inspection)) => inspection.guard_band(risk),
             (Some(risk), Some(u), None) => match linear {
@@ -109,6 +119,7 @@ impl Conformity {
             without_prior: posterior.map(|_| share),
             numerical_standard_error,
             wanted_risk: output.risk,
+            guard_factor: output.guard_factor,
             acceptance,
             guard_band,
             conforms: acceptance.is_some_and(|acceptance| acceptance.holds(figures.location())),
@@ -117,11 +128,12 @@ impl Conformity {
         })
     }
 
-    /// The decision about an estimate of which a standard uncertainty is stated that is not the
-    /// evaluated one, such as a laboratory's capability: the estimate is taken to be normally
-    /// distributed with it (JCGM 106, 7.2). `None` without a tolerance or an uncertainty above zero.
-    pub fn with_stated(output: &Output, estimate: f64, u: f64) -> Option<Self> {
-        let found = Self::about(output, estimate, &ErrorLaw::normal(u))?;
+    /// The decision about an estimate of which a standard uncertainty `u` and an expanded one are stated
+    /// that are not the evaluated ones, such as a laboratory's capability: the estimate is taken to be
+    /// normally distributed with it (JCGM 106, 7.2). `None` without a tolerance or an uncertainty above
+    /// zero.
+    pub fn with_stated(output: &Output, estimate: f64, u: f64, expanded: f64) -> Option<Self> {
+        let found = Self::about(output, estimate, &ErrorLaw::normal(u), Some(expanded))?;
         Some(Self { stated_uncertainty: Some(u), ..found })
     }
 
@@ -132,9 +144,14 @@ impl Conformity {
         settings: &Settings,
     ) -> Option<Self> {
         let gum = figures.gum.as_ref();
+        let stated = output.guard_factor.and_then(|_| {
+            Stated::of(figures, settings, |expanded| position(expanded, settings.digits))
+        });
+        let expanded = stated.map(|stated| stated.expanded_uncertainty);
         let of_trials = figures.monte_carlo.as_ref().and_then(|trials| {
             let u = gum.map(|gum| gum.standard_uncertainty);
-            Self::of(output, trials, u, figures.trusted(), figures.guard_band_of_trials)
+            let guard_band = figures.guard_band_of_trials;
+            Self::of(output, trials, (u, expanded), figures.trusted(), guard_band)
         });
         let alone = gum.filter(|_| settings.trials == Trials::Fixed(0));
         of_trials.or_else(|| alone.and_then(|gum| Self::by_propagation(output, gum)))
@@ -149,8 +166,9 @@ impl Conformity {
     ) -> Option<Self> {
         match figures.capability.as_deref().filter(|stated| stated.raised) {
             Some(stated) => {
-                let u = stated.expanded_uncertainty / settings.coverage.normal_factor();
-                Self::with_stated(output, stated.estimate, u)
+                let expanded = stated.expanded_uncertainty;
+                let u = expanded / settings.coverage.normal_factor();
+                Self::with_stated(output, stated.estimate, u, expanded)
             }
             None => Self::evaluated(output, figures, settings),
         }
@@ -160,11 +178,17 @@ impl Conformity {
     /// output is normally distributed (JCGM 106, 7.2), or as t with its effective degrees of freedom
     /// (JCGM 100, G.3). `None` without a tolerance or an uncertainty above zero.
     pub fn by_propagation(output: &Output, gum: &Gum) -> Option<Self> {
-        Self::about(output, gum.estimate, &ErrorLaw::of(gum))
+        Self::about(output, gum.estimate, &ErrorLaw::of(gum), gum.expanded_uncertainty())
     }
 
-    /// The decision about an estimate about which the output is distributed by a law.
-    fn about(output: &Output, estimate: f64, law: &ErrorLaw) -> Option<Self> {
+    /// The decision about an estimate about which the output is distributed by a law, with the expanded
+    /// uncertainty that is stated.
+    fn about(
+        output: &Output,
+        estimate: f64,
+        law: &ErrorLaw,
+        expanded: Option<f64>,
+    ) -> Option<Self> {
         let tolerance = output.tolerance?;
         let limits = tolerance.ends();
         let u = law.scale();
@@ -173,7 +197,7 @@ impl Conformity {
         }
         let inspection = output.prior.as_deref().map(|prior| Inspection::new(prior, u, limits));
         let guard_band = match (output.risk, &inspection) {
-            (None, _) => Some(0.0),
+            (None, _) => multiple(output, expanded),
             (Some(risk), Some(inspection)) => inspection.guard_band(risk),
             (Some(risk), None) => law.guard_band(risk, limits),
         };
@@ -187,6 +211,7 @@ impl Conformity {
             without_prior: inspection.as_ref().map(|_| share),
             numerical_standard_error: 0.0,
             wanted_risk: output.risk,
+            guard_factor: output.guard_factor,
             acceptance,
             guard_band,
             conforms: acceptance.is_some_and(|acceptance| acceptance.holds(estimate)),
@@ -194,6 +219,12 @@ impl Conformity {
             stated_uncertainty: None,
         })
     }
+}
+
+/// The guard band without a wanted risk: a multiple of the expanded uncertainty, or none. `None` where
+/// there is no expanded uncertainty.
+fn multiple(output: &Output, expanded: Option<f64>) -> Option<f64> {
+    output.guard_factor.map_or(Some(0.0), |factor| Some(factor * expanded?))
 }
 
 /// The smallest width between two at which something holds, which it does at the larger one and

@@ -1,7 +1,7 @@
 //! What is stated of an output: value, expanded uncertainty and coverage factor, by the method that
 //! is to be believed.
 
-use super::evaluation::OutputEvaluation;
+use super::evaluation::{OutputEvaluation, differs_from_linear};
 use super::exact::Noiseless;
 use super::gum::{Dof, Gum};
 use super::monte_carlo::MonteCarlo;
@@ -82,12 +82,35 @@ impl Stated {
             let noiseless = noiseless.and_then(|noiseless| without_noise(noiseless, gum));
             noiseless.or_else(|| by_trials(output.monte_carlo.as_ref()?, gum))
         };
+        // an agreed factor is kept; what is refuted has no distribution that it could belong to
+        if let Coverage::Factor { factor, fixed: true } = settings.coverage {
+            let agreed = |found: Stated| found.with_factor(factor);
+            let bends = output.gum.as_ref().zip(output.monte_carlo.as_ref());
+            let bends = bends.is_none_or(|(gum, trials)| differs_from_linear(gum, trials));
+            return match (refuted, bends) {
+                (false, _) => linear().or_else(|| trials().map(agreed)),
+                (true, true) => trials().or_else(linear).map(agreed),
+                (true, false) => linear().or_else(trials).map(agreed),
+            };
+        }
         // a clause 8 that fails is no matter where what is stated would be the same
         let refuted = refuted
             && !linear().zip(trials()).is_some_and(|(linear, trials)| {
                 linear.states_as(&trials, place(linear.expanded_uncertainty))
             });
         if refuted { trials().or_else(linear) } else { linear().or_else(trials) }
+    }
+
+    /// With an agreed coverage factor, which says nothing of an interval.
+    fn with_factor(self, factor: f64) -> Self {
+        let expanded_uncertainty = factor * self.standard_uncertainty;
+        Self {
+            basis: Basis::Fixed,
+            expanded_uncertainty,
+            coverage_factor: factor,
+            interval: None,
+            ..self
+        }
     }
 
     /// Whether another's interval is the same to a place, and not by rounding alone: a coverage

@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::diagnostics::{Collector, Diagnostics};
-use super::open::json_as_table;
+use super::open::no_table;
 use super::source::{Place, SourceText};
 use super::text_table::{TextTable, alone};
 use super::{DiagnosticKind, answer, bytes};
@@ -110,7 +110,7 @@ fn read(
 ) -> Result<ReadComparison, Diagnostics> {
     let source = SourceText::new(name, &content.text);
     let log = Collector::new(source.clone());
-    if let Some((place, kind)) = json_as_table(&source) {
+    if let Some((place, kind)) = no_table(&source) {
         log.report(&place, kind);
         return log.finish(None);
     }

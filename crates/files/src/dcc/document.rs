@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use gumption_engine::decimal::Decimal;
+use crate::implied_dof::last_digit;
 use gumption_units::Unit;
 use roxmltree::{Document, Node};
 
@@ -31,8 +31,8 @@ pub(super) struct Stated {
     pub(super) factors: Option<Vec<f64>>,
     pub(super) probabilities: Option<Vec<f64>>,
     pub(super) distributions: Option<Vec<String>>,
-    /// What one in the last written digit of each expanded uncertainty and of each factor is.
-    pub(super) last_digits: [Option<Vec<f64>>; 2],
+    /// What one in the last written digit of each expanded uncertainty, factor and probability is.
+    pub(super) last_digits: [Option<Vec<f64>>; 3],
     /// The standard uncertainties of values whose coverage intervals stand in a quantity of their own.
     pub(super) of_interval: Vec<Option<f64>>,
 }
@@ -191,6 +191,7 @@ fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Measured, Fault
         return Err((tag(element), "the values of a list have different units".to_owned()));
     }
     let unit = Unit::parse_dsi(written)
+        .or_else(|| defined(holder, written))
         .ok_or_else(|| (element.range(), format!("`{written}` is no unit of D-SI")))?;
     let count = Some(values.len());
     let expanded = ["uncertainty", "valueExpandedMU", "uncertaintyXMLList"];
@@ -198,19 +199,17 @@ fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Measured, Fault
     let standard = ["standardUnc", "valueStandardMU", "standardUncXMLList"];
     let standard = [&standard[..], &["valueStandardMUXMLList"]].concat();
     let factors = ["coverageFactor", "coverageFactorXMLList"];
+    let probabilities = ["coverageProbability", "coverageProbabilityXMLList"];
     let last_digits = |names: &[&str]| {
         let (_, words) = texts(holder, names)?;
         Some(spread(words.into_iter().map(last_digit).collect(), count))
     };
     let stated = Stated {
-        last_digits: [last_digits(&expanded), last_digits(&factors)],
+        last_digits: [&expanded[..], &factors, &probabilities].map(last_digits),
         expanded: numbers(holder, &expanded, count)?,
         standard: numbers(holder, &standard, count)?,
         factors: numbers(holder, &factors, count)?,
-        probabilities: {
-            let names = ["coverageProbability", "coverageProbabilityXMLList"];
-            numbers(holder, &names, count)?
-        },
+        probabilities: numbers(holder, &probabilities, count)?,
         distributions: texts(holder, &["distribution", "distributionXMLList"])
             .map(|(_, texts)| spread(texts.into_iter().map(str::to_lowercase).collect(), count)),
         of_interval: Vec::new(),
@@ -219,12 +218,15 @@ fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Measured, Fault
     Ok(Measured { span, unit, values, uncertainty: uncertain.then_some(stated) })
 }
 
-/// What one in the last digit of a number is, zeros at its end included: 0.001 of `0.100`.
-fn last_digit(number: &str) -> f64 {
-    let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
-    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    Decimal::new(1, exponent.saturating_sub(i32::try_from(decimals).unwrap_or(i32::MAX))).value()
+/// A unit that D-SI does not have, `|tex`, by its definition in the quantity, `tex = 1e-6 kg m^-1`.
+fn defined(holder: Node<'_, '_>, written: &str) -> Option<Unit> {
+    let name = written.strip_prefix('|')?;
+    let quantity = holder.ancestors().find(|of| of.tag_name().name() == "quantity")?;
+    let definition = quantity.descendants().find(|of| of.tag_name().name() == "nonSIDefinition")?;
+    let (_, size) = definition.text()?.split_once('=')?;
+    let size = Unit::parse(size.trim()).ok()?;
+    // a product of units has no name of its own
+    Some(Unit::defined(name, &size).unwrap_or(size))
 }
 
 /// One value for all, where a list has one.

@@ -9,7 +9,7 @@ use roxmltree::Node;
 use super::document::{self, Measured};
 
 /// Whether a quantity states coverage intervals.
-fn is_interval(node: Node<'_, '_>) -> bool {
+pub(super) fn is_interval(node: Node<'_, '_>) -> bool {
     node.descendants().any(|of| of.tag_name().name().starts_with("coverageInterval"))
 }
 

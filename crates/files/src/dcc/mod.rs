@@ -12,6 +12,7 @@ use std::sync::Arc;
 
 use super::condition_values::ConditionValues;
 use super::folder::Folder;
+use super::implied_dof::Factor;
 use super::object::Object;
 use super::source::{Place, SourceText};
 use super::value_text::ValueOf;
@@ -372,6 +373,8 @@ fn known(stated: &Stated, place: usize) -> Result<Known, String> {
         (None, Some(p)) => normal(p),
         (None, None) => 1.0,
     };
+    let last_digits = stated.last_digits.each_ref().map(|all| at(all).unwrap_or(0.0));
+    let [of_expanded, of_factor, of_probability] = last_digits;
     let (standard, factor) = match (at(&stated.standard), at(&stated.expanded)) {
         (Some(standard), _) => (standard, 1.0),
         (None, Some(_)) if stated.factors.is_none() && probability.is_none() => {
@@ -379,10 +382,7 @@ fn known(stated: &Stated, place: usize) -> Result<Known, String> {
             return Err(reason.to_owned());
         }
         (None, Some(expanded)) => match stated.of_interval.get(place).copied().flatten() {
-            Some(u) => {
-                let digits = stated.last_digits.each_ref().map(|all| at(all).unwrap_or(0.0));
-                (intervals::agreeing(u, (expanded, factor), digits)?, 1.0)
-            }
+            Some(u) => (intervals::agreeing(u, (expanded, factor), [of_expanded, of_factor])?, 1.0),
             None => (expanded / factor, factor),
         },
         (None, None) => return Err("has no uncertainty".to_owned()),
@@ -390,19 +390,12 @@ fn known(stated: &Stated, place: usize) -> Result<Known, String> {
     if !(standard >= 0.0 && standard.is_finite()) {
         return Err(format!("has a standard uncertainty of {standard}"));
     }
-    // the degrees of freedom that a t has whose factor at this probability is this one
+    // a standard uncertainty that is stated has not been divided by the factor
+    let divided = at(&stated.standard).is_none() && at(&stated.factors) == Some(factor);
     let dof = match probability {
-        Some(p) if is_t && factor > normal(p) * (1.0 + 1e-6) => {
-            let (mut low, mut high) = (0.5_f64, 1e6_f64);
-            for _ in 0..200 {
-                let middle = (low * high).sqrt();
-                if special::student::two_sided_factor(p, middle) > factor {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-            }
-            (low * high).sqrt()
+        Some(p) if divided && (is_t || distribution.is_empty()) => {
+            let stated = Factor::new(factor, of_factor);
+            if is_t { stated.dof(p) } else { stated.dof_of_nothing_named(p, of_probability) }
         }
         _ => f64::INFINITY,
     };

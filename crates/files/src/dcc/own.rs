@@ -6,17 +6,26 @@ use std::sync::Arc;
 use roxmltree::{Document, Node};
 use serde_json::Value;
 
+use super::intervals;
 use crate::carried;
 
 /// How the results of a certificate vary together.
 #[derive(Debug)]
 pub(super) struct OwnCertificate {
     /// The rows of each `dcc:result`, in order: one result for each output and unit.
-    groups: Vec<Vec<usize>>,
+    groups: Vec<Group>,
     /// Correlation coefficients of the rows.
     rows: Vec<Vec<Option<f64>>>,
     /// Covariance matrix of the parameters of each calibration function.
     functions: Vec<Vec<Vec<f64>>>,
+}
+
+/// The rows of a `dcc:result`.
+#[derive(Debug, Default)]
+struct Group {
+    rows: Vec<usize>,
+    /// Those whose coverage intervals stand in a quantity of their own.
+    with_interval: Vec<usize>,
 }
 
 /// What an input is of such a certificate.
@@ -61,12 +70,18 @@ impl OwnCertificate {
             .filter(|(name, _)| name == "result.json")
             .find_map(|(_, bytes)| serde_json::from_slice::<Value>(&bytes).ok())?;
         answer.get("gumption")?;
-        let mut groups: Vec<([&str; 2], Vec<usize>)> = Vec::new();
+        let mut groups: Vec<([&str; 2], Group)> = Vec::new();
         for (number, row) in answer.get("rows")?.as_array()?.iter().enumerate() {
             let of = [row.get("output")?.as_str()?, row.get("unit")?.as_str()?];
-            match groups.iter_mut().find(|(known, _)| *known == of) {
-                Some((_, rows)) => rows.push(number),
-                None => groups.push((of, vec![number])),
+            let place = groups.iter().position(|(known, _)| *known == of);
+            let place = place.unwrap_or_else(|| {
+                groups.push((of, Group::default()));
+                groups.len() - 1
+            });
+            let Some((_, group)) = groups.get_mut(place) else { continue };
+            group.rows.push(number);
+            if row.pointer("/stated/interval").is_some_and(Value::is_array) {
+                group.with_interval.push(number);
             }
         }
         let matrix = |value: &Value| -> Option<Vec<Vec<Option<f64>>>> {
@@ -79,7 +94,7 @@ impl OwnCertificate {
             covariance.into_iter().map(|row| row.into_iter().collect()).collect()
         });
         Some(Self {
-            groups: groups.into_iter().map(|(_, rows)| rows).collect(),
+            groups: groups.into_iter().map(|(_, group)| group).collect(),
             rows: matrix(answer.get("correlations")?)?,
             functions: functions.collect::<Option<_>>()?,
         })
@@ -91,12 +106,17 @@ impl OwnCertificate {
         let result = node.ancestors().find(|of| is(of, "result"))?;
         let before = result.prev_siblings().filter(|of| is(of, "result") && *of != result).count();
         let part = match self.groups.get(before) {
-            Some(rows) => {
-                // conditions, nominal values and coverage intervals have other values
+            Some(group) => {
+                let rows = match intervals::is_interval(node) {
+                    true => &group.with_interval,
+                    false => &group.rows,
+                };
+                // conditions and nominal values have other values
                 let quantities = result.descendants().filter(|of| is(of, "quantity"));
                 let mut measured = quantities
                     .filter(|of| super::document::has_ref_type(*of, "basic_measuredValue"));
-                (measured.next() == Some(node)).then_some(())?;
+                let is_row = measured.next() == Some(node) || intervals::is_interval(node);
+                is_row.then_some(())?;
                 Part::Row(*rows.get(place)?)
             }
             None => {

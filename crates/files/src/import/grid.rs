@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::columns::{Column, Header};
-use crate::open::json_as_table;
+use crate::open::no_table;
 use crate::separator::{DecimalMarks, Separator};
 use crate::source::SourceText;
 use crate::workbook::Layout;
@@ -139,7 +139,7 @@ pub(super) fn of_sheet(rows: Vec<Vec<String>>, layout: Layout) -> (Cells, String
 pub(super) fn of_text(content: &[u8]) -> Result<(Cells, String), DiagnosticKind> {
     let unreadable = |message| DiagnosticKind::Unreadable { message };
     let text = bytes::text(content).map_err(unreadable)?;
-    if let Some((_, kind)) = json_as_table(&SourceText::new("", &text)) {
+    if let Some((_, kind)) = no_table(&SourceText::new("", &text)) {
         return Err(kind);
     }
     // words may have any of the signs in them: the header tells which one separates

@@ -5,6 +5,7 @@ use super::columns::{Column, Header};
 use super::grid::{self, Cells};
 use crate::DiagnosticKind;
 use crate::workbook::choice::{self, Wanted};
+use crate::open::FROM_CERTIFICATES;
 use crate::workbook::{Book, Place, SheetName, letters};
 
 /// The sheet of a workbook that is read.
@@ -47,10 +48,10 @@ fn of_certificate(book: &mut Book, sheets: &[SheetName]) -> Option<String> {
     let (rows, _) = book.sheet(certificate).ok()?;
     let is_ours = |cell: &String| cell.starts_with("certificate file, SHA-256:");
     rows.iter().flatten().any(is_ours).then(|| {
-        "it is the workbook of a certificate, whose rows are results and no inputs of a sum: take its \
-         quantities from the digital certificate (`gumption certificate --format dcc`), each by an input \
-         of the distribution `dcc`"
-            .to_owned()
+        format!(
+            "it is the workbook of a certificate, whose rows are results and no inputs of a sum; \
+             {FROM_CERTIFICATES}"
+        )
     })
 }
 

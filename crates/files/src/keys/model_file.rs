@@ -171,6 +171,13 @@ pub(crate) const TOLERANCE: &[Key] = keys![
     "risk" => described("number", "The wanted risk of false acceptance, for guard bands.")
                 .with("exclusiveMinimum", 0)
                 .with("exclusiveMaximum", 0.5),
+    "guard_band" => described(
+        "number",
+        "The width of the guard band in multiples of the expanded uncertainty U (ILAC-G8: 1).",
+    )
+    .with("exclusiveMinimum", 0),
+    "specification" => described("string", "What the tolerance is that of, for certificates."),
+    "agreed" => described("boolean", "Whether the decision rule was agreed with the customer."),
 ];
 
 fn limit(about: &str) -> Value {

@@ -247,6 +247,10 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{0}: Wo {1} mit einem Überdeckungsintervall eine Standardunsicherheit angibt, wird diese genommen und nicht U geteilt durch k, deren Stellen gerundet sind",
     ),
     (
+        "correlation coefficients of a certificate that its results cannot have with the distributions that they are read with are the nearest possible: {}",
+        "Korrelationskoeffizienten eines Kalibrierscheins, die seine Ergebnisse mit den Verteilungen, mit denen sie gelesen werden, nicht haben können, sind die nächsten möglichen: {0+}",
+    ),
+    (
         "correlation coefficients between results of one certificate are kept: {}",
         "Korrelationskoeffizienten zwischen Ergebnissen eines Kalibrierscheins bleiben erhalten: {0+}",
     ),

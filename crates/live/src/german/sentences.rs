@@ -10,6 +10,11 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
         "{0} = {1}; k = {2}, Überdeckungswahrscheinlichkeit {3:}",
     ),
     (
+        "{} = {}; k = {}, raised to the laboratory's capability (CMC)",
+        "{0} = {1}; k = {2}, auf die Messmöglichkeit (CMC) des Laboratoriums angehoben",
+    ),
+    ("{} = {}; k = {}, an agreed factor", "{0} = {1}; k = {2}, ein vereinbarter Faktor"),
+    (
         "{} = {}; coverage interval from {} to {} (Monte Carlo, shortest), coverage probability {}",
         "{0} = {1}; Überdeckungsintervall von {2} bis {3} (Monte Carlo, kürzestes), Überdeckungswahrscheinlichkeit {4:}",
     ),
@@ -112,6 +117,22 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
     (
         "Decision rule: simple acceptance (JCGM 106, 8.2), accepted where the estimate lies within the tolerance. Decision: {}",
         "Entscheidungsregel: einfache Annahme (JCGM 106, 8.2), angenommen wird, wenn der Schätzwert innerhalb der Toleranz liegt. Entscheidung: {0:}",
+    ),
+    (
+        "Tolerance {}, guarded acceptance (ILAC-G8, guard band of {} U): {} of {} rows accepted",
+        "Toleranz {0:}, Annahme mit Schutzabstand (ILAC-G8, Schutzabstand von {1} U): {2} von {3} Zeilen angenommen",
+    ),
+    (
+        "Tolerance {}, guarded acceptance (ILAC-G8, guard band of {} U): {} of {} rows accepted, rejected: row {}",
+        "Toleranz {0:}, Annahme mit Schutzabstand (ILAC-G8, Schutzabstand von {1} U): {2} von {3} Zeilen angenommen, zurückgewiesen: Zeile {4}",
+    ),
+    (
+        "Tolerance {}, guarded acceptance (ILAC-G8, guard band of {} U): {} of {} rows accepted, rejected: rows {}",
+        "Toleranz {0:}, Annahme mit Schutzabstand (ILAC-G8, Schutzabstand von {1} U): {2} von {3} Zeilen angenommen, zurückgewiesen: Zeilen {4}",
+    ),
+    (
+        "Decision rule: guarded acceptance (ILAC-G8, guard band of {} U): {}, accepted {}. Decision: {}",
+        "Entscheidungsregel: Annahme mit Schutzabstand (ILAC-G8, Schutzabstand von {0} U): {1}, angenommen {2:}. Entscheidung: {3:}",
     ),
     (
         "Decision rule: guarded acceptance (JCGM 106, 8.3) for a {} risk of false acceptance of at most {} %; no value has so small a one. Decision: {}",

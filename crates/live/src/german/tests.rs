@@ -226,7 +226,7 @@ fn rare_sentences_are_german_too() {
         model(
             two(),
             "a + b",
-            json!({"unit": "1", "tolerance": {"lower": 2.5, "upper": 3.2, "guard_band": {"risk": 0.05}}}),
+            json!({"unit": "1", "tolerance": {"lower": 2.5, "upper": 3.2, "guard_band": 1}}),
             json!({}),
         ),
         model(
@@ -236,6 +236,12 @@ fn rare_sentences_are_german_too() {
             json!({}),
         ),
         model(two(), "a + b", one.clone(), json!({"check_units": false})),
+        model(
+            json!({"a": {"distribution": "normal", "mean": 1, "std": 0.1, "dof": 4}}),
+            "a",
+            one.clone(),
+            json!({"coverage_factor": 2, "coverage_factor_fixed": true}),
+        ),
         model(
             two(),
             "a + b",

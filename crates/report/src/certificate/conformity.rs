@@ -6,10 +6,11 @@ use super::sentences::{Said, about};
 use super::stated::{self, Stated};
 use super::units::printed;
 use super::words::Words;
-use crate::number::{Percent, exact, position, to};
+use crate::number::{Percent, exact, position, significant, to};
 use crate::plain;
 use crate::table::comparison::percent_of;
 use crate::table::in_unit;
+use gumption_engine::decimal::{to_15_digits, to_digits};
 use gumption_engine::model::Tolerance;
 use gumption_engine::propagate::Conformity;
 
@@ -38,19 +39,82 @@ fn said(row: &Stated<'_>, found: &Conformity, of: Said) -> String {
     let chance = if found.conforms { words.conforming } else { words.all_the_same };
     // an uncertainty that is stated in place of the evaluated one has no trials
     let trials = row.found.monte_carlo.as_ref().filter(|_| !row.is_raised());
-    let probability = percent_of(found, found.probability, trials.map(|figures| figures.trials));
-    let probability = match &probability {
-        Percent::At(number) => words.percent[0].replace("{p}", number),
-        Percent::MoreThan(number) => words.percent[1].replace("{p}", number),
-        Percent::LessThan(number) => words.percent[2].replace("{p}", number),
-    };
-    let parts = [
+    let trials = trials.map(|figures| figures.trials);
+    let probability = percent(percent_of(found, found.probability, trials), of);
+    let specification = row.asked.task.model.outputs.get(row.line.output);
+    let specification = specification.and_then(|output| output.specification.as_deref());
+    let specification =
+        specification.map(|name| words.specification.replace("{name}", &plain(name)));
+    let mut parts: Vec<String> = specification.into_iter().collect();
+    parts.push(
         decision(found, words)
             .replace("{limits}", &of.in_marks(&limits(row, &found.tolerance, None, words))),
-        chance.replace("{p}", &of.in_marks(&probability)),
-        rule(row, found, of),
-    ];
+    );
+    parts.extend(unrounded(row, found, of));
+    parts.push(chance.replace("{p}", &probability));
+    parts.extend(with_prior(row, found, (trials, of)));
+    parts.push(rule(row, found, of));
+    let output = row.asked.task.model.outputs.get(row.line.output);
+    if output.is_some_and(|output| output.rule_agreed) {
+        parts.push(words.rule_agreed.to_owned());
+    }
+    parts.extend(found.global.map(|risks| {
+        let share = |risk: f64| of.in_marks(&significant(100.0 * risk, 3));
+        let said = words.global_risks.replace("{a}", &share(risks.false_acceptance));
+        said.replace("{b}", &share(risks.false_rejection))
+    }));
     parts.join(" ")
+}
+
+/// A probability in percent.
+fn percent(probability: Percent, of: Said) -> String {
+    let (place, number) = match &probability {
+        Percent::At(number) => (0, number),
+        Percent::MoreThan(number) => (1, number),
+        Percent::LessThan(number) => (2, number),
+    };
+    of.words().percent[place].replace("{p}", &of.in_marks(number))
+}
+
+/// What a probability rests on beside the measurement (ISO/IEC 17025, 7.8.6; JCGM 106:2012, 6.3), and
+/// what it is without.
+fn with_prior(
+    row: &Stated<'_>,
+    found: &Conformity,
+    (trials, of): (Option<u64>, Said),
+) -> Option<String> {
+    let words = of.words();
+    let share = found.without_prior?;
+    let output = row.asked.task.model.outputs.get(row.line.output)?;
+    let prior = output.prior.as_deref()?;
+    let unit = printed(&row.quantity.unit);
+    let number = |value: f64| of.in_marks(&in_unit(&exact(to_15_digits(value)), &unit));
+    let about = words
+        .prior
+        .replace("{shape}", prior.name())
+        .replace("{mean}", &number(prior.mean()))
+        .replace("{std}", &number(prior.standard_uncertainty()));
+    let alone = percent(Percent::of(share, 0.0, trials), of);
+    Some(words.with_prior.replace("{prior}", &about).replace("{p}", &alone))
+}
+
+/// The value that was decided upon, where the one that is stated would show another decision.
+fn unrounded(row: &Stated<'_>, found: &Conformity, of: Said) -> Option<String> {
+    let shown = row.statement.rounded_value()?.value();
+    let alike = |limits: &Tolerance| limits.holds(shown) == limits.holds(found.estimate);
+    if alike(&found.tolerance) && found.acceptance.as_ref().is_none_or(alike) {
+        return None;
+    }
+    let limits = [Some(&found.tolerance), found.acceptance.as_ref()].into_iter().flatten();
+    let limits: Vec<&Tolerance> = limits.collect();
+    // as many digits as show on which side it lies
+    let tells = |value: f64| {
+        limits.iter().all(|limits| limits.holds(value) == limits.holds(found.estimate))
+    };
+    let digits = (2..=15).find(|digits| tells(to_digits(found.estimate, *digits)));
+    let value = to_digits(found.estimate, digits.unwrap_or(15) + 1);
+    let value = in_unit(&exact(value), &printed(&row.quantity.unit));
+    Some(of.words().unrounded.replace("{value}", &of.in_marks(&value)))
 }
 
 /// What is decided. A value that a guarded rule rejects although it lies within the tolerance is not
@@ -68,6 +132,15 @@ fn decision(found: &Conformity, words: &Words) -> &'static str {
 
 fn rule(row: &Stated<'_>, found: &Conformity, of: Said) -> String {
     let words = of.words();
+    if let (Some(factor), Some(width), Some(acceptance)) =
+        (found.guard_factor, found.guard_band, &found.acceptance)
+    {
+        let place = position(width, GUARD_DIGITS);
+        let guard = of.in_marks(&in_unit(&to(width, place), &printed(&row.quantity.unit)));
+        let said = words.multiple.replace("{factor}", &of.in_marks(&exact(factor)));
+        let accepted = of.in_marks(&limits(row, acceptance, place, words));
+        return said.replace("{guard}", &guard).replace("{limits}", &accepted);
+    }
     let Some(risk) = found.wanted_risk else { return words.simple.to_owned() };
     let kind = words.kinds[usize::from(found.global.is_some())];
     let filled = |template: &str| {

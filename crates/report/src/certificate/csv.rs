@@ -56,7 +56,7 @@ fn record(report: &CertificateReport<'_>, row: &Stated<'_>) -> Vec<String> {
         row.expanded().text,
         text(row.quantity.unit.text()),
         row.factor().text,
-        number(row.evaluated_dof().value),
+        number(row.dof().value),
         number(row.statement.coverage_probability),
         low,
         high,

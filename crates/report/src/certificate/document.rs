@@ -1,10 +1,10 @@
 //! The certificate as a document.
 
-use super::sentences::Said;
+use super::sentences::{Beside, Said};
 use super::words::{self, Words, beside};
 use super::{
     CertificateReport, administrative, conformity, file_name, functions, measurement, sentences,
-    sheets, trials_made,
+    sheets, stated, trials_made,
 };
 use crate::document::{Block, Document, Foot};
 use crate::plain;
@@ -30,15 +30,20 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
     document.table(sheets::results(report));
     document.section(beside(languages, |w| w.uncertainty));
     for of in Said::on_page(report) {
-        document.text_in(of.language.code(), sentences::coverage(report, of).join(" "));
+        document
+            .text_in(of.language.code(), sentences::coverage(report, of, Beside::Table).join(" "));
     }
     functions::sections(&mut document, report);
     if sheets::are_correlated(report) {
         document.section(beside(languages, |w| w.correlation));
         if certificate.lines.len() <= sheets::MOST_CORRELATED {
             document.table(sheets::correlations(report));
+            let raised = stated::rows(report).iter().any(|row| row.is_raised());
             for language in languages {
-                document.text_in(language.code(), words::of(*language).correlated);
+                let words = words::of(*language);
+                let more = if raised { words.correlated_raised } else { "" };
+                let said = format!("{} {more}", words.correlated);
+                document.text_in(language.code(), said.trim_end());
             }
         } else {
             for language in languages {

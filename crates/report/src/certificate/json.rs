@@ -1,13 +1,14 @@
 //! The certificate for programs.
 
 use super::functions::At;
-use super::sentences::Said;
+use super::sentences::{Beside, Said};
 use super::stated::{self, Stated};
 use super::{
     CertificateReport, administrative, functions, measurement, regions, sentences, trials_made,
 };
 use crate::answer::{list, object, pretty};
 use crate::fits::{self, FitSide};
+use crate::json::decision_value;
 use crate::sheet::Figure;
 use gumption_analysis::certificate::contents::StatedFunction;
 use gumption_engine::propagate::gum::Dof;
@@ -24,7 +25,7 @@ pub fn json(report: &CertificateReport<'_>) -> String {
     let rows = stated::rows(report);
     let about = administrative::lines(report);
     let statements = Said::on_page(report).into_iter().map(|of| {
-        let said = sentences::coverage(report, of);
+        let said = sentences::coverage(report, of, Beside::Table);
         (of.language.code(), list(said.iter().map(|said| Value::from(said.as_str()))))
     });
     let matrix = issued.correlations.iter();
@@ -135,7 +136,8 @@ fn one(report: &CertificateReport<'_>, row: &Stated<'_>) -> Value {
     });
     let [name, value] = [row.name(languages), row.value().text];
     let [expanded, factor] = [row.expanded().text, row.factor().text];
-    object([
+    let spread = report.issued.spreads.get(row.number - 1).copied().flatten();
+    let mut members = vec![
         ("row", Value::from(row.number as u64)),
         ("name", name.as_str().into()),
         ("model", asked.model.as_str().into()),
@@ -148,6 +150,7 @@ fn one(report: &CertificateReport<'_>, row: &Stated<'_>) -> Value {
         ("standard_uncertainty", statement.standard_uncertainty.into()),
         ("expanded_uncertainty", statement.expanded_uncertainty.into()),
         ("coverage_factor", statement.coverage_factor.into()),
+        ("correlated_standard_uncertainty", spread.into()),
         ("dof", dof.into()),
         ("dof_status", status.into()),
         ("coverage_probability", statement.coverage_probability.into()),
@@ -161,9 +164,12 @@ fn one(report: &CertificateReport<'_>, row: &Stated<'_>) -> Value {
                 ("expanded_uncertainty", expanded.as_str().into()),
                 ("coverage_factor", factor.as_str().into()),
                 ("interval", stated_ends),
+                ("dof", row.dof().text.as_str().into()),
             ]),
         ),
-    ])
+    ];
+    members.extend(row.conformity().map(|found| ("conformity", decision_value(&found))));
+    object(members)
 }
 
 fn provenance(report: &CertificateReport<'_>) -> Value {

@@ -40,10 +40,28 @@ impl Said {
     }
 }
 
+/// Where sentences stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Beside {
+    /// A table, which has the degrees of freedom.
+    Table,
+    /// Numbers in D-SI, which have a coverage probability for every factor, and none.
+    Dsi,
+}
+
 /// The statement of coverage in a language.
-pub(super) fn coverage(report: &CertificateReport<'_>, of: Said) -> Vec<String> {
+pub(super) fn coverage(report: &CertificateReport<'_>, of: Said, beside: Beside) -> Vec<String> {
     let words = of.words();
     let rows = stated::rows(report);
+    // the numbers of the rows whose factor is agreed, and whose probability is stated all the same
+    let agreed: Vec<usize> = match beside {
+        Beside::Table => Vec::new(),
+        Beside::Dsi => {
+            let groups = stated::groups(report).into_iter();
+            let reaching = groups.filter(|rows| stated::reach_something(rows)).flatten();
+            reaching.filter(|r| r.statement.basis == Basis::Fixed).map(|row| row.number).collect()
+        }
+    };
     let mut said = Vec::new();
     let mut say = |sentence: &str, holds: &dyn Fn(&Stated<'_>) -> bool| {
         let held = rows.iter().filter(|row| holds(row)).map(|row| row.number);
@@ -55,15 +73,26 @@ pub(super) fn coverage(report: &CertificateReport<'_>, of: Said) -> Vec<String> 
         }
     };
     let raised = |row: &Stated<'_>| row.is_raised();
-    for kind in kinds(&rows) {
-        say(&kind.sentence(of), &|row| kind.holds(row));
+    for kind in kinds(&rows, &agreed) {
+        say(&kind.sentence(of), &|row| kind.holds(row, &agreed));
     }
-    say(words.propagation, &|row| row.statement.basis != Basis::Shortest);
-    for probability in raised_probabilities(&rows) {
-        let sentence = words.raised.replace("{p}", &self::probability(of, probability));
-        say(&sentence, &|row| raised(row) && row.statement.coverage_probability == probability);
+    // an uncertainty that is the laboratory's capability was not evaluated so, nor confirmed
+    say(words.propagation, &|row| row.statement.basis != Basis::Shortest && !raised(row));
+    for (probability, factor) in raised_to(&rows) {
+        let template = words.raised[usize::from(probability.is_none())];
+        let sentence = template.replace("{p}", &self::probability(of, probability));
+        let sentence = sentence.replace("{k}", &of.in_marks(&factor));
+        say(&sentence, &|row| {
+            let same = row.statement.coverage_probability == probability;
+            raised(row) && same && row.factor().text == factor
+        });
     }
-    say(words.confirmed, &|row| row.found.validation.is_some_and(|v| v.gum_valid == Some(true)));
+    say(words.confirmed, &|row| {
+        !raised(row) && row.found.validation.is_some_and(|v| v.gum_valid == Some(true))
+    });
+    if beside == Beside::Dsi {
+        said.extend(degrees_of_freedom(&rows, &agreed, of));
+    }
     said.push(words.time.to_owned());
     said.push(rounding(report, words));
     said
@@ -77,15 +106,30 @@ pub(super) fn in_marks(mark: DecimalMark, numbers: &str) -> String {
     }
 }
 
-/// The coverage probabilities of rows whose uncertainty is the laboratory's capability.
-fn raised_probabilities(rows: &[Stated<'_>]) -> Vec<Option<f64>> {
+/// The coverage probabilities and factors of rows whose uncertainty is the laboratory's capability.
+fn raised_to(rows: &[Stated<'_>]) -> Vec<(Option<f64>, String)> {
     let mut found = Vec::new();
     for row in rows.iter().filter(|row| row.is_raised()) {
-        if !found.contains(&row.statement.coverage_probability) {
-            found.push(row.statement.coverage_probability);
+        let of = (row.statement.coverage_probability, row.factor().text);
+        if !found.contains(&of) {
+            found.push(of);
         }
     }
     found
+}
+
+/// The degrees of freedom of the rows whose factor or probability follows from them.
+fn degrees_of_freedom(rows: &[Stated<'_>], agreed: &[usize], of: Said) -> Option<String> {
+    let words = of.words();
+    let follows = |row: &&Stated<'_>| {
+        !row.is_raised() && (row.statement.basis == Basis::Student || agreed.contains(&row.number))
+    };
+    let one = |row: &Stated<'_>| {
+        let dof = of.in_marks(&row.evaluated_dof().text);
+        format!("{} {}: {dof}", words.row, row.number)
+    };
+    let listed: Vec<String> = rows.iter().filter(follows).map(one).collect();
+    (!listed.is_empty()).then(|| words.dof_list.replace("{list}", &listed.join("; ")))
 }
 
 /// A kind of statement: rows of one kind share a sentence.
@@ -97,21 +141,24 @@ struct Kind {
     without_trials: bool,
     /// The factor, where the sentence names it.
     factor: Option<String>,
+    /// Whether an agreed factor stands with its probability.
+    agreed: bool,
 }
 
 impl Kind {
-    fn of(row: &Stated<'_>) -> Self {
+    fn of(row: &Stated<'_>, agreed: &[usize]) -> Self {
         let named = matches!(row.statement.basis, Basis::Normal | Basis::Fixed);
         Self {
             basis: row.statement.basis,
             probability: row.statement.coverage_probability,
             without_trials: row.statement.without_trials,
             factor: named.then(|| row.factor().text),
+            agreed: agreed.contains(&row.number),
         }
     }
 
-    fn holds(&self, row: &Stated<'_>) -> bool {
-        !row.is_raised() && Self::of(row) == *self
+    fn holds(&self, row: &Stated<'_>, agreed: &[usize]) -> bool {
+        !row.is_raised() && Self::of(row, agreed) == *self
     }
 
     fn sentence(&self, of: Said) -> String {
@@ -119,6 +166,7 @@ impl Kind {
         let sentence = match self.basis {
             Basis::Normal => words.normal,
             Basis::Student => words.student,
+            Basis::Fixed if self.agreed => words.agreed,
             Basis::Fixed => words.fixed,
             Basis::Shortest if self.without_trials => words.without_trials,
             Basis::Shortest => words.shortest,
@@ -128,10 +176,11 @@ impl Kind {
     }
 }
 
-fn kinds(rows: &[Stated<'_>]) -> Vec<Kind> {
+fn kinds(rows: &[Stated<'_>], agreed: &[usize]) -> Vec<Kind> {
     let mut kinds: Vec<Kind> = Vec::new();
     // a capability is no multiple of an evaluated uncertainty
-    for kind in rows.iter().filter(|row| !row.is_raised()).map(Kind::of) {
+    let evaluated = rows.iter().filter(|row| !row.is_raised());
+    for kind in evaluated.map(|row| Kind::of(row, agreed)) {
         if !kinds.contains(&kind) {
             kinds.push(kind);
         }

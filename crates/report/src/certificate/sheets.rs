@@ -5,7 +5,7 @@ use super::sentences::in_marks;
 use super::stated::{self, Stated, UnitsAre};
 use super::units::printed;
 use super::words::{Words, stacked};
-use crate::number::{exact, rounded};
+use crate::number::{exact, rounded, significant};
 use crate::plain;
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::model::Quantity;
@@ -109,17 +109,22 @@ fn conditions(
     }
 }
 
-/// The upper triangle of the correlation coefficients between the rows.
+/// The upper triangle of the correlation coefficients between the rows, with the standard uncertainties
+/// that they go with.
 pub(super) fn correlations(report: &CertificateReport<'_>) -> Sheet {
     let matrix = &report.issued.correlations;
     let count = matrix.len();
     let mut sheet = Sheet::default();
-    sheet.text("r", (1..count).map(|row| row.to_string()));
+    sheet.text("r", (1..=count).map(|row| row.to_string()));
+    let spreads = report.issued.spreads.iter();
+    let digits = report.certificate.digits + 1;
+    sheet.figures("u_i", spreads.map(|u| Figure::rounded(*u, |u| significant(u, digits))));
+    let rows = stated::rows(report);
+    let units = rows.iter().map(|row| plain(printed(&row.quantity.unit).text()));
+    sheet.units(&stacked(&report.certificate.languages, |w| w.unit), units);
     for column in 1..count {
         let cells =
-            matrix.iter().take(count - 1).enumerate().map(|(row, coefficients)| match coefficients
-                .get(column)
-            {
+            matrix.iter().enumerate().map(|(row, coefficients)| match coefficients.get(column) {
                 _ if row >= column => Figure { text: String::new(), value: None },
                 Some(Some(r)) => coefficient(*r),
                 _ => Figure::missing(),

@@ -11,6 +11,7 @@ use gumption_engine::decimal::{Decimal, position, to_digits, to_position};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::propagate::{Conformity, OutputEvaluation};
+use gumption_engine::special::student;
 
 /// Position of the last digit of coverage factors.
 const FACTOR: i32 = -2;
@@ -70,6 +71,29 @@ pub(super) fn rows<'a>(report: &CertificateReport<'a>) -> Vec<Stated<'a>> {
     rows.collect()
 }
 
+/// The rows of each output, in order of first appearance.
+pub(super) fn groups<'a>(report: &CertificateReport<'a>) -> Vec<Vec<Stated<'a>>> {
+    let mut groups: Vec<Vec<Stated<'a>>> = Vec::new();
+    for row in rows(report) {
+        let same = |group: &&mut Vec<Stated<'_>>| {
+            group.first().is_some_and(|first| {
+                let (a, b) = (first.quantity, row.quantity);
+                a.name == b.name && a.unit.text() == b.unit.text()
+            })
+        };
+        match groups.iter_mut().find(same) {
+            Some(group) => group.push(row),
+            None => groups.push(vec![row]),
+        }
+    }
+    groups
+}
+
+/// Whether all of these rows have a coverage probability, stated or reached.
+pub(super) fn reach_something(rows: &[Stated<'_>]) -> bool {
+    rows.iter().all(|row| row.reached().is_some())
+}
+
 impl Stated<'_> {
     /// What the row is called.
     pub(super) fn name(&self, languages: &[Language]) -> String {
@@ -102,8 +126,8 @@ impl Stated<'_> {
                 None => Conformity::evaluated(output, self.found, &self.asked.task.settings),
             };
         }
-        let Statement { value, standard_uncertainty, .. } = *self.statement;
-        Conformity::with_stated(output, value, standard_uncertainty)
+        let Statement { value, standard_uncertainty, expanded_uncertainty, .. } = *self.statement;
+        Conformity::with_stated(output, value, standard_uncertainty, expanded_uncertainty)
     }
 
     /// Whether the uncertainty is the laboratory's capability.
@@ -165,6 +189,35 @@ impl Stated<'_> {
             }
             Dof::Finite(dof) => Figure::of(dof, rounded(dof, -2)),
         }
+    }
+
+    /// The coverage probability that the interval has: the stated one, or that of an agreed factor by the t
+    /// distribution with the effective degrees of freedom. `None` where these are not defined, or trials
+    /// show another distribution.
+    pub(super) fn reached(&self) -> Option<f64> {
+        if self.statement.basis != Basis::Fixed {
+            return self.statement.coverage_probability;
+        }
+        let gum = self.found.gum.as_ref()?;
+        let Dof::Finite(exact) = gum.dof else { return None };
+        let within = |dof: f64, k: f64| 1.0 - 2.0 * student::sf(k, dof);
+        if let (Some(trials), Some(validation)) = (&self.found.monte_carlo, &self.found.validation)
+        {
+            let asked = self.asked.task.settings.coverage.probability();
+            let half = student::two_sided_factor(asked, exact) * gum.standard_uncertainty;
+            let ends = [gum.estimate - half, gum.estimate + half];
+            let apart = ends.iter().zip(trials.symmetric_interval).map(|(a, b)| (a - b).abs());
+            if apart.fold(0.0, f64::max) > validation.tolerance {
+                return None;
+            }
+        }
+        let dof = self.evaluated_dof().value.unwrap_or(exact);
+        let k = match self.statement.limit.filter(|limit| limit.raised) {
+            // at least that of the evaluated one
+            Some(_) => self.asked.task.settings.coverage.given_factor()?,
+            None => self.statement.coverage_factor,
+        };
+        Some(within(dof, k))
     }
 
     /// The coverage probability in percent.

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use super::sentences::Said;
+use super::sentences::{Beside, Said};
 use super::{
     CertificateReport, administrative, conformity, file_name, functions, sentences, sheets,
 };
@@ -28,7 +28,7 @@ pub fn xlsx(report: &CertificateReport<'_>) -> io::Result<Vec<u8>> {
         }
         row = leaf.table(row + 1, &sheets::results(report))? + 1;
         for of in Said::on_page(report) {
-            for said in sentences::coverage(report, of) {
+            for said in sentences::coverage(report, of, Beside::Table) {
                 leaf.line(row, &said)?;
                 row += 1;
             }

@@ -10,7 +10,7 @@ use crate::table::budget;
 use crate::table::budget::Budget;
 use crate::table::{comparison, in_unit};
 use gumption_engine::model::{Output, Quantity};
-use gumption_engine::propagate::OutputEvaluation;
+use gumption_engine::propagate::{Basis, CapabilityStatement, OutputEvaluation, Stated};
 use gumption_engine::task::{Coverage, Settings};
 
 /// The parts of the section of an output, in the order in which a page has them.
@@ -132,7 +132,13 @@ fn result(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> S
                 true => in_unit(&format!("({estimate} ± {expanded})"), &output.unit),
                 false => format!("{estimate} ± {expanded}"),
             };
-            format!("{name} = {value}; k = {factor}, coverage probability {coverage}")
+            let probability = format!("coverage probability {coverage}");
+            let about = match raised(found) {
+                Some(_) => "raised to the laboratory's capability (CMC)",
+                None if is_agreed(settings, found) => "an agreed factor",
+                None => &probability,
+            };
+            format!("{name} = {value}; k = {factor}, {about}")
         }
         ResultStatement::Interval { estimate, low, high, shortest } => {
             let kind = if shortest { "shortest" } else { "probabilistically symmetric" };
@@ -149,6 +155,18 @@ fn result(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> S
         }
         ResultStatement::Undefined => format!("{name} is not defined at these estimates"),
     }
+}
+
+/// The laboratory's capability, where the expanded uncertainty is raised to it.
+fn raised(found: &OutputEvaluation) -> Option<&CapabilityStatement> {
+    found.capability.as_deref().filter(|stated| stated.raised)
+}
+
+/// Whether the factor is an agreed one, which belongs to no coverage probability.
+fn is_agreed(settings: &Settings, found: &OutputEvaluation) -> bool {
+    let stated = Stated::of(found, settings, |u| position(u, settings.digits));
+    let fixed = matches!(settings.coverage, Coverage::Factor { fixed: true, .. });
+    fixed && stated.is_some_and(|stated| stated.basis == Basis::Fixed)
 }
 
 /// The measurement result as JCGM 100, 7.2.4 states it; the Monte Carlo interval where the GUM's
@@ -192,6 +210,21 @@ impl ResultStatement {
     pub fn of(settings: &Settings, found: &OutputEvaluation) -> Self {
         let refuted = found.validation.is_some_and(|v| v.gum_valid == Some(false));
         let gum = found.gum.as_ref();
+        if let Some(raised) = raised(found) {
+            let factor = crate::number::rounded(settings.coverage.normal_factor(), -2);
+            let (estimate, expanded) =
+                with_uncertainty(raised.estimate, raised.expanded_uncertainty, settings.digits);
+            return Self::Expanded { estimate, expanded, factor };
+        }
+        // an agreed factor is kept, also where trials show another interval
+        if let (Coverage::Factor { fixed: true, .. }, true) = (settings.coverage, refuted)
+            && let Some(stated) = Stated::of(found, settings, |u| position(u, settings.digits))
+        {
+            let factor = crate::number::rounded(stated.coverage_factor, -2);
+            let (estimate, expanded) =
+                with_uncertainty(stated.value, stated.expanded_uncertainty, settings.digits);
+            return Self::Expanded { estimate, expanded, factor };
+        }
         let expanded = gum.and_then(|gum| Some((gum, gum.expanded_uncertainty()?)));
         if let Some((gum, expanded)) = expanded.filter(|_| !refuted || found.monte_carlo.is_none())
         {

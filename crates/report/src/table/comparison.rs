@@ -228,10 +228,18 @@ pub(crate) fn decision(found: &Conformity) -> &'static str {
 
 /// The rule by which it is decided.
 pub(super) fn rule(found: &Conformity) -> String {
-    found.wanted_risk.map_or_else(
-        || "simple acceptance (JCGM 106, 8.2)".to_owned(),
-        |risk| format!("guarded acceptance (JCGM 106, 8.3) for {}", risk_text(found, risk)),
-    )
+    match (found.wanted_risk, found.guard_factor) {
+        (Some(risk), _) => {
+            format!("guarded acceptance (JCGM 106, 8.3) for {}", risk_text(found, risk))
+        }
+        (None, Some(factor)) => format!("guarded acceptance ({})", multiple_text(factor)),
+        (None, None) => "simple acceptance (JCGM 106, 8.2)".to_owned(),
+    }
+}
+
+/// A guard band in multiples of U.
+fn multiple_text(factor: f64) -> String {
+    format!("ILAC-G8, guard band of {} U", exact(factor))
 }
 
 /// A risk that is wanted at most.
@@ -243,6 +251,17 @@ fn risk_text(found: &Conformity, risk: f64) -> String {
 /// The decision rule and the decision.
 fn rule_text(output: &Quantity, found: &Conformity) -> String {
     let decision = decision(found);
+    if let (Some(factor), Some(width), Some(acceptance)) =
+        (found.guard_factor, found.guard_band, found.acceptance)
+    {
+        let digits = position(width, 3);
+        return format!(
+            "Decision rule: guarded acceptance ({}): {}, accepted {}. Decision: {decision}.",
+            multiple_text(factor),
+            in_unit(&to(width, digits), &output.unit),
+            limits_text(output, &acceptance, digits)
+        );
+    }
     let Some(risk) = found.wanted_risk else {
         return format!(
             "Decision rule: simple acceptance (JCGM 106, 8.2), accepted where the estimate lies \

@@ -9,11 +9,13 @@ use crate::certificate::functions::{self, At};
 use crate::certificate::sentences::Said;
 use crate::certificate::stated;
 use crate::certificate::stated::{Stated, UnitsAre};
+use crate::certificate::units::printed;
 use crate::certificate::words::{self, Words, localized};
 use crate::certificate::{CertificateReport, file_name, json, sentences};
 use crate::fits;
 use crate::number::exact;
 use crate::sheet::Figure;
+use crate::table::in_unit;
 use gumption_analysis::certificate::Basis;
 use gumption_analysis::certificate::contents::{Language, Localized, StatedFunction};
 use gumption_engine::model::Quantity;
@@ -53,7 +55,7 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
             });
         }
         xml.element("dcc:results", |xml| {
-            for rows in groups(report) {
+            for rows in stated::groups(report) {
                 xml.element("dcc:result", |xml| result(xml, report, &rows, languages));
             }
             for of in &report.certificate.functions {
@@ -63,24 +65,6 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
             xml.element("dcc:result", |xml| attachments(xml, report, languages));
         });
     });
-}
-
-/// The rows of each output, in order of first appearance.
-fn groups<'a>(report: &CertificateReport<'a>) -> Vec<Vec<Stated<'a>>> {
-    let mut groups: Vec<Vec<Stated<'a>>> = Vec::new();
-    for row in stated::rows(report) {
-        let same = |group: &&mut Vec<Stated<'_>>| {
-            group.first().is_some_and(|first| {
-                let (a, b) = (first.quantity, row.quantity);
-                a.name == b.name && a.unit.text() == b.unit.text()
-            })
-        };
-        match groups.iter_mut().find(same) {
-            Some(group) => group.push(row),
-            None => groups.push(vec![row]),
-        }
-    }
-    groups
 }
 
 fn result(
@@ -96,7 +80,10 @@ fn result(
         if !first.quantity.about.trim().is_empty() {
             lines.push(first.quantity.about.trim().to_owned());
         }
-        lines.extend(rows.iter().map(|row| named(report, row, *language)));
+        lines.extend(rows.iter().map(|row| match stated::reach_something(rows) {
+            true => named(report, row, *language),
+            false => named(report, row, *language) + &without_probability(report, row, *language),
+        }));
         (Some(*language), lines.join("; "))
     };
     let about = Localized { texts: languages.iter().map(described).collect() };
@@ -122,6 +109,17 @@ pub(super) fn named(
     let circumstances = row.circumstances(report, UnitsAre::Printed);
     parts.extend(circumstances.iter().map(|part| of.in_marks(part)));
     format!("{} {}: {}", words::of(language).row, row.number, parts.join(", "))
+}
+
+/// What an agreed factor makes of a row without a coverage probability, for which D-SI has no place.
+fn without_probability(
+    report: &CertificateReport<'_>,
+    row: &Stated<'_>,
+    language: Language,
+) -> String {
+    let of = Said::by_itself(report, language);
+    let [expanded, factor] = [row.expanded().text, row.factor().text].map(|n| of.in_marks(&n));
+    format!(", U = {}, k = {factor}", in_unit(&expanded, &printed(&row.quantity.unit)))
 }
 
 /// A list of numbers in one unit.
@@ -189,8 +187,9 @@ fn measured(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
     xml.within("dcc:quantity", &[("refType", "basic_measuredValue")], |xml| {
         xml.text("dcc:name", &localized(languages, |w| w.measured_value), languages);
         list(xml, &texts(|row| row.value().text), &first.quantity.unit, |xml| {
-            // D-SI has no coverage factor below 1
-            if rows.iter().any(|row| row.statement.coverage_factor < 1.0) {
+            // D-SI has no coverage factor below 1, and none without a probability
+            let below = rows.iter().any(|row| row.statement.coverage_factor < 1.0);
+            if below || !stated::reach_something(rows) {
                 return;
             }
             xml.element("si:expandedUncXMLList", |xml| {
@@ -206,16 +205,22 @@ fn measured(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
     });
 }
 
-/// A probability; where none is stated that of a normal distribution, which D-SI asks for.
+/// The coverage probability, which D-SI asks for also where an agreed factor is all that is stated.
 fn probability(row: &Stated<'_>) -> String {
-    let stated = row.statement.coverage_probability;
-    exact(stated.unwrap_or_else(|| row.asked.task.settings.coverage.probability()))
+    match (row.statement.coverage_probability, row.reached()) {
+        (Some(stated), _) => exact(stated),
+        (None, Some(reached)) => {
+            exact(stated::percent(1e-4 * stated::percent_of_coverage(reached)))
+        }
+        (None, None) => String::new(),
+    }
 }
 
 fn distribution(row: &Stated<'_>) -> String {
     match row.statement.basis {
         Basis::Normal => "normal",
         Basis::Student => "t",
+        Basis::Fixed if row.reached().is_some() && !row.is_raised() => "t",
         Basis::Fixed | Basis::Shortest => "other",
     }
     .to_owned()

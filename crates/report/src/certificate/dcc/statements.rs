@@ -1,7 +1,7 @@
 //! The statements of a DCC: coverage, traceability, conformity, remarks.
 
 use super::xml::Xml;
-use crate::certificate::sentences::Said;
+use crate::certificate::sentences::{Beside, Said};
 use crate::certificate::words::{self, Words};
 use crate::certificate::{CertificateReport, conformity, sentences};
 use gumption_analysis::certificate::contents::{Language, Localized};
@@ -9,9 +9,9 @@ use gumption_analysis::certificate::contents::{Language, Localized};
 pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
     let of = &report.certificate.administrative;
     let own = |language: &Language| Said::by_itself(report, *language);
-    let coverage = languages
-        .iter()
-        .map(|language| (Some(*language), sentences::coverage(report, own(language)).join(" ")));
+    let coverage = languages.iter().map(|language| {
+        (Some(*language), sentences::coverage(report, own(language), Beside::Dsi).join(" "))
+    });
     let norms = ["JCGM 100:2008", "JCGM 101:2008", "EA-4/02 M:2022"];
     statement(xml, &Localized { texts: coverage.collect() }, (None, &norms, None), languages);
     if let Some(traceability) = &of.traceability {

@@ -10,7 +10,7 @@ const TEMPLATE: &str = include_str!("view.xsl");
 type NamedWord = (&'static str, fn(&Words) -> &'static str);
 
 /// The words that it takes from those of a certificate.
-const WORDS: [NamedWord; 17] = [
+const WORDS: [NamedWord; 18] = [
     ("title", |of| of.title),
     ("number", |of| of.number),
     ("device", |of| of.device),
@@ -23,6 +23,7 @@ const WORDS: [NamedWord; 17] = [
     ("received", |of| of.received),
     ("calibrated", |of| of.calibrated),
     ("issued", |of| of.issued),
+    ("value", |of| of.value),
     ("expanded", |of| of.expanded),
     ("low", |of| of.low),
     ("high", |of| of.high),

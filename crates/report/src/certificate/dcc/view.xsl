@@ -148,6 +148,56 @@
     </p>
   </xsl:template>
 
+  <!-- several numbers that lie in a region together: a row for each, with the covariance matrix -->
+  <xsl:template match="dcc:quantity[si:complex or si:list/si:realList]" mode="data">
+    <xsl:variable name="of" select="si:complex|si:list/si:realList"/>
+    <xsl:variable name="columns" select="$of//si:covarianceMatrix/si:column"/>
+    <p>
+      <xsl:apply-templates select="dcc:name"/>
+      <xsl:for-each select="$of//si:coverageFactor[1]">, k = <xsl:value-of select="."/></xsl:for-each>
+      <xsl:for-each select="$of//si:coverageProbability[1]">, p = <xsl:value-of select="."/></xsl:for-each>
+    </p>
+    <div class="table" tabindex="0">
+      <table>
+        <thead>
+          <tr>
+            <th scope="col"/>
+            <th scope="col" class="number">{words:value}</th>
+            <xsl:if test="$columns"><th scope="col" class="number" colspan="{count($columns)}">U</th></xsl:if>
+          </tr>
+        </thead>
+        <tbody>
+          <xsl:for-each select="$of/si:valueReal|$of/si:valueImag|$of/si:valueMagnitude|$of/si:valuePhase|$of/si:real/si:value">
+            <xsl:variable name="row" select="position()"/>
+            <tr>
+              <th scope="row">
+                <xsl:choose>
+                  <xsl:when test="../si:label"><xsl:value-of select="../si:label"/></xsl:when>
+                  <xsl:when test="self::si:valueReal">Re</xsl:when>
+                  <xsl:when test="self::si:valueImag">Im</xsl:when>
+                  <xsl:when test="self::si:valueMagnitude">| |</xsl:when>
+                  <xsl:when test="self::si:valuePhase">arg</xsl:when>
+                </xsl:choose>
+              </th>
+              <td class="number">
+                <xsl:value-of select="."/><xsl:text> </xsl:text>
+                <xsl:call-template name="unit">
+                  <xsl:with-param name="unit" select="(../si:unitPhase[current()[self::si:valuePhase]]|../si:unit[not(current()[self::si:valuePhase] and ../si:unitPhase)])[1]"/>
+                </xsl:call-template>
+              </td>
+              <xsl:for-each select="$columns">
+                <td class="number">
+                  <xsl:value-of select="si:covariance[$row]/si:value"/><xsl:text> </xsl:text>
+                  <xsl:call-template name="unit"><xsl:with-param name="unit" select="si:covariance[$row]/si:unit"/></xsl:call-template>
+                </td>
+              </xsl:for-each>
+            </tr>
+          </xsl:for-each>
+        </tbody>
+      </table>
+    </div>
+  </xsl:template>
+
   <!-- quantities over rows: a column for each, with its uncertainty -->
   <xsl:template match="dcc:list" mode="data">
     <xsl:variable name="lists" select="dcc:quantity[si:realListXMLList]"/>

@@ -51,15 +51,18 @@ pub(super) const WORDS: Words = Words {
         k = {k}; the result is normally distributed, so that the interval from value - U to value + U \
         has a coverage probability of {p}.",
     student: "The expanded uncertainty U is the standard uncertainty multiplied by the coverage \
-        factor k in the table. The result follows a t distribution with the effective degrees of \
-        freedom ν_eff in the table, and k is chosen so that the coverage probability is {p}.",
+        factor k stated with it. The result follows a t distribution with the effective degrees \
+        of freedom ν_eff, and k is chosen so that the coverage probability is {p}.",
     fixed: "The expanded uncertainty U is the standard uncertainty multiplied by the agreed coverage \
         factor k = {k}. No distribution is supposed, so that no coverage probability is stated.",
-    shortest: "The result is not normally distributed. The interval in the last two columns of the table is the shortest one \
+    agreed: "The expanded uncertainty U is the standard uncertainty multiplied by the agreed \
+        coverage factor k = {k}. The coverage probability that is stated with it follows from \
+        the t distribution with the effective degrees of freedom ν_eff.",
+    shortest: "The result is not normally distributed. The stated coverage interval is the shortest one \
         with a coverage probability of {p}, found by the Monte Carlo method (JCGM 101:2008). U is the \
         distance of the value from its farther end, and k is U over the standard uncertainty, to the \
         digits that the trials justify.",
-    without_trials: "The result is not normally distributed. The interval in the last two columns of the table has a \
+    without_trials: "The result is not normally distributed. The stated coverage interval has a \
         coverage probability of {p}; it was found by the propagation of distributions (JCGM 101:2008, \
         clause 5) without random trials, and is the shortest one, or the symmetric one where that is \
         longer by less than 1 %. U is the distance of the value from its farther end, and k is U over \
@@ -75,15 +78,22 @@ pub(super) const WORDS: Words = Words {
         "rounded up",
     ],
     digits: ["one significant digit", "{digits} significant digits"],
-    raised: "The evaluated uncertainty is smaller than the laboratory's calibration and measurement \
-        capability (CMC), which is stated as U instead (ILAC-P14:09/2020); the interval from value - U \
-        to value + U has a coverage probability of at least {p}.",
+    raised: [
+        "The evaluated expanded uncertainty is smaller than the laboratory's calibration and \
+            measurement capability (CMC), which is stated as U instead (ILAC-P14:09/2020), with \
+            the coverage factor k = {k} of the capability; the interval from value - U to value \
+            + U has a coverage probability of at least {p}.",
+        "The evaluated expanded uncertainty is smaller than the laboratory's calibration and \
+            measurement capability (CMC), which is stated as U instead (ILAC-P14:09/2020), with \
+            the coverage factor k = {k} of the capability.",
+    ],
+    dof_list: "Effective degrees of freedom ν_eff: {list}.",
     approximately: "approximately {p}",
 
     function: "Calibration function {name}",
-    in_range: "{equation} for {low} ≤ x ≤ {high}, x and {name} being numbers in the units of the table.",
+    in_range: "{equation} for {low} ≤ x ≤ {high}, x and {name} being numbers in the stated units.",
     band: "U is the expanded uncertainty of the function at x, with the coverage factor k = {k}; it does \
-        not contain that of a further reading. Between the lines of the table it follows from \
+        not contain that of a further reading. Between the stated values of x it follows from \
         u(x)² = g(x)' V g(x) with the derivatives g by the parameters and their covariance matrix V, \
         which the standard uncertainties and correlation coefficients r of the parameters make up.",
     parameter: "parameter",
@@ -97,11 +107,14 @@ pub(super) const WORDS: Words = Words {
     symbol: "symbol",
     meaning: "meaning",
     correlation: "Correlation of the rows",
-    correlated: "Rows that share inputs are correlated. The standard uncertainty of the difference \
-        of rows i and j follows from u² = u_i² + u_j² - 2 r u_i u_j, with u_i = U_i / k_i and the \
-        coefficient r from the table (from the law of propagation).",
-    many: "The {rows} rows share inputs; their correlation coefficients are in the JSON answer and in \
-        the workbook.",
+    correlated: "Rows that share inputs are correlated. The standard uncertainty of the \
+        difference of rows i and j follows from u² = u_i² + u_j² - 2 r u_i u_j, with the \
+        standard uncertainties u_i and u_j and the coefficient r stated here. They are those of \
+        the law of propagation, from which U_i / k_i may differ.",
+    correlated_raised: "Where U is the laboratory's capability, u_i contains it, and what it \
+        adds to the evaluated uncertainty is taken to be uncorrelated with the other rows.",
+    many: "Some of the {rows} rows share inputs; correlation coefficients, and the standard \
+        uncertainties that they go with, are in the JSON answer and in the workbook.",
     conformity: "Conformity",
     decisions: [
         "The result conforms to the tolerance {limits}.",
@@ -116,8 +129,19 @@ pub(super) const WORDS: Words = Words {
     limits: ["from {low} to {high}{unit}", "from {low}{unit} on", "up to {high}{unit}"],
     conforming: "The value conforms with a probability of {p}.",
     all_the_same: "Specific risk that the value conforms all the same: {p}.",
+    unrounded: "It was decided with the value before rounding, {value}.",
+    with_prior: "This probability takes into account what was known of such items before the \
+        measurement (JCGM 106:2012, 6.3 and 7.1): {prior}. From the measured value and its \
+        uncertainty alone it is {p}.",
+    prior: "distribution `{shape}` with mean {mean} and standard deviation {std}",
+    global_risks: "Global risks with this prior knowledge and these acceptance limits: false \
+        acceptance {a} %, false rejection {b} %.",
     percent: ["{p} %", "more than {p} %", "less than {p} %"],
     simple: "Decision rule: simple acceptance (JCGM 106:2012, 8.2).",
+    multiple: "Decision rule: guarded acceptance with a guard band of {factor} U \
+        (ILAC-G8:09/2019, 4.2.2); guard band {guard}, accepted {limits}.",
+    rule_agreed: "The decision rule was agreed with the customer.",
+    specification: "Specification: {name}.",
     guarded: "Decision rule: guarded acceptance (JCGM 106:2012, 8.3) for {kind} of at most {risk} %; \
         guard band {guard}, accepted {limits}.",
     never: "Decision rule: guarded acceptance (JCGM 106:2012, 8.3) for {kind} of at most {risk} %, \

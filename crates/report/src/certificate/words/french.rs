@@ -50,16 +50,20 @@ pub(super) const WORDS: Words = Words {
     normal: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur d'élargissement \
         k = {k} ; le résultat suit une loi normale, de sorte que l'intervalle de valeur - U à valeur + U a \
         une probabilité de couverture de {p}.",
-    student: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur d'élargissement k du \
-        tableau. Le résultat suit une loi de Student avec les degrés de liberté effectifs ν_eff du tableau, \
-        et k est choisi de façon que la probabilité de couverture soit {p}.",
+    student: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur \
+        d'élargissement k déclaré avec elle. Le résultat suit une loi de Student avec les degrés \
+        de liberté effectifs ν_eff, et k est choisi de façon que la probabilité de couverture \
+        soit {p}.",
     fixed: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur d'élargissement convenu \
         k = {k}. Aucune loi n'est supposée, et aucune probabilité de couverture n'est donc déclarée.",
-    shortest: "Le résultat ne suit pas une loi normale. L'intervalle des deux dernières colonnes du tableau est le plus court \
+    agreed: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur \
+        d'élargissement convenu k = {k}. La probabilité de couverture déclarée avec elle découle \
+        de la loi de Student avec les degrés de liberté effectifs ν_eff.",
+    shortest: "Le résultat ne suit pas une loi normale. L'intervalle élargi déclaré est le plus court \
         ayant une probabilité de couverture de {p}, trouvé par la méthode de Monte-Carlo (JCGM 101:2008). U \
         est la distance de la valeur à l'extrémité la plus éloignée, et k est U divisé par \
         l'incertitude-type, avec les chiffres que les tirages justifient.",
-    without_trials: "Le résultat ne suit pas une loi normale. L'intervalle des deux dernières colonnes du tableau a une \
+    without_trials: "Le résultat ne suit pas une loi normale. L'intervalle élargi déclaré a une \
         probabilité de couverture de {p} ; il a été trouvé par la propagation de distributions (JCGM \
         101:2008, article 5) sans tirages aléatoires, et c'est le plus court, ou bien le symétrique là \
         où il est plus long de moins de 1 %. U est la distance de la valeur à l'extrémité la plus \
@@ -75,15 +79,23 @@ pub(super) const WORDS: Words = Words {
         "arrondi par excès",
     ],
     digits: ["un chiffre significatif", "{digits} chiffres significatifs"],
-    raised: "L'incertitude évaluée est inférieure à l'aptitude en matière de mesures et d'étalonnages (CMC) du \
-        laboratoire, qui est déclarée comme U à sa place (ILAC-P14:09/2020) ; l'intervalle de valeur - U à \
-        valeur + U a une probabilité de couverture d'au moins {p}.",
+    raised: [
+        "L'incertitude élargie évaluée est inférieure à l'aptitude en matière de mesures et \
+            d'étalonnages (CMC) du laboratoire, qui est déclarée comme U à sa place \
+            (ILAC-P14:09/2020), avec le facteur d'élargissement k = {k} de l'aptitude ; \
+            l'intervalle de valeur - U à valeur + U a une probabilité de couverture d'au moins \
+            {p}.",
+        "L'incertitude élargie évaluée est inférieure à l'aptitude en matière de mesures et \
+            d'étalonnages (CMC) du laboratoire, qui est déclarée comme U à sa place \
+            (ILAC-P14:09/2020), avec le facteur d'élargissement k = {k} de l'aptitude.",
+    ],
+    dof_list: "Degrés de liberté effectifs ν_eff : {list}.",
     approximately: "{p} environ",
 
     function: "Fonction d'étalonnage {name}",
-    in_range: "{equation} pour {low} ≤ x ≤ {high}, x et {name} étant des nombres dans les unités du tableau.",
+    in_range: "{equation} pour {low} ≤ x ≤ {high}, x et {name} étant des nombres dans les unités déclarées.",
     band: "U est l'incertitude élargie de la fonction en x, avec le facteur d'élargissement k = {k} ; elle ne \
-        contient pas celle d'une lecture supplémentaire. Entre les lignes du tableau elle découle de \
+        contient pas celle d'une lecture supplémentaire. Entre les valeurs de x déclarées elle découle de \
         u(x)² = g(x)' V g(x), avec les dérivées g par rapport aux paramètres et leur matrice de covariance V, \
         que forment les incertitudes-types et les coefficients de corrélation r des paramètres.",
     parameter: "paramètre",
@@ -97,11 +109,15 @@ pub(super) const WORDS: Words = Words {
     symbol: "symbole",
     meaning: "signification",
     correlation: "Corrélation des lignes",
-    correlated: "Les lignes qui ont des grandeurs d'entrée en commun sont corrélées. L'incertitude-type de la \
-        différence des lignes i et j découle de u² = u_i² + u_j² - 2 r u_i u_j, avec u_i = U_i / k_i et le \
-        coefficient r du tableau (par la loi de propagation).",
-    many: "Les {rows} lignes ont des grandeurs d'entrée en commun ; leurs coefficients de corrélation sont dans \
-        la réponse JSON et dans le classeur.",
+    correlated: "Les lignes qui ont des grandeurs d'entrée en commun sont corrélées. \
+        L'incertitude-type de la différence des lignes i et j découle de u² = u_i² + u_j² - 2 r \
+        u_i u_j, avec les incertitudes-types u_i et u_j et le coefficient r déclarés ici. Ce \
+        sont ceux de la loi de propagation, dont U_i / k_i peut différer.",
+    correlated_raised: "Là où U est l'aptitude du laboratoire, u_i la contient, et ce qu'elle \
+        ajoute à l'incertitude évaluée est supposé non corrélé avec les autres lignes.",
+    many: "Certaines des {rows} lignes ont des grandeurs d'entrée en commun ; les coefficients \
+        de corrélation, et les incertitudes-types qui vont avec, sont dans la réponse JSON et \
+        dans le classeur.",
     conformity: "Conformité",
     decisions: [
         "Le résultat est conforme à la tolérance {limits}.",
@@ -116,8 +132,19 @@ pub(super) const WORDS: Words = Words {
     limits: ["de {low} à {high}{unit}", "à partir de {low}{unit}", "jusqu'à {high}{unit}"],
     conforming: "La valeur est conforme avec une probabilité de {p}.",
     all_the_same: "Risque spécifique que la valeur soit malgré tout conforme : {p}.",
+    unrounded: "La décision a été prise avec la valeur avant arrondi, {value}.",
+    with_prior: "Cette probabilité tient compte de ce que l'on savait de tels objets avant la \
+        mesure (JCGM 106:2012, 6.3 et 7.1) : {prior}. D'après la valeur mesurée et son \
+        incertitude seules, elle est de {p}.",
+    prior: "loi `{shape}` de moyenne {mean} et d'écart-type {std}",
+    global_risks: "Risques globaux avec cette connaissance a priori et ces limites d'acceptation \
+        : acceptation à tort {a} %, rejet à tort {b} %.",
     percent: ["{p} %", "plus de {p} %", "moins de {p} %"],
     simple: "Règle de décision : acceptation simple (JCGM 106:2012, 8.2).",
+    multiple: "Règle de décision : acceptation avec une bande de garde de {factor} U \
+        (ILAC-G8:09/2019, 4.2.2) ; bande de garde {guard}, accepté {limits}.",
+    rule_agreed: "La règle de décision a été convenue avec le client.",
+    specification: "Spécification : {name}.",
     guarded: "Règle de décision : acceptation avec bande de garde (JCGM 106:2012, 8.3) pour {kind} d'au plus \
         {risk} % ; bande de garde {guard}, accepté {limits}.",
     never: "Règle de décision : acceptation avec bande de garde (JCGM 106:2012, 8.3) pour {kind} d'au plus \

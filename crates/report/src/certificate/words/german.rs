@@ -50,20 +50,24 @@ pub(super) const WORDS: Words = Words {
     normal: "Die erweiterte Messunsicherheit U ist die Standardmessunsicherheit, multipliziert mit dem \
         Erweiterungsfaktor k = {k}; das Ergebnis ist normalverteilt, sodass das Intervall von Wert - U \
         bis Wert + U eine Überdeckungswahrscheinlichkeit von {p} hat.",
-    student: "Die erweiterte Messunsicherheit U ist die Standardmessunsicherheit, multipliziert mit dem \
-        Erweiterungsfaktor k der Tabelle. Das Ergebnis folgt einer t-Verteilung mit den effektiven \
-        Freiheitsgraden ν_eff der Tabelle, und k ist so gewählt, dass die \
+    student: "Die erweiterte Messunsicherheit U ist die Standardmessunsicherheit, multipliziert \
+        mit dem jeweils angegebenen Erweiterungsfaktor k. Das Ergebnis folgt einer t-Verteilung \
+        mit den effektiven Freiheitsgraden ν_eff, und k ist so gewählt, dass die \
         Überdeckungswahrscheinlichkeit {p} beträgt.",
     fixed: "Die erweiterte Messunsicherheit U ist die Standardmessunsicherheit, multipliziert mit dem \
         vereinbarten Erweiterungsfaktor k = {k}. Es wird keine Verteilung vorausgesetzt und daher keine \
         Überdeckungswahrscheinlichkeit angegeben.",
-    shortest: "Das Ergebnis ist nicht normalverteilt. Das Intervall in den letzten beiden Spalten der \
-        Tabelle ist das kürzeste mit einer Überdeckungswahrscheinlichkeit von {p}, ermittelt mit dem \
+    agreed: "Die erweiterte Messunsicherheit U ist die Standardmessunsicherheit, multipliziert \
+        mit dem vereinbarten Erweiterungsfaktor k = {k}. Die jeweils angegebene \
+        Überdeckungswahrscheinlichkeit folgt aus der t-Verteilung mit den effektiven \
+        Freiheitsgraden ν_eff.",
+    shortest: "Das Ergebnis ist nicht normalverteilt. Das angegebene \
+        Überdeckungsintervall ist das kürzeste mit einer Überdeckungswahrscheinlichkeit von {p}, ermittelt mit dem \
         Monte-Carlo-Verfahren (JCGM 101:2008). U ist der Abstand des Werts vom weiter entfernten Ende, \
         und k ist U geteilt durch die Standardmessunsicherheit, auf die Stellen, die die Versuche \
         hergeben.",
-    without_trials: "Das Ergebnis ist nicht normalverteilt. Das Intervall in den letzten beiden Spalten \
-        der Tabelle hat eine Überdeckungswahrscheinlichkeit von {p}; es wurde durch Fortpflanzung der \
+    without_trials: "Das Ergebnis ist nicht normalverteilt. Das angegebene Überdeckungsintervall \
+        hat eine Überdeckungswahrscheinlichkeit von {p}; es wurde durch Fortpflanzung der \
         Verteilungen (JCGM 101:2008, Abschnitt 5) ohne Zufallsversuche ermittelt und ist das kürzeste, \
         oder das symmetrische, wo dieses um weniger als 1 % länger ist. U ist der Abstand des Werts vom \
         weiter entfernten Ende, und k ist U geteilt durch die Standardmessunsicherheit.",
@@ -78,15 +82,22 @@ pub(super) const WORDS: Words = Words {
         "aufgerundet",
     ],
     digits: ["eine signifikante Stelle", "{digits} signifikante Stellen"],
-    raised: "Die ermittelte Messunsicherheit ist kleiner als die kleinste angebbare Messunsicherheit \
-        (CMC) des Laboratoriums; diese ist stattdessen als U angegeben (ILAC-P14:09/2020). Das Intervall \
-        von Wert - U bis Wert + U hat eine Überdeckungswahrscheinlichkeit von mindestens {p}.",
+    raised: [
+        "Die ermittelte erweiterte Messunsicherheit ist kleiner als die kleinste angebbare \
+            Messunsicherheit (CMC) des Laboratoriums; diese ist stattdessen als U angegeben \
+            (ILAC-P14:09/2020), mit ihrem Erweiterungsfaktor k = {k}. Das Intervall von Wert - U \
+            bis Wert + U hat eine Überdeckungswahrscheinlichkeit von mindestens {p}.",
+        "Die ermittelte erweiterte Messunsicherheit ist kleiner als die kleinste angebbare \
+            Messunsicherheit (CMC) des Laboratoriums; diese ist stattdessen als U angegeben \
+            (ILAC-P14:09/2020), mit ihrem Erweiterungsfaktor k = {k}.",
+    ],
+    dof_list: "Effektive Freiheitsgrade ν_eff: {list}.",
     approximately: "annähernd {p}",
 
     function: "Kalibrierfunktion {name}",
-    in_range: "{equation} für {low} ≤ x ≤ {high}, mit x und {name} als Zahlen in den Einheiten der Tabelle.",
+    in_range: "{equation} für {low} ≤ x ≤ {high}, mit x und {name} als Zahlen in den angegebenen Einheiten.",
     band: "U ist die erweiterte Messunsicherheit der Funktion an der Stelle x mit dem Erweiterungsfaktor \
-        k = {k}; die einer weiteren Ablesung ist nicht enthalten. Zwischen den Zeilen der Tabelle folgt \
+        k = {k}; die einer weiteren Ablesung ist nicht enthalten. Zwischen den angegebenen Werten von x folgt \
         sie aus u(x)² = g(x)' V g(x) mit den Ableitungen g nach den Parametern und deren \
         Kovarianzmatrix V, die aus den Standardmessunsicherheiten und den Korrelationskoeffizienten r \
         der Parameter besteht.",
@@ -101,11 +112,17 @@ pub(super) const WORDS: Words = Words {
     symbol: "Formelzeichen",
     meaning: "Bedeutung",
     correlation: "Korrelation der Zeilen",
-    correlated: "Zeilen mit gemeinsamen Eingangsgrößen sind korreliert. Die Standardmessunsicherheit \
-        der Differenz der Zeilen i und j folgt aus u² = u_i² + u_j² - 2 r u_i u_j mit u_i = U_i / k_i \
-        und dem Koeffizienten r der Tabelle (nach dem Fortpflanzungsgesetz).",
-    many: "Die {rows} Zeilen haben gemeinsame Eingangsgrößen; ihre Korrelationskoeffizienten stehen in \
-        der JSON-Ausgabe und in der Arbeitsmappe.",
+    correlated: "Zeilen mit gemeinsamen Eingangsgrößen sind korreliert. Die \
+        Standardmessunsicherheit der Differenz der Zeilen i und j folgt aus u² = u_i² + u_j² - 2 \
+        r u_i u_j mit den hier angegebenen Standardmessunsicherheiten u_i und u_j und dem \
+        Koeffizienten r. Es sind die nach dem Fortpflanzungsgesetz, von denen U_i / k_i \
+        abweichen kann.",
+    correlated_raised: "Wo U die kleinste angebbare Messunsicherheit des Laboratoriums ist, ist \
+        sie in u_i enthalten; was sie der ermittelten hinzufügt, gilt als unkorreliert mit den \
+        anderen Zeilen.",
+    many: "Einige der {rows} Zeilen haben gemeinsame Eingangsgrößen; Korrelationskoeffizienten \
+        und die Standardmessunsicherheiten, zu denen sie gehören, stehen in der JSON-Ausgabe und \
+        in der Arbeitsmappe.",
     conformity: "Konformität",
     decisions: [
         "Das Ergebnis hält die Toleranz {limits} ein: konform.",
@@ -121,8 +138,19 @@ pub(super) const WORDS: Words = Words {
     limits: ["von {low} bis {high}{unit}", "ab {low}{unit}", "bis {high}{unit}"],
     conforming: "Der Wert ist mit einer Wahrscheinlichkeit von {p} konform.",
     all_the_same: "Spezifisches Risiko, dass der Wert dennoch konform ist: {p}.",
+    unrounded: "Entschieden wurde mit dem Wert vor der Rundung, {value}.",
+    with_prior: "Diese Wahrscheinlichkeit berücksichtigt, was vor der Messung über solche \
+        Gegenstände bekannt war (JCGM 106:2012, 6.3 und 7.1): {prior}. Aus dem Messwert und \
+        seiner Unsicherheit allein beträgt sie {p}.",
+    prior: "Verteilung `{shape}` mit Mittelwert {mean} und Standardabweichung {std}",
+    global_risks: "Globale Risiken mit diesem Vorwissen und diesen Annahmegrenzen: irrtümliche \
+        Annahme {a} %, irrtümliche Rückweisung {b} %.",
     percent: ["{p} %", "mehr als {p} %", "weniger als {p} %"],
     simple: "Entscheidungsregel: einfache Annahme (JCGM 106:2012, 8.2).",
+    multiple: "Entscheidungsregel: Annahme mit einem Sicherheitsband von {factor} U \
+        (ILAC-G8:09/2019, 4.2.2); Sicherheitsband {guard}, angenommen {limits}.",
+    rule_agreed: "Die Entscheidungsregel ist mit dem Kunden vereinbart.",
+    specification: "Spezifikation: {name}.",
     guarded: "Entscheidungsregel: Annahme mit Sicherheitsband (JCGM 106:2012, 8.3) für {kind} von \
         höchstens {risk} %; Sicherheitsband {guard}, angenommen {limits}.",
     never: "Entscheidungsregel: Annahme mit Sicherheitsband (JCGM 106:2012, 8.3) für {kind} von \

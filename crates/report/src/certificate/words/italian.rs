@@ -50,16 +50,19 @@ pub(super) const WORDS: Words = Words {
     normal: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura k = {k}; \
         il risultato ha distribuzione normale, sicché l'intervallo da valore - U a valore + U ha una \
         probabilità di copertura di {p}.",
-    student: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura k della \
-        tabella. Il risultato segue una distribuzione t con i gradi di libertà effettivi ν_eff della \
-        tabella, e k è scelto in modo che la probabilità di copertura sia {p}.",
+    student: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura \
+        k dichiarato con essa. Il risultato segue una distribuzione t con i gradi di libertà \
+        effettivi ν_eff, e k è scelto in modo che la probabilità di copertura sia {p}.",
     fixed: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura concordato \
         k = {k}. Non si suppone alcuna distribuzione, perciò non si dichiara una probabilità di copertura.",
-    shortest: "Il risultato non ha distribuzione normale. L'intervallo nelle ultime due colonne della tabella è il più corto \
+    agreed: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura \
+        concordato k = {k}. La probabilità di copertura dichiarata con essa segue dalla \
+        distribuzione t con i gradi di libertà effettivi ν_eff.",
+    shortest: "Il risultato non ha distribuzione normale. L'intervallo di copertura dichiarato è il più corto \
         con una probabilità di copertura di {p}, trovato con il metodo Monte Carlo (JCGM 101:2008). U è la \
         distanza del valore dall'estremo più lontano, e k è il rapporto fra U e l'incertezza tipo, con le \
         cifre che le prove Monte Carlo giustificano.",
-    without_trials: "Il risultato non ha distribuzione normale. L'intervallo nelle ultime due colonne della tabella ha una \
+    without_trials: "Il risultato non ha distribuzione normale. L'intervallo di copertura dichiarato ha una \
         probabilità di copertura di {p}; è stato trovato con la propagazione delle distribuzioni (JCGM \
         101:2008, punto 5) senza prove casuali, ed è il più corto, oppure quello simmetrico dove questo \
         è più lungo di meno dell'1 %. U è la distanza del valore dall'estremo più lontano, e k è il \
@@ -75,15 +78,22 @@ pub(super) const WORDS: Words = Words {
         "arrotondamento per eccesso",
     ],
     digits: ["una cifra significativa", "{digits} cifre significative"],
-    raised: "L'incertezza valutata è minore della capacità di misura e taratura (CMC) del laboratorio, che \
-        è dichiarata come U in sua vece (ILAC-P14:09/2020); l'intervallo da valore - U a valore + U ha una \
-        probabilità di copertura di almeno {p}.",
+    raised: [
+        "L'incertezza estesa valutata è minore della capacità di misura e taratura (CMC) del \
+            laboratorio, che è dichiarata come U in sua vece (ILAC-P14:09/2020), con il fattore \
+            di copertura k = {k} della capacità; l'intervallo da valore - U a valore + U ha una \
+            probabilità di copertura di almeno {p}.",
+        "L'incertezza estesa valutata è minore della capacità di misura e taratura (CMC) del \
+            laboratorio, che è dichiarata come U in sua vece (ILAC-P14:09/2020), con il fattore \
+            di copertura k = {k} della capacità.",
+    ],
+    dof_list: "Gradi di libertà effettivi ν_eff: {list}.",
     approximately: "circa {p}",
 
     function: "Funzione di taratura {name}",
-    in_range: "{equation} per {low} ≤ x ≤ {high}, dove x e {name} sono numeri nelle unità della tabella.",
+    in_range: "{equation} per {low} ≤ x ≤ {high}, dove x e {name} sono numeri nelle unità dichiarate.",
     band: "U è l'incertezza estesa della funzione in x, con il fattore di copertura k = {k}; non comprende \
-        quella di una lettura ulteriore. Fra le righe della tabella segue da u(x)² = g(x)' V g(x), con le \
+        quella di una lettura ulteriore. Fra i valori di x dichiarati segue da u(x)² = g(x)' V g(x), con le \
         derivate g rispetto ai parametri e la loro matrice di covarianza V, formata dalle incertezze tipo e \
         dai coefficienti di correlazione r dei parametri.",
     parameter: "parametro",
@@ -97,11 +107,15 @@ pub(super) const WORDS: Words = Words {
     symbol: "simbolo",
     meaning: "significato",
     correlation: "Correlazione fra le righe",
-    correlated: "Le righe che hanno grandezze d'ingresso in comune sono correlate. L'incertezza tipo della \
-        differenza fra le righe i e j segue da u² = u_i² + u_j² - 2 r u_i u_j, con u_i = U_i / k_i e il \
-        coefficiente r della tabella (dalla legge di propagazione).",
-    many: "Le {rows} righe hanno grandezze d'ingresso in comune; i loro coefficienti di correlazione sono \
-        nella risposta JSON e nella cartella di lavoro.",
+    correlated: "Le righe che hanno grandezze d'ingresso in comune sono correlate. L'incertezza \
+        tipo della differenza fra le righe i e j segue da u² = u_i² + u_j² - 2 r u_i u_j, con le \
+        incertezze tipo u_i e u_j e il coefficiente r dichiarati qui. Sono quelli della legge di \
+        propagazione, da cui U_i / k_i può differire.",
+    correlated_raised: "Dove U è la capacità del laboratorio, u_i la contiene, e ciò che essa \
+        aggiunge all'incertezza valutata si suppone non correlato con le altre righe.",
+    many: "Alcune delle {rows} righe hanno grandezze d'ingresso in comune; i coefficienti di \
+        correlazione, e le incertezze tipo che vanno con essi, sono nella risposta JSON e nella \
+        cartella di lavoro.",
     conformity: "Conformità",
     decisions: [
         "Il risultato è conforme alla tolleranza {limits}.",
@@ -116,8 +130,19 @@ pub(super) const WORDS: Words = Words {
     limits: ["da {low} a {high}{unit}", "da {low}{unit} in su", "fino a {high}{unit}"],
     conforming: "Il valore è conforme con una probabilità di {p}.",
     all_the_same: "Rischio specifico che il valore sia nondimeno conforme: {p}.",
+    unrounded: "Si è deciso con il valore prima dell'arrotondamento, {value}.",
+    with_prior: "Questa probabilità tiene conto di ciò che si sapeva di tali oggetti prima della \
+        misura (JCGM 106:2012, 6.3 e 7.1): {prior}. Dal valore misurato e dalla sua incertezza \
+        soltanto è {p}.",
+    prior: "distribuzione `{shape}` con media {mean} e scarto tipo {std}",
+    global_risks: "Rischi globali con questa conoscenza a priori e questi limiti di \
+        accettazione: falsa accettazione {a} %, falso rifiuto {b} %.",
     percent: ["{p} %", "oltre {p} %", "meno di {p} %"],
     simple: "Regola decisionale: accettazione semplice (JCGM 106:2012, 8.2).",
+    multiple: "Regola decisionale: accettazione con una banda di guardia di {factor} U \
+        (ILAC-G8:09/2019, 4.2.2); banda di guardia {guard}, accettato {limits}.",
+    rule_agreed: "La regola decisionale è stata concordata con il cliente.",
+    specification: "Specifica: {name}.",
     guarded: "Regola decisionale: accettazione con banda di guardia (JCGM 106:2012, 8.3) per {kind} non \
         superiore a {risk} %; banda di guardia {guard}, accettato {limits}.",
     never: "Regola decisionale: accettazione con banda di guardia (JCGM 106:2012, 8.3) per {kind} non \

@@ -61,6 +61,8 @@ pub(super) struct Words {
     pub(super) student: &'static str,
     /// `{k}`
     pub(super) fixed: &'static str,
+    /// `{k}`; where the probability that belongs to the factor is stated.
+    pub(super) agreed: &'static str,
     /// `{p}`
     pub(super) shortest: &'static str,
     /// `{p}`; the same from figures without the noise of trials
@@ -75,8 +77,10 @@ pub(super) struct Words {
     pub(super) rules: [&'static str; 3],
     /// One digit, and `{digits}` digits.
     pub(super) digits: [&'static str; 2],
-    /// `{p}`
-    pub(super) raised: &'static str,
+    /// `{k}`, and with the probability that is reached at least: `{p}`.
+    pub(super) raised: [&'static str; 2],
+    /// `{list}`; where no table has them.
+    pub(super) dof_list: &'static str,
     /// `{p}`
     pub(super) approximately: &'static str,
 
@@ -99,6 +103,7 @@ pub(super) struct Words {
     pub(super) meaning: &'static str,
     pub(super) correlation: &'static str,
     pub(super) correlated: &'static str,
+    pub(super) correlated_raised: &'static str,
     /// `{rows}`: how many.
     pub(super) many: &'static str,
     pub(super) conformity: &'static str,
@@ -113,9 +118,22 @@ pub(super) struct Words {
     pub(super) conforming: &'static str,
     /// The risk that a rejected value conforms: `{p}`, one of `percent`.
     pub(super) all_the_same: &'static str,
+    /// That it was decided with other digits than are stated: `{value}`.
+    pub(super) unrounded: &'static str,
+    /// What the probability rests on beside the measurement, and what it is without: `{prior}`, `{p}`.
+    pub(super) with_prior: &'static str,
+    /// `{shape}`, `{mean}`, `{std}`
+    pub(super) prior: &'static str,
+    /// `{a}`, `{b}`
+    pub(super) global_risks: &'static str,
     /// A probability, one above a number and one below it: `{p}`.
     pub(super) percent: [&'static str; 3],
     pub(super) simple: &'static str,
+    /// A guard band in multiples of U: `{factor}`, `{guard}`, `{limits}`
+    pub(super) multiple: &'static str,
+    pub(super) rule_agreed: &'static str,
+    /// What the tolerance is that of: `{name}`
+    pub(super) specification: &'static str,
     /// `{kind}`, `{risk}`, `{guard}`, `{limits}`
     pub(super) guarded: &'static str,
     /// A guarded rule by which no value is accepted: `{kind}`, `{risk}`.
@@ -201,7 +219,7 @@ mod tests {
             marks.sort_unstable();
             marks
         }
-        let templates: [fn(&Words) -> &'static str; 22] = [
+        let templates: [fn(&Words) -> &'static str; 31] = [
             |w| w.period,
             |w| w.rows[0],
             |w| w.rows[1],
@@ -211,7 +229,16 @@ mod tests {
             |w| w.shortest,
             |w| w.without_trials,
             |w| w.rounding,
-            |w| w.raised,
+            |w| w.raised[0],
+            |w| w.raised[1],
+            |w| w.agreed,
+            |w| w.dof_list,
+            |w| w.unrounded,
+            |w| w.with_prior,
+            |w| w.prior,
+            |w| w.global_risks,
+            |w| w.multiple,
+            |w| w.specification,
             |w| w.approximately,
             |w| w.many,
             |w| w.conforming,

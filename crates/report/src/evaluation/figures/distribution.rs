@@ -85,7 +85,7 @@ pub(in crate::evaluation) fn distribution(
     row((Some(TRIALS), shortest), Some(figures.shortest_interval), Some(trials), AFTER);
     if let Some(conformity) = &found.conformity {
         row((None, "tolerance"), Some(conformity.tolerance.ends()), None, BEFORE);
-        let accepted = conformity.acceptance.filter(|_| conformity.wanted_risk.is_some());
+        let accepted = conformity.acceptance.filter(|_| conformity.is_guarded());
         row((None, "acceptance"), accepted.map(|limits| limits.ends()), None, BEFORE);
     }
     let axis = axis(low, high, rows.iter().flat_map(|row| row.ends));
@@ -145,10 +145,10 @@ pub(in crate::evaluation) fn distribution(
     let first = if histogram.trials() < figures.trials { "first " } else { "" };
     let line = if density.is_empty() { "" } else { ", the density that the GUM gives (line)" };
     let percent = exact(100.0 * probability);
-    let limits = match found.conformity.as_ref().map(|of| of.wanted_risk) {
+    let limits = match found.conformity.as_ref().map(|of| of.is_guarded()) {
         None => "",
-        Some(None) => "; below them the tolerance",
-        Some(Some(_)) => "; below them the tolerance and the limits of acceptance",
+        Some(false) => "; below them the tolerance",
+        Some(true) => "; below them the tolerance and the limits of acceptance",
     };
     let caption = format!(
         "The {first}{trials} Monte Carlo trials (bars){line} and the coverage intervals for {percent} % \

@@ -66,7 +66,8 @@ pub(super) fn write(leaf: &mut Leaf, report: &EvaluationReport<'_>) -> Result<Pl
         let mut cells = RowPlaces::default();
         for (condition, &value) in task.model.conditions.iter().zip(&found.conditions) {
             leaf.text(at, 0, &plain(&condition.name))?;
-            leaf.number((at, ESTIMATE), value, None, Look::Input)?;
+            // estimates that follow it are numbers, so that a change would be half a one
+            leaf.number((at, ESTIMATE), value, None, Look::Plain)?;
             leaf.text(at, UNIT, &plain(condition.unit.text()))?;
             leaf.text(at, DISTRIBUTION, "condition")?;
             cells.conditions.push(leaf.cell(at, ESTIMATE));
