@@ -62,3 +62,54 @@ fn value(log: &Collector, member: &Member, overrides: &[Override]) -> Option<(Un
     };
     Some((unit, value))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::read_text;
+
+    fn file(inputs: &str, equation: &str) -> String {
+        format!(
+            r#"{{"inputs": {{{inputs}}}, "equations": {{"y": "{equation}"}},
+              "outputs": {{"y": {{"unit": "V"}}}}}}"#
+        )
+    }
+
+    /// 2 k of 1.5 V is 3000 mV, wherever k stands and however it is written; 1 % of it is 30 mV.
+    #[test]
+    fn an_estimate_of_a_constant() {
+        let a = r#""a": {"unit": "mV", "distribution": "normal", "mean": "2*k", "std": "1 %"}"#;
+        for k in [
+            r#"{"unit": "V", "distribution": "constant", "value": 1.5}"#,
+            r#"{"unit": "mV", "distribution": "constant", "value": "1.5 V"}"#,
+        ] {
+            for inputs in [format!(r#""k": {k}, {a}"#), format!(r#"{a}, "k": {k}"#)] {
+                let task = read_text("t", &file(&inputs, "a"), Path::new(""), &[]).unwrap().task;
+                let number = task.variables.iter().position(|of| of.name == "a").unwrap();
+                let known = &task.rows[0].distributions[number];
+                assert!((known.mean() - 3000.0).abs() < 1e-9, "{inputs}");
+                assert!((known.standard_uncertainty() - 30.0).abs() < 1e-9, "{inputs}");
+            }
+        }
+    }
+
+    /// A replaced value counts, and dimensions are checked.
+    #[test]
+    fn replaced_and_wrong_constants() {
+        let inputs = r#""k": {"unit": "V", "distribution": "constant", "value": 1},
+            "a": {"unit": "mV", "distribution": "normal", "mean": "2*k", "std": 1}"#;
+        let set = [Override::parse("k=2 V").unwrap()];
+        let task = read_text("t", &file(inputs, "a"), Path::new(""), &set).unwrap().task;
+        assert!((task.rows[0].distributions[1].mean() - 4000.0).abs() < 1e-9);
+        let wrong = file(&inputs.replace("2*k", "k^2"), "a");
+        let said = read_text("t", &wrong, Path::new(""), &[]).unwrap_err().to_string();
+        assert!(said.contains("mean"), "{said}");
+        let uncertain =
+            inputs.replace(r#""constant", "value": 1"#, r#""normal", "mean": 1, "std": 1"#);
+        let said =
+            read_text("t", &file(&uncertain, "a"), Path::new(""), &[]).unwrap_err().to_string();
+        assert!(said.contains("`k` has an uncertainty") && said.contains("equations"), "{said}");
+    }
+}

@@ -21,7 +21,6 @@ struct Written {
 }
 
 /// The divisors of a level's argument.
-#[derive(Default)]
 struct Divisors {
     /// Those that are written out.
     written: Vec<Written>,
@@ -29,6 +28,8 @@ struct Divisors {
     quantity: bool,
     /// Whether the argument is a number that is the ratio of two quantities.
     ratio: bool,
+    /// Whether all of the argument is written out.
+    constant: bool,
 }
 
 impl LevelReference {
@@ -91,6 +92,8 @@ impl Checker<'_> {
         let references: Vec<Written> =
             divisors.written.iter().copied().filter(|of| is_reference(of.dimension)).collect();
         match (factor, references.as_slice()) {
+            // a number of decibels
+            _ if divisors.constant => LevelReference::Unknown,
             (Some(factor), [one]) => above(factor, *one),
             (_, [_, ..]) => LevelReference::Unknown,
             (_, []) if self.is_ratio(argument, &divisors) => LevelReference::Ratio,
@@ -108,7 +111,8 @@ impl Checker<'_> {
 
     /// What a product or a quotient is divided by.
     fn divisors(&self, index: usize) -> Divisors {
-        let mut found = Divisors::default();
+        let mut found =
+            Divisors { written: Vec::new(), quantity: false, ratio: false, constant: true };
         let mut left = vec![(index, false)];
         while let Some((index, divides)) = left.pop() {
             if self.constant(index).is_some() {
@@ -132,6 +136,7 @@ impl Checker<'_> {
                     left.extend(arguments.first().map(|&x| (x, divides)));
                 }
                 _ => {
+                    found.constant = false;
                     let typing = self.typing(index);
                     let is_number = typing.dimension.is_none_or(|of| of.is_none());
                     found.quantity |= divides && !is_number;
