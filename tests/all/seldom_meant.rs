@@ -180,12 +180,14 @@ fn curves_beyond_their_points() {
     }
 }
 
-/// A component that has the estimate of its input once more doubles it.
+/// A component with an estimate of its own moves that of its input; one that has it once more doubles it.
 #[test]
 fn components_with_the_estimate_of_their_input() {
     for (component, wanted) in [
         (json!({"distribution": "rectangular", "lower": 9.9, "upper": 10.1}), true),
         (json!({"distribution": "normal", "mean": 10, "std": 0.1}), true),
+        (json!({"distribution": "rectangular", "lower": -0.1, "upper": 0.3}), true),
+        (json!({"distribution": "exponential", "mean": 0.1}), true),
         (json!({"distribution": "rectangular", "lower": -0.1, "upper": 0.1}), false),
         (json!({"distribution": "normal", "std": 0.1}), false),
         (json!({"distribution": "readings", "values": [9.9, 10.0, 10.1]}), false),

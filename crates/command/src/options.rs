@@ -259,7 +259,16 @@ pub(super) struct Model {
 impl Model {
     /// The model file with the replacements.
     pub(super) fn read(&self, program: &CommandLine) -> Result<ModelFile, Failure> {
-        let (files, replaced) = (self.trust.files(program), &self.replacements);
+        self.read_for(program, None)
+    }
+
+    /// The same for a run with so many trials, whatever the file says.
+    pub(super) fn read_for(
+        &self,
+        program: &CommandLine,
+        trials: Option<Trials>,
+    ) -> Result<ModelFile, Failure> {
+        let (files, replaced) = (self.trust.files(program).making(trials), &self.replacements);
         for (number, set) in replaced.iter().enumerate() {
             let same = |other: &&Override| other.input == set.input && other.field == set.field;
             if let Some(first) = replaced.iter().take(number).find(same) {

@@ -93,7 +93,7 @@ enum DofRule {
 
 impl Run {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
-        let file = self.model.read(program)?;
+        let file = self.model.read_for(program, self.trials)?;
         let mut task = file.task.clone();
         self.settings(&mut task);
         if self.rule.is_some() && task.settings.trials != Trials::Adaptive {

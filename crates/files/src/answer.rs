@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::{Map, Value};
 
 use super::diagnostics::Collector;
-use super::open::{FileKind, json_as_table};
+use super::open::{FileKind, no_table};
 use super::source::{Place, SourceText};
 use super::{DiagnosticKind, bytes};
 use gumption_analysis::compare::StatedResult;
@@ -62,7 +62,7 @@ pub(super) fn read(log: &Collector, path: &Path) -> Option<Answer> {
 /// What a JSON file is that is no answer of a run, where its keys tell.
 fn of_another_kind(name: &str, bytes: &[u8]) -> Option<(Place, DiagnosticKind)> {
     let source = SourceText::new(name, &bytes::text(bytes).ok()?);
-    let (span, kind) = json_as_table(&source)?;
+    let (span, kind) = no_table(&source)?;
     let is_answer = kind == FileKind::Answer.described();
     // a file of an unknown kind is told as such below
     let is_known = matches!(kind, DiagnosticKind::WrongFile { .. });

@@ -130,6 +130,8 @@ pub enum DiagnosticKind {
         model: String,
         /// The unit.
         unit: String,
+        /// The inputs that the model has.
+        known: Vec<String>,
     },
     /// A name that cannot be used.
     BadName {
@@ -280,6 +282,15 @@ pub enum DiagnosticKind {
         /// Why, as a part of the sentence.
         reason: String,
     },
+    /// A tolerance with one limit of an output that comes round.
+    OneLimitOfPeriod {
+        /// The output.
+        name: String,
+        /// The limit that is not there.
+        missing: &'static str,
+        /// A turn, with its unit.
+        turn: String,
+    },
     /// A component without a name, or with the name of another.
     Component {
         /// The name that is concerned.
@@ -291,6 +302,11 @@ pub enum DiagnosticKind {
     Formula {
         /// What is wrong with it.
         error: FormulaError,
+    },
+    /// An estimate's formula with an input that is not known exactly.
+    EstimateOfInput {
+        /// The input.
+        name: String,
     },
     /// An estimate's formula that gives no finite number.
     EstimateUndefined {
@@ -544,8 +560,10 @@ impl DiagnosticKind {
             Self::OutOfRange { .. } => "out-of-range",
             Self::NotOneOf { .. } => "not-one-of",
             Self::Width { .. } => "bad-width",
+            Self::OneLimitOfPeriod { .. } => "one-limit-of-period",
             Self::Component { .. } => "bad-component",
             Self::Formula { .. } => "bad-formula",
+            Self::EstimateOfInput { .. } => "estimate-of-input",
             Self::EstimateUndefined { .. } => "estimate-undefined",
             Self::NoValues { .. } => "no-values",
             Self::ConditionRange { .. } => "bad-range",
@@ -692,8 +710,11 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::UnknownInput { name, model, nearest, known } => write!(
                 f,
-                "the model `{model}` has no input `{name}`{}",
-                hint(nearest.as_ref(), &list(known))
+                "the model `{model}` has no input `{name}`{}{}",
+                hint(nearest.as_ref(), &list(known)),
+                nearest
+                    .as_ref()
+                    .map_or_else(String::new, |_| format!(" There are {}", list(known)))
             ),
             Self::UnknownOutput { name, nearest, known } => {
                 write!(
@@ -702,9 +723,11 @@ impl fmt::Display for DiagnosticKind {
                     hint(nearest.as_ref(), &list(known))
                 )
             }
-            Self::MissingInput { name, model, unit } => write!(
+            Self::MissingInput { name, model, unit, known } => write!(
                 f,
-                "the model `{model}` needs the input `{name}` (unit `{unit}`), which is not here"
+                "the model `{model}` needs the input `{name}` (unit `{unit}`), which is not here; its \
+                 inputs are {}",
+                list(known)
             ),
             Self::BadName { name, reason } => write!(f, "`{name}` cannot be a name: {reason}"),
             Self::NameTaken { name } => {
@@ -774,8 +797,16 @@ impl fmt::Display for DiagnosticKind {
             Self::Width { name, found, reason } => {
                 write!(f, "`{name}`: the width `{found}` cannot be read: {reason}")
             }
+            Self::OneLimitOfPeriod { name, missing, turn } => write!(
+                f,
+                "the `tolerance` of `{name}` needs `{missing}` as well: its values come round after                  {turn} (`periodic`), so that each of them lies on either side of one limit alone"
+            ),
             Self::Component { name, reason } => write!(f, "a component of `{name}` {reason}"),
             Self::Formula { error } => error.fmt(f),
+            Self::EstimateOfInput { name } => write!(
+                f,
+                "`{name}` has an uncertainty, and an estimate is a formula of conditions, of inputs with                  the distribution `constant` and of constants; write a formula of `{name}` among the                  `equations`"
+            ),
             Self::EstimateUndefined { row, found } => {
                 write!(f, "this estimate is {found} in row {row} of the conditions")
             }

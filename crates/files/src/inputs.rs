@@ -644,7 +644,8 @@ impl<'a> Reader<'a, '_> {
             if part.kind.name != "readings"
                 && let (Some(of_part), Some(&total)) = (drawn.first(), totals.first())
             {
-                self.note_of_estimate(&part.full, of_part.mean(), total, unit);
+                let own = [of_part.mean(), of_part.standard_uncertainty()];
+                self.note_of_estimate(&part.full, own, total, unit);
             }
             let shared = if differs { None } else { drawn.first() };
             self.note_of_readings(&part.full, part.kind, shared, part.read.0.as_ref());
@@ -683,9 +684,9 @@ impl<'a> Reader<'a, '_> {
         self.inputs.warnings.push(Warning::new("readings-apart", self.name, text));
     }
 
-    /// Tells of a component whose own estimate is about that of its input: the two are added.
-    fn note_of_estimate(&mut self, part: &str, own: f64, total: f64, unit: &Unit) {
-        if total == 0.0 || (own - total).abs() > ALIKE * total.abs() {
+    /// Tells of a component whose own estimate is not 0: it is added to that of its input.
+    fn note_of_estimate(&mut self, part: &str, [own, u]: [f64; 2], total: f64, unit: &Unit) {
+        if own.abs() <= ROUNDING_OF_LIMITS * u {
             return;
         }
         let shown = |value| in_unit(value, unit);
@@ -762,9 +763,8 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// A component's estimate that differs from that of its input by no more than this share of it was
-/// hardly meant to be added.
-const ALIKE: f64 = 0.2;
+/// What the middle of two limits about 0 may be off 0, in standard uncertainties.
+const ROUNDING_OF_LIMITS: f64 = 1e-12;
 
 /// A component as written.
 struct Part<'a> {

@@ -16,6 +16,7 @@ mod column_heading;
 mod comparison;
 mod condition_values;
 mod conditions;
+mod constant_inputs;
 mod correlations;
 mod costs;
 mod counted_twice;

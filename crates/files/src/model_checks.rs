@@ -148,7 +148,8 @@ pub(super) fn check_typed(
             || conditions.quantities.iter().any(|q| q.name == declared.name);
         if !given && declared.default.is_none() {
             let (name, unit) = (declared.name.to_owned(), declared.unit.to_owned());
-            log.report(place, DiagnosticKind::MissingInput { name, model: model.clone(), unit });
+            let (model, known) = (model.clone(), known.clone());
+            log.report(place, DiagnosticKind::MissingInput { name, model, unit, known });
         }
     }
     let known: Arc<[String]> = declaration.outputs.iter().map(|o| o.name.to_owned()).collect();

@@ -25,6 +25,7 @@ use std::sync::Arc;
 
 use super::column_heading;
 use super::conditions::{self, Conditions};
+use super::constant_inputs::ConstantInputs;
 use super::counted_twice;
 use super::diagnostics::{Collector, Diagnostics};
 use super::fits::{self, FitSet};
@@ -41,7 +42,7 @@ use super::model_file::ModelFile;
 use super::object::Object;
 use super::observations::{self, Observations};
 use super::open::{FileKind, check_format, read_changed_root, refuse_other_kind};
-use super::outputs;
+use super::outputs::{self, Outputs};
 use super::overrides::{self, Override};
 use super::reader::FileReader;
 use super::results::Results;
@@ -53,7 +54,8 @@ use super::{DiagnosticKind, correlations, inputs, keys, notation, regions, setti
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
-use gumption_engine::model::{Model, Output, typed};
+use gumption_engine::model::{Model, Output, Quantity, Tolerance, typed};
+use gumption_engine::number::Shortest;
 use gumption_engine::regression::CurveFunction;
 use gumption_engine::task::{ModelStatement, Row, Settings, Task, Trials, Warning};
 use gumption_gap::{ModelForm, ObservedOutput, OverridableModel};
@@ -183,7 +185,8 @@ impl<'a> ModelReader<'a> {
         let body = self.body(&simulated, &fits.curves);
         let results = Results::new(self.folder, self.options.files).with_curves(&fits.curves);
         let files = (&results, &fits);
-        let mut of = self.quantities(conditions, check_units, &body, files, settings.trials)?;
+        let trials = self.options.files.trials(settings.trials);
+        let mut of = self.quantities(conditions, check_units, &body, files, trials)?;
 
         let mut files = std::mem::take(&mut of.conditions.files);
         if let Some(observations) = &mut observations {
@@ -289,10 +292,16 @@ impl<'a> ModelReader<'a> {
         trials: Trials,
     ) -> Option<Quantities> {
         let (root, log) = (&self.root, self.root.log);
-        let set = ConditionSet { conditions: &conditions, check_units };
+        let constants = root.get("inputs").map_or_else(ConstantInputs::default, |member| {
+            ConstantInputs::read(log, member, self.options.overrides)
+        });
+        let of_inputs =
+            ConditionSet { conditions: &conditions, check_units, constants: &constants };
+        let none = ConstantInputs::default();
+        let set = ConditionSet { constants: &none, ..of_inputs };
         let inputs = match root.get("inputs") {
             Some(member) => {
-                inputs::read(log, member, &set, self.options.overrides, results, trials)
+                inputs::read(log, member, &of_inputs, self.options.overrides, results, trials)
             }
             // somebody else's simulation needs none
             None if names_simulation(root) || root.get("fits").is_some() => {
@@ -347,6 +356,7 @@ impl<'a> ModelReader<'a> {
                     }
                 }
                 check_typed(log, entry, place, of);
+                refuse_one_limit(log, &of.outputs);
                 let scope = typed_scope(entry, &of.inputs, &of.conditions);
                 (scope, ModelForm::Typed(entry.typed))
             }
@@ -356,6 +366,7 @@ impl<'a> ModelReader<'a> {
                 warnings.extend(tables.notes);
                 let scope = check_equations(log, &equations, of, tables.tables);
                 check_formula_outputs(log, &scope, of);
+                refuse_one_limit(log, &of.outputs);
                 if !of.check_units {
                     warnings.push(units_not_checked(&self.root, of));
                 }
@@ -498,6 +509,22 @@ fn fill_from_declaration(output: &mut Output, declared: &typed::DeclaredOutput) 
     {
         let factor = Unit::conversion_factor(&unit, &output.quantity.unit);
         output.period = factor.ok().map(|factor| period * factor);
+    }
+}
+
+/// Refuses tolerances with one limit of outputs that come round: every value lies on either side of it.
+fn refuse_one_limit(log: &Collector, outputs: &Outputs) {
+    for (output, place, _) in outputs.each() {
+        let missing = match output.tolerance {
+            Some(Tolerance { lower: None, .. }) => "lower",
+            Some(Tolerance { upper: None, .. }) => "upper",
+            _ => continue,
+        };
+        if let Some(period) = output.period {
+            let Quantity { name, unit, .. } = &output.quantity;
+            let (name, turn) = (name.clone(), unit.after(&Shortest(period).to_string()));
+            log.report(place, DiagnosticKind::OneLimitOfPeriod { name, missing, turn });
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::conditions::Conditions;
+use super::constant_inputs::ConstantInputs;
 use super::json::{Json, Member};
 use super::object::Object;
 use super::scopes::ConditionSet;
@@ -47,9 +48,11 @@ pub(super) fn following(
     }
     let (known, unit) = (names_of(set), unit.clone());
     let check_units = set.check_units;
+    let constants = ConstantInputs::default();
     Some(OfConditions::new(move |values| {
         let conditions = Conditions { rows: vec![values.to_vec()], ..known.clone() };
-        ConditionSet { conditions: &conditions, check_units }.value(&formula, 0, &unit, of)
+        ConditionSet { conditions: &conditions, check_units, constants: &constants }
+            .value(&formula, 0, &unit, of)
     }))
 }
 

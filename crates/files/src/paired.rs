@@ -92,11 +92,11 @@ fn mistake(
 mod tests {
     use std::path::Path;
 
-    use crate::read_text;
+    use crate::{FileReader, read_text};
     use gumption_engine::number::CodePath;
     use gumption_engine::propagate::gum::{Dof, Gum};
     use gumption_engine::propagate::{Control, Evaluation, evaluate, trial_hash, warnings};
-    use gumption_engine::task::{Task, Warning};
+    use gumption_engine::task::{Task, Trials, Warning};
 
     fn read(inputs: &str, rest: &str, equation: &str) -> Result<Task, String> {
         let text = format!(
@@ -167,6 +167,9 @@ mod tests {
         let read = |trials| read_text("test", &text(trials), Path::new(""), &[]);
         let refused = read(20_000).unwrap_err().to_string();
         assert!(refused.contains("at least 6 are needed"), "{refused}");
+        // what the command line says beats the file
+        let reader = FileReader::default().making(Some(Trials::Fixed(0)));
+        assert!(reader.model_text("test", &text(20_000), Path::new(""), &[]).is_ok());
         let task = read(0).expect("a task").task;
         let evaluation = evaluate(&task, &Control::default()).expect("an evaluation");
         let published = [(127.732, 0.071), (219.847, 0.2956), (254.260, 0.236)];
@@ -191,6 +194,24 @@ mod tests {
             panic!("{:?}", gum(&both).dof);
         };
         assert!((dof / exact - 1.0).abs() < 1e-9, "{dof}, {exact}");
+    }
+
+    /// Readings that are the same leave nothing of their difference, and a declared r of -1 nothing of a
+    /// sum; nor is that a model that is not linear.
+    #[test]
+    fn nothing_is_left_of_what_cancels() {
+        let same = "5.007, 4.994, 5.005, 4.990, 4.999, 5.003, 5.001, 4.998";
+        let paired = format!("{}, {}", readings("a", same), readings("b", same));
+        let normal = "{\"distribution\": \"normal\", \"mean\": 1.1, \"std\": 0.3}";
+        let opposite = format!("\"a\": {normal}, \"b\": {normal}");
+        for (inputs, rest, equation) in [
+            (paired.as_str(), "", "a - b"),
+            (opposite.as_str(), "\"correlations\": [[\"a\", \"b\", -1]],", "a + b"),
+        ] {
+            let (evaluation, said) = run(inputs, rest, equation);
+            assert_eq!(gum(&evaluation).standard_uncertainty, 0.0, "{equation}");
+            assert!(said.iter().all(|warning| warning.code != "non-linear"), "{said:?}");
+        }
     }
 
     /// All pairs have a line, in order, also of three quantities and of a component.

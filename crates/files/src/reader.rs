@@ -14,7 +14,7 @@ use super::overrides::Override;
 use super::recipe::{self, RecipeFile};
 use super::result_file::{self, ResultFile};
 use gumption_engine::model::typed::Catalogue;
-use gumption_engine::task::{Row, Warning};
+use gumption_engine::task::{Row, Trials, Warning};
 
 /// Reads files that may name the typed measurements of a catalogue: the built-in ones
 /// ([`FileReader::default`]), or those of one's own as well.
@@ -33,6 +33,7 @@ pub struct FileReader<'c> {
     source: Option<&'c dyn FileSource>,
     within: Option<&'c Path>,
     changed_results: bool,
+    trials: Option<Trials>,
 }
 
 impl Default for FileReader<'static> {
@@ -52,6 +53,7 @@ impl<'c> FileReader<'c> {
             source: None,
             within: None,
             changed_results: false,
+            trials: None,
         }
     }
 
@@ -103,6 +105,18 @@ impl<'c> FileReader<'c> {
     #[must_use]
     pub fn accepting_changed_results(self, accepted: bool) -> Self {
         Self { changed_results: accepted, ..self }
+    }
+
+    /// The same for a run with so many trials, whatever a model file says: what trials alone need is not
+    /// asked for where there are none.
+    #[must_use]
+    pub fn making(self, trials: Option<Trials>) -> Self {
+        Self { trials, ..self }
+    }
+
+    /// The trials of a model file that says so many.
+    pub(crate) fn trials(self, of_file: Trials) -> Trials {
+        self.trials.unwrap_or(of_file)
     }
 
     /// Whether saved results that were changed are taken.

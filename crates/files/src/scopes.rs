@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::conditions::Conditions;
+use super::constant_inputs::ConstantInputs;
 use super::diagnostics::Collector;
 use super::input_set::InputSet;
 use super::json::Member;
@@ -93,6 +94,22 @@ fn shift(typing: Typing, unit: &Unit, of: ValueOf) -> Result<f64, ScaleMisfit> {
 pub(super) struct ConditionSet<'c> {
     pub(super) conditions: &'c Conditions,
     pub(super) check_units: bool,
+    /// Inputs that are constants, which estimates may use.
+    pub(super) constants: &'c ConstantInputs,
+}
+
+impl ConditionSet<'_> {
+    /// What is known of the names that formulas may use.
+    fn scope(&self) -> Scope {
+        let mut scope = condition_scope(self.conditions, self.check_units);
+        for (Quantity { name, unit, .. }, _) in &self.constants.known {
+            scope.define(name, Typing::in_unit(unit));
+            if !self.check_units {
+                scope.declare(name, unit.clone());
+            }
+        }
+        scope
+    }
 }
 
 impl ConditionValues for ConditionSet<'_> {
@@ -113,12 +130,16 @@ impl ConditionValues for ConditionSet<'_> {
         if self.conditions.unreadable {
             return Ok(());
         }
-        let scope = condition_scope(self.conditions, self.check_units);
+        let scope = self.scope();
         let result =
             if self.check_units { formula.check(&scope) } else { formula.check_names(&scope) };
-        let kinds = |errors: Vec<FormulaError>| {
-            errors.into_iter().map(|error| DiagnosticKind::Formula { error }).collect::<Vec<_>>()
+        let kind = |error: FormulaError| match error {
+            FormulaError::UnknownName { name, .. } if self.constants.uncertain.contains(&name) => {
+                DiagnosticKind::EstimateOfInput { name }
+            }
+            error => DiagnosticKind::Formula { error },
         };
+        let kinds = |errors: Vec<FormulaError>| errors.into_iter().map(kind).collect::<Vec<_>>();
         let typing = result.map_err(kinds)?;
         match typing.dimension.filter(|_| self.check_units) {
             Some(dimension) if dimension != unit.dimension() => {
@@ -152,9 +173,11 @@ impl ConditionValues for ConditionSet<'_> {
             .quantities
             .iter()
             .zip(row)
-            .map(|(quantity, &value)| (quantity.name.clone(), form.number(value, &quantity.unit)))
+            .map(|(quantity, &value)| (quantity, value))
+            .chain(self.constants.known.iter().map(|(quantity, value)| (quantity, *value)))
+            .map(|(quantity, value)| (quantity.name.clone(), form.number(value, &quantity.unit)))
             .collect();
-        let scope = condition_scope(self.conditions, self.check_units);
+        let scope = self.scope();
         let value = formula.evaluate(&scope, &values).unwrap_or(f64::NAN);
         match (form, of) {
             (NumberForm::Declared, _) => value,

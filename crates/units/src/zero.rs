@@ -1,7 +1,7 @@
 //! Scales that do not begin at nothing: temperatures in degrees Celsius or Fahrenheit, and levels
 //! with a reference.
 
-use super::Unit;
+use super::{Dimension, Unit};
 
 /// The zero of the Celsius scale in K (SI Brochure, 9th ed., 2.3.1).
 const CELSIUS_ZERO: f64 = 273.15;
@@ -50,19 +50,30 @@ impl Zero {
         }
     }
 
-    /// The reference that one such unit of power or voltage is: 1 mW of `mW`. `None` for every other
-    /// unit.
-    pub fn above(unit: &Unit) -> Option<Self> {
-        [(Self::Milliwatt, "mW"), (Self::Watt, "W"), (Self::Volt, "V")]
+    /// The unit of power or of voltage that a level is above one of: `mW` of `dBm`. `None` where the
+    /// reference is none of the kind: the full scale of a converter, a carrier.
+    pub const fn reference(self) -> Option<&'static str> {
+        match self {
+            Self::Milliwatt => Some("mW"),
+            Self::Watt => Some("W"),
+            Self::Volt => Some("V"),
+            Self::Millivolt => Some("mV"),
+            Self::Microvolt => Some("uV"),
+            Self::Celsius | Self::FullScale | Self::Carrier | Self::Isotropic => None,
+        }
+    }
+
+    /// The reference that a power or a voltage in coherent SI units is, but for the rounding of its
+    /// digits: that of `dBm` of 0.001 W. `None` for every other quantity.
+    pub fn above(dimension: Dimension, value: f64) -> Option<Self> {
+        [Self::Milliwatt, Self::Watt, Self::Volt, Self::Millivolt, Self::Microvolt]
             .into_iter()
-            .chain([(Self::Millivolt, "mV"), (Self::Microvolt, "uV")])
-            .find(|(_, text)| {
-                let of = Unit::parse(text).ok();
+            .find(|zero| {
+                let of = zero.reference().and_then(|text| Unit::parse(text).ok());
                 of.is_some_and(|of| {
-                    of.dimension() == unit.dimension() && of.factor() == unit.factor()
+                    of.dimension() == dimension && (value / of.factor() - 1.0).abs() < 1e-12
                 })
             })
-            .map(|(zero, _)| zero)
     }
 
     /// How far it lies above the nothing of its kind of quantity: in K, or in dB above 1 W or 1 V.

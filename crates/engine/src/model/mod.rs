@@ -151,6 +151,12 @@ impl Tolerance {
         [self.lower.unwrap_or(f64::NEG_INFINITY), self.upper.unwrap_or(f64::INFINITY)]
     }
 
+    /// Between two limits, infinite where there is none.
+    pub(crate) fn between([lower, upper]: [f64; 2]) -> Self {
+        let finite = |limit: f64| Some(limit).filter(|limit| limit.is_finite());
+        Self { lower: finite(lower), upper: finite(upper) }
+    }
+
     /// The limits moved inwards by a width.
     pub fn narrowed(&self, width: f64) -> Self {
         Self { lower: self.lower.map(|l| l + width), upper: self.upper.map(|u| u - width) }

@@ -133,7 +133,8 @@ impl Program {
             }
             for (gradient, output) in gradients.iter_mut().zip(self.evaluate(&duals)) {
                 for (index, &v) in chunk.iter().enumerate() {
-                    gradient[v] = output.gradient[index];
+                    // a 0 without a sign
+                    gradient[v] = output.gradient[index] + 0.0;
                 }
             }
         }

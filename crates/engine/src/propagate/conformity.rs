@@ -4,16 +4,19 @@
 
 mod error_law;
 mod global;
+mod turns;
 
 pub(super) use error_law::ErrorLaw;
 pub use global::GlobalRisks;
 use global::Inspection;
+pub(super) use turns::on_branch;
 
 use super::evaluation::OutputEvaluation;
 use super::gum::Gum;
 use super::monte_carlo::MonteCarlo;
 use super::statement::Stated;
 use crate::decimal::position;
+use crate::distribution::Distribution;
 use crate::model::{Output, Tolerance};
 use crate::number::elementary;
 use crate::task::{Settings, Trials};
@@ -24,7 +27,7 @@ pub struct Conformity {
     /// The limits.
     pub tolerance: Tolerance,
     /// The estimate that is decided about: the mean of the trials, or their median where there is
-    /// no mean.
+    /// no mean. Of an output that comes round it is on the branch of the limits.
     pub estimate: f64,
     /// The conformance probability (JCGM 106, 7): with a prior that of the posterior distribution
     /// (6.3 and 7.1), otherwise the share of trials within the limits.
@@ -80,7 +83,8 @@ impl Conformity {
         let tolerance = output.tolerance?;
         let share = figures.inside;
         let u = figures.standard_uncertainty.or(u).filter(|u| u.is_finite() && *u > 0.0);
-        let limits = tolerance.ends();
+        let limits = limits_of(output, tolerance);
+        let on_branch = |value| turns::at_limits(value, limits, output.period);
         let inspection = output.prior.as_deref().zip(u);
         let inspection = inspection.map(|(prior, u)| Inspection::new(prior, u, limits));
         let guard_band = match (output.risk, u, &inspection) {
@@ -93,13 +97,13 @@ impl Conformity {
             },
         };
         let acceptance = guard_band.map(|width| tolerance.narrowed(width));
-        let acceptance_ends = acceptance.map(|acceptance| acceptance.ends());
-        let estimate = figures.location();
-        let global = inspection.as_ref().zip(acceptance_ends).map(|(of, ends)| of.risks(ends));
+        let accepted = guard_band.map(|width| Tolerance::between(limits).narrowed(width));
+        let estimate = on_branch(figures.location());
+        let global = inspection.as_ref().zip(accepted).map(|(of, to)| of.risks(to.ends()));
         let posterior = output.prior.as_deref().zip(u).map(|(prior, spread)| {
             let at = |y: f64, u: f64| Inspection::new(prior, u, limits).conformance(y);
             if let Some(gum) = linear.filter(|gum| gum.standard_uncertainty > 0.0) {
-                return (at(gum.estimate, gum.standard_uncertainty), 0.0);
+                return (at(on_branch(gum.estimate), gum.standard_uncertainty), 0.0);
             }
             // the trials know both to their numerical standard errors
             let of_y = figures.errors.estimate.unwrap_or(figures.errors.median);
@@ -122,7 +126,7 @@ impl Conformity {
             guard_factor: output.guard_factor,
             acceptance,
             guard_band,
-            conforms: acceptance.is_some_and(|acceptance| acceptance.holds(figures.location())),
+            conforms: accepted.is_some_and(|accepted| accepted.holds(estimate)),
             global,
             stated_uncertainty: None,
         })
@@ -190,7 +194,8 @@ impl Conformity {
         expanded: Option<f64>,
     ) -> Option<Self> {
         let tolerance = output.tolerance?;
-        let limits = tolerance.ends();
+        let limits = limits_of(output, tolerance);
+        let estimate = turns::at_limits(estimate, limits, output.period);
         let u = law.scale();
         if !(u > 0.0 && u.is_finite()) {
             return None;
@@ -202,8 +207,9 @@ impl Conformity {
             (Some(risk), None) => law.guard_band(risk, limits),
         };
         let acceptance = guard_band.map(|width| tolerance.narrowed(width));
-        let share = law.share(limits.map(|limit| limit - estimate));
-        let global = inspection.as_ref().zip(acceptance).map(|(of, to)| of.risks(to.ends()));
+        let accepted = guard_band.map(|width| Tolerance::between(limits).narrowed(width));
+        let share = turns::share(law, estimate, limits, output.period);
+        let global = inspection.as_ref().zip(accepted).map(|(of, to)| of.risks(to.ends()));
         Some(Self {
             tolerance,
             estimate,
@@ -214,7 +220,7 @@ impl Conformity {
             guard_factor: output.guard_factor,
             acceptance,
             guard_band,
-            conforms: acceptance.is_some_and(|acceptance| acceptance.holds(estimate)),
+            conforms: accepted.is_some_and(|accepted| accepted.holds(estimate)),
             global,
             stated_uncertainty: None,
         })
@@ -225,6 +231,13 @@ impl Conformity {
 /// there is no expanded uncertainty.
 fn multiple(output: &Output, expanded: Option<f64>) -> Option<f64> {
     output.guard_factor.map_or(Some(0.0), |factor| Some(factor * expanded?))
+}
+
+/// The limits with which a decision is made: those of an output that comes round on the branch of what
+/// was known before measuring.
+fn limits_of(output: &Output, tolerance: Tolerance) -> [f64; 2] {
+    let prior = output.prior.as_deref().map(Distribution::mean);
+    turns::at_prior(tolerance.ends(), prior, output.period)
 }
 
 /// The smallest width between two at which something holds, which it does at the larger one and

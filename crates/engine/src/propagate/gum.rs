@@ -54,6 +54,11 @@ pub struct Gum {
 }
 
 impl Gum {
+    /// The largest contribution of an input.
+    pub(super) fn largest_contribution(&self) -> f64 {
+        self.largest
+    }
+
     /// Expanded uncertainty U = k u(y).
     pub fn expanded_uncertainty(&self) -> Option<f64> {
         Some(self.coverage_factor? * self.standard_uncertainty)
@@ -310,15 +315,17 @@ impl Rows<'_> {
             return None;
         }
         let signed = |i: usize| lines[i].relative(largest);
-        let mut variance: f64 = (0..lines.len()).map(|i| signed(i).powi(2)).sum();
+        let squares: f64 = (0..lines.len()).map(|i| signed(i).powi(2)).sum();
+        let (mut variance, mut terms) = (squares, squares);
         for c in linked.correlations.iter() {
-            variance += 2.0 * signed(c.first) * signed(c.second) * c.coefficient;
+            let term = 2.0 * signed(c.first) * signed(c.second) * c.coefficient;
+            variance += term;
+            terms += term.abs();
         }
         if variance.is_nan() {
             return None;
         }
-        // full negative correlation may leave a rounding error below zero
-        let variance = f64::max(variance, 0.0);
+        let variance = left(variance, terms);
         let standard_uncertainty = largest * variance.sqrt();
         let dof = effective_dof(&lines, &row.distributions, linked, standard_uncertainty);
         let gum = Gum {
@@ -335,6 +342,14 @@ impl Rows<'_> {
         };
         standard_uncertainty.is_finite().then_some(gum)
     }
+}
+
+/// What is left of a sum, 0 where that is no more than the rounding of its terms: full correlation that
+/// cancels them may leave something above or below zero. `terms` is the sum of their moduli.
+#[inline(always)]
+fn left(variance: f64, terms: f64) -> f64 {
+    const ROUNDING: f64 = 32.0 * f64::EPSILON;
+    if variance > ROUNDING * terms { variance } else { 0.0 }
 }
 
 /// The Welch-Satterthwaite formula (JCGM 100, equation G.2b). Paired readings are one term: their

@@ -325,6 +325,9 @@ fn of_output(
     }
 }
 
+/// What rounding leaves of contributions that cancel, in the largest of them.
+const ROUNDING: f64 = 1e-13;
+
 /// Why the standard uncertainties of the two methods differ: few degrees of freedom, a model that is
 /// not linear, or both.
 fn of_difference(
@@ -340,7 +343,9 @@ fn of_difference(
     let (linear, drawn) = (gum.standard_uncertainty, gum.drawn_uncertainty());
     let own = monte_carlo.errors.standard_uncertainty.unwrap_or(0.0);
     let error = own.max(scatter_of_few(linear, monte_carlo.trials));
-    if (u - linear).abs() <= f64::max(NOTEWORTHY * linear, 3.0 * error) {
+    // contributions that cancel leave rounding alone
+    let rounding = ROUNDING * gum.largest_contribution();
+    if (u - linear).abs() <= f64::max(NOTEWORTHY * linear, 3.0 * error).max(rounding) {
         return;
     }
     let percent = |from: f64| format!("{:.0} %", 100.0 * (from / linear - 1.0).abs());

@@ -7,6 +7,7 @@ use std::path::Path;
 use super::super::DiagnosticKind;
 use super::super::bytes;
 use super::super::conditions::Conditions;
+use super::super::constant_inputs::ConstantInputs;
 use super::super::diagnostics::{Collector, Diagnostic, Diagnostics};
 use super::super::json::{Json, Member, Node};
 use super::super::keys;
@@ -179,7 +180,9 @@ impl<'a> Rows<'a> {
                 .collect(),
             ..Conditions::default()
         };
-        let set = ConditionSet { conditions: &conditions, check_units: true };
+        let constants = ConstantInputs::default();
+        let set =
+            ConditionSet { conditions: &conditions, check_units: true, constants: &constants };
         let own = output_limits::capability(&row, wanted, unit, &set);
         let label = localized(&row, "label");
         let nominal = row.get("nominal");

@@ -7,6 +7,7 @@ use super::super::json::{Json, Member};
 use super::super::object::Object;
 use super::super::scopes::report_formula;
 use super::super::value_text::{ValueOf, converted, with_unit};
+use super::parameter_units;
 use gumption_engine::model::formula::{Formula, Scope, Typing, check_name};
 use gumption_engine::model::{NumberForm, Program, Recorder, Traced};
 use gumption_units::Unit;
@@ -78,8 +79,8 @@ impl<'a> Form<'a> {
     pub(super) fn curve(
         &self,
         (fit, fit_name): (&Object<'_>, &str),
-        x: &Unit,
-        y: &Unit,
+        (x, y): (&Unit, &Unit),
+        range: [f64; 2],
         numbers: NumberForm,
     ) -> Option<Option<Made>> {
         let Self::Formula(formula, member) = self else {
@@ -91,7 +92,7 @@ impl<'a> Form<'a> {
             }
             return Some(None);
         };
-        let start = Start::read(fit, formula, member)?;
+        let mut start = Start::read(fit, formula, member)?;
         // parameters without any unit are those of an empirical formula
         let checked = numbers == NumberForm::Coherent && start.has_units;
         let form = if checked { numbers } else { NumberForm::Declared };
@@ -147,13 +148,23 @@ impl<'a> Form<'a> {
             }
         };
         let program = recorder.program(1 + start.parameters.len(), &[value]);
-        let note = (numbers == NumberForm::Coherent && !start.has_units).then(|| {
+        // numbers alone are in units that follow from those of x and y
+        let empirical = numbers == NumberForm::Coherent && !start.has_units;
+        let inferred = empirical
+            .then(|| parameter_units::inferred(fit.log, formula, (x, y), range, &start.parameters))
+            .flatten();
+        let note = (empirical && inferred.is_none()).then(|| {
             format!(
                 "units are not checked in the formula of `{fit_name}`: it computes with x in {x} and \
                  y in {y}, and its parameters are plain numbers; give those of `start` with units"
             )
         });
         let note = note.filter(|_| !x.factors().is_empty() || !y.factors().is_empty());
+        for ((_, unit, _), inferred) in
+            start.parameters.iter_mut().zip(inferred.into_iter().flatten())
+        {
+            *unit = inferred;
+        }
         let (mut parameters, mut values) = (Vec::new(), Vec::new());
         for (name, unit, value) in start.parameters {
             parameters.push((format!("{fit_name}.{name}"), unit));

@@ -4,6 +4,7 @@
 pub(super) mod extrapolation;
 mod form;
 mod matrix;
+mod parameter_units;
 mod points;
 #[cfg(test)]
 mod tests;
@@ -149,7 +150,7 @@ impl Reader<'_, '_> {
         };
         let (form, (points, x, y)) = (form?, points?);
         let points = Arc::new(if estimated { points.estimated() } else { points });
-        let made = form.curve((&object, self.name), &x, &y, numbers)?;
+        let made = form.curve((&object, self.name), (&x, &y), points.range(), numbers)?;
         let origin = match object.get("origin") {
             None => 0.0,
             Some(_) => object.value("origin", &x, ValueOf::Quantity)?,
@@ -306,15 +307,20 @@ fn coefficients(
         .collect()
 }
 
-/// The unit of a coefficient: y over a power of x, in which a degree Celsius is one of a difference.
-fn unit_of(own: &[Unit], x: &Unit, y: &Unit, power: usize) -> Unit {
+/// The texts of both units, x such that it can be divided by.
+fn texts_of(x: &Unit, y: &Unit) -> [String; 2] {
     let text = |unit: &Unit| {
         let text = unit.text().trim();
         if text.is_empty() { "1".to_owned() } else { text.to_owned() }
     };
     let (x, y) = (text(x), text(y));
     let plain = |text: &str| text.chars().all(|c| c.is_alphanumeric() || "%°℃Ωµ".contains(c));
-    let x = if plain(&x) { x } else { format!("({x})") };
+    [if plain(&x) { x } else { format!("({x})") }, y]
+}
+
+/// The unit of a coefficient: y over a power of x, in which a degree Celsius is one of a difference.
+fn unit_of(own: &[Unit], x: &Unit, y: &Unit, power: usize) -> Unit {
+    let [x, y] = texts_of(x, y);
     let written = match (power, x.as_str(), y.as_str()) {
         (0, ..) => y.clone(),
         (_, "1", _) => y.clone(),

@@ -314,3 +314,37 @@ fn resistance_and_reactance_of_the_supplement() {
     near(found.smallest.unwrap().volume, 0.3197, 0.04);
     assert!(two.validation.as_ref().unwrap().gum_valid);
 }
+
+/// Numbers alone in `start` are in the units that follow from those of x and y; the figures are those of
+/// the same file with units, but for rounding. Where several sets of units fit, none does.
+#[test]
+fn units_of_parameters_follow() {
+    let text = |form: &str, start: &str, unit: &str| {
+        format!(
+            r#"{{"fits": {{"line": {{"form": "{form}", "start": {start},
+              "x": {{"unit": "kN", "values": [0.5, 1, 2, 3, 4, 6]}},
+              "y": {{"unit": "mV/V", "standard_uncertainty": 0.001,
+                "values": [2.1685, 1.9095, 1.5521, 1.3345, 1.2032, 1.0745]}}}}}},
+              "inputs": {{"F": {{"unit": "N", "distribution": "normal", "mean": 2500, "std": 2}}}},
+              "equations": {{"y": "line(F)", "p": "line.c"}}, "outputs": {{"y": {{"unit": "mV/V"}},
+              "p": {{"unit": "{unit}"}}}}, "monte_carlo": {{"trials": 0}}}}"#
+        )
+    };
+    let form = "a + b*exp(-x/c)";
+    let bare = run(&text(form, r#"{"a": 1, "b": 1.5, "c": 2}"#, "kN"));
+    let stated = r#"{"a": "1 mV/V", "b": "1.5 mV/V", "c": "2 kN"}"#;
+    let stated = run(&text(form, stated, "kN"));
+    for output in 0..2 {
+        let (a, b) = (gum(&bare, output), gum(&stated, output));
+        near(a.estimate, b.estimate, 1e-7);
+        near(a.standard_uncertainty, b.standard_uncertainty, 1e-6);
+    }
+    let of = |form: &str, start: &str, unit: &str| {
+        let file = crate::read_text("t", &text(form, start, unit), std::path::Path::new(""), &[]);
+        let file = file.unwrap_or_else(|error| panic!("{form}: {error}"));
+        file.warnings.iter().map(|warning| warning.code).collect::<Vec<_>>()
+    };
+    assert!(of(form, r#"{"a": 1, "b": 1.5, "c": 2}"#, "N").is_empty());
+    // a power that is fitted has no unit of its own, and neither has its factor
+    assert!(of("b*x^c", r#"{"b": 1.9, "c": -0.3}"#, "1").contains(&"fit-units-not-checked"));
+}

@@ -10,7 +10,7 @@ use super::function::{Function, Part};
 use super::message::excerpt;
 use super::scale::LevelPart;
 use super::suggest;
-use super::syntax::{Kind, Node, Operator, TableCall, Tree};
+use super::syntax::{Kind, NEGATION, Node, Operator, TableCall, Tree};
 use super::tie::Tie;
 use super::typing::{Scope, TableData, Typing};
 use crate::number::{Binary, Unary};
@@ -56,6 +56,7 @@ pub(super) fn check(text: &str, tree: &Tree, scope: &Scope, units: bool) -> Chec
     }
     if let Some(last) = tree.nodes.len().checked_sub(1) {
         let typing = checker.settled(last);
+        let typing = checker.with_ratio(last, typing);
         if let Some(whole) = checker.done.typings.last_mut() {
             *whole = typing;
         }
@@ -104,7 +105,7 @@ impl<'c> Checker<'c> {
                 free(Typing::NUMBER)
             }
             Kind::Not { span, of } => {
-                self.truths("not", span, &[*of]);
+                self.truths(NEGATION, span, &[*of]);
                 free(Typing::NUMBER)
             }
             Kind::Table { x, call } => free(self.table(*x, call)),

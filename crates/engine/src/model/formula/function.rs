@@ -161,28 +161,11 @@ impl Function {
         matches!(self, Self::One(Unary::Sin | Unary::Cos | Unary::Tan))
     }
 
-    /// Whether no quantity may be called so. Names of functions that came later still may be those
-    /// of quantities where no parenthesis follows, because files have them.
+    /// Whether no quantity may be called so. A coefficient of expansion is called gamma, and the parts
+    /// of complex numbers and a mean have names that results have: those name a quantity where no
+    /// parenthesis follows.
     pub(super) fn is_reserved(self) -> bool {
-        match self {
-            Self::One(operation) => !matches!(
-                operation,
-                Unary::Floor
-                    | Unary::Ceil
-                    | Unary::Round
-                    | Unary::ExpMinusOne
-                    | Unary::LnOnePlus
-                    | Unary::Asinh
-                    | Unary::Acosh
-                    | Unary::Atanh
-                    | Unary::Erf
-                    | Unary::Gamma
-            ),
-            Self::Two(operation) => operation != Binary::Modulo,
-            Self::Fold(_) | Self::Kelvin => true,
-            Self::Part(_) => false,
-            Self::Sum | Self::Mean | Self::Celsius | Self::If | Self::Table | Self::Solve => false,
-        }
+        !matches!(self, Self::One(Unary::Gamma) | Self::Mean | Self::Part(_))
     }
 
     /// How many arguments it takes.

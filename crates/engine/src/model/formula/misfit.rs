@@ -30,6 +30,16 @@ pub enum ScaleMisfit {
         /// That of the unit.
         expected: Option<Zero>,
     },
+    /// A gain, or the ratio of two quantities, in a unit whose levels are above a power or a voltage.
+    RatioAboveReference {
+        /// The reference of the unit.
+        expected: Zero,
+    },
+    /// A level above what its formula names, in a unit whose levels are above something else.
+    ReferenceOfNoUnit {
+        /// The reference of the unit.
+        expected: Zero,
+    },
     /// Periods where angle is counted, or angle where periods are.
     Turns {
         /// What the quantity counts.
@@ -71,7 +81,29 @@ impl fmt::Display for ScaleMisfit {
             ),
             Self::OtherReference { found, expected } => {
                 write!(f, "is a level in {}, not in {}", level(*found), level(*expected))?;
-                f.write_str("; write the reference out, such as `10*log10(P/1 [mW])`")
+                match expected.and_then(written_out) {
+                    Some(formula) => write!(f, "; write the reference out, such as `{formula}`"),
+                    None => f.write_str("; write the reference out, such as `10*log10(P/1 [mW])`"),
+                }
+            }
+            Self::RatioAboveReference { expected } => {
+                let (unit, reference) = (expected.unit(), expected.reference().unwrap_or_default());
+                write!(
+                    f,
+                    "is a ratio in dB (a gain, or the level of one quantity above another), and a \
+                     level in {unit} is above 1 {reference}; give it in `dB`, add it to a level in \
+                     {unit}"
+                )?;
+                written_out(*expected).map_or(Ok(()), |formula| write!(f, ", or write `{formula}`"))
+            }
+            Self::ReferenceOfNoUnit { expected } => {
+                let (unit, reference) = (expected.unit(), expected.reference().unwrap_or_default());
+                write!(
+                    f,
+                    "is a level above the reference that its formula names, and a level in {unit} \
+                     is above 1 {reference}; give it in `dB`"
+                )?;
+                written_out(*expected).map_or(Ok(()), |formula| write!(f, ", or write `{formula}`"))
             }
             Self::Turns { found: Turn::Periods } => f.write_str(
                 "counts periods, and the unit counts angle; write `2*pi*...` or `...*[rev]`",
@@ -81,6 +113,13 @@ impl fmt::Display for ScaleMisfit {
             ),
         }
     }
+}
+
+/// A formula of the levels above a reference.
+fn written_out(zero: Zero) -> Option<String> {
+    let unit = zero.reference()?;
+    let (factor, of) = if unit.ends_with('W') { (10, 'P') } else { (20, 'V') };
+    Some(format!("{factor}*log10({of}/1 [{unit}])"))
 }
 
 impl Typing {
@@ -123,6 +162,10 @@ impl Typing {
                 LevelReference::Above(found) if found != zero => {
                     Err(ScaleMisfit::OtherReference { found: Some(found), expected })
                 }
+                // of a full scale or a carrier nothing is known
+                _ if zero.reference().is_none() => Ok(()),
+                LevelReference::Ratio => Err(ScaleMisfit::RatioAboveReference { expected: zero }),
+                LevelReference::Other => Err(ScaleMisfit::ReferenceOfNoUnit { expected: zero }),
                 _ => Ok(()),
             },
             (None, None) => Ok(()),

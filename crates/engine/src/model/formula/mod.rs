@@ -54,6 +54,7 @@ mod evaluate;
 mod fraction;
 mod function;
 mod layout;
+mod level_reference;
 mod lexer;
 mod message;
 mod misfit;

@@ -4,6 +4,7 @@ use std::error::Error;
 use std::fmt;
 
 use super::function::Function;
+use super::syntax::{Joint, NEGATION};
 
 /// Whether a name may begin with this character.
 pub(super) fn begins_name(c: char) -> bool {
@@ -18,6 +19,11 @@ pub(super) fn continues_name(c: char) -> bool {
 /// Whether a text is the constant pi.
 pub(super) fn is_pi(text: &str) -> bool {
     matches!(text, "pi" | "π")
+}
+
+/// Whether a text is a word that stands between truths, or before one.
+fn is_operator(text: &str) -> bool {
+    text == NEGATION || Joint::ALL.into_iter().any(|joint| joint.name() == text)
 }
 
 /// Whether a text has the form of a name: letters of any alphabet, digits and `_`, with no digit in
@@ -58,8 +64,9 @@ pub fn looks_of(name: &str) -> String {
 /// ```
 ///
 /// # Errors
-/// [`NameError`] if the text does not have the form of a name, or is a function's name, `pi` or
-/// `π`.
+/// [`NameError`] if the text does not have the form of a name, or is a function's name (but `gamma`,
+/// `mean`, `re`, `im`, `arg` and `conj`, which name a quantity where no parenthesis follows), an
+/// operator's (`and`, `or`, `not`), `pi` or `π`.
 pub fn check_name(text: &str) -> Result<(), NameError> {
     match text.chars().next() {
         None => return Err(NameError::Empty),
@@ -71,6 +78,9 @@ pub fn check_name(text: &str) -> Result<(), NameError> {
     }
     if Function::named(text).is_some_and(Function::is_reserved) {
         return Err(NameError::Function);
+    }
+    if is_operator(text) {
+        return Err(NameError::Operator);
     }
     if is_pi(text) { Err(NameError::Pi) } else { Ok(()) }
 }
@@ -94,6 +104,8 @@ pub enum NameError {
     },
     /// The name of a function.
     Function,
+    /// `and`, `or` or `not`.
+    Operator,
     /// The constant pi.
     Pi,
 }
@@ -111,6 +123,7 @@ impl fmt::Display for NameError {
                 write!(f, "a name has letters, digits and `_` only, not `{}`", Shown(*found))
             }
             Self::Function => f.write_str("it is the name of a function"),
+            Self::Operator => f.write_str("it is an operator of formulas"),
             Self::Pi => f.write_str("it is the constant pi"),
         }
     }
@@ -134,7 +147,9 @@ mod tests {
 
     #[test]
     fn names_and_what_is_none() {
-        for good in ["a", "_", "a_ref", "θ", "Δt_1", "é", "sin1", "Pi", "e", "µ"] {
+        for good in
+            ["a", "_", "a_ref", "θ", "Δt_1", "é", "sin1", "Pi", "e", "µ", "gamma", "mean", "re"]
+        {
             assert_eq!(check_name(good), Ok(()), "{good}");
             assert!(is_name(good));
         }
@@ -147,6 +162,18 @@ mod tests {
             ("x²", NameError::Character { found: '²' }),
             ("sin", NameError::Function),
             ("kelvin", NameError::Function),
+            ("celsius", NameError::Function),
+            ("floor", NameError::Function),
+            ("mod", NameError::Function),
+            ("expm1", NameError::Function),
+            ("erf", NameError::Function),
+            ("if", NameError::Function),
+            ("sum", NameError::Function),
+            ("table", NameError::Function),
+            ("solve", NameError::Function),
+            ("and", NameError::Operator),
+            ("or", NameError::Operator),
+            ("not", NameError::Operator),
             ("pi", NameError::Pi),
             ("π", NameError::Pi),
         ];

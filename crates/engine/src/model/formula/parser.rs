@@ -33,7 +33,7 @@ use super::error::{FormulaError, NumberFault};
 use super::function::Function;
 use super::lexer::{Lexer, Token, TokenKind};
 use super::message::excerpt;
-use super::syntax::{Joint, Kind, Node, Operator, TableCall, Tree};
+use super::syntax::{Joint, Kind, NEGATION, Node, Operator, TableCall, Tree};
 use crate::model::InterpolationMethod;
 use crate::regression::CurveFunction;
 use gumption_units::Unit;
@@ -206,8 +206,7 @@ impl Parser<'_> {
     /// The joint that is next: `and` or `or`, which are names where an operand stands.
     fn joint(&self) -> Option<Joint> {
         match (self.token.kind, self.slice(&self.token.span)) {
-            (TokenKind::Name, "and") => Some(Joint::And),
-            (TokenKind::Name, "or") => Some(Joint::Or),
+            (TokenKind::Name, word) => Joint::ALL.into_iter().find(|joint| joint.name() == word),
             _ => None,
         }
     }
@@ -330,7 +329,7 @@ impl Parser<'_> {
         let name_span = self.token.span.clone();
         let function = Function::named(self.slice(&name_span));
         self.advance()?;
-        if self.slice(&name_span) == "not" && self.truth_follows() {
+        if self.slice(&name_span) == NEGATION && self.truth_follows() {
             return self.negated(name_span);
         }
         if self.token.kind != TokenKind::Open {

@@ -68,30 +68,6 @@ impl Checker<'_> {
         )
     }
 
-    /// What a level is above by its logarithm: `10*log10(P/[mW])`, `20*log10(v/[uV])`.
-    fn reference(&self, left: usize, right: usize) -> Option<LevelReference> {
-        let (factor, logarithm) = match self.constant(left) {
-            Some(factor) => (factor, right),
-            None => (self.constant(right)?, left),
-        };
-        let kind = |index: usize| self.tree.nodes.get(index).map(|node| &node.kind);
-        let Some(Kind::Call { arguments, .. }) = kind(logarithm) else { return None };
-        let Kind::Infix { operator: Operator::Divide, right, .. } = kind(*arguments.first()?)?
-        else {
-            return None;
-        };
-        let unit = match kind(*right)? {
-            Kind::Unit(unit) => unit,
-            Kind::InUnit { number, unit } if self.constant(*number) == Some(1.0) => unit,
-            _ => return None,
-        };
-        let of_factor = |zero: &Zero| match zero {
-            Zero::Milliwatt | Zero::Watt => factor == 10.0,
-            _ => factor == 20.0,
-        };
-        Zero::above(unit).filter(of_factor).map(LevelReference::Above)
-    }
-
     /// What a node is where it is used as a whole; anything after a mistake.
     pub(super) fn settled(&mut self, index: usize) -> Typing {
         let (typing, tie) = (self.typing(index), self.tie(index));
@@ -256,7 +232,9 @@ impl Checker<'_> {
                 return (Typing::ANY, Tie::None);
             }
         }
-        let (a, b) = (self.tie(left), self.tie(right).times(sign));
+        let (a, b) = (self.tie(left), self.tie(right));
+        // 10*log10(P/[mW]) beside a level in dBm counts from the same zero
+        let (a, b) = (a.beside(x, b), b.beside(y, a).times(sign));
         if x.dimension.is_none() && a == Tie::None {
             return (y, b);
         }
@@ -268,7 +246,7 @@ impl Checker<'_> {
             zero: None,
             kelvin: kelvin_of_sum(sign, x.kelvin, y.kelvin),
             celsius_exponent: nearer_zero(x.celsius_exponent, y.celsius_exponent),
-            reference: reference_of_sum(sign, x, y),
+            reference: LevelReference::of_sum(sign, x, y),
             turn: x.turn.or(y.turn),
             ..x
         };
@@ -322,14 +300,14 @@ impl Checker<'_> {
         [left, right]: [usize; 2],
     ) -> (Typing, Tie) {
         if self.makes_level(left, right) {
-            let reference = self.reference(left, right).unwrap_or_default();
+            let reference = self.reference_of_level(left, right);
             return (Typing { level: Exponent::ONE, reference, ..Typing::NUMBER }, Tie::None);
         }
         for (number, other) in [(left, right), (right, left)] {
             let Some(factor) = self.constant(number) else { continue };
             let typing = self.typing(other);
             let turn = self.turned(typing.turn, number, factor);
-            let reference = LevelReference::Unknown;
+            let reference = typing.reference.scaled();
             return (
                 Typing { dimension, turn, reference, ..typing },
                 self.tie(other).times(factor),
@@ -345,7 +323,12 @@ impl Checker<'_> {
         };
         let level = x.level.checked_add(y.level).unwrap_or(Exponent::ZERO);
         let unit = x.celsius_exponent.checked_add(y.celsius_exponent).unwrap_or(Exponent::ZERO);
-        let typing = Typing { level, turn, ..Typing { dimension, ..Typing::ANY } };
+        let reference = match (x.level, y.level) {
+            (Exponent::ZERO, Exponent::ZERO) => LevelReference::Unknown,
+            (_, Exponent::ZERO) => x.reference.scaled(),
+            _ => y.reference.scaled(),
+        };
+        let typing = Typing { level, turn, reference, ..Typing { dimension, ..Typing::ANY } };
         let powers = [self.tie(left).power(), self.tie(right).power()];
         self.tied(index, typing, unit, powers, [left, right])
     }
@@ -364,7 +347,7 @@ impl Checker<'_> {
                 Some(Turn::Angle) if x.turn == Some(Turn::Angle) => Some(Turn::Periods),
                 _ => None,
             };
-            let reference = LevelReference::Unknown;
+            let reference = x.reference.scaled();
             return (
                 Typing { dimension, turn, reference, ..x },
                 self.tie(left).times(1.0 / divisor),
@@ -395,7 +378,11 @@ impl Checker<'_> {
         let minus = |exponent: Exponent| exponent.checked_neg().unwrap_or(Exponent::ZERO);
         let level = x.level.checked_add(minus(y.level)).unwrap_or(Exponent::ZERO);
         let unit = x.celsius_exponent.checked_add(minus(y.celsius_exponent));
-        let typing = Typing { level, turn, ..Typing { dimension, ..Typing::ANY } };
+        let reference = match x.level {
+            Exponent::ZERO => LevelReference::Unknown,
+            _ => x.reference.scaled(),
+        };
+        let typing = Typing { level, turn, reference, ..Typing { dimension, ..Typing::ANY } };
         let powers = [self.tie(left).power(), minus(self.tie(right).power())];
         self.tied(index, typing, unit.unwrap_or(Exponent::ZERO), powers, [left, right])
     }
@@ -542,17 +529,6 @@ impl Checker<'_> {
             let (text, unit) = (self.quoted(left), unit.text().trim().to_owned());
             self.fault(left, ScaleFault::KelvinPerCelsius { text, unit });
         }
-    }
-}
-
-/// What a sum of levels is above: what one of them is, beside one that is above nothing known.
-fn reference_of_sum(sign: f64, x: Typing, y: Typing) -> LevelReference {
-    use LevelReference::{Above, Added, Unknown};
-    match (x.reference, y.reference) {
-        (Added, _) | (_, Added) => Added,
-        (Above(zero), Unknown) if y.zero.is_none() => Above(zero),
-        (Unknown, Above(zero)) if x.zero.is_none() && sign > 0.0 => Above(zero),
-        _ => Unknown,
     }
 }
 

@@ -100,7 +100,12 @@ pub(super) enum Joint {
     Or,
 }
 
+/// What stands before a truth that is wanted not to hold.
+pub(super) const NEGATION: &str = "not";
+
 impl Joint {
+    pub(super) const ALL: [Self; 2] = [Self::And, Self::Or];
+
     /// The joint as it is written.
     pub(super) fn name(self) -> &'static str {
         match self {

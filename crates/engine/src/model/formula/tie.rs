@@ -59,10 +59,24 @@ impl Tie {
         }
     }
 
+    /// The same beside what hangs on the zero of a level: one whose logarithm names a reference hangs
+    /// on that.
+    pub(super) fn beside(self, typing: Typing, other: Self) -> Self {
+        match (self, typing.reference, other) {
+            (Self::None, LevelReference::Above(zero), Self::Sum { .. }) => {
+                Self::Sum { zero, weight: 1.0, loose: 0.0 }
+            }
+            _ => self,
+        }
+    }
+
     /// The kind of a sum as a whole; `None` if it is none: factors that add to neither 1 nor 0.
     pub(super) fn settled(self, typing: Typing) -> Option<Typing> {
         let is = |sum: f64, whole: f64| (sum - whole).abs() < ROUNDING;
         let typing = match self {
+            Self::Sum { zero, weight, .. } if zero != Zero::Celsius && is(weight, 0.0) => {
+                Typing { reference: LevelReference::Ratio, ..typing }
+            }
             Self::Sum { .. } => Typing { reference: LevelReference::Unknown, ..typing },
             Self::None | Self::Product { .. } => typing,
         };

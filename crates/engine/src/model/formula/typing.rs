@@ -24,7 +24,7 @@ pub struct Typing {
     pub celsius_exponent: Exponent,
     /// The exponent of decibels in it: 1 of a level, 0 of everything that is no level.
     pub level: Exponent,
-    /// What a level is above that has no declared zero.
+    /// What a level is above that has no declared zero; of a plain number, what a level of it is.
     pub reference: LevelReference,
     /// Whether it counts periods or angle, as far as that is known.
     pub turn: Option<Turn>,
@@ -33,11 +33,15 @@ pub struct Typing {
 /// What a level is above by the formula that makes it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LevelReference {
-    /// Nothing is known of it, or it is the ratio of two quantities.
+    /// Nothing is known of it.
     #[default]
     Unknown,
+    /// None: it is a gain or a loss, the ratio of two quantities, the difference of two levels.
+    Ratio,
     /// What its logarithm is divided by: 1 uV in `20*log10(v/[uV])`.
     Above(Zero),
+    /// What its logarithm is divided by, and no unit of levels is above: 2 mW, 20 uPa.
+    Other,
     /// It adds levels with a reference, or multiplies one, and is above none.
     Added,
 }
@@ -78,8 +82,13 @@ impl Typing {
     pub fn in_unit(unit: &Unit) -> Self {
         let zero = unit.zero();
         let celsius = unit.celsius_exponent();
+        let is_level = !unit.level_exponent().is_zero();
         Self {
             zero,
+            reference: match zero {
+                None if is_level => LevelReference::Ratio,
+                _ => LevelReference::Unknown,
+            },
             celsius_exponent: if zero.is_some() { Exponent::ZERO } else { celsius },
             level: unit.level_exponent(),
             turn: unit.turn(),

@@ -10,7 +10,7 @@ use std::slice::ChunksMut;
 
 use crate::parallel;
 
-use super::{Dof, Factors};
+use super::{Dof, Factors, left};
 use crate::distribution::Correlation;
 use crate::model::{Columns, Program, Slope, Slopes};
 use crate::number::{COLUMN, CodePath, Column, Kernel, Operand};
@@ -414,6 +414,8 @@ fn copy(from: Operand, registers: &[Column], to: &mut [f64]) {
 struct Scratch {
     largest: Column,
     variance: Column,
+    /// The moduli of what the variance is the sum of.
+    terms: Column,
     /// Whether nothing so far is infinite or not a number: the sum of all is finite.
     sum: Column,
     fourth: Column,
@@ -424,8 +426,8 @@ struct Scratch {
 
 impl Scratch {
     fn new(variables: usize) -> Self {
-        let [largest, variance, sum, fourth] = [const { Column::ZERO }; 4];
-        Self { largest, variance, sum, fourth, relative: vec![Column::ZERO; variables] }
+        let [largest, variance, terms, sum, fourth] = [const { Column::ZERO }; 5];
+        Self { largest, variance, terms, sum, fourth, relative: vec![Column::ZERO; variables] }
     }
 
     /// The budget of rows whose estimates and sensitivity coefficients are there.
@@ -439,9 +441,9 @@ impl Scratch {
     ) {
         let count = rows.len();
         let sweep = first + rows.start..first + rows.end;
-        let Self { largest, variance, sum, fourth, relative } = self;
-        let [largest, variance, sum, fourth] =
-            [largest, variance, sum, fourth].map(|column| &mut column.0[..count]);
+        let Self { largest, variance, terms, sum, fourth, relative } = self;
+        let [largest, variance, terms, sum, fourth] =
+            [largest, variance, terms, sum, fourth].map(|column| &mut column.0[..count]);
         largest.fill(0.0);
         variance.fill(0.0);
         fourth.fill(0.0);
@@ -469,17 +471,18 @@ impl Scratch {
                 variance[i] += part * part;
             }
         }
+        terms.copy_from_slice(variance);
         for c in bulk.options.correlations {
             let (a, b) = (&relative[c.first].0, &relative[c.second].0);
             for i in 0..count {
-                variance[i] += 2.0 * a[i] * b[i] * c.coefficient;
+                let term = 2.0 * a[i] * b[i] * c.coefficient;
+                variance[i] += term;
+                terms[i] += term.abs();
             }
         }
         let combined = &mut piece.standard_uncertainties[rows.clone()];
         for i in 0..count {
-            // full negative correlation may leave a rounding error below zero
-            let squares = if variance[i] > 0.0 { variance[i] } else { 0.0 };
-            let u = largest[i] * squares.sqrt();
+            let u = largest[i] * left(variance[i], terms[i]).sqrt();
             let finite = (sum[i] + 0.0 * (variance[i] + u)).is_finite();
             combined[i] = if finite { u } else { f64::NAN };
         }

@@ -8,6 +8,7 @@ use super::condensed::Condensed;
 use crate::distribution::{BLOCK, Draws, Joint, StreamKey, Varying};
 use crate::model::{Schedule, ScheduledOutput};
 use crate::number::{COLUMN, CodePath, Column, Kernel};
+use crate::propagate::conformity::on_branch;
 use crate::task::{ColumnFunction, Row, Sharing, Task};
 
 /// One row of a task made ready for trials.
@@ -20,7 +21,8 @@ pub(crate) struct RowTrials {
     keys: Vec<StreamKey>,
     /// For each output, the branch that phases are taken on: its middle and the length of a turn.
     branches: Vec<Option<(f64, f64)>>,
-    /// For each output its tolerance limits, infinite where there are none.
+    /// For each output its tolerance limits, infinite where there are none; the lower one above the
+    /// upper one where values beyond either of them are inside.
     limits: Vec<[f64; 2]>,
     /// What computes the outputs in place of the schedule.
     function: Option<Called>,
@@ -59,7 +61,7 @@ impl RowTrials {
             .iter()
             .map(|&v| StreamKey::new(task.settings.seed, &stream_name(task, row, v)))
             .collect();
-        let branches = task
+        let branches: Vec<Option<(f64, f64)>> = task
             .model
             .outputs
             .iter()
@@ -70,7 +72,12 @@ impl RowTrials {
             .collect();
         let unlimited = [f64::NEG_INFINITY, f64::INFINITY];
         let limits = task.model.outputs.iter().map(|output| output.at(&row.conditions).tolerance);
-        let limits = limits.map(|of| of.map_or(unlimited, |of| of.ends())).collect();
+        let limits = limits.map(|of| of.map_or(unlimited, |of| of.ends()));
+        let limits = limits.zip(&branches).map(|(limits, branch)| match *branch {
+            Some((middle, turn)) => on_branch(limits, middle, turn),
+            None => limits,
+        });
+        let limits = limits.collect();
         Self {
             registers: (0..varying.len()).collect(),
             varying: Varying::new(&row.distributions, &varying, joint),

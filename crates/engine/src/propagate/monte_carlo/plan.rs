@@ -9,7 +9,8 @@ use super::windows::Windows;
 pub(crate) struct Reference {
     pub(crate) middle: f64,
     pub(crate) scale: f64,
-    /// The output's tolerance limits, infinite where there are none.
+    /// The output's tolerance limits, infinite where there are none; the lower one above the upper
+    /// one where values beyond either of them are inside.
     pub(crate) limits: [f64; 2],
 }
 

@@ -26,6 +26,8 @@ impl Sums {
         let [lower, upper] = reference.limits;
         self.inside += if lower == f64::NEG_INFINITY && upper == f64::INFINITY {
             values.len() as u64
+        } else if lower > upper {
+            values.iter().map(|&v| u64::from((v >= lower) | (v <= upper))).sum::<u64>()
         } else {
             values.iter().map(|&v| u64::from((v >= lower) & (v <= upper))).sum::<u64>()
         };

@@ -222,6 +222,77 @@ fn results_that_their_unit_does_not_fit() {
     }
 }
 
+/// A level above a power or a voltage is that of the formula's reference, and a ratio is above none.
+#[test]
+fn levels_name_their_reference() {
+    let misfit = |text: &str, unit: &str| {
+        let typing = checked(text).unwrap_or_else(|errors| panic!("{text}: {}", errors[0]));
+        typing.reported_in(&Unit::parse(unit).unwrap()).err()
+    };
+    for (text, unit) in [
+        ("10*log10(u^2/R/2 [mW])", "dBm"),
+        ("10*log10(u^2/R/(2*[mW]))", "dBm"),
+        ("20*log10(u/0.7746 [V])", "dBV"),
+        ("10*log10(u/1 [V])", "dBV"),
+        ("20*log10(u^2/R/1 [mW])", "dBm"),
+        ("20*log10(p/20 [uPa])", "dBV"),
+        ("20*log10(u/0.7746 [V]) + L", "dBV"),
+    ] {
+        let found = misfit(text, unit);
+        let is_right = matches!(found, Some(ScaleMisfit::ReferenceOfNoUnit { .. }));
+        assert!(is_right, "{text} in {unit}: {found:?}");
+        assert_eq!(misfit(text, "dB"), None, "{text}");
+    }
+    for (text, unit) in [
+        ("20*log10(u/u0)", "dBm"),
+        ("20*log10(u/u0)", "dBV"),
+        ("10*log10(u*u/(u0*u0))", "dBW"),
+        ("10*n*log10(u/u0)", "dBm"),
+        ("L", "dBm"),
+        ("L + L1", "dBm"),
+        ("n*L", "dBuV"),
+        ("loss*l", "dBm"),
+        ("3 [dB]", "dBm"),
+        ("P1 - P2", "dBm"),
+        ("10*log10(u/[V]) - 10*log10(u0/[V])", "dBm"),
+        ("20*log10(u/[V]) - 20*log10(u0/[V])", "dBV"),
+        ("P1 - 10*log10(u^2/R/[mW])", "dBm"),
+    ] {
+        let found = misfit(text, unit);
+        let is_right = matches!(found, Some(ScaleMisfit::RatioAboveReference { .. }));
+        assert!(is_right, "{text} in {unit}: {found:?}");
+        assert_eq!(misfit(text, "dB"), None, "{text}");
+    }
+    for (text, unit) in [
+        ("10*log10(u^2/R/[mW])", "dBm"),
+        ("10*log10(u^2/R/0.001 [W])", "dBm"),
+        ("10*log10(abs(u^2/R)/[mW])", "dBm"),
+        ("10*log10(u^2/(R*1 [mW]))", "dBm"),
+        ("20*log10(u/sqrt(50 [ohm]*1 [mW]))", "dBm"),
+        ("10*log10(u^2/1 [V^2])", "dBV"),
+        ("20*log10(u/1e-6 [V])", "dBuV"),
+        ("20*log10(u/[uV]) + L", "dBuV"),
+        ("10*log10(n)", "dBm"),
+        ("0 [dBm] + L", "dBm"),
+        ("P1 + 20*log10(u/u0)", "dBm"),
+        ("P1 + 20*log10(u/u0) - 10*log10(2)", "dBW"),
+        ("(10*log10(u^2/R/[mW]) + P1)/2", "dBm"),
+        // the reference of these is not a unit's
+        ("20*log10(u/u0)", "dBFS"),
+        ("20*log10(u/2.5 [V])", "dBFS"),
+        ("L", "dBi"),
+        ("20*log10(u/u0)", "dBc"),
+    ] {
+        assert_eq!(misfit(text, unit), None, "{text} in {unit}");
+    }
+    // also of a ratio that has a name of its own
+    let ratio = checked("u/u0").unwrap();
+    let scope = Scope::from_iter([("ratio", ratio)]);
+    let level = Formula::parse("20*log10(ratio)").unwrap().check(&scope).unwrap();
+    let said = level.reported_in(&Unit::parse("dBV").unwrap()).unwrap_err().to_string();
+    assert!(said.contains("above 1 V") && said.contains("20*log10(V/1 [V])"), "{said}");
+}
+
 #[test]
 fn levels_and_turns_that_do_not_go_together() {
     let table = [

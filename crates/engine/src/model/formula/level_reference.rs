@@ -1,0 +1,205 @@
+//! What a level is above, by the argument of the logarithm that makes it: 1 mW in
+//! `10*log10(P/[mW])`, 2 mW in `10*log10(P/2 [mW])`, nothing in `20*log10(V2/V1)`.
+
+use super::dimension::Checker;
+use super::function::Function;
+use super::syntax::{Kind, Operator};
+use super::typing::{LevelReference, Typing};
+use crate::number::Unary;
+use gumption_units::{Dimension, Zero};
+
+/// The dimensions of power, of voltage, and of its square.
+const POWER: Dimension = Dimension::of([1, 2, -3, 0, 0, 0, 0]);
+const VOLTAGE: Dimension = Dimension::of([1, 2, -3, -1, 0, 0, 0]);
+const SQUARED_VOLTAGE: Dimension = Dimension::of([2, 4, -6, -2, 0, 0, 0]);
+
+/// A quantity that is written out, in coherent SI units.
+#[derive(Clone, Copy)]
+struct Written {
+    dimension: Dimension,
+    value: f64,
+}
+
+/// The divisors of a level's argument.
+struct Divisors {
+    /// Those that are written out.
+    written: Vec<Written>,
+    /// Whether a quantity with a dimension is among them that is not.
+    quantity: bool,
+    /// Whether the argument is a number that is the ratio of two quantities.
+    ratio: bool,
+    /// Whether all of the argument is written out.
+    constant: bool,
+}
+
+impl LevelReference {
+    /// Of a level times a plain number: an average of levels may still come of it.
+    pub(super) fn scaled(self) -> Self {
+        match self {
+            Self::Ratio | Self::Other => self,
+            Self::Unknown | Self::Above(_) | Self::Added => Self::Unknown,
+        }
+    }
+
+    /// Of a sum of levels: what one of them is, beside one that is above nothing.
+    pub(super) fn of_sum(sign: f64, x: Typing, y: Typing) -> Self {
+        use LevelReference::{Above, Added, Other, Ratio, Unknown};
+        let is_difference = sign < 0.0;
+        match (x.reference, y.reference) {
+            (Added, _) | (_, Added) => Added,
+            (Ratio, Ratio) => Ratio,
+            (Above(_), Above(_)) | (Other, Other) if is_difference => Ratio,
+            (Other, Other | Ratio) => Other,
+            (Ratio, Other) if !is_difference => Other,
+            (Above(zero), Ratio | Unknown) if y.zero.is_none() => Above(zero),
+            (Ratio | Unknown, Above(zero)) if x.zero.is_none() && !is_difference => Above(zero),
+            _ => Unknown,
+        }
+    }
+}
+
+impl Checker<'_> {
+    /// What a level is above that is the product of a factor and a logarithm.
+    pub(super) fn reference_of_level(&self, left: usize, right: usize) -> LevelReference {
+        let (factor, logarithm) = match self.constant(left) {
+            Some(factor) => (Some(factor.abs()), right),
+            None => (self.constant(right).map(f64::abs), left),
+        };
+        match self.kind(logarithm) {
+            Some(Kind::Call { arguments, .. }) => {
+                arguments.first().map_or(LevelReference::Unknown, |&argument| {
+                    self.reference_of_argument(factor, argument)
+                })
+            }
+            _ => LevelReference::Unknown,
+        }
+    }
+
+    /// A number with what is known of levels of it: that they are above nothing, if it is the ratio of
+    /// two quantities.
+    pub(super) fn with_ratio(&self, index: usize, typing: Typing) -> Typing {
+        let is_number = typing == Typing::NUMBER;
+        match self.divisors(index) {
+            divisors if is_number && self.is_ratio(index, &divisors) => {
+                Typing { reference: LevelReference::Ratio, ..typing }
+            }
+            _ => typing,
+        }
+    }
+
+    fn reference_of_argument(&self, factor: Option<f64>, argument: usize) -> LevelReference {
+        let divisors = self.divisors(argument);
+        let references: Vec<Written> =
+            divisors.written.iter().copied().filter(|of| is_reference(of.dimension)).collect();
+        match (factor, references.as_slice()) {
+            // a number of decibels
+            _ if divisors.constant => LevelReference::Unknown,
+            (Some(factor), [one]) => above(factor, *one),
+            (_, [_, ..]) => LevelReference::Unknown,
+            (_, []) if self.is_ratio(argument, &divisors) => LevelReference::Ratio,
+            (_, []) if self.names_reference(argument) => LevelReference::Unknown,
+            (_, []) if !divisors.written.is_empty() => LevelReference::Other,
+            (_, []) => LevelReference::Unknown,
+        }
+    }
+
+    /// Whether a number is the ratio of two quantities, neither of which is a power or a voltage that
+    /// is written out.
+    fn is_ratio(&self, index: usize, divisors: &Divisors) -> bool {
+        (divisors.quantity || divisors.ratio) && !self.names_reference(index)
+    }
+
+    /// What a product or a quotient is divided by.
+    fn divisors(&self, index: usize) -> Divisors {
+        let mut found =
+            Divisors { written: Vec::new(), quantity: false, ratio: false, constant: true };
+        let mut left = vec![(index, false)];
+        while let Some((index, divides)) = left.pop() {
+            if self.constant(index).is_some() {
+                continue;
+            }
+            if let Some(written) = self.written(index) {
+                found.written.extend(divides.then_some(written));
+                continue;
+            }
+            match self.kind(index) {
+                Some(Kind::Infix { operator: Operator::Multiply, left: a, right: b, .. }) => {
+                    left.extend([(*a, divides), (*b, divides)]);
+                }
+                Some(Kind::Infix { operator: Operator::Divide, left: a, right: b, .. }) => {
+                    left.extend([(*a, divides), (*b, !divides)]);
+                }
+                Some(Kind::Negate(x)) => left.push((*x, divides)),
+                Some(Kind::Call {
+                    function: Some(Function::One(Unary::Abs)), arguments, ..
+                }) => {
+                    left.extend(arguments.first().map(|&x| (x, divides)));
+                }
+                _ => {
+                    found.constant = false;
+                    let typing = self.typing(index);
+                    let is_number = typing.dimension.is_none_or(|of| of.is_none());
+                    found.quantity |= divides && !is_number;
+                    found.ratio |= is_number
+                        && typing.level.is_zero()
+                        && typing.reference == LevelReference::Ratio;
+                }
+            }
+        }
+        found
+    }
+
+    /// A quantity that is written out: `[mW]`, `2 [mW]`, `2*[mW]`.
+    fn written(&self, index: usize) -> Option<Written> {
+        match self.kind(index)? {
+            Kind::Unit(unit) => Some(Written { dimension: unit.dimension(), value: unit.factor() }),
+            Kind::InUnit { number, unit } => Some(Written {
+                dimension: unit.dimension(),
+                value: self.constant(*number)? * unit.factor(),
+            }),
+            Kind::Infix { operator: Operator::Multiply, left, right, .. } => {
+                let (number, of) = match self.constant(*left) {
+                    Some(number) => (number, *right),
+                    None => (self.constant(*right)?, *left),
+                };
+                let of = self.written(of)?;
+                Some(Written { value: number * of.value, ..of })
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a power or a voltage is written out anywhere in a part of the formula.
+    fn names_reference(&self, index: usize) -> bool {
+        let whole = self.tree.span(index);
+        self.tree.nodes.iter().any(|node| {
+            let inside = whole.start <= node.span.start && node.span.end <= whole.end;
+            let unit = match &node.kind {
+                Kind::Unit(unit) | Kind::InUnit { unit, .. } => Some(unit),
+                _ => None,
+            };
+            inside && unit.is_some_and(|unit| is_reference(unit.dimension()))
+        })
+    }
+
+    fn kind(&self, index: usize) -> Option<&Kind> {
+        self.tree.nodes.get(index).map(|node| &node.kind)
+    }
+}
+
+/// Whether levels can be above a quantity of that dimension.
+fn is_reference(dimension: Dimension) -> bool {
+    [POWER, VOLTAGE, SQUARED_VOLTAGE].contains(&dimension)
+}
+
+/// What `factor*log10(x/reference)` is above: a power with the factor 10, a voltage with 20, or its
+/// square with 10.
+fn above(factor: f64, reference: Written) -> LevelReference {
+    let Written { dimension, value } = reference;
+    let zero = match (dimension, factor) {
+        (POWER, 10.0) | (VOLTAGE, 20.0) => Zero::above(dimension, value),
+        (SQUARED_VOLTAGE, 10.0) => Zero::above(VOLTAGE, value.sqrt()),
+        _ => None,
+    };
+    zero.map_or(LevelReference::Other, LevelReference::Above)
+}
