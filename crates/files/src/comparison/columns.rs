@@ -79,17 +79,19 @@ impl Columns {
         }
         let has = |role: Role| roles.iter().any(|(of, _)| *of == role);
         // a factor tells that they are expanded
-        for place in doubtful {
-            if has(Role::Factor(0)) && !has(Role::Expanded(0)) {
+        match doubtful.as_slice() {
+            [] => {}
+            &[place] if has(Role::Factor(0)) && !has(Role::Expanded(0)) => {
                 roles.push((Role::Expanded(0), place));
-                break;
             }
-            fail(format!(
-                "`{}` can be the standard uncertainty or an expanded one: call the column `u`, or `U` \
-                 with its coverage factor, `U (k=2)`",
-                heading(place)
-            ));
-            return None;
+            &[.., place] => {
+                fail(format!(
+                    "`{}` can be the standard uncertainty or an expanded one: call the column `u`, or \
+                     `U` with its coverage factor, `U (k=2)`",
+                    heading(place)
+                ));
+                return None;
+            }
         }
         let known = ["label", "correlation"];
         let (alike, others): (Vec<usize>, Vec<usize>) = unknown

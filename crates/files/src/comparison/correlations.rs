@@ -101,15 +101,11 @@ impl Matrix<'_> {
             };
             rows.push(row);
         }
-        let mut found = vec![vec![1.0; all]; all];
-        for i in 0..all {
-            for j in 0..=i {
-                let r = self.coefficient(i, j, &rows, &columns)?;
-                found[i][j] = r;
-                found[j][i] = r;
-            }
-        }
-        Some(found)
+        // of two laboratories the later one first, so that each pair is read once
+        let half = |i: usize| (0..=i).map(|j| self.coefficient(i, j, &rows, &columns)).collect();
+        let halves: Vec<Vec<f64>> = (0..all).map(half).collect::<Option<_>>()?;
+        let of = |i: usize, j: usize| halves[i.max(j)][i.min(j)];
+        Some((0..all).map(|i| (0..all).map(|j| of(i, j)).collect()).collect())
     }
 
     /// The coefficient of two laboratories, from the one or the other half of the matrix; from the

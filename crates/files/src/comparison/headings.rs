@@ -131,7 +131,7 @@ pub(super) fn said(heading: &str) -> Said {
         Some(Column::Divisor) if columns::is_factor(&name) => Said::Role(Role::Factor(0), false),
         Some(Column::Width) => match coverage(heading) {
             HeaderCoverage::None => Said::SomeUncertainty,
-            HeaderCoverage::Factor(k) if k == 1.0 => Said::Role(Role::Standard(0), false),
+            HeaderCoverage::Factor(1.0) => Said::Role(Role::Standard(0), false),
             _ => Said::Role(Role::Expanded(0), false),
         },
         _ => Said::Nothing,

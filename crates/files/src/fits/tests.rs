@@ -340,7 +340,7 @@ fn units_of_parameters_follow() {
         near(a.standard_uncertainty, b.standard_uncertainty, 1e-6);
     }
     let of = |form: &str, start: &str, unit: &str| {
-        let file = crate::read_text("t", &text(form, start, unit), std::path::Path::new(""), &[]);
+        let file = read_text("t", &text(form, start, unit), Path::new(""), &[]);
         let file = file.unwrap_or_else(|error| panic!("{form}: {error}"));
         file.warnings.iter().map(|warning| warning.code).collect::<Vec<_>>()
     };

@@ -4,8 +4,8 @@ use super::Budget;
 use super::columns::{Column, Header};
 use super::grid::{self, Cells};
 use crate::DiagnosticKind;
-use crate::workbook::choice::{self, Wanted};
 use crate::open::FROM_CERTIFICATES;
+use crate::workbook::choice::{self, Wanted};
 use crate::workbook::{Book, Place, SheetName, letters};
 
 /// The sheet of a workbook that is read.

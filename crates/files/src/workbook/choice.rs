@@ -32,14 +32,14 @@ pub(crate) fn of<T>(
         };
         return Ok((read(book, sheet)?, told(sheet, &sheets)));
     }
-    let (mut first, mut found): (Option<(&SheetName, T)>, Vec<(&SheetName, T)>) =
-        (None, Vec::new());
+    let mut first = None;
+    let mut found: Vec<(&SheetName, T)> = Vec::new();
     for sheet in sheets.iter().filter(|sheet| !sheet.is_hidden) {
         let chosen = read(book, sheet)?;
         if holds(&chosen) {
             found.push((sheet, chosen));
         } else if first.is_none() {
-            first = Some((sheet, chosen));
+            first = Some(chosen);
         }
     }
     let Wanted { a, one, has_option } = wanted;
@@ -64,7 +64,7 @@ pub(crate) fn of<T>(
     match found.pop() {
         Some((sheet, chosen)) => Ok((chosen, told(sheet, &sheets))),
         None => first
-            .map(|(_, chosen)| (chosen, None))
+            .map(|chosen| (chosen, None))
             .ok_or_else(|| unreadable("the workbook has no sheet".to_owned())),
     }
 }

@@ -1,7 +1,7 @@
 //! Whether an output has an expectation and a standard deviation, as far as its inputs tell one by one.
 
 use super::Problem;
-use super::tails::RINGS;
+use super::tails::diverges;
 use super::term::{End, ring_at_end};
 use crate::distribution::Distribution;
 
@@ -26,18 +26,20 @@ pub(crate) fn of_moments(problem: &Problem<'_>) -> [bool; 2] {
             continue;
         }
         for end in End::BOTH {
-            let mut rings = [[0.0; RINGS]; 2];
-            for ring in 0..RINGS {
+            // of the modulus and of the square, in the two innermost rings
+            let [inner, outer] = [0, 1].map(|ring| {
+                let mut sums = [0.0; 2];
                 for [at, weight] in ring_at_end(distribution, end, ring) {
                     values[place] = at;
                     let y = problem.task.model.program.evaluate(&values)[problem.output].abs();
-                    rings[0][ring] += weight * y;
-                    rings[1][ring] += weight * y * y;
+                    sums[0] += weight * y;
+                    sums[1] += weight * y * y;
                 }
-            }
+                sums
+            });
             values[place] = median(distribution);
-            for (exist, [last, before, _]) in exist.iter_mut().zip(rings) {
-                *exist &= !super::tails::diverges(last, before);
+            for (exist, (inner, outer)) in exist.iter_mut().zip(inner.into_iter().zip(outer)) {
+                *exist &= !diverges(inner, outer);
             }
         }
     }
