@@ -331,12 +331,11 @@ fn certificates_are_no_budgets() {
     for (format, name) in [("dcc", "c.xml"), ("json", "answer.json")] {
         let text = output(folder.path(), &["certificate", "c.json", "--format", format, "--quiet"]);
         fs::write(folder.path().join(name), text).expect("a file");
-        let (success, _, error) = self::said(folder.path(), &["import", name]);
+        let (success, _, error) = said(folder.path(), &["import", name]);
         assert!(!success && error.contains("by an input of the distribution `dcc`"), "{error}");
     }
     fs::write(folder.path().join("r.csv"), "label,x1,U1\ny,10,0.02\n").expect("a file");
-    let (_, _, error) =
-        self::said(folder.path(), &["compare", "r.csv", "--against", "answer.json"]);
+    let (_, _, error) = said(folder.path(), &["compare", "r.csv", "--against", "answer.json"]);
     assert!(
         error.contains("the JSON answer of a certificate, and not that of an evaluation"),
         "{error}"
