@@ -336,7 +336,7 @@ fn uncertainties_below_the_capability_are_warned_of_or_raised() {
         .filter_map(|warning| warning["code"].as_str())
         .collect();
     assert_eq!(codes, ["below-cmc", "raised-to-cmc"]);
-    assert!(found["statements"]["en"].to_string().contains("Row 3: The evaluated uncertainty"));
+    assert!(found["statements"]["en"].to_string().contains("Row 3: The evaluated expanded uncertainty"));
     let folder = folder(&files);
     let said = gumption().args(["certificate", &path(folder.path(), "c.json")]).assert().success();
     let notes = String::from_utf8(said.get_output().stderr.clone()).expect("UTF-8");
@@ -920,7 +920,7 @@ fn every_language_stands_by_itself() {
     files[0].1["language"] = json!(["en", "de", "it", "fr"]);
     fs::write(folder.path().join("c.json"), files[0].1.to_string()).expect("a file");
     let latex = page("latex");
-    assert!(latex.contains("in den letzten beiden Spalten") && !latex.contains("U+"), "{latex}");
+    assert!(latex.contains("Das angegebene") && !latex.contains("U+"), "{latex}");
     assert_eq!(
         found["particulars"]["Laboratorium / Laboratory"],
         "L & <Co>, Torino, IT, a@example.org"
