@@ -799,13 +799,16 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::OneLimitOfPeriod { name, missing, turn } => write!(
                 f,
-                "the `tolerance` of `{name}` needs `{missing}` as well: its values come round after                  {turn} (`periodic`), so that each of them lies on either side of one limit alone"
+                "the `tolerance` of `{name}` needs `{missing}` as well: its values come round after \
+                 {turn} (`periodic`), so that each of them lies on either side of one limit alone"
             ),
             Self::Component { name, reason } => write!(f, "a component of `{name}` {reason}"),
             Self::Formula { error } => error.fmt(f),
             Self::EstimateOfInput { name } => write!(
                 f,
-                "`{name}` has an uncertainty, and an estimate is a formula of conditions, of inputs with                  the distribution `constant` and of constants; write a formula of `{name}` among the                  `equations`"
+                "`{name}` has an uncertainty, and an estimate is a formula of conditions, of inputs with \
+                 the distribution `constant` and of constants; write a formula of `{name}` among the \
+                 `equations`"
             ),
             Self::EstimateUndefined { row, found } => {
                 write!(f, "this estimate is {found} in row {row} of the conditions")

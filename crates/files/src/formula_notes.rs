@@ -3,7 +3,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::json::Json;
+use super::json::{Json, Member};
 use super::model_checks::Quantities;
 use super::model_reader::Equation;
 use super::object::Object;
@@ -60,6 +60,8 @@ pub(super) fn unused_inputs(
     let formulas = equations.iter().filter_map(|(_, _, formula)| formula.as_ref());
     let mut used: HashSet<&str> = formulas.flat_map(Formula::names).map(|(name, _)| name).collect();
     used.extend(outputs.iter().map(|output| output.quantity.name.as_str()));
+    let estimates = estimates(inputs);
+    used.extend(estimates.iter().flat_map(Formula::names).map(|(name, _)| name));
     // what uses a part uses the whole
     let wholes: Vec<&str> = used.iter().filter_map(|name| Some(name.rsplit_once('.')?.0)).collect();
     used.extend(wholes);
@@ -73,6 +75,20 @@ pub(super) fn unused_inputs(
             Warning::new(UNUSED_INPUT, &member.key, text)
         })
         .collect()
+}
+
+/// The formulas of inputs' estimates, which may use inputs that are constants.
+fn estimates(inputs: &[Member]) -> Vec<Formula> {
+    let fields = inputs.iter().filter_map(|input| match &input.value.value {
+        Json::Object(fields) => Some(fields),
+        _ => None,
+    });
+    let estimates = fields.flatten().filter(|field| matches!(field.key.as_str(), "mean" | "value"));
+    let formula = |field: &Member| match &field.value.value {
+        Json::Text(text) => Formula::parse(text).ok(),
+        _ => None,
+    };
+    estimates.filter_map(formula).collect()
 }
 
 /// What earlier versions of `gumption new` wrote as the `about` of an input.
