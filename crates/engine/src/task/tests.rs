@@ -1,5 +1,8 @@
 //! Tasks made step by step.
 
+mod by_hand;
+mod temperatures;
+
 use super::*;
 use crate::distribution::{CorrelationError, Rectangular};
 use crate::model::Tolerance;
