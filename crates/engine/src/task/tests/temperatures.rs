@@ -1,5 +1,7 @@
 //! Celsius temperatures of typed measurements: nothing mixes them with temperatures in kelvin.
 
+#![allow(unreachable_pub)] // what the macro declares
+
 use super::*;
 use crate::model::formula::ScaleMisfit;
 use crate::model::typed::Equations;
