@@ -178,7 +178,7 @@ impl RowEvaluation {
 #[non_exhaustive]
 pub enum EvaluationError {
     /// The task does not hold together, as after its fields were set by hand.
-    Task(TaskError),
+    Task(Box<TaskError>),
     /// Declared correlations that no joint distribution has, or that cannot be drawn.
     Correlation {
         /// What is wrong; the quantities are the task's variables.
@@ -326,7 +326,7 @@ pub fn in_pool<R: Send>(
     control: &Control<'_>,
     work: impl FnOnce() -> R + Send,
 ) -> Result<R, EvaluationError> {
-    task.check().map_err(EvaluationError::Task)?;
+    task.check().map_err(|error| EvaluationError::Task(Box::new(error)))?;
     let program = &task.model.program;
     let columns = size_of::<Column>() * (program.variables() + program.operations())
         + size_of::<[f64; BLOCK]>() * program.outputs();

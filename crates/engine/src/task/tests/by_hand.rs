@@ -19,7 +19,7 @@ fn refused(change: impl FnOnce(&mut Task)) -> TaskError {
     let mut task = sum().build().unwrap();
     change(&mut task);
     match evaluate(&task, &Control::default()) {
-        Err(EvaluationError::Task(error)) => error,
+        Err(EvaluationError::Task(error)) => *error,
         other => panic!("{other:?}"),
     }
 }
