@@ -173,7 +173,7 @@
 //! let base = TimeBase { rate: exact(1000.0), start: 0.0, jitter: 0.0, beside_frequency: None };
 //! let passes = InMemorySamples { channels: vec![values] };
 //! let mut tracks = [ChannelRecording { passes, base, channels: vec![0], search: None }];
-//! let found = observe(&settings, &[frequency], &mut tracks).map_err(|refused| format!("{refused:?}"))?;
+//! let found = observe(&settings, &[frequency], &mut tracks)?;
 //! let amplitude = &found.frequencies[0][0].components[0].amplitude.measured;
 //! // half a step at most, and its uncertainty is smaller than a step
 //! assert!((amplitude.value - 2.5).abs() < 0.005);
@@ -271,7 +271,7 @@ pub mod command {
 }
 pub use templates::catalogue;
 
-pub use gumption_analysis::{assumptions, certificate, compare, diff};
+pub use gumption_analysis::{assumptions, certificate, compare, diff, plan};
 pub use gumption_engine::{decimal, measurement};
 pub use gumption_files as file;
 pub use gumption_files::schema;
@@ -285,30 +285,32 @@ pub use gumption_units as unit;
 pub mod distribution {
     pub use gumption_engine::distribution::{
         Arcsine, Beta, Constant, Correlation, CorrelationError, CurvilinearTrapezoid, Distribution,
-        EvaluationType, Exponential, External, Gamma, Input, InputError, Invalid, LogUniform,
-        Lognormal, Normal, PoissonCount, Readings, Rectangular, Samples, StreamRng, StudentT,
-        Trapezoidal, Triangular,
+        EvaluationType, Exponential, External, Fits, Gamma, Input, InputError, Invalid, LogUniform,
+        Lognormal, Normal, PoissonCount, Quantiles, Readings, Rectangular, Samples, SplitNormal,
+        StreamRng, StudentT, Trapezoidal, Triangular, Truncated,
     };
 }
 
 /// Measurement models: named quantities and the function between them.
 pub mod model {
     pub use gumption_engine::model::{
-        Capability, InputQuantity, Model, Output, Quantity, Tolerance, formula, typed,
+        Capability, InputQuantity, Model, NumberForm, Output, Program, Quantity, Recorder,
+        Tolerance, Traced, formula, typed,
     };
 }
 
 /// The numbers that a model's arithmetic is generic over, and the code paths of the machine.
 pub mod number {
-    pub use gumption_engine::number::{CodePath, Number};
+    pub use gumption_engine::number::{CodePath, ComplexNumber, Number, UnavailablePath};
 }
 
 /// Evaluation by the law of propagation and by the Monte Carlo method.
 pub mod propagate {
     pub use gumption_engine::propagate::{
         Accuracy, CapabilityStatement, Conformity, Control, Evaluation, EvaluationError,
-        GlobalRisks, Noiseless, OutputEvaluation, RowEvaluation, Scatter, convergence, evaluate,
-        for_each_block, histograms, quantiles, trial_hash, warnings,
+        GlobalRisks, JointRegion, Noiseless, OutputEvaluation, Region, RegionEvaluation,
+        RegionValidation, RowEvaluation, SampledRegion, Scatter, SecondOrder, SmallestRegion,
+        convergence, evaluate, for_each_block, histograms, quantiles, trial_hash, warnings,
     };
 
     /// The law of propagation of uncertainty (JCGM 100).
@@ -345,11 +347,21 @@ pub mod propagate {
     }
 }
 
+/// Calibration functions: curves fitted to points, with the uncertainties of both coordinates. The
+/// formulas of a task may call them ([`Task::curves`](task::Task::curves)).
+pub mod calibration {
+    pub use gumption_engine::regression::{
+        Coordinate, Cross, Curve, CurveFunction, DegreeChoice, Points, Regression, RegressionError,
+        Spread, choose_degree,
+    };
+}
+
 /// What is to be evaluated: a model, what is known about its inputs in every row of conditions, and
 /// the settings of the evaluation.
 pub mod task {
     pub use gumption_engine::task::{
-        ColumnFunction, Coverage, Evidence, MethodChoice, Row, Settings, SettingsChanges, Sharing,
-        StoppingRule, Task, TaskBuilder, TaskError, Trials, Variable, Warning,
+        ColumnFunction, Coverage, Evidence, MethodChoice, ModelStatement, Row, Settings,
+        SettingsChanges, Sharing, StoppingRule, Task, TaskBuilder, TaskError, Trials, Variable,
+        Warning,
     };
 }

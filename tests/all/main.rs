@@ -40,6 +40,7 @@ mod open;
 mod open_attacks;
 mod other_distributions;
 mod outputs;
+mod own_case;
 mod own_program;
 #[cfg(feature = "open")]
 mod page_server;

@@ -113,6 +113,31 @@ fn budgets_in_columns_are_those_of_single_rows() {
     }
 }
 
+/// What no measurement has is refused, and not added up.
+#[test]
+fn impossible_arguments_are_refused() {
+    let recorder = gumption_engine::model::Recorder::default();
+    let program = recorder.program(2, &[recorder.variable(0) + recorder.variable(1)]);
+    let refused = |u: f64, dof: f64, coverage: f64, correlations: &[Correlation]| {
+        let (estimate, standard_uncertainty) = (BulkValue::Same(1.0), BulkValue::Same(u));
+        let known = [
+            BulkInput { estimate, standard_uncertainty, dof: BulkValue::Same(dof) },
+            BulkInput::new(BulkValue::Rows(&[1.0, 2.0]), BulkValue::Same(0.2)),
+        ];
+        let coverage = coverage.into();
+        let options = BulkOptions { coverage, correlations, ..BulkOptions::default() };
+        budgets(&program, &known, &[], options).map(drop)
+    };
+    let of = |first, second| Correlation { first, second, coefficient: -0.5 };
+    assert_eq!(refused(0.1, 5.0, 0.95, &[]), Ok(()));
+    assert_eq!(refused(0.1, f64::INFINITY, 0.95, &[of(0, 1)]), Ok(()));
+    let twice = refused(0.1, f64::INFINITY, 0.95, &[of(0, 1), of(1, 0)]);
+    assert_eq!(twice, Err(BulkError::CorrelationTwice([0, 1])));
+    assert_eq!(refused(-0.1, 5.0, 0.95, &[]), Err(BulkError::Uncertainty { input: 0, row: 0 }));
+    assert_eq!(refused(0.1, -3.0, 0.95, &[]), Err(BulkError::Dof { input: 0, row: 0 }));
+    assert!(matches!(refused(0.1, 5.0, 95.0, &[]), Err(BulkError::Coverage { .. })));
+}
+
 /// sqrt(x) at 0 has no sensitivity coefficient; the other rows are not touched.
 #[test]
 fn a_row_without_a_budget_says_so() {

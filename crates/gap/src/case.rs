@@ -74,11 +74,13 @@ pub struct Prior {
 }
 
 impl Case {
-    /// Checks that every effect, and every pair that is among the hypotheses, can act on the model.
+    /// Checks the data and the priors, and that every effect, and every pair that is among the
+    /// hypotheses, can act on the model.
     ///
     /// # Errors
     /// Of the first that cannot.
     pub(crate) fn check(&self) -> Result<(), OverrideError> {
+        self.check_data()?;
         self.recorded(&[])?;
         for one in 0..self.candidates.len() {
             self.recorded(&[one])?;

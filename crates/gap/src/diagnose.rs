@@ -58,7 +58,7 @@ pub(crate) fn coverage(case: &Case) -> f64 {
 /// done.
 ///
 /// # Errors
-/// Effects that cannot act on the model.
+/// Effects that cannot act on the model; data, priors or rows that are none.
 pub fn diagnose(
     case: &Case,
     at: Option<&[Row]>,
@@ -73,7 +73,7 @@ pub fn diagnose(
 /// looked for, and nothing is proposed.
 ///
 /// # Errors
-/// Effects that cannot act on the model.
+/// Effects that cannot act on the model; data, priors or rows that are none.
 pub fn diagnose_until(
     case: &Case,
     at: Option<&[Row]>,
@@ -92,6 +92,7 @@ fn diagnosed(
     stop: Option<&AtomicBool>,
 ) -> Result<Diagnosis, OverrideError> {
     case.check()?;
+    case.check_rows(at.unwrap_or_default())?;
     let seed = options.seed;
     let others = OtherPriors::of(case);
     let effort = Effort { stop, ..Effort::FULL };

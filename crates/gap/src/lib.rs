@@ -6,6 +6,7 @@
 
 mod beside_departure;
 mod case;
+mod case_check;
 pub mod check;
 mod composed;
 mod copies;

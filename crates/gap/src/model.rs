@@ -51,7 +51,8 @@ pub struct Effect {
     pub overrides: Vec<(String, Formula)>,
 }
 
-/// Why a model cannot be recorded with the overrides of effects.
+/// Why a case cannot be diagnosed: a model that cannot be recorded with the overrides of effects, or
+/// data that are none.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum OverrideError {
@@ -68,6 +69,11 @@ pub enum OverrideError {
     },
     /// A formula has a mistake, which checking it tells as well.
     Formula(FormulaError),
+    /// Data, priors or rows of a case that do not belong together or are no numbers.
+    Case {
+        /// What is wrong.
+        reason: String,
+    },
 }
 
 impl fmt::Display for OverrideError {
@@ -79,6 +85,7 @@ impl fmt::Display for OverrideError {
             }
             Self::Undefined { name } => write!(f, "nothing computes `{name}`"),
             Self::Formula(error) => error.fmt(f),
+            Self::Case { reason } => f.write_str(reason),
         }
     }
 }

@@ -9,6 +9,7 @@ use super::frequency::{self, NoFrequency};
 use super::passes::{InMemorySamples, SampleSource, Selected, gathered};
 use super::quantization::amplitude_error;
 use super::recipe::{Frequency, Method, RecipeSettings, TimeBase};
+use super::refused::{MOST_HELD, Refused, unreadable};
 use super::residuals::{self, Residuals};
 use super::sine_fit::{NoFit, Tone, ToneCoefficients, ToneDesign};
 use super::spurious;
@@ -16,76 +17,12 @@ use super::trace;
 use super::whole_periods::whole_periods;
 use gumption_engine::number::elementary;
 
-/// Values of one channel that are held in memory at most (1 GiB): what a channel with steps, or of
-/// a recipe with `"method": "fft"`, may have.
-pub const MOST_HELD: u64 = 1 << 27;
-
 /// Steps by which a stated frequency is brought to the recording's own at most; the error falls as
 /// its square, so that two or three do.
 const MOST_MOVES: u32 = 8;
 
 /// Turns over the record to which it is brought.
 const SETTLED: f64 = 1e-6;
-
-/// Why a row has no observation.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Refused<E> {
-    /// A recording cannot be read.
-    Unreadable(E),
-    /// A component at or above half the sampling rate; frequency and rate in hertz.
-    AboveNyquist {
-        /// The channel.
-        channel: usize,
-        /// The component's frequency.
-        hertz: f64,
-        /// The sampling rate.
-        rate: f64,
-    },
-    /// Less than one period of a frequency, or none between two crossings for bins.
-    LessThanOnePeriod {
-        /// The channel.
-        channel: usize,
-        /// The frequency, in hertz.
-        hertz: f64,
-        /// The part of a period that there is.
-        periods: f64,
-    },
-    /// Two components that the record is too short to tell apart, or fewer values than parameters.
-    NotApart {
-        /// The channel.
-        channel: usize,
-        /// Values of the record.
-        samples: u64,
-    },
-    /// No oscillation where the frequency is to be estimated.
-    NotFound {
-        /// The channel.
-        channel: usize,
-    },
-    /// A step cannot be done.
-    Step {
-        /// The channel.
-        channel: usize,
-        /// The number of the step, from 0.
-        step: usize,
-        /// Why.
-        reason: String,
-    },
-    /// The sampling rate cannot be found.
-    Rate {
-        /// The channel that it was looked for in.
-        channel: usize,
-        /// Why.
-        reason: String,
-    },
-    /// More values than are held in memory for a step or the Fourier transform.
-    TooLong {
-        /// The channel.
-        channel: usize,
-        /// Its values.
-        samples: u64,
-    },
-}
 
 /// Steps that a channel went through.
 #[derive(Clone, Debug)]
@@ -506,22 +443,4 @@ fn noise_near(design: &ToneDesign, residuals: &Residuals, fundamental: usize) ->
     let tone = design.tones.iter().position(tone).unwrap_or(0);
     let [of_cosine, of_sine] = local(residuals, tone);
     (residuals.variance * f64::midpoint(of_cosine, of_sine)).sqrt()
-}
-
-/// A refusal of something in memory, which cannot be unreadable.
-pub(super) fn unreadable<E>(refused: Refused<std::convert::Infallible>) -> Refused<E> {
-    match refused {
-        Refused::Unreadable(never) => match never {},
-        Refused::AboveNyquist { channel, hertz, rate } => {
-            Refused::AboveNyquist { channel, hertz, rate }
-        }
-        Refused::LessThanOnePeriod { channel, hertz, periods } => {
-            Refused::LessThanOnePeriod { channel, hertz, periods }
-        }
-        Refused::NotApart { channel, samples } => Refused::NotApart { channel, samples },
-        Refused::NotFound { channel } => Refused::NotFound { channel },
-        Refused::Step { channel, step, reason } => Refused::Step { channel, step, reason },
-        Refused::Rate { channel, reason } => Refused::Rate { channel, reason },
-        Refused::TooLong { channel, samples } => Refused::TooLong { channel, samples },
-    }
 }

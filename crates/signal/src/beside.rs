@@ -5,8 +5,9 @@
 //! left is that of the joint fit, its frequency's included.
 
 use super::analysed::Fundamental;
-use super::analysis::{FittedTones, Group, Refused};
+use super::analysis::{FittedTones, Group};
 use super::passes::SampleSource;
+use super::refused::Refused;
 use super::residuals::{KEPT, Remainder};
 use super::sine_fit::{ToneCoefficients, ToneDesign};
 use super::spurious::{self, MOST};

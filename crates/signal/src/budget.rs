@@ -48,6 +48,14 @@ impl UncertaintySource {
     }
 }
 
+/// The relative departure from which on the standard uncertainty of trials counts.
+const LEAST_DEPARTURE: f64 = 0.1;
+
+/// Standard deviations of the standard uncertainty of M trials, 1/sqrt(2 M) of it, that a departure
+/// is more than. From 800 trials on they are below the least departure; of fewer, one right standard
+/// uncertainty in 7,700 at most is replaced (chi-squared distribution of M degrees of freedom).
+const SURE: f64 = 4.0;
+
 /// A value with what its uncertainty is made of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BudgetedValue {
@@ -56,9 +64,11 @@ pub struct BudgetedValue {
     /// The standard uncertainty that each source contributes; they add as squares.
     pub contributions: Vec<(UncertaintySource, f64)>,
     /// The standard uncertainty that trials over the recording's noise gave, where they were made.
+    /// That of M trials has a relative standard uncertainty of 1/sqrt(2 M) itself.
     pub trials: Option<f64>,
     /// Whether the standard uncertainty is that of the trials, because the law of propagation does
-    /// not hold (an amplitude near the noise).
+    /// not hold (an amplitude near the noise): they differ by more than a tenth, and by more than
+    /// four times the scatter of the trials.
     pub from_trials: bool,
 }
 
@@ -98,12 +108,13 @@ impl BudgetedValue {
         self
     }
 
-    /// Notes what trials gave; where it departs by more than a tenth, it is the standard
-    /// uncertainty.
-    pub(super) fn checked(mut self, by_trials: f64) -> Self {
+    /// Notes what so many trials gave; where it departs by more than a tenth, and by more than
+    /// trials scatter, it is the standard uncertainty.
+    pub(super) fn checked(mut self, by_trials: f64, trials: u64) -> Self {
         self.trials = Some(by_trials);
         let stated = self.measured.standard_uncertainty;
-        if stated.is_nan() || (by_trials - stated).abs() > 0.1 * stated {
+        let least = LEAST_DEPARTURE.max(SURE * (0.5 / trials as f64).sqrt());
+        if stated.is_nan() || (by_trials - stated).abs() > least * stated {
             self.measured.standard_uncertainty = by_trials;
             self.from_trials = true;
         }

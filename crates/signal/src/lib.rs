@@ -15,7 +15,7 @@
 //!
 //! [`observe`] (`run`) leads each channel through its steps (`step`, `effects`: what they did to
 //! oscillations and noise; `found`: what they find beside it; `search`: sampling rates), fits what
-//! comes out (`analysis`, `sine_fit`, `frequency`, `residuals`, `spurious`; `trace`: what figures show of it), and makes values with
+//! comes out (`asked`: whether that can be; `analysis`, `sine_fit`, `frequency`, `residuals`, `spurious`; `trace`: what figures show of it), and makes values with
 //! budgets of it (`polar`, `trials`, `values`, `observation`). `butterworth`, `derivative`,
 //! `rotation`, `correction`, `delay`, `rms` and `sampling_rate` are steps as functions of signals.
 //! The one fit is `sine_fit`: any tones of a recording that streams in blocks, or of a signal in
@@ -26,6 +26,7 @@
 
 mod analysed;
 mod analysis;
+mod asked;
 mod beside;
 mod budget;
 mod effects;
@@ -38,6 +39,7 @@ mod observation;
 mod passes;
 mod phasor;
 mod recipe;
+mod refused;
 mod run;
 mod search;
 mod signal;
@@ -60,7 +62,6 @@ use steps::{
     sampling_rate, spectral, transform,
 };
 
-pub use analysis::{MOST_HELD, Refused};
 pub use budget::{BudgetedValue, UncertaintySource};
 pub use butterworth::{Band, Butterworth, Filter, Passage};
 pub use changed::Changed;
@@ -78,6 +79,7 @@ pub use quantization::{amplitude_error, quantization_variance};
 pub use recipe::{
     Amplitude, Channel, ChannelRateSearch, Frequency, Method, PhaseUnit, RecipeSettings, TimeBase,
 };
+pub use refused::{MOST_HELD, Refused};
 pub use resimulation::{Colour, Resimulation, Scatter};
 pub use rms::{Improvement, Rms, RmsOf, improvement};
 pub use rotation::{Accelerations, Oscillation, Rotation};

@@ -17,6 +17,12 @@ pub trait SampleSource {
     /// Frames (values of each channel) in all.
     fn frames(&self) -> u64;
 
+    /// Whether it is known that every value is a finite number and that every channel has a value in
+    /// each frame. [`observe`](super::observe) looks through the values of all others once.
+    fn is_checked(&self) -> bool {
+        false
+    }
+
     /// Goes through all frames, in order.
     ///
     /// # Errors
@@ -35,7 +41,7 @@ impl SampleSource for InMemorySamples {
     type Error = Infallible;
 
     fn frames(&self) -> u64 {
-        self.channels.first().map_or(0, Vec::len) as u64
+        longest(&self.channels) as u64
     }
 
     fn pass(&mut self, each: &mut BlockVisitor<'_>) -> Result<(), Infallible> {
@@ -46,13 +52,18 @@ impl SampleSource for InMemorySamples {
 
 /// Goes through channels in memory in blocks.
 pub fn in_blocks(channels: &[Vec<f64>], each: &mut BlockVisitor<'_>) {
-    let frames = channels.first().map_or(0, Vec::len);
+    let frames = longest(channels);
     for first in (0..frames).step_by(BLOCK) {
         let end = (first + BLOCK).min(frames);
-        let block: Vec<&[f64]> =
-            channels.iter().map(|values| values.get(first..end).unwrap_or(&[])).collect();
+        let part = |values: &Vec<f64>| first.min(values.len())..end.min(values.len());
+        let block: Vec<&[f64]> = channels.iter().map(|values| &values[part(values)]).collect();
         each(first as u64, &block);
     }
+}
+
+/// Values of the longest channel.
+fn longest(channels: &[Vec<f64>]) -> usize {
+    channels.iter().map(Vec::len).max().unwrap_or(0)
 }
 
 /// Some of the channels of a recording.
@@ -68,6 +79,10 @@ impl<P: SampleSource> SampleSource for Selected<'_, P> {
 
     fn frames(&self) -> u64 {
         self.passes.frames()
+    }
+
+    fn is_checked(&self) -> bool {
+        self.passes.is_checked()
     }
 
     fn pass(&mut self, each: &mut BlockVisitor<'_>) -> Result<(), P::Error> {

@@ -3,7 +3,9 @@
 use std::rc::Rc;
 
 use super::analysed::{Analysed, local};
-use super::analysis::{Group, MOST_HELD, Refused, Through, unreadable};
+use super::analysis::{Group, Through};
+use super::asked;
+use super::beside::amplitude;
 use super::coloured::Memory;
 use super::common_noise::correlation;
 use super::effects::{Effects, StepEffect};
@@ -11,6 +13,7 @@ use super::near_noise;
 use super::observation::{ChannelObservation, Observation};
 use super::passes::{InMemorySamples, SampleSource, gathered};
 use super::recipe::{Frequency, Method, RecipeSettings, TimeBase};
+use super::refused::{MOST_HELD, Refused, unreadable};
 use super::search;
 use super::spurious::Spurious;
 use super::step::ChannelStep;
@@ -66,6 +69,7 @@ fn row<P: SampleSource>(
     tracks: &mut [ChannelRecording<P>],
     traced: bool,
 ) -> Result<(Observation, Vec<RecordTrace>), Refused<P::Error>> {
+    asked::check(settings, frequencies, tracks)?;
     let mut findings: Vec<(usize, Finding)> = search::rates(settings, frequencies, tracks)?;
     let mut stepped: Vec<Stepped> = Vec::new();
     for channel in in_order(settings) {
@@ -106,6 +110,9 @@ fn row<P: SampleSource>(
     analysed.sort_by_key(|of| of.channel);
     let reference =
         settings.reference.and_then(|channel| analysed.iter().find(|of| of.channel == channel));
+    if let Some(silent) = reference.and_then(silent) {
+        return Err(silent);
+    }
     let found = |channel: usize| {
         let of = findings.iter().filter(|(of, _)| *of == channel);
         of.map(|(_, finding)| finding.clone()).collect()
@@ -123,6 +130,21 @@ fn row<P: SampleSource>(
     notes.extend(observed.iter().flatten().filter_map(|of| near_noise::note(settings, of)));
     let observation = Observation { frequencies: observed, notes };
     Ok((observation, analysed.into_iter().filter_map(|of| of.trace).collect()))
+}
+
+/// The refusal of a reference that has no oscillation at one of the frequencies: an amplitude of
+/// nothing but rounding, as of a constant.
+fn silent<E>(reference: &Analysed) -> Option<Refused<E>> {
+    let rounding = 4.0 * f64::EPSILON * reference.fit.offset.abs();
+    let mut tones = reference
+        .design
+        .tones
+        .iter()
+        .enumerate()
+        .filter(|(_, tone)| tone.multiple == 1 && !tone.beside);
+    let (_, tone) = tones.find(|(place, _)| amplitude(&reference.fit, *place) <= rounding)?;
+    let hertz = reference.fundamentals.get(tone.fundamental).map_or(0.0, |of| of.hertz.value);
+    Some(Refused::ReferenceSilent { channel: reference.channel, hertz })
 }
 
 /// The channels, the reference first.

@@ -1,9 +1,10 @@
 //! The sampling rates of recordings that are found from an oscillation of known frequency: the rate
 //! at which it is strongest, refined with its multiples in the fit.
 
-use super::analysis::{Group, Refused, unreadable};
+use super::analysis::Group;
 use super::passes::{SampleSource, gathered};
 use super::recipe::{ChannelRateSearch, Frequency, RecipeSettings};
+use super::refused::{Refused, unreadable};
 use super::surroundings::Finding;
 use super::track::ChannelRecording;
 use super::{Measured, Noise, RateSearch, Signal, measured, sampling_rate};

@@ -126,13 +126,20 @@ fn component(
             )
         };
         let rest: f64 = amplitude.contributions.iter().filter(others).map(|(_, u)| u * u).sum();
-        amplitude = amplitude.checked((drawn * drawn + rest).sqrt());
+        amplitude = amplitude.checked((drawn * drawn + rest).sqrt(), settings.trials);
     }
     let is_root = root.is_some_and(|(reference, _)| reference.channel == analysed.channel);
     let own = if is_root && multiple == 1 {
         BudgetedValue::new(0.0, Vec::new(), noise_dof)
     } else {
-        phase(analysed, root, polar, times, trials, noise_dof)
+        phase(
+            analysed,
+            root,
+            polar,
+            times,
+            trials.map(|(_, drawn)| (drawn, settings.trials)),
+            noise_dof,
+        )
     };
     let delay = root.filter(|_| multiple == 1).map(|_| delay(&own, frequency));
     ToneComponent {
@@ -158,7 +165,7 @@ fn phase(
     root: Option<&(&Analysed, Polar)>,
     polar: &Polar,
     times: f64,
-    trials: Option<(f64, f64)>,
+    trials: Option<(f64, u64)>,
     noise_dof: f64,
 ) -> BudgetedValue {
     let mut parts: Vec<(UncertaintySource, f64)> = Vec::new();
@@ -221,12 +228,12 @@ fn phase(
     join(&mut parts, UncertaintySource::SamplingRate, hypot(clock.0, clock.1));
     let total = BudgetedValue::new(wrapped(value), parts, noise_dof);
     match trials {
-        Some((_, drawn)) => {
+        Some((drawn, count)) => {
             // the trials draw this channel's own noise, of which the part counts that the reference
             // does not have as well; everything else is as it is
             let u = total.measured.standard_uncertainty;
             let more = if own > 0.0 { drawn * drawn / own - 1.0 } else { 0.0 };
-            total.checked((u * u + (own - common) * more).max(0.0).sqrt())
+            total.checked((u * u + (own - common) * more).max(0.0).sqrt(), count)
         }
         None => total,
     }
@@ -329,7 +336,7 @@ fn distortion(
     let u = if value > 0.0 { u.min(spread / (2.0 * value)) } else { u };
     let found = BudgetedValue::new(value, vec![(UncertaintySource::Noise, u)], noise_dof);
     Some(match drawn {
-        Some(drawn) if value > 0.0 => found.checked(drawn.distortion),
+        Some(drawn) if value > 0.0 => found.checked(drawn.distortion, settings.trials),
         _ => found,
     })
 }

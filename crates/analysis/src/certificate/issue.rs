@@ -39,6 +39,7 @@ impl Issued {
 
 /// Why a certificate cannot be issued.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Failed {
     /// An evaluation that is not possible.
     Evaluation {
@@ -46,6 +47,11 @@ pub enum Failed {
         evaluation: usize,
         /// Why not.
         error: EvaluationError,
+    },
+    /// A row that names an evaluation, a row of conditions or an output that there is not.
+    NoResult {
+        /// The row, counted from 0.
+        line: usize,
     },
     /// A row without an expanded uncertainty.
     NoUncertainty {
@@ -58,6 +64,12 @@ impl fmt::Display for Failed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Evaluation { error, .. } => error.fmt(f),
+            Self::NoResult { line } => write!(
+                f,
+                "row {} states a result that there is not: no such evaluation, row of conditions or \
+                 output",
+                line + 1
+            ),
             Self::NoUncertainty { line } => write!(
                 f,
                 "row {} has no expanded uncertainty: neither the law of propagation nor the trials \
@@ -74,7 +86,8 @@ impl std::error::Error for Failed {}
 /// model files, in hexadecimal.
 ///
 /// # Errors
-/// An evaluation that is not possible, or a row without an expanded uncertainty.
+/// An evaluation that is not possible, a row of a result that there is not, or without an expanded
+/// uncertainty.
 pub fn issue(
     certificate: &Certificate,
     digests: &[Arc<str>],
@@ -88,16 +101,17 @@ pub fn issue(
     let stopped = evaluations.iter().any(|evaluation| evaluation.stopped);
     let mut statements = Vec::with_capacity(certificate.lines.len());
     for (number, line) in certificate.lines.iter().enumerate() {
-        let wanted = evaluations.get(line.evaluation).and_then(|evaluation| {
-            let output = evaluation.rows.get(line.row)?.outputs.get(line.output)?;
-            let wanted = Wanted {
-                settings: &evaluation.settings,
-                rounding: certificate.rounding,
-                digits: certificate.digits,
-            };
-            statement::of(output, line.capability.as_ref(), wanted)
+        let found = evaluations.get(line.evaluation).and_then(|evaluation| {
+            Some((evaluation, evaluation.rows.get(line.row)?.outputs.get(line.output)?))
         });
-        statements.push(wanted.ok_or(Failed::NoUncertainty { line: number })?);
+        let (evaluation, output) = found.ok_or(Failed::NoResult { line: number })?;
+        let wanted = Wanted {
+            settings: &evaluation.settings,
+            rounding: certificate.rounding,
+            digits: certificate.digits,
+        };
+        let stated = statement::of(output, line.capability.as_ref(), wanted);
+        statements.push(stated.ok_or(Failed::NoUncertainty { line: number })?);
     }
     let raised = statements.iter().map(|statement| {
         let limit = statement.limit.filter(|limit| limit.raised);

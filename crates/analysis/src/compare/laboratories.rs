@@ -108,9 +108,20 @@ pub struct Comparison {
 
 /// Why there is no comparison.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Impossible {
     /// Fewer than two laboratories.
     TooFew,
+    /// A value, an expanded uncertainty or a coverage factor that is none.
+    Result {
+        /// The laboratory.
+        label: String,
+    },
+    /// Correlation coefficients that are no matrix of them.
+    Coefficients {
+        /// What is wrong.
+        reason: &'static str,
+    },
     /// The covariance matrix is not positive definite.
     NotDefinite,
     /// Two laboratories are correlated by 1 or -1, so that a combination of their results has no
@@ -135,6 +146,12 @@ impl fmt::Display for Impossible {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TooFew => f.write_str("a comparison needs at least two laboratories"),
+            Self::Result { label } => write!(
+                f,
+                "the result of `{label}` must be finite numbers, with an expanded uncertainty and a \
+                 coverage factor above 0"
+            ),
+            Self::Coefficients { reason } => write!(f, "the correlation coefficients {reason}"),
             Self::NotDefinite => f.write_str(
                 "the laboratories cannot be weighted: their uncertainties differ by more than double \
                  precision can square, or their correlation matrix is not positive definite",
@@ -263,11 +280,33 @@ impl Precision {
     }
 }
 
-/// Compares the results of laboratories; `correlations` has their coefficients, row by row, or is
-/// empty if they are independent.
+/// What keeps coefficients from being a correlation matrix of so many results, or none at all.
+fn fault(correlations: &[Vec<f64>], n: usize) -> Option<&'static str> {
+    if correlations.is_empty() {
+        return None;
+    }
+    if correlations.len() != n || correlations.iter().any(|row| row.len() != n) {
+        return Some("must have a row for each laboratory, with a coefficient for each");
+    }
+    let places = || (0..n).flat_map(|i| (0..=i).map(move |j| (i, j)));
+    if places().any(|(i, j)| !(-1.0..=1.0).contains(&correlations[i][j])) {
+        return Some("must be from -1 to 1");
+    }
+    if (0..n).any(|i| correlations[i][i] != 1.0) {
+        return Some("must be 1 of every laboratory with itself");
+    }
+    // a NaN above the diagonal is not the number below it either
+    places()
+        .any(|(i, j)| correlations[i][j] != correlations[j][i])
+        .then_some("must be the same above and below the diagonal")
+}
+
+/// Compares the results of laboratories; `correlations` has their coefficients, row by row as a whole
+/// symmetric matrix with 1 on its diagonal, or is empty if they are independent.
 ///
 /// # Errors
-/// Fewer than two laboratories; coefficients that no joint distribution has.
+/// Fewer than two laboratories; results that are none; coefficients that are no such matrix, or that
+/// no joint distribution has.
 pub fn compare(
     laboratories: &[Laboratory],
     correlations: &[Vec<f64>],
@@ -287,6 +326,13 @@ pub fn compare_by(
 ) -> Result<Comparison, Impossible> {
     if laboratories.len() < 2 {
         return Err(Impossible::TooFew);
+    }
+    let is_result = |of: &Laboratory| of.result.is_possible() && of.result.expanded > 0.0;
+    if let Some(wrong) = laboratories.iter().find(|of| !is_result(of)) {
+        return Err(Impossible::Result { label: wrong.label.clone() });
+    }
+    if let Some(reason) = fault(correlations, laboratories.len()) {
+        return Err(Impossible::Coefficients { reason });
     }
     let u: Vec<f64> = laboratories.iter().map(|l| l.result.standard_uncertainty()).collect();
     let n = laboratories.len();

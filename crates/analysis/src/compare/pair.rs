@@ -24,6 +24,24 @@ impl StatedResult {
         Self { value, expanded, factor, printed: [value, expanded], rounding: [0.0; 2] }
     }
 
+    /// Whether it is a result: finite numbers, U and what may be rounded at least 0, k above 0.
+    pub fn is_possible(&self) -> bool {
+        let [of_value, of_expanded] = self.rounding;
+        let [printed_value, printed_expanded] = self.printed;
+        let numbers = [
+            self.value,
+            self.expanded,
+            self.factor,
+            printed_value,
+            printed_expanded,
+            of_value,
+            of_expanded,
+        ];
+        numbers.iter().all(|number| number.is_finite())
+            && [self.expanded, printed_expanded, of_value, of_expanded].iter().all(|number| *number >= 0.0)
+            && self.factor > 0.0
+    }
+
     /// Standard uncertainty U/k.
     pub fn standard_uncertainty(&self) -> f64 {
         self.expanded / self.factor
@@ -69,8 +87,13 @@ impl ComparedPair {
 }
 
 impl ResultPair {
-    /// The comparison; `None` if the difference has no uncertainty.
+    /// The comparison; `None` if the difference has no uncertainty, a result is none
+    /// ([`StatedResult::is_possible`]), or the coefficient is not from -1 to 1.
     pub fn compare(&self) -> Option<ComparedPair> {
+        let results = self.results.iter().all(StatedResult::is_possible);
+        if !results || !(-1.0..=1.0).contains(&self.correlation) {
+            return None;
+        }
         let [a, b] = self.results;
         let [u1, u2] = self.results.map(|result| result.standard_uncertainty());
         let difference = a.value - b.value;
@@ -189,6 +212,27 @@ mod tests {
         assert!((from - 0.03 / (0.045 * 2f64.sqrt())).abs() < 1e-12, "{from}");
         assert!((to - 0.05 / (0.035 * 2f64.sqrt())).abs() < 1e-12, "{to}");
         assert!((found.normalized_error - 0.0433 / 0.0396f64.hypot(0.0433)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_no_result_is_not_compared() {
+        let good = StatedResult { rounding: [0.0; 2], ..stated(10.0, 3.0, 2.0) };
+        let compare = |result: StatedResult, correlation: f64| {
+            let results = [result, good];
+            ResultPair { label: "a".into(), results, correlation }.compare()
+        };
+        assert!(compare(good, 0.0).is_some());
+        for wrong in [
+            StatedResult { value: f64::NAN, ..good },
+            StatedResult { expanded: -3.0, ..good },
+            StatedResult { expanded: f64::INFINITY, ..good },
+            StatedResult { factor: -2.0, ..good },
+            StatedResult { factor: 0.0, ..good },
+            StatedResult { rounding: [0.0, -0.5], ..good },
+        ] {
+            assert!(compare(wrong, 0.9).is_none(), "{wrong:?}");
+        }
+        assert!(compare(good, 2.0).is_none() && compare(good, f64::NAN).is_none());
     }
 
     #[test]

@@ -73,6 +73,10 @@ impl Shape for Arcsine {
         }
     }
 
+    fn times(&self, factor: f64) -> Option<Self> {
+        Self::new(self.mean * factor, self.half_width * factor).ok()
+    }
+
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
         Ok(Self { mean: finite("estimate", estimate)?, ..*self })
     }

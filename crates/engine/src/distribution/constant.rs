@@ -40,6 +40,10 @@ impl Shape for Constant {
         out.0.fill(self.value);
     }
 
+    fn times(&self, factor: f64) -> Option<Self> {
+        Self::new(self.value * factor).ok()
+    }
+
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
         Ok(Self { value: finite("estimate", estimate)? })
     }

@@ -10,6 +10,12 @@ use crate::number::{COLUMN, Column};
 /// Draws that are compared with what is stated of them.
 const COMPARED: usize = 1 << 14;
 
+/// Standard errors of the draws' mean and variance by which they may miss what is stated.
+const MOST_ERRORS: f64 = 20.0;
+
+/// The kurtosis of draws above which their variance does not tell that of the distribution.
+const LONG_TAILS: f64 = 50.0;
+
 type Draw = dyn Fn(&mut StreamRng) -> f64 + Send + Sync;
 type Quantile = dyn Fn(f64) -> f64 + Send + Sync;
 
@@ -53,7 +59,9 @@ impl External {
     /// # Errors
     /// A mean or a standard deviation that is not finite, a standard deviation that is not above
     /// zero; draws that are not finite, or whose mean is not the stated one: 16,384 draws are made
-    /// and may miss it by 0.16 standard deviations, 20 times their standard error.
+    /// and may miss it by 0.16 standard deviations, 20 times their standard error. Nor may their
+    /// variance miss the stated one by more than 20 times its standard error (22 % of a normal
+    /// distribution), unless their tails are too long for it to be told (a kurtosis above 50).
     pub fn new(
         name: &'static str,
         mean: f64,
@@ -63,13 +71,28 @@ impl External {
         let (mean, std) = (finite("mean", mean)?, positive("std", std)?);
         let made = Self { name, mean, std, shift: 0.0, draw: Arc::new(draw), quantile: None };
         // about the stated mean, so that a large one does not cost digits
-        let offsets = made.compared()?.into_iter().map(|value| value - mean);
-        let found = mean + offsets.sum::<f64>() / COMPARED as f64;
-        if (found - mean).abs() <= 20.0 * std / (COMPARED as f64).sqrt() {
-            Ok(made)
-        } else {
-            Err(Invalid::NotOfDraws { parameter: "mean", stated: mean, found })
+        let count = COMPARED as f64;
+        let offsets: Vec<f64> = made.compared()?.into_iter().map(|value| value - mean).collect();
+        let offset = offsets.iter().sum::<f64>() / count;
+        let found = mean + offset;
+        if (found - mean).abs() > MOST_ERRORS * std / count.sqrt() {
+            return Err(Invalid::NotOfDraws { parameter: "mean", stated: mean, found });
         }
+        // in units of the stated standard deviation, whose square may be none of double precision
+        let squares = offsets.iter().map(|value| {
+            let z = (value - offset) / std;
+            z * z
+        });
+        let variance = squares.clone().sum::<f64>() / count;
+        let kurtosis = squares.map(|z| z * z).sum::<f64>() / (count * variance * variance);
+        let error = ((kurtosis - 1.0) / count).sqrt() * variance.max(1.0);
+        let misses = kurtosis <= LONG_TAILS && (variance - 1.0).abs() > MOST_ERRORS * error;
+        // of equal draws there is no kurtosis
+        if misses || variance == 0.0 {
+            let found = std * variance.sqrt();
+            return Err(Invalid::NotOfDraws { parameter: "std", stated: std, found });
+        }
+        Ok(made)
     }
 
     /// The same with its quantile function: the value below which a drawn value lies with

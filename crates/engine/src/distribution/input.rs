@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::constant::Constant;
+use super::shape::positive;
 use super::{Distribution, Invalid, Normal, Readings, Rectangular, StudentT, Triangular};
 use gumption_units::{Unit, UnitError};
 
@@ -91,6 +92,30 @@ impl Input {
         Self::new(Normal::new(mean, std)?, unit)
     }
 
+    /// A value with its expanded uncertainty U > 0 and the coverage factor k > 0, as certificates
+    /// state them: a normal distribution of standard deviation U/k. Budgets show k as the divisor.
+    ///
+    /// ```
+    /// use gumption_engine::distribution::Input;
+    ///
+    /// let block = Input::expanded(50.000_02, 30e-6, 2.0, "mm")?;
+    /// assert!((block.distribution.standard_uncertainty() - 15e-6).abs() < 1e-18);
+    /// # Ok::<(), gumption_engine::distribution::InputError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Numbers that are not finite or out of their range, a unit that does not parse.
+    pub fn expanded(
+        mean: f64,
+        expanded_uncertainty: f64,
+        coverage_factor: f64,
+        unit: &str,
+    ) -> Result<Self, InputError> {
+        let factor = positive("k", coverage_factor)?;
+        let std = positive("expanded uncertainty", expanded_uncertainty)? / factor;
+        Self::new(Normal::new(mean, std)?.stated_with(factor)?, unit)
+    }
+
     /// A rectangular distribution within `half_width` > 0 of `mean`.
     ///
     /// # Errors
@@ -121,6 +146,12 @@ impl Input {
     /// Readings that [`Readings::new`] refuses, a unit that does not parse.
     pub fn readings(values: &[f64], unit: &str) -> Result<Self, InputError> {
         Self::new(Readings::new(values.to_vec())?, unit)
+    }
+
+    /// The same input in a group of the budget, for subtotals.
+    #[must_use]
+    pub fn group(self, group: &str) -> Self {
+        Self { group: Some(group.to_owned()), ..self }
     }
 
     /// The same input with its source of uncertainty in words.

@@ -161,6 +161,15 @@ macro_rules! distributions {
                 }
             }
 
+            /// The distribution of the value times a factor above 0, as in another unit. `None`
+            /// for other shapes than constants, normal, rectangular, triangular, t and arc sine
+            /// distributions, and where the result is not finite.
+            pub(crate) fn times(&self, factor: f64) -> Option<Self> {
+                match self {
+                    $(Self::$shape(shape) => Shape::times(shape, factor).map(Self::$shape),)*
+                }
+            }
+
             #[inline(always)]
             pub(crate) fn draw(&self, stream: &mut Stream, out: &mut Column) {
                 match self { $(Self::$shape(shape) => shape.draw(stream, out),)* }

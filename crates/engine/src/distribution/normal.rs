@@ -94,6 +94,11 @@ impl Shape for Normal {
         }
     }
 
+    fn times(&self, factor: f64) -> Option<Self> {
+        let made = Self::with_dof(self.mean * factor, self.std * factor, self.dof).ok()?;
+        Some(Self { divisor: self.divisor, ..made })
+    }
+
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
         Ok(Self { mean: finite("estimate", estimate)?, ..*self })
     }

@@ -125,6 +125,11 @@ impl Shape for Rectangular {
         }
     }
 
+    fn times(&self, factor: f64) -> Option<Self> {
+        let made = Self::new(self.mean * factor, self.half_width * factor).ok()?;
+        Some(Self { width: self.width, ..made })
+    }
+
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
         Ok(Self { mean: finite("estimate", estimate)?, ..*self })
     }

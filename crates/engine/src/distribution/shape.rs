@@ -67,6 +67,15 @@ pub(crate) trait Shape {
     /// Fills a column with independent draws.
     fn draw(&self, stream: &mut Stream, out: &mut Column);
 
+    /// The distribution of the value times a factor above 0, as in another unit; `None` where the
+    /// result is not finite, and for shapes that nobody needs it of.
+    fn times(&self, _factor: f64) -> Option<Self>
+    where
+        Self: Sized,
+    {
+        None
+    }
+
     /// The same distribution with its estimate moved to `estimate`. A shape with a location is
     /// shifted, its limits move along; a shape of positive quantities says itself what it keeps.
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid>

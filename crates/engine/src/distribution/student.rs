@@ -70,6 +70,10 @@ impl Shape for StudentT {
         draw(self.mean, self.scale, self.dof, stream, out);
     }
 
+    fn times(&self, factor: f64) -> Option<Self> {
+        Self::new(self.mean * factor, self.scale * factor, self.dof).ok()
+    }
+
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
         Ok(Self { mean: finite("estimate", estimate)?, ..*self })
     }

@@ -176,6 +176,13 @@ impl Shape for Triangular {
         }
     }
 
+    fn times(&self, factor: f64) -> Option<Self> {
+        let scaled = [self.lower, self.rise, self.fall].map(|part| part * factor);
+        let [lower, rise, fall] = scaled;
+        let is_finite = scaled.iter().all(|part| part.is_finite()) && rise + fall > 0.0;
+        is_finite.then_some(Self { lower, rise, fall, ..*self })
+    }
+
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
         let shift = finite("estimate", estimate)? - self.mean();
         Ok(Self { lower: finite("estimate", self.lower + shift)?, ..*self })

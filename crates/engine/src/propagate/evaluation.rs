@@ -22,7 +22,7 @@ use crate::decimal::{position, to_digits};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Distribution, Invalid, Joint};
 use crate::model::{COMPUTED_DIGITS, Capability, Output, Program};
 use crate::number::{COLUMN, Column, Shortest};
-use crate::task::{Coverage, MethodChoice, Row, Settings, Task, Trials};
+use crate::task::{Coverage, MethodChoice, Row, Settings, Task, TaskError, Trials};
 
 /// The evaluation of a whole task.
 #[derive(Clone, Debug)]
@@ -177,6 +177,8 @@ impl RowEvaluation {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EvaluationError {
+    /// The task does not hold together, as after its fields were set by hand.
+    Task(Box<TaskError>),
     /// Declared correlations that no joint distribution has, or that cannot be drawn.
     Correlation {
         /// What is wrong; the quantities are the task's variables.
@@ -223,6 +225,7 @@ pub enum EvaluationError {
 impl fmt::Display for EvaluationError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Task(error) => error.fmt(f),
             Self::Paired { variable, error } => write!(f, "`{variable}`: {error}"),
             Self::Correlation { message, .. } | Self::Rounding { message, .. } => {
                 f.write_str(message)
@@ -299,7 +302,8 @@ pub fn joint(task: &Task, row: &Row) -> Result<Arc<Joint>, EvaluationError> {
 /// ```
 ///
 /// # Errors
-/// Contradictory correlations; more undefined trials than the settings allow.
+/// A task that does not hold together ([`Task::check`]); contradictory correlations; more undefined
+/// trials than the settings allow.
 pub fn evaluate(task: &Task, control: &Control<'_>) -> Result<Evaluation, EvaluationError> {
     in_pool(task, control, || evaluate_rows(task, control, &|_| None))?
 }
@@ -316,12 +320,13 @@ const MOST_COLUMNS: usize = 256 << 20;
 /// next call. Either way there are no more threads than have room for the columns of the task.
 ///
 /// # Errors
-/// Threads that cannot be started.
+/// A task that does not hold together; threads that cannot be started.
 pub fn in_pool<R: Send>(
     task: &Task,
     control: &Control<'_>,
     work: impl FnOnce() -> R + Send,
 ) -> Result<R, EvaluationError> {
+    task.check().map_err(|error| EvaluationError::Task(Box::new(error)))?;
     let program = &task.model.program;
     let columns = size_of::<Column>() * (program.variables() + program.operations())
         + size_of::<[f64; BLOCK]>() * program.outputs();

@@ -274,10 +274,8 @@ fn of_output(
     };
     if gum.dof == Dof::Undefined {
         let way = match gum.coverage_factor {
-            Some(k) => format!("the factor k = {k} of the file is used as it stands"),
-            None => {
-                "the Monte Carlo interval is the way, or a `coverage_factor` in the file".into()
-            }
+            Some(k) => format!("the stated factor k = {k} is used as it stands"),
+            None => "the Monte Carlo interval is the way, or a stated `coverage_factor`".into(),
         };
         let text = format!(
             "`{name}`{at}: correlated inputs have finite degrees of freedom, for which the \

@@ -4,14 +4,16 @@ use std::collections::{HashMap, HashSet};
 use std::fmt;
 use std::sync::Arc;
 
+use super::check;
 use super::{Coverage, ModelStatement, Row, Settings, Sharing, Task, TaskError, Trials, Variable};
 use crate::distribution::{Correlation, Distribution, Input, Invalid};
 use crate::model::formula::{Formula, ScaleMisfit, Scope, Typing, check_name};
 use crate::model::typed::{Measurement, Typed};
 use crate::model::{
-    InputQuantity, Model, NumberForm, Output, Quantity, Recorder, Tolerance, recorded_values,
-    variables,
+    Capability, InputQuantity, Model, NumberForm, Output, Quantity, Recorder, Tolerance,
+    recorded_values, variables,
 };
+use crate::propagate::Region;
 use gumption_units::Unit;
 
 /// Makes a [`Task`] of a typed measurement ([`Task::measurement`]) or of equations
@@ -51,7 +53,12 @@ pub struct TaskBuilder {
     check_units: bool,
     outputs: Vec<(String, String)>,
     tolerances: Vec<(String, Tolerance)>,
+    requirements: Vec<(String, Requirement)>,
+    /// Names of outputs that are covered together.
+    regions: Vec<Vec<String>>,
     conditions: Vec<(String, String)>,
+    /// The first of conditions that were given a second time.
+    conditions_again: Option<String>,
     rows: Vec<Vec<f64>>,
     varying: Vec<(String, Varying)>,
     sharing: Vec<(String, Option<String>)>,
@@ -66,6 +73,55 @@ struct GivenInput {
     input: Input,
     /// Names and distributions of what is added to it.
     components: Vec<(String, Input)>,
+}
+
+/// What is asked of an output, or known of it, beside its tolerance.
+#[derive(Debug)]
+enum Requirement {
+    Risk(f64),
+    Prior(Arc<Distribution>),
+    Capability(Capability),
+}
+
+impl Requirement {
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Risk(_) => "risk",
+            Self::Prior(_) => "prior",
+            Self::Capability(_) => "capability",
+        }
+    }
+
+    /// Gives it to an output.
+    fn give(&self, output: &mut Output) -> Result<(), TaskError> {
+        let refuse =
+            |reason| Err(TaskError::Requirement { of: output.quantity.name.clone(), reason });
+        match self {
+            Self::Risk(risk) if !(*risk > 0.0 && *risk < 0.5) => {
+                refuse("has a risk that is not above 0 and below 0.5")
+            }
+            Self::Risk(_) | Self::Prior(_) if output.tolerance.is_none() => {
+                refuse("has a risk or a prior, but no tolerance")
+            }
+            Self::Risk(risk) => {
+                output.risk = Some(*risk);
+                Ok(())
+            }
+            Self::Prior(prior) => {
+                output.prior = Some(Arc::clone(prior));
+                Ok(())
+            }
+            Self::Capability(Capability { relative, absolute, .. })
+                if ![relative, absolute].iter().all(|part| **part >= 0.0 && part.is_finite()) =>
+            {
+                refuse("has a capability that is below 0 or no number")
+            }
+            Self::Capability(capability) => {
+                output.capability = Some(*capability);
+                Ok(())
+            }
+        }
+    }
 }
 
 /// What is known of an input in a row, from the values of the conditions there.
@@ -99,7 +155,10 @@ impl TaskBuilder {
             check_units: true,
             outputs: Vec::new(),
             tolerances: Vec::new(),
+            requirements: Vec::new(),
+            regions: Vec::new(),
             conditions: Vec::new(),
+            conditions_again: None,
             rows: Vec::new(),
             varying: Vec::new(),
             sharing: Vec::new(),
@@ -140,8 +199,11 @@ impl TaskBuilder {
         self
     }
 
-    /// A further source of uncertainty of an input: a quantity that is added to it, in the input's
-    /// unit. In budgets it is called `input/component`.
+    /// A further source of uncertainty of an input: a quantity that is added to it. In budgets it is
+    /// called `input/component` and stands in the input's unit. It may be given in another unit of
+    /// the same kind that has no zero of its own, such as a deviation in `K` of an input in `degC`;
+    /// in one of another size a constant or a normal, rectangular, triangular, t or arc sine
+    /// distribution.
     pub fn component(mut self, input: &str, component: &str, added: Input) -> Self {
         self.components.push((input.to_owned(), component.to_owned(), added));
         self
@@ -174,6 +236,34 @@ impl TaskBuilder {
         self
     }
 
+    /// The risk of false acceptance that is wanted of an output with a tolerance, above 0 and below
+    /// 0.5 (JCGM 106, 9.5); simple acceptance without one.
+    pub fn risk(mut self, output: &str, risk: f64) -> Self {
+        self.requirements.push((output.to_owned(), Requirement::Risk(risk)));
+        self
+    }
+
+    /// What was known about the values of the items before measuring, in the output's unit: global
+    /// risks (JCGM 106, 9) are computed with it.
+    pub fn prior(mut self, output: &str, prior: impl Into<Distribution>) -> Self {
+        self.requirements.push((output.to_owned(), Requirement::Prior(Arc::new(prior.into()))));
+        self
+    }
+
+    /// The smallest expanded uncertainty that the laboratory may state of an output (CMC), in its
+    /// unit.
+    pub fn capability(mut self, output: &str, capability: Capability) -> Self {
+        self.requirements.push((output.to_owned(), Requirement::Capability(capability)));
+        self
+    }
+
+    /// A coverage region of two outputs or more together (JCGM 102), for the task's coverage
+    /// probability.
+    pub fn region(mut self, outputs: &[&str]) -> Self {
+        self.regions.push(outputs.iter().map(|name| (*name).to_owned()).collect());
+        self
+    }
+
     /// The conditions by names and units, and their values row by row. Equations know them by their
     /// names. A typed measurement whose input has the name of a condition takes its value from it,
     /// provided that the input was given as a constant.
@@ -183,7 +273,10 @@ impl TaskBuilder {
         rows: impl IntoIterator<Item = R>,
     ) -> Self {
         let own = |(name, unit): &(&str, &str)| ((*name).to_owned(), (*unit).to_owned());
+        let again = (!self.conditions.is_empty()).then(|| names.first()).flatten();
+        let conditions_again = again.map(|(name, _)| (*name).to_owned()).or(self.conditions_again);
         Self {
+            conditions_again,
             conditions: names.iter().map(own).collect(),
             rows: rows.into_iter().map(Into::into).collect(),
             ..self
@@ -256,21 +349,23 @@ impl TaskBuilder {
     /// # Errors
     /// The first thing that is wrong.
     pub fn build(mut self) -> Result<Task, TaskError> {
-        check_settings(&self.settings)?;
+        self.settings.check()?;
+        self.check_once()?;
         for (name, component, added) in std::mem::take(&mut self.components) {
             let mut of = self.inputs.iter_mut().filter(|given| given.name == name);
             let given = of.next().ok_or_else(|| unknown("input", &name))?;
-            given.components.push((component, added));
+            given.components.push((component, in_unit_of(added, &given.name, &given.input.unit)?));
         }
         let conditions = self.condition_quantities()?;
         self.take_conditions(&conditions)?;
         self.check_names(&conditions)?;
-        let inputs = self.input_quantities()?;
+        let inputs = self.input_quantities();
         let model = match self.typed {
             Some(typed) => self.typed_model(&typed, inputs, conditions)?,
             None => self.formula_model(inputs, conditions)?,
         };
         let variables = self.variables(&model)?;
+        let regions = self.covered_together(&model.outputs)?;
         let correlations = self.correlations(&variables)?;
         let rows = self.known_rows(&model, &variables)?;
         let statement = match &self.typed {
@@ -282,8 +377,10 @@ impl TaskBuilder {
             statement,
             correlations,
             settings: self.settings,
+            regions,
             ..Task::new(model, variables, rows)
         };
+        task.check()?;
         for row in &task.rows {
             let joint = task.fits.joint(&row.distributions, &task.correlations);
             joint.map_err(|error| {
@@ -293,6 +390,39 @@ impl TaskBuilder {
             })?;
         }
         Ok(task)
+    }
+
+    /// The regions, by the numbers of their outputs.
+    fn covered_together(&self, outputs: &[Output]) -> Result<Vec<Region>, TaskError> {
+        let number = |name: &String| {
+            let found = outputs.iter().position(|output| output.quantity.name == *name);
+            found.ok_or_else(|| unknown("output", name))
+        };
+        let one = |names: &Vec<String>| {
+            once("output of a region", names.iter())?;
+            if names.len() < 2 {
+                let range = "of two outputs or more";
+                return Err(TaskError::Setting { name: "coverage region", range });
+            }
+            let outputs = names.iter().map(number).collect::<Result<_, _>>()?;
+            Ok(Region { outputs, probability: None })
+        };
+        self.regions.iter().map(one).collect()
+    }
+
+    /// What can be given once is: of two, one would be lost.
+    fn check_once(&self) -> Result<(), TaskError> {
+        if let Some(of) = &self.conditions_again {
+            return Err(TaskError::GivenTwice { what: "conditions", of: of.clone() });
+        }
+        once("output", self.outputs.iter().map(|(name, _)| name))?;
+        for kind in ["risk", "prior", "capability"] {
+            let of_kind = self.requirements.iter().filter(|(_, of)| of.name() == kind);
+            once(kind, of_kind.map(|(name, _)| name))?;
+        }
+        once("tolerance", self.tolerances.iter().map(|(name, _)| name))?;
+        once("estimate or distribution by the conditions", self.varying.iter().map(|(n, _)| n))?;
+        once("rows of one value", self.sharing.iter().map(|(name, _)| name))
     }
 
     fn condition_quantities(&self) -> Result<Vec<Quantity>, TaskError> {
@@ -342,23 +472,11 @@ impl TaskBuilder {
         Ok(())
     }
 
-    fn input_quantities(&self) -> Result<Vec<InputQuantity>, TaskError> {
+    fn input_quantities(&self) -> Vec<InputQuantity> {
         let one = |given: &GivenInput| {
-            let unit = given.input.unit.clone();
-            for (_, component) in &given.components {
-                // components are added as they are
-                if component.unit.text() != unit.text() {
-                    let [found, expected] = [&component.unit, &unit].map(Unit::to_string);
-                    return Err(TaskError::ComponentUnit {
-                        of: given.name.clone(),
-                        found,
-                        expected,
-                    });
-                }
-            }
-            let (name, about) = (given.name.clone(), given.input.about.clone());
-            let quantity = Quantity { name, unit, about };
-            Ok(InputQuantity { quantity, parts: 1 + given.components.len() })
+            let Input { unit, about, .. } = given.input.clone();
+            let quantity = Quantity { name: given.name.clone(), unit, about };
+            InputQuantity { quantity, parts: 1 + given.components.len() }
         };
         self.inputs.iter().map(one).collect()
     }
@@ -370,7 +488,7 @@ impl TaskBuilder {
         conditions: Vec<Quantity>,
     ) -> Result<Model, TaskError> {
         if let Some((name, _)) = self.equations.first() {
-            return Err(TaskError::NameTaken { name: name.clone() });
+            return Err(TaskError::TypedEquations { name: name.clone() });
         }
         let given: HashMap<&str, &Unit> = inputs
             .iter()
@@ -385,9 +503,7 @@ impl TaskBuilder {
         for declared in typed.declaration.inputs {
             let expected = unit(declared.name, declared.unit)?;
             match given.get(declared.name) {
-                Some(found) if !expected.is_compatible(found) => {
-                    return Err(wrong_unit(declared.name, found, &expected));
-                }
+                Some(found) => declared_scale(declared.name, found, &expected)?,
                 None if declared.default.is_none() => {
                     return Err(TaskError::Missing { input: declared.name.to_owned() });
                 }
@@ -404,6 +520,7 @@ impl TaskBuilder {
                 let mut own = declared.iter().filter(|output| output.quantity.name == *name);
                 let own = own.next().ok_or_else(|| unknown("output", name))?;
                 let unit = unit(name, text)?;
+                declared_scale(name, &unit, &own.quantity.unit)?;
                 let factor = Unit::conversion_factor(&own.quantity.unit, &unit)
                     .map_err(|_| wrong_unit(name, &unit, &own.quantity.unit))?;
                 let period = own.period.map(|period| period * factor);
@@ -500,6 +617,10 @@ impl TaskBuilder {
             let mut of = outputs.iter_mut().filter(|output| output.quantity.name == *name);
             of.next().ok_or_else(|| unknown("output", name))?.tolerance = Some(*tolerance);
         }
+        for (name, requirement) in &self.requirements {
+            let mut of = outputs.iter_mut().filter(|output| output.quantity.name == *name);
+            requirement.give(of.next().ok_or_else(|| unknown("output", name))?)?;
+        }
         Ok(outputs)
     }
 
@@ -544,14 +665,11 @@ impl TaskBuilder {
             };
             let (i, j) = (index(a)?, index(b)?);
             let (first, second) = (i.min(j), i.max(j));
+            check::coefficient([a.clone(), b.clone()], *coefficient)?;
             let refuse = |reason: &'static str| {
                 Err(TaskError::Coefficient { between: [a.clone(), b.clone()], reason })
             };
-            if !(-1.0..=1.0).contains(coefficient) {
-                return refuse("must be from -1 to 1");
-            } else if first == second {
-                return refuse("would be that of a quantity with itself");
-            } else if found.iter().any(|c| c.first == first && c.second == second) {
+            if found.iter().any(|c| c.first == first && c.second == second) {
                 return refuse("is given twice");
             } else if !variables[i].sharing.is_alike(&variables[j].sharing, &self.rows) {
                 return refuse(
@@ -641,17 +759,36 @@ fn variable(name: &str, input: &Input) -> Variable {
     }
 }
 
-fn check_settings(settings: &Settings) -> Result<(), TaskError> {
-    let p = settings.coverage.probability();
-    if !(p > 0.0 && p < 1.0) {
-        let range = "a probability between 0 and 1, or a factor above 0";
-        return Err(TaskError::Setting { name: "coverage", range });
+/// A component in the unit of the input that it is added to.
+fn in_unit_of(component: Input, input: &str, unit: &Unit) -> Result<Input, TaskError> {
+    if component.unit.text() == unit.text() {
+        return Ok(component);
     }
-    if settings.trials == Trials::Fixed(1) {
-        let range = "0 or at least 2";
-        return Err(TaskError::Setting { name: "number of trials", range });
+    // a temperature in degC is no difference, and periods are no angle
+    let is_difference = component.unit.zero().is_none() && component.unit.turn() == unit.turn();
+    let factor = Unit::conversion_factor(&component.unit, unit).ok().filter(|_| is_difference);
+    let distribution = match factor {
+        Some(1.0) => Some(component.distribution.clone()),
+        factor => factor.and_then(|factor| component.distribution.times(factor)),
+    };
+    match distribution {
+        Some(distribution) => Ok(Input { distribution, unit: unit.clone(), ..component }),
+        None => {
+            let [found, expected] = [&component.unit, unit].map(Unit::to_string);
+            Err(TaskError::ComponentUnit { of: input.to_owned(), found, expected })
+        }
     }
-    Ok(())
+}
+
+fn once<'n>(
+    what: &'static str,
+    mut names: impl Iterator<Item = &'n String>,
+) -> Result<(), TaskError> {
+    let mut known = HashSet::new();
+    match names.find(|name| !known.insert(name.as_str())) {
+        Some(name) => Err(TaskError::GivenTwice { what, of: name.clone() }),
+        None => Ok(()),
+    }
 }
 
 fn condition_scope(conditions: &[Quantity]) -> Scope {
@@ -673,6 +810,15 @@ fn wrong_unit(of: &str, found: &Unit, expected: &Unit) -> TaskError {
 
 fn wrong_scale(of: &str, unit: &Unit) -> impl Fn(ScaleMisfit) -> TaskError {
     move |misfit| TaskError::WrongScale { of: of.to_owned(), unit: unit.to_string(), misfit }
+}
+
+/// Refuses a unit that a typed measurement's quantity cannot be given in: one of another dimension,
+/// or of another scale than the declared one, as K of a Celsius temperature.
+fn declared_scale(of: &str, found: &Unit, declared: &Unit) -> Result<(), TaskError> {
+    if !declared.is_compatible(found) {
+        return Err(wrong_unit(of, found, declared));
+    }
+    Typing::in_unit(declared).reported_in(found).map_err(wrong_scale(of, found))
 }
 
 fn unknown(kind: &'static str, name: &str) -> TaskError {

@@ -11,7 +11,7 @@ pub enum Coverage {
     Usual,
     /// The coverage probability p, 0 < p < 1.
     Probability(f64),
-    /// The coverage factor K > 0 for infinite degrees of freedom; it sets the probability.
+    /// The coverage factor K, above 0 and at most 8, for infinite degrees of freedom; it sets the probability.
     Factor {
         /// K.
         factor: f64,
@@ -39,6 +39,17 @@ impl Coverage {
     #[must_use]
     pub fn with_factor(self, factor: f64) -> Self {
         Self::Factor { factor, fixed: matches!(self, Self::Factor { fixed: true, .. }) }
+    }
+
+    /// What it must be, where it is out of its range.
+    pub(crate) fn fault(self) -> Option<&'static str> {
+        match self {
+            Self::Probability(p) if !(p > 0.0 && p < 1.0) => Some("a probability between 0 and 1"),
+            Self::Factor { factor, .. } if !(factor > 0.0 && factor <= 8.0) => {
+                Some("a factor above 0 and at most 8")
+            }
+            _ => None,
+        }
     }
 
     /// The coverage probability: 0.9545 for K = 2 (EA-4/02, 5.1), else 2 Phi(K) - 1.

@@ -106,6 +106,41 @@ pub enum TaskError {
         /// The sentence, with their names.
         message: String,
     },
+    /// Limits that no value lies within, or none.
+    Tolerance {
+        /// The output.
+        of: String,
+        /// What is wrong.
+        reason: &'static str,
+    },
+    /// A prior, a capability or a risk that an output cannot have.
+    Requirement {
+        /// The output.
+        of: String,
+        /// What is wrong.
+        reason: &'static str,
+    },
+    /// Something that is given twice and can be given once.
+    GivenTwice {
+        /// What: `output`, `tolerance`, `estimate`, `conditions`.
+        what: &'static str,
+        /// The quantity that it is of.
+        of: String,
+    },
+    /// Equations beside those that a typed measurement has.
+    TypedEquations {
+        /// The quantity of the first of them.
+        name: String,
+    },
+    /// Another number of something than the model has.
+    Count {
+        /// What is counted.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there must be.
+        expected: usize,
+    },
     /// A setting out of its range.
     Setting {
         /// The setting.
@@ -150,6 +185,17 @@ impl fmt::Display for TaskError {
                 write!(f, "the correlation coefficient of `{a}` and `{b}` {reason}")
             }
             Self::Correlation { message, .. } => f.write_str(message),
+            Self::Tolerance { of, reason } => write!(f, "the tolerance of `{of}` {reason}"),
+            Self::Requirement { of, reason } => write!(f, "`{of}` {reason}"),
+            Self::GivenTwice { what, of } => write!(f, "`{of}`: the {what} is given twice"),
+            Self::TypedEquations { name } => write!(
+                f,
+                "a typed measurement has equations of its own and takes no other, such as that of \
+                 `{name}`; write the model in equations, or put the equation into the measurement"
+            ),
+            Self::Count { what, found, expected } => {
+                write!(f, "the task has {found} {what}, and must have {expected} as its model is")
+            }
             Self::Setting { name, range } => write!(f, "the {name} must be {range}"),
             Self::NoModel => {
                 f.write_str("there is no model: neither equations nor a typed measurement")

@@ -2,6 +2,7 @@
 //! and the settings of the evaluation. Files and typed measurements both become a [`Task`].
 
 mod builder;
+mod check;
 mod coverage;
 mod error;
 mod evidence;

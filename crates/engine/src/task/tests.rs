@@ -1,5 +1,8 @@
 //! Tasks made step by step.
 
+mod by_hand;
+mod temperatures;
+
 use super::*;
 use crate::distribution::{CorrelationError, Rectangular};
 use crate::model::Tolerance;
@@ -11,11 +14,14 @@ fn normal(mean: f64, std: f64, unit: &str) -> Input {
 }
 
 fn line() -> TaskBuilder {
+    bare_line().conditions(&[("dT", "K")], [[0.0], [10.0]])
+}
+
+fn bare_line() -> TaskBuilder {
     Task::builder("line")
         .input("a", normal(2.0, 0.01, "mV/K"))
         .input("b", normal(0.5, 0.02, "mV"))
         .equation("V", "a * dT + b")
-        .conditions(&[("dT", "K")], [[0.0], [10.0]])
         .trials(0)
 }
 
@@ -164,15 +170,21 @@ fn mistakes() {
         (line().per_condition("a", "b"), "there is no condition `b`"),
         (line().component("q", "x", normal(0.0, 1.0, "V")), "there is no input `q`"),
         (
-            line().component("b", "x", normal(0.0, 1.0, "V")),
-            "a component of `b` is in `V`, but must be in `mV`",
+            line().component("b", "x", normal(0.0, 1.0, "K")),
+            "a component of `b` is in `K`, but must be in `mV`",
         ),
         (line().estimate("a", "b"), "the formula of `a`: "),
         (line().estimate("a", "dT"), "`a` is in `K`, which cannot be converted to `mV/K`"),
         (line().estimate("a", "1e300*1e300*dT/dT").without_unit_check(), "`a` in row 1: "),
-        (line().conditions(&[("dT", "K")], [[f64::NAN]]), "row 1 of the conditions must have 1 "),
-        (line().conditions(&[("dT", "K")], [[0.0, 1.0]]), "row 1 of the conditions must have 1 "),
-        (line().conditions(&[], [[1.0]]), "there are rows of values, but no conditions"),
+        (
+            bare_line().conditions(&[("dT", "K")], [[f64::NAN]]),
+            "row 1 of the conditions must have 1 ",
+        ),
+        (
+            bare_line().conditions(&[("dT", "K")], [[0.0, 1.0]]),
+            "row 1 of the conditions must have 1 ",
+        ),
+        (bare_line().conditions(&[], [[1.0]]), "there are rows of values, but no conditions"),
         (line().trials(1), "the number of trials must be 0 or at least 2"),
         (line().coverage(1.0), "the coverage must be a probability between 0 and 1"),
         (

@@ -356,7 +356,7 @@ impl RecipeFile {
         let name =
             |channel: usize| self.channels.get(channel).map_or("", |of| of.channel.name.as_str());
         let place = |channel: usize| format!("`{}`, channel `{}`", file(channel), name(channel));
-        let own = self.channels.get(refused_channel(refused));
+        let own = self.channels.get(refused.channel().unwrap_or(0));
         let mut span = of_row.map_or(0..0, |of| of.frequency_place.clone());
         // products and quotients of what the recipe says: without the rounding of the last digits
         let shortest = |value: f64| {
@@ -420,21 +420,10 @@ impl RecipeFile {
                     gumption_signal::MOST_HELD
                 )
             }
+            // what the reader has refused already
+            _ => refused.to_string(),
         };
         log.report(&span, DiagnosticKind::Recording { reason });
         log.into_diagnostics()
-    }
-}
-
-fn refused_channel<E>(refused: &Refused<E>) -> usize {
-    match refused {
-        Refused::Unreadable(_) => 0,
-        Refused::AboveNyquist { channel, .. }
-        | Refused::LessThanOnePeriod { channel, .. }
-        | Refused::NotApart { channel, .. }
-        | Refused::NotFound { channel }
-        | Refused::Step { channel, .. }
-        | Refused::Rate { channel, .. }
-        | Refused::TooLong { channel, .. } => *channel,
     }
 }

@@ -1,5 +1,6 @@
 //! The statistics of the diagnosis against exact values and independent computations.
 
+mod by_hand;
 mod composed;
 mod copies;
 #[path = "../../../../examples/departures/mod.rs"]

@@ -59,12 +59,12 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{0+}: Der Schätzwert oder ein Empfindlichkeitskoeffizient ist bei den Schätzwerten der Eingangsgrößen nicht endlich, so dass es keine Auswertung nach dem GUM gibt",
     ),
     (
-        "{}: correlated inputs have finite degrees of freedom, for which the Welch-Satterthwaite formula does not hold; the factor k = {} of the file is used as it stands",
-        "{0+}: Korrelierte Eingangsgrößen haben endliche Freiheitsgrade, für die die Welch-Satterthwaite-Formel nicht gilt; der Faktor k = {1} der Datei steht, wie er ist",
+        "{}: correlated inputs have finite degrees of freedom, for which the Welch-Satterthwaite formula does not hold; the stated factor k = {} is used as it stands",
+        "{0+}: Korrelierte Eingangsgrößen haben endliche Freiheitsgrade, für die die Welch-Satterthwaite-Formel nicht gilt; der angegebene Faktor k = {1} bleibt, wie er ist",
     ),
     (
-        "{}: correlated inputs have finite degrees of freedom, for which the Welch-Satterthwaite formula does not hold; the Monte Carlo interval is the way, or a {} in the file",
-        "{0+}: Korrelierte Eingangsgrößen haben endliche Freiheitsgrade, für die die Welch-Satterthwaite-Formel nicht gilt; es bleibt das Monte-Carlo-Intervall oder ein {1} in der Datei",
+        "{}: correlated inputs have finite degrees of freedom, for which the Welch-Satterthwaite formula does not hold; the Monte Carlo interval is the way, or a stated {}",
+        "{0+}: Korrelierte Eingangsgrößen haben endliche Freiheitsgrade, für die die Welch-Satterthwaite-Formel nicht gilt; es bleibt das Monte-Carlo-Intervall oder ein angegebener {1}",
     ),
     (
         "{}: a few of the {} trials carry their standard uncertainty (excess kurtosis {}), so that its distribution may have no expectation and no standard deviation (JCGM 101, 3.6, note 1): estimate and standard uncertainty of the trials are of these trials alone and have no numerical standard error; median and coverage intervals stand",

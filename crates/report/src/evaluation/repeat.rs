@@ -38,8 +38,11 @@ pub(super) fn lines(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Vec<(St
         ("trials".to_owned(), trials),
         ("coverage probability".to_owned(), evaluation.coverage_probability.to_string()),
         ("digits".to_owned(), settings.digits.to_string()),
-        ("model file, SHA-256".to_owned(), provenance.model_sha256.clone()),
     ];
+    // a task that was made in Rust has no file
+    if !provenance.model_sha256.is_empty() {
+        lines.push(("model file, SHA-256".to_owned(), provenance.model_sha256.clone()));
+    }
     lines.extend(shown.replaced.iter().map(|text| ("replaced".to_owned(), plain(text))));
     let digest =
         |(name, digest): &(String, String)| (format!("{}, SHA-256", plain(name)), digest.clone());

@@ -289,3 +289,25 @@ fn what_is_not_defined_is_said() {
         assert!(page.contains("Take the Monte Carlo") || page.contains("take the Monte Carlo"));
     }
 }
+
+/// A task that was made in Rust has no file, and Markdown no figures: it has no line without a digest
+/// and no heading without a section.
+#[test]
+fn markdown_of_a_task_without_a_file() {
+    let task = plane_at(35.0, 0);
+    let evaluation = evaluate(&task, &Control::default()).unwrap();
+    let provenance = Provenance::default();
+    let warnings = [];
+    let report = EvaluationReport {
+        task: &task,
+        evaluation: &evaluation,
+        warnings: &warnings,
+        provenance: &provenance,
+    };
+    let page = markdown(&report, &Shown::default());
+    assert!(!page.contains("What is known") && !page.contains("model file"), "{page}");
+    let lines: Vec<&str> = page.lines().filter(|line| !line.is_empty()).collect();
+    let is_heading = |line: &str| line.starts_with("## ");
+    assert!(lines.windows(2).all(|pair| !(is_heading(pair[0]) && is_heading(pair[1]))), "{page}");
+    assert!(html(&report, &Shown::default()).contains("What is known about the inputs"));
+}

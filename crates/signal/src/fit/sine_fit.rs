@@ -7,12 +7,15 @@
 //! matrices are known in closed form. The remainders are fitted once more, which leaves the
 //! rounding of the values themselves.
 
+use std::error::Error;
+use std::fmt;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::dirichlet::Kernel;
 use crate::passes::{BLOCK, SampleSource};
 use crate::turns::{Turns, oscillation};
-use gumption_engine::number::CodePath;
+use gumption_engine::number::{CodePath, Shortest};
 
 /// The largest condition number of the normal equations: beyond it the tones cannot be told apart
 /// (much less than a period, or two frequencies too near).
@@ -43,6 +46,24 @@ pub enum NoFit {
     /// Fewer values than parameters, or tones that the record is too short to tell apart.
     TooShort,
 }
+
+impl fmt::Display for NoFit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Frequency { cycles } => write!(
+                f,
+                "a tone has {} cycles in a sample interval, which must lie between 0 and 0.5",
+                Shortest(*cycles)
+            ),
+            Self::TooShort => f.write_str(
+                "the values are fewer than the parameters of the tones, or the record is too short to \
+                 tell the tones apart",
+            ),
+        }
+    }
+}
+
+impl Error for NoFit {}
 
 /// The design of a fit: its tones at the samples of a record, without the values.
 #[derive(Clone, Debug)]

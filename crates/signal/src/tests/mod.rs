@@ -2,5 +2,6 @@
 
 mod least_squares;
 mod observations;
+mod refusals;
 pub(crate) mod simulated;
 mod study;

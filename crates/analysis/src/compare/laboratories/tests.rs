@@ -26,6 +26,42 @@ fn a_weighted_mean_by_hand() {
     }
 }
 
+/// A result that is none, and coefficients that are no matrix, are not compared.
+#[test]
+fn impossible_results_and_coefficients() {
+    let all = [laboratory("a", 10.0, 1.0), laboratory("b", 11.0, 1.0)];
+    let of = |value: f64, expanded: f64, factor: f64| {
+        let result = StatedResult { value, expanded, factor, rounding: [0.0; 2] };
+        let wrong = Laboratory { label: "c".into(), result };
+        compare(&[all[0].clone(), wrong, all[1].clone()], &[]).map(drop)
+    };
+    assert_eq!(of(10.0, 2.0, 2.0), Ok(()));
+    for (value, expanded, factor) in [
+        (f64::NAN, 2.0, 2.0),
+        (10.0, -2.0, 2.0),
+        (10.0, 0.0, 2.0),
+        (10.0, f64::INFINITY, 2.0),
+        (10.0, 2.0, 0.0),
+        (10.0, 2.0, -2.0),
+    ] {
+        let refused = Impossible::Result { label: "c".into() };
+        assert_eq!(of(value, expanded, factor), Err(refused), "{value} {expanded} {factor}");
+    }
+    for wrong in [
+        vec![vec![1.0, 0.5]],
+        vec![vec![1.0], vec![0.5, 1.0]],
+        vec![vec![1.0, 0.5], vec![0.0, 1.0]],
+        vec![vec![1.0, 0.0], vec![0.5, 1.0]],
+        vec![vec![2.0, 0.0], vec![0.0, 2.0]],
+        vec![vec![0.0, 0.0], vec![0.0, 0.0]],
+        vec![vec![1.0, f64::NAN], vec![f64::NAN, 1.0]],
+        vec![vec![1.0, f64::NAN], vec![0.5, 1.0]],
+    ] {
+        let refused = compare(&all, &wrong).map(drop);
+        assert!(matches!(refused, Err(Impossible::Coefficients { .. })), "{wrong:?} {refused:?}");
+    }
+}
+
 /// Two correlated results by hand: V = [[1, r],[r, 1]] weights both alike, u^2 = (1 + r)/2, and
 /// d_1 = (x1 - x2)/2 has the variance (1 - r)/2.
 #[test]

@@ -41,6 +41,24 @@ fn a_law_of_other_parameters_is_refused() {
     assert_eq!(External::new("x", 0.0, 1.0, |_| f64::NAN).unwrap_err().parameter(), "draw");
 }
 
+/// A spread that the draws do not have is refused, unless long tails hide what it is: those of a
+/// lognormal distribution of sigma 3, whose standard deviation is 8,100 medians.
+#[test]
+fn a_standard_deviation_of_other_draws_is_refused() {
+    let of = |std: f64, drawn: f64| {
+        let normal = rand_distr::Normal::new(0.0, drawn).unwrap();
+        External::new("x", 0.0, std, move |random| normal.sample(random))
+    };
+    for (std, drawn) in [(1.0, 5.0), (5.0, 1.0), (1.0, 1.2), (1e-200, 5e-200)] {
+        assert_eq!(of(std, drawn).unwrap_err().parameter(), "std", "{std} {drawn}");
+    }
+    assert!(of(1.0, 1.0).is_ok() && of(1.0, 1.05).is_ok() && of(1e-200, 1e-200).is_ok());
+    let (mean, square) = (4.5_f64.exp(), 18.0_f64.exp());
+    let long = rand_distr::LogNormal::new(0.0, 3.0).unwrap();
+    let std = (square - mean * mean).sqrt();
+    assert!(External::new("long", mean, std, move |random| long.sample(random)).is_ok());
+}
+
 /// Moved, draws and quantiles go along.
 #[test]
 fn values_move_with_the_estimate() {

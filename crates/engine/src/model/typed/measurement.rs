@@ -13,6 +13,14 @@ pub trait Equations<T: Number> {
     type Outputs;
 
     /// Computes the outputs. Quantities are in coherent SI units, angles in radians.
+    ///
+    /// Two kinds of quantities count from a zero of their own and arrive as numbers of it: one
+    /// declared in `degC` or `degF` is a Celsius temperature, the number of degrees Celsius (20 for
+    /// 20 degC and for 68 degF; add 273.15 for the thermodynamic temperature), and one declared in
+    /// `dB` or `dBm` is the number of decibels. Outputs are given back in the same way. Such a
+    /// quantity is asked for and given in units with a zero of that kind alone: a value in `K` for a
+    /// declared `degC` is refused, and the other way round, because a quantity in `K` may be a
+    /// difference.
     fn equations(self) -> Self::Outputs;
 }
 
@@ -147,7 +155,8 @@ impl Typed {
             .map(|declared| {
                 value(declared.name).unwrap_or_else(|| {
                     let unit = Unit::parse(declared.unit).ok();
-                    let default = declared.default.zip(unit).map(|(value, u)| value * u.factor());
+                    let default = declared.default.zip(unit);
+                    let default = default.map(|(value, u)| value * u.factor() + u.offset());
                     Traced::constant(default.unwrap_or(f64::NAN))
                 })
             })

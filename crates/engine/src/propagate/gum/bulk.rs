@@ -4,6 +4,7 @@
 //! millions of budgets are wanted, as in a map of conditions or behind an optimisation, [`budgets`]
 //! takes columns and hands back columns, some tens of times faster.
 
+use std::collections::HashSet;
 use std::fmt;
 use std::ops::Range;
 use std::slice::ChunksMut;
@@ -58,6 +59,14 @@ impl BulkValue<'_> {
         }
     }
 
+    /// The first row whose value is so.
+    fn first_where(&self, is_so: impl Fn(f64) -> bool) -> Option<usize> {
+        match self {
+            Self::Same(value) => is_so(*value).then_some(0),
+            Self::Rows(values) => values.iter().position(|value| is_so(*value)),
+        }
+    }
+
     fn same(&self) -> Option<f64> {
         match self {
             Self::Same(value) => Some(*value),
@@ -73,7 +82,7 @@ pub struct BulkInput<'a> {
     pub estimate: BulkValue<'a>,
     /// The standard uncertainty, zero or more.
     pub standard_uncertainty: BulkValue<'a>,
-    /// Its degrees of freedom; infinite unless it was estimated.
+    /// Its degrees of freedom, above 0; infinite unless it was estimated.
     pub dof: BulkValue<'a>,
 }
 
@@ -106,6 +115,7 @@ pub struct Budgets {
 
 /// Why there are no budgets.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum BulkError {
     /// Another number of variables than the program has.
     Variables {
@@ -118,6 +128,27 @@ pub enum BulkError {
     Rows,
     /// A correlation coefficient outside -1 to 1, or not of two different inputs.
     Correlation,
+    /// Two inputs, by their numbers, whose correlation coefficient is given twice.
+    CorrelationTwice([usize; 2]),
+    /// A standard uncertainty below 0.
+    Uncertainty {
+        /// The number of the input.
+        input: usize,
+        /// The row.
+        row: usize,
+    },
+    /// Degrees of freedom that are not above 0.
+    Dof {
+        /// The number of the input.
+        input: usize,
+        /// The row.
+        row: usize,
+    },
+    /// A coverage out of its range.
+    Coverage {
+        /// What it must be.
+        range: &'static str,
+    },
 }
 
 impl fmt::Display for BulkError {
@@ -132,6 +163,17 @@ impl fmt::Display for BulkError {
             Self::Correlation => f.write_str(
                 "a correlation coefficient must be of two different inputs, from -1 to 1",
             ),
+            Self::CorrelationTwice([first, second]) => write!(
+                f,
+                "the correlation coefficient of the inputs {first} and {second} is given twice"
+            ),
+            Self::Uncertainty { input, row } => {
+                write!(f, "the standard uncertainty of input {input} in row {row} is below 0")
+            }
+            Self::Dof { input, row } => {
+                write!(f, "the degrees of freedom of input {input} in row {row} are not above 0")
+            }
+            Self::Coverage { range } => write!(f, "the coverage must be {range}"),
         }
     }
 }
@@ -167,7 +209,8 @@ impl Default for BulkOptions<'_> {
 /// G.2b), on the threads of the current rayon pool.
 ///
 /// The program's variables are the inputs, in their order, then the conditions, which are known
-/// exactly.
+/// exactly. A task has its program in `task.model.program`; a [`Recorder`](crate::model::Recorder)
+/// writes down any other.
 ///
 /// ```
 /// use gumption_engine::model::Recorder;
@@ -209,6 +252,24 @@ pub fn budgets(
     };
     if !options.correlations.iter().all(possible) {
         return Err(BulkError::Correlation);
+    }
+    let mut pairs = HashSet::new();
+    for of in options.correlations {
+        let pair = [of.first.min(of.second), of.first.max(of.second)];
+        if !pairs.insert(pair) {
+            return Err(BulkError::CorrelationTwice(pair));
+        }
+    }
+    if let Some(range) = options.coverage.fault() {
+        return Err(BulkError::Coverage { range });
+    }
+    for (input, known) in inputs.iter().enumerate() {
+        if let Some(row) = known.standard_uncertainty.first_where(|u| u < 0.0) {
+            return Err(BulkError::Uncertainty { input, row });
+        }
+        if let Some(row) = known.dof.first_where(|dof| dof <= 0.0) {
+            return Err(BulkError::Dof { input, row });
+        }
     }
     let mut made: Vec<Budgets> =
         (0..program.outputs()).map(|_| Budgets::new(inputs.len(), rows)).collect();
