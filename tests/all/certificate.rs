@@ -336,7 +336,9 @@ fn uncertainties_below_the_capability_are_warned_of_or_raised() {
         .filter_map(|warning| warning["code"].as_str())
         .collect();
     assert_eq!(codes, ["below-cmc", "raised-to-cmc"]);
-    assert!(found["statements"]["en"].to_string().contains("Row 3: The evaluated expanded uncertainty"));
+    assert!(
+        found["statements"]["en"].to_string().contains("Row 3: The evaluated expanded uncertainty")
+    );
     let folder = folder(&files);
     let said = gumption().args(["certificate", &path(folder.path(), "c.json")]).assert().success();
     let notes = String::from_utf8(said.get_output().stderr.clone()).expect("UTF-8");

@@ -38,7 +38,9 @@ impl StatedResult {
             of_expanded,
         ];
         numbers.iter().all(|number| number.is_finite())
-            && [self.expanded, printed_expanded, of_value, of_expanded].iter().all(|number| *number >= 0.0)
+            && [self.expanded, printed_expanded, of_value, of_expanded]
+                .iter()
+                .all(|number| *number >= 0.0)
             && self.factor > 0.0
     }
 
