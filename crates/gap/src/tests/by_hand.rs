@@ -21,7 +21,8 @@ fn first(case: &mut Case) -> &mut ObservedOutput {
 
 #[test]
 fn data_that_are_none() {
-    let wrong: [(fn(&mut Case), &str); 12] = [
+    type Change = fn(&mut Case);
+    let wrong: [(Change, &str); 12] = [
         (|case| first(case).values[3] = f64::NAN, "`y`: the values must be finite numbers; row 3"),
         (|case| first(case).values.truncate(5), "`y`: there are 5 values in 6 rows"),
         (

@@ -31,7 +31,7 @@ fn a_weighted_mean_by_hand() {
 fn impossible_results_and_coefficients() {
     let all = [laboratory("a", 10.0, 1.0), laboratory("b", 11.0, 1.0)];
     let of = |value: f64, expanded: f64, factor: f64| {
-        let result = StatedResult { value, expanded, factor, rounding: [0.0; 2] };
+        let result = StatedResult::new(value, expanded, factor);
         let wrong = Laboratory { label: "c".into(), result };
         compare(&[all[0].clone(), wrong, all[1].clone()], &[]).map(drop)
     };
