@@ -119,7 +119,7 @@ fn levels_have_the_reference_of_their_formula() {
         ("uV", "20*log10(x/1 [uV]) + 3 [dB]", "dBmV", false),
         ("W", "10*log10(x/[mW])", "dBm", true),
         ("W", "10*log10(x/[mW])", "dBW", false),
-        ("V", "20*log10(x/2 [V])", "dBV", true),
+        ("V", "20*log10(x/1 [V])", "dBV", true),
         ("uV", "20*log10(x/[uV]) - 20*log10(2 [V]/[V])", "dB", true),
     ] {
         let found = check_text("m.json", &of(unit, formula, result).to_string(), Path::new(""));

@@ -133,8 +133,7 @@ impl Program {
             }
             for (gradient, output) in gradients.iter_mut().zip(self.evaluate(&duals)) {
                 for (index, &v) in chunk.iter().enumerate() {
-                    // a 0 without a sign
-                    gradient[v] = output.gradient[index] + 0.0;
+                    gradient[v] = output.gradient[index];
                 }
             }
         }

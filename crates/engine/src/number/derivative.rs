@@ -79,15 +79,10 @@ pub(crate) fn binary(operation: Binary, x: f64, y: f64, value: f64) -> [f64; 2] 
     }
 }
 
-/// The derivative by a variable that a number does not depend on. Sums keep its sign beside nothing but
-/// itself, so that it is told from a derivative that happens to be 0.
-pub(crate) const INDEPENDENT: f64 = -0.0;
-
-/// A derivative on its way through an operation: times the slope. What does not depend on a variable
-/// still does not, whatever the slope, so that an infinite slope of a constant part does no harm; a
-/// derivative that is 0 times an infinite slope is no number, as of `sqrt(abs(x))` at 0.
-/// What else comes out as 0 has no sign.
+/// A derivative on its way through an operation: times the slope. One that is 0 stays 0 whatever the
+/// slope, so that an infinite slope of a constant part does no harm.
+/// What comes out as 0 has no sign.
 #[inline(always)]
 pub(crate) fn chain(gradient: f64, slope: f64) -> f64 {
-    if gradient.to_bits() == INDEPENDENT.to_bits() { gradient } else { gradient * slope + 0.0 }
+    if gradient == 0.0 { 0.0 } else { gradient * slope + 0.0 }
 }

@@ -89,11 +89,6 @@ impl Unary {
             Self::Gamma => "gamma",
         }
     }
-
-    /// Whether the result has no slope: it is the same beside the value as at it.
-    pub fn is_flat(self) -> bool {
-        matches!(self, Self::Floor | Self::Ceil | Self::Round)
-    }
 }
 
 /// An operation of two operands.

@@ -112,6 +112,8 @@ fn sweep(tilts: &[f64], trials: u64) -> Case {
         about: String::new(),
     };
     all.task.model.conditions = vec![quantity("f", "Hz"), quantity("tilt", "deg")];
+    all.task.model.program.variables += 2;
+    all.task.rows[0].conditions = vec![80.0, tilt];
     all.task.swept = true;
     all
 }

@@ -86,6 +86,7 @@ impl Choices<'_> {
     fn product(&mut self, factors: &[Wanted], power: (i32, i32), depth: usize) -> String {
         let mut text = String::new();
         let mut rest = factors;
+        let mut divided = false;
         while !rest.is_empty() {
             // a group of some of them, or one alone
             let grouped = depth < 3 && self.below(3) == 1;
@@ -98,8 +99,11 @@ impl Choices<'_> {
                 (true, true) => "1/",
                 (true, false) => "",
                 (false, true) => self.of(&["/", " / "]),
+                // behind a quotient a space and a dot are refused
+                (false, false) if divided => "*",
                 (false, false) => self.of(&TIMES),
             };
+            divided |= divide;
             text += operator;
             if grouped {
                 let (outer, inner) =

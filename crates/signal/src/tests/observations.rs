@@ -431,7 +431,7 @@ fn amplitudes_that_noise_alone_makes_are_told() {
                 (code == "near-noise" && channel == 1).then_some(text)
             })
             .collect();
-        assert!(near.iter().all(|text| text.contains("that at 10.3 Hz in ")), "{near:?}");
+        assert!(near.iter().all(|text| text.contains("as that at 10.3 Hz in ")), "{near:?}");
         near.len()
     };
     assert!((50..=60).contains(&told(0.0)));

@@ -144,7 +144,10 @@ fn few_trials_do_not_decide() {
         assert!(found.amplitude.trials.is_some());
         assert!((found.amplitude.measured.standard_uncertainty / right - 1.0).abs() < 1e-12);
     }
-    // the noise of an amplitude is 0.07 of that of the 400 values, and theirs are 0.5
-    let hidden = [2.0, 5.0, 10.0, 20.0].map(|noise| observed(noise, 2000));
-    assert!(hidden.iter().any(|of| of.phase.from_trials || of.amplitude.from_trials));
+    // the noise of an amplitude is 0.07 of that of the 400 values, 0.0014, beside a clear reference
+    let channels = vec![vec![(1.0, 0.3), (0.0, 0.0)], vec![(0.002, -1.2), (0.0, 0.0)]];
+    let bench = Bench { noise: 0.02, trials: 2000, samples: 400, channels, ..Bench::default() };
+    let phase =
+        |seed| bench.observe(bench.values(seed)).frequencies[0][1].components[0].phase.clone();
+    assert!((1..=5).any(|seed| phase(seed).from_trials));
 }

@@ -114,9 +114,6 @@ impl Builder {
     }
 
     fn unary(&mut self, operation: Unary, of: &Known) -> Known {
-        if operation.is_flat() && !of.gradient.is_empty() {
-            return self.unary(operation, &Known { gradient: BTreeMap::new(), ..of.clone() });
-        }
         let x = match of.value {
             Operand::Constant(x) => {
                 let y = x.unary(operation);
@@ -247,7 +244,7 @@ impl Builder {
             [Some(first), Some(second)] => [first, second],
             [Some(first), None] => return self.chain(first, slopes[0]),
             [None, Some(second)] => return self.chain(second, slopes[1]),
-            [None, None] => return Operand::Constant(derivative::INDEPENDENT),
+            [None, None] => return Operand::Constant(0.0),
         };
         if let [Operand::Constant(first), Operand::Constant(second)] = [first, second]
             && let [Operand::Constant(by_first), Operand::Constant(by_second)] = slopes
@@ -261,7 +258,7 @@ impl Builder {
     }
 
     fn choose(&mut self, operation: Binary, of: [Operand; 2], by: [Option<Operand>; 2]) -> Operand {
-        let by = by.map(|of| of.unwrap_or(Operand::Constant(derivative::INDEPENDENT)));
+        let by = by.map(|of| of.unwrap_or(Operand::Constant(0.0)));
         if let (
             [Operand::Constant(x), Operand::Constant(y)],
             [Operand::Constant(first), Operand::Constant(second)],
@@ -269,8 +266,7 @@ impl Builder {
         {
             let [by_first, by_second] = derivative::binary(operation, x, y, 0.0);
             let taken = [(by_first, first), (by_second, second)];
-            let taken = taken.into_iter().find(|(by, _)| *by != 0.0);
-            let taken = taken.map_or(derivative::INDEPENDENT, |(_, of)| of);
+            let taken = taken.into_iter().find(|(by, _)| *by != 0.0).map_or(0.0, |(_, of)| of);
             return Operand::Constant(derivative::chain(taken, 1.0));
         }
         let [x, y] = of.map(|of| self.fill(Arena::Values, of));

@@ -213,8 +213,7 @@ fn choose(
     for i in 0..COLUMN {
         let [by_first, by_second] = derivative::binary(operation, x[i], y[i], 0.0);
         let taken = if by_first != 0.0 { first[i] } else { second[i] };
-        let is_none = by_first == 0.0 && by_second == 0.0;
-        out[i] = if is_none { derivative::INDEPENDENT } else { chain(taken, 1.0) };
+        out[i] = if by_first == 0.0 && by_second == 0.0 { 0.0 } else { chain(taken, 1.0) };
     }
 }
 

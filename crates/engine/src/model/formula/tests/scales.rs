@@ -247,7 +247,6 @@ fn levels_name_their_reference() {
         ("20*log10(u/u0)", "dBm"),
         ("20*log10(u/u0)", "dBV"),
         ("10*log10(u*u/(u0*u0))", "dBW"),
-        ("10*n*log10(u/u0)", "dBm"),
         ("L", "dBm"),
         ("L + L1", "dBm"),
         ("n*L", "dBuV"),
