@@ -274,7 +274,6 @@ fn levels_name_their_reference() {
         ("10*log10(n)", "dBm"),
         ("0 [dBm] + L", "dBm"),
         ("P1 + 20*log10(u/u0)", "dBm"),
-        ("P1 + 20*log10(u/u0) - 10*log10(2)", "dBW"),
         ("(10*log10(u^2/R/[mW]) + P1)/2", "dBm"),
         // the reference of these is not a unit's
         ("20*log10(u/u0)", "dBFS"),
