@@ -2,7 +2,7 @@
 //! large on average.
 
 use super::budget::UncertaintySource;
-use super::observation::ChannelObservation;
+use super::observation::{ChannelObservation, ToneComponent};
 use super::recipe::RecipeSettings;
 use super::run::{Note, short};
 use gumption_engine::number::elementary;
@@ -10,27 +10,33 @@ use gumption_engine::number::elementary;
 /// The probability with which noise alone reaches an amplitude that is near it.
 const OFTEN: f64 = 0.05;
 
-/// The note on a channel whose oscillation of the frequency itself is near the noise; that a multiple is
-/// not there is nothing to tell.
-///
-/// Cosine and sine part of a component that is not there are normal with the standard uncertainty u of
-/// the amplitude: its square over u^2 has a chi-squared distribution with two degrees of freedom, and
-/// the amplitude is r u or more with the probability exp(-r^2/2).
+/// The note on a channel in which none of the components that are asked for stands out of the noise, the
+/// first of them told; where one does the others are not there, which is nothing to tell.
 pub(super) fn note(settings: &RecipeSettings, of: &ChannelObservation) -> Option<Note> {
-    let component = of.components.iter().find(|component| component.multiple == 1)?;
-    let amplitude = &component.amplitude;
-    let noise = amplitude.contributions.iter().find(|(of, _)| *of == UncertaintySource::Noise)?.1;
-    let ratio = amplitude.measured.value.abs() / noise;
-    let probability = elementary::exp(-0.5 * ratio * ratio);
-    if probability.is_nan() || probability <= OFTEN {
+    let by_noise: Vec<f64> = of.components.iter().filter_map(probability).collect();
+    if by_noise.len() < of.components.len() || by_noise.iter().any(|by_noise| *by_noise <= OFTEN) {
         return None;
     }
+    let (component, by_noise) = of.components.iter().zip(by_noise).next()?;
     let text = format!(
         "`{}`: noise alone makes an amplitude as large as that at {} Hz in {} % of all records; the phase \
          there is hardly known, and the amplitude is too large on average",
         settings.channels[of.channel].name,
         short(component.frequency.value, 6),
-        short(100.0 * probability, 2)
+        short(100.0 * by_noise, 2)
     );
     Some(("near-noise", of.channel, text))
+}
+
+/// The probability with which noise alone makes an amplitude as large as that of a component; `None`
+/// without noise.
+///
+/// Cosine and sine part of a component that is not there are normal with the standard uncertainty u of
+/// the amplitude: its square over u^2 has a chi-squared distribution with two degrees of freedom, and
+/// the amplitude is r u or more with the probability exp(-r^2/2).
+fn probability(component: &ToneComponent) -> Option<f64> {
+    let amplitude = &component.amplitude;
+    let noise = amplitude.contributions.iter().find(|(of, _)| *of == UncertaintySource::Noise)?.1;
+    let ratio = amplitude.measured.value.abs() / noise;
+    Some(elementary::exp(-0.5 * ratio * ratio))
 }
