@@ -1,6 +1,7 @@
 //! The degrees of freedom of a t distribution that a coverage factor and a coverage probability stand
 //! for, as certificates state them: `k = 3.31, p = 95.45 %` are three of them.
 
+use super::value_text::power_of_last_digit;
 use gumption_engine::decimal::Decimal;
 use gumption_engine::special::student::two_sided_factor;
 
@@ -81,10 +82,7 @@ impl Factor {
 
 /// What one in the last digit of a number is, zeros at its end included: 0.001 of `0.100`.
 pub(super) fn last_digit(number: &str) -> f64 {
-    let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
-    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    Decimal::new(1, exponent.saturating_sub(i32::try_from(decimals).unwrap_or(i32::MAX))).value()
+    Decimal::new(1, power_of_last_digit(number)).value()
 }
 
 #[cfg(test)]

@@ -187,6 +187,14 @@ pub(super) fn converted(
     }
 }
 
+/// The power of ten of the last written digit of a number, zeros at its end included: -3 of `0.100`.
+pub(super) fn power_of_last_digit(number: &str) -> i32 {
+    let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.trim().len());
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    exponent.saturating_sub(i32::try_from(decimals).unwrap_or(i32::MAX))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

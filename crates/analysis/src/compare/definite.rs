@@ -2,6 +2,7 @@
 //! whose inverse is worth anything.
 
 use super::laboratories::{Impossible, Laboratory};
+use gumption_engine::linalg::{dot, packed};
 
 /// The least part of a laboratory's variance that the others must leave. What is computed by the inverse
 /// of the matrix has the rounding of double precision (1.1e-16, at most 200 times) over this part: 1e-9
@@ -24,20 +25,11 @@ pub(super) fn check(
         let coefficient = coefficient(j, i);
         return Err(Impossible::FullyCorrelated { laboratories: [name(j), name(i)], coefficient });
     }
-    let mut lower: Vec<Vec<f64>> = Vec::with_capacity(n);
-    for i in 0..n {
-        let mut row: Vec<f64> = Vec::with_capacity(i + 1);
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        for (j, other) in lower.iter().enumerate() {
-            let rest = coefficient(i, j) - dot(&row, other);
-            row.push(rest / other.get(j).copied().unwrap_or(1.0));
-        }
-        let left = 1.0 - dot(&row, &row);
-        if left.is_nan() || left < LEAST {
-            return Err(Impossible::Dependent { laboratory: name(i), left });
-        }
-        row.push(left.sqrt());
-        lower.push(row);
-    }
-    Ok(())
+    let row = |i: usize| (0..i).map(|j| coefficient(i, j)).chain([1.0]).collect::<Vec<f64>>();
+    let mut lower: Vec<f64> = (0..n).flat_map(row).collect();
+    packed::cholesky(&mut lower, LEAST).map_err(|i| {
+        // its entries left of the diagonal are those of the root already
+        let explained = packed::rows(&lower).nth(i).map_or(&[][..], |row| &row[..i]);
+        Impossible::Dependent { laboratory: name(i), left: 1.0 - dot(explained, explained) }
+    })
 }

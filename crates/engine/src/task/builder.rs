@@ -665,7 +665,7 @@ impl TaskBuilder {
             };
             let (i, j) = (index(a)?, index(b)?);
             let (first, second) = (i.min(j), i.max(j));
-            check::coefficient([a.clone(), b.clone()], *coefficient)?;
+            check::coefficient([a, b], *coefficient)?;
             let refuse = |reason: &'static str| {
                 Err(TaskError::Coefficient { between: [a.clone(), b.clone()], reason })
             };

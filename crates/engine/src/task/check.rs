@@ -36,8 +36,9 @@ impl Task {
         }
         for of in &self.correlations {
             let variable = |index: usize| {
-                let found = self.variables.get(index).map(|variable| variable.name.clone());
-                found.ok_or(TaskError::Unknown { name: index.to_string(), kind: "variable" })
+                let found = self.variables.get(index).map(|variable| variable.name.as_str());
+                found
+                    .ok_or_else(|| TaskError::Unknown { name: index.to_string(), kind: "variable" })
             };
             coefficient([variable(of.first)?, variable(of.second)?], of.coefficient)?;
         }
@@ -87,12 +88,13 @@ impl Settings {
 }
 
 /// Checks a correlation coefficient of two quantities.
-pub(super) fn coefficient(between: [String; 2], coefficient: f64) -> Result<(), TaskError> {
-    let refuse = |between, reason| Err(TaskError::Coefficient { between, reason });
+pub(super) fn coefficient(between: [&str; 2], coefficient: f64) -> Result<(), TaskError> {
+    let refuse =
+        |reason| Err(TaskError::Coefficient { between: between.map(str::to_owned), reason });
     if !(-1.0..=1.0).contains(&coefficient) {
-        refuse(between, "must be from -1 to 1")
+        refuse("must be from -1 to 1")
     } else if between[0] == between[1] {
-        refuse(between, "would be that of a quantity with itself")
+        refuse("would be that of a quantity with itself")
     } else {
         Ok(())
     }

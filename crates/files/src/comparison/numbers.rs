@@ -9,8 +9,8 @@ use crate::import::columns::without_in;
 use crate::import::number::{self, without_groups, written};
 use crate::separator::{DecimalMarks, Separator};
 use crate::text_table::TextTable;
-use crate::value_text::{decimal_comma, grouped_digits, is_comma};
-use gumption_engine::decimal::to_position;
+use crate::value_text::{decimal_comma, grouped_digits, is_comma, power_of_last_digit};
+use gumption_engine::decimal::{Decimal, to_position};
 use gumption_units::Unit;
 
 /// A number as it stands in a cell.
@@ -116,7 +116,7 @@ impl<'a> Numbers<'a> {
             return None;
         }
         let shown = self.sheet.and_then(|of| of.last_digit(line, column));
-        let last = shown.unwrap_or_else(|| last_digit(&digits));
+        let last = shown.unwrap_or_else(|| power_of_last_digit(&digits));
         let printed = shown.map_or(value, |last| to_position(value, last));
         Some(Number { value, printed, half_unit: half_unit(last), unit: parsed })
     }
@@ -152,20 +152,10 @@ fn whole_before_comma(text: &str) -> Option<(f64, &str)> {
     Some((whole, text.get(at..)?))
 }
 
-/// The power of ten of the last digit of a number.
-fn last_digit(text: &str) -> i32 {
-    let (mantissa, exponent) = match text.split_once(['e', 'E']) {
-        Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().unwrap_or(0)),
-        None => (text, 0),
-    };
-    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.trim().len() as i32);
-    exponent - decimals
-}
-
 /// Half a unit of a digit.
 fn half_unit(last: i32) -> f64 {
     // from its decimal form, which is the nearest number
-    format!("5e{}", last - 1).parse().unwrap_or(0.0)
+    Decimal::new(5, last.saturating_sub(1)).value()
 }
 
 #[cfg(test)]
@@ -177,7 +167,7 @@ mod tests {
         for (text, half) in
             [("423", 0.5), ("0.010", 0.0005), ("1.50e-3", 5e-6), ("-7.", 0.5), ("2e4", 5e3)]
         {
-            assert_eq!(half_unit(last_digit(text)), half, "{text}");
+            assert_eq!(half_unit(power_of_last_digit(text)), half, "{text}");
         }
     }
 }
