@@ -16,6 +16,7 @@ mod gap;
 mod gap_check;
 mod help;
 mod import;
+mod internal_error;
 mod merge;
 mod models;
 mod new;
@@ -183,6 +184,7 @@ impl CommandLine {
     /// The same with these arguments, the first of which is the name of the program.
     pub fn main_of(&self, arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         signals::watch();
+        internal_error::watch();
         let arguments = match Arguments::try_parse_from(arguments) {
             Ok(arguments) => arguments,
             Err(told) => match misspelt(&told) {

@@ -97,6 +97,23 @@ fn received(number: u8) {
     std::process::exit(i32::from(exit_code()));
 }
 
+/// Ends the process from whichever thread, which may be the one that keeps it whole: what is becoming
+/// whole has a second for it.
+pub(super) fn end(code: i32) {
+    let free = (0..100).find_map(|_| {
+        let free = WHOLE.try_lock().ok();
+        if free.is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(10));
+        }
+        free
+    });
+    if let Ok(temporary) = TEMPORARY.try_lock() {
+        temporary.iter().for_each(|path| remove(path));
+    }
+    drop(free);
+    std::process::exit(code);
+}
+
 /// Takes over the signals. It must come before any thread is started: threads inherit which signals
 /// they leave to the one that waits here.
 #[cfg(unix)]

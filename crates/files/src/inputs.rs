@@ -492,6 +492,13 @@ impl<'a> Reader<'a, '_> {
             );
             self.inputs.warnings.push(Warning::new("interval-uncertainty", &name, text));
         }
+        if let Some(called) = of.and_then(|of| of.unknown_distribution.as_ref()) {
+            let text = format!(
+                "`{name}`: `{file}` calls its distribution `{called}`, which is none that is known here; \
+                 a normal distribution with its standard uncertainty is taken"
+            );
+            self.inputs.warnings.push(Warning::new("certificate-distribution", &name, text));
+        }
         let certified = of.and_then(|of| of.certified.clone());
         self.inputs.certified.extend(certified.map(|of| (name, of, file)));
     }

@@ -45,6 +45,7 @@ mod loose_files;
 mod model_checks;
 mod model_file;
 mod model_reader;
+mod named_shape;
 mod notation;
 mod number_format;
 mod object;

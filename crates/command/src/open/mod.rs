@@ -13,7 +13,7 @@ use clap::{Args, ValueEnum};
 
 use super::exit::say;
 use super::surroundings::in_call;
-use super::{CommandLine, Exit, Failure, signals};
+use super::{CommandLine, Exit, Failure, internal_error, signals};
 use answers::PageAnswers;
 use gumption_report::plain;
 use gumption_server::{LocalServer, OpenedFolder, RequestTimes, ServerOptions};
@@ -86,6 +86,7 @@ impl Open {
             say(&format!("note: {reason}; open the address in a browser\n"));
         }
         say("note: Ctrl-C ends the server\n");
+        internal_error::leave_to_server();
         server.run(&stop).map_err(|error| Failure::System(format!("the server: {error}")))?;
         Ok(Exit::Done)
     }

@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use crate::implied_dof::last_digit;
+use crate::named_shape::NamedShape;
 use gumption_units::Unit;
 use roxmltree::{Document, Node};
 
@@ -43,6 +44,14 @@ impl Measured {
         let stated = self.uncertainty.as_ref().filter(|stated| stated.standard.is_none())?;
         let mut places = stated.of_interval.iter().enumerate();
         places.find_map(|(at, u)| u.filter(|_| place.is_none_or(|place| place == at)))
+    }
+
+    /// What the distribution of a value, or of any of them, is called where that is not known.
+    pub(super) fn unknown_distribution(&self, place: Option<usize>) -> Option<String> {
+        let called = self.uncertainty.as_ref()?.distributions.as_ref()?.iter().enumerate();
+        let mut of_place = called.filter(|(at, _)| place.is_none_or(|place| place == *at));
+        let unknown = |text: &str| NamedShape::of(text) == Some(NamedShape::Unknown);
+        of_place.find(|(_, text)| unknown(text)).map(|(_, text)| text.clone())
     }
 }
 
@@ -210,8 +219,7 @@ fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Measured, Fault
         standard: numbers(holder, &standard, count)?,
         factors: numbers(holder, &factors, count)?,
         probabilities: numbers(holder, &probabilities, count)?,
-        distributions: texts(holder, &["distribution", "distributionXMLList"])
-            .map(|(_, texts)| spread(texts.into_iter().map(str::to_lowercase).collect(), count)),
+        distributions: distributions(holder, count),
         of_interval: Vec::new(),
     };
     let uncertain = stated.expanded.is_some() || stated.standard.is_some();
@@ -235,6 +243,16 @@ fn spread<T: Clone>(all: Vec<T>, count: Option<usize>) -> Vec<T> {
         ([one], Some(count)) => vec![one.clone(); count],
         _ => all,
     }
+}
+
+/// What the distributions of values are called: one name, which may have several words, or a list.
+fn distributions(holder: Node<'_, '_>, count: Option<usize>) -> Option<Vec<String>> {
+    let (element, words) = texts(holder, &["distribution", "distributionXMLList"])?;
+    let all = match element.tag_name().name() {
+        "distribution" => vec![words.join(" ")],
+        _ => words.into_iter().map(str::to_owned).collect(),
+    };
+    Some(spread(all, count))
 }
 
 /// The words of the first element below with one of these names.

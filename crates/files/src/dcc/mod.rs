@@ -13,6 +13,7 @@ use std::sync::Arc;
 use super::condition_values::ConditionValues;
 use super::folder::Folder;
 use super::implied_dof::Factor;
+use super::named_shape::NamedShape;
 use super::object::Object;
 use super::source::{Place, SourceText};
 use super::value_text::ValueOf;
@@ -20,7 +21,7 @@ use super::{DiagnosticKind, bytes};
 pub(super) use document::{Fault, parse, tag};
 use document::{Measured, Stated};
 use gumption_engine::distribution::{
-    Constant, Distribution, Invalid, Normal, Rectangular, Triangular,
+    Arcsine, Constant, Distribution, Invalid, Normal, Rectangular, Triangular,
 };
 use gumption_engine::special;
 use gumption_units::{Unit, nearest};
@@ -86,6 +87,8 @@ pub(super) struct FromCertificate {
     pub(super) certified: Option<Certified>,
     /// Whether a standard uncertainty is that of a coverage interval, in place of U over k.
     pub(super) of_interval: bool,
+    /// What the certificate calls a distribution that is not known here.
+    pub(super) unknown_distribution: Option<String>,
 }
 
 #[derive(Clone, Debug)]
@@ -93,8 +96,8 @@ enum Taken {
     /// One value, at this place of the lists.
     One(Box<Measured>, usize),
     /// Points of a table over a condition, in order: abscissa, value, standard uncertainty, degrees
-    /// of freedom.
-    Table { condition: String, unit: Box<Unit>, points: Vec<[f64; 4]> },
+    /// of freedom. Between them is the shape that all of them have.
+    Table { condition: String, unit: Box<Unit>, points: Vec<[f64; 4]>, shape: Option<NamedShape> },
 }
 
 /// Reads what the object takes from a certificate; mistakes are reported, those of the certificate
@@ -138,6 +141,7 @@ fn parsed(
         let Some(table) = table(object, &chosen, &measured, &all)? else { return Ok(None) };
         let source = Arc::clone(source);
         let of_interval = measured.iter().any(|of| of.interval_taken(None).is_some());
+        let unknown_distribution = measured.iter().find_map(|of| of.unknown_distribution(None));
         return Ok(Some(FromCertificate {
             unit,
             taken: table,
@@ -145,6 +149,7 @@ fn parsed(
             span,
             certified: None,
             of_interval,
+            unknown_distribution,
         }));
     }
     let count: usize = measured.iter().map(|of| of.values.len()).sum();
@@ -177,11 +182,20 @@ fn parsed(
         if left < of.values.len() {
             let (source, span) = (Arc::clone(source), of.span.clone());
             let of_interval = of.interval_taken(Some(left)).is_some();
+            let unknown_distribution = of.unknown_distribution(Some(left));
             let taken = Taken::One(Box::new(of), left);
             let own = own.entry(source.name.clone());
             let own = own.or_insert_with(|| OwnCertificate::of(&document).map(Arc::new));
             let certified = own.as_ref().and_then(|own| own.part(*node, left));
-            return Ok(Some(FromCertificate { unit, taken, source, span, certified, of_interval }));
+            return Ok(Some(FromCertificate {
+                unit,
+                taken,
+                source,
+                span,
+                certified,
+                of_interval,
+                unknown_distribution,
+            }));
         }
         left -= of.values.len();
     }
@@ -274,6 +288,7 @@ fn table<'d>(
 ) -> Result<Option<Taken>, Fault> {
     let Some(condition) = object.text("at").map(str::to_owned) else { return Ok(None) };
     let mut points: Vec<[f64; 4]> = Vec::new();
+    let mut shapes: Vec<Option<NamedShape>> = Vec::new();
     let mut unit: Option<Unit> = None;
     for (node, of) in chosen.iter().zip(measured) {
         let Some(abscissa) = abscissa(object, *node, of, all, &condition)? else { return Ok(None) };
@@ -287,6 +302,7 @@ fn table<'d>(
                 None => (0.0, f64::INFINITY),
                 Some(stated) => {
                     let known = known(stated, place).map_err(|reason| (of.span.clone(), reason))?;
+                    shapes.push(known.shape);
                     (known.standard, known.dof)
                 }
             };
@@ -299,7 +315,9 @@ fn table<'d>(
         let reason = "two points of this table have the same abscissa".to_owned();
         return Err((span, reason));
     }
-    Ok(unit.map(|unit| Taken::Table { condition, unit: Box::new(unit), points }))
+    let first = shapes.first().copied().flatten();
+    let shape = first.filter(|_| shapes.iter().all(|shape| *shape == first));
+    Ok(unit.map(|unit| Taken::Table { condition, unit: Box::new(unit), points, shape }))
 }
 
 /// The quantity that a table goes over: in the same list, equally many values; by the name of the
@@ -350,7 +368,7 @@ fn abscissa<'d>(
 struct Known {
     standard: f64,
     dof: f64,
-    distribution: String,
+    shape: Option<NamedShape>,
     /// What the expanded uncertainty was divided by.
     factor: f64,
 }
@@ -358,8 +376,8 @@ struct Known {
 fn known(stated: &Stated, place: usize) -> Result<Known, String> {
     let at = |all: &Option<Vec<f64>>| all.as_ref().and_then(|all| all.get(place)).copied();
     let texts = stated.distributions.as_ref();
-    let distribution = texts.and_then(|all| all.get(place)).cloned().unwrap_or_default();
-    let is_t = distribution == "t" || distribution.contains("student");
+    let shape = texts.and_then(|all| all.get(place)).and_then(|text| NamedShape::of(text));
+    let is_t = shape == Some(NamedShape::Student);
     let probability = at(&stated.probabilities);
     if let Some(p) = probability
         && !(p > 0.0 && p < 1.0)
@@ -393,13 +411,13 @@ fn known(stated: &Stated, place: usize) -> Result<Known, String> {
     // a standard uncertainty that is stated has not been divided by the factor
     let divided = at(&stated.standard).is_none() && at(&stated.factors) == Some(factor);
     let dof = match probability {
-        Some(p) if divided && (is_t || distribution.is_empty()) => {
+        Some(p) if divided && (is_t || shape.is_none()) => {
             let stated = Factor::new(factor, of_factor);
             if is_t { stated.dof(p) } else { stated.dof_of_nothing_named(p, of_probability) }
         }
         _ => f64::INFINITY,
     };
-    Ok(Known { standard, dof, distribution, factor })
+    Ok(Known { standard, dof, shape, factor })
 }
 
 impl FromCertificate {
@@ -438,7 +456,7 @@ impl FromCertificate {
                     },
                 }
             }
-            Taken::Table { condition, unit: of, points } => {
+            Taken::Table { condition, unit: of, points, shape } => {
                 let (conditions, row) = at?;
                 let x = self.condition(object, condition, of, (conditions, row))?;
                 let Some([_, y, u, dof]) = interpolated(points, x) else {
@@ -453,11 +471,8 @@ impl FromCertificate {
                     object.log.report(place, DiagnosticKind::Certificate { reason });
                     return None;
                 };
-                let y = in_unit(y);
-                match u == 0.0 {
-                    true => Constant::new(y).map(Into::into),
-                    false => Normal::with_dof(y, u * factor, dof).map(Into::into),
-                }
+                let known = Known { standard: u, dof, shape: *shape, factor: 1.0 };
+                shaped(in_unit(y), known, factor)
             }
         };
         match made {
@@ -501,10 +516,12 @@ fn shaped(value: f64, known: Known, factor: f64) -> Result<Distribution, Invalid
     if u == 0.0 {
         return Constant::new(value).map(Into::into);
     }
-    match known.distribution.as_str() {
-        "uniform" | "rectangular" => Rectangular::new(value, u * 3.0_f64.sqrt()).map(Into::into),
-        "triangular" => Triangular::new(value, u * 6.0_f64.sqrt()).map(Into::into),
-        _ => Normal::with_dof(value, u, known.dof)
+    let named = |shape| known.shape == Some(NamedShape::Known(shape));
+    match () {
+        () if named("rectangular") => Rectangular::new(value, u * 3.0_f64.sqrt()).map(Into::into),
+        () if named("triangular") => Triangular::new(value, u * 6.0_f64.sqrt()).map(Into::into),
+        () if named("arcsine") => Arcsine::new(value, u * 2.0_f64.sqrt()).map(Into::into),
+        () => Normal::with_dof(value, u, known.dof)
             .and_then(|normal| normal.stated_with(known.factor))
             .map(Into::into),
     }

@@ -77,6 +77,19 @@ fn values_of_all_versions() {
     let rectangular = REAL.replace("normal<", "uniform<");
     let file = model(&certificate("3.2.1", &rectangular), r#""id": "v""#, "").unwrap();
     assert_eq!(file.task.rows[0].distributions[0].name(), "rectangular");
+    assert!(file.warnings.iter().all(|note| note.code != "certificate-distribution"));
+    for (called, name, is_noted) in [
+        ("Gaussian", "normal", false),
+        ("U-shaped", "arcsine", false),
+        ("of two humps", "normal", true),
+    ] {
+        let text = REAL.replace("normal<", &format!("{called}<"));
+        let file = model(&certificate("3.2.1", &text), r#""id": "v""#, "").unwrap();
+        near(known(&file, 0), [5.0112, 0.0023]);
+        assert_eq!(file.task.rows[0].distributions[0].name(), name, "{called}");
+        let noted = file.warnings.iter().any(|note| note.code == "certificate-distribution");
+        assert_eq!(noted, is_noted, "{called}");
+    }
 }
 
 #[test]

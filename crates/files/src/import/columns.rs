@@ -4,6 +4,7 @@ use super::both::LastOfBoth;
 use super::grid::Cells;
 use super::number::number as number_of_cell;
 use super::number::{number_with_unit, value};
+use crate::named_shape::NamedShape;
 use crate::value_text::PLUS_MINUS;
 use gumption_engine::special::student;
 use gumption_units::Unit;
@@ -1010,7 +1011,7 @@ impl Header {
         self.take_the_one(Column::Distribution, |header, place| {
             let lines = header.line + 1..cells.lines();
             let texts = lines.map(|line| cells.text(line, place).trim());
-            let mut named = texts.filter_map(|text| Some((text, distribution(text)?))).peekable();
+            let mut named = texts.filter_map(|text| Some((text, NamedShape::of(text)?))).peekable();
             // one letter may be anything
             named.peek().is_some()
                 && named.all(|(text, of)| of != NamedShape::Unknown && text.chars().count() > 2)
@@ -1494,40 +1495,6 @@ pub(super) fn is_result(words: &str) -> bool {
         ]
         .iter()
         .any(|begin| words.starts_with(begin))
-}
-
-/// What a text says of a distribution.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum NamedShape {
-    /// One that a model file has.
-    Known(&'static str),
-    /// A t distribution, whose degrees of freedom must be said.
-    Student,
-    /// None that is known.
-    Unknown,
-}
-
-/// The distribution that a text names; `None` where it names none.
-pub(super) fn distribution(text: &str) -> Option<NamedShape> {
-    let words = text.trim().to_lowercase();
-    let begins = |all: &[&str]| all.iter().any(|word| words.starts_with(word));
-    if words.is_empty() || matches!(words.as_str(), "-" | "–" | "—") {
-        return None;
-    }
-    let is = |letters: &[&str]| letters.contains(&words.as_str());
-    Some(if begins(&["norm", "gau"]) || is(&["n"]) {
-        NamedShape::Known("normal")
-    } else if begins(&["student", "t-", "t "]) || is(&["t"]) {
-        NamedShape::Student
-    } else if begins(&["rect", "uniform", "rechteck", "gleich"]) || is(&["r"]) {
-        NamedShape::Known("rectangular")
-    } else if begins(&["tri", "dreieck"]) {
-        NamedShape::Known("triangular")
-    } else if begins(&["u-sh", "u sh", "arc", "u-f", "u-v", "ushape"]) || is(&["u"]) {
-        NamedShape::Known("arcsine")
-    } else {
-        NamedShape::Unknown
-    })
 }
 
 /// Whether a text speaks of correlation.

@@ -4,8 +4,9 @@ use gumption_engine::decimal::to_15_digits;
 use gumption_engine::number::Shortest;
 
 use super::Budget;
-use super::columns::{self, Column, Header, NamedShape};
+use super::columns::{Column, Header};
 use super::rows::Row;
+use crate::named_shape::NamedShape;
 
 /// Limits lie alike about an estimate to this share of their distance, which rounding of the sheet leaves.
 const ALIKE: f64 = 1e-9;
@@ -23,7 +24,7 @@ impl Budget<'_> {
         if lenient || limits == [None, None] {
             return None;
         }
-        let shape = columns::distribution(header.cell(self.cells, line, Column::Distribution));
+        let shape = NamedShape::of(header.cell(self.cells, line, Column::Distribution));
         match take(limits, row, shape) {
             Ok(said) => {
                 let said = said.map(|said| format!("line {}: {said}", line + 1));

@@ -5,10 +5,11 @@ use gumption_engine::model::formula::check_name;
 use gumption_engine::number::Shortest;
 use gumption_units::Unit;
 
-use super::columns::{self, Column, Header, HeaderCoverage, NamedShape};
+use super::columns::{self, Column, Header, HeaderCoverage};
 use super::linear::{CONTRIBUTIONS_DIFFER, standard_uncertainty};
 use super::stated::Stated;
 use super::{Budget, equation, number};
+use crate::named_shape::NamedShape;
 use crate::separator::Separator;
 use crate::share::{self, Share};
 use crate::value_text::grouped_digits;
@@ -912,7 +913,7 @@ impl Budget<'_> {
         }
         let of_shape = |line: usize, factor: f64| {
             let text = header.cell(self.cells, line, Column::Distribution);
-            match columns::distribution(text) {
+            match NamedShape::of(text) {
                 Some(NamedShape::Known(shape)) => {
                     divisor_of(shape).map(|divisor| near(divisor, 1.0 / factor))
                 }
@@ -929,7 +930,7 @@ impl Budget<'_> {
             return near(stated, 1.0 / factor);
         }
         let text = header.cell(self.cells, line, Column::Distribution);
-        let is_normal = columns::distribution(text) == Some(NamedShape::Known("normal"));
+        let is_normal = NamedShape::of(text) == Some(NamedShape::Known("normal"));
         is_normal
             && (header.line + 1..self.cells.lines()).any(|line| {
                 let text = header.cell(self.cells, line, Column::Divisor).trim();
@@ -1005,7 +1006,7 @@ impl Budget<'_> {
             .iter()
             .any(|of| of.factor(None).is_some() && (of.probability().is_none() || !is_without_dof));
         let needs_dof = is_undivided && !is_stated;
-        match columns::distribution(text)? {
+        match NamedShape::of(text)? {
             NamedShape::Known(name) => Some(name),
             NamedShape::Student if needs_dof && row.dof.is_none() => {
                 let reason = format!(

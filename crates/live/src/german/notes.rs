@@ -243,6 +243,10 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "die Punkte passen nicht zu {0}: Chi-Quadrat ist {1} mit {2} Freiheitsgraden, über seinem 95-%-Quantil {3}; die Form oder die angegebenen Unsicherheiten sind falsch",
     ),
     (
+        "{}: {} calls its distribution {}, which is none that is known here; a normal distribution with its standard uncertainty is taken",
+        "{0}: {1} nennt die Verteilung {2}, die hier nicht bekannt ist; genommen wird eine Normalverteilung mit der angegebenen Standardunsicherheit",
+    ),
+    (
         "{}: where {} states a standard uncertainty with a coverage interval, it is taken in place of U over k, whose digits are rounded",
         "{0}: Wo {1} mit einem Überdeckungsintervall eine Standardunsicherheit angibt, wird diese genommen und nicht U geteilt durch k, deren Stellen gerundet sind",
     ),
