@@ -1,6 +1,7 @@
 //! Readings as laboratories have them: in the model file, in columns of the conditions' table, in a
 //! file, in groups; and whether they look independent.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::DiagnosticKind;
@@ -101,8 +102,11 @@ fn grouped(
     labels: &[f64],
 ) -> Option<FileReadings> {
     let mut groups: Vec<(f64, Vec<f64>)> = Vec::new();
+    let mut places: HashMap<u64, usize> = HashMap::new();
     for (&value, &label) in values.iter().zip(labels) {
-        match groups.iter_mut().find(|(known, _)| *known == label) {
+        // the two zeros are one label
+        let place = *places.entry((label + 0.0).to_bits()).or_insert(groups.len());
+        match groups.get_mut(place) {
             Some((_, members)) => members.push(value),
             None => groups.push((label, vec![value])),
         }

@@ -85,7 +85,10 @@ fn row(text: &str, name: &str, value: &Value<'_>, path: &[Step], task: Option<&T
     row["name"] = json!(name);
     row["path"] = json!(path);
     row["component"] = json!(false);
-    if let Some((variable, distribution)) = task.and_then(|task| drawn(task, name)) {
+    // what is known of an input with components is known of them
+    let of_components = row["form"] == "components";
+    let known = task.filter(|_| !of_components).and_then(|task| drawn(task, name));
+    if let Some((variable, distribution)) = known {
         let u = distribution.standard_uncertainty();
         let (estimate, uncertainty) = with_uncertainty(distribution.mean(), u, 2);
         row["distribution"] = json!(distribution.name());

@@ -17,6 +17,7 @@ mod spread;
 mod tests;
 mod width_change;
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use gumption_engine::parallel;
@@ -171,7 +172,8 @@ pub fn audit(
             }
         }
         let agreements = evidence.iter().filter_map(|of| agree(task, of, &mut warnings)).collect();
-        warnings.dedup();
+        let mut told = HashSet::new();
+        warnings.retain(|warning: &Warning| told.insert((warning.code, warning.text.clone())));
         Ok(Some(Audit {
             question,
             coverage_probability: task.settings.coverage.probability(),

@@ -29,7 +29,7 @@ pub(super) struct Mixture<'a> {
     tasks: [&'a Task; 2],
     rows: [&'a Row; 2],
     /// The tasks without their rows, to be filled.
-    empty: [Task; 2],
+    empty: &'a [Task; 2],
     indices: [HashMap<&'a str, usize>; 2],
     /// Places of the outputs to be compared.
     outputs: Vec<[usize; 2]>,
@@ -38,18 +38,20 @@ pub(super) struct Mixture<'a> {
 }
 
 impl<'a> Mixture<'a> {
-    pub(crate) fn new(tasks: [&'a Task; 2], rows: [&'a Row; 2], outputs: &[Common]) -> Self {
+    /// `empty` are the tasks without their rows.
+    pub(crate) fn new(
+        tasks: [&'a Task; 2],
+        empty: &'a [Task; 2],
+        rows: [&'a Row; 2],
+        outputs: &[Common],
+    ) -> Self {
         let indices = tasks.map(|task| {
             task.variables.iter().enumerate().map(|(index, v)| (v.name.as_str(), index)).collect()
         });
         Self {
             tasks,
             rows,
-            empty: tasks.map(|task| {
-                let mut empty = task.clone();
-                empty.rows = Vec::new();
-                empty
-            }),
+            empty,
             indices,
             outputs: outputs.iter().map(|output| output.indices).collect(),
             factors: outputs.iter().map(|output| output.factor).collect(),

@@ -39,6 +39,8 @@ mod saved;
 pub use linear::{LinearOutput, LinearResult, SeveralRows};
 pub use saved::compare_linear;
 
+use std::collections::HashMap;
+
 use attribution::shapley;
 use gumption_engine::propagate::gum;
 use gumption_engine::propagate::gum::Gum;
@@ -164,7 +166,12 @@ pub fn compare(first: &Task, second: &Task) -> Difference {
     if swept && pairs.len() < tasks.iter().map(|task| task.rows.len()).max().unwrap_or(0) {
         changes.push(format!("{} rows of conditions are in both files", pairs.len()));
     }
-    let rows = pairs.into_iter().map(|rows| compare_rows(tasks, rows, &outputs)).collect();
+    let empty = tasks.map(|task| {
+        let mut empty = task.clone();
+        empty.rows = Vec::new();
+        empty
+    });
+    let rows = pairs.into_iter().map(|rows| compare_rows(tasks, &empty, rows, &outputs)).collect();
     Difference { changes, swept, rows }
 }
 
@@ -190,17 +197,29 @@ fn pairs<'a>(tasks: [&'a Task; 2]) -> Vec<[&'a Row; 2]> {
     if names(first) != names(second) {
         return Vec::new();
     }
-    // rows mostly stand at the same index
+    // rows mostly stand at the same index; of others the first with the same values counts
+    let key = |row: &Row| -> Vec<u64> {
+        row.conditions.iter().map(|value| (value + 0.0).to_bits()).collect()
+    };
+    let mut places: HashMap<Vec<u64>, &Row> = HashMap::new();
+    for row in &second.rows {
+        places.entry(key(row)).or_insert(row);
+    }
     let found = first.rows.iter().enumerate().filter_map(|(index, row)| {
         let same = |other: &&Row| other.conditions == row.conditions;
         let other = second.rows.get(index).filter(same);
-        Some([row, other.or_else(|| second.rows.iter().find(same))?])
+        Some([row, other.or_else(|| places.get(&key(row)).copied())?])
     });
     found.collect()
 }
 
-fn compare_rows(tasks: [&Task; 2], rows: [&Row; 2], outputs: &[Common]) -> RowDifference {
-    let mixture = Mixture::new(tasks, rows, outputs);
+fn compare_rows(
+    tasks: [&Task; 2],
+    empty: &[Task; 2],
+    rows: [&Row; 2],
+    outputs: &[Common],
+) -> RowDifference {
+    let mixture = Mixture::new(tasks, empty, rows, outputs);
     let causes = mixture.causes();
     let parts = attribute(&mixture, &causes);
     let evaluated = [0, 1].map(|side| gum::evaluate(tasks[side], rows[side]).outputs);

@@ -391,7 +391,10 @@ impl Problem<'_> {
             .iter()
             .find(|(offered, _)| *offered == variable)
             .filter(|_| change.is_some())
-            .and_then(|(_, of)| of.iter().find(|offer| offer.standard_uncertainty == to));
+            .and_then(|(_, of)| {
+                let same = of.iter().filter(|offer| offer.standard_uncertainty == to);
+                same.min_by(|a, b| a.cost.total_cmp(&b.cost))
+            });
         let smooth = self.smooth.iter().find(|of| of.variable == variable);
         let cost = match (smooth, counted, readings, offer) {
             (Some(of), ..) => of.cost(to),

@@ -233,6 +233,15 @@ fn offers() {
     assert_eq!(found.cost, 400.0);
     assert_eq!(found.inputs[0].offer.as_deref(), Some("for 100"));
     assert_eq!((found.inputs[0].to, found.inputs[1].to), (2.0, 2.5));
+    // of two that are as good the cheaper one is named, as it is counted
+    let costs = stated(vec![
+        Some(Improvement::Offers(vec![offer(2.0, 150.0), offer(2.0, 100.0)])),
+        Some(Improvement::Offers(vec![offer(2.5, 300.0)])),
+    ]);
+    let found = planned(&sum(), &PlanQuestion { costs, ..question(7.0) }).cheapest.unwrap();
+    assert_eq!(found.cost, 400.0);
+    assert_eq!(found.inputs[0].offer.as_deref(), Some("for 100"));
+    assert_eq!(found.inputs.iter().map(|of| of.cost).sum::<f64>(), 400.0);
 }
 
 /// u(b) = 4 is that of a drift over one year; 3.25 is left of the variance, so sqrt(3.25)/4 of a year

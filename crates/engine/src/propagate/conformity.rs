@@ -68,7 +68,9 @@ impl Conformity {
         if self.conforms { 1.0 - self.probability } else { self.probability }
     }
 
-    /// The decision about an output from its trials; `None` without a tolerance. The posterior
+    /// The decision about an output from its trials; `None` without a tolerance. It is made with the
+    /// value that is stated of the output, which no seed moves where the law of propagation or figures
+    /// without noise have it. The posterior
     /// probability, global risks and guard bands with a prior take the measured value to be normally
     /// distributed about the true one, with `u` as standard uncertainty. `linear` is the law of
     /// propagation where that may be trusted; the guard band without a prior is then that of its
@@ -76,7 +78,7 @@ impl Conformity {
     fn of(
         output: &Output,
         figures: &MonteCarlo,
-        (u, expanded): (Option<f64>, Option<f64>),
+        (u, stated): (Option<f64>, Option<Stated>),
         linear: Option<&Gum>,
         of_trials: Option<f64>,
     ) -> Option<Self> {
@@ -88,7 +90,7 @@ impl Conformity {
         let inspection = output.prior.as_deref().zip(u);
         let inspection = inspection.map(|(prior, u)| Inspection::new(prior, u, limits));
         let guard_band = match (output.risk, u, &inspection) {
-            (None, ..) => multiple(output, expanded),
+            (None, ..) => multiple(output, stated.map(|stated| stated.expanded_uncertainty)),
             (Some(_), None, _) => None,
             (Some(risk), Some(_), Some(inspection)) => inspection.guard_band(risk),
             (Some(risk), Some(u), None) => match linear {
@@ -98,7 +100,8 @@ impl Conformity {
         };
         let acceptance = guard_band.map(|width| tolerance.narrowed(width));
         let accepted = guard_band.map(|width| Tolerance::between(limits).narrowed(width));
-        let estimate = on_branch(figures.location());
+        let located = on_branch(figures.location());
+        let estimate = stated.map_or(located, |stated| on_branch(stated.value));
         let global = inspection.as_ref().zip(accepted).map(|(of, to)| of.risks(to.ends()));
         let posterior = output.prior.as_deref().zip(u).map(|(prior, spread)| {
             let at = |y: f64, u: f64| Inspection::new(prior, u, limits).conformance(y);
@@ -108,11 +111,10 @@ impl Conformity {
             // the trials know both to their numerical standard errors
             let of_y = figures.errors.estimate.unwrap_or(figures.errors.median);
             let of_u = figures.errors.standard_uncertainty.unwrap_or(0.0).min(0.5 * spread);
-            let change = |y: f64, u: f64| {
-                0.5 * (at(estimate + y, spread + u) - at(estimate - y, spread - u))
-            };
+            let change =
+                |y: f64, u: f64| 0.5 * (at(located + y, spread + u) - at(located - y, spread - u));
             let error = elementary::hypot(change(of_y, 0.0), change(0.0, of_u));
-            (at(estimate, spread), error)
+            (at(located, spread), error)
         });
         let error = (share * (1.0 - share) / figures.trials as f64).sqrt();
         let (probability, numerical_standard_error) = posterior.unwrap_or((share, error));
@@ -148,14 +150,13 @@ impl Conformity {
         settings: &Settings,
     ) -> Option<Self> {
         let gum = figures.gum.as_ref();
-        let stated = output.guard_factor.and_then(|_| {
-            Stated::of(figures, settings, |expanded| position(expanded, settings.digits))
-        });
-        let expanded = stated.map(|stated| stated.expanded_uncertainty);
-        let of_trials = figures.monte_carlo.as_ref().and_then(|trials| {
+        let of_trials = figures.monte_carlo.as_ref().filter(|_| output.tolerance.is_some());
+        let of_trials = of_trials.and_then(|trials| {
+            let place = |expanded: f64| position(expanded, settings.digits);
+            let stated = Stated::of(figures, settings, place);
             let u = gum.map(|gum| gum.standard_uncertainty);
             let guard_band = figures.guard_band_of_trials;
-            Self::of(output, trials, (u, expanded), figures.trusted(), guard_band)
+            Self::of(output, trials, (u, stated), figures.trusted(), guard_band)
         });
         let alone = gum.filter(|_| settings.trials == Trials::Fixed(0));
         of_trials.or_else(|| alone.and_then(|gum| Self::by_propagation(output, gum)))

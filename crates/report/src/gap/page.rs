@@ -38,7 +38,7 @@ pub(super) fn document(diagnosis: &Diagnosis, provenance: &Provenance) -> Docume
             page.text(words::REGIONS);
             strength::sentences(diagnosis).into_iter().for_each(|said| page.text(said));
         }
-        None => page.text(words::NO_REGION),
+        None => page.text(words::no_region(diagnosis)),
     }
     page.figure(html::where_map(diagnosis));
     if let Some(sheet) = sheets::present(diagnosis) {

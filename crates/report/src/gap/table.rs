@@ -111,7 +111,7 @@ fn regions(diagnosis: &Diagnosis) -> String {
             let along = paragraphs(strength::sentences(diagnosis));
             Grid::of(&sheet).render(width()) + &wrapped(words::REGIONS) + &along
         }
-        None => wrapped(words::NO_REGION),
+        None => wrapped(words::no_region(diagnosis)),
     }
 }
 

@@ -379,9 +379,13 @@ pub(super) fn gap(diagnosis: &Diagnosis) -> String {
     }
 }
 
-/// What is said where no region stands out.
-pub(super) const NO_REGION: &str =
-    "No region of the conditions stands out beyond what chance does in data without a gap.";
+/// What is said where no region is listed.
+pub(super) fn no_region(diagnosis: &Diagnosis) -> &'static str {
+    if diagnosis.interrupted {
+        return "The diagnosis was interrupted before regions of the conditions were looked for.";
+    }
+    "No region of the conditions stands out beyond what chance does in data without a gap."
+}
 
 /// What the p-values of regions are.
 pub(super) const REGIONS: &str = "p: probability that data without a gap have a region as \

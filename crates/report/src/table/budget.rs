@@ -9,7 +9,7 @@ use crate::subtotals::Subtotals;
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::InputFigures;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
-use gumption_engine::task::{Settings, Task, Variable};
+use gumption_engine::task::{Coverage, Settings, Task, Variable};
 use gumption_units::Unit;
 
 /// Significant digits of sensitivity coefficients.
@@ -341,7 +341,15 @@ pub(crate) fn conclusions<'a>(
 ) -> [Conclusion<'a>; 4] {
     let conclusion = |name, figure| Conclusion { name, figure, unit: None, remark: String::new() };
     let (_, combined) = with_uncertainty(gum.estimate, gum.standard_uncertainty, digits);
+    // an agreed factor has the probability of a normal distribution, which finite degrees of freedom
+    // do not leave it
+    let is_agreed = matches!(settings.coverage, Coverage::Factor { fixed: true, .. })
+        && matches!(gum.dof, Dof::Finite(_));
     let (factor, remark) = match gum.coverage_factor {
+        Some(factor) if is_agreed => {
+            let remark = "(agreed, whatever the degrees of freedom)".to_owned();
+            (Figure::of(factor, rounded(factor, -2)), remark)
+        }
         Some(factor) => (
             Figure::of(factor, rounded(factor, -2)),
             format!("for {}", coverage_text(settings.coverage)),

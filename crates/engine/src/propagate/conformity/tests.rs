@@ -178,3 +178,29 @@ fn limits_of_phases() {
         }
     }
 }
+
+/// An estimate at the limit itself is decided upon with the value that is stated, 10, whatever the seed:
+/// the mean of the trials lies beyond the limit for half of the seeds.
+#[test]
+fn no_seed_decides() {
+    let tolerance = Tolerance { lower: Some(9.8), upper: Some(10.0) };
+    let decided = |seed: u64| {
+        let task = crate::task::Task::builder("at the limit")
+            .input("a", Input::normal(10.25, 0.1, "V").unwrap())
+            .input("b", Input::normal(-0.25, 0.05, "V").unwrap())
+            .equation("y", "a + b")
+            .output("y", "V")
+            .tolerance("y", tolerance)
+            .trials(20_000)
+            .seed(seed)
+            .build()
+            .unwrap();
+        let evaluation = evaluate(&task, &Control::default()).unwrap();
+        let figures = &evaluation.rows[0].outputs[0];
+        let found = Conformity::evaluated(&task.model.outputs[0], figures, &task.settings);
+        found.map(|found| (found.conforms, found.estimate))
+    };
+    for seed in 1..8 {
+        assert_eq!(decided(seed), Some((true, 10.0)), "{seed}");
+    }
+}

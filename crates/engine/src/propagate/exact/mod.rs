@@ -22,7 +22,7 @@ use std::sync::Arc;
 
 use self::invert::{Decay, Inversion, Sum};
 use self::law::{Found, Law};
-use self::separate::{Group, Outer, Separated, separate};
+use self::separate::{Group, Leaf, Outer, Separated, separate};
 use self::term::{Inputs, Term};
 use crate::distribution::characteristic::Characteristic;
 use crate::distribution::{Dependence, Distribution, Joint, Normal, StudentT};
@@ -143,13 +143,13 @@ pub(crate) fn evaluate(problem: &Problem<'_>) -> Result<Noiseless, String> {
     let node = program.outputs[problem.output];
     let folded = problem.folded();
     let linked = problem.joint.linked();
-    let separated = separate(program, &folded, node, &linked);
     let inputs = Inputs {
         program,
         folded: &folded,
         distributions: &problem.row.distributions,
         linked: &linked,
     };
+    let separated = checked(&inputs, separate(program, &folded, node, &linked), node)?;
     let drawn = |l: &usize| linked[*l].dependence == Dependence::Trials;
     if separated.groups.iter().any(|group| group.linked.iter().any(drawn)) {
         return Err(term::DRAWN_TOGETHER.to_owned());
@@ -159,6 +159,56 @@ pub(crate) fn evaluate(problem: &Problem<'_>) -> Result<Noiseless, String> {
     }
     let (law, moments) = distribution(problem, &inputs, &separated)?;
     figures(problem, &law, moments)
+}
+
+/// The most by which the parts together may differ from the formula, in parts of the largest of them:
+/// far beyond rounding, and far below any mistake.
+const SAME: f64 = 1e-6;
+
+/// Holds the parts against the formula at the inputs' expectations. A product has the sign there that
+/// the logarithms of its factors have lost: each factor keeps its own, or it is refused later. A root or
+/// a logarithm of what is below zero has no value there.
+fn checked(inputs: &Inputs<'_>, separated: Separated, node: usize) -> Result<Separated, String> {
+    let value = |group: &Group| {
+        let part = term::Part::new(inputs, group);
+        let of = |v: &usize| inputs.distributions.get(*v).map_or(f64::NAN, |of| term::middle(of));
+        let values: Vec<f64> = group.variables.iter().map(of).collect();
+        part.value(&values, &mut vec![0.0; part.leaves()])
+    };
+    let whole = Group {
+        variables: separate::variables_of(inputs.program, inputs.folded, node),
+        linked: Vec::new(),
+        leaves: vec![Leaf { node, factor: 1.0, logarithm: false }],
+    };
+    let parts: Option<Vec<f64>> = separated.groups.iter().map(value).collect();
+    let (whole, parts) = match (value(&whole), parts) {
+        (Some(whole), Some(parts)) => (whole, parts),
+        // what has no value at the expectations alone is met where the distribution is looked for
+        (None, None) | (Some(_), None) => return Ok(separated),
+        (None, Some(_)) => {
+            return Err("the formula has no value at the estimates of the inputs".to_owned());
+        }
+    };
+    let sum = separated.constant + parts.iter().sum::<f64>();
+    let (outer, together, largest) = match separated.outer {
+        Outer::Sum => {
+            let largest =
+                parts.iter().map(|part| part.abs()).fold(separated.constant.abs(), f64::max);
+            (Outer::Sum, sum, largest)
+        }
+        Outer::Product { factor, shift } => {
+            let modulus = factor.abs() * crate::number::elementary::exp(sum);
+            let factor = factor.abs() * (whole - shift).signum();
+            let outer = Outer::Product { factor, shift };
+            (outer, shift + factor.signum() * modulus, modulus.max(shift.abs()))
+        }
+    };
+    if (together - whole).abs() > SAME * largest {
+        return Err(format!(
+            "the formula is {whole} at the estimates of the inputs, and its parts together are {together}"
+        ));
+    }
+    Ok(Separated { outer, ..separated })
 }
 
 /// Expectation and standard deviation of an output; not finite where there are none.

@@ -29,7 +29,8 @@ pub(super) struct Group {
 pub(super) enum Outer {
     /// It is the sum.
     Sum,
-    /// It is the exponential of the sum times `factor`, and `shift` more.
+    /// It is the exponential of the sum times `factor`, and `shift` more. The factor has lost the signs
+    /// of what was multiplied.
     Product { factor: f64, shift: f64 },
 }
 

@@ -111,6 +111,46 @@ fn products_of_lognormals() {
     assert!((found.standard_uncertainty.unwrap() - u).abs() < 1e-13);
 }
 
+/// A product keeps the signs of its factors: all figures are those of the product of moduli, mirrored
+/// as often as there are negative ones. What is not defined has none.
+#[test]
+fn signs_of_factors() {
+    let lognormal = |mean, std| Distribution::from(Lognormal::new(mean, std).unwrap());
+    let of = |a: f64, formula: &str| {
+        let inputs = vec![lognormal(3.0, 0.3), normal(a, 0.1), lognormal(2.0, 0.5)];
+        exact_of(&task(inputs, formula, 0.95))
+    };
+    for (formula, of_moduli, odd) in [
+        ("x0*x1*x2", "x0*x1*x2", true),
+        ("-x0*x1*x2", "x0*x1*x2", false),
+        ("x0*(-2)*x2*abs(x1)", "2*x0*x2*x1", true),
+        ("x0*(2 - 5)*x2/x1", "3*x0*x2/x1", false),
+        ("x0/(x1*x2)", "x0/(x1*x2)", true),
+        ("cbrt(x0*x1*x2)", "cbrt(x0*x1*x2)", true),
+        ("x0*x1^3", "x0*x1^3", true),
+        ("x0*x1^2*x2", "x0*x1^2*x2", false),
+        ("sqrt(-x0*x1)", "sqrt(x0*x1)", false),
+        ("ln(x0/x1^2)", "ln(x0/x1^2)", false),
+    ] {
+        let found = of(-5.0, formula).unwrap_or_else(|reason| panic!("{formula}: {reason}"));
+        let moduli = of(5.0, of_moduli).unwrap();
+        let sign = if odd { -1.0 } else { 1.0 };
+        let near =
+            |a: f64, b: f64| assert!((a - sign * b).abs() <= 1e-9 * b.abs(), "{formula}: {a} {b}");
+        near(found.estimate.unwrap(), moduli.estimate.unwrap());
+        near(found.median, moduli.median);
+        let mut ends = moduli.symmetric_interval;
+        if odd {
+            ends.reverse();
+        }
+        near(found.symmetric_interval[0], ends[0]);
+        near(found.symmetric_interval[1], ends[1]);
+    }
+    for formula in ["ln(x0*x1)", "sqrt(x0*x1)", "(x0*x1)^0.5", "x0*sqrt(x1)", "x0*x2*x1^0.3"] {
+        assert!(of(-5.0, formula).is_err(), "{formula}");
+    }
+}
+
 /// Correlated normal quantities are one: 1 + 4 + 2 * 0.7 * 2.
 #[test]
 fn correlated_normals() {

@@ -426,6 +426,10 @@ const SLOPE_STEP: f64 = 0.05;
 /// Newton's steps towards the shortest interval at most.
 const MOST_NEWTON: u32 = 8;
 
+/// So many standard errors of a count of independent points a quantile may be off by that count; the nets
+/// scatter less.
+const AGREES: f64 = 6.0;
+
 /// A last step of Newton's that is longer than this share of the width has not found the interval.
 const NEARLY: f64 = 1e-3;
 
@@ -499,6 +503,16 @@ impl Solved<'_> {
         let [median, low, high] = starts.map(|(p, start)| self.quantile(p, start, scale, all));
         let median = median.ok_or_else(missing)?;
         let (low, high) = (low.ok_or_else(missing)?, high.ok_or_else(missing)?);
+        for (p, [found, _]) in [(0.5, median), (tail, low), (1.0 - tail, high)] {
+            let below = sorted.partition_point(|&y| y <= found) as f64 / sorted.len() as f64;
+            let error = (p * (1.0 - p) / sorted.len() as f64).sqrt();
+            let off = (below - p).abs();
+            if off.is_nan() || off > AGREES * error {
+                return Err(format!(
+                    "the quantile of {p:?} that was found has {below} of the points below it"
+                ));
+            }
+        }
         let shortest = self.shortest(p, [low, high], scale);
         let inside = problem.tolerance().map(|tolerance| {
             let mut at = |y: f64, beyond: f64| -> Vec<f64> {

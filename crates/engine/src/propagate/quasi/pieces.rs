@@ -17,6 +17,15 @@ const NODES: [f64; 17] = [
 /// Golden sections after which a turn is known to 1e-13 of where it was looked for.
 const SECTIONS: u32 = 62;
 
+/// A turn that is so many times as far from the nodes beside it as these are from each other is a pole:
+/// golden sections come as near to it as 1e-13 of their distance.
+const POLE: f64 = 1e6;
+
+/// A step that is longer than this share of the input's width does not show that the next, short one
+/// ends the search: beside a pole, or at an end where the output is huge, secants are so steep that all
+/// steps are short.
+const NEAR: f64 = 1e-2;
+
 /// The smaller part of the golden section.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
@@ -122,6 +131,16 @@ fn of_column(
     let mut bounds = vec![bound(end(0), outputs[0].clone(), Some(0.0))];
     for turn in &turns {
         let (at, output) = turned(setup, column, place, nodes, turn, registers);
+        let is_pole = |i: usize, &(from, to, _): &(usize, usize, bool)| {
+            let beside: Vec<f64> = (from..=to).map(|k| outputs[k].0[i]).collect();
+            let least = beside.iter().copied().fold(f64::INFINITY, f64::min);
+            let most = beside.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let beyond = f64::max(output.0[i] - most, least - output.0[i]);
+            beyond.is_nan() || beyond > POLE * (most - least)
+        };
+        if turn.iter().enumerate().any(|(i, of)| of.as_ref().is_some_and(|of| is_pole(i, of))) {
+            return None;
+        }
         let mut found = bound(at, output, None);
         for (i, turn) in turn.iter().enumerate() {
             if turn.is_none() {
@@ -287,9 +306,15 @@ impl Integrated<'_> {
                 } else {
                     halved
                 };
+                let moved = (x - before.0[i]).abs();
+                let is_short = (next - x).abs() <= ENDED * self.width;
+                let shrank = above.abs() <= 0.5 * at_before.0[i].abs();
+                let near = moved <= NEAR * self.width;
+                let held = high[i] - low[i] <= ENDED * self.width;
+                open[i] = !(is_short && (near && shrank || above == 0.0 || held));
+                // a short step that did not bring the output nearer
+                at.0[i] = if open[i] && is_short && near { halved } else { next };
                 (before.0[i], at_before.0[i]) = (x, above);
-                open[i] = (next - x).abs() > ENDED * self.width;
-                at.0[i] = next;
             }
             if open == [false; COLUMN] {
                 break;

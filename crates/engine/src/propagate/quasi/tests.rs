@@ -176,3 +176,45 @@ fn moments_that_do_not_exist() {
     assert_eq!(u, None);
     assert!(matches!(quotient(3.5), (Some(_), Some(_))));
 }
+
+/// A pole within the range of an input: where it is integrated there are no figures (a median of 0.0045
+/// and a reversed interval were given, for 0.2 and 0.158 to 0.272), and where another one is, there are
+/// no moments; a pole of the order 1/2 has an expectation and no square.
+#[test]
+fn poles() {
+    let t = |mean: f64, dof: f64| Distribution::from(StudentT::new(mean, 1.0, dof).unwrap());
+    for (mean, dof) in [(10.0, 5.0), (10.0, 10.0), (30.0, 5.0)] {
+        let why = quasi_of(&task(vec![t(mean, dof)], "2/x0", 0.95), 1, 10).unwrap_err();
+        assert!(why.contains("monotone in a few parts"), "{why}");
+    }
+    let with = |divisor: Distribution, formula: &str| {
+        let inputs = vec![Normal::new(2.0, 1.0).unwrap().into(), divisor];
+        let found = quasi_of(&task(inputs, formula, 0.95), 1, 10).unwrap();
+        (found.estimate.is_some(), found.standard_uncertainty.is_some(), found.median)
+    };
+    let (mean, deviation, median) = with(t(10.0, 5.0), "x0/x1");
+    assert!(!mean && !deviation && (median - 0.2).abs() < 0.01, "{median}");
+    let (mean, deviation, _) = with(Rectangular::new(1.0, 2.0).unwrap().into(), "x0/sqrt(abs(x1))");
+    assert!(mean && !deviation);
+    // six standard deviations away, where no trial comes
+    let (mean, deviation, _) = with(Normal::new(10.0, 1.5).unwrap().into(), "x0/x1");
+    assert!(mean && deviation);
+    let (mean, deviation, _) = with(Rectangular::new(1.0, 2.0).unwrap().into(), "x0*abs(x1)");
+    assert!(mean && deviation);
+}
+
+/// Beside an end where the output is huge, secants are steep: 1/a with a rectangular between a small
+/// number and 1 has the quantile 1/(1 - p (1 - least)) of p, or none is found.
+#[test]
+fn huge_at_an_end() {
+    for least in [1e-9, 1e-3, 0.01, 0.1] {
+        let a = Rectangular::between(least, 1.0).unwrap().into();
+        let found = quasi_of(&task(vec![a], "abs(1/x0)", 0.95), 1, 8);
+        assert!(found.is_ok() || least < 0.1, "{least}: {found:?}");
+        let ends = found.map_or([f64::NAN; 2], |found| found.symmetric_interval);
+        for (end, p) in ends.into_iter().zip([0.025, 0.975]) {
+            let off = end * (1.0 - p * (1.0 - least)) - 1.0;
+            assert!(off.is_nan() || off.abs() < 1e-6, "{end} at {p} of {least}");
+        }
+    }
+}
