@@ -4,7 +4,6 @@ use std::io::{self, Write};
 
 use super::EvaluationReport;
 use super::answer::in_memory;
-use super::number::MISSING;
 use super::table::{one_line, stopped};
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::propagate::{OutputEvaluation, RowEvaluation};
@@ -130,23 +129,6 @@ fn cells(output: &OutputEvaluation) -> [String; 16] {
         number(figures.map(|figures| figures.shortest_interval[1])),
         valid.map(|valid| valid.to_string()).unwrap_or_default(),
     ]
-}
-
-/// A table as comma-separated values: numbers whose unrounded values are known in full precision,
-/// everything else as a page shows it. An empty cell stands for what is not defined.
-#[cfg_attr(not(test), expect(dead_code, reason = "tables of reports to come"))]
-pub(crate) fn of_sheet(sheet: &super::sheet::Sheet) -> String {
-    of_records(|writer| {
-        writer.write_record(sheet.columns.iter().map(|column| column.title()))?;
-        (0..sheet.rows()).try_for_each(|row| {
-            writer.write_record(sheet.columns.iter().map(|column| match column.value(row) {
-                Some(value) => number(Some(value)),
-                None if !column.is_numeric() => text(column.cell(row)),
-                None if column.cell(row) == MISSING => String::new(),
-                None => column.cell(row).to_owned(),
-            }))
-        })
-    })
 }
 
 /// The records that `write` writes, as text.

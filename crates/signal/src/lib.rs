@@ -80,8 +80,8 @@ pub use recipe::{
     Amplitude, Channel, ChannelRateSearch, Frequency, Method, PhaseUnit, RecipeSettings, TimeBase,
 };
 pub use refused::{MOST_HELD, Refused};
-pub use resimulation::{Colour, Resimulation, Scatter};
-pub use rms::{Improvement, Rms, RmsOf, improvement};
+pub use resimulation::{Colour, ResimulatedScatter, Resimulation};
+pub use rms::{Rms, RmsOf, RmsReduction, improvement};
 pub use rotation::{Accelerations, Oscillation, Rotation};
 pub use run::{observe, observe_with_traces};
 pub use sampling_rate::{Rate, RateSearch, sampling_rate};

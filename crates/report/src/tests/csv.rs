@@ -33,18 +33,3 @@ fn what_is_not_defined_is_empty() {
     );
     assert!(text.lines().nth(3).unwrap().ends_with(",,,,,,,,,,abs(a_ref*cos(tilt))"));
 }
-#[test]
-fn a_table_has_its_numbers_in_full_precision() {
-    use crate::csv::of_sheet;
-    use crate::sheet::{Figure, Sheet};
-
-    let mut sheet = Sheet::default();
-    sheet.text("name", ["=1+1".to_owned(), "a, \"b\"".to_owned()]);
-    sheet.figures(
-        "standard\nuncertainty",
-        [Figure::of(0.1 + 0.2, "0.30".to_owned()), Figure::missing()],
-    );
-    let text = of_sheet(&sheet);
-    let wanted = "name,standard uncertainty\n'=1+1,0.30000000000000004\n\"a, \"\"b\"\"\",\n";
-    assert_eq!(text, wanted);
-}

@@ -45,7 +45,7 @@ pub struct Resimulation {
 
 /// How a step's results scatter.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Scatter {
+pub struct ResimulatedScatter {
     /// Mean of each result. Its distance from the result of the model without noise is the bias
     /// that noise causes.
     pub mean: Vec<f64>,
@@ -55,7 +55,7 @@ pub struct Scatter {
     pub failed: usize,
 }
 
-impl Scatter {
+impl ResimulatedScatter {
     /// The standard deviation of a result.
     pub fn standard_deviation(&self, result: usize) -> f64 {
         self.covariance[result][result].sqrt()
@@ -72,7 +72,7 @@ impl Resimulation {
         model: &Signal,
         residuals: &[f64],
         step: impl Fn(&Signal) -> Option<Vec<f64>> + Sync,
-    ) -> Option<Scatter> {
+    ) -> Option<ResimulatedScatter> {
         let source = UncertaintySource::of(residuals, self.colour, self.parameters);
         let key = StreamKey::new(self.seed, "observe/resimulation");
         let results: Vec<Option<Vec<f64>>> = parallel::map(0..self.trials as u64, |trial| {
@@ -101,7 +101,7 @@ impl Resimulation {
                     .collect()
             })
             .collect();
-        Some(Scatter { mean, covariance, failed })
+        Some(ResimulatedScatter { mean, covariance, failed })
     }
 }
 

@@ -116,7 +116,7 @@ fn root(square: Measured) -> Measured {
 
 /// A signal against a reference before and after a correction (D'Emilia et al., 2019, section 3.4).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Improvement {
+pub struct RmsReduction {
     /// Root mean square of the difference from the reference before, about its mean.
     pub before: Measured,
     /// The same after.
@@ -135,7 +135,7 @@ pub fn improvement(
     before: &Signal,
     after: &Signal,
     of: RmsOf,
-) -> Result<Improvement, Unsuitable> {
+) -> Result<RmsReduction, Unsuitable> {
     let difference = |signal: &Signal| {
         together(reference, signal)?;
         let pairs = signal.values.iter().zip(&reference.values);
@@ -154,7 +154,7 @@ pub fn improvement(
             (ratio * before.standard_uncertainty / before.value, before.degrees_of_freedom),
         ],
     );
-    Ok(Improvement { before, after, reduction })
+    Ok(RmsReduction { before, after, reduction })
 }
 
 /// Two signals have the same number of values and the same rate.
