@@ -8,7 +8,8 @@
 //!
 //! A wide rectangle beside narrow quantities has a characteristic function that decays slowly. It is
 //! taken out of the product: with H(z) = E max(z - Z, 0) of the other ones, the distribution function is
-//! (H(x + w) - H(x - w))/2w, and the integrand of H falls by two powers of t faster.
+//! (H(x + w) - H(x - w))/2w, and the integrand of H falls by one power of t faster than that of their
+//! own distribution function.
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
