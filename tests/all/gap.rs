@@ -192,3 +192,48 @@ fn an_interrupt_hands_back_a_whole_page() {
     assert!(page.ends_with("</html>\n") || page.ends_with("</html>"), "the page is whole");
     assert!(page.contains("The diagnosis was interrupted"), "and says what it is");
 }
+
+/// Correlated inputs, whether all rows share their values or each row has its own, and coefficients of 1:
+/// the chi-square of residuals d is then d'inv(V)d with V = u^2 I + (2 - 2r) s^2 (ones or identity), for
+/// y = x + a - b. 1e-9 is rounding.
+#[test]
+fn correlations_of_inputs_count() {
+    let residuals = [0.4, -0.1, 0.9, 0.3, -0.6, 0.5];
+    let (u, s) = (0.3_f64, 0.5_f64);
+    let folder = tempfile::tempdir().unwrap();
+    let mut data = "x,y,u\n".to_owned();
+    for (row, d) in residuals.into_iter().enumerate() {
+        writeln!(data, "{row},{},{u}", row as f64 + d).unwrap();
+    }
+    std::fs::write(folder.path().join("data.csv"), data).unwrap();
+    let path = folder.path().join("case.json");
+    for per in ["", r#""per": "row", "#, r#""per": "x", "#] {
+        for r in [0.0, 0.5, 0.99, 1.0] {
+            let input = format!(r#"{{{per}"distribution": "normal", "mean": 0, "std": {s}}}"#);
+            let text = format!(
+                r#"{{"inputs": {{"a": {input}, "b": {input}}}, "correlations": [["a", "b", {r}]],
+                "conditions": {{"x": {{}}}}, "equations": {{"y": "x + a - b"}}, "outputs": {{"y": {{}}}},
+                "observations": {{"file": "data.csv",
+                    "columns": {{"y": {{"value": "y", "standard_uncertainty": "u"}}}}}},
+                "effects": {{"gain": {{
+                    "parameters": {{"k": {{"distribution": "normal", "mean": 0, "std": 0.1}}}},
+                    "overrides": {{"y": "y*(1 + k)"}}}}}}}}"#
+            );
+            std::fs::write(&path, text).unwrap();
+            let (json, _) = diagnosed(&path, &["--format", "json"]);
+            let answer: Value = serde_json::from_str(&json).unwrap();
+            let joint = (2.0 - 2.0 * r) * s * s;
+            let squares: f64 = residuals.iter().map(|d| d * d).sum();
+            let sum: f64 = residuals.iter().sum();
+            let expected = match per {
+                "" => (squares - joint * sum * sum / (u * u + 6.0 * joint)) / (u * u),
+                _ => squares / (u * u + joint),
+            };
+            let found = answer["gap"]["chi2"].as_f64().unwrap();
+            assert!(
+                (found - expected).abs() < 1e-9 * expected,
+                "{per} {r}: {found} for {expected}"
+            );
+        }
+    }
+}

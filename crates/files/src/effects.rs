@@ -116,6 +116,10 @@ impl Reader<'_> {
             let reason = "cannot be called so: a name is not empty, and `/` and `+` join names in the answer";
             self.log.report(&member.key_span, diagnostic(reason));
         }
+        if ["none", "unexplained"].contains(&member.key.as_str()) {
+            let reason = "cannot be called so, as a hypothesis of every answer has that name";
+            self.log.report(&member.key_span, diagnostic(reason));
+        }
         let parameters = object.required("parameters");
         let overrides = object.required("overrides");
         let inputs = match parameters {

@@ -1,20 +1,21 @@
-//! Declared correlations between inputs that all rows share.
+//! Declared correlations between inputs that have their values in common over the same rows.
 
+use gumption_engine::linalg::{CorrelationMatrix, packed};
 use nalgebra::DMatrix;
 
 use crate::Case;
 
-/// The matrix of the declared coefficients between these variables; `None` if there are none.
-pub(crate) fn matrix(case: &Case, variables: &[usize]) -> Option<DMatrix<f64>> {
+/// The lower triangular root of the matrix of the declared coefficients between these variables, which
+/// may be singular; `None` if there are none.
+pub(crate) fn root(case: &Case, variables: &[usize]) -> Option<DMatrix<f64>> {
     let place = |variable: usize| variables.iter().position(|&known| known == variable);
-    let mut matrix = DMatrix::identity(variables.len(), variables.len());
+    let mut matrix = CorrelationMatrix::identity(variables.len());
     let mut any = false;
     for correlation in &case.task.correlations {
         if let (Some(i), Some(j)) = (place(correlation.first), place(correlation.second)) {
-            matrix[(i, j)] = correlation.coefficient;
-            matrix[(j, i)] = correlation.coefficient;
+            matrix.set(i, j, correlation.coefficient);
             any = true;
         }
     }
-    any.then_some(matrix)
+    any.then(|| packed::to_matrix(&matrix.factor()))
 }

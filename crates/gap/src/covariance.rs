@@ -5,6 +5,7 @@
 
 use nalgebra::DMatrix;
 
+use super::correlated;
 use super::data::{Data, Spread};
 use crate::Case;
 use gumption_engine::linalg::dot;
@@ -49,10 +50,19 @@ impl Covariance {
             }
         }
         let mut basis: Vec<Vec<f64>> = Vec::new();
-        for &variable in linear {
-            let effect = |row: usize, output: usize| {
+        let root = correlated::root(case, linear);
+        for (place, &variable) in linear.iter().enumerate() {
+            let own = |variable: usize, row: usize, output: usize| {
                 let point = data.point_of[row];
                 data.points[point].gradients[output][variable] * spread.deviations[variable][point]
+            };
+            // of correlated variables, which are shared alike, what is independent of those before
+            let effect = |row: usize, output: usize| match &root {
+                None => own(variable, row, output),
+                Some(root) => (place..linear.len())
+                    .filter(|&other| root[(other, place)] != 0.0)
+                    .map(|other| root[(other, place)] * own(linear[other], row, output))
+                    .sum(),
             };
             match &spread.shared[variable] {
                 None => {
@@ -80,7 +90,6 @@ impl Covariance {
                 }
             }
         }
-        join(case, linear, spread, &mut basis);
         for (output, &place) in data.outputs.iter().enumerate() {
             let covariance = case.observed[place].as_ref();
             if let Some(matrix) = covariance.and_then(|o| o.simulation_covariance.as_ref()) {
@@ -181,35 +190,6 @@ impl Covariance {
     pub(crate) fn square(&self, whitened: &[f64]) -> f64 {
         let projected = self.project(whitened);
         dot(whitened, whitened) - dot(&projected, &projected)
-    }
-}
-
-/// Correlated shared variables: their columns are combined by the root of the correlation matrix.
-fn join(case: &Case, linear: &[usize], spread: &Spread, basis: &mut [Vec<f64>]) {
-    let shared: Vec<usize> =
-        linear.iter().copied().filter(|&variable| spread.shared[variable].is_none()).collect();
-    let coefficients = super::correlated::matrix(case, &shared);
-    let Some(coefficients) = coefficients else { return };
-    // the columns of shared variables stand first among those of shared variables only if no other
-    // variable comes between, so they are found by their order
-    let mut places = Vec::new();
-    let mut next = 0;
-    for &variable in linear {
-        match &spread.shared[variable] {
-            None => {
-                places.push(next);
-                next += 1;
-            }
-            Some(groups) if groups.iter().enumerate().all(|(row, &group)| row == group) => {}
-            Some(groups) => next += groups.iter().max().map_or(0, |most| most + 1),
-        }
-    }
-    let Some(root) = coefficients.cholesky().map(|root| root.l()) else { return };
-    let own: Vec<Vec<f64>> = places.iter().map(|&place| basis[place].clone()).collect();
-    for (j, &place) in places.iter().enumerate() {
-        for (n, value) in basis[place].iter_mut().enumerate() {
-            *value = own.iter().enumerate().map(|(i, column)| column[n] * root[(i, j)]).sum();
-        }
     }
 }
 

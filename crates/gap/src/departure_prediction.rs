@@ -101,6 +101,10 @@ fn joined(process: Normals, composed: &[(f64, Normals)], distances: &[f64]) -> N
     }
     let together: f64 = composed.iter().map(|(share, _)| share).sum();
     let roots: f64 = composed.iter().map(|(share, _)| share.sqrt()).sum();
+    // none of them has a share that a number holds
+    if roots == 0.0 {
+        return process;
+    }
     (0..process.len())
         .map(|row| {
             let out = (distances[row] / GRADUAL).min(1.0);
@@ -124,12 +128,16 @@ fn joined(process: Normals, composed: &[(f64, Normals)], distances: &[f64]) -> N
         .collect()
 }
 
+/// Weights below this are not told from none: evidences are not known that well, and an exponential that
+/// runs away would make the whole mean of it.
+const LEAST_WEIGHT: f64 = 1e-4;
+
 /// Mean and variance of a mixture.
 fn mixed(parts: &[(f64, (f64, f64))]) -> (f64, f64) {
-    let total: f64 = parts.iter().map(|(weight, _)| weight).sum();
-    let mean = parts.iter().map(|(weight, (mean, _))| weight * mean).sum::<f64>() / total;
+    let parts = parts.iter().filter(|(weight, _)| *weight >= LEAST_WEIGHT);
+    let total: f64 = parts.clone().map(|(weight, _)| weight).sum();
+    let mean = parts.clone().map(|(weight, (mean, _))| weight * mean).sum::<f64>() / total;
     let variance = parts
-        .iter()
         .map(|(weight, (own, variance))| weight * (variance + (own - mean) * (own - mean)))
         .sum::<f64>();
     (mean, variance / total)

@@ -206,6 +206,7 @@ fn diagnosed(
         shrinkage,
         next,
         prediction,
+        row_count: setup.data.rows(),
         rows,
         noise,
         present,

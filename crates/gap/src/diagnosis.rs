@@ -36,7 +36,9 @@ pub struct Diagnosis {
     pub next: NextMeasurements,
     /// Corrected predictions at conditions that were asked for.
     pub prediction: Option<Vec<Predicted>>,
-    /// The data row by row, before and after.
+    /// How many rows of data there are.
+    pub row_count: usize,
+    /// The data row by row, before and after; of very many rows some, evenly spread.
     pub rows: Vec<RowGap>,
     /// What the data say of the noise of each observed output.
     pub noise: Vec<NoiseEstimate>,

@@ -153,16 +153,19 @@ pub(crate) fn variances_of(
     let variables = row.estimates();
     let (_, gradients) = setup.case.task.model.program.gradients(&variables);
     let of = |&output: &usize| {
-        let parts = row.distributions.iter().enumerate().map(|(v, distribution)| {
-            if !wanted(v) {
-                return 0.0;
-            }
-            let deviation = distribution.standard_deviation();
-            let deviation =
-                if deviation.is_finite() { deviation } else { distribution.standard_uncertainty() };
-            (gradients[output][v] * deviation).powi(2)
-        });
-        parts.sum()
+        let part = |v: usize| {
+            let distribution = row.distributions.get(v).filter(|_| wanted(v));
+            let deviation = distribution.map_or(0.0, |distribution| {
+                let deviation = distribution.standard_deviation();
+                if deviation.is_finite() { deviation } else { distribution.standard_uncertainty() }
+            });
+            // an input that does not vary may act without bound
+            if deviation == 0.0 { 0.0 } else { gradients[output][v] * deviation }
+        };
+        let squares: f64 = (0..row.distributions.len()).map(|v| part(v) * part(v)).sum();
+        let joint = setup.case.task.correlations.iter();
+        let joint = joint.map(|of| 2.0 * of.coefficient * part(of.first) * part(of.second));
+        (squares + joint.sum::<f64>()).max(0.0)
     };
     outputs.iter().map(of).collect()
 }

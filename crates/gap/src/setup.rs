@@ -100,13 +100,10 @@ impl<'c> Setup<'c> {
             .map(|&place| Role::Variable { place, maps: maps(case, &data, place) })
             .collect();
         roles.extend(noise);
-        let mixing = correlated::matrix(case, &unknown_inputs)
-            .and_then(|matrix| matrix.cholesky())
-            .map(|root| {
-                let root = root.l();
-                let row = |i: usize| (0..root.ncols()).map(|j| root[(i, j)]).collect();
-                (0..root.nrows()).map(row).collect()
-            });
+        let mixing = correlated::root(case, &unknown_inputs).map(|root| {
+            let row = |i: usize| (0..root.ncols()).map(|j| root[(i, j)]).collect();
+            (0..root.nrows()).map(row).collect()
+        });
         let evaluators = Arc::default();
         Self {
             case,

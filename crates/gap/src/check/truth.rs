@@ -188,28 +188,29 @@ fn choose(case: &Case, prior: Prior, scores: &mut Scores) -> (TruthKind, Vec<usi
 /// The inputs' true values in every row.
 fn inputs(case: &Case, data: &Data, spread: &Spread, scores: &mut Scores) -> Vec<Vec<f64>> {
     let variables = case.task.variables.len();
-    let shared: Vec<usize> = (0..variables).filter(|&v| spread.shared[v].is_none()).collect();
-    let independent: Vec<f64> = shared.iter().map(|_| scores.next()).collect();
-    let root = correlated::matrix(case, &shared).and_then(|matrix| matrix.cholesky());
-    let root = root.map(|root| root.l());
-    let mixed = |i: usize| match &root {
-        Some(root) => (0..=i).map(|j| root[(i, j)] * independent[j]).sum(),
-        None => independent[i],
+    let shared = (0..variables).filter(|&v| spread.shared[v].is_none());
+    let mut independent = vec![Vec::new(); variables];
+    for v in shared {
+        independent[v] = vec![scores.next(); data.rows()];
+    }
+    for (v, groups) in spread.shared.iter().enumerate() {
+        if let Some(groups) = groups {
+            let levels = groups.iter().max().map_or(0, |most| most + 1);
+            let of_level: Vec<f64> = (0..levels).map(|_| scores.next()).collect();
+            independent[v] = groups.iter().map(|&group| of_level[group]).collect();
+        }
+    }
+    // correlated variables have their values in common over the same rows
+    let all: Vec<usize> = (0..variables).collect();
+    let root = correlated::root(case, &all);
+    let mixed = |v: usize, row: usize| match &root {
+        Some(root) => (0..=v).map(|j| root[(v, j)] * independent[j][row]).sum(),
+        None => independent[v][row],
     };
     let mut inputs = vec![vec![0.0; variables]; data.rows()];
     for v in 0..variables {
         let maps = setup::maps(case, data, v);
-        let own: Vec<f64> = match &spread.shared[v] {
-            None => {
-                let own = shared.iter().position(|&known| known == v);
-                vec![own.map_or(f64::NAN, mixed); data.rows()]
-            }
-            Some(groups) => {
-                let levels = groups.iter().max().map_or(0, |most| most + 1);
-                let of_level: Vec<f64> = (0..levels).map(|_| scores.next()).collect();
-                groups.iter().map(|&group| of_level[group]).collect()
-            }
-        };
+        let own: Vec<f64> = (0..data.rows()).map(|row| mixed(v, row)).collect();
         for (row, score) in own.into_iter().enumerate() {
             let map = if maps.len() > 1 { &maps[data.point_of[row]] } else { &maps[0] };
             inputs[row][v] = drawn(map, score);

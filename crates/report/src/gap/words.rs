@@ -347,7 +347,7 @@ pub(super) fn effects(diagnosis: &Diagnosis) -> Vec<DescribedInWords> {
 pub(super) fn settings(diagnosis: &Diagnosis) -> String {
     format!(
         "{} rows of data; intervals at {}; seed {}",
-        diagnosis.rows.len(),
+        diagnosis.row_count,
         percent(diagnosis.probability),
         diagnosis.seed
     )

@@ -168,6 +168,7 @@ fn diagnosis() -> Diagnosis {
         gap: GapTest { present: true, p_value: Some(8.836_58e-47), chi2: 346.237_98, dof: 40.0 },
         candidates: candidates(),
         interrupted: false,
+        row_count: 20,
         regions: vec![
             GapRegion {
                 output: Some(0),
