@@ -3,6 +3,7 @@
 
 use std::collections::HashMap;
 
+use super::scopes;
 use super::value_text::{ValueOf, converted, with_unit};
 use super::width::number;
 use gumption_engine::model::formula::{Formula, Scope};
@@ -27,26 +28,22 @@ pub(super) fn refused(formula: &Formula, unit: &Unit, of: ValueOf) -> Option<Str
     if is_coherent || unit.is_celsius() || !unit.level_exponent().is_zero() {
         return Some(format!("it is computed from numbers alone, without a unit: write `{own}`"));
     }
+    let coherent = |unit: &str| {
+        let written = Unit::parse(unit).map(|unit| in_unit(text, value, &unit, of));
+        (format!("`{unit}`"), written.unwrap_or_else(|_| format!("{} {unit}", Shortest(value))))
+    };
     let (counted, other) = match unit.turn() {
-        Some(_) if unit.dimension().is_none() => ("`rad`".to_owned(), radians(text, value, of)),
+        Some(_) if unit.dimension().is_none() => coherent("rad"),
         _ if unit.dimension().is_none() => {
             let converted = Shortest(unit.from_si(value));
             ("plain numbers".to_owned(), format!("{converted} {unit}"))
         }
-        _ => ("coherent SI units".to_owned(), "a text with that unit".to_owned()),
-    };
-    let other = match unit.dimension().is_none() {
-        true => format!("`{other}`"),
-        false => other,
+        _ => coherent(&scopes::coherent(unit.dimension())),
     };
     Some(format!(
         "it is computed from numbers alone, which can be in `{unit}`, as the quantity is given, or in \
-         {counted}, as formulas count: write `{own}` or {other}"
+         {counted}, as formulas count: write `{own}` or `{other}`"
     ))
-}
-
-fn radians(text: &str, value: f64, of: ValueOf) -> String {
-    Unit::parse("rad").map_or_else(|_| text.to_owned(), |unit| in_unit(text, value, &unit, of))
 }
 
 /// The formula with the unit behind its first number, where it reads as that value; else the value.
@@ -78,8 +75,8 @@ mod tests {
             ("0.1/sqrt(3)", "deg", ["`0.1 deg/sqrt(3)`", "`0.1 rad/sqrt(3)`"]),
             ("0.5/2", "%", ["`0.5 %/2`", "`25 %`"]),
             ("1/2", "ppm", ["`1 ppm/2`", "`500000 ppm`"]),
-            ("5/2", "mm", ["`5 mm/2`", "coherent"]),
-            ("(1 + 2)*2", "mm", ["`6 mm`", "coherent"]),
+            ("5/2", "mm", ["`5 mm/2`", "`5 m/2`"]),
+            ("(1 + 2)*2", "mm", ["`6 mm`", "`6 m`"]),
             ("0.2/2", "dB", ["`0.2 dB/2`", "without a unit"]),
             ("5/2", "V", ["`5 V/2`", "without a unit"]),
         ] {
