@@ -16,7 +16,7 @@ use super::{CommandLine, Failure, output};
 use gumption_engine::propagate::Control;
 use gumption_engine::task::{Coverage, MethodChoice, Row, StoppingRule, Trials, Warning};
 use gumption_files::{CaseFile, FileReader, ModelFile, Override, bytes};
-use gumption_report::{BudgetColumn, plain};
+use gumption_report::BudgetColumn;
 
 /// The format of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -269,16 +269,6 @@ impl Model {
         trials: Option<Trials>,
     ) -> Result<ModelFile, Failure> {
         let (files, replaced) = (self.trust.files(program).making(trials), &self.replacements);
-        for (number, set) in replaced.iter().enumerate() {
-            let same = |other: &&Override| other.input == set.input && other.field == set.field;
-            if let Some(first) = replaced.iter().take(number).find(same) {
-                return Err(Failure::Argument(format!(
-                    "`--set {}` and `--set {}` replace the same; give one of them",
-                    plain(&first.text),
-                    plain(&set.text)
-                )));
-            }
-        }
         let text = |files: FileReader<'_>, name: &str, text: &str, folder: &Path| {
             files.model_text(name, text, folder, replaced)
         };
@@ -383,10 +373,34 @@ pub(super) fn trials(text: &str) -> Result<Trials, String> {
         return Ok(Trials::Adaptive);
     }
     let value: f64 = text.parse().map_err(|_| NEEDED.to_owned())?;
+    // 1e-400 is no double, and 0 is the GUM evaluation alone
+    let mantissa = text.split(['e', 'E']).next().unwrap_or_default();
+    if value == 0.0 && mantissa.contains(|c: char| matches!(c, '1'..='9')) {
+        return Err(NEEDED.to_owned());
+    }
     if value.fract() == 0.0 && (0.0..=1e12).contains(&value) && value != 1.0 {
         Ok(Trials::Fixed(value as u64))
     } else {
         Err(NEEDED.to_owned())
+    }
+}
+
+/// The least of the largest number of trials of an adaptive run: two blocks.
+const LEAST_OF_MOST: u64 = 20_000;
+
+/// The largest number of trials of an adaptive run, which may be written as 1e9.
+pub(super) fn max_trials(text: &str) -> Result<u64, String> {
+    match trials(text) {
+        Ok(Trials::Fixed(most)) if most >= LEAST_OF_MOST => Ok(most),
+        _ => Err(format!("a whole number from {LEAST_OF_MOST} to 1e12 is needed")),
+    }
+}
+
+/// A number of significant digits.
+pub(super) fn digits(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(digits @ 1..=15) => Ok(digits),
+        _ => Err("a whole number from 1 to 15 is needed".to_owned()),
     }
 }
 

@@ -44,7 +44,7 @@ pub(super) struct Run {
     validate: bool,
     /// Largest number of trials of an adaptive run
     #[arg(
-        long, value_name = "N", value_parser = clap::value_parser!(u64).range(20_000..),
+        long, value_name = "N", value_parser = options::max_trials,
         allow_negative_numbers = true
     )]
     max_trials: Option<u64>,
@@ -60,7 +60,7 @@ pub(super) struct Run {
     coverage: CoverageOption,
     /// Significant digits of the standard uncertainty that are held meaningful (clause 8)
     #[arg(
-        long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=15),
+        long, value_name = "N", value_parser = options::digits,
         allow_negative_numbers = true
     )]
     digits: Option<u32>,

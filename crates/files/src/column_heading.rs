@@ -16,14 +16,33 @@ use super::gravity;
 use super::value_text::ValueOf;
 use gumption_units::Unit;
 
-/// The name of a column and its unit; a plain number without. `None` where brackets have no unit.
+/// The name of a column and its unit; a plain number without. `None` where brackets have no unit, which
+/// a number other than 1 and a value are none: `s (2)`, `r (10 V)`.
 pub(super) fn heading<'h>(log: &Collector, text: &'h str) -> Option<(&'h str, Unit)> {
+    let bracketed = enclosed(text, '[', "]").or_else(|| enclosed(text, '(', ")"));
+    if bracketed.is_some_and(|(_, unit)| begins_with_number(unit)) {
+        return None;
+    }
     if let Some((name, unit)) = enclosed(text, '[', "]") {
         return Some((name, log.unit(unit).ok()?));
     }
     let known = named_among(text, |unit| log.unit(unit).ok());
     let known = known.and_then(|(name, unit)| Some((name, log.unit(unit).ok()?)));
     Some(known.filter(|(name, _)| !name.is_empty()).unwrap_or((text.trim(), Unit::one())))
+}
+
+/// Whether what stands for a unit is a number other than 1 or a value. `10^-6/K`, `1e-3`, `0.5*mm` are
+/// units.
+fn begins_with_number(text: &str) -> bool {
+    let rest = text.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
+    let number = &text[..text.len() - rest.len()];
+    let is_power = || {
+        let exponent = rest.strip_prefix(['e', 'E']).is_some_and(|of| {
+            of.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit())
+        });
+        exponent || rest.starts_with(['^', '*', '/', '·', '×', '⁻', '¹', '²', '³'])
+    };
+    number.parse::<f64>().is_ok_and(|number| number != 1.0) && !is_power()
 }
 
 /// The name of a column whose heading has a unit behind it; of every other one the whole.
@@ -155,6 +174,16 @@ mod tests {
             ("v m/s", None),
         ] {
             assert_eq!(named(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn numbers_and_values_are_no_units() {
+        for text in ["2", "10 V", "23", "0.1 %"] {
+            assert!(begins_with_number(text), "{text}");
+        }
+        for text in ["1", "1 V", "10^-6/K", "1e-6/K", "2e3", "0.5*mm", "10⁻³", "V", ""] {
+            assert!(!begins_with_number(text), "{text}");
         }
     }
 

@@ -7,6 +7,7 @@ use super::diagnostics::Collector;
 use super::folder::Folder;
 use super::json::{Json, Member};
 use super::keys;
+use super::numbers_alone;
 use super::object::Object;
 use super::table::{self, Table};
 use super::value_text::ValueOf;
@@ -276,7 +277,10 @@ fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<
                 None => match column_heading::heading(log, column) {
                     Some((name, unit)) => (name, Some(unit)),
                     None => {
-                        let reason = format!("the heading `{column}` names no unit that is known");
+                        let reason = format!(
+                            "the heading `{column}` names no unit that is known; a number other than 1 \
+                             and a value are none"
+                        );
                         log.report(&file.value.span, DiagnosticKind::Table { reason });
                         (bare, None)
                     }
@@ -353,11 +357,24 @@ impl super::condition_values::ConditionValues for NoConditions {
         false
     }
 
-    fn check(&self, formula: &Formula, _: &Unit, _: ValueOf) -> Result<(), Vec<DiagnosticKind>> {
+    fn check(
+        &self,
+        formula: &Formula,
+        unit: &Unit,
+        of: ValueOf,
+    ) -> Result<(), Vec<DiagnosticKind>> {
         let kinds = |errors: Vec<FormulaError>| {
             errors.into_iter().map(|error| DiagnosticKind::Formula { error }).collect::<Vec<_>>()
         };
-        formula.check_names(&Scope::new()).map(|_| ()).map_err(kinds)
+        formula.check_names(&Scope::new()).map_err(kinds)?;
+        // of a coherent unit both readings are the same
+        match numbers_alone::refused(formula, unit, of).filter(|_| unit.factor() != 1.0) {
+            Some(reason) => {
+                let (key, found) = ("mean".to_owned(), formula.text().to_owned());
+                Err(vec![DiagnosticKind::Value { key, found, reason }])
+            }
+            None => Ok(()),
+        }
     }
 
     fn value(&self, formula: &Formula, _: usize, unit: &Unit, _: ValueOf) -> f64 {

@@ -5,7 +5,7 @@ use super::diagnostics::Collector;
 use super::json::{Json, Member};
 use super::object::Object;
 use super::overrides::Override;
-use super::value_text::{ValueOf, with_unit};
+use super::value_text::{ValueOf, is_value};
 use gumption_engine::model::Quantity;
 use gumption_units::Unit;
 
@@ -51,7 +51,7 @@ fn value(log: &Collector, member: &Member, overrides: &[Override]) -> Option<(Un
         Some(moved) => moved.value_in(&unit, &log.own_units()).ok()?,
         None => {
             let is_formula = match &object.get("value")?.value.value {
-                Json::Text(text) => with_unit(text).is_none(),
+                Json::Text(text) => !is_value(text),
                 _ => false,
             };
             if is_formula {

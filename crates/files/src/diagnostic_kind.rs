@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::gravity;
-use super::keys::SHAPES;
+use super::keys::{self, SHAPES};
 use super::value_text::with_point;
 use gumption_engine::distribution::Invalid;
 use gumption_engine::model::formula::{FormulaError, ScaleMisfit};
@@ -600,9 +600,26 @@ impl DiagnosticKind {
         }
     }
 
+    /// The same mistake of what stands at another key.
+    #[must_use]
+    pub(crate) fn of_key(mut self, of: &str) -> Self {
+        if let Self::WrongDimension { name, .. }
+        | Self::WrongScale { name, .. }
+        | Self::Value { key: name, .. } = &mut self
+        {
+            of.clone_into(name);
+        }
+        self
+    }
+
     /// What to write instead, where that is known.
     pub fn suggestion(&self) -> Option<String> {
         match self {
+            Self::UnknownKey { key, known, .. }
+                if keys::other_name(key, known).is_some_and(|other| !other.is_same) =>
+            {
+                None
+            }
             Self::UnknownKey { nearest, .. }
             | Self::UnknownModel { nearest, .. }
             | Self::UnknownInput { nearest, .. }
@@ -614,7 +631,9 @@ impl DiagnosticKind {
             Self::NotOneOf { found, allowed, .. } => {
                 nearest(found, allowed.iter().map(String::as_str)).map(str::to_owned)
             }
-            Self::Unit { error, .. } => error.suggestions().first().map(|s| (*s).to_owned()),
+            Self::Unit { unit, error } => {
+                error.in_whole(unit).suggestions().first().map(|s| (*s).to_owned())
+            }
             Self::Formula { error } => error.suggestion(),
             _ => None,
         }
@@ -633,6 +652,15 @@ fn list<S: AsRef<str>>(names: &[S]) -> String {
 
 /// At most so many names are listed in a message.
 const LONGEST_LIST: usize = 30;
+
+/// Whether a key is a width of an input, of which 0 is none.
+fn is_width(key: &str) -> bool {
+    matches!(key, "std" | "half_width" | "semi_range" | "expanded" | "scale")
+}
+
+/// What is done with an uncertainty of 0.
+pub(crate) const WITHOUT_UNCERTAINTY: &str = "; a quantity without an uncertainty has the distribution `constant`, and a component without \
+     one is left out";
 
 /// "1 cell", "2 cells"
 fn counted(count: usize, what: &str) -> String {
@@ -674,6 +702,9 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::UnknownKey { key, what, nearest, homes, known } => {
                 write!(f, "unknown key `{key}` in {what}")?;
+                if let Some(other) = keys::other_name(key, known) {
+                    return write!(f, "; {}", other.said);
+                }
                 if homes.is_empty() || nearest.is_some() {
                     f.write_str(&hint(nearest.as_ref(), &list(known)))?;
                 }
@@ -740,7 +771,9 @@ impl fmt::Display for DiagnosticKind {
                     None => f.write_str("; a component is named `input/component`"),
                 }
             }
-            Self::Unit { unit, error } => write!(f, "the unit `{unit}` cannot be read: {error}"),
+            Self::Unit { unit, error } => {
+                write!(f, "the unit `{unit}` cannot be read: {}", error.in_whole(unit))
+            }
             Self::WrongDimension { name, found, found_as, expected, expected_as } => write!(
                 f,
                 "`{name}` has the unit `{found}`, {found_as}, but must be {expected_as}, such as \
@@ -778,7 +811,9 @@ impl fmt::Display for DiagnosticKind {
                 write!(f, "`{key}` is {found}, but must be a probability between 0 and 1")
             }
             Self::NotPositive { key, found } => {
-                write!(f, "`{key}` is {}, but must be above zero", Shortest(*found))
+                write!(f, "`{key}` is {}, but must be above zero", Shortest(*found))?;
+                let is_none = *found == 0.0 && is_width(key);
+                if is_none { f.write_str(WITHOUT_UNCERTAINTY) } else { Ok(()) }
             }
             Self::NotWhole { key, found, least, most } => {
                 write!(f, "`{key}` is {found}, but must be a whole number from {least} to {most}")

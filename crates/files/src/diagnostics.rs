@@ -228,8 +228,12 @@ fn without_consequences(diagnostics: &mut Vec<Diagnostic>) {
     for (at, diagnostic) in diagnostics.iter().enumerate() {
         let missing = match &diagnostic.kind {
             DiagnosticKind::UnknownKey { nearest: Some(right), what, .. } => {
+                // without `expanded` it is `std` that is missing, and its `k` stands alone
+                let is_expanded = right == "expanded";
+                let is_alone = |p: &Diagnostic| matches!(&p.kind, DiagnosticKind::OnlyWith { with, .. } if with == right);
+                explained.extend(diagnostics.iter().position(is_alone).filter(|_| is_expanded));
                 diagnostics.iter().take(at).rposition(
-                    |p| matches!(&p.kind, DiagnosticKind::MissingKey { key, what: of } if key == right && of == what),
+                    |p| matches!(&p.kind, DiagnosticKind::MissingKey { key, what: of } if (key == right || is_expanded && *key == "std") && of == what),
                 )
             }
             DiagnosticKind::UnknownInput { nearest: Some(right), .. } => diagnostics

@@ -7,6 +7,8 @@ use super::json::{Json, Member};
 use super::model_checks::Quantities;
 use super::model_reader::Equation;
 use super::object::Object;
+use super::shapes;
+use super::value_text::is_value;
 use gumption_engine::model::formula::{Formula, LevelReference, Scope, Typing};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::task::Warning;
@@ -89,6 +91,51 @@ fn estimates(inputs: &[Member]) -> Vec<Formula> {
         _ => None,
     };
     estimates.filter_map(formula).collect()
+}
+
+/// Notes on formulas of conditions: of inputs' estimates and widths, and of tolerance limits.
+pub(super) fn of_conditions(root: &Object<'_>, of: &Quantities) -> Vec<Warning> {
+    if !of.check_units {
+        return Vec::new();
+    }
+    let inputs = of.inputs.quantities.iter().map(|input| &input.quantity);
+    let given = units_by_name(inputs.chain(&of.conditions.quantities));
+    let mut found = Vec::new();
+    let mut note = |name: &str, fields: &[Member], keys: &[&str]| {
+        for field in fields.iter().filter(|field| keys.contains(&field.key.as_str())) {
+            let Json::Text(text) = &field.value.value else { continue };
+            let formula = Some(text).filter(|text| !is_value(text));
+            let formula = formula.and_then(|text| root.log.formula(text).ok());
+            let notes = formula.map(|formula| formula.notes(|name| given.get(name).copied(), None));
+            let notes = notes.into_iter().flatten();
+            found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
+        }
+    };
+    let estimates = ["mean", "value"];
+    let keys: Vec<&str> = estimates.into_iter().chain(shapes::WIDTHS).collect();
+    for input in members(root.get("inputs")) {
+        note(&input.key, members(Some(input)), &keys);
+        let parts = members(Some(input)).iter().find(|field| field.key == "components");
+        let Some(Json::List(parts)) = parts.map(|parts| &parts.value.value) else { continue };
+        for part in parts {
+            if let Json::Object(fields) = &part.value {
+                note(&input.key, fields, &keys);
+            }
+        }
+    }
+    for output in members(root.get("outputs")) {
+        let tolerance = members(Some(output)).iter().find(|field| field.key == "tolerance");
+        note(&output.key, members(tolerance), &["lower", "upper"]);
+    }
+    found
+}
+
+/// The members of an object at a key; none of anything else.
+fn members(of: Option<&Member>) -> &[Member] {
+    match of.map(|member| &member.value.value) {
+        Some(Json::Object(members)) => members,
+        _ => &[],
+    }
 }
 
 /// What earlier versions of `gumption new` wrote as the `about` of an input.
@@ -197,4 +244,51 @@ fn celsius_as_kelvin(scope: &Scope, outputs: &[Output]) -> Vec<Warning> {
             Warning::new("celsius-as-kelvin", &output.name, text)
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use crate::read_text;
+
+    /// Notes of a file, each with what it is about.
+    fn notes(text: &str) -> Vec<(&'static str, String, String)> {
+        let file = read_text("m", text, Path::new(""), &[]).unwrap();
+        file.warnings.into_iter().map(|note| (note.code, note.place, note.text)).collect()
+    }
+
+    /// 0.1 rad beside degrees, in an estimate, a width and a limit; not where it says its unit.
+    #[test]
+    fn formulas_of_conditions_have_notes() {
+        let of = |mean: &str, std: &str, upper: &str| {
+            notes(&format!(
+                r#"{{"conditions": {{"phi_nom": {{"unit": "deg", "values": [10, 20]}}}},
+                "inputs": {{"phi": {{"unit": "deg", "distribution": "normal", "mean": "{mean}",
+                "std": "{std}"}}}}, "equations": {{"p": "phi"}},
+                "outputs": {{"p": {{"unit": "deg", "tolerance": {{"upper": "{upper}"}}}}}}}}"#
+            ))
+        };
+        let found = of("phi_nom + 0.1", "0.001*phi_nom + 0.05", "phi_nom + 2");
+        let all: Vec<_> = found.iter().map(|(code, name, _)| (*code, name.as_str())).collect();
+        assert_eq!(all, [("bare-number", "phi"), ("bare-number", "phi"), ("bare-number", "p")]);
+        assert!(found[0].2.contains("0.1 [deg]"), "{}", found[0].2);
+        assert_eq!(of("phi_nom + 0.1 [deg]", "0.001*phi_nom + 0.05 [deg]", "30 deg"), []);
+    }
+
+    /// A phase is in radians unless it says its unit.
+    #[test]
+    fn phases_of_more_than_a_turn() {
+        let of = |phase: &str| {
+            notes(&format!(
+                r#"{{"inputs": {{"g": {{"complex": {{"modulus": "0.1(0.01)",
+                "phase": {{"distribution": "normal", {phase}, "std": 0.5}}}}}}}},
+                "equations": {{"y": "g"}}, "outputs": {{"y": {{"complex": "polar"}}}}}}"#
+            ))
+        };
+        let codes = |phase: &str| of(phase).into_iter().map(|(code, ..)| code).collect::<Vec<_>>();
+        assert_eq!(codes("\"mean\": 35"), ["angle-of-turns"]);
+        assert!(codes("\"mean\": 1.5").is_empty());
+        assert!(codes("\"unit\": \"deg\", \"mean\": 35").is_empty());
+    }
 }

@@ -18,7 +18,7 @@ use super::readings::{self, FileReadings};
 use super::results::Results;
 use super::samples;
 use super::shapes::{self, Estimate, Fields};
-use super::value_text::{ValueOf, with_unit};
+use super::value_text::{ValueOf, is_value};
 use gumption_engine::decimal;
 use gumption_engine::distribution::{Constant, Distribution, EvaluationType, Samples};
 use gumption_engine::model::formula::Formula;
@@ -79,6 +79,16 @@ pub(super) fn read(
     }
     paired::apply(log, &mut inputs, trials);
     Some(inputs)
+}
+
+/// A phase of more than a turn, which is in radians as it has no unit.
+fn phase_of_turns(name: &str, found: f64) -> Warning {
+    let found = Shortest(found);
+    let text = format!(
+        "`{name}` is {found} rad, which are more than a turn, as a phase without a unit is in radians; \
+         one in degrees says `\"unit\": \"deg\"`"
+    );
+    Warning::new("angle-of-turns", name, text)
 }
 
 struct Reader<'a, 'i> {
@@ -188,6 +198,14 @@ impl<'a> Reader<'a, '_> {
                 whole: whole.clone(),
             };
             reader.input();
+            if key == "phase" && part.get("unit").is_none() {
+                let turned = ["mean", "value"].into_iter().find_map(|key| {
+                    let found = part.get(key)?.value.number()?;
+                    (found.abs() > std::f64::consts::TAU).then_some(found)
+                });
+                let note = turned.map(|found| phase_of_turns(name, found));
+                self.inputs.warnings.extend(note);
+            }
             let own = self.inputs.quantities.get(known).map(|of| of.quantity.unit.clone());
             if let (Some(own), Some(whole)) = (own, whole)
                 && !own.is_compatible(&whole)
@@ -251,7 +269,7 @@ impl<'a> Reader<'a, '_> {
             return Some(EstimateSource::Own);
         };
         let log = self.object.log;
-        if with_unit(text).is_some() {
+        if is_value(text) {
             let value = self.object.value(key, unit, ValueOf::Quantity);
             return value.map(EstimateSource::Fixed);
         }
@@ -260,8 +278,8 @@ impl<'a> Reader<'a, '_> {
             log.formula(text).map_err(|error| DiagnosticKind::Formula { error }),
         )?;
         if let Err(kinds) = self.conditions.check(&formula, unit, ValueOf::Quantity) {
-            for diagnostic in kinds {
-                log.report(&member.value.span, diagnostic);
+            for kind in kinds {
+                log.report(&member.value.span, kind.of_key(key));
             }
             return None;
         }

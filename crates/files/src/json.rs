@@ -168,9 +168,24 @@ fn syntax(source: &SourceText, error: &serde_json::Error) -> (Range<usize>, Diag
         (whole, DiagnosticKind::NumberTooLarge)
     } else {
         let before = source.text.get(..at).unwrap_or("");
-        let message = in_plain_words(&message, first, before);
+        let mut message = in_plain_words(&message, first, before);
+        if before.trim().is_empty()
+            && let Some(way) = way_in(&source.name)
+        {
+            message.push_str(way);
+        }
         (at..at + first.map_or(0, char::len_utf8), DiagnosticKind::NotJson { message })
     }
+}
+
+/// How a file of another kind, by its name, comes in; of the files that models are made from.
+fn way_in(name: &str) -> Option<&'static str> {
+    const BUDGETS: [&str; 8] = ["csv", "tsv", "xlsx", "xlsm", "ods", "docx", "yaml", "yml"];
+    let (_, extension) = name.rsplit_once('.')?;
+    BUDGETS.contains(&extension.to_lowercase().as_str()).then_some(
+        "; an uncertainty budget of a spreadsheet, a document or another program becomes a model file \
+         by `gumption import`",
+    )
 }
 
 /// The number or bare word about a place.

@@ -48,6 +48,7 @@ mod model_reader;
 mod named_shape;
 mod notation;
 mod number_format;
+mod numbers_alone;
 mod object;
 mod observations;
 mod open;

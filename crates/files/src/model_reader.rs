@@ -348,6 +348,7 @@ impl<'a> ModelReader<'a> {
         files: &mut Vec<(String, Vec<u8>)>,
     ) -> Option<OverridableModel> {
         let log = self.root.log;
+        warnings.extend(formula_notes::of_conditions(&self.root, of));
         let (scope, maker) = match body {
             ModelBody::Typed(entry, place) => {
                 for output in &mut of.outputs.outputs {

@@ -348,9 +348,15 @@ fn uncertain(
         return Err(format!("the uncertainty has no unit; {FORMS}"));
     }
     if first.is_empty() && own == "%" && !is_shared {
+        let share = |value: &str| -> Option<String> {
+            let of: f64 = value.parse().ok()?;
+            let share: f64 = uncertainty.parse().ok()?;
+            Some(gumption_engine::decimal::significant(0.01 * share * of.abs(), 2))
+        };
+        let as_share = share(value).unwrap_or_else(|| "0.01".to_owned());
         return Err(format!(
             "`± {uncertainty} %` is {uncertainty} % of the value, or both are in %: write \
-             `{value} % ± {uncertainty} %`, or the uncertainty in the unit of the value"
+             `{value} ± {as_share} {said}` or `({value} ± {uncertainty}) % {said}`"
         ));
     }
     let coverage = coverage_of(of, said)?;
@@ -489,7 +495,11 @@ fn in_parentheses(value: &str, inside: &str, shift: i32) -> Result<String, Strin
     let mantissa = value.split(['e', 'E']).next().unwrap_or_default();
     let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
     let (digits, _) = digits(inside).ok_or_else(|| format!("`({inside})` is no number"))?;
-    let power = if inside.contains('.') { power } else { power - decimals };
+    let power = match inside.contains('.') {
+        true => Some(power),
+        false => i32::checked_sub(power, decimals),
+    };
+    let power = power.ok_or_else(|| format!("`{value}` has an exponent that is out of range"))?;
     Ok(if power == 0 { digits } else { format!("{digits}e{power}") })
 }
 
@@ -638,6 +648,8 @@ mod tests {
             ("5.0112 V ± 0.0046 V", "must be said"),
             ("5.0112 V ± 0.0046 (k=2)", "has no unit"),
             ("5.01 ± 1 % (k=2)", "or both are in %"),
+            ("0.6035 ± 0.5 % (k=2)", "`0.6035 ± 0.0030 (k=2)` or `(0.6035 ± 0.5) % (k=2)`"),
+            ("5.01e-2147483648(3) V", "out of range"),
             ("5.01 V ± 0.02 V (k = 2,28)", "with a point"),
             ("5 012 V", "without blanks"),
             ("5 012.3(4) V", "without blanks"),

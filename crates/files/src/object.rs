@@ -6,8 +6,8 @@ use std::ops::Range;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
-use super::keys::{Key, homes};
-use super::value_text::{ValueOf, converted, with_unit};
+use super::keys::{Key, homes, other_name};
+use super::value_text::{ValueOf, bare_number, converted, is_value, with_unit};
 use gumption_units::{Unit, nearest};
 
 /// An object that is being read.
@@ -83,7 +83,10 @@ impl<'a> Object<'a> {
                     DiagnosticKind::UnknownKey {
                         key: member.key.clone(),
                         what: self.what,
-                        nearest: nearest(&member.key, known.iter().copied()).map(str::to_owned),
+                        nearest: other_name(&member.key, known)
+                            .map(|other| other.key)
+                            .or_else(|| nearest(&member.key, known.iter().copied()))
+                            .map(str::to_owned),
                         homes: homes(&member.key, self.what),
                         known: known.to_vec(),
                     },
@@ -137,13 +140,19 @@ impl<'a> Object<'a> {
         number
     }
 
-    /// A value in a unit, if the key is there: a number in that unit, or a text with a number and a
-    /// unit of its own.
+    /// A value in a unit, if the key is there: a number in that unit, which may be a text, or a text with
+    /// a number and a unit of its own.
     pub(crate) fn value(&self, key: &str, unit: &Unit, of: ValueOf) -> Option<f64> {
         let member = self.get(key)?;
         match self.value_of(key, &member.value, unit, of) {
             Some(value) => value,
-            None => self.number(key),
+            None => {
+                let number = member.value.number();
+                if number.is_none() {
+                    self.wrong_type(member, "a number, or one with its unit, such as \"1.2 mm\"");
+                }
+                number
+            }
         }
     }
 
@@ -158,8 +167,7 @@ impl<'a> Object<'a> {
     /// A list of values, as [`value`](Self::value).
     pub(crate) fn values(&self, key: &str, unit: &Unit, of: ValueOf) -> Option<Vec<f64>> {
         let list = self.list(key)?;
-        let is_text =
-            |node: &Node| matches!(&node.value, Json::Text(text) if with_unit(text).is_some());
+        let is_text = |node: &Node| matches!(&node.value, Json::Text(text) if is_value(text));
         if !list.iter().any(is_text) {
             return self.numbers(key);
         }
@@ -174,7 +182,7 @@ impl<'a> Object<'a> {
         (values.len() == list.len()).then_some(values)
     }
 
-    /// The value of a text with a unit; outside `None` if it is none, inside after a mistake.
+    /// The value of a text that is one; outside `None` if it is none, inside after a mistake.
     #[allow(clippy::option_option)]
     pub(crate) fn value_of(
         &self,
@@ -184,6 +192,9 @@ impl<'a> Object<'a> {
         of: ValueOf,
     ) -> Option<Option<f64>> {
         let Json::Text(text) = &node.value else { return None };
+        if let Some(value) = bare_number(text) {
+            return Some(Some(value));
+        }
         let read = converted(with_unit(text)?, unit, of, &self.log.own_units());
         let read = read.map_err(|reason| DiagnosticKind::Value {
             key: key.to_owned(),

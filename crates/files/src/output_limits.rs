@@ -36,13 +36,8 @@ pub(super) fn following(
         return None;
     }
     if let Err(kinds) = set.check(&formula, unit, of) {
-        for mut kind in kinds {
-            if let DiagnosticKind::WrongDimension { name, .. }
-            | DiagnosticKind::WrongScale { name, .. } = &mut kind
-            {
-                key.clone_into(name);
-            }
-            object.log.report(&member.value.span, kind);
+        for kind in kinds {
+            object.log.report(&member.value.span, kind.of_key(key));
         }
         return None;
     }

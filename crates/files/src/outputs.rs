@@ -310,8 +310,11 @@ fn tolerance(
             let is_there = |key: &&str| {
                 object.get(key).is_some_and(|member| !matches!(member.value.value, Json::Null))
             };
-            // what could not be read has been reported
-            if !["lower", "upper"].iter().any(is_there) {
+            // what could not be read has been reported, as have other names of the limits
+            let limits = ["lower", "upper"];
+            let is_other = |member: &Member| keys::other_name(&member.key, &limits).is_some();
+            let is_told = object.members().iter().any(is_other);
+            if !is_told && !limits.iter().any(is_there) {
                 object.report(DiagnosticKind::NoValues { name: "tolerance".into() });
             }
             None

@@ -45,6 +45,21 @@ impl Override {
         })
     }
 
+    /// Whether both say the same of an input: of `a=1` and `a.mean=2` one would be lost.
+    fn contradicts(&self, other: &Self) -> bool {
+        let same = |whole: &Option<String>, field: &Option<String>| match (whole, field) {
+            (None, Some(field)) => is_estimate(field),
+            // parts of complex quantities
+            (Some(part), Some(field)) => {
+                let of_part = field.strip_prefix(part.as_str()).and_then(|of| of.strip_prefix('.'));
+                of_part.is_some_and(is_estimate)
+            }
+            _ => false,
+        };
+        let (a, b) = (&self.field, &other.field);
+        self.input == other.input && (a == b || same(a, b) || same(b, a))
+    }
+
     /// The value in `unit`: a number in it, or a number with another unit, also one that the file
     /// defines, converted with the zeros of their scales.
     pub(super) fn value_in(&self, unit: &Unit, own: &[Unit]) -> Result<f64, DiagnosticKind> {
@@ -63,11 +78,22 @@ impl Override {
     }
 }
 
+/// Whether a field is the estimate, which a replacement without a field is as well.
+fn is_estimate(field: &str) -> bool {
+    matches!(field, "mean" | "value")
+}
+
 /// Puts the values of fields and of conditions into the tree; those of estimates are taken when the
 /// input is read.
 pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
     let whole = root.span.start..root.span.start;
-    for replaced in overrides {
+    for (number, replaced) in overrides.iter().enumerate() {
+        if let Some(first) = overrides.iter().take(number).find(|of| of.contradicts(replaced)) {
+            let text = replaced.text.clone();
+            let reason = format!("it and `{}` replace the same; give one of them", first.text);
+            log.report(&whole, DiagnosticKind::Override { text, reason });
+            return;
+        }
         if override_condition(log, root, replaced) {
             continue;
         }
@@ -211,5 +237,29 @@ fn member_of<'n>(node: &'n mut Node, key: &str) -> Option<&'n mut Node> {
             members.iter_mut().find(|member| member.key == key).map(|member| &mut member.value)
         }
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In either order, and of the parts of a complex quantity.
+    #[test]
+    fn two_estimates_of_one_input_contradict() {
+        let of = |text: &str| Override::parse(text).unwrap();
+        for (a, b, expected) in [
+            ("a=1", "a=2", true),
+            ("a=1", "a.mean=2", true),
+            ("a=1", "a.value=2", true),
+            ("g.re=1", "g.re.mean=2", true),
+            ("a.std=1", "a.std=2", true),
+            ("a=1", "a.std=2", false),
+            ("a=1", "b.mean=2", false),
+            ("g.re=1", "g.im.mean=2", false),
+        ] {
+            assert_eq!(of(a).contradicts(&of(b)), expected, "{a} {b}");
+            assert_eq!(of(b).contradicts(&of(a)), expected, "{b} {a}");
+        }
     }
 }

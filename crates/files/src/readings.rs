@@ -10,7 +10,7 @@ use super::folder::Folder;
 use super::json::{Json, Node};
 use super::object::Object;
 use super::table::{self, Table};
-use super::value_text::{ValueOf, with_unit};
+use super::value_text::{ValueOf, is_value};
 use super::{keys, samples};
 use gumption_engine::decimal;
 use gumption_engine::regression::{CurveFunction, Spread};
@@ -33,9 +33,9 @@ pub(super) fn are_of_rows(object: &Object<'_>) -> bool {
     list.iter().any(is_formula)
 }
 
-/// Whether a reading is a text that is no value with a unit.
+/// Whether a reading is a text that is no value.
 pub(super) fn is_formula(node: &Node) -> bool {
-    matches!(&node.value, Json::Text(text) if with_unit(text).is_none())
+    matches!(&node.value, Json::Text(text) if !is_value(text))
 }
 
 /// Reads the readings of the object's `file`, if it names one, and adds its content to `files`.

@@ -10,6 +10,7 @@ use super::constant_inputs::ConstantInputs;
 use super::diagnostics::Collector;
 use super::input_set::InputSet;
 use super::json::Member;
+use super::numbers_alone;
 use super::value_text::ValueOf;
 use gumption_engine::model::NumberForm;
 use gumption_engine::model::Quantity;
@@ -141,6 +142,11 @@ impl ConditionValues for ConditionSet<'_> {
         };
         let kinds = |errors: Vec<FormulaError>| errors.into_iter().map(kind).collect::<Vec<_>>();
         let typing = result.map_err(kinds)?;
+        let alone = numbers_alone::refused(formula, unit, of).filter(|_| self.check_units);
+        if let Some(reason) = alone {
+            let (key, found) = ("mean".to_owned(), formula.text().to_owned());
+            return Err(vec![DiagnosticKind::Value { key, found, reason }]);
+        }
         match typing.dimension.filter(|_| self.check_units) {
             Some(dimension) if dimension != unit.dimension() => {
                 return Err(vec![DiagnosticKind::WrongDimension {

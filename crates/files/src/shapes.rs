@@ -12,7 +12,7 @@ use super::object::Object;
 use super::readings::{self, FileReadings, Pooled};
 use super::results::Results;
 use super::value_text::ValueOf;
-use super::width::Width;
+use super::width::{Width, without_plus_minus};
 use gumption_engine::distribution::{
     Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, Fitted, Gamma,
     Invalid, LogUniform, Lognormal, Normal, PoissonCount, Quantiles, Readings, Rectangular,
@@ -125,7 +125,7 @@ pub(super) struct Fields<'a> {
 }
 
 /// The fields that are widths.
-const WIDTHS: [&str; 5] = ["std", "expanded", "scale", "half_width", "semi_range"];
+pub(super) const WIDTHS: [&str; 5] = ["std", "expanded", "scale", "half_width", "semi_range"];
 
 /// The formula of conditions that a width is: a text that begins with a name, as no specification
 /// does, or one with names, products or functions that can be read as a formula and not as a
@@ -168,7 +168,8 @@ pub(super) fn has_share_beside_value(object: &Object<'_>, kind: &Shape, unit: &U
         let Some(Json::Text(text)) = object.get(key).map(|member| &member.value.value) else {
             return false;
         };
-        Width::specification(text, unit, &own)
+        without_plus_minus(text, key)
+            .and_then(|text| Width::specification(&text, unit, &own))
             .is_ok_and(|width| width.at(1.0) > width.at(0.0) && width.at(0.0) > 0.0)
     })
 }
@@ -443,11 +444,8 @@ impl<'a> Fields<'a> {
             if row == 0
                 && let Err(kinds) = conditions.check(&formula, self.unit, self.of())
             {
-                for mut kind in kinds {
-                    if let DiagnosticKind::WrongDimension { name, .. } = &mut kind {
-                        "values".clone_into(name);
-                    }
-                    object.log.report(&node.span, kind);
+                for kind in kinds {
+                    object.log.report(&node.span, kind.of_key("values"));
                 }
                 return None;
             }
@@ -690,11 +688,8 @@ impl<'a> Fields<'a> {
         if row == 0
             && let Err(kinds) = conditions.check(&formula, self.unit, ValueOf::Difference)
         {
-            for mut diagnostic in kinds {
-                if let DiagnosticKind::WrongDimension { name, .. } = &mut diagnostic {
-                    key.clone_into(name);
-                }
-                log.report(&place, diagnostic);
+            for kind in kinds {
+                log.report(&place, kind.of_key(key));
             }
             return None;
         }

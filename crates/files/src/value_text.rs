@@ -26,6 +26,18 @@ pub(super) fn with_unit(text: &str) -> Option<(f64, &str)> {
     (value.is_finite() && (begins_unit || is_comma(rest))).then_some((value, rest))
 }
 
+/// The number of a text that is nothing but one: in the unit of the quantity that it is a value of, as
+/// without the quotation marks.
+pub(super) fn bare_number(text: &str) -> Option<f64> {
+    let (value, rest) = number(text.trim()).ok()?;
+    (rest.is_empty() && value.is_finite()).then_some(value)
+}
+
+/// Whether a text is a value, a number with a unit or without one, and not a formula.
+pub(super) fn is_value(text: &str) -> bool {
+    with_unit(text).is_some() || bare_number(text).is_some()
+}
+
 /// A number with a decimal comma as it is written here; `None` where the text is none.
 pub(super) fn with_point(text: &str) -> Option<String> {
     let point = text.replacen(',', ".", 1);
@@ -146,9 +158,15 @@ pub(super) fn unit_behind_number(text: &str, own: &[Unit]) -> Result<Unit, Strin
              together are combined and written once, and a unit begins with no number"
         ));
     }
+    if text.contains('=') {
+        return Err(format!(
+            "`{text}` is more than a unit: a coverage factor or probability is the key `k` or `p` beside \
+             `expanded`, or stands in a whole input, `\"5.0112 V ± 0.0046 V (k=2)\"`"
+        ));
+    }
     match grouped_digits(text) {
         Some(reason) => Err(reason),
-        None => Unit::parse_among(text, own).map_err(|error| error.to_string()),
+        None => Unit::parse_among(text, own).map_err(|error| error.in_whole(text).to_string()),
     }
 }
 
@@ -239,6 +257,20 @@ mod tests {
         ] {
             assert_eq!(with_exponents(text), wanted);
         }
+    }
+
+    /// A number in parentheses behind a unit is no factor, nor is a coverage a unit.
+    #[test]
+    fn what_belongs_to_uncertainties_is_no_unit() {
+        for text in ["5.0112 V (23)", "100 ohm (0.1 %)", "2 mV (95 %)", "2 mV (2)"] {
+            let error = read(text, "V", ValueOf::Difference).unwrap_err();
+            assert!(error.contains("`5.0112(23) V`") && error.contains("(k=2)"), "{text}: {error}");
+        }
+        assert!(read("2 mV (k=2)", "V", ValueOf::Difference).unwrap_err().contains("key `k`"));
+        assert!(read("5 kg/m3", "g/L", ValueOf::Quantity).unwrap_err().contains("`kg/m^3`"));
+        assert_eq!(read("10 V/2", "V", ValueOf::Quantity), Ok(5.0));
+        assert_eq!([bare_number(" 1e-3 "), bare_number("-3")], [Some(1e-3), Some(-3.0)]);
+        assert_eq!([bare_number("3/2"), bare_number("inf"), bare_number("")], [None; 3]);
     }
 
     #[test]

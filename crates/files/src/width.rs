@@ -2,9 +2,10 @@
 //! `0.02 % + 0.005 % of 10 V + 2 uV`.
 
 use super::DiagnosticKind;
+use super::diagnostic_kind::WITHOUT_UNCERTAINTY;
 use super::diagnostics::Collector;
 use super::json::{Json, Node};
-use super::value_text::unit_behind_number;
+use super::value_text::{bare_number, unit_behind_number, with_plus_minus};
 use gumption_units::Unit;
 
 /// A width that may follow the estimate: `relative` times its modulus, plus `absolute`.
@@ -35,21 +36,18 @@ impl Width {
         unit: &Unit,
     ) -> Result<Self, DiagnosticKind> {
         match &node.value {
-            Json::Number(_) => {
-                let absolute = node.number().unwrap_or(f64::NAN);
-                if absolute > 0.0 {
-                    Ok(Self { relative: 0.0, absolute })
-                } else {
-                    Err(DiagnosticKind::NotPositive { key: key.to_owned(), found: absolute })
+            Json::Number(_) => positive(key, node.number().unwrap_or(f64::NAN)),
+            Json::Text(found) => {
+                let wrong = |reason| {
+                    let (name, found) = (name.to_owned(), found.clone());
+                    DiagnosticKind::Width { name, found, reason }
+                };
+                let text = without_plus_minus(found, key).map_err(wrong)?;
+                match bare_number(&text) {
+                    // in the input's unit, as without the quotation marks
+                    Some(absolute) => positive(key, absolute),
+                    None => Self::specification(&text, unit, &log.own_units()).map_err(wrong),
                 }
-            }
-            Json::Text(text) => {
-                let read = Self::specification(text, unit, &log.own_units());
-                read.map_err(|reason| DiagnosticKind::Width {
-                    name: name.to_owned(),
-                    found: text.clone(),
-                    reason,
-                })
             }
             other => Err(DiagnosticKind::WrongType {
                 what: format!("`{key}`"),
@@ -102,9 +100,41 @@ impl Width {
         if width.relative > 0.0 || width.absolute > 0.0 {
             Ok(width)
         } else {
-            Err("it is zero; a width is above zero".to_owned())
+            Err(format!("it is zero, but a width is above zero{WITHOUT_UNCERTAINTY}"))
         }
     }
+}
+
+/// A width as a number in the input's unit.
+fn positive(key: &str, absolute: f64) -> Result<Width, DiagnosticKind> {
+    if absolute > 0.0 {
+        Ok(Width { relative: 0.0, absolute })
+    } else {
+        Err(DiagnosticKind::NotPositive { key: key.to_owned(), found: absolute })
+    }
+}
+
+/// Keys of widths that reach to both sides of an estimate, so that `±` may stand before them.
+const BOTH_SIDES: [&str; 4] = ["half_width", "semi_range", "expanded", "cmc"];
+
+/// A width without the `±` before it, as limits and expanded uncertainties are written: `±0.05 mm`,
+/// `±(0.02 % + 2 uV)`.
+///
+/// # Errors
+/// What stands there is a standard deviation, which nobody writes so.
+pub(super) fn without_plus_minus(text: &str, key: &str) -> Result<String, String> {
+    let written = with_plus_minus(text.trim());
+    let Some(width) = written.strip_prefix('±') else { return Ok(text.to_owned()) };
+    if !BOTH_SIDES.contains(&key) {
+        return Err(format!(
+            "`±` stands before limits or an expanded uncertainty, and `{key}` is a standard deviation: \
+             give it as the `half_width` of a rectangular distribution or as `expanded` with its `k`, or \
+             leave the sign out"
+        ));
+    }
+    let width = width.trim();
+    let inside = width.strip_prefix('(').and_then(|width| width.strip_suffix(')'));
+    Ok(inside.filter(|inside| !inside.contains(['(', ')'])).unwrap_or(width).trim().to_owned())
 }
 
 /// The terms between plus signs; the plus of an exponent (1e+3) does not separate.
@@ -175,7 +205,14 @@ fn converted(
         return if unit.dimension().is_none() && !unit.is_relative() {
             Ok(value)
         } else {
-            Err(format!("`{term}` has no unit; write for example `{term} {unit}`"))
+            Err(match unit.is_relative() {
+                // per cent of what, of a quantity in per cent?
+                true => format!(
+                    "`{term}` has no unit, and beside it `{term} {unit}` would not say what it is of: \
+                     give the two as components"
+                ),
+                false => format!("`{term}` has no unit; write for example `{term} {unit}`"),
+            })
         };
     }
     if text == unit.text().trim() {
@@ -183,8 +220,17 @@ fn converted(
     }
     // data sheets count in digits of a display
     let is_of_display = matches!(text, "digit" | "digits" | "count" | "counts" | "lsd" | "LSD");
+    // and of a range or a reading, in letters
+    let words = ["%", "ppm", "ppb"].into_iter().find_map(|sign| text.strip_prefix(sign));
+    let words = words.map(str::trim).filter(|words| words.starts_with(char::is_alphabetic));
     let said = |error: String| {
-        if is_of_display {
+        if let Some(words) = words.filter(|_| unit_behind_number(text, own).is_err()) {
+            let number = term.strip_suffix(words).unwrap_or(term).trim_end();
+            format!(
+                "`{words}` in `{term}` is no unit: a share of a range, or of full scale, is written with \
+                 its value, such as `{number} of 10 V`, and one of the reading `{number} of reading`"
+            )
+        } else if is_of_display {
             format!(
                 "how large a digit is depends on the range: write `{term}` as a value in `{unit}`"
             )
@@ -233,8 +279,24 @@ mod tests {
         assert!((read("1e+1 mV", "V").unwrap().at(7.0) - 0.01).abs() < 1e-15);
     }
 
+    /// Of limits on both sides, and of these alone.
+    #[test]
+    fn plus_minus_before_limits() {
+        for (text, expected) in [
+            ("±0.05 mm", "0.05 mm"),
+            ("+/- 5", "5"),
+            ("±(0.02 % + 2 uV)", "0.02 % + 2 uV"),
+            ("1", "1"),
+        ] {
+            assert_eq!(without_plus_minus(text, "half_width").as_deref(), Ok(expected));
+        }
+        assert!(without_plus_minus("±0.05 mm", "std").unwrap_err().contains("`half_width`"));
+    }
+
     #[test]
     fn what_cannot_be_read_is_explained() {
+        assert!(read("0.05 % FS", "V").unwrap_err().contains("`0.05 % of 10 V`"));
+        assert!(read("0.5 + 1 ppm of reading", "%").unwrap_err().contains("components"));
         assert!(read("0.02 % + 3", "V").unwrap_err().contains("no unit"));
         assert!(read("1 %", "degC").unwrap_err().contains("of reading"));
         assert!(read("2 s", "V").unwrap_err().contains("converted"));

@@ -101,6 +101,14 @@ pub enum UnitError {
         /// The same multiplied by it: `(J/kg) K`.
         as_factor: String,
     },
+    /// A number or a share in parentheses behind a unit without a sign between them, as in `V (23)`,
+    /// `ohm (0.1 %)`: an uncertainty, a coverage, or a factor?
+    NumberInParentheses {
+        /// The parentheses and what stands in them.
+        found: String,
+        /// Where they stand.
+        span: Range<usize>,
+    },
     /// A factor that is zero, or too large or too small for a floating-point number.
     FactorOutOfRange {
         /// What has that factor.
@@ -147,6 +155,7 @@ impl UnitError {
             | Self::ExponentTooLarge { span, .. }
             | Self::AmbiguousPower { span, .. }
             | Self::AmbiguousProduct { span, .. }
+            | Self::NumberInParentheses { span, .. }
             | Self::FactorOutOfRange { span }
             | Self::NestedTooDeep { span, .. } => span.clone(),
             Self::TooLong { length, .. } => 0..*length,
@@ -165,6 +174,39 @@ impl UnitError {
             Self::AmbiguousProduct { as_divisor, as_factor, .. } => vec![as_divisor, as_factor],
             _ => Vec::new(),
         }
+    }
+
+    /// The same error, found in `text`, whose suggestions are the whole text with the part that is wrong
+    /// put right: `kg/m^3` for `kg/m3`, where [`suggestions`](Self::suggestions) says `m^3`.
+    #[must_use]
+    pub fn in_whole(&self, text: &str) -> Self {
+        let whole = |span: &Range<usize>, part: &str| {
+            let (Some(before), Some(behind)) = (text.get(..span.start), text.get(span.end..))
+            else {
+                return part.to_owned();
+            };
+            let is_divisor = before.trim_end().ends_with('/');
+            let is_power = behind.trim_start().starts_with(['^', '*']);
+            let is_product = part.contains(['*', '/']);
+            let is_joined =
+                is_divisor && is_product || is_power && (is_product || part.contains('^'));
+            let whole = if is_joined {
+                format!("{before}({part}){behind}")
+            } else {
+                format!("{before}{part}{behind}")
+            };
+            // `m3` among names that are none either
+            if super::Unit::parse(&whole).is_ok() { whole } else { part.to_owned() }
+        };
+        let mut error = self.clone();
+        match &mut error {
+            Self::UnknownUnit { span, nearest, .. } => {
+                nearest.iter_mut().for_each(|near| *near = whole(span, near));
+            }
+            Self::PrefixNotAllowed { span, instead, .. } => *instead = whole(span, instead),
+            _ => {}
+        }
+        error
     }
 }
 
@@ -224,6 +266,12 @@ impl fmt::Display for UnitError {
             Self::AmbiguousProduct { found, as_divisor, as_factor, .. } => write!(
                 f,
                 "`{found}` can be read in two ways; write `{as_divisor}` or `{as_factor}`"
+            ),
+            Self::NumberInParentheses { found, .. } => write!(
+                f,
+                "`{found}` behind a unit can be an uncertainty, what belongs to one, or a factor: an \
+                 uncertainty stands before the unit, `5.0112(23) V`, or is named, `5.0112 V ± 0.0046 V \
+                 (k=2)`, and a factor has its sign, as in `V*2`"
             ),
             Self::FactorOutOfRange { .. } => f.write_str(
                 "the factor of this unit is zero, or too large or too small to calculate with; it \

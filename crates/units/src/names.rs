@@ -69,9 +69,14 @@ impl Symbol {
     }
 
     /// Whether this prefix may: `Grad` is the German word for a degree, and nobody measures in
-    /// gigaradians.
+    /// gigaradians; of the tonne there are only kilotonnes and larger ones, as a `ct` is a carat.
     pub(super) fn takes(&self, prefix: &Prefix) -> bool {
-        self.prefixes && (self.name != "rad" || prefix.symbol != "G")
+        self.prefixes
+            && match self.name {
+                "rad" => prefix.symbol != "G",
+                "t" => prefix.decimal >= 3,
+                _ => true,
+            }
     }
 
     /// Every spelling, [`Symbol::name`] first.
@@ -204,7 +209,8 @@ const DOSE: [i8; 7] = [0, 2, -2, 0, 0, 0, 0];
 /// 3rd CGPM (1901). The conventional millimetre of mercury, the inch, foot, pound, pound-force and
 /// psi follow NIST SP 811, appendix B; the atmosphere is 101 325 Pa and the torr 1/760 of it. The
 /// conventional inch of mercury is 25.4 mmHg; columns of water are of 1000 kg/m^3 under g_n. The
-/// year is the Julian one of 365.25 days, the month a twelfth of it. The neper is 20/ln(10) dB.
+/// carat is the metric one of 0.2 g (4th CGPM, 1907). The year is the Julian one of 365.25 days, the
+/// month a twelfth of it. The neper is 20/ln(10) dB.
 #[rustfmt::skip]
 pub(super) static SYMBOLS: &[Symbol] = &[
     // SI base units; the kilogram is `g` with a prefix.
@@ -266,6 +272,7 @@ pub(super) static SYMBOLS: &[Symbol] = &[
     bare("in", LENGTH, (254, 1), -4),
     bare("ft", LENGTH, (3_048, 1), -4),
     bare("lb", MASS, (45_359_237, 1), -8),
+    bare("ct", MASS, (2, 1), -4),
     bare("lbf", FORCE, (44_482_216_152_605, 1), -13),
     bare("kgf", FORCE, (980_665, 1), -5),
     bare("psi", PRESSURE, (44_482_216_152_605, 64_516), -5),

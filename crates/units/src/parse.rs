@@ -21,7 +21,8 @@
 //! Products and quotients have the same rank and are taken from left to right, as in formulas:
 //! `J/kg*K` is `(J/kg)*K`, `a/b/c` is `a/(b*c)`. A product that is written with a space or a dot after
 //! a quotient, `J/kg K`, means `J/(kg K)` to most who write it: it is refused, and both are named
-//! (ISO 80000-1:2022 allows it with parentheses only). Spaces are allowed around every operator.
+//! (ISO 80000-1:2022 allows it with parentheses only). A number in parentheses behind a unit without a
+//! sign, `V (23)`, is refused: it may be an uncertainty. Spaces are allowed around every operator.
 
 use std::ops::Range;
 
@@ -205,7 +206,11 @@ impl<'t> Parser<'t> {
                 Some(_) => return Err(self.no_operator(&last, end)),
             };
             let from = self.factors.len();
+            let is_joined = !self.slice(end..self.at).contains(is_operator);
             last = self.power(depth)?;
+            if is_joined && last.kind == Kind::Group {
+                self.refuse_number(last.start, from)?;
+            }
             if let Some(solidus) = quotient.filter(|_| typeset) {
                 return Err(self.ambiguous_product(start, solidus, end));
             }
@@ -226,6 +231,24 @@ impl<'t> Parser<'t> {
                 Err(UnitError::MissingFactor { operator, span, side: MissingSide::After })
             }
         }
+    }
+
+    /// Refuses a group without a sign before it that begins with a number, or in which numbers and
+    /// shares stand alone: `V (23)`, `ohm (0.1 %)`. Its factors begin at `from`.
+    fn refuse_number(&self, start: usize, from: usize) -> Result<(), UnitError> {
+        let group = self.slice(start..self.at);
+        let inside = group.trim_start_matches(|c: char| c == '(' || c.is_whitespace());
+        let is_number = |factor: &Factor| match factor.base {
+            FactorBase::Number(_) => true,
+            FactorBase::Named { symbol, .. } => symbol.flavour == Flavour::Relative,
+            FactorBase::Defined(_) => false,
+        };
+        let begins = inside.starts_with(|c: char| c.is_ascii_digit());
+        if begins || self.factors.iter().skip(from).all(is_number) {
+            let (found, span) = (group.to_owned(), start..self.at);
+            return Err(UnitError::NumberInParentheses { found, span });
+        }
+        Ok(())
     }
 
     /// What has been read since `start` has a factor behind the quotient that ends at `end`, whose

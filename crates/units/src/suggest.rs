@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use super::error::UnitError;
 use super::names::{
-    Flavour, PREFIXES, Prefixed, SYMBOLS, Symbol, is_unit, prefix_spellings, prefixed, symbol,
+    Flavour, PREFIXES, Prefix, Prefixed, SYMBOLS, Symbol, is_unit, prefix_spellings, prefixed,
+    symbol,
 };
 use super::nearest;
 
@@ -19,7 +20,8 @@ const SHORTEST: usize = 3;
 #[rustfmt::skip]
 const SPELLED: &[(&str, &[&str])] = &[
     ("meter", &["m"]), ("metre", &["m"]), ("mtr", &["m"]),
-    ("gram", &["g"]), ("gramme", &["g"]), ("gr", &["g"]), ("gm", &["g"]), ("kilo", &["kg"]),
+    ("gram", &["g"]), ("gramme", &["g"]), ("gr", &["g", "64.79891*mg"]),
+    ("grain", &["64.79891*mg"]), ("gm", &["g"]), ("kilo", &["kg"]),
     ("second", &["s"]), ("sec", &["s"]), ("minute", &["min"]), ("mins", &["min"]),
     ("hr", &["h"]),
     ("yr", &["year"]), ("wk", &["week"]), ("annum", &["year"]), ("yrs", &["year"]),
@@ -46,7 +48,7 @@ const SPELLED: &[(&str, &[&str])] = &[
     ("bit", &["LSB"]),
     ("liter", &["L"]), ("litre", &["L"]), ("ltr", &["L"]), ("cc", &["cm^3"]), ("ccm", &["cm^3"]),
     ("tonne", &["t"]), ("ton", &["t"]), ("electronvolt", &["eV"]), ("dalton", &["Da"]),
-    ("amu", &["u"]), ("hectare", &["ha"]), ("torr", &["Torr"]), ("atmosphere", &["atm"]),
+    ("amu", &["u"]), ("carat", &["ct"]), ("hectare", &["ha"]), ("torr", &["Torr"]), ("atmosphere", &["atm"]),
     ("inch", &["in"]), ("inches", &["in"]), ("foot", &["ft"]), ("feet", &["ft"]),
     ("yard", &["0.9144*m"]), ("yd", &["0.9144*m"]), ("mile", &["1609.344*m"]),
     ("mil", &["1e-3*in", "mL"]), ("thou", &["1e-3*in"]), ("pound", &["lb"]), ("lbs", &["lb"]),
@@ -63,14 +65,29 @@ const SPELLED: &[(&str, &[&str])] = &[
     ("strain", &["m/m"]), ("vdc", &["V"]), ("vac", &["V"]), ("vrms", &["V"]), ("vpp", &["V"]),
     ("rms", &[]), ("pp", &[]), ("rdg", &[]), ("reading", &[]), ("nan", &[]),
     ("cst", &["mm^2/s"]), ("centistokes", &["mm^2/s"]), ("nit", &["cd/m^2"]),
-    ("poise", &["0.1*Pa*s"]),
+    ("poise", &["0.1*Pa*s"]), ("st", &["1e-4*m^2/s"]), ("stokes", &["1e-4*m^2/s"]),
+    ("cpm", &["1/min"]), ("molar", &["mol/L"]),
 ];
 
 /// Nobody means a prefix beyond these powers of ten who writes an abbreviation.
 const FARTHEST: i32 = 24;
 
+/// Abbreviations in capital letters, whose small letters are something else: molar, the unit of enzyme
+/// activity, and full scale, to which nothing corresponds.
+const ABBREVIATED: &[(&str, &[&str])] =
+    &[("M", &["m", "mol/L"]), ("U", &["umol/min"]), ("FS", &[])];
+
 /// Products written without a sign, and the same with one. They take prefixes.
-const JOINED: &[(&str, &str)] = &[("As", "A*s"), ("Vs", "V*s"), ("Ws", "W*s"), ("Pas", "Pa*s")];
+const JOINED: &[(&str, &str)] = &[
+    ("As", "A*s"),
+    ("Vs", "V*s"),
+    ("Ws", "W*s"),
+    ("Pas", "Pa*s"),
+    ("Ncm", "N*cm"),
+    ("Nmm", "N*mm"),
+    // molar
+    ("M", "mol/L"),
+];
 
 /// The error for a name that is not a unit, standing at `span`.
 pub(super) fn unknown(name: &str, span: Range<usize>) -> UnitError {
@@ -100,6 +117,9 @@ pub(super) fn unknown(name: &str, span: Range<usize>) -> UnitError {
 /// Names in words, with the plural and with prefixes; products without a sign; powers without `^`.
 /// An empty list means that the name is known and that nothing here corresponds to it.
 fn spelled_out(name: &str) -> Option<Vec<String>> {
+    if let Some((_, right)) = ABBREVIATED.iter().find(|(wrong, _)| *wrong == name) {
+        return Some(right.iter().map(|text| (*text).to_owned()).collect());
+    }
     if let Some((_, right)) = JOINED.iter().find(|(wrong, _)| *wrong == name) {
         return Some(vec![(*right).to_owned()]);
     }
@@ -114,7 +134,7 @@ fn spelled_out(name: &str) -> Option<Vec<String>> {
             }
             if let Some(text) = word(&rest.to_lowercase()).and_then(|right| right.first())
                 && rest.chars().count() > 2
-                && takes_prefix(text)
+                && takes_prefix(text, prefix)
             {
                 return Some(vec![format!("{spelling}{text}")]);
             }
@@ -123,7 +143,7 @@ fn spelled_out(name: &str) -> Option<Vec<String>> {
             && let Some(text) = word(rest)
                 .and_then(|right| right.first().copied())
                 .or_else(|| spellings().find(|symbol| same_letters(symbol, rest)))
-            && takes_prefix(text)
+            && takes_prefix(text, prefix)
         {
             return Some(vec![format!("{spelling}{text}")]);
         }
@@ -148,9 +168,9 @@ fn word(lower: &str) -> Option<&'static [&'static str]> {
     find(lower).or_else(|| lower.strip_suffix('s').and_then(find))
 }
 
-/// Whether a text is one symbol that takes prefixes.
-fn takes_prefix(text: &str) -> bool {
-    symbol(text).is_some_and(|symbol| symbol.prefixes)
+/// Whether a text is one symbol that takes the prefix.
+fn takes_prefix(text: &str, prefix: &Prefix) -> bool {
+    symbol(text).is_some_and(|symbol| symbol.takes(prefix))
 }
 
 /// Whether two names differ at most in case.
@@ -161,7 +181,7 @@ fn same_letters(a: &str, b: &str) -> bool {
 /// A prefix before a unit that takes none.
 fn bare_unit_with_prefix(name: &str, span: &Range<usize>) -> Option<UnitError> {
     let near = |found: &Prefixed<'_>| found.prefix.decimal().abs() <= FARTHEST;
-    let found = prefixed(name).find(|found| !found.symbol.prefixes && near(found))?;
+    let found = prefixed(name).find(|found| !found.symbol.takes(found.prefix) && near(found))?;
     let instead = match found.symbol.flavour {
         Flavour::Celsius => format!("{}K", found.spelling),
         _ => format!("1e{}*{}", found.prefix.decimal(), found.unit),
@@ -179,7 +199,7 @@ fn two_prefixes(name: &str, span: &Range<usize>) -> Option<UnitError> {
     let near = prefix_spellings().filter(|(_, outer)| outer.decimal().abs() <= FARTHEST);
     near.into_iter().find_map(|(spelling, outer)| {
         let unit = name.strip_prefix(spelling)?;
-        let inner = prefixed(unit).find(|inner| inner.symbol.prefixes)?;
+        let inner = prefixed(unit).find(|inner| inner.symbol.takes(inner.prefix))?;
         let decimal = outer.decimal() + inner.prefix.decimal();
         let instead = if decimal == 0 {
             inner.unit.to_owned()
@@ -214,7 +234,7 @@ fn every_name() -> impl Iterator<Item = String> {
     let with_prefix = PREFIXES.iter().flat_map(|prefix| {
         SYMBOLS
             .iter()
-            .filter(|symbol| symbol.prefixes)
+            .filter(move |symbol| symbol.takes(prefix))
             .flat_map(Symbol::spellings)
             .map(move |symbol| format!("{}{symbol}", prefix.symbol()))
     });
@@ -248,7 +268,12 @@ fn similar(name: &str) -> Vec<String> {
         return Vec::new();
     }
     let words = SPELLED.iter().filter(|(_, right)| !right.is_empty()).map(|(wrong, _)| *wrong);
-    let known = words.chain(spellings()).filter(|known| known.chars().count() >= SHORTEST);
+    // of three letters the first one says most: `HBW` is not a misspelt dBW, nor `cpm` rpm
+    let is_short = name.chars().count() == SHORTEST;
+    let first = |text: &str| text.chars().next().map(|c| c.to_lowercase().to_string());
+    let known = words.chain(spellings()).filter(|known| {
+        known.chars().count() >= SHORTEST && (!is_short || first(known) == first(name))
+    });
     let mut found: Vec<String> = Vec::new();
     for near in nearest::all_nearest(name, known) {
         let right = word(near).and_then(|right| right.first()).copied().unwrap_or(near);

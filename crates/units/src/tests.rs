@@ -143,6 +143,7 @@ fn variant(error: &UnitError) -> &'static str {
         UnitError::ExponentNotANumber { .. } => "exponent",
         UnitError::ExponentTooLarge { .. } => "too large",
         UnitError::AmbiguousPower { .. } | UnitError::AmbiguousProduct { .. } => "ambiguous",
+        UnitError::NumberInParentheses { .. } => "number",
         UnitError::FactorOutOfRange { .. } => "range",
         UnitError::TooLong { .. } => "long",
         UnitError::NestedTooDeep { .. } => "deep",
@@ -159,7 +160,7 @@ const WRONG: &[Wrong] = &[
     ("hz", "unknown", 0, "hz", &["Hz"]), ("celsius", "unknown", 0, "celsius", &["degC"]),
     ("celcius", "unknown", 0, "celcius", &["degC"]), ("degrees", "unknown", 0, "degrees", &["deg"]),
     ("meter", "unknown", 0, "meter", &["m"]), ("percent", "unknown", 0, "percent", &["%"]),
-    ("M/s", "unknown", 0, "M", &["m"]), ("m/S2", "unknown", 2, "S2", &["S^2"]),
+    ("M/s", "unknown", 0, "M", &["m", "mol/L"]), ("m/S2", "unknown", 2, "S2", &["S^2"]),
     ("m/s2", "unknown", 2, "s2", &["s^2"]), ("cm3", "unknown", 0, "cm3", &["cm^3"]),
     ("msec", "unknown", 0, "msec", &["ms"]), ("amp", "unknown", 0, "amp", &["A"]),
     ("mAmps", "unknown", 0, "mAmps", &["mA"]), ("volt", "unknown", 0, "volt", &["V"]),
@@ -223,6 +224,10 @@ const WRONG: &[Wrong] = &[
     ("J/kg K", "ambiguous", 0, "J/kg K", &["J/(kg K)", "(J/kg) K"]),
     ("mV W / m² · K", "ambiguous", 0, "mV W / m² · K", &["mV W/(m² · K)", "(mV W / m²) · K"]),
     ("1/(N/mm.s)", "ambiguous", 3, "N/mm.s", &["N/(mm.s)", "(N/mm).s"]),
+    // Uncertainties and coverages behind units.
+    ("V (23)", "number", 2, "(23)", &[]), ("ohm (0.1 %)", "number", 4, "(0.1 %)", &[]),
+    ("V (95 %)", "number", 2, "(95 %)", &[]), ("V (%)", "number", 2, "(%)", &[]),
+    ("V (1/√3)", "number", 2, "(1/√3)", &[]), ("J/kg (2)", "number", 5, "(2)", &[]),
     // Factors.
     ("0", "range", 0, "0", &[]), ("m/0.0", "range", 2, "0.0", &[]),
     ("1e400*m", "range", 0, "1e400*m", &[]),
@@ -238,6 +243,49 @@ fn wrong_texts_are_refused_with_place_and_suggestion() {
         assert_eq!(variant(&error), *kind, "{text}: {error}");
         assert_eq!((error.span().start, text.get(error.span())), (*start, Some(*part)), "{text}");
         assert_eq!(error.suggestions(), *suggestions, "{text}: {error}");
+    }
+}
+
+/// A product with a group is one, and a number with its sign is a factor.
+#[test]
+fn groups_behind_units_are_factors() {
+    for text in ["V*(2)", "V/(2)", "mV/(10 V)", "W (m K)", "2 (mm)", "10^-6 (m/m)"] {
+        assert!(Unit::parse(text).is_ok(), "{text}");
+    }
+}
+
+/// SI brochure, 9th edition, table 8: only prefixes above 1 stand before the tonne.
+#[test]
+fn carats_are_no_centitonnes() {
+    assert_eq!(Unit::parse("ct").unwrap().to_si(5.0), 0.001);
+    assert_eq!(Unit::parse("kt").unwrap().factor(), 1e6);
+    let refused = |text: &str| Unit::parse(text).unwrap_err().to_string();
+    assert_eq!(refused("mt"), "the prefix `m` cannot stand before `t`; write `1e-3*t`");
+    assert_eq!(refused("dt"), "the prefix `d` cannot stand before `t`; write `1e-1*t`");
+    assert_eq!(refused("kct"), "the prefix `k` cannot stand before `ct`; write `1e3*ct`");
+}
+
+/// A near name of another kind is worse than none.
+#[test]
+fn names_of_another_kind_are_not_suggested() {
+    let suggested = |text: &str| -> Vec<String> {
+        let error = Unit::parse(text).unwrap_err().in_whole(text);
+        error.suggestions().into_iter().map(str::to_owned).collect()
+    };
+    for (text, expected) in [
+        ("kg/m3", vec!["kg/m^3"]),
+        ("g/cm3", vec!["g/cm^3"]),
+        ("gr", vec!["g", "64.79891*mg"]),
+        ("mM", vec!["mmol/L"]),
+        ("U/L", vec!["umol/min/L"]),
+        ("Ncm", vec!["N*cm"]),
+        ("Nmm", vec!["N*mm"]),
+        ("HBW", vec![]),
+        ("FS", vec![]),
+        ("cpm", vec!["1/min"]),
+        ("N/mdeg", vec!["N/(1e-3*deg)"]),
+    ] {
+        assert_eq!(suggested(text), expected, "{text}");
     }
 }
 
@@ -437,18 +485,19 @@ fn no_name_has_two_meanings() {
     }
     let prefixes: Vec<&str> = prefix_spellings().map(|(spelling, _)| spelling).collect();
     assert_eq!(prefixes.len(), 26);
-    for a in SYMBOLS.iter().filter(|symbol| symbol.prefixes).flat_map(Symbol::spellings) {
-        for prefix in &prefixes {
-            let name = format!("{prefix}{a}");
-            assert_eq!(read(&name).is_some(), name != "Grad", "{name}");
-            let readings = prefixed(&name).filter(|found| found.symbol.prefixes).count();
-            assert_eq!(readings, 1, "{name}");
+    let takes = |found: &super::names::Prefixed<'_>| found.symbol.takes(found.prefix);
+    for symbol in SYMBOLS.iter().filter(|symbol| symbol.prefixes) {
+        for (spelling, prefix) in prefix_spellings() {
+            for a in symbol.spellings().filter(|_| symbol.takes(prefix)) {
+                let name = format!("{spelling}{a}");
+                assert!(read(&name).is_some(), "{name}");
+                assert_eq!(prefixed(&name).filter(takes).count(), 1, "{name}");
+            }
         }
     }
-    // The only symbols that hide a prefix and a unit.
-    let hidden: Vec<_> =
-        spellings.iter().filter(|name| prefixed(name).any(|found| found.symbol.prefixes)).collect();
-    assert_eq!(hidden, [&"ft"]);
+    assert!(read("Grad").is_none() && read("mt").is_none());
+    // no symbol hides a prefix and a unit: `ft` and `ct` are no femtotonnes and centitonnes
+    assert!(!spellings.iter().any(|name| prefixed(name).any(|found| takes(&found))));
 }
 
 /// `Grad` is the German word for a degree and no gigaradian.

@@ -8,6 +8,7 @@ mod fits;
 mod homes;
 mod model_file;
 mod node;
+mod other_names;
 mod recipe;
 mod result_file;
 mod shapes;
@@ -29,6 +30,7 @@ pub(crate) use model_file::{
     TOLERANCE,
 };
 use node::{With, object, reference};
+pub(crate) use other_names::other_name;
 pub(crate) use recipe::{
     CHANNEL, FREQUENCY, POINT, QUANTITY, RECIPE, RECIPE_CONDITION, RECIPE_KEY, RECIPE_ROW,
     RECORDING, SEARCH, SEARCHED, STEPS,

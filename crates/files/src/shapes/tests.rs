@@ -148,3 +148,48 @@ fn widths_follow_conditions() {
     }
     assert!((task.rows[2].distributions[0].mean() - 2000.0).abs() < 1e-12);
 }
+
+/// Keys by names of other places are told once, and with what they are here.
+#[test]
+fn keys_by_other_names() {
+    let said = |fields: &str| {
+        let text = format!(
+            r#"{{"inputs": {{"x": {{"unit": "mm", {fields}}}}}, "equations": {{"y": "x"}},
+            "outputs": {{"y": {{"unit": "mm"}}}}}}"#
+        );
+        read_text("m", &text, Path::new(""), &[]).unwrap_err()
+    };
+    for (fields, part) in [
+        (r#""distribution": "rectangular", "mean": 1, "width": 0.1"#, "by its half"),
+        (r#""distribution": "normal", "mean": 1, "U": 0.1, "k": 2"#, "`expanded`"),
+        (r#""distribution": "normal", "mean": 1, "u": 0.1"#, "`std`"),
+        (r#""distribution": "normal", "value": 1, "std": 0.1"#, "`mean`"),
+        (r#""distribution": "normal", "mean": 1, "std": 0"#, "`constant`"),
+        (r#""distribution": "rectangular", "mean": 1, "half_width": "0 um""#, "`constant`"),
+    ] {
+        let found = said(fields);
+        assert_eq!(found.0.len(), 1, "{found}");
+        assert!(found.to_string().contains(part), "{found}");
+    }
+    let width = said(r#""distribution": "rectangular", "mean": 1, "width": 0.1"#);
+    assert_eq!(width.0[0].kind.suggestion(), None);
+}
+
+/// Limits on both sides, as drawings have them.
+#[test]
+fn a_half_width_with_its_sign() {
+    let of = |fields: &str| {
+        let text = format!(
+            r#"{{"inputs": {{"x": {{"unit": "mm", "mean": 10, {fields}}}}}, "equations": {{"y": "x"}},
+            "outputs": {{"y": {{"unit": "mm"}}}}}}"#
+        );
+        read_text("m", &text, Path::new(""), &[])
+            .map(|file| file.task.rows[0].distributions[0].standard_uncertainty())
+    };
+    let limits = of(r#""distribution": "rectangular", "half_width": "±(0.5 % + 10 um)""#).unwrap();
+    assert!((limits - 0.06 / 3.0_f64.sqrt()).abs() < 1e-15);
+    let u = of(r#""distribution": "normal", "expanded": "± 50 um", "k": 2"#).unwrap();
+    assert!((u - 0.025).abs() < 1e-15);
+    let wrong = of(r#""distribution": "normal", "std": "± 50 um""#).unwrap_err().to_string();
+    assert!(wrong.contains("standard deviation"), "{wrong}");
+}

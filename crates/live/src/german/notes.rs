@@ -271,6 +271,10 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{0+} hängen vielleicht voneinander ab, weil ihre Ergebnisse auf dieselbe Modelldatei zurückgehen; da eine der Größen keine endlichen Empfindlichkeitskoeffizienten hat, ist die Abhängigkeit nicht zu sagen; sie werden als unabhängig genommen",
     ),
     (
+        "{} is {} rad, which are more than a turn, as a phase without a unit is in radians; one in degrees says {}",
+        "{0} ist {1} rad, mehr als eine Umdrehung, denn eine Phase ohne Einheit ist in Radiant angegeben; eine in Grad sagt {2}",
+    ),
+    (
         "in {}, {} is {} rad, as {} is given in {}; {} {} are written {}",
         "in {0} ist {1} der Winkel {2} rad, denn {3} ist in {4} angegeben; {5} {6} werden {7} geschrieben",
     ),

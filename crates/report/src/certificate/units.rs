@@ -4,7 +4,8 @@
 use gumption_units::{Factor, FactorBase, Unit};
 
 /// Symbols that files have in letters of any keyboard, and those of the SI brochure.
-const SYMBOLS: [(&str, &str); 3] = [("ohm", "Ω"), ("degC", "°C"), ("degF", "°F")];
+const SYMBOLS: [(&str, &str); 4] =
+    [("ohm", "Ω"), ("degC", "°C"), ("degF", "°F"), ("dBuV", "dB\u{b5}V")];
 
 /// A unit as print has it: the same unit, written as the file has it but for its symbols.
 pub(super) fn printed(unit: &Unit) -> Unit {
@@ -81,6 +82,7 @@ mod tests {
             ("ohm*m", "Ω*m"),
             ("ohm/degC", "Ω/°C"),
             ("degC", "°C"),
+            ("dBuV", "dB\u{b5}V"),
             ("uV/V", "µV/V"),
             ("µohm", "µΩ"),
             ("kΩ", "kΩ"),

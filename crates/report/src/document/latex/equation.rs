@@ -39,7 +39,11 @@ fn part(layout: &Layout) -> String {
         },
         Layout::Name(text) => name(text),
         Layout::Sign(text) => sign(text),
-        Layout::Text(text) => format!("\\mbox{{{}}}", escaped(text)),
+        // the narrow space before a unit is none inside of a box
+        Layout::Text(text) => match text.strip_prefix('\u{202f}') {
+            Some(unit) => format!("\\,\\mbox{{{}}}", escaped(unit)),
+            None => format!("\\mbox{{{}}}", escaped(text)),
+        },
         Layout::Row(parts) => parts.iter().map(part).collect::<Vec<_>>().join(" "),
         Layout::Fraction(parts) => format!("\\frac{{{}}}{{{}}}", part(&parts[0]), part(&parts[1])),
         Layout::Power(parts) => format!("{{{}}}^{{{}}}", part(&parts[0]), part(&parts[1])),
@@ -117,5 +121,7 @@ mod tests {
         assert_eq!(equation("abs(a*sin(tilt))"), "$| a \\cdot \\mathrm{sin} ( \\mathit{tilt} ) |$");
         assert_eq!(equation("r*w with w = 2*pi"), "$r \\cdot w$, $w = 2 \\cdot \\pi$");
         assert_eq!(equation("50 % of it"), escaped("50 % of it"));
+        // a unit keeps its distance
+        assert_eq!(equation("x + 2 [mm]"), "$x + 2 \\,\\mbox{mm}$");
     }
 }

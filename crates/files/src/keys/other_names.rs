@@ -1,0 +1,81 @@
+//! Keys by names that other places have for them, which are near in letters to none, or to one that
+//! is something else.
+
+/// What is meant by a key that is not known where it stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct OtherName {
+    /// The key that takes it.
+    pub(crate) key: &'static str,
+    /// Whether the same value can stand there.
+    pub(crate) is_same: bool,
+    /// What is said of it, as a part of a sentence.
+    pub(crate) said: &'static str,
+}
+
+/// The names, each with the key that must be known there for it to be meant.
+const OTHER_NAMES: [(&[&str], OtherName); 6] = [
+    (
+        &["width", "full_width", "range", "span"],
+        OtherName {
+            key: "half_width",
+            is_same: false,
+            said: "a full width is given by its half, as the key `half_width`",
+        },
+    ),
+    (
+        &["U", "expanded_uncertainty"],
+        OtherName {
+            key: "expanded",
+            is_same: true,
+            said: "an expanded uncertainty is the key `expanded`, beside `k` or `p`",
+        },
+    ),
+    (
+        &["u", "sd", "sigma", "stdev", "standard_uncertainty", "standard_deviation"],
+        OtherName { key: "std", is_same: true, said: "a standard uncertainty is the key `std`" },
+    ),
+    (
+        &["value", "estimate"],
+        OtherName { key: "mean", is_same: true, said: "the estimate is the key `mean`" },
+    ),
+    (
+        &["mean", "estimate"],
+        OtherName { key: "value", is_same: true, said: "the estimate is the key `value`" },
+    ),
+    (
+        &["nominal", "deviation", "plus_minus", "half_width", "width", "limit", "limits"],
+        OtherName {
+            key: "lower",
+            is_same: false,
+            said: "limits are the keys `lower` and `upper`, in the output's unit",
+        },
+    ),
+];
+
+/// What is meant by a key that is not among those that are known where it stands.
+pub(crate) fn other_name(key: &str, known: &[&str]) -> Option<OtherName> {
+    let is_meant = |names: &[&str], of: &OtherName| {
+        // limits of inputs stand beside their half-width
+        let has_half = known.contains(&"half_width") && of.key == "lower";
+        names.contains(&key) && known.contains(&of.key) && !known.contains(&key) && !has_half
+    };
+    OTHER_NAMES.into_iter().find(|(names, of)| is_meant(names, of)).map(|(_, of)| of)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_by_what_is_known_beside_them() {
+        let said = |key: &str, known: &[&str]| other_name(key, known).map(|of| of.key);
+        assert_eq!(said("width", &["mean", "half_width", "lower"]), Some("half_width"));
+        assert_eq!(said("width", &["lower", "upper", "prior"]), Some("lower"));
+        assert_eq!(said("U", &["mean", "std", "expanded"]), Some("expanded"));
+        assert_eq!(said("value", &["mean", "std"]), Some("mean"));
+        assert_eq!(said("mean", &["value"]), Some("value"));
+        assert_eq!(said("value", &["value", "mean"]), None);
+        assert_eq!(said("nominal", &["lower", "upper"]), Some("lower"));
+        assert_eq!(said("U", &["title"]), None);
+    }
+}

@@ -1,0 +1,158 @@
+//! Formulas of numbers alone, `60/2`: of a quantity in degrees they can be 30 degrees, as the quantity
+//! is given, or 30 radians, as formulas count. None of the two is taken.
+
+use std::collections::HashMap;
+
+use super::scopes;
+use super::value_text::{ValueOf, converted, with_unit};
+use super::width::number;
+use gumption_engine::model::formula::{Formula, Scope};
+use gumption_engine::number::Shortest;
+use gumption_units::{Turn, Unit};
+
+/// Why a formula of conditions that has none, nor a unit in brackets, is no value in `unit`; `None` of
+/// every other formula, and where both readings are the same plain number. Angles may be computed with
+/// pi, as in radians.
+pub(super) fn refused(formula: &Formula, unit: &Unit, of: ValueOf) -> Option<String> {
+    let text = formula.text().trim();
+    let is_plain =
+        unit.dimension().is_none() && unit.factor() == 1.0 && unit.level_exponent().is_zero();
+    let is_angle = unit.turn() == Some(Turn::Angle);
+    let is_in_radians = is_angle && (text.contains("pi") || text.contains('π'));
+    if is_plain || is_in_radians || formula.names().next().is_some() || text.contains(['[', '"']) {
+        return None;
+    }
+    let value = formula.evaluate(&Scope::new(), &HashMap::<String, f64>::new()).ok()?;
+    let own = in_unit(text, value, unit, of);
+    let is_coherent = unit.factor() == 1.0 && unit.zero().is_none();
+    if is_coherent || unit.is_celsius() || !unit.level_exponent().is_zero() {
+        return Some(format!("it is computed from numbers alone, without a unit: write `{own}`"));
+    }
+    let coherent = |unit: &str| {
+        let written = Unit::parse(unit).map(|unit| in_unit(text, value, &unit, of));
+        (format!("`{unit}`"), written.unwrap_or_else(|_| format!("{} {unit}", Shortest(value))))
+    };
+    let (counted, other) = match unit.turn() {
+        Some(_) if unit.dimension().is_none() => coherent("rad"),
+        _ if unit.dimension().is_none() => {
+            let converted = Shortest(unit.from_si(value));
+            ("plain numbers".to_owned(), format!("{converted} {unit}"))
+        }
+        _ => coherent(&scopes::coherent(unit.dimension())),
+    };
+    Some(format!(
+        "it is computed from numbers alone, which can be in `{unit}`, as the quantity is given, or in \
+         {counted}, as formulas count: write `{own}` or `{other}`"
+    ))
+}
+
+/// The formula with the unit behind its first number, where it reads as that value; else the value.
+fn in_unit(text: &str, value: f64, unit: &Unit, of: ValueOf) -> String {
+    let written = number(text).map(|(_, rest)| {
+        let first = text.get(..text.len() - rest.len()).unwrap_or_default().trim_end();
+        format!("{first} {unit}{rest}")
+    });
+    let is_same = |written: &String| {
+        let read = with_unit(written).map(|read| converted(read, unit, of, &[]));
+        read.and_then(Result::ok).is_some_and(|read| (read - value).abs() <= 1e-12 * value.abs())
+    };
+    written.ok().filter(is_same).unwrap_or_else(|| format!("{} {unit}", Shortest(value)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(text: &str, unit: &str) -> Option<String> {
+        let unit = Unit::parse(unit).expect("a unit");
+        refused(&Formula::parse(text).expect("a formula"), &unit, ValueOf::Difference)
+    }
+
+    #[test]
+    fn both_readings_are_named() {
+        for (text, unit, parts) in [
+            ("60/2", "deg", ["`60 deg/2`", "`60 rad/2`"]),
+            ("0.1/sqrt(3)", "deg", ["`0.1 deg/sqrt(3)`", "`0.1 rad/sqrt(3)`"]),
+            ("0.5/2", "%", ["`0.5 %/2`", "`25 %`"]),
+            ("1/2", "ppm", ["`1 ppm/2`", "`500000 ppm`"]),
+            ("5/2", "mm", ["`5 mm/2`", "`5 m/2`"]),
+            ("(1 + 2)*2", "mm", ["`6 mm`", "`6 m`"]),
+            ("0.2/2", "dB", ["`0.2 dB/2`", "without a unit"]),
+            ("5/2", "V", ["`5 V/2`", "without a unit"]),
+        ] {
+            let said = said(text, unit).expect(text);
+            for part in parts {
+                assert!(said.contains(part), "{text} {unit}: {said}");
+            }
+        }
+    }
+
+    fn model(input: &str, unit: &str) -> Result<crate::ModelFile, crate::Diagnostics> {
+        let text = format!(
+            r#"{{"inputs": {{"x": {input}}}, "equations": {{"y": "x"}},
+            "outputs": {{"y": {{"unit": "{unit}"}}}}}}"#
+        );
+        crate::read_text("m", &text, std::path::Path::new(""), &[])
+    }
+
+    /// A number in quotation marks is one without them, in whatever unit.
+    #[test]
+    fn one_number_is_in_the_unit_of_its_quantity() {
+        for (unit, fields, [mean, std]) in [
+            ("deg", r#""distribution": "normal", "mean": "30", "std": "0.1""#, [30.0, 0.1]),
+            ("mm", r#""distribution": "normal", "mean": "30", "std": "0.1""#, [30.0, 0.1]),
+            ("%", r#""distribution": "normal", "mean": "30", "std": "0.5""#, [30.0, 0.5]),
+            ("ppm", r#""distribution": "constant", "value": "3""#, [3.0, 0.0]),
+            (
+                "deg",
+                r#""distribution": "readings", "values": ["30", "31", 32]"#,
+                [31.0, 1.0 / 3.0_f64.sqrt()],
+            ),
+        ] {
+            let input = format!(r#"{{"unit": "{unit}", {fields}}}"#);
+            let file = model(&input, unit).unwrap();
+            let known = &file.task.rows[0].distributions[0];
+            let found = [known.mean(), known.standard_uncertainty()];
+            let is_near = |(a, b): (f64, f64)| (a - b).abs() < 1e-12;
+            assert!(is_near((found[0], mean)) && is_near((found[1], std)), "{input}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn formulas_of_numbers_are_refused_where_they_stand() {
+        for (unit, fields, key) in [
+            ("deg", r#""distribution": "normal", "mean": "60/2", "std": 1"#, "mean"),
+            (
+                "deg",
+                r#""distribution": "rectangular", "mean": 1, "half_width": "0.1/sqrt(3)""#,
+                "half_width",
+            ),
+            ("%", r#""distribution": "normal", "mean": 1, "std": "0.5/2""#, "std"),
+            ("dB", r#""distribution": "normal", "mean": 1, "std": "0.2/2""#, "std"),
+            ("ppm", r#""distribution": "readings", "values": [1, "4/2", 3]"#, "values"),
+        ] {
+            let said = model(&format!(r#"{{"unit": "{unit}", {fields}}}"#), unit).unwrap_err();
+            assert_eq!(said.0.len(), 1, "{said}");
+            let said = said.to_string();
+            assert!(
+                said.contains("numbers alone") && said.contains(&format!("of `{key}`")),
+                "{said}"
+            );
+        }
+        let checked =
+            r#"{"unit": "deg", "distribution": "normal", "mean": "pi/6", "std": "0.3 deg/3"}"#;
+        let file = model(checked, "deg").unwrap();
+        let known = &file.task.rows[0].distributions[0];
+        assert!((known.mean() - 30.0).abs() < 1e-12);
+        assert!((known.standard_uncertainty() - 0.1).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_read_in_one_way() {
+        for (text, unit) in
+            [("60/2", "1"), ("60/2", "rad"), ("pi/4", "deg"), ("2*f", "deg"), ("5 [mm]/2", "mm")]
+        {
+            assert_eq!(said(text, unit), None, "{text} {unit}");
+        }
+    }
+}
