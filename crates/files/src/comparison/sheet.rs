@@ -35,6 +35,11 @@ impl Cells {
         self.layout.no_number(self.place(line, column)?)
     }
 
+    /// Whether a cell shows a date or a time.
+    pub(super) fn is_date(&self, line: usize, column: usize) -> bool {
+        self.place(line, column).is_some_and(|place| self.layout.dates.contains_key(&place))
+    }
+
     /// The power of ten of the last digit that a cell shows.
     pub(super) fn last_digit(&self, line: usize, column: usize) -> Option<i32> {
         self.layout.last_digits.get(&self.place(line, column)?).copied()

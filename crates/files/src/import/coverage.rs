@@ -80,6 +80,7 @@ impl Statement {
     pub(crate) fn of(text: &str) -> Result<Self, String> {
         // of the same length in bytes
         let small = text.to_ascii_lowercase().replace('\u{a0}', "  ");
+        let small = small.replace(['\u{202f}', '\u{2009}'], "   ");
         let (factor, sigmas) = (factor(&small)?, standard_deviations(&small));
         if let (Some((k, _)), Some((sigmas, _))) = (&factor, &sigmas)
             && k != sigmas
@@ -134,8 +135,9 @@ fn begins_word(text: &str, at: usize) -> bool {
 
 /// The coverage factor that stands behind `k=` or behind its words.
 fn factor(text: &str) -> Result<Found, String> {
-    const WORDS: [&str; 8] = [
+    const WORDS: [&str; 9] = [
         "coverage factor",
+        "Überdeckungsfaktor",
         "k-factor",
         "k factor",
         "erweiterungsfaktor",
@@ -311,6 +313,8 @@ mod tests {
             ("normal (coverage factor 2)", Factor(2.0), "normal (;)"),
             ("normal (coverage factor k = 2)", Factor(2.0), "normal (;)"),
             ("U (95,45 %)", Probability(0.9545), "U (;)"),
+            ("U (k\u{a0}=\u{202f}2, 95\u{2009}%)", Factor(2.0), "U (;, ;)"),
+            ("Überdeckungsfaktor 2", Factor(2.0), ";"),
             ("U (95 % confidence level)", Probability(0.95), "U (;)"),
             ("0.02 % (95 %)", Probability(0.95), "0.02 % (;)"),
             ("U (p=95 %)", Probability(0.95), "U (;)"),

@@ -109,7 +109,7 @@ fn of_pieces(
 fn parts(text: &str) -> (String, Vec<String>) {
     let (mut outside, mut insides, mut depth) = (String::new(), Vec::new(), 0_u32);
     for c in text.chars() {
-        match c {
+        match if c.is_whitespace() { ' ' } else { c } {
             '(' | '[' => {
                 depth += 1;
                 if depth == 1 {
@@ -223,7 +223,9 @@ fn said(piece: &str, is_value: bool) -> Result<Said, Refused> {
     let small = text.to_lowercase();
     // conditions, and the number of readings that a standard deviation is of
     let is_condition = ["at ", "bei ", "à ", "@"].iter().any(|word| small.starts_with(word));
-    let is_count = small.strip_prefix('n').is_some_and(|rest| rest.trim_start().starts_with('='));
+    let is_count = small
+        .strip_prefix('n')
+        .is_some_and(|rest| rest.trim_start().starts_with('=') || matches!(rest, "-1" | "−1"));
     let is_extent = Extent::of(text).is_some() && !text.contains(|c: char| c.is_ascii_digit());
     if is_extent || is_condition || is_count {
         return Ok(Said::Nothing);
@@ -235,25 +237,103 @@ fn said(piece: &str, is_value: bool) -> Result<Said, Refused> {
     Ok(Said::Nothing)
 }
 
+/// Whether a word is the name of a unit, `millivolts`, which is read by its symbol alone.
+fn is_name_of_unit(small: &str) -> bool {
+    const PREFIXES: [&str; 10] =
+        ["milli", "micro", "mikro", "nano", "pico", "kilo", "mega", "giga", "centi", "hecto"];
+    const NAMES: [&str; 48] = [
+        "volt",
+        "ampere",
+        "amp",
+        "ohm",
+        "watt",
+        "metre",
+        "meter",
+        "mètre",
+        "gram",
+        "gramm",
+        "gramme",
+        "second",
+        "sec",
+        "sekunde",
+        "sekunden",
+        "minute",
+        "minuten",
+        "hour",
+        "stunde",
+        "stunden",
+        "kelvin",
+        "celsius",
+        "fahrenheit",
+        "pascal",
+        "newton",
+        "joule",
+        "hertz",
+        "litre",
+        "liter",
+        "degree",
+        "grad",
+        "degré",
+        "candela",
+        "lumen",
+        "tesla",
+        "farad",
+        "henry",
+        "siemens",
+        "micron",
+        "inch",
+        "inche",
+        "feet",
+        "radian",
+        "mole",
+        "percent",
+        "prozent",
+        "promille",
+        "permille",
+    ];
+    let bare = PREFIXES.iter().find_map(|of| small.strip_prefix(of)).unwrap_or(small);
+    [small, bare].iter().any(|of| NAMES.contains(of) || NAMES.contains(&of.trim_end_matches('s')))
+}
+
 /// Whether a word that is none of those known may be a unit, or change what numbers mean.
 fn may_be_unit(word: &str) -> bool {
-    const SHORT: [&str; 66] = [
+    const SHORT: [&str; 68] = [
         "of", "the", "and", "or", "for", "at", "to", "by", "as", "on", "see", "cert", "type",
         "typ", "ref", "no", "nr", "lab", "est", "val", "unc", "std", "meas", "from", "with", "dev",
         "und", "der", "des", "die", "das", "von", "bei", "laut", "aus", "de", "du", "la", "le",
         "les", "et", "exp", "abs", "not", "note", "our", "own", "tol", "all", "each", "comb",
         "sub", "data", "max", "min", "a", "b", "ci", "xi", "mean", "this", "ext", "zum", "zur",
-        "im", "its",
+        "im", "its", "cal", "σ",
     ];
-    const STEMS: [&str; 40] = [
-        "volt", "amp", "ohm", "watt", "metre", "meter", "mètre", "gram", "second", "sekunde",
-        "minute", "hour", "stunde", "kelvin", "celsius", "pascal", "newton", "joule", "hertz",
-        "lit", "degree", "grad", "candela", "lumen", "tesla", "farad", "henry", "siemens",
-        "micron", "percent", "prozent", "per mil", "relati", "reading", "range", "scale",
-        "thousand", "million", "peak", "squar",
+    const SCALES: [&str; 27] = [
+        "rms",
+        "pp",
+        "fs",
+        "eff",
+        "full",
+        "rdg",
+        "ppt",
+        "dex",
+        "per",
+        "pro",
+        "par",
+        "span",
+        "relative",
+        "relativ",
+        "rel",
+        "reading",
+        "readings",
+        "range",
+        "scale",
+        "peak",
+        "squared",
+        "thousand",
+        "thousands",
+        "million",
+        "millions",
+        "thousandths",
+        "millionths",
     ];
-    const WORDS: [&str; 12] =
-        ["rms", "pp", "fs", "eff", "full", "rdg", "ppt", "dex", "per", "pro", "par", "span"];
     let small = word.trim_matches(['.', '\'', '"', '*', '†', '|']).to_lowercase();
     if small.is_empty() || is_symbol(word) || SHORT.contains(&small.as_str()) {
         return false;
@@ -261,10 +341,10 @@ fn may_be_unit(word: &str) -> bool {
     let has_sign = small.contains(|c: char| c.is_ascii_digit() || "%‰×^°µμω²³⁻".contains(c));
     has_sign
         || small.chars().count() <= 3
-        || WORDS.contains(&small.as_str())
+        || SCALES.contains(&small.as_str())
         // `milliV`
         || word.trim_start_matches(|c: char| !c.is_lowercase()).contains(char::is_uppercase)
-        || STEMS.iter().any(|stem| small.contains(stem))
+        || is_name_of_unit(&small)
         || Unit::parse(word).is_ok()
 }
 
@@ -307,6 +387,19 @@ mod tests {
             ("Resolution / half-width", None),
             ("|ci|·u(xi)", None),
             ("Measured value (ohm)", Some("ohm")),
+            ("Std. dev. (n-1)", None),
+            ("Std. uncertainty u(x_i)", None),
+            ("Standard uncertainty (type A)", None),
+            ("Standard uncertainty (repeatability, cal. lab)", None),
+            ("Uncertainty (k=2) from certificate", None),
+            ("Contribution to the combined uncertainty u_i(y)", None),
+            ("Beitrag zur Standardunsicherheit u_i(y)", None),
+            ("Half-width of the interval a_i", None),
+            ("Limits of error (secondary parameter, sample)", None),
+            ("Value (at 20 °C)", None),
+            ("Value (nominal)", None),
+            ("Value (-)", None),
+            ("Best estimate of X_i", None),
         ] {
             let found = unit_of_header(text, text.starts_with("Value"));
             assert_eq!(found, Ok(unit.map(str::to_owned)), "{text}");

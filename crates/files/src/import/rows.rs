@@ -432,7 +432,7 @@ impl Budget<'_> {
             let share = number.map_or(0.0, |(value, unit)| {
                 half_digit(text.strip_suffix(unit).unwrap_or(text)) / value.abs()
             });
-            (a - b).abs() <= share.clamp(0.01, SAME).max(0.01) * a.abs().max(b.abs())
+            (a - b).abs() <= share.clamp(0.01, SAME) * a.abs().max(b.abs())
         };
         let of = |row: &Row| row.sensitivity.unwrap_or(1.0);
         let sum: f64 = others.iter().map(|row| of(row) * row.estimate.unwrap_or(0.0)).sum();
