@@ -134,7 +134,13 @@ pub(super) fn contradiction(
     if name.is_empty() || text.parse::<f64>().is_ok() || text == declared.text() {
         return None;
     }
-    let unit = unit(text)?;
+    // of `kHz, nominal` the part that is a unit
+    let whole = unit(text).map(|of| (of, text));
+    let parts = || text.split([',', ';', ' ']).map(str::trim).filter(|part| !part.is_empty());
+    let part = || parts().find_map(|part| Some((unit(part)?, part)));
+    let (unit, text) = whole.or_else(|| {
+        part().filter(|(of, _)| of.is_compatible(declared) && !of.dimension().is_none())
+    })?;
     let is_declared = |unit: &Unit| {
         unit.is_compatible(declared)
             && unit.factor() == declared.factor()
@@ -213,5 +219,10 @@ mod tests {
         assert_eq!(said("x [mg]", "mg_n"), None);
         assert_eq!(said("x [mg]", "g_n").as_deref(), Some("mg"));
         assert_eq!(said("x [g]", "g"), None);
+        // a unit among other words
+        assert_eq!(said("f (kHz, nominal)", "Hz").as_deref(), Some("kHz"));
+        assert_eq!(said("f (nominal, kHz)", "Hz").as_deref(), Some("kHz"));
+        assert_eq!(said("f (kHz, nominal)", "kHz"), None);
+        assert_eq!(said("f (set m)", "Hz"), None);
     }
 }

@@ -5,10 +5,13 @@
 
 mod both;
 pub(crate) mod columns;
+mod concise;
+pub(crate) mod coverage;
 mod document;
 mod equation;
 mod extent;
 mod grid;
+pub(crate) mod heading;
 mod limits;
 mod linear;
 mod mark;
@@ -29,7 +32,7 @@ use super::diagnostics::{Collector, Diagnostics};
 use super::reader::read_text;
 use super::separator::DecimalMarks;
 use super::source::SourceText;
-use super::{DiagnosticKind, bytes};
+use super::{DiagnosticKind, bytes, workbook};
 use columns::{Column, Header};
 use document::document;
 use equation::{Equation, Equations};
@@ -97,8 +100,10 @@ fn imported(
         log.report(&(0..0), kind);
         Err(log.into_diagnostics())
     };
-    let is_workbook =
-        path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx"));
+    let is_workbook = match workbook::is_workbook(path) {
+        Ok(is_workbook) => is_workbook,
+        Err(message) => return failed(DiagnosticKind::Unreadable { message }),
+    };
     if let Some(sheet) = sheet.filter(|_| !is_workbook) {
         let message = format!("it is no workbook (.xlsx), and so has no sheet `{sheet}`");
         return failed(DiagnosticKind::Unreadable { message });
@@ -133,8 +138,21 @@ fn imported(
     let marks = RefCell::new(cells.marks());
     let mut budget = Budget { cells: &cells, marks, log: &log, understood: said, guessed: vec![] };
     let made = budget.model(&title.unwrap_or_default());
-    let (understood, guessed) = (budget.understood, budget.guessed);
+    let said = [budget.understood, budget.guessed];
+    let [understood, guessed] = said.map(|of| of.iter().map(|said| shortened(said)).collect());
     log.finish(made.map(|text| ImportedBudget { text, understood, guessed }))
+}
+
+/// A sentence whose quotes are no longer than a cell that people write: of a longer one the beginning.
+fn shortened(sentence: &str) -> String {
+    const MOST: usize = 120;
+    let parts = sentence.split('`').enumerate().map(|(place, part)| {
+        match part.char_indices().nth(MOST).filter(|_| place % 2 == 1) {
+            Some((end, _)) if part.len() > 2 * MOST => format!("{}…", &part[..end]),
+            _ => part.to_owned(),
+        }
+    });
+    parts.collect::<Vec<_>>().join("`")
 }
 
 struct Budget<'a> {
@@ -148,7 +166,7 @@ struct Budget<'a> {
 impl Budget<'_> {
     fn fail(&self, line: usize, reason: String) {
         let span = self.cells.line(line);
-        self.log.report(&span, DiagnosticKind::Table { reason });
+        self.log.report(&span, DiagnosticKind::Table { reason: shortened(&reason) });
     }
 
     /// The model file of the budget.
@@ -199,7 +217,7 @@ impl Budget<'_> {
             self.fail(line.max(header.line), reason);
             return None;
         }
-        if !self.has_known_mark(&header) {
+        if !self.has_known_mark(&header) || !self.has_own_numbers(&header) {
             return None;
         }
         let shown: Vec<String> = header
@@ -389,7 +407,7 @@ impl Budget<'_> {
                 let reasons: Vec<String> =
                     faults.0.iter().take(5).map(|fault| fault.kind.to_string()).collect();
                 self.fail(
-                    0,
+                    line,
                     format!("the model of this budget has mistakes: {}", reasons.join("; ")),
                 );
                 None

@@ -30,7 +30,7 @@ impl TextTable {
         let mut table: Option<Self> = None;
         let mut start = 0;
         while let Some(rest) = source.text.get(start..).filter(|rest| !rest.is_empty()) {
-            let line = rest.split_inclusive('\n').next().unwrap_or(rest);
+            let line = rest.get(..end_of_line(rest)).unwrap_or(rest);
             if is_skipped(line) {
                 start += line.len();
                 continue;
@@ -169,9 +169,19 @@ pub(super) fn alone(words: &str) -> String {
     )
 }
 
+/// The length of the line that a text begins with, its end included: `\n`, `\r\n`, or the `\r` alone that
+/// spreadsheets write for an old Macintosh.
+fn end_of_line(text: &str) -> usize {
+    match text.find(['\n', '\r']) {
+        Some(at) if text[at..].starts_with("\r\n") => at + 2,
+        Some(at) => at + 1,
+        None => text.len(),
+    }
+}
+
 /// The length of the record that a text begins with, its line's end included; `None` where a cell in
 /// quotes has no end.
-fn record(text: &str, separator: char) -> Option<usize> {
+pub(super) fn record(text: &str, separator: char) -> Option<usize> {
     let (mut begins, mut quoted) = (true, false);
     let mut letters = text.char_indices().peekable();
     while let Some((at, letter)) = letters.next() {
@@ -185,7 +195,7 @@ fn record(text: &str, separator: char) -> Option<usize> {
             },
             _ if quoted => {}
             '"' if begins => quoted = true,
-            '\n' => return Some(at + 1),
+            '\n' | '\r' => return Some(at + end_of_line(&text[at..])),
             _ => {}
         }
         begins = !quoted && letter == separator;
@@ -221,6 +231,9 @@ mod tests {
             // inches are no quotes, and neither are those that do not begin a cell
             ("x, \"a\nb\"\nd", Some(6)),
             ("5\" pipe,c\nd", Some(10)),
+            ("a,b\rc", Some(4)),
+            ("a,b\r\nc", Some(5)),
+            ("\"a\rb\",c\rd", Some(8)),
             ("\"a\nb", None),
             ("\"a\",\"", None),
         ] {
@@ -239,6 +252,21 @@ mod tests {
         assert_eq!(table.text(1, 1), "2");
         let place = table.place(1, 1);
         assert_eq!(source.position(place.span.start), (5, 3));
+    }
+
+    /// A carriage return alone ends a line; all that followed it was lost.
+    #[test]
+    fn carriage_returns_end_lines() {
+        for text in ["label,x\ra,1\rb,2\r", "label,x\na,1\rb,2\n", "label,x\r\na,1\r\nb,2"] {
+            let source = SourceText::new("t", text);
+            let log = Collector::new(source.clone());
+            let table = TextTable::parse(&log, &source).unwrap();
+            assert_eq!(
+                (table.rows(), table.text(0, 1), table.text(1, 0)),
+                (2, "1", "b"),
+                "{text:?}"
+            );
+        }
     }
 
     #[test]

@@ -8,9 +8,11 @@
 pub(super) mod choice;
 mod date;
 mod layout;
+mod rich;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Cursor, Read};
+use std::path::Path;
 
 use calamine::{Data, DataRef, Reader as _, SheetType, SheetVisible, Style, Xlsx};
 use quick_xml::events::{BytesStart, Event};
@@ -60,6 +62,22 @@ impl SheetTable {
         self.layout.check_shown(self.cells.keys())?;
         let first = header(&self.cells).and_then(|header| header.keys().next().copied());
         Ok((csv(&self.cells)?, first.unwrap_or(0), self.layout))
+    }
+}
+
+/// Whether a file is a workbook that is read here, by the end of its name.
+///
+/// # Errors
+/// That it is one of another format, as a sentence about it.
+pub(super) fn is_workbook(path: &Path) -> Result<bool, String> {
+    let extension = path.extension().map(|of| of.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("xlsx" | "xlsm") => Ok(true),
+        Some(other @ ("xls" | "xlsb" | "ods" | "numbers" | "xlt" | "fods")) => Err(format!(
+            "it is a workbook of the format .{other}, which is not read here: save it as .xlsx, or its sheet \
+             as .csv"
+        )),
+        _ => Ok(false),
     }
 }
 

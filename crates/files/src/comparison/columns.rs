@@ -4,7 +4,7 @@ use super::headings::{self, Role, Said, UnitOfHeading};
 use super::numbers::Numbers;
 use crate::DiagnosticKind;
 use crate::column_heading;
-use crate::import::columns::HeaderCoverage;
+use crate::import::coverage::HeaderCoverage;
 use gumption_engine::task::Warning;
 
 /// The columns of a table.

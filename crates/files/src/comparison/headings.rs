@@ -1,7 +1,9 @@
 //! What the columns of results are called: by their symbols, or by the words that budgets have for them.
 
 use crate::column_heading;
-use crate::import::columns::{self, Column, HeaderCoverage};
+use crate::import::columns::{self, Column};
+use crate::import::coverage::HeaderCoverage;
+use crate::import::heading::unit_of_header;
 use gumption_units::{Unit, nearest};
 
 /// What a column holds. The number is that of the result in a row of two, or 0 in a table of laboratories.
@@ -213,8 +215,12 @@ pub(super) fn unit(
         inside.split_once(' ').is_some_and(|(_, of)| columns::is_of_estimate(of))
     });
     let of = |text: &str| parse(text).map(|unit| UnitOfHeading { unit, is_of_value });
-    if is_of_value && let Ok(Some(text)) = columns::unit_of_header(heading) {
-        return of(&text).map(Some);
+    // of words of uncertainties nothing else may be there
+    let is_value = matches!(said(heading), Said::Role(Role::Value(_), _));
+    if let Some(text) = unit_of_header(heading, is_value)? {
+        return of(&text)
+            .map(Some)
+            .map_err(|error| format!("`{heading}`: `{text}` is no unit: {error}"));
     }
     let bare = without_coverage(heading);
     match column_heading::named(&bare) {

@@ -48,8 +48,7 @@ impl<'a> Numbers<'a> {
     /// The text of a cell as a name: of a date or a time what it shows.
     pub(super) fn name(&self, row: usize, column: usize) -> &'a str {
         let text = self.table.text(row, column);
-        let is_date =
-            self.sheet.is_some_and(|of| of.no_number(self.table.line(row), column).is_some());
+        let is_date = self.sheet.is_some_and(|of| of.is_date(self.table.line(row), column));
         text.split_once(' ').filter(|_| is_date).map_or(text, |(_, shown)| shown)
     }
 

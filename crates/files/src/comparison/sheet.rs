@@ -6,7 +6,7 @@ use std::path::Path;
 use super::headings::{self, Role, Said};
 use crate::workbook::choice::{self, Wanted};
 use crate::workbook::{Book, Layout};
-use crate::{DiagnosticKind, bytes};
+use crate::{DiagnosticKind, bytes, workbook};
 
 /// A table as text, and what else is known of it.
 #[derive(Debug, Default)]
@@ -33,6 +33,11 @@ impl Cells {
     /// Why a cell holds no number, though its value is one.
     pub(super) fn no_number(&self, line: usize, column: usize) -> Option<String> {
         self.layout.no_number(self.place(line, column)?)
+    }
+
+    /// Whether a cell shows a date or a time.
+    pub(super) fn is_date(&self, line: usize, column: usize) -> bool {
+        self.place(line, column).is_some_and(|place| self.layout.dates.contains_key(&place))
     }
 
     /// The power of ten of the last digit that a cell shows.
@@ -80,9 +85,7 @@ fn read(
     holds: impl Fn(&[String]) -> bool,
 ) -> Result<Content, DiagnosticKind> {
     let unreadable = |message| DiagnosticKind::Unreadable { message };
-    let is_workbook =
-        path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx"));
-    if !is_workbook {
+    if !workbook::is_workbook(path).map_err(unreadable)? {
         if let Some(sheet) = sheet {
             let message = format!("it is no workbook (.xlsx), and so has no sheet `{sheet}`");
             return Err(unreadable(message));

@@ -159,6 +159,33 @@ fn headings_are_words_and_symbols() {
     assert_eq!(read.warnings[0].text, "the columns `date` and `method` are not read");
 }
 
+/// Factors beside probabilities and units in headings: `k=2, 95 %` was 0.0295, and units beside a factor
+/// were dropped.
+#[test]
+fn headings_state_factors_and_units_together() {
+    let u = |heading: &str, x: &str| {
+        let text = format!("label,\"{x}\",\"{heading}\"\nA,10,4\nB,11,4\n");
+        laboratories(&text)[0].result.standard_uncertainty()
+    };
+    assert_eq!(u("U (k=2, 95 %)", "x"), 2.0);
+    assert_eq!(u("U, µV", "x, µV"), 2.0);
+    assert!((u("U (1.96 sigma)", "x") - 4.0 / 1.96).abs() < 1e-15);
+    assert!((u("U (µV, k=2)", "x (mV)") - 2e-3).abs() < 1e-15);
+    let text = "label,x1,\"U1 (k=2, 95 %)\",x2,\"U2 (k=2, 95 %)\"\na,1,0.4,1.1,0.2\n";
+    let Ok(ComparisonTable::Pairs(pairs)) = read(text) else { panic!() };
+    assert_eq!(pairs[0].results.map(|of| of.standard_uncertainty()), [0.2, 0.1]);
+    let said = |x: &str, heading: &str| {
+        read(&format!("label,\"{x}\",\"{heading}\"\nA,10,4\nB,11,4\n")).unwrap_err().to_string()
+    };
+    assert!(said("x", "U (µV, k=2)").contains("has the unit `µV` and `x` none"));
+    assert!(said("x, mV", "U").contains("has the unit `mV` and `U` none"));
+    assert!(said("x", "U (k=2,95 %)").contains("can say k = 2 and `95 %`"));
+    assert!(said("x", "U (mV rms)").contains("`mV rms` in the heading"));
+    // a carriage return alone ends a line: three of four laboratories were gone
+    let found = laboratories("label,x,U\nA,1,0.1\rB,5,0.2\rC,3,0.1\r");
+    assert_eq!(found.len(), 3);
+}
+
 #[test]
 fn numbers_are_those_of_sheets() {
     let of = |x: &str| laboratories(&format!("label,x,U\na,{x},1\nb,1,1\n"))[0].result.value;

@@ -1,12 +1,13 @@
 //! What the columns of a budget are called, in English, German and French.
 
 use super::both::LastOfBoth;
+use super::coverage::{HeaderCoverage, Statement};
 use super::grid::Cells;
-use super::number::number as number_of_cell;
+use super::heading::{unit_of_header, unit_of_line};
 use super::number::{number_with_unit, value};
 use crate::named_shape::NamedShape;
 use crate::value_text::PLUS_MINUS;
-use gumption_engine::special::student;
+use gumption_engine::decimal::significant;
 use gumption_units::Unit;
 
 /// What a column holds.
@@ -33,10 +34,12 @@ pub(crate) enum Column {
     Contribution,
     /// What the program computes itself.
     Share,
+    /// Whether the evaluation is of type A or B.
+    Evaluation,
 }
 
 /// The words of each column, without what stands in brackets.
-const WORDS: &[(Column, &[&str])] = &[
+pub(super) const WORDS: &[(Column, &[&str])] = &[
     (Column::Symbol, &["symbol", "formelzeichen", "x_i", "xi", "zeichen", "symbole"]),
     (
         Column::Quantity,
@@ -140,6 +143,13 @@ const WORDS: &[(Column, &[&str])] = &[
             "limites",
             "tolérance",
             "erreur maximale tolérée",
+            "full width",
+            "full range",
+            "total width",
+            "vollbreite",
+            "gesamtbreite",
+            "spannweite",
+            "étendue",
         ],
     ),
     (
@@ -458,6 +468,7 @@ impl Column {
             Self::UnitOfSensitivity => "unit of the sensitivity coefficient",
             Self::Contribution => "contribution (computed here)",
             Self::Share => "share (computed here)",
+            Self::Evaluation => "type of evaluation",
         }
     }
 }
@@ -573,70 +584,15 @@ fn is_dof(compact: &str) -> bool {
     parts.into_iter().all(is_one)
 }
 
-/// The unit that a header's cell has behind its words, `Estimate (mm)`, `u / µV`, `Uncertainty [%]`,
-/// `U (k=2) in mV`, `Uncertainty (% of reading)`; letters that are symbols of what the column holds are
-/// none: `Half-width (a)`.
-///
-/// # Errors
-/// What stands in the place of a unit and looks like one, but is none that numbers could be read in.
-pub(crate) fn unit_of_header(text: &str) -> Result<Option<String>, String> {
-    const SYMBOLS: [&str; 10] = ["a", "u", "U", "k", "c", "d", "s", "n", "A", "B"];
-    let mut pieces: Vec<&str> = Vec::new();
-    let mut rest = text;
-    while let Some(open) = rest.find(['(', '[']) {
-        let close = if rest[open..].starts_with('[') { ']' } else { ')' };
-        let inside = &rest[open + 1..];
-        let Some(end) = inside.find(close) else { break };
-        if open > 0 {
-            pieces.push(&inside[..end]);
-        }
-        rest = &inside[end + 1..];
-    }
-    let bare = text.split(['(', '[']).next().unwrap_or_default();
-    for sign in [" / ", " in ", ", "] {
-        pieces.extend([bare, rest].into_iter().filter_map(|part| Some(part.split_once(sign)?.1)));
-    }
-    pieces.extend(rest.strip_prefix(" in "));
-    let mut doubtful = None;
-    for piece in pieces {
-        let piece = piece.trim().trim_start_matches(['±', ' ']);
-        let piece = piece.strip_prefix("in ").unwrap_or(piece).trim();
-        if piece.is_empty()
-            || SYMBOLS.contains(&piece)
-            || piece.parse::<f64>().is_ok()
-            // a coverage probability
-            || piece.starts_with(|c: char| c.is_ascii_digit()) && piece.ends_with('%')
-            || HeaderCoverage::of(piece) != HeaderCoverage::None
-        {
-            continue;
-        }
-        if Unit::parse(piece).is_ok() {
-            return Ok(Some(piece.to_owned()));
-        }
-        let (share, of) = piece.split_once(' ').unwrap_or((piece, ""));
-        let is_share = matches!(share, "%" | "‰" | "ppm" | "ppb");
-        if is_share && is_of_estimate(of) {
-            return Ok(Some(share.to_owned()));
-        }
-        let compact = piece.replace(' ', "");
-        let is_like_unit = is_share
-            || compact.contains("10^")
-            || compact.contains("10⁻")
-            || compact.contains("10-");
-        if is_like_unit {
-            doubtful = Some(piece.to_owned());
-        }
-    }
-    doubtful.map_or(Ok(None), Err)
-}
-
 /// What a cell right below the header says of the numbers of its column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Below {
     /// Their unit: `mV`, `in mV`, `[mV]`, `u_i / mV`.
     Unit(String),
-    /// Their symbol, or another word for them.
+    /// Their symbol.
     Symbol,
+    /// A word that may be a symbol.
+    Word,
     /// What looks like a unit, or can be one as well as a symbol.
     Doubtful,
     /// What belongs to no header.
@@ -662,19 +618,29 @@ impl Below {
             .split_once('/')
             .filter(|(symbol, _)| is_symbol(symbol.trim()) || is_symbol_of(column, symbol.trim()));
         let behind = behind.map(|(_, unit)| unit.trim_matches(['(', ')', '[', ']', ' ']));
-        match (behind.filter(|unit| Unit::parse(unit).is_ok()), unit_of_header(text)) {
+        let statement = Statement::of(&format!("; {text}"));
+        let rest = statement.as_ref().map_or("", |statement| &statement.rest);
+        let is_stated = |of: &Statement| of.coverage.factor(None).is_some() || of.dof.is_some();
+        let has_number =
+            rest.contains(|c: char| c.is_ascii_digit() || matches!(c, '#' | '?' | '±'));
+        if statement.as_ref().map_or(true, is_stated) && !has_number {
+            return Self::Doubtful;
+        }
+        match (behind.filter(|unit| Unit::parse(unit).is_ok()), unit_of_line(text)) {
             (Some(unit), _) => Self::Unit(unit.to_owned()),
             (None, Ok(Some(unit))) => Self::Unit(unit),
+            _ if has_number => Self::Row,
             (None, _) if super::columns::column(text).is_some() => Self::Symbol,
             _ if text.contains(['/', '[', '%']) || text.starts_with("in ") => Self::Doubtful,
-            _ if text.chars().count() <= 8 => Self::Symbol,
+            // one word, which may be a symbol
+            _ if text.chars().count() <= 8 && !text.contains(char::is_whitespace) => Self::Word,
             _ => Self::Row,
         }
     }
 }
 
 /// Whether a text is a symbol with an index or an argument, as `x_i`, `u(x_i)` and `u_i(y)`.
-fn is_symbol(text: &str) -> bool {
+pub(super) fn is_symbol(text: &str) -> bool {
     let compact: String = text.split_whitespace().collect();
     let compact = compact.replace('_', "");
     const SYMBOLS: [&str; 22] = [
@@ -865,24 +831,68 @@ impl Header {
         best.measured_values(cells);
         best.bare_coefficients();
         best.named_distributions(cells);
+        best.types_of_evaluations(cells);
         best.widths_as_values(cells);
         best.deviations_as_widths(cells);
         best.contributions_of_quotients(cells);
         best.doubts(cells);
         for (place, column) in best.columns.iter().filter(|(_, column)| column.is_of_numbers()) {
             let heading = best.headings.get(*place).map_or("", String::as_str);
-            match unit_of_header(heading) {
+            match unit_of_header(heading, column.is_of_place()) {
                 Ok(Some(unit)) => best.units.push((*column, unit)),
                 Ok(None) => {}
-                Err(piece) => best.doubtful.push(format!(
-                    "`{piece}` in the heading `{heading}` is no unit: write the unit of its numbers \
-                     alone (`mV`), or `%` or `ppm` for shares of the estimates; a share of a range is \
-                     written as a value"
-                )),
+                Err(reason) if best.doubtful.contains(&reason) => {}
+                Err(reason) => best.doubtful.push(reason),
             }
         }
+        best.coverages();
         best.units_below(cells);
         Some(best)
+    }
+
+    /// A standard uncertainty has no coverage factor, and a column of probabilities tells none here.
+    fn coverages(&mut self) {
+        const PROBABILITIES: [&str; 9] = [
+            "coverage probability",
+            "confidence",
+            "level of confidence",
+            "probability",
+            "überdeckungswahrscheinlichkeit",
+            "vertrauensniveau",
+            "konfidenzniveau",
+            "niveau de confiance",
+            "probabilité",
+        ];
+        let heading = self.heading_of(Column::Std).trim().to_owned();
+        let factor = HeaderCoverage::of(&heading).factor(None);
+        if let Some(k) = factor.filter(|k| (k - 1.0).abs() > ROUNDED) {
+            self.doubtful.push(format!(
+                "`{heading}` can be a standard uncertainty, or an expanded one of k = {}: call it `U`, or \
+                 leave the factor out",
+                significant(k, 3)
+            ));
+        }
+        let width = self.heading_of(Column::Width).trim().to_owned();
+        if Statement::of(&width).is_ok_and(|of| of.dof.is_some()) {
+            self.doubtful.push(format!(
+                "`{width}`: degrees of freedom are read in a column `dof`: write them into the rows"
+            ));
+        }
+        let is_probability = |place: &&usize| {
+            let words = plain(self.heading(**place));
+            PROBABILITIES.iter().any(|of| words.starts_with(of))
+        };
+        if !self.has(Column::Divisor)
+            && self.coverage(Column::Width).factor(None).is_none()
+            && self.has(Column::Width)
+            && let Some(place) = self.unknown.iter().find(is_probability)
+        {
+            self.doubtful.push(format!(
+                "the column `{}` is not read, and tells the coverage factors: write them into a column `k`, \
+                 or one probability into the heading of the uncertainties, `U (95 %)`",
+                self.heading(*place).trim()
+            ));
+        }
     }
 
     /// `Coefficient` beside a divisor is one of sensitivity where no other column is.
@@ -919,7 +929,9 @@ impl Header {
             let own = place_of(&self.columns, kind)?;
             let is_product = matches!(kind, Column::Std | Column::Width)
                 && place_of(&self.columns, Column::Sensitivity).is_some_and(|c| *place > c);
-            let units = [heading, self.heading(own)].map(|of| unit_of_header(of).ok().flatten());
+            let is_value = kind.is_of_place();
+            let units =
+                [heading, self.heading(own)].map(|of| unit_of_header(of, is_value).ok().flatten());
             let are_of_other_units = matches!(&units, [Some(unit), Some(known)] if unit != known);
             // `Facteur X` may be anything
             let is_known = kind != Column::Divisor
@@ -1015,6 +1027,16 @@ impl Header {
             // one letter may be anything
             named.peek().is_some()
                 && named.all(|(text, of)| of != NamedShape::Unknown && text.chars().count() > 2)
+        });
+    }
+
+    /// A column under other words whose cells are `A` and `B` alone has the types of the evaluations.
+    fn types_of_evaluations(&mut self, cells: &Cells) {
+        self.take_the_one(Column::Evaluation, |header, place| {
+            let lines = header.line + 1..cells.lines();
+            let texts = lines.map(|line| cells.text(line, place).trim());
+            let mut held = texts.filter(|text| !super::rows::is_empty(text)).peekable();
+            held.peek().is_some() && held.all(|text| evaluation(text).is_some())
         });
     }
 
@@ -1260,7 +1282,7 @@ impl Header {
         let numbers = self.columns.iter().filter(|(_, column)| column.is_of_numbers());
         let texts: Vec<(Column, &str)> = numbers
             .map(|(place, column)| (*column, cells.text(line, *place).trim()))
-            .filter(|(_, text)| !text.is_empty())
+            .filter(|(_, text)| !super::rows::is_empty(text))
             .collect();
         let comma = cells.decimal_comma();
         let has_number = texts.iter().any(|(_, text)| {
@@ -1276,12 +1298,17 @@ impl Header {
             .into_iter()
             .map(|(column, text)| (column, text, Below::of(column, text, is_of_symbols)))
             .collect();
-        if below.iter().any(|(_, _, below)| *below == Below::Row) {
+        let has_units = below.iter().any(|(_, _, below)| matches!(below, Below::Unit(_)));
+        // `a` may be a name, and `X_i` or `Einheit` none
+        let heads = column(name).is_some() && name.chars().count() > 2;
+        let is_named = !name.is_empty() && !heads && !is_symbol(name);
+        // a quantity whose numbers cannot be read is told as one
+        let has = |wanted: Below| below.iter().any(|(_, _, below)| *below == wanted);
+        if has(Below::Row) || is_named && !has_units && has(Below::Word) {
             return;
         }
         self.line = line;
-        let has_units = below.iter().any(|(_, _, below)| matches!(below, Below::Unit(_)));
-        if has_units && !name.is_empty() && column(name).is_none() && !is_symbol(name) {
+        if has_units && is_named {
             self.doubtful.push(format!(
                 "line {}: `{name}` has units in place of numbers: a line of units below the header has no \
                  name",
@@ -1300,10 +1327,11 @@ impl Header {
                 },
                 Below::Doubtful => self.doubtful.push(format!(
                     "line {}: `{text}` below the header is neither a unit nor a symbol that is known: write \
-                     the unit of the column alone (`mV`)",
+                     the unit of the column alone (`mV`), and a factor or a probability into the heading, `U \
+                     (k=2)`",
                     line + 1
                 )),
-                Below::Symbol | Below::Row => {}
+                Below::Symbol | Below::Word | Below::Row => {}
             }
         }
     }
@@ -1363,85 +1391,8 @@ pub(super) fn is_of_factors(heading: &str) -> bool {
     matches!(plain(heading).as_str(), "factor" | "faktor" | "facteur" | "multiplier")
 }
 
-/// What a column of expanded uncertainties says of its coverage in its header.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum HeaderCoverage {
-    /// Nothing: the header does not speak of expanded uncertainties.
-    None,
-    /// The factor: `U (k=2)`.
-    Factor(f64),
-    /// The coverage probability, and no factor: `U (p=95 %)`.
-    Probability(f64),
-    /// That they are expanded, and no more.
-    Expanded,
-}
-
-impl HeaderCoverage {
-    /// Of a header's cell.
-    pub(crate) fn of(text: &str) -> Self {
-        let compact: String = text.to_lowercase().split_whitespace().collect();
-        let behind = |sign: &str| {
-            let number = compact.split_once(sign)?.1;
-            let end = |c: char| !(c.is_ascii_digit() || matches!(c, '.' | ',' | '%'));
-            let number = number.split(end).next()?.trim_end_matches([',', '.']);
-            number_of_cell(number, true)
-        };
-        if let Some(factor) = behind("k=").filter(|factor| *factor > 0.0) {
-            return Self::Factor(factor);
-        }
-        // `normal (2σ)`
-        let before = |sign: &str| {
-            let digits = compact.split_once(sign)?.0;
-            let start = digits.rfind(|c: char| !c.is_ascii_digit()).map_or(0, |at| at + 1);
-            number_of_cell(digits.get(start..)?, true)
-        };
-        if let Some(factor) = before("σ").or_else(|| before("sigma")).filter(|f| *f > 0.0) {
-            return Self::Factor(factor);
-        }
-        let bare = || {
-            let before = compact.split_once('%')?.0;
-            let is_digit = |c: char| c.is_ascii_digit() || matches!(c, '.' | ',');
-            let start = before
-                .rfind(|c: char| !is_digit(c))
-                .map_or(0, |at| at + before[at..].chars().next().map_or(1, char::len_utf8));
-            // a coverage probability, and no share of an estimate
-            number_of_cell(before.get(start..)?, true).filter(|p| *p >= 50.0 && start > 0)
-        };
-        let share = behind("p=").or_else(bare).map(|p| if p > 1.0 { p / 100.0 } else { p });
-        if let Some(p) = share.filter(|p| *p > 0.0 && *p < 1.0) {
-            return Self::Probability(p);
-        }
-        let words = ["expanded", "erweiterte", "erw.", "incertitudeélargie", "incertitudeelargie"];
-        // `Uncertainty U`: the symbol stands behind the words
-        let symbol = plain_case(text).split_whitespace().next_back();
-        if words.iter().any(|word| compact.starts_with(word)) || symbol == Some("U") {
-            Self::Expanded
-        } else {
-            Self::None
-        }
-    }
-
-    /// The factor of uncertainties with these degrees of freedom, `None` where they are infinite: of a
-    /// probability that of the t distribution (JCGM 100, G.3.2).
-    pub(crate) fn factor(self, dof: Option<f64>) -> Option<f64> {
-        match self {
-            Self::Factor(factor) => Some(factor),
-            Self::Probability(p) => {
-                let dof = dof.filter(|dof| *dof > 0.0).unwrap_or(f64::INFINITY);
-                Some(student::two_sided_factor(p, dof))
-            }
-            Self::None | Self::Expanded => None,
-        }
-    }
-
-    /// The coverage probability, if that is what is stated.
-    pub(crate) fn probability(self) -> Option<f64> {
-        if let Self::Probability(p) = self { Some(p) } else { None }
-    }
-}
-
 /// A header without what stands in brackets.
-fn plain_case(text: &str) -> &str {
+pub(super) fn plain_case(text: &str) -> &str {
     text.split(['(', '[']).next().unwrap_or_default().trim()
 }
 
@@ -1458,6 +1409,59 @@ pub(crate) fn is_factor(words: &str) -> bool {
     ];
     let words = plain(words);
     FACTORS.iter().any(|of| words == *of || words == format!("{of} k"))
+}
+
+/// Whether a row's words are those of the effective degrees of freedom of a result.
+pub(super) fn is_effective_dof(words: &str) -> bool {
+    let words = plain(words);
+    ["effective degrees of freedom", "effektive freiheitsgrade", "degrés de liberté effectifs"]
+        .iter()
+        .any(|of| words.starts_with(of))
+}
+
+/// The letter of a type of evaluation, `A`, `Type B`.
+pub(super) fn evaluation(text: &str) -> Option<char> {
+    let text = text.trim();
+    let letter =
+        ["Type ", "type ", "Typ ", "TYPE "].iter().find_map(|word| text.strip_prefix(word));
+    match letter.unwrap_or(text) {
+        "A" => Some('A'),
+        "B" => Some('B'),
+        _ => None,
+    }
+}
+
+/// Whether a heading is of half-widths or limits of errors, which are no standard uncertainties.
+pub(super) fn is_of_limits(heading: &str) -> bool {
+    const WORDS: [&str; 18] = [
+        "half-width",
+        "half width",
+        "halfwidth",
+        "semi-range",
+        "tolerance",
+        "maximum permissible",
+        "max. permissible",
+        "max permissible",
+        "mpe",
+        "limit",
+        "halbbreite",
+        "halbweite",
+        "grenze",
+        "fehlergrenze",
+        "toleranz",
+        "demi-",
+        "tolérance",
+        "erreur maximale",
+    ];
+    let words = plain(heading);
+    words == "a" || WORDS.iter().any(|of| words.starts_with(of))
+}
+
+/// Whether a heading says that shares below it are of the estimates.
+pub(super) fn is_share_of_estimate(heading: &str) -> bool {
+    let signs = ["%", "‰", "ppm", "ppb"];
+    let behind = signs.iter().find_map(|sign| Some(heading.split_once(sign)?.1));
+    behind.is_some_and(|words| is_of_estimate(words.trim_end_matches([')', ']'])))
 }
 
 /// Whether a row's words are those of an expanded uncertainty.

@@ -64,6 +64,9 @@ fn input(row: &Row) -> Value {
     {
         input.insert("dof".to_owned(), json!(dof));
     }
+    if row.is_type_a {
+        input.insert("type".to_owned(), "A".into());
+    }
     if !row.about.is_empty() && row.about != row.name {
         input.insert("about".to_owned(), row.about.as_str().into());
     }

@@ -1,5 +1,7 @@
 //! The equations of a sheet: lines such as `R = U/I`, and cells behind `equation`.
 
+use std::collections::{HashMap, HashSet};
+
 use super::Budget;
 use super::columns;
 use super::grid::Cells;
@@ -36,6 +38,8 @@ pub(super) struct Unread {
     pub(super) is_labelled: bool,
     /// Whether an equation of that name stands before it.
     is_repeated: bool,
+    /// Whether it is one only if it names quantities of the sheet: it has no sign of an operation.
+    needs_names: bool,
 }
 
 /// The equations of a sheet, that of the result last, and what could not be read.
@@ -93,6 +97,9 @@ impl Equations {
         if check_name(&name).is_err() {
             return;
         }
+        if is_of_uncertainties(left, right) {
+            return;
+        }
         let is_known = self.read.iter().any(|known| known.name == name);
         let right = right.trim();
         let comma = cells.decimal_comma();
@@ -114,11 +121,13 @@ impl Equations {
                     .is_some_and(|(_, unit)| unit.is_empty() || Unit::parse(unit).is_ok());
                 let has_operator = formula.contains(['*', '/', '^', '+', '-', '(']);
                 let is_short = left.split_whitespace().count() <= 2;
-                let is_one = has_operator && is_short && formula.contains(char::is_alphabetic);
+                let has_sign = has_operator || formula.contains(['\\', 'Σ', '∑', '∏', '∫', '÷']);
+                let is_one = is_short && formula.contains(char::is_alphabetic);
                 if is_labelled && !is_known || (is_one && !is_quantity) {
                     let (text, reason) = (written.trim().to_owned(), error.to_string());
+                    let (is_repeated, needs_names) = (is_known, !has_sign && !is_labelled);
                     let unread =
-                        Unread { line, name, text, reason, is_labelled, is_repeated: is_known };
+                        Unread { line, name, text, reason, is_labelled, is_repeated, needs_names };
                     self.unread.push(unread);
                 }
             }
@@ -132,16 +141,23 @@ impl Equations {
     pub(super) fn of_result(mut self, known: &[String]) -> Result<Self, (usize, String)> {
         self.one_of_a_name(known)?;
         let names: Vec<Vec<String>> = self.read.iter().map(Equation::names).collect();
-        let is_known = |name: &String| {
-            known.contains(name) || self.read.iter().any(|equation| equation.name == *name)
-        };
-        let is_whole = |place: &usize| names[*place].iter().all(is_known);
-        let is_used = |place: &usize| {
-            names.iter().enumerate().any(|(other, of)| {
-                other != *place && is_whole(&other) && of.contains(&self.read[*place].name)
-            })
-        };
+        let all_known: HashSet<&str> =
+            known.iter().chain(self.read.iter().map(|of| &of.name)).map(String::as_str).collect();
+        let is_known = |name: &String| all_known.contains(name.as_str());
         let all: Vec<usize> = (0..self.read.len()).collect();
+        let are_whole: Vec<bool> = names.iter().map(|of| of.iter().all(is_known)).collect();
+        let is_whole = |place: &usize| are_whole[*place];
+        // a sheet may chain thousands of them
+        let mut used: HashMap<&str, HashSet<usize>> = HashMap::new();
+        for place in all.iter().copied().filter(is_whole) {
+            for name in &names[place] {
+                used.entry(name).or_default().insert(place);
+            }
+        }
+        let is_used = |place: &usize| {
+            let by = used.get(self.read[*place].name.as_str());
+            by.is_some_and(|by| by.iter().any(|other| other != place))
+        };
         let whole: Vec<usize> = all.iter().copied().filter(is_whole).collect();
         let among = if whole.is_empty() { all } else { whole };
         let last: Vec<usize> = among.iter().copied().filter(|place| !is_used(place)).collect();
@@ -222,6 +238,38 @@ impl Equations {
     }
 }
 
+/// Whether an equation says how the uncertainty of the result is made of others, `U = k*uc` or `u(y) =
+/// sqrt(u(a)^2 + u(b)^2)`: that is computed here. `U` alone may be a voltage, whose parts have other names.
+fn is_of_uncertainties(left: &str, right: &str) -> bool {
+    const FUNCTIONS: [&str; 5] = ["u_c(", "uc(", "u_i(", "u(", "U("];
+    let compact: String = left.split_whitespace().collect();
+    let is_combined = FUNCTIONS.iter().any(|of| compact.starts_with(of))
+        || matches!(compact.as_str(), "uc" | "u_c");
+    if !is_combined && !matches!(compact.as_str(), "U" | "U95" | "u") {
+        return false;
+    }
+    // `u(a)` is one name, whatever `a` is
+    let mut right: String = right.split_whitespace().collect();
+    let uncertainty = |text: &str| {
+        let at = FUNCTIONS.iter().filter_map(|of| text.find(of)).min()?;
+        Some(at..at + text[at..].find(')')? + 1)
+    };
+    while let Some(span) = uncertainty(&right) {
+        right.replace_range(span, "uc");
+    }
+    let words: Vec<&str> = right.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
+    let is_one = |word: &str| {
+        matches!(word, "uc" | "u_c") || is_combined && word.starts_with('u') && word.len() <= 4
+    };
+    let is_factor = |word: &str| {
+        matches!(word, "" | "k" | "kp" | "k_p" | "sqrt" | "sum" | "Σ" | "c_i" | "ci")
+            || is_combined && word.starts_with('c') && word.len() <= 4
+            || word.bytes().all(|c| c.is_ascii_digit())
+    };
+    words.iter().all(|word| is_one(word) || is_factor(word))
+        && words.iter().any(|word| is_one(word))
+}
+
 /// Decimal commas of a formula as points; other commas separate arguments.
 pub(super) fn with_points(text: &str) -> String {
     let characters: Vec<char> = text.chars().collect();
@@ -259,7 +307,7 @@ impl Budget<'_> {
         equations: &[Equation],
         known: &[String],
     ) {
-        for Unread { line, name, text, reason, is_labelled, is_repeated } in unread {
+        for Unread { line, name, text, reason, is_labelled, is_repeated, needs_names } in unread {
             let said = format!("`{text}` cannot be read as an equation: {reason}");
             let right = text.split_once('=').map_or("", |(_, right)| right);
             let mut words = right.split(|c: char| !(c.is_alphanumeric() || c == '_'));
@@ -268,6 +316,9 @@ impl Budget<'_> {
                 let word = word.trim_start_matches(|c: char| c.is_ascii_digit());
                 known.iter().any(|name| name == word)
             });
+            if *needs_names && !names {
+                continue;
+            }
             let other = equations.iter().find(|equation| equation.name == *name);
             if let Some(other) = other.filter(|_| names) {
                 let reason = format!(

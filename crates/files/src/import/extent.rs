@@ -5,13 +5,14 @@ use gumption_engine::decimal::to_15_digits;
 use gumption_engine::number::Shortest;
 
 use super::Budget;
-use super::columns::{Column, Header, HeaderCoverage};
+use super::columns::{Column, Header};
+use super::coverage::HeaderCoverage;
 use super::rows::{Row, divisor_of, near};
 use crate::value_text::with_plus_minus;
 
 /// How much of a shape a number spans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Extent {
+pub(super) enum Extent {
     /// From the middle to a limit.
     Half,
     /// From limit to limit.
@@ -20,7 +21,7 @@ enum Extent {
 
 impl Extent {
     /// What a text says; `None` where it says nothing.
-    fn of(text: &str) -> Option<Self> {
+    pub(super) fn of(text: &str) -> Option<Self> {
         const HALF: [&str; 13] = [
             "halfwidth",
             "halfrange",

@@ -6,6 +6,7 @@ use super::columns::{Column, Header};
 use crate::open::no_table;
 use crate::separator::{DecimalMarks, Separator};
 use crate::source::SourceText;
+use crate::text_table::record;
 use crate::workbook::Layout;
 use crate::{DiagnosticKind, bytes};
 
@@ -152,6 +153,11 @@ pub(super) fn of_text(content: &[u8]) -> Result<(Cells, String), DiagnosticKind>
     let counts = read.each_ref().map(columns);
     let most = counts.iter().copied().max().unwrap_or(0);
     let is_used = |sign: Separator| text.contains(sign.sign());
+    // a quote without an end hides the header from every sign
+    if most == 0 && read.iter().all(Result::is_err) {
+        let [.., last] = read;
+        return last;
+    }
     let best = match most {
         // no header: what stands there is told in the words of the most likely one
         0 => order.iter().position(|sign| is_used(*sign)).unwrap_or(2),
@@ -167,6 +173,11 @@ pub(super) fn of_text(content: &[u8]) -> Result<(Cells, String), DiagnosticKind>
 
 fn separated(text: &str, separator: Separator) -> Result<(Cells, String), DiagnosticKind> {
     let unreadable = |message| DiagnosticKind::Unreadable { message };
+    if let Some(line) = line_of_open_quote(text, separator) {
+        let message =
+            format!("line {line}: a cell that begins with a quote has no quote at its end");
+        return Err(unreadable(message));
+    }
     let mut rows = Vec::new();
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(separator.byte())
@@ -198,6 +209,18 @@ fn separated(text: &str, separator: Separator) -> Result<(Cells, String), Diagno
     let quoted_commas = separator == Separator::Comma && has_decimal_commas(&rows);
     let (cells, text) = of_rows(rows);
     Ok((Cells { separator: Some(separator), quoted_commas, ..cells }, text))
+}
+
+/// The line, from 1, with a cell that begins with a quote and has none at its end.
+fn line_of_open_quote(text: &str, separator: Separator) -> Option<usize> {
+    let mut start = 0;
+    while let Some(rest) = text.get(start..).filter(|rest| !rest.is_empty()) {
+        match record(rest, separator.sign()) {
+            Some(length) => start += length,
+            None => return Some(text[..start].lines().count() + 1),
+        }
+    }
+    None
 }
 
 /// Whether numbers among cells that commas separate have decimal commas: there is one that cannot be

@@ -8,7 +8,7 @@ use super::Budget;
 use super::columns::{Column, Header};
 use super::number::number_with_unit;
 use super::rows::{Row, divisor_of};
-use gumption_engine::decimal::to_15_digits;
+use gumption_engine::decimal::{significant, to_15_digits};
 use gumption_engine::number::{Shortest, elementary};
 use gumption_units::Unit;
 
@@ -60,6 +60,7 @@ impl Budget<'_> {
         for (row, factor) in rows.iter().zip(&factors) {
             self.compare_contribution(header, row, *factor, &unit);
         }
+        self.contradicting_contributions(header, rows, &factors, &unit)?;
         let written = |x: f64| Shortest(x).to_string();
         let sum: f64 =
             rows.iter().zip(&factors).map(|(row, c)| c * row.estimate.unwrap_or(0.0)).sum();
@@ -301,6 +302,41 @@ impl Budget<'_> {
         let scale = Unit::conversion_factor(&Unit::parse(unit).ok()?, of_result).ok()?;
         let fits = |c: f64| self.contribution(header, row, c, of_result).is_some_and(is_same);
         (scale != 1.0 && !fits(c) && fits(c * scale)).then_some((c * scale, unit))
+    }
+
+    /// Refuses contributions of which some are those of the model and others a power of ten from it: the
+    /// unit of the result, or a coefficient, is another one then.
+    fn contradicting_contributions(
+        &self,
+        header: &Header,
+        rows: &[Row],
+        factors: &[f64],
+        unit: &str,
+    ) -> Option<()> {
+        let of_result = Unit::parse(unit).ok()?;
+        let ratio = |(row, factor): (&Row, &f64)| {
+            let [stated, own] = self.contribution(header, row, *factor, &of_result)?;
+            (stated > 0.0 && own > 0.0).then(|| (row.line, row.name.clone(), stated / own))
+        };
+        let ratios: Vec<(usize, String, f64)> =
+            rows.iter().zip(factors).filter_map(ratio).collect();
+        let is_scaled = |ratio: f64| {
+            let power = elementary::log10(ratio).round();
+            power.abs() >= 2.0 && is_same([ratio, elementary::pow(10.0, power)])
+        };
+        let scaled = ratios.iter().find(|(_, _, ratio)| is_scaled(*ratio));
+        let right = ratios.iter().find(|(_, _, ratio)| is_same([*ratio, 1.0]));
+        if let (Some((line, name, ratio)), Some((_, other, _))) = (scaled, right) {
+            let reason = format!(
+                "the contribution of `{name}` is {} times that of this model in `{unit}`, and that of \
+                 `{other}` is the same: write the unit of the result into its row, of the contributions \
+                 into their heading (`u_i(y) (µm)`), and of the coefficients into a column `Unit of c_i`",
+                significant(*ratio, 2)
+            );
+            self.fail(*line, reason);
+            return None;
+        }
+        Some(())
     }
 
     /// Tells where the sheet's contribution of a row is not that of the model.

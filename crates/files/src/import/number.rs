@@ -109,7 +109,10 @@ pub(super) fn number_with_unit(text: &str, decimal_comma: bool) -> Option<(f64, 
     ends.collect::<Vec<_>>().into_iter().rev().find_map(|end| {
         let (digits, unit) = text.split_at_checked(end)?;
         let value = number(&ungrouped(digits.trim_end())?, decimal_comma)?;
-        Some((value, unit.trim()))
+        // `20.00(6) V` is no number of a unit `(6) V`
+        let inside = unit.trim_start().strip_prefix('(').unwrap_or_default();
+        let is_unit = !inside.starts_with(|c: char| c.is_ascii_digit());
+        is_unit.then_some((value, unit.trim()))
     })
 }
 

@@ -5,9 +5,11 @@ use gumption_engine::model::formula::check_name;
 use gumption_engine::number::Shortest;
 use gumption_units::Unit;
 
-use super::columns::{self, Column, Header, HeaderCoverage};
+use super::columns::{self, Column, Header};
+use super::concise::concise;
+use super::coverage::{HeaderCoverage, Statement};
 use super::linear::{CONTRIBUTIONS_DIFFER, standard_uncertainty};
-use super::stated::Stated;
+use super::stated::{Stated, half_digit};
 use super::{Budget, equation, number};
 use crate::named_shape::NamedShape;
 use crate::separator::Separator;
@@ -35,6 +37,8 @@ pub(super) struct Row {
     /// As the sheet writes it; empty where it does not.
     pub(super) unit_of_sensitivity: String,
     pub(super) dof: Option<f64>,
+    /// Whether the sheet says that its evaluation is of type A (JCGM 100, 4.2).
+    pub(super) is_type_a: bool,
     /// Whether it is a figure of the result: `U`, `k`.
     pub(super) is_summary: bool,
 }
@@ -125,11 +129,20 @@ impl Budget<'_> {
                 continue;
             }
             let row = self.row(header, line, label.clone(), is_result || is_symbol);
-            if columns::is_factor(words) && is_bare_of(&row) && row.unit.is_empty() {
-                let known = row.estimate.or(row.divisor);
+            let is_factor = columns::is_factor(words)
+                && (is_bare_of(&row) || words.chars().count() > 1 && row.sensitivity.is_none());
+            if is_factor && row.unit.is_empty() {
+                let known = row.estimate.or(row.divisor).or(row.std).or(row.width);
                 table.factor = table.factor.or(known.filter(|factor| *factor > 0.0));
                 let text = format!("line {}: `{words}` is a coverage factor, not taken", line + 1);
                 self.understood.push(text);
+                continue;
+            }
+            if columns::is_effective_dof(words) && !self.is_quantity_with_unit(&row) {
+                self.understood.push(format!(
+                    "line {}: `{words}` are those of the result, and not compared",
+                    line + 1
+                ));
                 continue;
             }
             let nothing = row.estimate.is_none() && row.width.is_none() && row.std.is_none();
@@ -140,6 +153,17 @@ impl Budget<'_> {
                 self.surplus(header, line);
                 table.stated.extend(self.stated(header, line, &row));
                 self.result_row(&mut table, row, is_symbol);
+                continue;
+            }
+            let is_unit_of_result =
+                nothing && is_after && measurand.is_none() && table.result.is_none();
+            if is_unit_of_result && !row.unit.is_empty() {
+                self.guessed.push(format!(
+                    "line {}: `{label}` has a unit and no numbers, and is taken for the result",
+                    line + 1
+                ));
+                let name = columns::identifier(words);
+                table.result = Some(Row { name, ..row });
                 continue;
             }
             if nothing {
@@ -153,6 +177,7 @@ impl Budget<'_> {
             row.name = self.name(words, &table.rows, line, used);
             self.divided(header, &row);
             self.coverage(header, &mut row);
+            self.concise(header, &mut row);
             self.contradictions(&row);
             table.rows.push(row);
         }
@@ -160,7 +185,7 @@ impl Budget<'_> {
         // an equation names its result itself
         if table.result.as_ref().is_none_or(|result| result.is_summary)
             && table.rows.last().is_none_or(|last| !used.contains(&last.name))
-            && let Some(reason) = last_is_result(&table.rows)
+            && let Some(reason) = self.last_is_result(header, &table.rows)
             && (measurand.is_none() || reason == NO_UNCERTAINTY)
             && let Some(last) = table.rows.pop()
         {
@@ -312,6 +337,11 @@ impl Budget<'_> {
         }
         row.divisor = self.divisor(header, line, lenient);
         row.dof = self.dof(header, line, lenient);
+        let of_type = header.cell(self.cells, line, Column::Evaluation);
+        row.is_type_a = columns::evaluation(of_type) == Some('A');
+        if !lenient {
+            self.said_in_words(header, &mut row);
+        }
         let has_limits = self.limits(header, &mut row, lenient).is_some();
         row.distribution = self.distribution(header, &row, lenient);
         if has_limits && row.distribution.is_none() && row.divisor.is_none() && row.std.is_none() {
@@ -325,6 +355,96 @@ impl Budget<'_> {
             self.extent(header, &mut row, has_limits);
         }
         row
+    }
+
+    /// Takes the degrees of freedom that stand with a factor, `normal (k=2.28; dof=10)`, or that are one less
+    /// than the number of readings; refuses factors that can be read in two ways, and such of a standard
+    /// uncertainty.
+    fn said_in_words(&mut self, header: &Header, row: &mut Row) {
+        let line = row.line;
+        let cell = |column| header.cell(self.cells, line, column).trim();
+        let is_unsaid = is_empty(cell(Column::Dof));
+        for column in [Column::Distribution, Column::Width, Column::Std] {
+            let text = cell(column);
+            let statement = match Statement::of(text) {
+                Ok(statement) => statement,
+                Err(reason) => return self.fail(line, reason),
+            };
+            let factor = statement.coverage.factor(None);
+            if column == Column::Std && factor.is_some_and(|k| !near(k, 1.0)) {
+                let heading = header.heading_of(column).trim();
+                let reason = format!(
+                    "`{text}` below `{heading}` can be a standard uncertainty, or an expanded one: leave the \
+                     factor out, or head the column `U`"
+                );
+                return self.fail(line, reason);
+            }
+            match statement.dof {
+                Some(dof) if is_unsaid || row.dof == Some(dof) => row.dof = Some(dof),
+                Some(dof) => {
+                    let reason = format!(
+                        "`{text}` says {} degrees of freedom, their column `{}`: which is right?",
+                        Shortest(dof),
+                        cell(Column::Dof)
+                    );
+                    return self.fail(line, reason);
+                }
+                None => {}
+            }
+        }
+        let number = row.divisor.filter(|_| columns::is_root_of_n(cell(Column::Divisor)));
+        let readings = number.map(|root| (root * root).round()).filter(|number| *number >= 2.0);
+        if let Some(readings) = readings.filter(|_| is_unsaid && row.dof.is_none()) {
+            row.dof = Some(readings - 1.0);
+            self.guessed.push(format!(
+                "line {}: {} degrees of freedom are taken, as of the standard deviation of {} readings",
+                line + 1,
+                Shortest(readings - 1.0),
+                Shortest(readings)
+            ));
+        }
+    }
+
+    /// Whether a row has the numbers of a quantity in a unit, and none of a summary.
+    fn is_quantity_with_unit(&self, row: &Row) -> bool {
+        !row.unit.is_empty() || row.estimate.is_some() && row.std.or(row.width).is_some()
+    }
+
+    /// Why the last row is the result and no quantity, if it is: it lacks what every other one has, or it
+    /// is their sum with their combined uncertainty, to half a unit of the last digit that is printed.
+    fn last_is_result(&self, header: &Header, rows: &[Row]) -> Option<&'static str> {
+        let (last, others) = rows.split_last().filter(|(_, others)| !others.is_empty())?;
+        let bare = |row: &Row| row.width.is_none() && row.std.is_none();
+        if bare(last) {
+            return others.iter().all(|row| !bare(row)).then_some(NO_UNCERTAINTY);
+        }
+        let is_alone = last.distribution.is_none() && last.sensitivity.is_none();
+        if is_alone && others.iter().all(|row| row.sensitivity.is_some()) {
+            return Some("has neither a sensitivity coefficient nor a distribution");
+        }
+        if last.sensitivity.is_some() {
+            return None;
+        }
+        // a sum of two rows may be a third one by chance, with its uncertainty as well hardly
+        let near = |column: Column, a: f64, b: f64| {
+            let text = without_factor(header.cell(self.cells, last.line, column).trim());
+            let number = number::number_with_unit(text, self.cells.decimal_comma());
+            let share = number.map_or(0.0, |(value, unit)| {
+                half_digit(text.strip_suffix(unit).unwrap_or(text)) / value.abs()
+            });
+            (a - b).abs() <= share.clamp(0.01, SAME) * a.abs().max(b.abs())
+        };
+        let of = |row: &Row| row.sensitivity.unwrap_or(1.0);
+        let sum: f64 = others.iter().map(|row| of(row) * row.estimate.unwrap_or(0.0)).sum();
+        let squares =
+            others.iter().filter_map(|row| Some((of(row) * standard_uncertainty(row)?).powi(2)));
+        let combined = squares.sum::<f64>().sqrt();
+        let column = if last.std.is_some() { Column::Std } else { Column::Width };
+        let stated = last.std.or(last.width)?;
+        let is_sum = last.estimate.is_some_and(|estimate| near(Column::Estimate, estimate, sum));
+        let is_combined = near(column, stated, combined) || near(column, stated, 2.0 * combined);
+        (others.len() > 1 && is_sum && is_combined)
+            .then_some("is the sum of the others with their combined uncertainty")
     }
 
     /// Whether a line has no uncertainty, coefficient, shape or divisor.
@@ -405,6 +525,12 @@ impl Budget<'_> {
         name
     }
 
+    /// Why the cell of a column holds no number, though it looks like one.
+    fn no_number(&self, header: &Header, line: usize, column: Column) -> Option<String> {
+        let (place, _) = header.columns.iter().find(|(_, of)| *of == column)?;
+        self.cells.no_number(line, *place)
+    }
+
     /// The number in a cell and the unit behind it, which is empty where there is none.
     fn with_unit<'c>(
         &'c self,
@@ -417,8 +543,7 @@ impl Budget<'_> {
         if is_empty(text) {
             return None;
         }
-        let own = header.columns.iter().find(|(_, of)| *of == column).map(|(place, _)| *place);
-        if let Some(reason) = own.and_then(|place| self.cells.no_number(line, place)) {
+        if let Some(reason) = self.no_number(header, line, column) {
             if !lenient {
                 self.fail(line, reason);
             }
@@ -431,6 +556,13 @@ impl Budget<'_> {
             _ => text,
         };
         let comma = self.cells.decimal_comma();
+        let is_of_concise = |unit: &str| unit.is_empty() || Unit::parse(unit).is_ok();
+        if column == Column::Estimate
+            && let Some((value, _, unit)) = concise(text, comma)
+            && is_of_concise(unit)
+        {
+            return Some((value, unit));
+        }
         let read = number::number_with_unit(text, comma)
             .map(|(value, unit)| (value, columns::without_in(unit)));
         let is_unit = |unit: &str| grouped_digits(unit).is_none() && Unit::parse(unit).is_ok();
@@ -508,14 +640,17 @@ impl Budget<'_> {
         }
         let (value, unit) = self.with_unit(header, line, column, lenient)?;
         let unit = unit.to_owned();
+        // `0.06 (95 %)` is no share
+        let is_uncertain = matches!(column, Column::Width | Column::Std);
+        let own_text = if is_uncertain { without_factor(text) } else { text };
         if !column.is_of_place() && value < 0.0 && !lenient {
             self.fail(line, format!("the {} `{text}` is below zero", column.name()));
             return None;
         }
         let unit = match self.unit_of_uncertainty(header, line, column) {
             "" => unit,
-            own if unit.is_empty() && !text.contains('%') => own.to_owned(),
-            own if own == unit || own == "%" && text.contains('%') => unit,
+            own if unit.is_empty() && !own_text.contains('%') => own.to_owned(),
+            own if own == unit || own == "%" && own_text.contains('%') => unit,
             own => {
                 if !lenient {
                     let column = header.heading_of(Column::UnitOfUncertainty);
@@ -532,7 +667,7 @@ impl Budget<'_> {
             return None;
         }
         let of_header = header.unit(column).unwrap_or_default();
-        let is_percent = text.contains('%') && unit.is_empty();
+        let is_percent = own_text.contains('%') && unit.is_empty();
         if !of_header.is_empty() && (is_percent || !unit.is_empty()) && !lenient {
             let own = if is_percent { "%" } else { unit.as_str() };
             if own != of_header {
@@ -552,6 +687,22 @@ impl Budget<'_> {
         let (share, own) = (Unit::parse(unit).ok(), Unit::parse(&row.unit).ok());
         let of_value = share.as_ref().map(|share| Share::of(share, own.as_ref()));
         match (of_value, share) {
+            (Some(Share::OfValue), Some(_))
+                if own
+                    .as_ref()
+                    .is_some_and(|own| own.is_celsius() || !own.level_exponent().is_zero())
+                    && !columns::is_share_of_estimate(header.heading_of(column)) =>
+            {
+                if !lenient {
+                    let reason = format!(
+                        "`{text}` of a quantity in `{}`: it is not clear what the share is of; write it in \
+                         that unit, or head the column `Uncertainty (% of reading)`",
+                        row.unit
+                    );
+                    self.fail(line, reason);
+                }
+                None
+            }
             (Some(Share::OfValue), Some(share)) => {
                 let share = (value * share.factor(), unit);
                 self.share(share, line, (column, lenient), row)
@@ -644,7 +795,7 @@ impl Budget<'_> {
     }
 
     /// A number with a unit behind it, in that of its row.
-    fn converted(
+    pub(super) fn converted(
         &self,
         (value, unit): (f64, &str),
         line: usize,
@@ -747,6 +898,17 @@ impl Budget<'_> {
                 self.fail(row.line, reason);
             }
             row.divisor = Some(if are_alike { 1.0 } else { width / std });
+            return;
+        }
+        let heading = header.heading_of(Column::Width).trim();
+        if columns::is_of_limits(heading) && row.distribution.is_none() {
+            let reason = format!(
+                "`{heading}` is no standard uncertainty, and nothing says what it is divided by: name the \
+                 distribution of `{}` in a column `Distribution` (rectangular, if nothing more is known), \
+                 or write a divisor",
+                row.name
+            );
+            self.fail(row.line, reason);
             return;
         }
         if of_header == HeaderCoverage::Expanded {
@@ -856,6 +1018,12 @@ impl Budget<'_> {
     fn divisor(&mut self, header: &Header, line: usize, lenient: bool) -> Option<f64> {
         let text = header.cell(self.cells, line, Column::Divisor).trim();
         if is_empty(text) {
+            return None;
+        }
+        if let Some(reason) = self.no_number(header, line, Column::Divisor) {
+            if !lenient {
+                self.fail(line, reason);
+            }
             return None;
         }
         if columns::is_root_of_n(text) {
@@ -1001,7 +1169,8 @@ impl Budget<'_> {
             && !lenient;
         let needs = is_undivided && !is_factor_of(text);
         // a probability has its factor with degrees of freedom alone, which may be infinite
-        let is_without_dof = is_empty(header.cell(self.cells, row.line, Column::Dof).trim());
+        let is_without_dof =
+            row.dof.is_none() && is_empty(header.cell(self.cells, row.line, Column::Dof).trim());
         let is_stated = [HeaderCoverage::of(text), header.coverage(Column::Width)]
             .iter()
             .any(|of| of.factor(None).is_some() && (of.probability().is_none() || !is_without_dof));
@@ -1061,7 +1230,7 @@ impl Budget<'_> {
 }
 
 /// Whether a cell says that there is nothing.
-fn is_empty(text: &str) -> bool {
+pub(super) fn is_empty(text: &str) -> bool {
     matches!(text.to_lowercase().as_str(), "" | "-" | "–" | "—" | "n/a" | "na" | "n.a.")
 }
 
@@ -1085,35 +1254,6 @@ fn is_grouped(text: &str) -> bool {
 
 /// Why the last row of a budget is taken for its result.
 const NO_UNCERTAINTY: &str = "has no uncertainty of its own";
-
-/// Why the last row is the result and no quantity, if it is: it lacks what every other one has, or it
-/// is their sum with their combined uncertainty.
-fn last_is_result(rows: &[Row]) -> Option<&'static str> {
-    let (last, others) = rows.split_last().filter(|(_, others)| !others.is_empty())?;
-    let bare = |row: &Row| row.width.is_none() && row.std.is_none();
-    if bare(last) {
-        return others.iter().all(|row| !bare(row)).then_some(NO_UNCERTAINTY);
-    }
-    let is_alone = last.distribution.is_none() && last.sensitivity.is_none();
-    if is_alone && others.iter().all(|row| row.sensitivity.is_some()) {
-        return Some("has neither a sensitivity coefficient nor a distribution");
-    }
-    if last.sensitivity.is_some() {
-        return None;
-    }
-    // a sum of two rows may be a third one by chance, with its uncertainty as well hardly
-    let near = |a: f64, b: f64| (a - b).abs() <= 0.01 * a.abs().max(b.abs());
-    let of = |row: &Row| row.sensitivity.unwrap_or(1.0);
-    let sum: f64 = others.iter().map(|row| of(row) * row.estimate.unwrap_or(0.0)).sum();
-    let squares =
-        others.iter().filter_map(|row| Some((of(row) * standard_uncertainty(row)?).powi(2)));
-    let combined = squares.sum::<f64>().sqrt();
-    let stated = last.std.or(last.width)?;
-    let is_sum = last.estimate.is_some_and(|estimate| near(estimate, sum));
-    let is_combined = near(stated, combined) || near(stated, 2.0 * combined);
-    (others.len() > 1 && is_sum && is_combined)
-        .then_some("is the sum of the others with their combined uncertainty")
-}
 
 /// Shapes that are stated by a half width, and the square of what that is divided by.
 pub(super) const HALF_WIDTHS: [(&str, f64); 3] =

@@ -72,6 +72,36 @@ impl Budget<'_> {
         }
     }
 
+    /// Whether no number is that of several rows by a merged cell, which may be each one's or one of all;
+    /// otherwise after a mistake.
+    pub(super) fn has_own_numbers(&self, header: &Header) -> bool {
+        let mut has_own = true;
+        for &((first, column), (last, _)) in &self.cells.layout().merged {
+            let (first, last, place) = (first as usize, last as usize, column as usize);
+            let text = self.cells.text(first, place).trim();
+            let is_of_numbers = |(of, column): &(usize, Column)| {
+                *of == place && (column.is_of_place() || Column::UNCERTAIN.contains(column))
+            };
+            let holds = |line: usize| {
+                let mut cells = header.columns.iter().map(|(of, _)| self.cells.text(line, *of));
+                cells.any(|cell| !cell.trim().is_empty())
+            };
+            let is_shared = first > header.line && (first + 1..=last).any(holds);
+            if is_shared && !text.is_empty() && header.columns.iter().any(is_of_numbers) {
+                let reason = format!(
+                    "the merged cell `{text}` below `{}` spans lines {} to {}: it can be the number of each \
+                     of them, or one of all together; write it into the cell of each line, or keep one line",
+                    header.heading(place).trim(),
+                    first + 1,
+                    last + 1
+                );
+                self.fail(first, reason);
+                has_own = false;
+            }
+        }
+        has_own
+    }
+
     /// Whether all that the budget needs is there to be seen; otherwise after a mistake.
     pub(super) fn is_shown(&self, header: Option<&Header>) -> bool {
         let layout = self.cells.layout();
@@ -97,11 +127,16 @@ impl Budget<'_> {
         for line in from..self.cells.lines() {
             let Ok(row) = u32::try_from(line) else { continue };
             let cells = self.cells.row(line).iter().enumerate();
-            let mut held =
-                cells.filter(|(place, cell)| has(*place, true) && !cell.trim().is_empty());
-            let Some((place, cell)) = held.next() else { continue };
-            let is_struck = u32::try_from(place).is_ok_and(|of| layout.struck.contains(&(row, of)));
-            let Some((how, undo)) = layout.withdrawn(row, is_struck) else { continue };
+            let held: Vec<(usize, &String)> = cells
+                .filter(|(place, cell)| has(*place, true) && !cell.trim().is_empty())
+                .collect();
+            let is_struck = |place: usize| {
+                u32::try_from(place).is_ok_and(|of| layout.struck.contains(&(row, of)))
+            };
+            // one cell that is struck through withdraws its number
+            let struck = held.iter().find(|(place, _)| is_struck(*place));
+            let Some((_, cell)) = struck.or(held.first()) else { continue };
+            let Some((how, undo)) = layout.withdrawn(row, struck.is_some()) else { continue };
             let reason =
                 format!("row {} (`{}`) is {how}: {undo}, or delete it", line + 1, cell.trim());
             self.fail(line, reason);

@@ -6,7 +6,8 @@
 use std::path::Path;
 
 use super::Budget;
-use super::columns::{self, Column, Header, HeaderCoverage};
+use super::columns::{self, Column, Header};
+use super::coverage::HeaderCoverage;
 use super::number::{constant, number_with_unit};
 use super::rows::{Row, without_factor};
 use crate::reader::read_text;
@@ -261,7 +262,7 @@ fn digits_for(figure: Figure, own: f64, u: f64) -> u32 {
 }
 
 /// Half of a unit of the last digit of a number as it is written.
-fn half_digit(text: &str) -> f64 {
+pub(super) fn half_digit(text: &str) -> f64 {
     let end = text.find(['e', 'E', '·', '×', '*']).unwrap_or(text.len());
     let (mantissa, rest) = text.split_at(end);
     let digits: String =

@@ -1120,8 +1120,7 @@ fn formulas_without_values_are_mistakes() {
         let computed = "<c><f>D2/F2</f><v></v></c>";
         let rows = row(&head)
             + &row(&["Cal", "<c><v>10</v></c>", "V", cell, "normal", "<c><v>2</v></c>", computed]);
-        let book =
-            crate::workbook::tests::workbook(|out| out.write_all(rows.as_bytes()), |_| Ok(()));
+        let book = workbook::tests::workbook(|out| out.write_all(rows.as_bytes()), |_| Ok(()));
         import("b.xlsx", &book)
     };
     let error = of("<c><f>0.004/2</f><v></v></c>").unwrap_err().to_string();
@@ -1433,8 +1432,7 @@ fn marks_in_texts_of_a_workbook() {
             let rest = format!("{}<c><v>1</v></c>{}", text("mm"), text("normal (k=2)"));
             rows += &format!("<row>{}{estimate}{rest}</row>", text(&name));
         }
-        let book =
-            crate::workbook::tests::workbook(|out| out.write_all(rows.as_bytes()), |_| Ok(()));
+        let book = workbook::tests::workbook(|out| out.write_all(rows.as_bytes()), |_| Ok(()));
         import("b.xlsx", &book)
     };
     let english = "Quantity,Estimate,Unit,Uncertainty,Distribution";
@@ -1562,13 +1560,267 @@ fn a_t_distribution_without_degrees_of_freedom_is_asked() {
     let (found, budget) = uncertainties(&text("Expanded uncertainty;k;dof", "0,0053;2,65;5"));
     assert!((found[0] - 0.002).abs() < 1e-15 && known_dof(&budget) == [5.0]);
     let error = refusal("Quantity;Estimate;Unit;U (2 SD)\nRef;10;V;0,004\n");
-    assert!(error.contains("`U (2 SD)`: what `SD` says of the uncertainty is not"), "{error}");
+    assert!(error.contains("`2 SD` in the heading `U (2 SD)` is not understood"), "{error}");
     let text = |divisor: &str| {
         format!("Quantity;Estimate;Unit;±;Distribution;Divisor\nA;1;V;0,4;normal (2 s);{divisor}\n")
     };
     assert!(refusal(&text("")).contains("`normal (2 s)`: what `s` says"));
     assert!(refusal(&text("1")).contains("`normal (2 s)`: what `s` says"));
     assert_eq!(uncertainties(&text("2")).0, [0.2]);
+}
+
+/// A stated factor goes before a probability, and a comma before a space separates: `k=2, 95 %` was 0.0295,
+/// and U = 0.02 V had u = 0.678 V in place of 0.010 V.
+#[test]
+fn factors_beside_probabilities_and_units() {
+    for (heading, cell, shape, u) in [
+        ("U (k=2, 95 %)", "0.02", "", 0.01),
+        ("U (k=2, 95.45 %)", "0.02", "", 0.01),
+        ("Uncertainty", "0.02", "normal (k=2, 95 %)", 0.01),
+        ("Uncertainty", "0.02", "normal (k=2, 95.45 %)", 0.01),
+        ("Uncertainty", "0.02 V (k=2, 95 %)", "", 0.01),
+        ("Uncertainty", "0.06 (k=2, 95 %)", "", 0.03),
+        ("Uncertainty", "0.0258", "normal (2.58σ)", 0.01),
+        ("Uncertainty (1.96 sigma)", "0.0196", "", 0.01),
+        ("Uncertainty ±2σ", "0.02", "", 0.01),
+        ("Uncertainty", "0.02", "normal (coverage factor 2)", 0.01),
+        ("U (k=2, %)", "0.2", "", 0.01),
+        ("U (k=2, mV)", "20", "", 0.01),
+        ("U (mV, k=2)", "20", "", 0.01),
+        ("Standard uncertainty mV", "10", "", 0.01),
+        ("Standard uncertainty %", "0.1", "", 0.01),
+        ("Standard uncertainty (1 sigma)", "0.01", "", 0.01),
+    ] {
+        for separator in [',', ';'] {
+            let text = format!(
+                "Quantity,Estimate,Unit,\"{heading}\",Distribution\na,10,V,\"{cell}\",\"{shape}\"\n"
+            );
+            let text: String = text
+                .split('"')
+                .enumerate()
+                .map(|(at, part)| match at % 2 {
+                    1 => format!("\"{part}\""),
+                    _ => part.replace(',', &separator.to_string()),
+                })
+                .collect();
+            let (found, _) = uncertainties(&text);
+            // a few roundings of conversions and divisors
+            assert!((found[0] / u - 1.0).abs() < 1e-12, "{heading} {cell} {shape}: {found:?}");
+        }
+    }
+    let (found, budget) = uncertainties(
+        "Größe;Schätzwert;Einheit;Erweiterte Messunsicherheit (k=2, 95 %)\na;10,5;V;0,02\n",
+    );
+    assert_eq!(found, [0.01], "{:?}", budget.guessed);
+    for (heading, cell, shape, part) in [
+        ("U (k=2,95 %)", "0.02", "", "can say k = 2 and `95 %`, or k = 2.95"),
+        ("Uncertainty", "0.02", "normal (k=2,95 %)", "can say k = 2 and `95 %`, or k = 2.95"),
+        (
+            "Std. unc. (k=2)",
+            "0.02",
+            "",
+            "can be a standard uncertainty, or an expanded one of k = 2",
+        ),
+        (
+            "Standard uncertainty",
+            "0.02 V (k=2)",
+            "",
+            "can be a standard uncertainty, or an expanded",
+        ),
+        (
+            "Uncertainty (rectangular)",
+            "0.02",
+            "",
+            "the distribution `rectangular` is read in a column",
+        ),
+        ("Uncertainty (mV rms)", "20", "", "`mV rms` in the heading"),
+        ("Uncertainty x 1000", "20", "", "`x 1000` in the heading"),
+        ("Half-width", "0.02", "", "`Half-width` is no standard uncertainty"),
+        ("Tolerance", "0.02", "", "`Tolerance` is no standard uncertainty"),
+        ("Half-width a", "0.02", "", "`Half-width a` is no standard uncertainty"),
+        ("U (k=2.13, dof=9)", "0.02", "", "degrees of freedom are read in a column `dof`"),
+        ("Uncertainty", "0.02", "rectangular (50 % rh)", "what `%` says of the uncertainty"),
+    ] {
+        let error = refusal(&format!(
+            "Quantity,Estimate,Unit,\"{heading}\",Distribution\na,10,V,{cell},\"{shape}\"\n"
+        ));
+        assert!(error.contains(part), "{heading} {shape}: {error}");
+    }
+    let (_, budget) = uncertainties(
+        "Quantity,Estimate,Unit,Uncertainty,Distribution\na,10,V,0.0228,normal (k=2.28; dof=10)\n",
+    );
+    assert_eq!(known_dof(&budget), [10.0]);
+    let error = refusal(
+        "Quantity,Estimate,Unit,Uncertainty,Coverage probability,dof\na,10,V,0.02,95 %,9\n",
+    );
+    assert!(error.contains("the column `Coverage probability` is not read"), "{error}");
+}
+
+/// `20.00(6) V` is 20.00 V with u = 0.06 V; the unit was `(6) V`.
+#[test]
+fn uncertainties_in_the_last_digits_of_estimates() {
+    let text = "Quantity,Estimate,Standard uncertainty\na,20.00(6) V,0.06 V\nb,0.50(3) V,\n";
+    let (found, budget) = uncertainties(text);
+    // two roundings
+    assert!((found[0] - 0.06).abs() < 1e-15 && (found[1] - 0.03).abs() < 1e-15, "{found:?}");
+    let means: Vec<f64> = task(&budget).rows[0].distributions.iter().map(|d| d.mean()).collect();
+    assert_eq!(
+        (means, task(&budget).model.outputs[0].quantity.unit.text()),
+        (vec![20.0, 0.5], "V")
+    );
+    let error = refusal(&text.replace(",0.06 V", ",0.03 V"));
+    assert!(
+        error.contains("`20.00(6) V` says the standard uncertainty 0.06, the row 0.03"),
+        "{error}"
+    );
+}
+
+/// The first quantity of which nothing can be read was taken for a line of symbols, and was gone.
+#[test]
+fn the_first_row_is_no_line_of_symbols() {
+    let text = |first: &str| format!("Quantity,Value,Uncertainty\n{first}\nb,2.0 V,0.1 V\n");
+    for first in ["a,≈20 V,≈1 V", "a,see cert,see cert", "a,#REF!,#REF!", "a,TBD,TBD"] {
+        let error = refusal(&text(first));
+        assert!(error.contains("is no number") && error.contains("b.csv:2:1"), "{first}: {error}");
+    }
+    for cell in [
+        "(20.00 ± 0.06) V",
+        "(20.00 ± 0.06) V (k=2)",
+        "≈20 V ± 0.06 V",
+        "V ± 0.06 V",
+        "[19.94, 20.06] V",
+    ] {
+        let text = format!("Quantity,Estimate,c_i\na,\"{cell}\",1\nb,0.50 V ± 0.03 V (k=2),1\n");
+        let error = refusal(&text);
+        assert!(error.contains("is no number") && error.contains("b.csv:2:1"), "{cell}: {error}");
+    }
+    // symbols are no row, whatever stands before them
+    let (found, _) = uncertainties("Quantity,Estimate,Standard uncertainty\nX,x,u(x)\na,20,0.1\n");
+    assert_eq!(found, [0.1]);
+    for line in [",mm,\"µm, k=2\"", ",mm,(µm) k=2"] {
+        let error = refusal(&format!("Quantity,Estimate,Uncertainty\n{line}\na,20,1\n"));
+        assert!(error.contains("below the header is neither a unit nor"), "{line}: {error}");
+    }
+}
+
+/// 0.1 and 0.1 make 0.1414, which is printed as 0.14.
+#[test]
+fn a_result_of_two_digits_is_no_input() {
+    for (head, rows) in [
+        ("", ["a,6.0,mm,0.10", "b,2.0,mm,0.10", "y,8.0,mm,0.14"]),
+        (",c_i", ["a,6.0,mm,0.10,1", "b,2.0,mm,0.10,-1", "y,4.0,mm,0.14,"]),
+        (
+            ",Distribution,c_i",
+            ["a,6.0,mm,0.10,normal,1", "b,2.0,mm,0.10,normal,-1", "y,4.0,mm,0.14,normal,"],
+        ),
+    ] {
+        let text =
+            format!("Quantity,Estimate,Unit,Standard uncertainty{head}\n{}\n", rows.join("\n"));
+        let (found, budget) = uncertainties(&text);
+        assert_eq!(found, [0.1, 0.1], "{}", budget.text);
+        assert_eq!(task(&budget).model.outputs[0].quantity.name, "y");
+    }
+}
+
+/// Equations in signs that are not known; the sum was taken in their place. Statements of uncertainties are
+/// computed here.
+#[test]
+fn equations_that_cannot_be_read_are_refused() {
+    let head = "Quantity;Estimate;Unit;Standard uncertainty\na;6.0;1;0.1\nb;2.0;1;0.1\n";
+    for equation in ["y = a x b", "y = a : b", "y = \\frac{a}{b}", "y = Σ x_i", "y = a b"] {
+        let error = refusal(&format!("{equation}\n{head}"));
+        assert!(error.contains("cannot be read as an equation"), "{equation}: {error}");
+    }
+    for line in [
+        "U = k*uc",
+        "u(y) = sqrt(u(a)^2+u(b)^2)",
+        "u_c = sqrt(u1^2 + u2^2)",
+        "Date = 12 May 2026",
+        "Lab = PTB Berlin",
+    ] {
+        let (_, budget) = uncertainties(&format!("{line}\n{head}"));
+        assert!(budget.text.contains("a + b"), "{line}: {}", budget.text);
+    }
+    // a voltage
+    let (_, budget) = uncertainties(&format!("U = a*b\n{head}"));
+    assert!(budget.text.contains(r#""U":"a*b""#), "{}", budget.text);
+    let chain: String = (1..3000).map(|n| format!("z{n} = z{} + a\n", n - 1)).collect();
+    let known: Vec<String> = vec!["a".to_owned(), "b".to_owned()];
+    let (cells, _) = grid::of_text(format!("z0 = a\n{chain}{head}").as_bytes()).unwrap();
+    let found = Equations::of(&cells).of_result(&known).unwrap();
+    assert_eq!(found.read.len(), 3000);
+}
+
+/// Contributions of which one is a thousand times the other's: 6 µm and 3 µm made 3.00 mm.
+#[test]
+fn contributions_that_contradict_each_other_are_refused() {
+    let text = "Quantity,Estimate,Unit,Standard uncertainty,Sensitivity coefficient,Contribution\n\
+        a,20,mm,0.006,1,6\nb,0,µm,3,1,3\n";
+    let error = refusal(text);
+    assert!(error.contains("`a` is 1000 times that of this model in `mm`"), "{error}");
+    let (_, budget) = uncertainties(&text.replace("Contribution", "Contribution (µm)"));
+    assert!(!guesses(&budget, "contributes"), "{:?}", budget.guessed);
+    // the row of the result without numbers has its unit
+    let (_, budget) =
+        uncertainties("Quantity,Estimate,Unit,Standard uncertainty\na,20,mm,0.006\ny,,nm,\n");
+    assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "nm");
+}
+
+/// Figures of the result that are no uncertainties, types of evaluations, numbers of readings.
+#[test]
+fn what_stands_beside_the_uncertainties() {
+    let (found, budget) = uncertainties(
+        "Quantity,Estimate,Unit,Standard uncertainty,Type\na,6.0,mm,0.1,A\nb,2.0,mm,0.1,B\n\
+         Combined standard uncertainty,,mm,0.141,\nCoverage factor k,,,2.05,\n\
+         Effective degrees of freedom,,,50,\n",
+    );
+    assert_eq!(found, [0.1, 0.1]);
+    assert!(!guesses(&budget, "the sheet says"), "{:?}", budget.guessed);
+    let types: Vec<_> = task(&budget).variables.iter().map(|of| of.evaluation).collect();
+    use gumption_engine::distribution::EvaluationType;
+    assert_eq!(types, [EvaluationType::A, EvaluationType::B]);
+    let (_, budget) = uncertainties(
+        "Quantity;Estimate;Unit;Standard deviation;Divisor;n\nR;10;V;0,3;√n;9\nC;1;V;0,2;1;\n",
+    );
+    assert_eq!(known_dof(&budget), [8.0, f64::INFINITY]);
+    for row in ["t,20,°C,2 %", "G,10,dB,2 %"] {
+        let error = refusal(&format!("Quantity,Estimate,Unit,Standard uncertainty\n{row}\n"));
+        assert!(error.contains("it is not clear what the share is of"), "{error}");
+    }
+    let error = refusal("Quantity,Estimate,Unit,Standard uncertainty\na,20,V,\"2\nb,1,V,3\n");
+    assert!(error.contains("line 2: a cell that begins with a quote has no quote"), "{error}");
+    let long = "x".repeat(10_000);
+    let error = refusal(&format!("Quantity,Estimate,Unit,Standard uncertainty\na,{long},V,2\n"));
+    assert!(error.len() < 2_000, "{}", error.len());
+    let error = import("b.ods", b"PK").unwrap_err().to_string();
+    assert!(error.contains("a workbook of the format .ods, which is not read here"), "{error}");
+}
+
+/// A merged cell of numbers counted for its first row alone, and raised digits were part of the number.
+#[test]
+fn merged_numbers_and_raised_digits_are_refused() {
+    let of = |cell: &str, merged: &str| {
+        let text = |of: &str| format!(r#"<c t="inlineStr"><is><t>{of}</t></is></c>"#);
+        let row = |cells: &str| format!("<row>{cells}</row>");
+        let head: String =
+            ["Quantity", "Estimate", "Unit", "Standard uncertainty"].map(text).concat();
+        let first = text("a") + "<c><v>10</v></c>" + &text("V") + cell;
+        let second = text("b") + "<c><v>10</v></c>" + &text("V") + "<c/>";
+        let rows = row(&head) + &row(&first) + &row(&second);
+        let rows = format!("{rows}</sheetData>{merged}<sheetData>");
+        let book = workbook::tests::workbook(|out| out.write_all(rows.as_bytes()), |_| Ok(()));
+        import("b.xlsx", &book).map_err(|error| error.to_string())
+    };
+    let merged = r#"<mergeCells><mergeCell ref="D2:D3"/></mergeCells>"#;
+    let error = of("<c><v>0.02</v></c>", merged).unwrap_err();
+    assert!(
+        error.contains("the merged cell `0.02` below `Standard uncertainty` spans lines 2 to 3"),
+        "{error}"
+    );
+    assert!(of("<c><v>0.02</v></c>", "").is_ok());
+    let raised = r#"<c t="inlineStr"><is><r><t>10</t></r><r><rPr><vertAlign val="superscript"/></rPr><t>3</t></r></is></c>"#;
+    let error = of(raised, "").unwrap_err();
+    assert!(error.contains("cell D2 holds `10` with a raised `3`"), "{error}");
 }
 
 /// `10.1` that a spreadsheet has turned into 10 January 2026, day 46032; and per cent beside ppm.
@@ -1584,7 +1836,7 @@ fn dates_and_shares_of_shares_are_refused() {
         (["R1", "50", "ppm", "4 %", "1"], "can be a share of the value, or be counted"),
     ] {
         let rows: [&[&str]; 3] = [header, &row, &["R2", "5", "ohm", "0.1", "1"]];
-        std::fs::write(&path, crate::workbook::tests::styled(&rows)).unwrap();
+        std::fs::write(&path, workbook::tests::styled(&rows)).unwrap();
         let found = import_budget(&path).unwrap_err().to_string();
         assert!(found.contains(said), "{found}");
     }

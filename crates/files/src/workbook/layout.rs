@@ -7,6 +7,7 @@ use std::io::{Cursor, Read};
 use quick_xml::events::{BytesStart, Event};
 use zip::ZipArchive;
 
+use super::rich::{self, Parts};
 use super::{
     COLUMNS, MOST_COLUMNS, MOST_OF_PART, MOST_ROWS, ROWS, attribute, date, place, reference,
 };
@@ -43,6 +44,8 @@ pub(crate) struct Layout {
     pub(crate) struck: BTreeSet<Place>,
     /// Cells that hold a text, in which a number has the marks that somebody wrote.
     pub(crate) texts: BTreeSet<Place>,
+    /// Cells of which a part is raised, lowered or struck through, with what is to be said of it.
+    pub(crate) rich: BTreeMap<Place, String>,
     /// Cells that show a date or a time, with what they show.
     pub(crate) dates: BTreeMap<Place, String>,
     /// The power of ten of the last digit that a cell shows of its number, where its format tells.
@@ -52,11 +55,19 @@ pub(crate) struct Layout {
 impl Layout {
     /// That of the sheet of this number in the workbook, from 0; nothing where its part is not found.
     pub(super) fn of(bytes: &[u8], sheet: usize) -> Self {
-        part_of_sheet(bytes, sheet).map(|text| Self::of_text(&text)).unwrap_or_default()
+        let mut parts = PartsOf::of(bytes);
+        let shared = parts.as_mut().and_then(|of| of.part("xl/sharedStrings.xml"));
+        let shared = shared.map(|text| rich::shared(&text)).unwrap_or_default();
+        let text = parts.and_then(|mut of| of.sheet(sheet));
+        text.map(|text| Self::of_text(&text, &shared)).unwrap_or_default()
     }
 
-    /// Why a cell holds no number though its value is one: it shows a date or a time.
+    /// Why a cell holds no number though its value is one: it shows a date or a time, or a part of its text
+    /// is raised.
     pub(crate) fn no_number(&self, cell: Place) -> Option<String> {
+        if let Some(reason) = self.rich.get(&cell) {
+            return Some(format!("cell {} {reason}", reference(cell)));
+        }
         let shown = self.dates.get(&cell)?;
         Some(format!("cell {} {}", reference(cell), date::no_number(shown)))
     }
@@ -133,19 +144,22 @@ impl Layout {
         first(&self.zeros, is_needed, reason)
     }
 
-    fn of_text(text: &str) -> Self {
+    /// Of the XML of a sheet and what is doubtful of the texts that its cells share.
+    fn of_text(text: &str, shared: &[Option<String>]) -> Self {
         let mut found = Self::default();
         let mut xml = quick_xml::Reader::from_str(text);
         // the row and the column that come next, from 1
         let (mut row, mut column) = (0, 0);
         let (mut is_formula, mut has_value, mut in_value) = (false, false, false);
         let (mut value, mut has_other) = (String::new(), false);
+        let (mut parts, mut is_shared) = (Parts::default(), false);
         loop {
             let event = match xml.read_event() {
                 Ok(Event::Eof) | Err(_) => break,
                 Ok(event) => event,
             };
             let is_empty = matches!(event, Event::Empty(_));
+            parts.take(&event);
             match event {
                 Event::Start(element) | Event::Empty(element) => {
                     match element.local_name().as_ref() {
@@ -162,6 +176,8 @@ impl Layout {
                             value.clear();
                             let own = attribute(&element, "r").and_then(|r| place(&r));
                             (column, row) = own.unwrap_or(((column + 1).min(COLUMNS), row.max(1)));
+                            parts = Parts::default();
+                            is_shared = attribute(&element, "t").is_some_and(|of| of == "s");
                             is_formula = false;
                             // a formula may give an empty text
                             has_value = attribute(&element, "t").is_some_and(|of| of == "str");
@@ -181,7 +197,18 @@ impl Layout {
                     }
                 }
                 Event::End(element) => match element.local_name().as_ref() {
-                    "v" | "is" => in_value = false,
+                    "v" if is_shared => {
+                        in_value = false;
+                        let doubt =
+                            value.trim().parse().ok().and_then(|at: usize| shared.get(at)?.clone());
+                        found.rich.extend(doubt.map(|doubt| (from_zero((column, row)), doubt)));
+                    }
+                    "is" => {
+                        in_value = false;
+                        let doubt = parts.doubt();
+                        found.rich.extend(doubt.map(|doubt| (from_zero((column, row)), doubt)));
+                    }
+                    "v" => in_value = false,
                     "c" if is_formula && !has_value => {
                         found.unfilled.push(from_zero((column, row)));
                     }
@@ -234,35 +261,46 @@ fn hidden_columns(col: &BytesStart<'_>) -> std::ops::Range<u32> {
     end("min").saturating_sub(1)..end("max")
 }
 
-/// The XML of a sheet.
-fn part_of_sheet(bytes: &[u8], sheet: usize) -> Option<String> {
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).ok()?;
-    let mut part = |name: &str| {
+/// The parts of a workbook.
+struct PartsOf<'b>(ZipArchive<Cursor<&'b [u8]>>);
+
+impl<'b> PartsOf<'b> {
+    fn of(bytes: &'b [u8]) -> Option<Self> {
+        ZipArchive::new(Cursor::new(bytes)).ok().map(Self)
+    }
+
+    /// The text of the part of that name.
+    fn part(&mut self, name: &str) -> Option<String> {
         let of = |at: usize, archive: &mut ZipArchive<Cursor<&[u8]>>| {
             let found = archive.by_index(at).ok()?;
             let is_it = found.name().ok()?.replace('\\', "/").eq_ignore_ascii_case(name);
             is_it.then_some(at)
         };
-        let at = (0..archive.len()).find_map(|at| of(at, &mut archive))?;
+        let at = (0..self.0.len()).find_map(|at| of(at, &mut self.0))?;
         let mut text = String::new();
-        let part = archive.by_index(at).ok()?;
+        let part = self.0.by_index(at).ok()?;
         part.take(MOST_OF_PART).read_to_string(&mut text).ok()?;
         Some(text)
-    };
-    let book = part("xl/workbook.xml")?;
-    let is_sheet = |element: &BytesStart<'_>| element.local_name().as_ref() == "sheet";
-    let id = elements(&book, is_sheet, |element| {
-        // in whichever namespace
-        let id = element.attributes().flatten().find(|of| of.key.local_name().as_ref() == "id")?;
-        Some(id.value.into_owned())
-    });
-    let id = id.into_iter().nth(sheet)??;
-    let relations = part("xl/_rels/workbook.xml.rels")?;
-    let is_own = |element: &BytesStart<'_>| attribute(element, "Id").is_some_and(|of| of == id);
-    let targets = elements(&relations, is_own, |element| attribute(element, "Target"));
-    let target = targets.into_iter().flatten().next()?;
-    let name = target.strip_prefix('/').map_or_else(|| format!("xl/{target}"), str::to_owned);
-    part(&name)
+    }
+
+    /// The XML of the sheet of this number, from 0.
+    fn sheet(&mut self, sheet: usize) -> Option<String> {
+        let book = self.part("xl/workbook.xml")?;
+        let is_sheet = |element: &BytesStart<'_>| element.local_name().as_ref() == "sheet";
+        let id = elements(&book, is_sheet, |element| {
+            // in whichever namespace
+            let id =
+                element.attributes().flatten().find(|of| of.key.local_name().as_ref() == "id")?;
+            Some(id.value.into_owned())
+        });
+        let id = id.into_iter().nth(sheet)??;
+        let relations = self.part("xl/_rels/workbook.xml.rels")?;
+        let is_own = |element: &BytesStart<'_>| attribute(element, "Id").is_some_and(|of| of == id);
+        let targets = elements(&relations, is_own, |element| attribute(element, "Target"));
+        let target = targets.into_iter().flatten().next()?;
+        let name = target.strip_prefix('/').map_or_else(|| format!("xl/{target}"), str::to_owned);
+        self.part(&name)
+    }
 }
 
 /// What the wanted elements of an XML hold.
@@ -294,23 +332,23 @@ mod tests {
             <c r="D3"><f>1+1</f></c><c><f>1+1</f><v></v></c></row><row><c r="A4"><f>2</f><v>2</v></c>
             <c t="str"><f>""</f><v/></c><c t="inlineStr"><is><t>a</t></is></c></row></sheetData>
             <mergeCells><mergeCell ref="C2:C5"/></mergeCells></worksheet>"#;
-        let found = Layout::of_text(sheet);
+        let found = Layout::of_text(sheet, &[]);
         assert_eq!(found.hidden, BTreeSet::from([1, 2]));
         assert_eq!(found.unfilled, [(2, 3), (2, 4)]);
         assert_eq!(found.merged, [((1, 2), (4, 2))]);
         let cells = r#"<cols><col min="2" max="3" hidden="1"/><col min="5" max="16384" width="9"/></cols>
             <row><c r="A1"><v>&e;</v></c><c><v>&#49;</v></c><c><f>1-1</f><v>0</v></c><c><f>2</f>"#;
-        let zeros = Layout::of_text(&format!("{cells}<v>0</v></c></row>"));
+        let zeros = Layout::of_text(&format!("{cells}<v>0</v></c></row>"), &[]);
         assert_eq!(zeros.hidden_columns, BTreeSet::from([1, 2]));
         assert_eq!((&*zeros.entities, &*zeros.zeros), (&[(0, 0)][..], &[(0, 2), (0, 3)][..]));
-        assert!(Layout::of_text(&format!("{cells}<v>2</v></c></row>")).zeros.is_empty());
+        assert!(Layout::of_text(&format!("{cells}<v>2</v></c></row>"), &[]).zeros.is_empty());
         // of a table, the zeros of its own rows alone
         let zeros = Layout { entities: Vec::new(), ..zeros };
         let said = zeros.check_shown([0].iter()).unwrap_err();
         assert!(said.starts_with("its cell C1 is a formula whose stored value is 0"), "{said}");
         assert_eq!(zeros.check_shown([1, 2].iter()), Ok(()));
         assert_eq!(
-            Layout::of_text("<row hidden=\"1\"><c"),
+            Layout::of_text("<row hidden=\"1\"><c", &[]),
             Layout { hidden: BTreeSet::from([0]), ..Layout::default() }
         );
     }

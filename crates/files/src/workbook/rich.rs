@@ -1,0 +1,126 @@
+//! Texts of cells whose parts have a look of their own: raised or lowered, or struck through.
+//!
+//! Without it `10` and a raised `3` are 103, and `0.05` with a footnote is 0.051.
+
+use quick_xml::events::Event;
+
+use super::attribute;
+
+/// The parts of one text, as they are read.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Parts {
+    /// What stands before the part that is read.
+    before: String,
+    text: String,
+    /// How the part looks: `raised`, `lowered` or `struck through`.
+    look: Option<&'static str>,
+    in_text: bool,
+    found: Option<String>,
+}
+
+impl Parts {
+    /// Takes an event of the XML between the beginning and the end of the text.
+    pub(super) fn take(&mut self, event: &Event<'_>) {
+        match event {
+            Event::Start(element) | Event::Empty(element) => match element.local_name().as_ref() {
+                "r" => {
+                    self.close();
+                    self.look = None;
+                }
+                "vertAlign" => {
+                    self.look = match attribute(element, "val").as_deref() {
+                        Some("superscript") => Some("raised"),
+                        Some("subscript") => Some("lowered"),
+                        _ => self.look,
+                    }
+                }
+                "strike"
+                    if attribute(element, "val").is_none_or(|of| of == "1" || of == "true") =>
+                {
+                    self.look = Some("struck-through");
+                }
+                "t" => self.in_text = matches!(event, Event::Start(_)),
+                _ => {}
+            },
+            Event::Text(text) if self.in_text => self.text.push_str(text),
+            Event::End(element) => match element.local_name().as_ref() {
+                "t" => self.in_text = false,
+                "r" => self.close(),
+                _ => {}
+            },
+            _ => {}
+        }
+    }
+
+    fn close(&mut self) {
+        let text = std::mem::take(&mut self.text);
+        let is_number = |c: char| c.is_ascii_digit() || matches!(c, '-' | '−' | '+' | ',' | '.');
+        let touches = self.before.ends_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | ','));
+        if let Some(look) = self.look
+            && self.found.is_none()
+            && text.trim().starts_with(is_number)
+            && (touches || look == "struck-through")
+        {
+            self.found = Some(format!(
+                "holds `{}` with a {look} `{}`, which may be a power, a footnote or no part of the number: \
+                 write the number alone",
+                self.before.trim(),
+                text.trim()
+            ));
+        }
+        self.before.push_str(&text);
+    }
+
+    /// Why the text is no plain number; nothing where all of its parts are alike.
+    pub(super) fn doubt(&mut self) -> Option<String> {
+        self.close();
+        self.found.take()
+    }
+}
+
+/// What is doubtful of each of the texts that cells share, in their order.
+pub(super) fn shared(text: &str) -> Vec<Option<String>> {
+    let mut xml = quick_xml::Reader::from_str(text);
+    let (mut found, mut parts) = (Vec::new(), Parts::default());
+    loop {
+        let event = match xml.read_event() {
+            Ok(Event::Eof) | Err(_) => return found,
+            Ok(event) => event,
+        };
+        parts.take(&event);
+        match event {
+            Event::Start(element) if element.local_name().as_ref() == "si" => {
+                parts = Parts::default()
+            }
+            Event::Empty(element) if element.local_name().as_ref() == "si" => found.push(None),
+            Event::End(element) if element.local_name().as_ref() == "si" => {
+                found.push(parts.doubt())
+            }
+            _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shared;
+
+    #[test]
+    fn raised_digits_behind_digits_are_doubtful() {
+        let run = |look: &str, text: &str| format!("<r><rPr>{look}</rPr><t>{text}</t></r>");
+        let raised = r#"<vertAlign val="superscript"/>"#;
+        let texts = [
+            run("", "0.05") + &run(raised, "1"),
+            run("", "mm") + &run(raised, "2"),
+            run("", "5 m/s") + &run(raised, "2"),
+            "<t>103</t>".to_owned(),
+            run("<strike/>", "0.05") + &run("", "0.06"),
+            run("", "5·10") + &run(raised, "-6"),
+        ];
+        let text: String = texts.iter().map(|text| format!("<si>{text}</si>")).collect();
+        let found = shared(&format!("<sst>{text}</sst>"));
+        let is_doubtful: Vec<bool> = found.iter().map(Option::is_some).collect();
+        assert_eq!(is_doubtful, [true, false, false, false, true, true], "{found:?}");
+        assert!(found[0].as_ref().unwrap().contains("`0.05` with a raised `1`"));
+    }
+}
