@@ -55,7 +55,7 @@ impl Reader<'_> {
     fn factor(&self, row: usize, of: u8, (place, expanded): (usize, &Number)) -> Option<f64> {
         let coverage = self.columns.coverage(place);
         let stated = match self.columns.place(Role::Factor(of)) {
-            // of a laboratory whose cell is empty the heading or the usual factor counts
+            // a cell that is empty is refused
             Some(k) => Some((k, self.numbers.bare(row, k)?)),
             None => None,
         };
