@@ -201,7 +201,7 @@ fn set_replaces_estimates_and_fields() {
     let twice = ["run", "-", "--set", "x=3", "--set", "x=4"];
     let (code, answer, message) = ended(&twice, SMALL);
     assert_eq!((code, answer.as_str()), (2, ""));
-    assert!(message.contains("`--set x=3` and `--set x=4`"), "{message}");
+    assert!(message.contains("`x=4`: it and `x=3` replace the same"), "{message}");
     near(with(&["x.half_width=0.3"]), (500.0, 3.0 * u));
     near(with(&["x.half_width=10 %"]), (500.0, u));
     near(with(&["x=2", "x.half_width=10 %", "t=4"]), (500.0, 2.0 * u));
@@ -328,7 +328,7 @@ fn wrong_arguments_end_with_2() {
         ("--k", "a coverage factor above 0 and at most 8 is needed"),
         ("--memory", "a size such as 64M, 512MiB or 1G is needed"),
         ("--threads", "a whole number from 1 to 1024 is needed"),
-        ("--digits", "-1 is not in 1..=15"),
+        ("--digits", "a whole number from 1 to 15 is needed"),
     ] {
         let (code, _, message) = ended(&["run", "-", option, "-1"], SMALL);
         assert!(code == 2 && message.contains(needed), "{option}: {message}");
