@@ -233,18 +233,20 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Refuses a group without a sign before it that begins with a number, or in which numbers and
-    /// shares stand alone: `V (23)`, `ohm (0.1 %)`. Its factors begin at `from`.
+    /// Refuses a group without a sign before it that begins with a number, or in which a number stands
+    /// among numbers and shares alone: `V (23)`, `ohm (0.1 %)`. Its factors begin at `from`.
     fn refuse_number(&self, start: usize, from: usize) -> Result<(), UnitError> {
         let group = self.slice(start..self.at);
         let inside = group.trim_start_matches(|c: char| c == '(' || c.is_whitespace());
-        let is_number = |factor: &Factor| match factor.base {
-            FactorBase::Number(_) => true,
+        let is_number = |factor: &Factor| matches!(factor.base, FactorBase::Number(_));
+        let is_share = |factor: &Factor| match factor.base {
             FactorBase::Named { symbol, .. } => symbol.flavour == Flavour::Relative,
-            FactorBase::Defined(_) => false,
+            FactorBase::Number(_) | FactorBase::Defined(_) => false,
         };
+        let mut factors = self.factors.iter().skip(from);
         let begins = inside.starts_with(|c: char| c.is_ascii_digit());
-        if begins || self.factors.iter().skip(from).all(is_number) {
+        let alone = factors.clone().all(|factor| is_number(factor) || is_share(factor));
+        if begins || alone && factors.any(is_number) {
             let (found, span) = (group.to_owned(), start..self.at);
             return Err(UnitError::NumberInParentheses { found, span });
         }

@@ -28,6 +28,7 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
     ("for approximately {} %", "für etwa {0} %"),
     ("for {} %", "für {0} %"),
     ("for {}, fixed", "für {0:}, fest"),
+    ("whatever the degrees of freedom, fixed", "bei beliebigen Freiheitsgraden, fest"),
     (
         "Coverage interval from {} to {}, by GUM alone",
         "Überdeckungsintervall von {0} bis {1}, nach dem GUM allein",

@@ -347,7 +347,7 @@ pub(crate) fn conclusions<'a>(
         && matches!(gum.dof, Dof::Finite(_));
     let (factor, remark) = match gum.coverage_factor {
         Some(factor) if is_agreed => {
-            let remark = "(agreed, whatever the degrees of freedom)".to_owned();
+            let remark = "whatever the degrees of freedom".to_owned();
             (Figure::of(factor, rounded(factor, -2)), remark)
         }
         Some(factor) => (

@@ -365,14 +365,24 @@ impl Integrated<'_> {
             let mut out = Column::ZERO;
             // what lies beyond the limits of the input, or as far as no value is
             let (least, most) = (low.max(-1e300), high.min(1e300));
+            // what the places that were looked at leave
+            let mut held = [[f64::NEG_INFINITY, f64::INFINITY]; COLUMN];
             for step in 0..STEPS {
                 let mut moved: f64 = 0.0;
                 let mut next = [0.0; COLUMN];
                 for (i, next) in next.iter_mut().enumerate() {
                     let newton = (y - output.0[i]) / slope.0[i];
+                    let end = usize::from((output.0[i] > y) == (slope.0[i] > 0.0));
+                    held[i][end] = at.0[i];
                     // far steps would leave the range where the slope says anything
                     let limit = 8.0 * width;
-                    let to = (at.0[i] + newton.clamp(-limit, limit)).clamp(least, most);
+                    let mut to = (at.0[i] + newton.clamp(-limit, limit)).clamp(least, most);
+                    // beside a steep end steps go to and fro
+                    let [from, until] = held[i];
+                    let is_far = (to - at.0[i]).abs() > ENDED * width;
+                    if is_far && !(to > from && to < until) && (until - from).is_finite() {
+                        to = 0.5 * (from + until);
+                    }
                     moved = moved.max((to - at.0[i]).abs());
                     *next = to;
                 }
