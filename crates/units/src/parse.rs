@@ -234,7 +234,8 @@ impl<'t> Parser<'t> {
     }
 
     /// Refuses a group without a sign before it that begins with a number, or in which a number stands
-    /// among numbers and shares alone: `V (23)`, `ohm (0.1 %)`. Its factors begin at `from`.
+    /// among numbers and shares alone, or a share alone: `V (23)`, `ohm (0.1 %)`, `V (%)`. Its factors
+    /// begin at `from`.
     fn refuse_number(&self, start: usize, from: usize) -> Result<(), UnitError> {
         let group = self.slice(start..self.at);
         let inside = group.trim_start_matches(|c: char| c == '(' || c.is_whitespace());
@@ -244,9 +245,13 @@ impl<'t> Parser<'t> {
             FactorBase::Number(_) | FactorBase::Defined(_) => false,
         };
         let mut factors = self.factors.iter().skip(from);
-        let begins = inside.starts_with(|c: char| c.is_ascii_digit());
+        let is_one = factors.clone().all(|factor| factor.exponent.to_f64() == 1.0);
+        // `V (1/s)` is a product
+        let reciprocal =
+            inside.strip_prefix('1').is_some_and(|of| of.trim_start().starts_with('/'));
+        let begins = inside.starts_with(|c: char| c.is_ascii_digit()) && !reciprocal;
         let alone = factors.clone().all(|factor| is_number(factor) || is_share(factor));
-        if begins || alone && factors.any(is_number) {
+        if begins || alone && (is_one && factors.len() == 1 || factors.any(is_number)) {
             let (found, span) = (group.to_owned(), start..self.at);
             return Err(UnitError::NumberInParentheses { found, span });
         }

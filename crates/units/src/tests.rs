@@ -10,6 +10,7 @@ type Right = (&'static str, f64, &'static str);
 /// Factors that are exact.
 #[rustfmt::skip]
 const RIGHT: &[Right] = &[
+    ("m (1/s)", 1.0, "m s^-1"), ("m (%^2)", 1e-4, "m"),
     // Base units, prefixes.
     ("", 1.0, "1"), ("  ", 1.0, "1"), ("1", 1.0, "1"), ("m", 1.0, "m"), ("kg", 1.0, "kg"),
     ("g", 1e-3, "kg"), ("mg", 1e-6, "kg"), ("ug", 1e-9, "kg"), ("s", 1.0, "s"), ("A", 1.0, "A"),

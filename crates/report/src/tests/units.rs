@@ -101,6 +101,8 @@ impl Choices<'_> {
                 (false, true) => self.of(&["/", " / "]),
                 // behind a quotient a space and a dot are refused
                 (false, false) if divided => "*",
+                // `V (%)` is refused
+                (false, false) if grouped && some.len() == 1 => "*",
                 (false, false) => self.of(&TIMES),
             };
             divided |= divide;
