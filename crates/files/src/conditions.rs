@@ -368,13 +368,8 @@ impl super::condition_values::ConditionValues for NoConditions {
         };
         formula.check_names(&Scope::new()).map_err(kinds)?;
         // of a coherent unit both readings are the same
-        match numbers_alone::refused(formula, unit, of).filter(|_| unit.factor() != 1.0) {
-            Some(reason) => {
-                let (key, found) = ("mean".to_owned(), formula.text().to_owned());
-                Err(vec![DiagnosticKind::Value { key, found, reason }])
-            }
-            None => Ok(()),
-        }
+        let kind = numbers_alone::mistake(formula, unit, of).filter(|_| unit.factor() != 1.0);
+        kind.map_or(Ok(()), |kind| Err(vec![kind]))
     }
 
     fn value(&self, formula: &Formula, _: usize, unit: &Unit, _: ValueOf) -> f64 {

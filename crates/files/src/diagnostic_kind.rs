@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::gravity;
 use super::keys::{self, SHAPES};
+use super::shapes;
 use super::value_text::with_point;
 use gumption_engine::distribution::Invalid;
 use gumption_engine::model::formula::{FormulaError, ScaleMisfit};
@@ -653,11 +654,6 @@ fn list<S: AsRef<str>>(names: &[S]) -> String {
 /// At most so many names are listed in a message.
 const LONGEST_LIST: usize = 30;
 
-/// Whether a key is a width of an input, of which 0 is none.
-fn is_width(key: &str) -> bool {
-    matches!(key, "std" | "half_width" | "semi_range" | "expanded" | "scale")
-}
-
 /// What is done with an uncertainty of 0.
 pub(crate) const WITHOUT_UNCERTAINTY: &str = "; a quantity without an uncertainty has the distribution `constant`, and a component without \
      one is left out";
@@ -812,7 +808,7 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::NotPositive { key, found } => {
                 write!(f, "`{key}` is {}, but must be above zero", Shortest(*found))?;
-                let is_none = *found == 0.0 && is_width(key);
+                let is_none = *found == 0.0 && shapes::WIDTHS.contains(&key.as_str());
                 if is_none { f.write_str(WITHOUT_UNCERTAINTY) } else { Ok(()) }
             }
             Self::NotWhole { key, found, least, most } => {

@@ -3,6 +3,7 @@
 
 use std::collections::HashMap;
 
+use super::DiagnosticKind;
 use super::scopes;
 use super::value_text::{ValueOf, converted, with_unit};
 use super::width::number;
@@ -10,10 +11,18 @@ use gumption_engine::model::formula::{Formula, Scope};
 use gumption_engine::number::Shortest;
 use gumption_units::{Turn, Unit};
 
+/// The mistake of an estimate that is a formula of numbers alone; that of another key is
+/// [`DiagnosticKind::of_key`].
+pub(super) fn mistake(formula: &Formula, unit: &Unit, of: ValueOf) -> Option<DiagnosticKind> {
+    let reason = refused(formula, unit, of)?;
+    let (key, found) = ("mean".to_owned(), formula.text().to_owned());
+    Some(DiagnosticKind::Value { key, found, reason })
+}
+
 /// Why a formula of conditions that has none, nor a unit in brackets, is no value in `unit`; `None` of
 /// every other formula, and where both readings are the same plain number. Angles may be computed with
 /// pi, as in radians.
-pub(super) fn refused(formula: &Formula, unit: &Unit, of: ValueOf) -> Option<String> {
+fn refused(formula: &Formula, unit: &Unit, of: ValueOf) -> Option<String> {
     let text = formula.text().trim();
     let is_plain =
         unit.dimension().is_none() && unit.factor() == 1.0 && unit.level_exponent().is_zero();

@@ -142,10 +142,8 @@ impl ConditionValues for ConditionSet<'_> {
         };
         let kinds = |errors: Vec<FormulaError>| errors.into_iter().map(kind).collect::<Vec<_>>();
         let typing = result.map_err(kinds)?;
-        let alone = numbers_alone::refused(formula, unit, of).filter(|_| self.check_units);
-        if let Some(reason) = alone {
-            let (key, found) = ("mean".to_owned(), formula.text().to_owned());
-            return Err(vec![DiagnosticKind::Value { key, found, reason }]);
+        if let Some(kind) = numbers_alone::mistake(formula, unit, of).filter(|_| self.check_units) {
+            return Err(vec![kind]);
         }
         match typing.dimension.filter(|_| self.check_units) {
             Some(dimension) if dimension != unit.dimension() => {

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::copies::Copies;
 use super::noise_model::{NoiseModel, lag};
 use crate::Case;
+use gumption_engine::distribution::Distribution;
 use gumption_engine::number::elementary;
 use gumption_engine::task::Sharing;
 
@@ -183,6 +184,12 @@ pub(crate) struct Spread {
     pub(crate) shared: Vec<Option<Vec<usize>>>,
 }
 
+/// The standard deviation of what is known about an input; its standard uncertainty where it has none.
+pub(crate) fn deviation(of: &Distribution) -> f64 {
+    let deviation = of.standard_deviation();
+    if deviation.is_finite() { deviation } else { of.standard_uncertainty() }
+}
+
 impl Spread {
     pub(crate) fn new(case: &Case, data: &Data) -> Self {
         let variables = case.task.variables.len();
@@ -190,17 +197,8 @@ impl Spread {
             .map(|variable| {
                 let of = |point: &Point| {
                     let row = point.rows.first().and_then(|&row| case.task.rows.get(data.ids[row]));
-                    row.and_then(|row| row.distributions.get(variable)).map_or(
-                        0.0,
-                        |distribution| {
-                            let deviation = distribution.standard_deviation();
-                            if deviation.is_finite() {
-                                deviation
-                            } else {
-                                distribution.standard_uncertainty()
-                            }
-                        },
-                    )
+                    let distribution = row.and_then(|row| row.distributions.get(variable));
+                    distribution.map_or(0.0, |distribution| deviation(distribution))
                 };
                 data.points.iter().map(of).collect()
             })

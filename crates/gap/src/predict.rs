@@ -1,5 +1,6 @@
 //! What a hypothesis says at any conditions, after what the data taught about its unknowns.
 
+use super::data;
 use super::latent::{Map, Role};
 use super::likelihood::{Evaluator, Likelihood, fixed_at};
 use super::setup::Setup;
@@ -155,10 +156,7 @@ pub(crate) fn variances_of(
     let of = |&output: &usize| {
         let part = |v: usize| {
             let distribution = row.distributions.get(v).filter(|_| wanted(v));
-            let deviation = distribution.map_or(0.0, |distribution| {
-                let deviation = distribution.standard_deviation();
-                if deviation.is_finite() { deviation } else { distribution.standard_uncertainty() }
-            });
+            let deviation = distribution.map_or(0.0, |distribution| data::deviation(distribution));
             // an input that does not vary may act without bound
             if deviation == 0.0 { 0.0 } else { gradients[output][v] * deviation }
         };

@@ -234,6 +234,16 @@ impl Distribution {
         }
     }
 
+    /// The quantiles of probabilities below one half, in order, of the median and of what is left of one
+    /// above it; each once.
+    pub(crate) fn quantiles_about_median(&self, below: &[f64]) -> Vec<f64> {
+        let lower = below.iter().map(|&p| self.quantile(p));
+        let upper = below.iter().rev().map(|&q| self.quantile_upper(q));
+        let mut all: Vec<f64> = lower.chain([self.quantile(0.5)]).chain(upper).collect();
+        all.dedup();
+        all
+    }
+
     /// The saved result, if it is one.
     pub fn saved(&self) -> Option<&SavedResult> {
         match self {

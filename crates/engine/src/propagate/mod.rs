@@ -10,6 +10,7 @@ mod control;
 mod density;
 mod evaluation;
 mod exact;
+mod golden_section;
 pub mod gum;
 mod input_figures;
 pub mod monte_carlo;

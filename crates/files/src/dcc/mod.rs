@@ -516,12 +516,15 @@ fn shaped(value: f64, known: Known, factor: f64) -> Result<Distribution, Invalid
     if u == 0.0 {
         return Constant::new(value).map(Into::into);
     }
-    let named = |shape| known.shape == Some(NamedShape::Known(shape));
-    match () {
-        () if named("rectangular") => Rectangular::new(value, u * 3.0_f64.sqrt()).map(Into::into),
-        () if named("triangular") => Triangular::new(value, u * 6.0_f64.sqrt()).map(Into::into),
-        () if named("arcsine") => Arcsine::new(value, u * 2.0_f64.sqrt()).map(Into::into),
-        () => Normal::with_dof(value, u, known.dof)
+    let named = match known.shape {
+        Some(NamedShape::Known(name)) => name,
+        _ => "",
+    };
+    match named {
+        "rectangular" => Rectangular::new(value, u * 3.0_f64.sqrt()).map(Into::into),
+        "triangular" => Triangular::new(value, u * 6.0_f64.sqrt()).map(Into::into),
+        "arcsine" => Arcsine::new(value, u * 2.0_f64.sqrt()).map(Into::into),
+        _ => Normal::with_dof(value, u, known.dof)
             .and_then(|normal| normal.stated_with(known.factor))
             .map(Into::into),
     }

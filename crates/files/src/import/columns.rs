@@ -38,6 +38,23 @@ pub(crate) enum Column {
     Evaluation,
 }
 
+/// Words of measured values, which are estimates where no other column is one.
+pub(super) const MEASURED: [&str; 13] = [
+    "measured value",
+    "measured",
+    "measurement",
+    "reading",
+    "indication",
+    "observed value",
+    "messwert",
+    "gemessener wert",
+    "anzeige",
+    "anzeigewert",
+    "ablesung",
+    "valeur mesurée",
+    "lecture",
+];
+
 /// The words of each column, without what stands in brackets.
 pub(super) const WORDS: &[(Column, &[&str])] = &[
     (Column::Symbol, &["symbol", "formelzeichen", "x_i", "xi", "zeichen", "symbole"]),
@@ -951,28 +968,13 @@ impl Header {
     /// A measured value is the estimate where no other column is one but that of nominal values, which
     /// is none beside it.
     fn measured_values(&mut self, cells: &Cells) {
-        const WORDS: [&str; 13] = [
-            "measured value",
-            "measured",
-            "measurement",
-            "reading",
-            "indication",
-            "observed value",
-            "messwert",
-            "gemessener wert",
-            "anzeige",
-            "anzeigewert",
-            "ablesung",
-            "valeur mesurée",
-            "lecture",
-        ];
         let own = place_of(&self.columns, Column::Estimate);
         if own.is_some_and(|own| !is_nominal(self.heading(own))) {
             return;
         }
         let comma = cells.decimal_comma();
         let is_measured = |header: &Self, place: usize| {
-            WORDS.contains(&plain(header.heading(place)).as_str())
+            MEASURED.contains(&plain(header.heading(place)).as_str())
                 && (header.line + 1..cells.lines())
                     .any(|line| number_with_unit(cells.text(line, place), comma).is_some())
         };

@@ -3,31 +3,14 @@
 //! A unit or a factor that is dropped makes results wrong by powers of ten. So everything that stands
 //! there is read or looked at: what may be a unit or a factor and is none that is known is refused.
 
-use super::columns::{WORDS, is_of_estimate, is_symbol, unit_as_meant};
+use super::columns::{MEASURED, WORDS, is_of_estimate, is_symbol, unit_as_meant};
 use super::coverage::Statement;
 use super::extent::Extent;
 use crate::named_shape::NamedShape;
 use gumption_units::Unit;
 
-/// Words of columns beside those of [`WORDS`]: of measured values, and the symbol of results.
-const OTHERS: [&str; 16] = [
-    "measured value",
-    "measured",
-    "measurement",
-    "reading",
-    "indication",
-    "observed value",
-    "messwert",
-    "gemessener wert",
-    "anzeige",
-    "anzeigewert",
-    "ablesung",
-    "valeur mesurée",
-    "lecture",
-    "result",
-    "ergebnis",
-    "x",
-];
+/// Words of columns of results.
+const RESULTS: [&str; 3] = ["result", "ergebnis", "x"];
 
 /// What a piece of a heading says.
 enum Said {
@@ -150,7 +133,8 @@ fn separated(text: &str) -> Vec<String> {
 /// What stands behind the words of a column, of which the longest are taken; `None` where it begins with
 /// none.
 fn behind_words(text: &str) -> Option<&str> {
-    let known = WORDS.iter().flat_map(|(_, words)| words.iter()).chain(&OTHERS);
+    let known = WORDS.iter().flat_map(|(_, words)| words.iter());
+    let known = known.chain(&MEASURED).chain(&RESULTS);
     known
         .filter_map(|word| behind(text, word))
         .filter(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))

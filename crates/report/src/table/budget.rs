@@ -345,15 +345,12 @@ pub(crate) fn conclusions<'a>(
     // do not leave it
     let is_agreed = matches!(settings.coverage, Coverage::Factor { fixed: true, .. })
         && matches!(gum.dof, Dof::Finite(_));
+    let about = match is_agreed {
+        true => "whatever the degrees of freedom".to_owned(),
+        false => format!("for {}", coverage_text(settings.coverage)),
+    };
     let (factor, remark) = match gum.coverage_factor {
-        Some(factor) if is_agreed => {
-            let remark = "whatever the degrees of freedom".to_owned();
-            (Figure::of(factor, rounded(factor, -2)), remark)
-        }
-        Some(factor) => (
-            Figure::of(factor, rounded(factor, -2)),
-            format!("for {}", coverage_text(settings.coverage)),
-        ),
+        Some(factor) => (Figure::of(factor, rounded(factor, -2)), about),
         None => {
             let text = "not defined for these degrees of freedom".to_owned();
             (Figure { text, value: None }, String::new())

@@ -8,6 +8,7 @@
 
 use super::smallest;
 use crate::distribution::Distribution;
+use crate::propagate::golden_section;
 use crate::special;
 
 /// Risks over all items that are inspected.
@@ -94,14 +95,8 @@ impl<'a> Inspection<'a> {
         all.sort_unstable_by(f64::total_cmp);
         let best = (0..all.len()).min_by(|&a, &b| form(all[a]).total_cmp(&form(all[b])));
         let best = best.unwrap_or(0);
-        let mut low = all[best.saturating_sub(1)];
-        let mut high = all[(best + 1).min(all.len() - 1)];
-        for _ in 0..60 {
-            let width = 0.381_966_011_250_105 * (high - low);
-            let (a, b) = (low + width, high - width);
-            if form(a) <= form(b) { high = b } else { low = a }
-        }
-        0.5 * (low + high)
+        let beside = [all[best.saturating_sub(1)], all[(best + 1).min(all.len() - 1)]];
+        golden_section::least(beside, 60, form)
     }
 
     /// How many standard uncertainties the prior's value moves for each unit of the score.

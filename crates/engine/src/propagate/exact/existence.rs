@@ -5,6 +5,7 @@ use super::tails::diverges;
 use super::term::{End, ring_at_end};
 use crate::distribution::Distribution;
 use crate::number::elementary;
+use crate::propagate::golden_section;
 
 /// Probabilities between whose quantiles a pole is looked for, below the median. Where the input comes to
 /// it with less than the first, no number of trials would tell that a moment does not exist.
@@ -13,9 +14,6 @@ const NODES: [f64; 16] =
 
 /// Golden sections after which a pole is known to 1e-11 of where it was looked for.
 const SECTIONS: u32 = 54;
-
-/// The smaller part of the golden section.
-const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
 /// Distances from a pole, in parts of where it was looked for, from whose outputs its order follows.
 const DISTANCES: [f64; 2] = [1e-6, 1e-9];
@@ -26,10 +24,7 @@ const OF_ORDER: f64 = 0.02;
 /// The order of the sharpest pole of a function between quantiles of its argument, 1 for 1/x; that of a
 /// function without one is about 0.
 fn order(distribution: &Distribution, modulus: impl Fn(f64) -> f64) -> f64 {
-    let below = NODES.iter().map(|&p| distribution.quantile(p));
-    let above = NODES.iter().rev().map(|&q| distribution.quantile_upper(q));
-    let mut nodes: Vec<f64> = below.chain([distribution.quantile(0.5)]).chain(above).collect();
-    nodes.dedup();
+    let nodes = distribution.quantiles_about_median(&NODES);
     let heights: Vec<f64> = nodes.iter().map(|&node| modulus(node)).collect();
     let mut most: f64 = 0.0;
     for (place, pair) in nodes.windows(2).enumerate() {
@@ -40,13 +35,8 @@ fn order(distribution: &Distribution, modulus: impl Fn(f64) -> f64) -> f64 {
         if heights[place].max(heights[place + 1]) < highest {
             continue;
         }
-        let [mut low, mut high] = [pair[0], pair[1]];
-        let width = high - low;
-        for _ in 0..SECTIONS {
-            let [a, b] = [low + GOLDEN * (high - low), high - GOLDEN * (high - low)];
-            if modulus(a) >= modulus(b) { high = b } else { low = a }
-        }
-        let at = 0.5 * (low + high);
+        let width = pair[1] - pair[0];
+        let at = golden_section::least([pair[0], pair[1]], SECTIONS, |x| -modulus(x));
         for side in [-1.0, 1.0] {
             let [far, near] = DISTANCES.map(|share| modulus(at + side * share * width));
             let own = elementary::ln(near / far) / elementary::ln(DISTANCES[0] / DISTANCES[1]);

@@ -62,10 +62,7 @@ fn run(
 /// too often.
 pub(super) fn parts(setup: &Setup, net: &Net, place: usize, cdf: &Cdf) -> Option<Vec<Parts>> {
     let distribution = &setup.distributions[place];
-    let below = NODES.iter().map(|&p| distribution.quantile(p));
-    let above = NODES.iter().rev().map(|&q| distribution.quantile_upper(q));
-    let mut nodes: Vec<f64> = below.chain([distribution.quantile(0.5)]).chain(above).collect();
-    nodes.dedup();
+    let nodes = distribution.quantiles_about_median(&NODES);
     let mut registers = setup.registers();
     net.columns
         .iter()
