@@ -61,6 +61,14 @@ impl Case {
                 "the prior probabilities must be from 0 to 1 and sum to one".to_owned(),
             ));
         }
+        let effects = self.candidates.len();
+        let can_be = [true, effects > 0, !self.pairs().is_empty(), effects > 2, true];
+        if shares.iter().zip(can_be).all(|(share, can_be)| *share <= 0.0 || !can_be) {
+            return Err(refused(format!(
+                "no hypothesis has a prior probability above 0: there are {effects} effects, and what \
+                 has one needs more of them"
+            )));
+        }
         Ok(())
     }
 

@@ -5,6 +5,7 @@
 use super::differential_evolution;
 use super::latent::bounded_from_normal;
 use super::likelihood::Likelihood;
+use super::line_profile;
 use super::mixture::{Mixture, add_ln, ln_priors, standard_normals};
 use super::profile_path;
 use super::search::{self, Mode};
@@ -73,8 +74,10 @@ impl EvidenceEstimate {
         let mut points = vec![vec![0.0; unknowns]];
         points.extend_from_slice(seeds);
         points.extend(evidence.screened(likelihood, starts));
-        evidence.modes = search::modes(likelihood, &points, MOST_MODES);
-        let mixture = Mixture::at_modes(&likelihood.bounded(), &evidence.modes);
+        let found = search::modes(likelihood, &points, MOST_MODES);
+        let resolved = line_profile::resolved(likelihood, found, MOST_MODES);
+        evidence.modes = resolved.modes;
+        let mixture = Mixture::at_modes(&likelihood.bounded(), &resolved.neighbourhoods);
         evidence.draw(likelihood, mixture, 2);
         evidence
     }
@@ -83,9 +86,12 @@ impl EvidenceEstimate {
     /// of all modes are drawn from again. Whether there was.
     pub(crate) fn explore(&mut self, likelihood: &Likelihood<'_>, seeds: &[Vec<f64>]) -> bool {
         let found = search::modes(likelihood, seeds, MOST_MODES);
-        let new = search::join(&mut self.modes, found, MOST_MODES);
+        let resolved = line_profile::resolved(likelihood, found, MOST_MODES);
+        let new = search::join(&mut self.modes, resolved.modes, MOST_MODES);
         if new {
-            let mixture = Mixture::at_modes(&likelihood.bounded(), &self.modes);
+            let all: Vec<Mode> =
+                resolved.neighbourhoods.iter().chain(&self.modes).cloned().collect();
+            let mixture = Mixture::at_modes(&likelihood.bounded(), &all);
             self.draw(likelihood, mixture, 2);
         }
         new

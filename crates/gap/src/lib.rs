@@ -29,6 +29,7 @@ mod goodness_of_fit;
 mod influence;
 mod latent;
 mod likelihood;
+mod line_profile;
 mod logarithm;
 mod mixture;
 mod model;

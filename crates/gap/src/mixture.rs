@@ -29,6 +29,17 @@ const DEFENCE: f64 = 0.04;
 /// Components whose weight is lower than the largest by this factor's logarithm are left out.
 const DEPTH: f64 = 7.0;
 
+/// The power of their densities with which modes get their shares: a mode that is less dense than the
+/// approximation has it would else be drawn from too rarely.
+pub(crate) const TEMPER: f64 = 0.7;
+
+/// The logarithm of the share of draws that a mode gets, but for a constant; `covariance` is that of
+/// its neighbourhood, and `best` the cost that costs are relative to.
+pub(crate) fn ln_share(mode: &Mode, covariance: &DMatrix<f64>, best: f64) -> f64 {
+    let half_ln_det = 0.5 * elementary::ln(covariance.determinant().max(f64::MIN_POSITIVE));
+    TEMPER * (best - mode.cost) + half_ln_det
+}
+
 /// A mixture of t distributions and the prior.
 #[derive(Clone, Debug)]
 pub(crate) struct Mixture {
@@ -201,8 +212,7 @@ impl Mixture {
         let mut components = Vec::new();
         for mode in modes {
             let Some(inverse) = mode.information.clone().try_inverse() else { continue };
-            let half_ln_det = 0.5 * elementary::ln(inverse.determinant().max(f64::MIN_POSITIVE));
-            let share = elementary::exp((0.7 * (best - mode.cost) + half_ln_det).max(-600.0));
+            let share = elementary::exp(ln_share(mode, &inverse, best).max(-600.0));
             components.extend(Component::new(share, mode.scores.clone(), &inverse));
         }
         let mut mixture = Self { unknowns, bounded: bounded.to_vec(), components };

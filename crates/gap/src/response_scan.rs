@@ -42,14 +42,22 @@ const PEAKS: usize = 6;
 const LINEAR: f64 = 1e-7;
 
 /// Which of the scanned parameters are linear, and the grids of the others.
-struct Plan {
-    linear: Vec<usize>,
+pub(crate) struct Plan {
+    pub(crate) linear: Vec<usize>,
     other: Vec<usize>,
+}
+
+impl Plan {
+    /// The same with one parameter held.
+    pub(crate) fn without(&self, held: usize) -> Self {
+        let rest = |of: &[usize]| of.iter().copied().filter(|&p| p != held).collect();
+        Self { linear: rest(&self.linear), other: rest(&self.other) }
+    }
 }
 
 /// A residual vector, whitened by the noise, and its coordinates along what is integrated out.
 #[derive(Clone)]
-struct Whitened {
+pub(crate) struct Whitened {
     values: Vec<f64>,
     shared: Vec<f64>,
 }
@@ -108,20 +116,20 @@ pub(crate) fn starts(
     base: &[f64],
     scanned: std::ops::Range<usize>,
 ) -> Vec<Vec<f64>> {
-    let Some(without) = whitened_at(likelihood, &[base.to_vec()]).pop() else {
-        return Vec::new();
-    };
-    let scan = Scan { likelihood, base, without };
-    let Some(plan) = scan.plan(scanned) else { return Vec::new() };
+    let Some(scan) = Scan::about(likelihood, base, FAR) else { return Vec::new() };
+    let Some(plan) = scan.plan(scanned.collect()) else { return Vec::new() };
     if plan.other.is_empty() {
         return scan.at(&plan, &[base.to_vec()]).into_iter().map(|(_, best, _)| best).collect();
     }
     plan.other.iter().flat_map(|&held| peaks(scan.over(&plan, held))).collect()
 }
 
-struct Scan<'l, 'c> {
+/// What is scanned, and about which point.
+pub(crate) struct Scan<'l, 'c> {
     likelihood: &'l Likelihood<'c>,
-    base: &'l [f64],
+    base: Vec<f64>,
+    /// Normal scores are scanned within this of 0.
+    far: f64,
     /// The residuals at the base, with which responses are compared.
     without: Whitened,
 }
@@ -142,7 +150,13 @@ fn whitened_at(likelihood: &Likelihood<'_>, points: &[Vec<f64>]) -> Vec<Whitened
     whitened::residuals(likelihood, points).into_iter().map(of).collect()
 }
 
-impl Scan<'_, '_> {
+impl<'l, 'c> Scan<'l, 'c> {
+    /// A scan with everything else as in `base`, of normal scores within `far` of 0.
+    pub(crate) fn about(likelihood: &'l Likelihood<'c>, base: &[f64], far: f64) -> Option<Self> {
+        let without = whitened_at(likelihood, &[base.to_vec()]).pop()?;
+        Some(Self { likelihood, base: base.to_vec(), far, without })
+    }
+
     fn map(&self, of: usize) -> Option<&Map> {
         match self.likelihood.roles.get(of)? {
             Role::Variable { maps, .. } => maps.first(),
@@ -151,7 +165,7 @@ impl Scan<'_, '_> {
     }
 
     fn most(&self, of: usize) -> f64 {
-        if self.map(of).is_some_and(Map::is_bounded) { EDGE } else { FAR }
+        if self.map(of).is_some_and(Map::is_bounded) { EDGE } else { self.far }
     }
 
     fn value(&self, of: usize, score: f64) -> f64 {
@@ -180,11 +194,10 @@ impl Scan<'_, '_> {
 
     /// Whether the response is linear in each parameter and in those together; `None` where nothing
     /// is to be scanned.
-    fn plan(&self, scanned: std::ops::Range<usize>) -> Option<Plan> {
-        if scanned.is_empty() {
+    pub(crate) fn plan(&self, all: Vec<usize>) -> Option<Plan> {
+        if all.is_empty() {
             return None;
         }
-        let all: Vec<usize> = scanned.collect();
         let mut linear: Vec<usize> = Vec::new();
         for &p in &all {
             // second differences in this parameter, alone and with those that are linear already,
@@ -234,7 +247,7 @@ impl Scan<'_, '_> {
     }
 
     /// The least cost over the linear parameters at points, with the whole point and the response.
-    fn at(&self, plan: &Plan, points: &[Vec<f64>]) -> Vec<(f64, Vec<f64>, Whitened)> {
+    pub(crate) fn at(&self, plan: &Plan, points: &[Vec<f64>]) -> Vec<(f64, Vec<f64>, Whitened)> {
         let group = plan.linear.len() + 1;
         const STEP: f64 = 0.5;
         let mut asked = Vec::with_capacity(points.len() * group);
@@ -441,10 +454,18 @@ impl Scan<'_, '_> {
 /// The points of the least costs among their neighbours, best first.
 fn peaks(grid: Vec<Scanned>) -> Vec<Vec<f64>> {
     let cost = |n: usize| grid.get(n).map_or(f64::INFINITY, |scanned| scanned.cost);
-    let mut peaks: Vec<usize> = (0..grid.len())
-        .filter(|&n| cost(n).is_finite())
-        .filter(|&n| (n == 0 || cost(n) <= cost(n - 1)) && cost(n) <= cost(n + 1))
-        .collect();
+    // of neighbours that are equal the last one counts, if those before are not lower
+    let mut before = f64::INFINITY;
+    let mut peaks = Vec::new();
+    for n in 0..grid.len() {
+        if cost(n) == cost(n + 1) {
+            continue;
+        }
+        if cost(n).is_finite() && cost(n) < before && cost(n) < cost(n + 1) {
+            peaks.push(n);
+        }
+        before = cost(n);
+    }
     smallest_first(&mut peaks, |&a| cost(a));
     peaks.truncate(PEAKS);
     let mut grid: Vec<Option<Vec<f64>>> = grid.into_iter().map(|s| Some(s.best)).collect();

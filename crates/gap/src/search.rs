@@ -14,7 +14,7 @@ use gumption_engine::number::{COLUMN, Column, elementary, smallest_first};
 const STEP: f64 = 1e-5;
 
 /// Normal scores are kept within this of 0; the prior probability beyond is below 1e-15.
-const FARTHEST: f64 = 8.0;
+pub(crate) const FARTHEST: f64 = 8.0;
 
 const MOST_STEPS: usize = 30;
 
@@ -36,8 +36,12 @@ pub(crate) struct Mode {
     pub(crate) information: DMatrix<f64>,
 }
 
+/// A mode that is better than the one in whose neighbourhood it is by more than this is another one:
+/// neighbourhoods are told from curvatures, which say little where the density has edges.
+const ELSEWHERE: f64 = 0.5;
+
 /// A mode that is found again counts as better from this gain on.
-const GAIN: f64 = 1e-3;
+pub(crate) const GAIN: f64 = 1e-3;
 
 impl Mode {
     /// Whether another point is within the neighbourhood of this mode.
@@ -106,19 +110,29 @@ pub(crate) fn modes(likelihood: &Likelihood<'_>, starts: &[Vec<f64>], most: usiz
     walkers.into_iter().map(Walker::mode).collect()
 }
 
+/// Whether a point is in the neighbourhood of a mode that is known and no worse.
+pub(crate) fn is_known(known: &[Mode], mode: &Mode) -> bool {
+    known.iter().any(|other| other.is_near(mode) && other.cost <= mode.cost + ELSEWHERE)
+}
+
 /// Adds modes to those that are known, best first and at most `most` of them; whether there was any
 /// among them that is not where a known one is.
 pub(crate) fn join(known: &mut Vec<Mode>, found: Vec<Mode>, most: usize) -> bool {
-    let before = known.len();
+    let mut new = vec![false; known.len()];
     for mode in found {
         // a mode that is known better takes the other's position
-        match known.iter_mut().find(|other| other.is_near(&mode) || mode.is_near(other)) {
-            Some(other) if mode.cost < other.cost - GAIN => *other = mode,
+        match known.iter().position(|other| other.is_near(&mode) || mode.is_near(other)) {
+            Some(n) if mode.cost < known[n].cost - GAIN => {
+                new[n] |= mode.cost < known[n].cost - ELSEWHERE;
+                known[n] = mode;
+            }
             Some(_) => {}
-            None => known.push(mode),
+            None => {
+                known.push(mode);
+                new.push(true);
+            }
         }
     }
-    let mut new: Vec<bool> = (0..known.len()).map(|n| n >= before).collect();
     let best = known.iter().map(|mode| mode.cost).fold(f64::INFINITY, f64::min);
     let mut order: Vec<usize> = (0..known.len()).collect();
     smallest_first(&mut order, |&a| known[a].cost);
@@ -148,6 +162,15 @@ pub(crate) fn profile(
     walkers.into_iter().filter_map(|walker| Some((walker.held?, walker.mode()))).collect()
 }
 
+/// Points as modes, though they may be none.
+pub(crate) fn at_points(likelihood: &Likelihood<'_>, points: &[Vec<f64>]) -> Vec<Mode> {
+    let mode = |(local, scores): (Local, &Vec<f64>)| {
+        let Local { cost, information, .. } = local;
+        Mode { scores: scores.clone(), cost, information }
+    };
+    locals(likelihood, points).into_iter().zip(points).map(mode).collect()
+}
+
 /// Information without what it says about one score, which is held.
 pub(crate) fn freed(information: &DMatrix<f64>, held: usize) -> DMatrix<f64> {
     let mut freed = information.clone();
@@ -157,7 +180,8 @@ pub(crate) fn freed(information: &DMatrix<f64>, held: usize) -> DMatrix<f64> {
     freed
 }
 
-fn farthest(likelihood: &Likelihood<'_>) -> Vec<f64> {
+/// How far from 0 each score is looked for.
+pub(crate) fn farthest(likelihood: &Likelihood<'_>) -> Vec<f64> {
     likelihood.bounded().iter().map(|b| if *b { EDGE } else { FARTHEST }).collect()
 }
 

@@ -1,7 +1,7 @@
 //! Cases whose fields were set by hand: data and priors that are none are refused.
 
 use super::{line, observed};
-use crate::{Case, DiagnosisOptions, ObservedOutput, OverrideError, diagnose};
+use crate::{Case, DiagnosisOptions, ObservedOutput, OverrideError, Prior, diagnose};
 use gumption_engine::task::Row;
 
 /// Why a case is not diagnosed after a change.
@@ -51,6 +51,11 @@ fn priors_that_are_none() {
     assert_eq!(refused(|case| case.prior.none = f64::NAN), shares);
     assert_eq!(refused(|case| case.prior.none = 5.0), shares);
     assert_eq!(refused(|case| case.prior.one = 0.0), shares);
+    // two effects are no three
+    let none = refused(|case| {
+        case.prior = Prior { none: 0.0, one: 0.0, two: 0.0, three: 1.0, unexplained: 0.0 };
+    });
+    assert!(none.starts_with("no hypothesis has a prior probability above 0"), "{none}");
     let missing = "the effect `offset` has 0 prior distributions for 1 parameters";
     assert_eq!(refused(|case| case.candidates[0].priors.clear()), missing);
 }

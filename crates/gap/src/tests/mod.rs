@@ -18,6 +18,7 @@ mod noise;
 mod one_row;
 mod regions;
 mod replication;
+mod thresholds;
 
 use std::sync::Arc;
 
