@@ -94,6 +94,46 @@ fn the_same_bytes_on_any_number_of_threads() {
     }
 }
 
+/// Standard error of a diagnosis that is refused.
+fn refused(path: &Path, arguments: &[&str]) -> String {
+    let assert = gumption().arg("gap").arg(path).args(arguments).assert().code(2);
+    String::from_utf8(assert.get_output().stderr.clone()).unwrap()
+}
+
+/// Where the sim is a column of the data, the rows to predict at need it as well.
+#[test]
+fn predictions_of_a_column_need_that_column() {
+    let text = CASE
+        .replace("\"equations\": {\"shown\": \"load + zero\"},\n", "")
+        .replace("\"value\": \"shown\",", "\"value\": \"shown\", \"sim\": \"said\",");
+    let (folder, path) = case(&text);
+    let data = folder.path().join("data.csv");
+    let rows: Vec<String> = std::fs::read_to_string(&data)
+        .unwrap()
+        .lines()
+        .map(|line| format!("{line},{}", line.split(',').next().unwrap()))
+        .collect();
+    std::fs::write(&data, rows.join("\n").replace("load,shown,u,load", "load,shown,u,said"))
+        .unwrap();
+    let at = folder.path().join("at.csv");
+    std::fs::write(&at, "load,said\n5,5\n500,500\n").unwrap();
+    diagnosed(&path, &["--predict", at.to_str().unwrap()]);
+    std::fs::write(&at, "load\n5\n500\n").unwrap();
+    let error = refused(&path, &["--predict", at.to_str().unwrap()]);
+    assert!(error.contains("for the simulation of `shown`"), "{error}");
+    assert!(error.contains("has no column `said`"), "{error}");
+}
+
+/// Three effects that must act together are not to be had of two.
+#[test]
+fn priors_of_impossible_hypotheses_are_refused() {
+    let prior =
+        r#""prior": {"none": 0, "one": 0, "two": 0, "three": 1, "unexplained": 0}, "effects""#;
+    let (_folder, path) = case(&CASE.replace("\"effects\"", prior));
+    let error = refused(&path, &[]);
+    assert!(error.contains("case.json") && error.contains("no hypothesis has a prior"), "{error}");
+}
+
 #[test]
 fn the_file_is_what_would_be_printed() {
     let (folder, path) = case(CASE);

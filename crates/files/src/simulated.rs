@@ -46,6 +46,12 @@ pub(super) fn simulated(
             }
             continue;
         }
+        // of the data it is known; rows to predict at may be without it
+        if table.column(name).is_none() {
+            let reason = format!("for the simulation of `{output}` {}", table.no_column(name));
+            root.log.report(&column.place, DiagnosticKind::Observation { reason });
+            continue;
+        }
         let unit = match outputs.map(|node| &node.value) {
             Some(Json::Object(members)) => members
                 .iter()

@@ -121,4 +121,17 @@ impl Prior {
     /// The prior of a file that says nothing of it.
     pub const DEFAULT: Self =
         Self { none: 0.15, one: 0.55, two: 0.15, three: 0.0, unexplained: 0.15 };
+
+    /// Whether a hypothesis has a probability above 0 where there are so many effects: three of them
+    /// cannot act together where there are two.
+    ///
+    /// ```
+    /// let prior = gumption_gap::Prior { none: 0.0, one: 0.0, two: 1.0, three: 0.0, unexplained: 0.0 };
+    /// assert!(prior.is_possible(2) && !prior.is_possible(1));
+    /// ```
+    pub fn is_possible(&self, effects: usize) -> bool {
+        let Self { none, one, two, three, unexplained } = *self;
+        let least = [(none, 0), (unexplained, 0), (one, 1), (two, 2), (three, 3)];
+        least.iter().any(|&(share, least)| share > 0.0 && effects >= least)
+    }
 }

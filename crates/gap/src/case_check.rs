@@ -62,8 +62,7 @@ impl Case {
             ));
         }
         let effects = self.candidates.len();
-        let can_be = [true, effects > 0, !self.pairs().is_empty(), effects > 2, true];
-        if shares.iter().zip(can_be).all(|(share, can_be)| *share <= 0.0 || !can_be) {
+        if !self.prior.is_possible(effects) {
             return Err(refused(format!(
                 "no hypothesis has a prior probability above 0: there are {effects} effects, and what \
                  has one needs more of them"
