@@ -222,7 +222,7 @@ impl<'l, 'c> Search<'l, 'c> {
         let is_linear = |of: &usize| plan.linear.contains(of);
         let edged: Vec<usize> = edged.iter().copied().filter(|of| !is_linear(of)).collect();
         let farthest = search::farthest(likelihood);
-        (!edged.is_empty()).then(|| Self { likelihood, edged, scan, plan, farthest })
+        (!edged.is_empty()).then_some(Self { likelihood, edged, scan, plan, farthest })
     }
 
     /// The mode moved along the profiles as long as it gains, and the last one that goes through it.
@@ -232,7 +232,8 @@ impl<'l, 'c> Search<'l, 'c> {
         for &held in self.edged.iter().cycle().take(ROUNDS * self.edged.len()) {
             let values = self.profile(&mode.scores, held, left);
             let best = values.iter().max_by(|a, b| a.ln_density.total_cmp(&b.ln_density));
-            let found = best.map(|best| search::modes(self.likelihood, &[best.scores.clone()], 1));
+            let from = best.map(|best| std::slice::from_ref(&best.scores));
+            let found = from.map(|from| search::modes(self.likelihood, from, 1));
             let better = found.into_iter().flatten().find(|new| new.cost < mode.cost - GAIN);
             unchanged = if better.is_some() { 1 } else { unchanged + 1 };
             if last.is_none() || better.is_some() {
