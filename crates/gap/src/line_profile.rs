@@ -61,7 +61,7 @@ const SEARCHED: usize = 5;
 const ROUNDS: usize = 4;
 
 /// Evaluations of a value of the data at most, for one hypothesis.
-const MOST_EVALUATIONS: usize = 12_000_000;
+const MOST_EVALUATIONS: usize = 3_000_000;
 
 /// Modes, and the neighbourhoods in which the integral is begun.
 #[derive(Debug)]
@@ -232,6 +232,10 @@ impl<'l, 'c> Search<'l, 'c> {
         for &held in self.edged.iter().cycle().take(ROUNDS * self.edged.len()) {
             let values = self.profile(&mode.scores, held, left);
             let best = values.iter().max_by(|a, b| a.ln_density.total_cmp(&b.ln_density));
+            // scoring costs more than the profile: not where the mode is the best of it
+            let own = values.iter().find(|value| value.score == mode.scores[held]);
+            let own = own.map_or(f64::NEG_INFINITY, |own| own.ln_density);
+            let best = best.filter(|best| best.ln_density > own + GAIN);
             let from = best.map(|best| std::slice::from_ref(&best.scores));
             let found = from.map(|from| search::modes(self.likelihood, from, 1));
             let better = found.into_iter().flatten().find(|new| new.cost < mode.cost - GAIN);
