@@ -130,16 +130,7 @@ impl ModelReader<'_> {
             Some(condition) => case.replicated(condition),
             None => case,
         };
-        if !case.prior.is_possible(case.candidates.len()) {
-            let place = self.root.get("prior").map_or(self.root.place(), |prior| &prior.value.span);
-            let reason = format!(
-                "no hypothesis has a prior probability above 0: the case has {} effects, and those \
-                 that have one need more",
-                case.candidates.len()
-            );
-            self.root.log.report(place, DiagnosticKind::Prior { reason });
-            return None;
-        }
+        prior::check_possible(&self.root, &case.prior, case.candidates.len())?;
         Some(CaseFile { case, warnings, source: file.source, files: file.files })
     }
 }

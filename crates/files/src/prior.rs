@@ -58,3 +58,17 @@ pub(super) fn read(root: &Object<'_>) -> Option<Prior> {
     }
     Some(prior)
 }
+
+/// Reports a prior of which no hypothesis with at most so many effects has any; `None` then.
+pub(super) fn check_possible(root: &Object<'_>, prior: &Prior, effects: usize) -> Option<()> {
+    if prior.is_possible(effects) {
+        return Some(());
+    }
+    let place = root.get("prior").map_or(root.place(), |prior| &prior.value.span);
+    let reason = format!(
+        "no hypothesis has a prior probability above 0: the case has {effects} effects, and those \
+         that have one need more"
+    );
+    root.log.report(place, DiagnosticKind::Prior { reason });
+    None
+}

@@ -6,7 +6,7 @@ use super::differential_evolution;
 use super::latent::bounded_from_normal;
 use super::likelihood::Likelihood;
 use super::line_profile;
-use super::mixture::{Mixture, add_ln, ln_priors, standard_normals};
+use super::mixture::{Mixture, add_ln, standard_normals};
 use super::profile_path;
 use super::search::{self, Mode};
 use gumption_engine::distribution::StreamKey;
@@ -249,16 +249,13 @@ impl EvidenceEstimate {
             let mut stream = self.key.block((first + number) as u64);
             let Some((mixture, _)) = self.mixtures.last() else { return };
             let scores = mixture.draw(&mut stream);
-            let likelihoods = likelihood.log_likelihood(&scores, COLUMN);
             let mut sums = [f64::NEG_INFINITY; COLUMN];
             for (mixture, columns) in &self.mixtures {
                 let ln_count = elementary::ln(*columns as f64);
                 add_ln(&mut sums, &mixture.ln_density(&scores), ln_count);
             }
             self.ln_proposals.extend(sums);
-            let priors = ln_priors(&likelihood.bounded(), &scores);
-            self.ln_targets
-                .extend(likelihoods.into_iter().zip(priors).map(|(ln, prior)| ln + prior));
+            self.ln_targets.extend(likelihood.log_target(&scores, COLUMN));
             self.columns.push(scores);
         }
         self.weigh();

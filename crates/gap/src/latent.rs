@@ -6,7 +6,7 @@
 
 use super::logarithm::HALF_LN_TWO_PI;
 use gumption_engine::distribution::Distribution;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{COLUMN, Column, elementary};
 use gumption_engine::special;
 
 /// How a score becomes a value.
@@ -116,6 +116,17 @@ pub(crate) fn ln_prior(bounded: bool, score: f64) -> f64 {
     } else {
         f64::NEG_INFINITY
     }
+}
+
+/// The logarithm of the prior density at a column of points, without the constant of normal scores.
+pub(crate) fn ln_priors(bounded: &[bool], scores: &[Column]) -> [f64; COLUMN] {
+    let mut sums = [0.0; COLUMN];
+    for (bounded, column) in bounded.iter().zip(scores) {
+        for (sum, score) in sums.iter_mut().zip(&column.0) {
+            *sum += ln_prior(*bounded, *score);
+        }
+    }
+    sums
 }
 
 impl Role {

@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 use super::covariance::Covariance;
 use super::data::Data;
-use super::latent::Role;
+use super::latent::{Role, ln_priors};
 use super::logarithm::HALF_LN_TWO_PI;
 use crate::Case;
 use gumption_engine::linalg::dot;
@@ -217,6 +217,18 @@ impl<'c> Likelihood<'c> {
         self.roles.len()
     }
 
+    /// Points in the lanes of columns, at most as many as there are lanes; the last one fills what is
+    /// left.
+    pub(crate) fn columns(&self, points: &[Vec<f64>]) -> Vec<Column> {
+        let mut scores = vec![Column::ZERO; self.unknowns()];
+        for (i, column) in scores.iter_mut().enumerate() {
+            for (lane, score) in column.0.iter_mut().enumerate() {
+                *score = points[lane.min(points.len() - 1)][i];
+            }
+        }
+        scores
+    }
+
     /// The correlated scores of independent ones.
     pub(crate) fn mixed(&self, scores: &[Column]) -> Vec<Column> {
         let Some(mixing) = &self.mixing else { return scores.to_vec() };
@@ -248,6 +260,14 @@ impl<'c> Likelihood<'c> {
         let mut sums = Sums::new(self.covariance);
         self.visit(scores, lanes, &mut sums);
         sums.log_likelihood(self.covariance, self.data.len(), lanes)
+    }
+
+    /// The logarithm of prior density times likelihood in the first lanes, without the constant of
+    /// normal scores.
+    pub(crate) fn log_target(&self, scores: &[Column], lanes: usize) -> Vec<f64> {
+        let likelihoods = self.log_likelihood(scores, lanes);
+        let priors = ln_priors(&self.bounded(), scores);
+        likelihoods.into_iter().zip(priors).map(|(ln, prior)| ln + prior).collect()
     }
 }
 

@@ -13,10 +13,10 @@
 //! the best value until no parameter gains any more. The integral is then begun with the parts of the
 //! profile between its edges, each with a mean and a standard deviation of its own.
 
-use gumption_engine::number::{COLUMN, Column, elementary, largest_first, smallest_first};
+use gumption_engine::number::{COLUMN, elementary, largest_first, smallest_first};
 
 use super::likelihood::Likelihood;
-use super::mixture::{TEMPER, ln_priors, ln_share};
+use super::mixture::{TEMPER, ln_share};
 use super::response_scan::{Plan, Scan};
 use super::search::{self, GAIN, Mode};
 
@@ -156,20 +156,8 @@ fn variables(likelihood: &Likelihood<'_>) -> Vec<usize> {
 
 /// The logarithms of prior density times likelihood at points.
 fn densities(likelihood: &Likelihood<'_>, points: &[Vec<f64>]) -> Vec<f64> {
-    let bounded = likelihood.bounded();
-    let mut all = Vec::with_capacity(points.len());
-    for points in points.chunks(COLUMN) {
-        let mut scores = vec![Column::ZERO; likelihood.unknowns()];
-        for (i, column) in scores.iter_mut().enumerate() {
-            for (lane, score) in column.0.iter_mut().enumerate() {
-                *score = points[lane.min(points.len() - 1)][i];
-            }
-        }
-        let likelihoods = likelihood.log_likelihood(&scores, points.len());
-        let priors = ln_priors(&bounded, &scores);
-        all.extend(likelihoods.into_iter().zip(priors).map(|(ln, prior)| ln + prior));
-    }
-    all
+    let of = |points: &[Vec<f64>]| likelihood.log_target(&likelihood.columns(points), points.len());
+    points.chunks(COLUMN).flat_map(of).collect()
 }
 
 /// What is searched about a mode.
@@ -179,7 +167,6 @@ struct Search<'l, 'c> {
     edged: Vec<usize>,
     scan: Scan<'l, 'c>,
     plan: Plan,
-    farthest: Vec<f64>,
 }
 
 /// A value of the parameter along which a profile goes.
@@ -221,8 +208,7 @@ impl<'l, 'c> Search<'l, 'c> {
         let plan = scan.plan(variables(likelihood))?;
         let is_linear = |of: &usize| plan.linear.contains(of);
         let edged: Vec<usize> = edged.iter().copied().filter(|of| !is_linear(of)).collect();
-        let farthest = search::farthest(likelihood);
-        (!edged.is_empty()).then_some(Self { likelihood, edged, scan, plan, farthest })
+        (!edged.is_empty()).then_some(Self { likelihood, edged, scan, plan })
     }
 
     /// The mode moved along the profiles as long as it gains, and the last one that goes through it.
@@ -332,7 +318,7 @@ impl<'l, 'c> Search<'l, 'c> {
     fn profile(&self, base: &[f64], held: usize, left: &mut usize) -> Vec<Value> {
         let plan = self.plan.without(held);
         let each = (plan.linear.len() + 2) * self.likelihood.data.len().max(1);
-        let most = self.farthest[held];
+        let most = self.scan.most(held);
         let width = 2.0 * most;
         let mut open: Vec<f64> = (0..FIRST_VALUES)
             .map(|n| most * (2.0 * n as f64 / (FIRST_VALUES - 1) as f64 - 1.0))

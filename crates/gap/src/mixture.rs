@@ -12,7 +12,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::latent::{bounded_from_normal, ln_prior};
+use super::latent::{bounded_from_normal, ln_priors};
 use super::logarithm::HALF_LN_TWO_PI;
 use super::search::Mode;
 use gumption_engine::distribution::{Normal, Stream};
@@ -447,17 +447,6 @@ impl Mixture {
         mixture.normalize();
         mixture
     }
-}
-
-/// The logarithm of the prior density at a column of points, without the constant of normal scores.
-pub(crate) fn ln_priors(bounded: &[bool], scores: &[Column]) -> [f64; COLUMN] {
-    let mut sums = [0.0; COLUMN];
-    for (bounded, column) in bounded.iter().zip(scores) {
-        for (sum, score) in sums.iter_mut().zip(&column.0) {
-            *sum += ln_prior(*bounded, *score);
-        }
-    }
-    sums
 }
 
 /// Fills a column with standard normal draws.

@@ -164,7 +164,8 @@ impl<'l, 'c> Scan<'l, 'c> {
         }
     }
 
-    fn most(&self, of: usize) -> f64 {
+    /// Within which distance of 0 a score is scanned.
+    pub(crate) fn most(&self, of: usize) -> f64 {
         if self.map(of).is_some_and(Map::is_bounded) { EDGE } else { self.far }
     }
 

@@ -44,6 +44,10 @@ const ELSEWHERE: f64 = 0.5;
 pub(crate) const GAIN: f64 = 1e-3;
 
 impl Mode {
+    fn of(scores: Vec<f64>, local: Local) -> Self {
+        Self { scores, cost: local.cost, information: local.information }
+    }
+
     /// Whether another point is within the neighbourhood of this mode.
     fn is_near(&self, other: &Self) -> bool {
         near(&self.information, &self.scores, &other.scores)
@@ -164,10 +168,7 @@ pub(crate) fn profile(
 
 /// Points as modes, though they may be none.
 pub(crate) fn at_points(likelihood: &Likelihood<'_>, points: &[Vec<f64>]) -> Vec<Mode> {
-    let mode = |(local, scores): (Local, &Vec<f64>)| {
-        let Local { cost, information, .. } = local;
-        Mode { scores: scores.clone(), cost, information }
-    };
+    let mode = |(local, scores): (Local, &Vec<f64>)| Mode::of(scores.clone(), local);
     locals(likelihood, points).into_iter().zip(points).map(mode).collect()
 }
 
@@ -240,8 +241,7 @@ impl Walker {
     }
 
     fn mode(self) -> Mode {
-        let Local { cost, information, .. } = self.local;
-        Mode { scores: self.scores, cost, information }
+        Mode::of(self.scores, self.local)
     }
 
     /// Where to go next; `None` where nothing is to be gained.

@@ -20,12 +20,7 @@ pub(crate) fn residuals(
 ) -> Vec<WhitenedResiduals> {
     let mut all = Vec::with_capacity(points.len());
     for points in points.chunks(COLUMN) {
-        let mut scores = vec![Column::ZERO; likelihood.unknowns()];
-        for (i, column) in scores.iter_mut().enumerate() {
-            for (lane, out) in column.0.iter_mut().enumerate() {
-                *out = points[lane.min(points.len() - 1)][i];
-            }
-        }
+        let scores = likelihood.columns(points);
         let mut kept = Kept::new(likelihood);
         likelihood.visit(&scores, points.len(), &mut kept);
         all.extend(kept.by_lane(points.len()));
