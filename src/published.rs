@@ -5,11 +5,7 @@ use gumption_command::PublishedExamples;
 
 macro_rules! cases {
     ($($name:literal,)*) => {
-        &[$((
-            $name,
-            include_str!(concat!("../tests/cases/", $name, "/model.json")),
-            include_str!(concat!("../tests/cases/", $name, "/expect.json")),
-        ),)*]
+        &[$(($name, include_str!(concat!("../tests/cases/", $name, "/model.json"))),)*]
     };
 }
 
@@ -53,7 +49,7 @@ pub(crate) const EXAMPLES: PublishedExamples = PublishedExamples {
         "quam-a5-ceramic",
         "seed002-rotating-table-5hz",
     },
-    measurements: include_str!("papers.json"),
+    values: include_str!("published.json"),
     models: &[
         ("rotating-table", include_str!("../models/rotating_table.json")),
         ("sensitivity-datasheet", include_str!("../models/sensitivity_datasheet.json")),
@@ -98,35 +94,48 @@ pub(crate) const EXAMPLES: PublishedExamples = PublishedExamples {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use serde_json::{Value, json};
+
     use super::EXAMPLES;
 
-    /// The list above is that of the folders whose published values are not empty.
+    /// The cases are those of the folders whose published values are not empty, and the list of values
+    /// begins with what these folders hold.
     #[test]
     fn every_case_with_published_values_is_embedded() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases");
-        let mut wanted: Vec<String> = std::fs::read_dir(folder)
+        let mut wanted: Vec<Value> = std::fs::read_dir(folder)
             .unwrap()
             .map(|entry| entry.unwrap().path())
-            .filter(|path| {
-                let Ok(text) = std::fs::read_to_string(path.join("expect.json")) else {
-                    return false;
-                };
-                let value: serde_json::Value = serde_json::from_str(&text).unwrap();
-                value["published"].as_array().is_some_and(|published| !published.is_empty())
+            .filter_map(|path| {
+                let text = std::fs::read_to_string(path.join("expect.json")).ok()?;
+                let case: Value = serde_json::from_str(&text).unwrap();
+                let (name, published) = (path.file_name()?.to_str()?, &case["published"]);
+                (!published.as_array()?.is_empty()).then(|| {
+                    json!({
+                        "example": name,
+                        "model": name,
+                        "set": [],
+                        "source": case["source"],
+                        "published": published,
+                        "notes": case["notes"],
+                    })
+                })
             })
-            .map(|path| path.file_name().unwrap().to_string_lossy().into_owned())
             .collect();
-        wanted.sort();
-        let embedded: Vec<&str> = EXAMPLES.cases.iter().map(|(name, ..)| *name).collect();
-        assert_eq!(embedded, wanted);
+        wanted.sort_by_key(|case| case["example"].to_string());
+        let embedded: Vec<&str> = EXAMPLES.cases.iter().map(|(name, _)| *name).collect();
+        assert_eq!(embedded, wanted.iter().map(|case| &case["example"]).collect::<Vec<_>>());
+        let values: Vec<Value> = serde_json::from_str(EXAMPLES.values).unwrap();
+        for (found, wanted) in values.iter().zip(&wanted) {
+            assert_eq!(found, wanted);
+        }
     }
 
     #[test]
     fn every_example_says_where_it_is_from() {
-        let cases = EXAMPLES.cases.iter().map(|(.., expected)| *expected);
-        let papers: Vec<serde_json::Value> = serde_json::from_str(EXAMPLES.measurements).unwrap();
-        let cases = cases.map(|text| serde_json::from_str(text).unwrap());
-        for example in cases.chain(papers) {
+        let values: Vec<Value> = serde_json::from_str(EXAMPLES.values).unwrap();
+        assert!(values.len() > EXAMPLES.cases.len());
+        for example in values {
             assert!(!example["source"].as_str().unwrap().is_empty(), "{example}");
             assert!(!example["published"].as_array().unwrap().is_empty(), "{example}");
         }

@@ -20,7 +20,7 @@ const SHORT: usize = 16;
 /// The digest of an object without the one that it carries, in hexadecimal.
 pub fn digest(content: &Map<String, Value>) -> String {
     let mut canonical = String::new();
-    object(content.iter().filter(|(key, _)| *key != DIGEST), &mut canonical);
+    object(content.iter().filter(|(key, _)| *key != DIGEST).collect(), &mut canonical);
     sha256(canonical.as_bytes())
 }
 
@@ -80,7 +80,7 @@ pub fn sha256(bytes: &[u8]) -> String {
 /// A value as canonical text: keys in the order of their characters, numbers by what they are.
 fn write(value: &Value, out: &mut String) {
     match value {
-        Value::Object(members) => object(members.iter(), out),
+        Value::Object(members) => object(members.iter().collect(), out),
         Value::Array(items) => {
             out.push('[');
             for item in items {
@@ -109,8 +109,7 @@ fn canonical(value: f64) -> String {
     }
 }
 
-fn object<'v>(members: impl Iterator<Item = (&'v String, &'v Value)>, out: &mut String) {
-    let mut members: Vec<(&String, &Value)> = members.collect();
+fn object(mut members: Vec<(&String, &Value)>, out: &mut String) {
     members.sort_by_key(|(key, _)| *key);
     out.push('{');
     for (key, value) in members {

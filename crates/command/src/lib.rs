@@ -168,9 +168,7 @@ impl CommandLine {
 
     /// The answers behind the live page, for files that may name the measurements.
     pub fn live(&self) -> Live<'_> {
-        let PublishedExamples { cases, more, .. } = self.published;
-        let cases = cases.iter().map(|(name, model, _)| (*name, *model));
-        Live::new(&self.catalogue, cases.chain(more.iter().copied()))
+        Live::new(&self.catalogue, self.published.to_start_from())
     }
 
     /// Runs with the arguments of the process: says what is wrong on standard error, and ends with

@@ -9,6 +9,7 @@ use super::exit::say;
 use super::output::{self, Destination};
 use super::parted_run::{MergedRun, PartedRun, PassOfRun, refused};
 use super::{Exit, Failure, progress};
+use gumption_engine::number::smallest_first;
 use gumption_engine::propagate::{Control, Evaluation};
 use gumption_files::{
     SharedFileError, SharedFileHeader, SharedFileKind, SharedRun, shared_file, shared_file_bytes,
@@ -237,7 +238,7 @@ impl PartsFolder {
             let range = run.range(pass, &path.display(), header, &again)?;
             found.extend(range.map(|range| (path.as_path(), range)));
         }
-        found.sort_by_key(|(_, range)| range.start);
+        smallest_first(&mut found, |(_, range)| range.start as f64);
         for pair in found.windows(2) {
             let [(first, a), (second, b)] = pair else { continue };
             if b.start < a.end {

@@ -90,7 +90,7 @@ impl Replacement {
 
     /// Whether there is room on the disk at all.
     fn with_room(mut self) -> io::Result<Self> {
-        self.file.write_all(&[0; PROBE])?;
+        self.file.write_all(&vec![0; PROBE])?;
         self.file.rewind()?;
         self.file.set_len(0)?;
         Ok(self)

@@ -10,6 +10,7 @@ use super::Failure;
 use super::parted_run::refused;
 use super::parts::{missing, ranges};
 use gumption_analysis::integrity::sha256;
+use gumption_engine::number::smallest_first;
 use gumption_files::{CaseFile, bytes};
 use gumption_gap::check::{BlindDraw, CheckedNoise};
 
@@ -138,8 +139,8 @@ impl SharedCheck {
                 found.push((name, range));
             }
         }
-        found.sort_by_key(|(_, range)| range.start);
-        all.sort_by_key(|(start, _)| *start);
+        smallest_first(&mut found, |(_, range)| range.start as f64);
+        smallest_first(&mut all, |(start, _)| *start as f64);
         for pair in found.windows(2) {
             let [(first, a), (second, b)] = pair else { continue };
             if b.start < a.end {

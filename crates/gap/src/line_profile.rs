@@ -249,7 +249,9 @@ impl<'l, 'c> Search<'l, 'c> {
     ) -> (Vec<Mode>, Option<Mode>) {
         let first = last.as_ref().map(|(held, _)| *held);
         let mut order = self.edged.clone();
-        order.sort_by_key(|held| Some(*held) != first);
+        if let Some(at) = order.iter().position(|held| Some(*held) == first) {
+            order[..=at].rotate_right(1);
+        }
         let mut last = last.map(|(_, values)| values);
         let mut parts =
             vec![Part { ln_mass: 0.0, scores: mode.scores.clone(), deviations: Vec::new() }];

@@ -18,7 +18,7 @@ use super::reachable::{self, Place};
 use super::setup::Setup;
 use super::shrink;
 use super::weighed::names;
-use gumption_engine::number::{elementary, largest_first, median};
+use gumption_engine::number::{elementary, largest_first, median, smallest_first};
 use gumption_engine::special::normal;
 use gumption_engine::task::Sharing;
 
@@ -415,7 +415,8 @@ impl<'p> Prospects<'p> {
         largest_first(&mut inputs, |a| a.0);
         found.extend(inputs.into_iter().take(MOST_OTHERS));
         found.retain(|(loss, ..)| *loss > WORTH_PROPOSING * entropy);
-        found.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.2.cmp(&b.2)));
+        smallest_first(&mut found, |(_, _, count)| *count as f64);
+        largest_first(&mut found, |(loss, ..)| *loss);
         found
             .into_iter()
             .filter_map(|(loss, target, count)| {

@@ -2,7 +2,7 @@
 //! case says that they can be reached.
 
 use super::setup::Setup;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, smallest_first};
 use gumption_engine::task::Row;
 
 /// Places that are tried, at most.
@@ -172,7 +172,7 @@ fn nearest(row: &Row, measured: &[&Row], spans: &[[f64; 2]]) -> Vec<usize> {
     };
     let mut ranked: Vec<(f64, usize)> =
         measured.iter().enumerate().map(|(place, other)| (distance(other), place)).collect();
-    ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    smallest_first(&mut ranked, |(distance, _)| *distance);
     ranked.into_iter().take(NEAR).map(|(_, place)| place).collect()
 }
 

@@ -157,7 +157,7 @@ fn of_each(candidate: &Candidate, group: &str, values: &[f64]) -> Option<(Candid
         .map(|(name, formula)| {
             let mut changed = formula.text().to_owned();
             let mut places: Vec<_> = formula.names().filter(|(used, _)| used == own).collect();
-            places.sort_by_key(|(_, place)| std::cmp::Reverse(place.start));
+            largest_first(&mut places, |(_, place)| place.start as f64);
             places.dedup();
             for (_, place) in places {
                 changed.replace_range(place, &text);

@@ -30,7 +30,7 @@ pub fn pretty(answer: &impl Serialize) -> String {
 }
 
 /// Writes what [`pretty`] gives, but for the newline.
-pub(crate) fn write_pretty(answer: &impl Serialize, out: impl Write) -> serde_json::Result<()> {
+pub(crate) fn write_pretty(answer: &impl Serialize, out: &mut dyn Write) -> serde_json::Result<()> {
     answer.serialize(&mut Serializer::with_formatter(out, Printable(PrettyFormatter::new())))
 }
 

@@ -1,6 +1,7 @@
 //! Shares of the combined variance, added up by group and by type of evaluation.
 
 use gumption_engine::distribution::EvaluationType;
+use gumption_engine::number::smallest_first;
 use gumption_engine::propagate::gum::Gum;
 use gumption_engine::task::Task;
 
@@ -29,7 +30,7 @@ impl<'a> Subtotals<'a> {
                 *share += line.share;
             }
         }
-        groups.sort_by_key(|(name, _)| name.is_none());
+        smallest_first(&mut groups, |(name, _)| f64::from(name.is_none()));
         Self { groups, types }
     }
 }

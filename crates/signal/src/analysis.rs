@@ -9,7 +9,7 @@ use super::frequency::{self, NoFrequency};
 use super::passes::{InMemorySamples, SampleSource, Selected, gathered};
 use super::quantization::amplitude_error;
 use super::recipe::{Frequency, Method, RecipeSettings, TimeBase};
-use super::refused::{MOST_HELD, Refused, unreadable};
+use super::refused::{MOST_HELD, Refused};
 use super::residuals::{self, Residuals};
 use super::sine_fit::{NoFit, Tone, ToneCoefficients, ToneDesign};
 use super::spurious;
@@ -53,15 +53,15 @@ pub(super) type FittedTones = (ToneDesign, Vec<ToneCoefficients>, Vec<Residuals>
 
 impl Group<'_> {
     /// Analyses the channels.
-    pub(super) fn analyse<P: SampleSource>(
+    pub(super) fn analyse<E>(
         &self,
-        passes: &mut P,
-    ) -> Result<Vec<Analysed>, Refused<P::Error>> {
+        passes: &mut dyn SampleSource<Error = E>,
+    ) -> Result<Vec<Analysed>, Refused<E>> {
         let columns: Vec<usize> = self.channels.iter().map(|(_, column)| *column).collect();
         if self.settings.method == Method::Fft {
             self.check_length(passes.frames())?;
             let held = gathered(passes, &columns).map_err(Refused::Unreadable)?;
-            return self.over_whole_periods(held).map_err(unreadable);
+            return self.over_whole_periods(held);
         }
         let mut chosen = Selected { passes, columns: &columns };
         let fundamentals = self.fundamentals(&mut chosen)?;
@@ -104,10 +104,10 @@ impl Group<'_> {
         Ok(multiples)
     }
 
-    fn fundamentals<P: SampleSource>(
+    fn fundamentals<E>(
         &self,
-        passes: &mut P,
-    ) -> Result<Vec<Fundamental>, Refused<P::Error>> {
+        passes: &mut dyn SampleSource<Error = E>,
+    ) -> Result<Vec<Fundamental>, Refused<E>> {
         let rate = self.base.rate;
         let (channel, place) = self.lead();
         let mut found = Vec::new();
@@ -208,12 +208,12 @@ impl Group<'_> {
         Ok(tones)
     }
 
-    fn fitted<P: SampleSource>(
+    fn fitted<E>(
         &self,
-        passes: &mut P,
+        passes: &mut dyn SampleSource<Error = E>,
         base: TimeBase,
         mut fundamentals: Vec<Fundamental>,
-    ) -> Result<Vec<Analysed>, Refused<P::Error>> {
+    ) -> Result<Vec<Analysed>, Refused<E>> {
         let lead = self.lead().1;
         let ((mut design, mut fits, mut left), besides) =
             self.with_besides(passes, &mut fundamentals)?;
@@ -298,12 +298,12 @@ impl Group<'_> {
     /// of a sample interval better than these do, they are moved to its own. What a fit beside them
     /// leaves of the sine would pass for noise.
     /// With oscillations `beside` them an estimated frequency is estimated once more.
-    pub(super) fn at_own_frequencies<P: SampleSource>(
+    pub(super) fn at_own_frequencies<E>(
         &self,
-        passes: &mut P,
+        passes: &mut dyn SampleSource<Error = E>,
         fundamentals: &mut [Fundamental],
         beside: &[f64],
-    ) -> Result<FittedTones, Refused<P::Error>> {
+    ) -> Result<FittedTones, Refused<E>> {
         let samples = passes.frames();
         let lead = self.lead().1;
         let as_stated = fundamentals.to_vec();
@@ -363,12 +363,12 @@ impl Group<'_> {
 
     /// The bins of the discrete Fourier transform of a whole number of periods: over such a part a
     /// least-squares fit at the bins' frequencies is that transform.
-    fn over_whole_periods(
+    fn over_whole_periods<E>(
         &self,
         mut held: InMemorySamples,
-    ) -> Result<Vec<Analysed>, Refused<std::convert::Infallible>> {
+    ) -> Result<Vec<Analysed>, Refused<E>> {
         let (channel, place) = self.lead();
-        let mut fundamentals = self.fundamentals(&mut held)?;
+        let mut fundamentals = self.fundamentals(&mut held.unfailing())?;
         let (Some(of), Some(values)) = (fundamentals.first_mut(), held.channels.get(place)) else {
             return Ok(Vec::new());
         };
@@ -384,7 +384,7 @@ impl Group<'_> {
         }
         let start = self.base.start + part.first as f64 / self.base.rate.value;
         fundamentals.truncate(1);
-        self.fitted(&mut held, TimeBase { start, ..self.base }, fundamentals)
+        self.fitted(&mut held.unfailing(), TimeBase { start, ..self.base }, fundamentals)
     }
 }
 

@@ -69,11 +69,11 @@ pub(super) struct Besides {
 
 impl Group<'_> {
     /// The fits at the frequencies that the recording has, with what oscillates beside them.
-    pub(super) fn with_besides<P: SampleSource>(
+    pub(super) fn with_besides<E>(
         &self,
-        passes: &mut P,
+        passes: &mut dyn SampleSource<Error = E>,
         fundamentals: &mut Vec<Fundamental>,
-    ) -> Result<(FittedTones, Besides), Refused<P::Error>> {
+    ) -> Result<(FittedTones, Besides), Refused<E>> {
         let mut best = self.at_own_frequencies(passes, fundamentals, &[])?;
         let mut besides = Besides::default();
         let samples = passes.frames();
@@ -117,12 +117,12 @@ impl Group<'_> {
     /// The fits at the frequencies that the recording has, those of what oscillates beside the named
     /// ones among them; none where they cannot be told apart. As each was brought to its frequency
     /// while the other still leaked into it, they take turns until neither moves.
-    fn settled_together<P: SampleSource>(
+    fn settled_together<E>(
         &self,
-        passes: &mut P,
+        passes: &mut dyn SampleSource<Error = E>,
         fundamentals: &mut [Fundamental],
         tuned: &mut Vec<Beside>,
-    ) -> Result<Option<FittedTones>, Refused<P::Error>> {
+    ) -> Result<Option<FittedTones>, Refused<E>> {
         let samples = passes.frames() as f64;
         let mut turns = 0;
         loop {
@@ -152,12 +152,12 @@ impl Group<'_> {
 
     /// Brings the cycles of oscillations to those at which the fits leave least; none where they
     /// cannot be told apart.
-    fn tuned<P: SampleSource>(
+    fn tuned<E>(
         &self,
-        passes: &mut P,
+        passes: &mut dyn SampleSource<Error = E>,
         fundamentals: &[Fundamental],
         cycles: Vec<f64>,
-    ) -> Result<Option<Vec<Beside>>, Refused<P::Error>> {
+    ) -> Result<Option<Vec<Beside>>, Refused<E>> {
         let samples = passes.frames();
         let mut all: Vec<Beside> = cycles
             .into_iter()
@@ -165,11 +165,10 @@ impl Group<'_> {
             .collect();
         for _ in 0..MOST_STEPS {
             let cycles: Vec<f64> = all.iter().map(|of| of.cycles).collect();
-            let design =
-                match self.design::<P::Error>(fundamentals, samples, &cycles, |of| of.turning) {
-                    Ok(design) => design,
-                    Err(_) => return Ok(None),
-                };
+            let design = match self.design::<E>(fundamentals, samples, &cycles, |of| of.turning) {
+                Ok(design) => design,
+                Err(_) => return Ok(None),
+            };
             let mut fits = design.fit(passes).map_err(Refused::Unreadable)?;
             let left = super::residuals::remainders(&design, passes, &mut fits)
                 .map_err(Refused::Unreadable)?;

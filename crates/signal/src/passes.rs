@@ -1,6 +1,7 @@
 //! Going through the channels of a recording, block by block, as often as a step needs.
 
 use std::convert::Infallible;
+use std::marker::PhantomData;
 
 /// Frames of a block at most: a block of some channels fits the cache.
 pub const BLOCK: usize = 4096;
@@ -66,16 +67,42 @@ fn longest(channels: &[Vec<f64>]) -> usize {
     channels.iter().map(Vec::len).max().unwrap_or(0)
 }
 
-/// Some of the channels of a recording.
+impl InMemorySamples {
+    /// The same where reading may fail elsewhere: one source for both.
+    pub(super) fn unfailing<E>(&self) -> Unfailing<'_, E> {
+        Unfailing { samples: self, error: PhantomData }
+    }
+}
+
+/// Channels in memory among sources whose reading may fail.
 #[derive(Debug)]
-pub(super) struct Selected<'p, P> {
-    pub(super) passes: &'p mut P,
+pub(super) struct Unfailing<'s, E> {
+    samples: &'s InMemorySamples,
+    error: PhantomData<E>,
+}
+
+impl<E> SampleSource for Unfailing<'_, E> {
+    type Error = E;
+
+    fn frames(&self) -> u64 {
+        self.samples.frames()
+    }
+
+    fn pass(&mut self, each: &mut BlockVisitor<'_>) -> Result<(), E> {
+        in_blocks(&self.samples.channels, each);
+        Ok(())
+    }
+}
+
+/// Some of the channels of a recording.
+pub(super) struct Selected<'p, E> {
+    pub(super) passes: &'p mut dyn SampleSource<Error = E>,
     /// Which channels, by their places.
     pub(super) columns: &'p [usize],
 }
 
-impl<P: SampleSource> SampleSource for Selected<'_, P> {
-    type Error = P::Error;
+impl<E> SampleSource for Selected<'_, E> {
+    type Error = E;
 
     fn frames(&self) -> u64 {
         self.passes.frames()
@@ -85,7 +112,7 @@ impl<P: SampleSource> SampleSource for Selected<'_, P> {
         self.passes.is_checked()
     }
 
-    fn pass(&mut self, each: &mut BlockVisitor<'_>) -> Result<(), P::Error> {
+    fn pass(&mut self, each: &mut BlockVisitor<'_>) -> Result<(), E> {
         let columns = self.columns;
         self.passes.pass(&mut |first, channels| {
             let chosen: Vec<&[f64]> =
@@ -96,10 +123,10 @@ impl<P: SampleSource> SampleSource for Selected<'_, P> {
 }
 
 /// The values of some channels, in memory.
-pub(super) fn gathered<P: SampleSource>(
-    passes: &mut P,
+pub(super) fn gathered<E>(
+    passes: &mut dyn SampleSource<Error = E>,
     columns: &[usize],
-) -> Result<InMemorySamples, P::Error> {
+) -> Result<InMemorySamples, E> {
     let mut channels = vec![Vec::new(); columns.len()];
     Selected { passes, columns }.pass(&mut |_, values| {
         for (channel, values) in channels.iter_mut().zip(values) {

@@ -1,6 +1,5 @@
 //! Why a row of a recipe has no observation.
 
-use std::convert::Infallible;
 use std::error::Error;
 use std::fmt;
 
@@ -208,32 +207,3 @@ impl<E: fmt::Display> fmt::Display for Refused<E> {
 }
 
 impl<E: Error> Error for Refused<E> {}
-
-/// A refusal of something in memory, which cannot be unreadable.
-pub(super) fn unreadable<E>(refused: Refused<Infallible>) -> Refused<E> {
-    match refused {
-        Refused::Unreadable(never) => match never {},
-        Refused::AboveNyquist { channel, hertz, rate } => {
-            Refused::AboveNyquist { channel, hertz, rate }
-        }
-        Refused::LessThanOnePeriod { channel, hertz, periods } => {
-            Refused::LessThanOnePeriod { channel, hertz, periods }
-        }
-        Refused::NotApart { channel, samples } => Refused::NotApart { channel, samples },
-        Refused::NotFound { channel } => Refused::NotFound { channel },
-        Refused::Step { channel, step, reason } => Refused::Step { channel, step, reason },
-        Refused::Rate { channel, reason } => Refused::Rate { channel, reason },
-        Refused::TooLong { channel, samples } => Refused::TooLong { channel, samples },
-        Refused::OutOfRange { what, found, range } => Refused::OutOfRange { what, found, range },
-        Refused::UnknownChannel { channel, channels } => {
-            Refused::UnknownChannel { channel, channels }
-        }
-        Refused::ChannelTwice { channel } => Refused::ChannelTwice { channel },
-        Refused::ReferenceMissing { channel } => Refused::ReferenceMissing { channel },
-        Refused::ReferenceSilent { channel, hertz } => Refused::ReferenceSilent { channel, hertz },
-        Refused::Unequal { channel, samples, expected } => {
-            Refused::Unequal { channel, samples, expected }
-        }
-        Refused::NotFinite { channel, sample } => Refused::NotFinite { channel, sample },
-    }
-}

@@ -13,7 +13,7 @@ use super::near_noise;
 use super::observation::{ChannelObservation, Observation};
 use super::passes::{InMemorySamples, SampleSource, gathered};
 use super::recipe::{Frequency, Method, RecipeSettings, TimeBase};
-use super::refused::{MOST_HELD, Refused, unreadable};
+use super::refused::{MOST_HELD, Refused};
 use super::search;
 use super::spurious::Spurious;
 use super::step::ChannelStep;
@@ -23,7 +23,7 @@ use super::track::ChannelRecording;
 use super::unexplained;
 use super::values::observed;
 use super::{Measured, Signal};
-use gumption_engine::number::elementary;
+use gumption_engine::number::{elementary, smallest_first};
 
 /// A channel that went through its steps.
 struct Stepped {
@@ -96,18 +96,18 @@ fn row<P: SampleSource>(
         track += 1;
     }
     let mut of_steps: Vec<Note> = Vec::new();
-    for mut of in stepped {
+    for of in stepped {
         let channels = [(of.channel, 0)];
         let (base, clock) = (of.base, of.clock);
         let through = of.through.as_ref();
         let channels = &channels;
         let group = Group { settings, frequencies, base, track, clock, channels, through, traced };
-        analysed.extend(group.analyse(&mut of.held).map_err(unreadable)?);
+        analysed.extend(group.analyse(&mut of.held.unfailing())?);
         findings.extend(of.findings.into_iter().map(|finding| (of.channel, finding)));
         of_steps.extend(of.notes);
         track += 1;
     }
-    analysed.sort_by_key(|of| of.channel);
+    smallest_first(&mut analysed, |of| of.channel as f64);
     let reference =
         settings.reference.and_then(|channel| analysed.iter().find(|of| of.channel == channel));
     if let Some(silent) = reference.and_then(silent) {
@@ -199,7 +199,7 @@ fn through_steps<P: SampleSource>(
                 traced: false,
             };
             let mut held = InMemorySamples { channels: vec![now.values] };
-            before = group.analyse(&mut held).map_err(unreadable)?.pop();
+            before = group.analyse(&mut held.unfailing())?.pop();
             now.values = held.channels.pop().unwrap_or_default();
             let first = before.as_ref().and_then(|of| of.fundamentals.first());
             frequency = first.map_or(frequency, |of| of.hertz.value);

@@ -4,7 +4,7 @@
 use super::analysis::Group;
 use super::passes::{SampleSource, gathered};
 use super::recipe::{ChannelRateSearch, Frequency, RecipeSettings};
-use super::refused::{Refused, unreadable};
+use super::refused::Refused;
 use super::surroundings::Finding;
 use super::track::ChannelRecording;
 use super::{Measured, Noise, RateSearch, Signal, measured, sampling_rate};
@@ -81,7 +81,7 @@ fn rate<P: SampleSource>(
         through: None,
         traced: false,
     };
-    let analysed = group.analyse(&mut held).map_err(unreadable)?;
+    let analysed = group.analyse(&mut held.unfailing())?;
     let found = analysed.first().and_then(|of| Some((of.fundamentals.first()?, of)));
     let (fundamental, of) = found.ok_or(Refused::NotFound { channel })?;
     let rate = frequency.value / fundamental.cycles;

@@ -108,12 +108,12 @@ struct Gathered {
 }
 
 /// The traces of channels with their fits, in their order; one pass over the record.
-pub(super) fn traces<P: SampleSource>(
-    passes: &mut P,
+pub(super) fn traces<E>(
+    passes: &mut dyn SampleSource<Error = E>,
     (base, design): (TimeBase, &ToneDesign),
     fundamentals: &[Fundamental],
     channels: &[(usize, &ToneCoefficients)],
-) -> Result<Vec<RecordTrace>, P::Error> {
+) -> Result<Vec<RecordTrace>, E> {
     let slowest = fundamentals.iter().map(|of| of.cycles).fold(f64::INFINITY, f64::min);
     let shown = ((PERIODS / slowest).ceil() as u64).max(FEWEST).min(design.samples);
     let tone = |place: usize, fit: &ToneCoefficients| {

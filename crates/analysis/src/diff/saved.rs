@@ -6,6 +6,7 @@ use super::{
     ChangeCause, ChangePart, Difference, InputState, OutputDifference, ROUNDING, RowDifference,
     change_of_expanded, share_out,
 };
+use gumption_engine::number::smallest_first;
 use gumption_units::Unit;
 
 /// Sensitivity coefficients that differ by less than this share are equal but for rounding.
@@ -58,7 +59,8 @@ fn indexed(side: &LinearResult, inputs: &[Matched], which: usize) -> Vec<(usize,
         Some((i.min(j), i.max(j), r))
     });
     let mut indexed: Vec<_> = indexed.collect();
-    indexed.sort_by_key(|&(i, j, _)| (i, j));
+    smallest_first(&mut indexed, |(_, j, _)| *j as f64);
+    smallest_first(&mut indexed, |(i, ..)| *i as f64);
     indexed
 }
 

@@ -20,8 +20,7 @@ struct Sourced {
 /// A name that no example has.
 pub(super) fn named(published: &PublishedExamples, name: Option<&str>) -> Result<String, Failure> {
     let Some(name) = name else { return list(published) };
-    let models = published.cases.iter().map(|(of, model, _)| (*of, *model));
-    let models = models.chain(published.more.iter().copied());
+    let models = published.to_start_from();
     match models.clone().find(|(of, _)| *of == name) {
         Some((_, model)) => Ok(model.to_owned()),
         None => {
@@ -36,23 +35,20 @@ pub(super) fn named(published: &PublishedExamples, name: Option<&str>) -> Result
 
 fn list(published: &PublishedExamples) -> Result<String, Failure> {
     let mut text = String::from("Published measurements, each as a model file to start from:\n\n");
-    let names = published.cases.iter().map(|(name, ..)| *name);
-    let names = names.chain(published.more.iter().map(|(name, _)| *name));
-    let widest = names.map(str::len).max().unwrap_or(0);
-    for (name, _, expected) in published.cases {
-        let of = sourced(name, expected)?;
-        text += &format!("{name:<widest$}  {}\n", one_line(&of.source));
+    let widest = published.to_start_from().map(|(name, _)| name.len()).max().unwrap_or(0);
+    let values = published.with_values().map_err(Failure::System)?;
+    for (name, _) in published.cases {
+        let of = values.iter().find(|example| example.name == *name);
+        let source = of.map_or("", |example| &example.source);
+        text += &format!("{name:<widest$}  {}\n", one_line(source));
     }
     if !published.more.is_empty() {
         text += "\nMeasurements from their raw data, and budgets of a laboratory's daily work:\n\n";
     }
     for (name, model) in published.more {
-        let Sourced { title, source } = sourced(name, model)?;
+        let Sourced { title, source } = serde_json::from_str(model)
+            .map_err(|error| Failure::System(format!("{name}: {error}")))?;
         text += &format!("{name:<widest$}  {} ({})\n", one_line(&title), one_line(&source));
     }
     Ok(text + "\n`gumption models --examples NAME` prints one, `--output FILE` writes it.\n")
-}
-
-fn sourced(name: &str, text: &str) -> Result<Sourced, Failure> {
-    serde_json::from_str(text).map_err(|error| Failure::System(format!("{name}: {error}")))
 }

@@ -6,28 +6,20 @@ use serde::Deserialize;
 
 /// A worked example with its published values.
 #[derive(Debug)]
-pub(super) struct Example {
-    pub(super) name: String,
+pub(crate) struct Example {
+    pub(crate) name: String,
     /// Text of the model file.
-    pub(super) model: &'static str,
+    pub(crate) model: &'static str,
     /// Replacements of inputs, as `gumption run --set` takes them.
-    pub(super) set: Vec<String>,
+    pub(crate) set: Vec<String>,
     /// The document.
-    pub(super) source: String,
-    pub(super) published: Vec<PublishedValue>,
+    pub(crate) source: String,
+    pub(crate) published: Vec<PublishedValue>,
     /// What a reader of the table should know.
-    pub(super) notes: String,
+    pub(crate) notes: String,
 }
 
-/// The values of one of the files under `tests/cases`; other keys are for other checks.
-#[derive(Deserialize)]
-struct Expectation {
-    source: String,
-    published: Vec<PublishedValue>,
-    notes: String,
-}
-
-/// A measurement of a paper: a ready file, replacements in it, published values.
+/// What a document publishes of a measurement: ready file, replacements in it, published values.
 #[derive(Deserialize)]
 struct PublishedMeasurement {
     example: String,
@@ -41,38 +33,43 @@ struct PublishedMeasurement {
 /// Published examples as texts, which a program carries with it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PublishedExamples {
-    /// Worked examples: name, model file, and what is published of it.
-    pub cases: &'static [(&'static str, &'static str, &'static str)],
-    /// Measurements of papers as a JSON list: ready file, replacements in it, published values.
-    pub measurements: &'static str,
-    /// The ready files that the list names.
+    /// Worked examples of documents: name and model file.
+    pub cases: &'static [(&'static str, &'static str)],
+    /// What documents publish, as a JSON list of measurements: the case or ready file (`model`),
+    /// replacements in it (`set`), the document (`source`), the values (`published`) and what a reader
+    /// should know (`notes`). Empty for nothing.
+    pub values: &'static str,
+    /// Ready files that the list names besides the cases.
     pub models: &'static [(&'static str, &'static str)],
     /// Further model files to start from, by name; what they are is in their `title` and `source`.
     pub more: &'static [(&'static str, &'static str)],
 }
 
-/// All examples, in the order in which they are printed.
-///
-/// # Errors
-/// A text that cannot be read.
-pub(super) fn all(published: &PublishedExamples) -> Result<Vec<Example>, String> {
-    let PublishedExamples { cases, measurements, models, .. } = published;
-    let mut examples = Vec::new();
-    for (name, model, expected) in *cases {
-        let Expectation { source, published, notes } =
-            serde_json::from_str(expected).map_err(|error| format!("{name}: {error}"))?;
-        let (name, set) = ((*name).to_owned(), Vec::new());
-        examples.push(Example { name, model, set, source, published, notes });
+impl PublishedExamples {
+    /// The model files to start from, by name.
+    pub(crate) fn to_start_from(&self) -> impl Iterator<Item = (&str, &str)> + Clone {
+        self.cases.iter().chain(self.more).copied()
     }
-    if measurements.is_empty() {
-        return Ok(examples);
+
+    /// All with published values, in the order in which they are printed.
+    ///
+    /// # Errors
+    /// A text that cannot be read.
+    pub(crate) fn with_values(&self) -> Result<Vec<Example>, String> {
+        if self.values.is_empty() {
+            return Ok(Vec::new());
+        }
+        let values: Vec<PublishedMeasurement> = serde_json::from_str(self.values)
+            .map_err(|error| format!("published values: {error}"))?;
+        values
+            .into_iter()
+            .map(|value| {
+                let PublishedMeasurement { example: name, model, set, source, published, notes } =
+                    value;
+                let found = self.cases.iter().chain(self.models).find(|(known, _)| *known == model);
+                let (_, model) = found.ok_or_else(|| format!("{name}: no file for `{model}`"))?;
+                Ok(Example { name, model, set, source, published, notes })
+            })
+            .collect()
     }
-    let papers: Vec<PublishedMeasurement> = serde_json::from_str(measurements)
-        .map_err(|error| format!("measurements of papers: {error}"))?;
-    for PublishedMeasurement { example: name, model, set, source, published, notes } in papers {
-        let found = models.iter().find(|(known, _)| *known == model);
-        let (_, model) = found.ok_or_else(|| format!("{name}: no file for `{model}`"))?;
-        examples.push(Example { name, model, set, source, published, notes });
-    }
-    Ok(examples)
 }

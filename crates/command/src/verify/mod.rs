@@ -60,7 +60,7 @@ impl Verify {
         }
         let place = self.answer.open(&[])?;
         let stop = signals::stop_flag();
-        let examples = examples::all(&program.published).map_err(Failure::System)?;
+        let examples = program.published.with_values().map_err(Failure::System)?;
         let bar = progress::counted(examples.len() as u64, "examples", self.answer.quiet);
         let machine = Machine { threads, stop: &stop };
         let mut found: Vec<RecomputedExample> = Vec::new();

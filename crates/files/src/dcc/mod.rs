@@ -23,6 +23,7 @@ use document::{Measured, Stated};
 use gumption_engine::distribution::{
     Arcsine, Constant, Distribution, Invalid, Normal, Rectangular, Triangular,
 };
+use gumption_engine::number::smallest_first;
 use gumption_engine::special;
 use gumption_units::{Unit, nearest};
 pub(super) use own::Certified;
@@ -309,7 +310,7 @@ fn table<'d>(
             points.push([x, y, u, dof]);
         }
     }
-    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    smallest_first(&mut points, |point| point[0]);
     if points.windows(2).any(|pair| pair[0][0] == pair[1][0]) {
         let span = measured.first().map_or(0..0, |of| of.span.clone());
         let reason = "two points of this table have the same abscissa".to_owned();

@@ -8,6 +8,7 @@ use super::number::{number_with_unit, value};
 use crate::named_shape::NamedShape;
 use crate::value_text::PLUS_MINUS;
 use gumption_engine::decimal::significant;
+use gumption_engine::number::smallest_first;
 use gumption_units::Unit;
 
 /// What a column holds.
@@ -987,7 +988,7 @@ impl Header {
                 self.columns.retain(|(_, column)| *column != Column::Estimate);
                 self.unknown.extend(own);
                 self.columns.push((place, Column::Estimate));
-                self.columns.sort_by_key(|(place, _)| *place);
+                smallest_first(&mut self.columns, |(place, _)| *place as f64);
             }
             [first, second, ..] => self.doubtful.push(format!(
                 "the columns `{}` and `{}` may both be the estimate: head one of them `Estimate`",

@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use super::columns::plain_case;
+use gumption_engine::number::smallest_first;
 use gumption_engine::special::student;
 
 /// What is said of the coverage of expanded uncertainties.
@@ -95,7 +96,7 @@ impl Statement {
         };
         let mut spans: Vec<Range<usize>> =
             [&factor, &sigmas, &p, &dof].into_iter().flatten().map(|(_, at)| at.clone()).collect();
-        spans.sort_by_key(|span| span.start);
+        smallest_first(&mut spans, |span| span.start as f64);
         let mut rest = text.to_owned();
         for span in spans.into_iter().rev() {
             if rest.get(span.clone()).is_some() {

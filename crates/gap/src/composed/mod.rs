@@ -239,10 +239,9 @@ impl Search<'_> {
             add(Argument::Nothing, &constant, &grid, ln_of(Argument::Nothing));
             for (argument, _, table) in tables.iter().chain(&own) {
                 let forms: Vec<ComposedForm> = table.iter().map(|of| of.shape.form()).collect();
-                let mut each = forms.clone();
-                each.sort_by_key(|form| form.name());
-                each.dedup();
-                let ln_form = ln_of(*argument) - elementary::ln(each.len().max(1) as f64);
+                let is_new = |(n, form): &(usize, &ComposedForm)| !forms[..*n].contains(form);
+                let different = forms.iter().enumerate().filter(is_new).count();
+                let ln_form = ln_of(*argument) - elementary::ln(different.max(1) as f64);
                 for of in table {
                     let form = of.shape.form();
                     let variants = forms.iter().filter(|other| **other == form).count();

@@ -1,6 +1,6 @@
 //! What is wanted of the output against each input, and against time.
 
-use gumption_engine::number::largest_first;
+use gumption_engine::number::{largest_first, smallest_first};
 use plotters::element::{Circle, PathElement};
 use plotters::style::Color;
 
@@ -38,7 +38,7 @@ pub(super) fn inputs(report: &PlanReport<'_>) -> Option<Drawing> {
         plan.inputs.iter().filter(|need| need.curve.len() > 1 && share(need) > 0.0).collect();
     largest_first(&mut shown, |line| share(line));
     shown.truncate(MOST);
-    shown.sort_by_key(|need| need.variable);
+    smallest_first(&mut shown, |need| need.variable as f64);
     if shown.is_empty() {
         return None;
     }

@@ -43,11 +43,11 @@ pub(crate) struct Found {
 
 /// Estimates the cycles in a sample interval of one oscillation and its `multiples` on the first
 /// channel, from a first guess, or from nothing.
-pub(crate) fn estimate<P: SampleSource>(
-    passes: &mut P,
+pub(crate) fn estimate<E>(
+    passes: &mut dyn SampleSource<Error = E>,
     guess: Option<f64>,
     multiples: &[u32],
-) -> Result<Found, NoFrequency<P::Error>> {
+) -> Result<Found, NoFrequency<E>> {
     let samples = passes.frames();
     let start = match guess {
         Some(cycles) => cycles,
@@ -74,12 +74,12 @@ pub(crate) fn estimate<P: SampleSource>(
     Err(NoFrequency::NotFound)
 }
 
-fn fitted<P: SampleSource>(
-    passes: &mut P,
+fn fitted<E>(
+    passes: &mut dyn SampleSource<Error = E>,
     cycles: f64,
     multiples: &[u32],
     samples: u64,
-) -> Result<(ToneCoefficients, Residuals), NoFrequency<P::Error>> {
+) -> Result<(ToneCoefficients, Residuals), NoFrequency<E>> {
     let tone = |multiple: &u32| Tone {
         cycles: cycles * f64::from(*multiple),
         fundamental: 0,
@@ -98,7 +98,7 @@ fn fitted<P: SampleSource>(
 }
 
 /// The cycles in a sample interval of the strongest oscillation of the first channel.
-fn strongest<P: SampleSource>(passes: &mut P) -> Result<Option<f64>, P::Error> {
+fn strongest<E>(passes: &mut dyn SampleSource<Error = E>) -> Result<Option<f64>, E> {
     let mut values: Vec<f64> = Vec::new();
     passes.pass(&mut |_, channels| {
         let room = LOOKED_AT.saturating_sub(values.len());
@@ -147,7 +147,7 @@ pub(crate) fn windowed(values: &[f64]) -> Vec<f64> {
 
 /// The cycles at which the phases of the record's parts agree best, within half a period per part of
 /// the guess.
-fn searched<P: SampleSource>(passes: &mut P, guess: f64) -> Result<f64, P::Error> {
+fn searched<E>(passes: &mut dyn SampleSource<Error = E>, guess: f64) -> Result<f64, E> {
     let samples = passes.frames();
     let Some(step) = Turns::new(guess) else { return Ok(guess) };
     // parts of two periods at least: shorter ones see the mean and the negative frequency

@@ -86,32 +86,32 @@ impl Residuals {
 
 /// The residuals of every channel; the fits are refined by what the residuals still have of the
 /// tones.
-pub(crate) fn of<P: SampleSource>(
+pub(crate) fn of<E>(
     design: &ToneDesign,
-    passes: &mut P,
+    passes: &mut dyn SampleSource<Error = E>,
     fits: &mut [ToneCoefficients],
-) -> Result<Vec<Residuals>, P::Error> {
+) -> Result<Vec<Residuals>, E> {
     let gathered = gathered(design, passes, fits)?;
     let of = |(gathered, fit): (Gathered, &mut ToneCoefficients)| gathered.residuals(design, fit);
     Ok(gathered.into_iter().zip(fits).map(of).collect())
 }
 
 /// The same without a look at what the noise is, for steps on the way to the frequencies.
-pub(crate) fn remainders<P: SampleSource>(
+pub(crate) fn remainders<E>(
     design: &ToneDesign,
-    passes: &mut P,
+    passes: &mut dyn SampleSource<Error = E>,
     fits: &mut [ToneCoefficients],
-) -> Result<Vec<Remainder>, P::Error> {
+) -> Result<Vec<Remainder>, E> {
     let gathered = gathered(design, passes, fits)?;
     let of = |(gathered, fit): (&Gathered, &mut ToneCoefficients)| gathered.remainder(design, fit);
     Ok(gathered.iter().zip(fits).map(of).collect())
 }
 
-fn gathered<P: SampleSource>(
+fn gathered<E>(
     design: &ToneDesign,
-    passes: &mut P,
+    passes: &mut dyn SampleSource<Error = E>,
     fits: &[ToneCoefficients],
-) -> Result<Vec<Gathered>, P::Error> {
+) -> Result<Vec<Gathered>, E> {
     let fundamentals = design.tones.iter().map(|tone| tone.fundamental + 1).max().unwrap_or(0);
     let parts = parts(design);
     let mut gathered: Vec<Gathered> =

@@ -129,7 +129,10 @@ impl ToneDesign {
     ///
     /// # Errors
     /// Where the recording cannot be read.
-    pub fn fit<P: SampleSource>(&self, passes: &mut P) -> Result<Vec<ToneCoefficients>, P::Error> {
+    pub fn fit<E>(
+        &self,
+        passes: &mut dyn SampleSource<Error = E>,
+    ) -> Result<Vec<ToneCoefficients>, E> {
         let mut sums: Vec<Sums> = Vec::new();
         self.each(passes, |_, channels, waves| {
             sums.resize_with(channels.len(), || Sums::new(self.tones.len()));
@@ -152,11 +155,11 @@ impl ToneDesign {
     }
 
     /// Goes through a recording with the waves of the tones at each block.
-    pub(crate) fn each<P: SampleSource>(
+    pub(crate) fn each<E>(
         &self,
-        passes: &mut P,
+        passes: &mut dyn SampleSource<Error = E>,
         mut each: impl FnMut(u64, &[&[f64]], &Waves),
-    ) -> Result<(), P::Error> {
+    ) -> Result<(), E> {
         let mut waves = Waves::new(self.steps.len());
         passes.pass(&mut |first, channels| {
             let length = channels.first().map_or(0, |values| values.len()).min(BLOCK);

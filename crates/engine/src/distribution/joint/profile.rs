@@ -9,7 +9,7 @@
 use std::sync::Arc;
 
 use crate::distribution::{Distribution, SavedResult};
-use crate::number::COLUMN;
+use crate::number::{COLUMN, smallest_first};
 use crate::special;
 
 /// Nodes of a cell.
@@ -296,7 +296,7 @@ impl Profile {
             }
             open = halves;
         }
-        pieces.sort_by(|a, b| a.left.total_cmp(&b.left));
+        smallest_first(&mut pieces, |piece| piece.left);
         let variance = pieces.iter().map(Piece::variance).sum();
         (Self { pieces, variance }, cells)
     }

@@ -86,7 +86,7 @@ pub use syntax::TableCall;
 pub use typing::{KelvinKind, LevelReference, Scope, TableData, Typing};
 
 use super::Traced;
-use crate::number::Number;
+use crate::number::{Number, smallest_first};
 use crate::regression::CurveFunction;
 use gumption_units::Unit;
 use syntax::{Kind, Tree};
@@ -207,7 +207,7 @@ impl Formula {
         if errors.is_empty() {
             return Ok(typings.last().copied().unwrap_or(Typing::ANY));
         }
-        errors.sort_by_key(|error| error.span().start);
+        smallest_first(&mut errors, |error| error.span().start as f64);
         Err(errors)
     }
 

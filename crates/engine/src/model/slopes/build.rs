@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::registers::{self, Arena};
 use super::{Slope, Slopes, Step};
 use crate::model::program::{Node, Program};
-use crate::number::{Binary, Number, Operand, Unary, derivative};
+use crate::number::{Binary, Number, Operand, Unary, derivative, smallest_first};
 
 /// At most so many steps on derivatives; programs beyond it take them one row after the other.
 const MOST_STEPS: usize = 100_000;
@@ -70,7 +70,7 @@ pub(super) fn build(program: &Program, same: &[Option<f64>], wanted: usize) -> O
     let filled = builder.filled.map(|filled| {
         let mut pairs: Vec<(usize, f64)> =
             filled.into_iter().map(|(bits, register)| (register, f64::from_bits(bits))).collect();
-        pairs.sort_by_key(|(register, _)| *register);
+        smallest_first(&mut pairs, |(register, _)| *register as f64);
         pairs
     });
     let steps = builder.steps;

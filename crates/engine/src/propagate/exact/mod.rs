@@ -27,6 +27,7 @@ use self::term::{Inputs, Term};
 use crate::distribution::characteristic::Characteristic;
 use crate::distribution::{Dependence, Distribution, Joint, Normal, StudentT};
 use crate::model::{Node, Output, Tolerance, fold};
+use crate::number::smallest_first;
 use crate::task::{Row, Task};
 
 /// Figures of an output that no seed moves.
@@ -371,7 +372,7 @@ fn one(inputs: &Inputs<'_>, group: &Group, constant: f64) -> Result<(Law, Moment
         .chain([1e-4, 1e-6, 1e-9, 1e-12].map(|q| distribution.quantile_upper(q)))
         .collect();
     let mut pairs: Vec<[f64; 2]> = places.into_iter().map(|x| [x, value(x)]).collect();
-    pairs.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+    smallest_first(&mut pairs, |pair| pair[0]);
     let steps: Vec<f64> =
         pairs.windows(2).filter(|w| w[1][0] > w[0][0]).map(|w| w[1][1] - w[0][1]).collect();
     let rising = steps.iter().all(|step| *step > 0.0);

@@ -22,7 +22,7 @@ use self::pieces::Parts;
 use self::points::Inputs;
 use super::exact::{Accuracy, Noiseless, Problem, Scatter, moments_exist};
 use crate::model::{Program, Schedule, ScheduledOutput};
-use crate::number::{COLUMN, CodePath, Column};
+use crate::number::{COLUMN, CodePath, Column, largest_first};
 
 /// Randomizations.
 pub(super) const RANDOMIZATIONS: u32 = 16;
@@ -146,7 +146,7 @@ impl Setup {
             if share.is_finite() { share } else { 0.0 }
         };
         let mut order: Vec<usize> = (0..varying.len()).collect();
-        order.sort_by(|&a, &b| share(b).total_cmp(&share(a)));
+        largest_first(&mut order, |&v| share(v));
         let inputs = Inputs::new(&distributions, &varying, &linked, &order)?;
         let of_linked = |v: &usize| linked.iter().any(|set| set.members.contains(v));
         let linked = varying.iter().map(of_linked).collect();

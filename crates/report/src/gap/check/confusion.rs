@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::label::Label;
+use gumption_engine::number::largest_first;
 use gumption_gap::check::{BlindCheckScores, BlindDraw};
 
 /// With more labels than this, those of several effects are taken together.
@@ -33,7 +34,7 @@ pub(super) fn wrong(report: &BlindCheckScores) -> Vec<Wrong> {
         Wrong { truth, said, count, of }
     };
     let mut wrong: Vec<Wrong> = counts.into_iter().map(kind).collect();
-    wrong.sort_by_key(|kind| std::cmp::Reverse(kind.count));
+    largest_first(&mut wrong, |kind| kind.count as f64);
     wrong
 }
 
