@@ -1,6 +1,8 @@
 //! What a plan is asked for, as it is typed: `U(y) <= 0.01 m/s^2`, and `reference/drift = 1 yr`.
 
-use super::value_text::{ValueOf, converted, decimal_comma, is_comma, with_unit};
+use super::value_text::{
+    ValueOf, bare_number, converted, decimal_comma, grouped_digits, is_comma, with_unit,
+};
 use super::width::{Width, number, share};
 use gumption_analysis::plan::{Drift, DriftLaw, PlanTarget};
 use gumption_engine::task::Task;
@@ -104,17 +106,27 @@ pub fn read_drift(text: &str, law: DriftLaw, task: &Task) -> Result<(Drift, Stri
         let near = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
         format!("there is no input or component `{name}`{near}")
     })?;
-    let (stated, unit) = match with_unit(time.trim()) {
-        Some((value, unit)) => (value, unit.trim().to_owned()),
-        None => match number(time.trim()) {
-            Ok((value, "")) => (value, String::new()),
-            _ => return Err(form()),
-        },
-    };
+    let time = time.trim();
+    let stated = with_unit(time).or_else(|| Some((bare_number(time)?, "")));
+    let (stated, unit) = stated.ok_or_else(form)?;
+    let unit = unit.trim().to_owned();
+    let wrong = |reason: String| format!("the time `{time}` of the drift of `{name}`{reason}");
+    if is_comma(&unit) {
+        return Err(wrong(format!(": {}", decimal_comma(stated, &unit))));
+    }
+    if let Some(reason) = grouped_digits(&unit) {
+        return Err(wrong(format!(": {reason}")));
+    }
+    // any word does, as the answer only repeats it, but no part of the number
+    if unit.contains(|c: char| c.is_numeric()) {
+        return Err(wrong(format!(
+            ": `{unit}` is no unit of time; write a number and a word, such as `365 d`"
+        )));
+    }
     if stated > 0.0 && stated.is_finite() {
         Ok((Drift { variable, stated, law }, unit))
     } else {
-        Err(format!("the time of the drift of `{name}` must be above zero"))
+        Err(wrong(" must be above zero".to_owned()))
     }
 }
 
@@ -178,5 +190,23 @@ mod tests {
         assert!(read_drift("y = 1 d", DriftLaw::Linear, &task()).unwrap_err().contains('y'));
         assert!(read_drift("x = 0 d", DriftLaw::Linear, &task()).is_err());
         assert!(read_drift("x", DriftLaw::Linear, &task()).is_err());
+        let (drift, unit) = read_drift("x=1.5 months", DriftLaw::Linear, &task()).unwrap();
+        assert_eq!((drift.stated, unit.as_str()), (1.5, "months"));
+    }
+
+    /// What goes on behind the number is no unit of it.
+    #[test]
+    fn times_of_drifts_have_one_number() {
+        for (time, said) in [
+            ("1,5 year", "such as `1.5`"),
+            ("1,5", "such as `1.5`"),
+            ("1,000 d", "can be 1.000 or 1000"),
+            ("1 000 d", "without blanks"),
+            ("1 1/2 yr", "no unit of time"),
+            ("1 d (2)", "no unit of time"),
+        ] {
+            let error = read_drift(&format!("x={time}"), DriftLaw::Linear, &task()).unwrap_err();
+            assert!(error.contains(said) && error.contains(&format!("`{time}`")), "{error}");
+        }
     }
 }
