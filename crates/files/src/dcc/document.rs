@@ -6,6 +6,7 @@
 
 use std::ops::Range;
 
+use super::agreement;
 use crate::implied_dof::last_digit;
 use crate::named_shape::NamedShape;
 use gumption_units::Unit;
@@ -21,6 +22,8 @@ pub(super) struct Measured {
     pub(super) span: Range<usize>,
     pub(super) unit: Unit,
     pub(super) values: Vec<f64>,
+    /// What one in the last written digit of each value is.
+    pub(super) last_digits: Vec<f64>,
     pub(super) uncertainty: Option<Stated>,
 }
 
@@ -108,10 +111,16 @@ pub(super) fn has_ref_type(node: Node<'_, '_>, wanted: &str) -> bool {
 }
 
 /// The names of a quantity, in all languages.
-pub(super) fn names<'d>(node: Node<'d, 'd>) -> Vec<&'d str> {
+pub(super) fn names(node: Node<'_, '_>) -> Vec<String> {
     let named = node.children().filter(|child| child.tag_name().name() == "name");
-    let contents = named.flat_map(|name| name.children());
-    contents.filter_map(|content| content.text()).map(str::trim).collect()
+    let contents = named.flat_map(|name| name.children()).filter(Node::is_element);
+    let named = contents.map(|content| content_of(content).trim().to_owned());
+    named.filter(|name| !name.is_empty()).collect()
+}
+
+/// The text of an element: comments stand between parts of it, and end none.
+fn content_of(element: Node<'_, '_>) -> String {
+    element.children().filter(Node::is_text).filter_map(|part| part.text()).collect()
 }
 
 /// What a message calls a quantity.
@@ -124,47 +133,72 @@ pub(super) fn called(node: Node<'_, '_>) -> String {
 /// Reads the values of a quantity.
 pub(super) fn measured(quantity: Node<'_, '_>) -> Result<Measured, Fault> {
     let fault = |reason: &str| (tag(quantity), format!("this quantity {reason}"));
-    let mut holders = Vec::new();
-    find_holders(quantity, &mut holders);
-    let Some(&first) = holders.first() else {
-        return Err(fault("has no real value (`si:real`, `si:constant` or a list of such)"));
-    };
-    let mut all: Option<Measured> = None;
-    for holder in holders {
-        let next = of_holder(holder, tag(quantity))?;
-        match &mut all {
-            None => all = Some(next),
-            Some(all) if all.unit.text() == next.unit.text() => join(all, next),
-            // a hybrid repeats the values in other units
-            Some(_) if holder.parent().is_some_and(|p| p.tag_name().name() == "hybrid") => {}
-            Some(_) => {
-                return Err((tag(holder), "the values of a list have different units".to_owned()));
-            }
-        }
-        if first.parent().is_some_and(|parent| parent.tag_name().name() == "hybrid") {
-            break;
-        }
-    }
-    let all = all.ok_or_else(|| fault("has no value"))?;
+    let none = || fault("has no real value (`si:real`, `si:constant` or a list of such)");
+    let all = of_list(quantity, &tag(quantity))?.ok_or_else(none)?;
     if all.values.is_empty() {
         return Err(fault("has no value"));
     }
     Ok(all)
 }
 
-/// The elements that hold values, without those of data about the measurement.
-fn find_holders<'d>(node: Node<'d, 'd>, found: &mut Vec<Node<'d, 'd>>) {
-    for child in node.children().filter(Node::is_element) {
-        match child.tag_name().name() {
-            "real" | "constant" | "realListXMLList" => found.push(child),
-            "hybrid" | "list" => find_holders(child, found),
-            _ => {}
+/// Reads what an element holds, one value behind the other; `None` where it holds none. What is of data
+/// about the measurement is no value.
+fn of_list(list: Node<'_, '_>, span: &Range<usize>) -> Result<Option<Measured>, Fault> {
+    let mut all: Option<Measured> = None;
+    for part in list.children().filter(Node::is_element) {
+        let Some(next) = of_part(part, span)? else { continue };
+        match &mut all {
+            None => all = Some(next),
+            Some(all) if all.unit.text() == next.unit.text() => join(all, next),
+            Some(_) => {
+                return Err((tag(part), "the values of a list have different units".to_owned()));
+            }
         }
     }
+    Ok(all)
+}
+
+fn of_part(part: Node<'_, '_>, span: &Range<usize>) -> Result<Option<Measured>, Fault> {
+    match part.tag_name().name() {
+        "real" | "constant" | "realListXMLList" => of_holder(part, span.clone()).map(Some),
+        "list" => of_list(part, span),
+        "hybrid" => of_hybrid(part, span),
+        _ => Ok(None),
+    }
+}
+
+/// Reads a hybrid, which says the same in several units: the first part, or the first with an
+/// uncertainty, where the others do not contradict it.
+fn of_hybrid(hybrid: Node<'_, '_>, span: &Range<usize>) -> Result<Option<Measured>, Fault> {
+    let mut found: Option<Measured> = None;
+    for part in hybrid.children().filter(Node::is_element) {
+        let next = match (&found, of_part(part, span)) {
+            (_, Ok(None)) => continue,
+            (_, Ok(Some(next))) => next,
+            (None, Err(fault)) => return Err(fault),
+            // hybrids are there for units that D-SI does not have
+            (Some(_), Err(_)) => continue,
+        };
+        let Some(first) = &found else {
+            found = Some(next);
+            continue;
+        };
+        if let Some([one, other]) = agreement::contradiction(first, &next) {
+            let reason = format!(
+                "this hybrid says {one} and {other}, which are not the same: ask which is right"
+            );
+            return Err((tag(part), reason));
+        }
+        if first.uncertainty.is_none() && next.uncertainty.is_some() {
+            found = Some(next);
+        }
+    }
+    Ok(found)
 }
 
 fn join(all: &mut Measured, next: Measured) {
     all.values.extend(next.values);
+    all.last_digits.extend(next.last_digits);
     let both = all.uncertainty.as_mut().zip(next.uncertainty);
     let Some((all, next)) = both else {
         all.uncertainty = None;
@@ -191,12 +225,12 @@ fn join(all: &mut Measured, next: Measured) {
 fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Measured, Fault> {
     let values = numbers(holder, &["value", "valueXMLList"], None)?
         .ok_or_else(|| (tag(holder), "this has no value".to_owned()))?;
-    let units = texts(holder, &["unit", "unitXMLList"]);
+    let units = texts(holder, &["unit", "unitXMLList"])?;
     let Some((element, units)) = units else {
         return Err((tag(holder), "this has no unit".to_owned()));
     };
-    let written = units.first().copied().unwrap_or_default();
-    if units.iter().any(|unit| *unit != written) {
+    let written = units.first().map_or("", String::as_str);
+    if units.iter().any(|unit| unit != written) {
         return Err((tag(element), "the values of a list have different units".to_owned()));
     }
     let unit = Unit::parse_dsi(written)
@@ -209,21 +243,25 @@ fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Measured, Fault
     let standard = [&standard[..], &["valueStandardMUXMLList"]].concat();
     let factors = ["coverageFactor", "coverageFactorXMLList"];
     let probabilities = ["coverageProbability", "coverageProbabilityXMLList"];
-    let last_digits = |names: &[&str]| {
-        let (_, words) = texts(holder, names)?;
-        Some(spread(words.into_iter().map(last_digit).collect(), count))
+    let last_digits = |names: &[&str]| -> Result<Option<Vec<f64>>, Fault> {
+        let words = texts(holder, names)?.map(|(_, words)| words);
+        let digits = |words: Vec<String>| words.iter().map(|word| last_digit(word)).collect();
+        Ok(words.map(|words| spread(digits(words), Some(values.len()))))
     };
+    let [of_values, of_expanded, of_factors, of_probabilities] =
+        [&["value", "valueXMLList"][..], &expanded, &factors, &probabilities].map(last_digits);
     let stated = Stated {
-        last_digits: [&expanded[..], &factors, &probabilities].map(last_digits),
+        last_digits: [of_expanded?, of_factors?, of_probabilities?],
         expanded: numbers(holder, &expanded, count)?,
         standard: numbers(holder, &standard, count)?,
         factors: numbers(holder, &factors, count)?,
         probabilities: numbers(holder, &probabilities, count)?,
-        distributions: distributions(holder, count),
+        distributions: distributions(holder, count)?,
         of_interval: Vec::new(),
     };
     let uncertain = stated.expanded.is_some() || stated.standard.is_some();
-    Ok(Measured { span, unit, values, uncertainty: uncertain.then_some(stated) })
+    let last_digits = of_values?.unwrap_or_default();
+    Ok(Measured { span, unit, values, last_digits, uncertainty: uncertain.then_some(stated) })
 }
 
 /// A unit that D-SI does not have, `|tex`, by its definition in the quantity, `tex = 1e-6 kg m^-1`.
@@ -231,7 +269,8 @@ fn defined(holder: Node<'_, '_>, written: &str) -> Option<Unit> {
     let name = written.strip_prefix('|')?;
     let quantity = holder.ancestors().find(|of| of.tag_name().name() == "quantity")?;
     let definition = quantity.descendants().find(|of| of.tag_name().name() == "nonSIDefinition")?;
-    let (_, size) = definition.text()?.split_once('=')?;
+    let definition = content_of(definition);
+    let (_, size) = definition.split_once('=')?;
     let size = Unit::parse(size.trim()).ok()?;
     // a product of units has no name of its own
     Some(Unit::defined(name, &size).unwrap_or(size))
@@ -246,19 +285,54 @@ fn spread<T: Clone>(all: Vec<T>, count: Option<usize>) -> Vec<T> {
 }
 
 /// What the distributions of values are called: one name, which may have several words, or a list.
-fn distributions(holder: Node<'_, '_>, count: Option<usize>) -> Option<Vec<String>> {
-    let (element, words) = texts(holder, &["distribution", "distributionXMLList"])?;
-    let all = match element.tag_name().name() {
-        "distribution" => vec![words.join(" ")],
-        _ => words.into_iter().map(str::to_owned).collect(),
-    };
-    Some(spread(all, count))
+fn distributions(holder: Node<'_, '_>, count: Option<usize>) -> Result<Option<Vec<String>>, Fault> {
+    let found = texts(holder, &["distribution", "distributionXMLList"])?;
+    Ok(found.map(|(element, words)| match element.tag_name().name() {
+        "distribution" => spread(vec![words.join(" ")], count),
+        _ => spread(words, count),
+    }))
 }
 
-/// The words of the first element below with one of these names.
-fn texts<'d>(holder: Node<'d, 'd>, names: &[&str]) -> Option<(Node<'d, 'd>, Vec<&'d str>)> {
-    let element = holder.descendants().find(|node| names.contains(&node.tag_name().name()))?;
-    Some((element, element.text().unwrap_or_default().split_whitespace().collect()))
+/// The words of the element below with one of these names.
+///
+/// # Errors
+/// Another one says something else, so that their order would decide; what is in it is no text alone.
+fn texts<'d>(
+    holder: Node<'d, 'd>,
+    names: &[&str],
+) -> Result<Option<(Node<'d, 'd>, Vec<String>)>, Fault> {
+    let words = |element: Node<'d, 'd>| -> Vec<String> {
+        content_of(element).split_whitespace().map(str::to_owned).collect()
+    };
+    let mut elements = holder.descendants().filter(|of| names.contains(&of.tag_name().name()));
+    let Some(element) = elements.next() else { return Ok(None) };
+    let found = words(element);
+    if let Some(inside) = element.children().find(Node::is_element) {
+        let (name, inner) = (element.tag_name().name(), inside.tag_name().name());
+        return Err((tag(inside), format!("`{inner}` has no place in `{name}`, which is a text")));
+    }
+    let is_same = |a: &String, b: &String| {
+        let both = a.parse::<f64>().ok().zip(b.parse::<f64>().ok());
+        a == b || both.is_some_and(|(a, b)| a == b)
+    };
+    for other in elements {
+        let again = words(other);
+        let count = found.len().max(again.len());
+        let both =
+            spread(found.clone(), Some(count)).len() == spread(again.clone(), Some(count)).len();
+        let pairs = found.iter().cycle().zip(again.iter().cycle()).take(count);
+        if !both || pairs.into_iter().any(|(a, b)| !is_same(a, b)) {
+            let shown = |words: &[String]| -> String { words.join(" ").chars().take(40).collect() };
+            let reason = format!(
+                "`{}` is `{}` and, here, `{}` of the same value: ask which is right",
+                element.tag_name().name(),
+                shown(&found),
+                shown(&again)
+            );
+            return Err((other.range(), reason));
+        }
+    }
+    Ok(Some((element, found)))
 }
 
 fn numbers(
@@ -266,9 +340,9 @@ fn numbers(
     names: &[&str],
     count: Option<usize>,
 ) -> Result<Option<Vec<f64>>, Fault> {
-    let Some((element, words)) = texts(holder, names) else { return Ok(None) };
+    let Some((element, words)) = texts(holder, names)? else { return Ok(None) };
     let name = element.tag_name().name();
-    let number = |word: &str| {
+    let number = |word: String| {
         let value = word.parse::<f64>().ok().filter(|value| value.is_finite());
         value.ok_or_else(|| {
             let shown: String = word.chars().take(40).collect();

@@ -103,7 +103,7 @@ pub(super) fn agreeing(
         return Ok(u);
     }
     Err(format!(
-        "states two standard uncertainties for one value: {u} with its coverage interval, and U/k = \
+        "states two standard uncertainties for one value: {u} as such, and U/k = \
          {expanded}/{factor}; ask which is right, and state the value as a normal distribution"
     ))
 }

@@ -1,6 +1,7 @@
 //! A Digital Calibration Certificate as an input: value, uncertainty, coverage and distribution of a
 //! quantity, or a table of it interpolated over a condition.
 
+mod agreement;
 mod document;
 mod intervals;
 mod own;
@@ -331,18 +332,19 @@ fn abscissa<'d>(
     condition: &str,
 ) -> Result<Option<Measured>, Fault> {
     let parent = node.parent();
-    let beside = || all.iter().filter(|other| other.parent() == parent && **other != node);
-    let by_name = beside().find(|other| document::names(**other).contains(&condition));
+    let beside: Vec<Node<'d, 'd>> =
+        all.iter().filter(|other| other.parent() == parent && **other != node).copied().collect();
+    let among = |is_one: &dyn Fn(Node<'d, 'd>) -> bool| {
+        let found: Vec<Node<'d, 'd>> = beside.iter().copied().filter(|of| is_one(*of)).collect();
+        (!found.is_empty()).then_some(found)
+    };
+    let by_name = among(&|of| document::names(of).iter().any(|name| name == condition));
     let by_kind = || {
         ["basic_referenceValue", "basic_nominalValue"]
             .iter()
-            .find_map(|kind| beside().find(|other| document::has_ref_type(**other, kind)))
+            .find_map(|kind| among(&|of| document::has_ref_type(of, kind)))
     };
-    let only = || {
-        let mut others = beside();
-        let first = others.next();
-        first.filter(|_| others.next().is_none())
-    };
+    let only = || Some(beside.clone()).filter(|others| others.len() == 1);
     let Some(found) = by_name.or_else(by_kind).or_else(only) else {
         let reason = format!(
             "no quantity beside {} is the one to interpolate over: none is named `{condition}`, or \
@@ -353,16 +355,38 @@ fn abscissa<'d>(
         object.log.report(place, DiagnosticKind::Certificate { reason });
         return Ok(None);
     };
-    let read = document::measured(*found)?;
-    if read.values.len() != of.values.len() {
+    let read = || found.iter().map(|node| document::measured(*node));
+    // one of several may be no number
+    let mut read: Vec<Measured> = match read().filter_map(Result::ok).collect::<Vec<_>>() {
+        none if none.is_empty() => read().collect::<Result<_, _>>()?,
+        some => some,
+    };
+    // a list of something else, such as a single reference condition
+    let is_whole = |one: &Measured| one.values.len() == of.values.len();
+    if read.iter().any(is_whole) {
+        read.retain(is_whole);
+    }
+    let mut read = read.into_iter();
+    let Some(first) = read.next() else { return Ok(None) };
+    if !is_whole(&first) {
         let reason = format!(
             "this quantity has {} values, the one over which it stands {}",
-            read.values.len(),
+            first.values.len(),
             of.values.len()
         );
-        return Err((read.span, reason));
+        return Err((first.span, reason));
     }
-    Ok(Some(read))
+    for other in read {
+        if let Some([one, another]) = agreement::contradiction(&first, &other) {
+            let reason = format!(
+                "the table of {} can be over this quantity or over another one beside it: one says {one}, \
+                 this one {another}. Name the condition as one of them is named, or ask which is right",
+                document::called(node)
+            );
+            return Err((other.span, reason));
+        }
+    }
+    Ok(Some(first))
 }
 
 /// What is known of one value.
@@ -395,6 +419,12 @@ fn known(stated: &Stated, place: usize) -> Result<Known, String> {
     let last_digits = stated.last_digits.each_ref().map(|all| at(all).unwrap_or(0.0));
     let [of_expanded, of_factor, of_probability] = last_digits;
     let (standard, factor) = match (at(&stated.standard), at(&stated.expanded)) {
+        (Some(u), Some(expanded))
+            if at(&stated.factors).is_some()
+                && (expanded / factor - u).abs() > agreement::ROUNDED * u =>
+        {
+            (intervals::agreeing(u, (expanded, factor), [of_expanded, of_factor])?, 1.0)
+        }
         (Some(standard), _) => (standard, 1.0),
         (None, Some(_)) if stated.factors.is_none() && probability.is_none() => {
             let reason = "has an expanded uncertainty without a coverage factor or probability";

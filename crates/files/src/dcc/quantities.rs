@@ -24,7 +24,7 @@ pub(crate) fn inputs(document: &Document<'_>, file: &str) -> Vec<(String, String
         let Ok(of) = measured(*node) else { continue };
         let count = of.values.len();
         let called = names(*node);
-        let stem = identifier(called.first().copied().unwrap_or_default());
+        let stem = identifier(called.first().map_or("", String::as_str));
         for index in 0..count {
             let wanted = if count > 1 { format!("{stem}_{}", index + 1) } else { stem.clone() };
             let taken = |name: &str| found.iter().any(|(known, ..)| known == name);

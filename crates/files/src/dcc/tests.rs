@@ -135,6 +135,140 @@ fn damaged_certificates() {
     }
 }
 
+/// Comments stand in a text, and end no number.
+#[test]
+fn comments_are_no_part_of_numbers() {
+    let id = r#""id": "v""#;
+    for value in ["5.0<!-- c -->112", "<!-- c -->5.0112", "5.0112<?x y?>", "<![CDATA[5.0112]]>"] {
+        let xml = certificate("3.2.1", &REAL.replace("5.0112", value));
+        near(known(&model(&xml, id, "").unwrap(), 0), [5.0112, 0.0023]);
+    }
+    let xml = certificate("3.2.1", &REAL.replace("5.0112", "5.0<si:b/>112"));
+    let error = model(&xml, id, "").unwrap_err().to_string();
+    assert!(error.contains("`b` has no place in `value`"), "{error}");
+}
+
+/// What is stated twice is no matter of the order.
+#[test]
+fn contradictions_are_asked() {
+    let id = r#""id": "v""#;
+    let twice = |element: &str, again: &str| {
+        let whole = format!("{element}{again}");
+        assert!(REAL.contains(element), "{element}");
+        model(&certificate("3.2.1", &REAL.replace(element, &whole)), id, "")
+    };
+    let value = "<si:value>5.0112</si:value>";
+    near(known(&twice(value, "<si:value>5.01120</si:value>").unwrap(), 0), [5.0112, 0.0023]);
+    let another = "<si:expandedUnc><si:uncertainty>0.4</si:uncertainty></si:expandedUnc></si:real>";
+    let one = "<si:unit>\\volt</si:unit>";
+    for (found, both) in [
+        (twice(value, "<si:value>5.2</si:value>"), "`value` is `5.0112` and, here, `5.2`"),
+        (twice(one, "<si:unit>\\milli\\volt</si:unit>"), "`\\volt` and, here, `\\milli\\volt`"),
+        (
+            model(&certificate("3.2.1", &REAL.replace("</si:real>", another)), id, ""),
+            "`uncertainty` is `0.0046` and, here, `0.4`",
+        ),
+        (
+            twice(value, "<si:standardUnc>0.0046</si:standardUnc>"),
+            "two standard uncertainties for one value: 0.0046 as such, and U/k = 0.0046/2",
+        ),
+    ] {
+        let errors = found.unwrap_err();
+        assert_eq!(errors.0.len(), 1, "{errors}");
+        assert!(errors.to_string().contains(both), "{both}: {errors}");
+    }
+}
+
+/// A hybrid says one thing in several units.
+#[test]
+fn parts_of_a_hybrid_agree() {
+    let real = |value: &str, unit: &str, more: &str| {
+        format!("<si:real><si:value>{value}</si:value><si:unit>{unit}</si:unit>{more}</si:real>")
+    };
+    let expanded = |u: &str| {
+        format!(
+            "<si:expandedUnc><si:uncertainty>{u}</si:uncertainty>\
+             <si:coverageFactor>2</si:coverageFactor></si:expandedUnc>"
+        )
+    };
+    let hybrid = |parts: &[String]| {
+        format!("<dcc:quantity id=\"v\"><si:hybrid>{}</si:hybrid></dcc:quantity>", parts.concat())
+    };
+    let read = |text: &str| {
+        let xml = certificate("3.2.1", text);
+        let document = parse(&xml).unwrap();
+        let measured = document::measured(document::quantities(&document)[0]);
+        measured.map(|_| ()).map_err(|(_, reason)| reason)
+    };
+    let [celsius, kelvin] = [r"\degreecelsius", r"\kelvin"];
+    for (a, b) in [("20", "293.15"), ("20.00", "293.15"), ("20", "293"), ("0.10", "0.10")] {
+        let text = hybrid(&[real(a, celsius, ""), real(b, kelvin, "")]);
+        assert_eq!(read(&text), Ok(()), "{a} {b}");
+    }
+    let volts = [real("5.01", r"\volt", &expanded("0.02")), real("5010", r"\milli\volt", "")];
+    let [with, without] = volts.clone();
+    let xml = certificate("3.2.1", &hybrid(&[without, with]));
+    near(known(&model(&xml, r#""id": "v""#, "").unwrap(), 0), [5.01, 0.01]);
+    let list = [hybrid(&volts), hybrid(&volts).replace("5010", "5011")].concat();
+    let list = list.replace("</dcc:quantity><dcc:quantity id=\"v\">", "");
+    let list = list.replace("id=\"v\">", "id=\"v\"><si:list>");
+    let list = list.replace("</dcc:quantity>", "</si:list></dcc:quantity>");
+    let xml = certificate("3.2.1", &list);
+    near(known(&model(&xml, r#""id": "v", "index": 1"#, "").unwrap(), 0), [5.01, 0.01]);
+    // a unit that D-SI does not have
+    let text = hybrid(&[real("5.01", r"\volt", ""), real("1", r"\furlong", "")]);
+    assert_eq!(read(&text), Ok(()));
+    for (parts, both) in [
+        ([real("20", celsius, ""), real("300", kelvin, "")], "says 20 degC and 300 K"),
+        ([real("20.00", celsius, ""), real("293.25", kelvin, "")], "says 20 degC and 293.25 K"),
+        ([real("5.01", r"\volt", ""), real("5.01", r"\metre", "")], "says 5.01 V and 5.01 m"),
+        (
+            [
+                real("5.01", r"\volt", &expanded("0.02")),
+                real("5010", r"\milli\volt", &expanded("40")),
+            ],
+            "a standard uncertainty of 0.01 V and a standard uncertainty of 20 mV",
+        ),
+    ] {
+        let error = read(&hybrid(&parts)).unwrap_err();
+        assert!(error.contains(both), "{both}: {error}");
+    }
+}
+
+/// Two lists that a table may be over: the same one, or a question.
+#[test]
+fn the_abscissa_is_one() {
+    let list = |kind: &str, values: &str, unit: &str| {
+        format!(
+            "<dcc:quantity refType=\"{kind}\"><si:realListXMLList>\
+             <si:valueXMLList>{values}</si:valueXMLList><si:unitXMLList>{unit}</si:unitXMLList>\
+             </si:realListXMLList></dcc:quantity>"
+        )
+    };
+    let reference = "basic_referenceValue";
+    let measured = list("basic_measuredValue", "1 2 3", r"\milli\volt");
+    let table = |lists: &[String]| {
+        let conditions = r#", "conditions": {"f": {"unit": "Hz", "values": [10]}}"#;
+        let xml = certificate("3.2.1", &[&lists.concat(), measured.as_str()].concat());
+        let input = r#""ref_type": "basic_measuredValue", "at": "f""#;
+        model(&xml, input, conditions).map_err(|errors| errors.to_string())
+    };
+    let [a, b] = ["0 10 20", "0 20 40"].map(|values| list(reference, values, r"\hertz"));
+    for lists in [[a.clone(), b.clone()], [b, a.clone()]] {
+        let error = table(&lists).unwrap_err();
+        assert!(error.contains("10 Hz") && error.contains("20 Hz"), "{error}");
+    }
+    let same = [
+        list(reference, "0 0.01 0.02", r"\kilo\hertz"),
+        list(reference, "7", r"\hertz"),
+        list("basic_nominalValue", "0 20 40", r"\hertz"),
+    ];
+    for other in same {
+        let file = table(&[a.clone(), other]).unwrap();
+        near(known(&file, 0), [2.0, 0.0]);
+    }
+}
+
 /// Certificates of others, where `GUMPTION_CERTIFICATES` names a folder of them: most quantities are
 /// read.
 #[test]
