@@ -232,6 +232,47 @@ fn cells_of_a_workbook_mean_what_they_show() {
     }
 }
 
+/// What a number format shows around a number makes another one of it: `√3` of 3, `5×10³` of 5.
+#[test]
+fn formats_that_make_another_number_are_read_or_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let save = |cells: [(&str, f64); 3]| {
+        let mut book = Workbook::new();
+        let sheet = book.add_worksheet();
+        let header = ["Quantity", "Estimate", "Unit", "Half-width", "Distribution", "Divisor"];
+        for (column, name) in (0..).zip(header) {
+            sheet.write_string(0, column, name).unwrap();
+        }
+        for (column, text) in [(0, "x"), (2, "V"), (4, "rectangular")] {
+            sheet.write_string(1, column, text).unwrap();
+        }
+        for (column, (format, value)) in [1, 3, 5].into_iter().zip(cells) {
+            let format = Format::new().set_num_format(format);
+            sheet.write_number_with_format(1, column, value, &format).unwrap();
+        }
+        book.save(folder.path().join("shown.xlsx")).unwrap();
+        told(folder.path(), &["import", "shown.xlsx"])
+    };
+    for format in ["0.0\"×10³\"", "0.0\"x10^3\"", "0.0\"e3\"", "0.0\"·10³ V\""] {
+        let (text, said, code) = save([(format, 5.0), ("0", 10.0), ("\"√\"0", 3.0)]);
+        assert_eq!(code, Some(0), "{format} {said}");
+        let model: Value = serde_json::from_str(&text).unwrap();
+        let expected = serde_json::json!({"unit": "V", "distribution": "rectangular", "mean": 5000.0,
+            "half_width": 10.0});
+        assert_eq!(model["inputs"]["x"], expected, "{format}");
+    }
+    for (cells, shown) in [
+        ([("\"<\"0", 5.0), ("0", 1.0), ("0", 3.0)], "<5"),
+        ([("0\",\"0", 15.0), ("0", 1.0), ("0", 3.0)], "shown with `,` between digits"),
+        ([("0", 5.0), ("0.0\"*\"", 1.0), ("\"√\"0", 3.0)], "1 *"),
+    ] {
+        let (text, said, code) = save(cells);
+        assert_eq!(code, Some(2), "{text}");
+        assert!(said.contains("line 2") || said.contains(":2:"), "{said}");
+        assert!(said.contains(shown), "{said}");
+    }
+}
+
 /// A sheet with a header, and rows of a name, an estimate and a half-width in volts.
 fn budget_on(sheet: &mut rust_xlsxwriter::Worksheet, rows: &[(&str, f64, f64)]) {
     let header = ["Quantity", "Estimate", "Unit", "Half-width", "Distribution"];

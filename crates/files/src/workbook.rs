@@ -18,7 +18,7 @@ use calamine::{Data, DataRef, Reader as _, SheetType, SheetVisible, Style, Xlsx}
 use quick_xml::events::{BytesStart, Event};
 use zip::ZipArchive;
 
-use super::number_format::{Behind, last_digit};
+use super::number_format::{Shown, last_digit};
 pub(super) use layout::{Layout, Place};
 
 /// Bytes of an unpacked part, at most. A table of ten thousand rows has less than a quarter of it.
@@ -304,10 +304,10 @@ pub(super) fn letters(column: u32) -> String {
     name
 }
 
-/// What cells of a style show behind their numbers.
-fn behind(style: &Style) -> Behind {
+/// What cells of a style show of their numbers.
+fn shown(style: &Style) -> Shown {
     let format = style.number_format.as_ref();
-    format.map_or(Behind::Nothing, |format| Behind::of(&format.format_code))
+    format.map(|format| Shown::of(&format.format_code)).unwrap_or_default()
 }
 
 fn opened(bytes: Vec<u8>) -> Result<Xlsx<Cursor<Vec<u8>>>, String> {
@@ -343,7 +343,8 @@ fn cells(
     };
     let sheet = sheet.ok_or_else(|| "the workbook has no sheet".to_owned())?;
     let mut reader = workbook.worksheet_cells_reader(&sheet).map_err(is_none)?;
-    let formats: Vec<Behind> = reader.styles().iter().map(behind).collect();
+    let formats: Vec<Shown> = reader.styles().iter().map(shown).collect();
+    let plain = Shown::default();
     let code = |style: &Style| style.number_format.as_ref().map(|of| of.format_code.clone());
     let codes: Vec<Option<_>> = reader.styles().iter().map(code).collect();
     let is_struck = |style: &Style| style.font.as_ref().is_some_and(|font| font.strikethrough);
@@ -359,7 +360,7 @@ fn cells(
             DataRef::SharedString(text) => Data::String((*text).to_owned()),
             other => Data::from(other.clone()),
         };
-        let format = formats.get(style).unwrap_or(&Behind::Nothing);
+        let format = formats.get(style).unwrap_or(&plain);
         let is_text = matches!(value, Data::String(_));
         let number = match value {
             Data::Float(value) => Some(value),
@@ -368,6 +369,7 @@ fn cells(
         };
         if let Some(value) = number
             && let Some(Some(code)) = codes.get(style)
+            && format.shows_digits_of(value)
             && let Some(last) = last_digit(code, value)
         {
             told.last_digits.insert((row, column), last);
@@ -378,12 +380,9 @@ fn cells(
         }
         let text = match value {
             _ if date.is_some() => date.unwrap_or_default(),
-            Data::Float(value) => format.text(value),
-            Data::Int(value) if *format != Behind::Nothing => format.text(value as f64),
-            // a line of the text is a row of the sheet
-            Data::String(text) if text.contains([',', ';', '"', '\n', '\r', '#']) => {
-                format!("\"{}\"", text.replace('"', "\"\"").replace(['\n', '\r'], " "))
-            }
+            Data::Float(value) => quoted(format.text(value)),
+            Data::Int(value) if !format.is_plain() => quoted(format.text(value as f64)),
+            Data::String(text) => quoted(text),
             other => other.to_string(),
         };
         if text.trim().is_empty() {
@@ -405,6 +404,15 @@ fn cells(
         cells.entry(row).or_default().insert(column, text);
     }
     Ok((cells, told))
+}
+
+/// A cell's text with the quotes that CSV needs about it; a line of the text is a row of the sheet.
+fn quoted(text: String) -> String {
+    if text.contains([',', ';', '"', '\n', '\r', '#']) {
+        format!("\"{}\"", text.replace('"', "\"\"").replace(['\n', '\r'], " "))
+    } else {
+        text
+    }
 }
 
 fn is_comment(row: &BTreeMap<u32, String>) -> bool {
