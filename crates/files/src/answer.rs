@@ -13,7 +13,9 @@ use gumption_analysis::compare::StatedResult;
 /// An answer: its rows of conditions with their outputs.
 #[derive(Debug)]
 pub(super) struct Answer {
-    name: String,
+    pub(super) name: String,
+    /// The units of the conditions, by their names; answers of earlier versions do not say them.
+    units: Map<String, Value>,
     rows: Vec<(Map<String, Value>, Map<String, Value>)>,
 }
 
@@ -56,7 +58,8 @@ pub(super) fn read(log: &Collector, path: &Path) -> Option<Answer> {
         let reason = format!("{what} that of an evaluation (`gumption run --format json`)");
         report("", DiagnosticKind::Table { reason });
     }
-    Some(Answer { name, rows: rows? })
+    let units = object(answer.get("condition_units")).unwrap_or_default();
+    Some(Answer { name, units, rows: rows? })
 }
 
 /// What a JSON file is that is no answer of a run, where its keys tell.
@@ -76,6 +79,11 @@ impl Answer {
         first
             .map(|(conditions, _)| conditions.keys().map(String::as_str).collect())
             .unwrap_or_default()
+    }
+
+    /// The unit of a condition, where the answer says it.
+    pub(super) fn unit_of(&self, condition: &str) -> Option<&str> {
+        self.units.get(condition)?.as_str()
     }
 
     /// The result of an output at some conditions, with its unit: that of the GUM, or that of the trials

@@ -119,12 +119,13 @@ pub(super) fn check(
     is_same
 }
 
-/// That a heading has another unit than `declared`, as [`check`] reports it; `unit` reads the text of one.
-pub(super) fn contradiction(
+/// The unit that a heading states, and its text, of a column whose values are `declared` in a file; `None`
+/// where it has none, or the declared one in the same letters.
+pub(super) fn stated<'h>(
     unit: impl Fn(&str) -> Option<Unit>,
-    column: &str,
-    (declared, of): (&Unit, ValueOf),
-) -> Option<DiagnosticKind> {
+    column: &'h str,
+    declared: &Unit,
+) -> Option<(Unit, &'h str)> {
     // a heading that is a unit of the same kind, `km/h` for `m/s`, is no name with a unit
     let whole = unit(column.trim()).filter(|whole| whole.is_compatible(declared));
     let (name, text) = match whole.filter(|_| over(column).is_some()) {
@@ -138,9 +139,18 @@ pub(super) fn contradiction(
     let whole = unit(text).map(|of| (of, text));
     let parts = || text.split([',', ';', ' ']).map(str::trim).filter(|part| !part.is_empty());
     let part = || parts().find_map(|part| Some((unit(part)?, part)));
-    let (unit, text) = whole.or_else(|| {
+    whole.or_else(|| {
         part().filter(|(of, _)| of.is_compatible(declared) && !of.dimension().is_none())
-    })?;
+    })
+}
+
+/// That a heading has another unit than `declared`, as [`check`] reports it; `unit` reads the text of one.
+pub(super) fn contradiction(
+    unit: impl Fn(&str) -> Option<Unit>,
+    column: &str,
+    (declared, of): (&Unit, ValueOf),
+) -> Option<DiagnosticKind> {
+    let (unit, text) = stated(unit, column, declared)?;
     let is_declared = |unit: &Unit| {
         unit.is_compatible(declared)
             && unit.factor() == declared.factor()

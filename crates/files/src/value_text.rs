@@ -189,10 +189,7 @@ pub(super) fn converted(
     }
     let given = unit_behind_number(text, own)?;
     if of == ValueOf::Either && !given.has_zero_of(unit) {
-        return Err(format!(
-            "nothing tells whether it is a temperature or a difference of temperatures; write it \
-             in `{unit}`"
-        ));
+        return Err(either_temperature(unit));
     }
     let found = match of {
         ValueOf::Quantity | ValueOf::Either => Unit::convert(value, &given, unit),
@@ -203,6 +200,13 @@ pub(super) fn converted(
         Ok(found) => Err(format!("it is {found} in `{unit}`")),
         Err(error) => Err(error.to_string()),
     }
+}
+
+/// That a number in a unit with another zero than this one could be converted in two ways.
+pub(super) fn either_temperature(unit: &Unit) -> String {
+    format!(
+        "nothing tells whether it is a temperature or a difference of temperatures; write it in `{unit}`"
+    )
 }
 
 /// The power of ten of the last written digit of a number, zeros at its end included: -3 of `0.100`.

@@ -71,7 +71,11 @@ fn given(text: &str) -> Option<&str> {
 #[serde(untagged)]
 enum Results<'a> {
     Single(Figures<'a>),
-    Swept { rows: Rows<'a> },
+    Swept {
+        #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
+        condition_units: Vec<(&'a str, &'a str)>,
+        rows: Rows<'a>,
+    },
 }
 
 /// The rows of a sweep, made one by one.
@@ -514,7 +518,12 @@ impl<'a> Answer<'a> {
         let EvaluationReport { task, evaluation, warnings, provenance } = *report;
         let results = match evaluation.rows.first() {
             Some(row) if !task.swept => Results::Single(Figures::of(task, row, evaluation.stopped)),
-            _ => Results::Swept { rows: Rows { task, evaluation } },
+            _ => Results::Swept {
+                condition_units: (task.model.conditions.iter())
+                    .map(|condition| (condition.name.as_str(), condition.unit.text()))
+                    .collect(),
+                rows: Rows { task, evaluation },
+            },
         };
         let trials = match evaluation.settings.trials {
             Trials::Fixed(trials) => Asked::Number(trials),

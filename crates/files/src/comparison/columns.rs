@@ -156,11 +156,6 @@ impl Columns {
         self.units.iter().find(|(of, _)| *of == place).map(|(_, unit)| unit)
     }
 
-    /// Whether some heading states a unit.
-    pub(super) fn have_units(&self) -> bool {
-        !self.units.is_empty()
-    }
-
     /// What the heading of a column says of the coverage.
     pub(super) fn coverage(&self, place: usize) -> HeaderCoverage {
         let found = self.coverages.iter().find(|(of, _)| *of == place);

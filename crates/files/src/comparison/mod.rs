@@ -2,6 +2,7 @@
 
 mod check;
 mod columns;
+mod conditions;
 mod correlations;
 mod headings;
 mod numbers;
@@ -126,11 +127,7 @@ fn read(
         let columns = Columns::of(&numbers, &conditions, &mut warnings)?;
         let is_of_pairs = columns.has(Role::Value(1));
         let mut reader = Reader { numbers, columns, shares: BTreeSet::new(), options };
-        let table = if is_of_pairs {
-            reader.pairs(answer.as_ref(), &conditions)
-        } else {
-            reader.laboratories()
-        };
+        let table = if is_of_pairs { reader.pairs(answer.as_ref()) } else { reader.laboratories() };
         warnings.extend(reader.relative());
         table
     });
@@ -163,11 +160,7 @@ impl Reader<'_> {
         self.numbers.log.report_at(place, DiagnosticKind::Table { reason });
     }
 
-    fn pairs(
-        &mut self,
-        answer: Option<&answer::Answer>,
-        conditions: &[&str],
-    ) -> Option<ComparisonTable> {
+    fn pairs(&mut self, answer: Option<&answer::Answer>) -> Option<ComparisonTable> {
         if let Some(path) = self.options.correlations {
             self.fail(format!(
                 "`{}` is for a table of laboratories (label, x, U); a table of pairs has its \
@@ -186,16 +179,27 @@ impl Reader<'_> {
             return None;
         }
         let label = self.columns.place(Role::Label)?;
+        let against = match answer {
+            Some(answer) => Some((answer, self.conditions(answer)?)),
+            None => None,
+        };
+        // whether the table has units, by its first result
+        let mut has_units = None;
         let mut wanted = None;
         let mut pairs = Vec::new();
         for row in self.rows() {
             let Some(name) = self.label(row, label) else { continue };
-            let (first, second) =
-                (self.stated(row, 1), answer.is_none().then(|| self.stated(row, 2)));
-            let second = match (second, answer) {
-                (Some(second), _) => second,
-                (None, Some(answer)) => self.of_answer(row, label, answer, conditions),
-                (None, None) => None,
+            let first = self.stated(row, 1);
+            let second = match &against {
+                Some((answer, conditions)) => {
+                    let own = first.as_ref().map(|first| first.value.unit.is_some());
+                    let in_unit = own.map(|own| *has_units.get_or_insert(own));
+                    let at = self.at(row, answer, conditions);
+                    at.and_then(|at| {
+                        self.of_answer((row, label), answer, &at, in_unit == Some(true))
+                    })
+                }
+                None => self.stated(row, 2),
             };
             let correlation = match self.columns.place(Role::Correlation) {
                 Some(place) => self.numbers.bare(row, place),
@@ -345,20 +349,14 @@ impl Reader<'_> {
     /// where the table has units.
     fn of_answer(
         &self,
-        row: usize,
-        label: usize,
+        (row, label): (usize, usize),
         answer: &answer::Answer,
-        conditions: &[&str],
+        at: &[(&str, f64)],
+        in_unit: bool,
     ) -> Option<InUnits> {
-        let mut at: Vec<(&str, f64)> = Vec::new();
-        for name in conditions {
-            let Some(place) = self.columns.condition(name) else { continue };
-            at.push((name, self.numbers.number(row, place)?.value));
-        }
-        let found = answer.result(self.numbers.name(row, label), &at);
+        let found = answer.result(self.numbers.name(row, label), at);
         let found = found.and_then(|(stated, unit)| {
-            let units = self.columns.have_units() || self.columns.has(Role::Unit);
-            let unit = units.then(|| self.numbers.log.unit(unit)).transpose();
+            let unit = in_unit.then(|| self.numbers.log.unit(unit)).transpose();
             Ok((stated, unit.map_err(|error| error.to_string())?))
         });
         let (stated, unit) = found

@@ -5,6 +5,7 @@ use super::numbers::{self, Number};
 use super::{InUnits, Reader};
 use crate::DiagnosticKind;
 use crate::share::{self, Share};
+use crate::value_text::either_temperature;
 use gumption_analysis::compare::StatedResult;
 use gumption_engine::number::Shortest;
 use gumption_units::{IncompatibleUnits, Unit};
@@ -240,6 +241,14 @@ impl Reader<'_> {
                 return None;
             }
         };
+        if of_x.is_compatible(wanted) && !of_x.has_zero_of(wanted) {
+            fail(format!(
+                "row {}: a value in `{of_x}` is compared in `{wanted}`: {}",
+                row + 1,
+                either_temperature(wanted)
+            ));
+            return None;
+        }
         let converted = || -> Result<StatedResult, IncompatibleUnits> {
             let by_x = Unit::conversion_factor(of_x, wanted)?;
             let by_u = Unit::conversion_factor(of_u, wanted)?;

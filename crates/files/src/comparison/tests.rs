@@ -347,3 +347,95 @@ mod of_workbooks {
         assert!(said.contains("the hidden sheet `old` does"), "{said}");
     }
 }
+
+/// A table against what a run has found in a row; `units` are those of its conditions.
+fn against(table: &str, units: &str, row: &str) -> Result<ComparisonTable, String> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.json");
+    let answer = format!(r#"{{"gumption": "0", "inputs": [], {units} "rows": [{row}]}}"#);
+    std::fs::write(&path, answer).unwrap();
+    let options = ComparisonOptions { against: Some(&path), ..ComparisonOptions::default() };
+    let read = read_comparison_text("t.csv", table, options);
+    read.map(|read| read.table).map_err(|errors| errors.to_string())
+}
+
+fn output(unit: &str, estimate: f64) -> String {
+    format!(
+        r#""outputs": {{"y": {{"unit": "{unit}", "gum": {{"estimate": {estimate},
+        "expanded_uncertainty": 0.2, "coverage_factor": 2}}}}}}"#
+    )
+}
+
+/// 0.1 kHz is 100 Hz, wherever its unit stands.
+#[test]
+fn conditions_are_converted_to_the_unit_of_the_run() {
+    let units = r#""condition_units": {"f": "kHz"},"#;
+    let row = format!(r#"{{"conditions": {{"f": 0.1}}, {}}}"#, output("V", 10.0));
+    let read = |table: &str| against(table, units, &row);
+    for table in [
+        "label,f,x1,U1\ny,0.1,10,0.2\n",
+        "label,f [kHz],x1,U1\ny,0.1,10,0.2\n",
+        "label,f [Hz],x1,U1\ny,100,10,0.2\n",
+        "label,f / Hz,x1,U1\ny,100,10,0.2\n",
+        "label,f (nominal),x1,U1\ny,0.1,10,0.2\n",
+        "label,f (nominal Hz),x1,U1\ny,100,10,0.2\n",
+        "label,f,x1,U1\ny,100 Hz,10,0.2\n",
+        "label,f [Hz],x1,U1\ny,100 Hz,10,0.2\n",
+    ] {
+        let Ok(ComparisonTable::Pairs(pairs)) = read(table) else { panic!("{table}") };
+        assert_eq!(pairs[0].results.map(|result| result.value), [10.0, 10.0], "{table}");
+    }
+    for (table, said) in [
+        ("label,f [Hz],x1,U1\ny,0.1,10,0.2\n", "none or several have these conditions"),
+        ("label,f [s],x1,U1\ny,0.1,10,0.2\n", "`f` of the run is in `kHz`, to which `s` cannot"),
+        ("label,f [set],x1,U1\ny,0.1,10,0.2\n", "`set` is no unit"),
+        ("label,f,x1,U1\ny,0.1 s,10,0.2\n", "row 1, condition `f`"),
+        ("label,f [Hz],x1,U1\ny,0.1 kHz,10,0.2\n", "a column whose heading says `Hz`"),
+    ] {
+        let error = read(table).unwrap_err();
+        assert!(error.contains(said), "{table}: {error}");
+    }
+    // an answer of an earlier version
+    assert!(against("label,f,x1,U1\ny,0.1,10,0.2\n", "", &row).is_ok());
+    for table in ["label,f [Hz],x1,U1\ny,100,10,0.2\n", "label,f,x1,U1\ny,100 Hz,10,0.2\n"] {
+        let error = against(table, "", &row).unwrap_err();
+        assert!(error.contains("does not say that of the condition `f`"), "{error}");
+    }
+}
+
+/// Results whose cells have units, and none of the headings.
+#[test]
+fn cells_have_units_against_a_run() {
+    let row = format!(r#"{{"conditions": {{}}, {}}}"#, output("V", 10.0));
+    let table = "label,x1,U1\ny,10.0 V,200 mV\n";
+    let Ok(ComparisonTable::Pairs(pairs)) = against(table, "", &row) else { panic!() };
+    assert_eq!(pairs[0].results.map(|of| (of.value, of.expanded)), [(10.0, 0.2); 2]);
+    let mixed = [table, "y,10,0.2\n"].concat();
+    let error = against(&mixed, "", &row).unwrap_err();
+    assert!(error.contains("row 2: some numbers have a unit and others none"), "{error}");
+}
+
+/// A temperature, or a difference of temperatures.
+#[test]
+fn values_from_two_zeros_are_asked() {
+    let row = |unit: &str| format!(r#"{{"conditions": {{}}, {}}}"#, output(unit, 0.0));
+    let table = "label,x1 [K],U1 [K]\ny,0.1,0.1\n";
+    let both = "a temperature or a difference of temperatures; write it in `degC`";
+    let error = against(table, "", &row("degC")).unwrap_err();
+    assert!(error.contains("row 1") && error.contains(both), "{error}");
+    for (table, unit) in [
+        (table, "K"),
+        ("label,x1 [mK],U1 [mK]\ny,100,100\n", "K"),
+        ("label,x1 [degC],U1 [K]\ny,0.1,0.1\n", "degC"),
+        ("label,x1,U1\ny,0.1,0.1\n", "degC"),
+    ] {
+        assert!(against(table, "", &row(unit)).is_ok(), "{table} {unit}");
+    }
+    for table in [
+        "label,x1 [degC],U1 [K],x2 [K],U2 [K]\na,0.1,0.1,0,0.1\n",
+        "label,x,U,Unit\na,20,0.1,degC\nb,293.15,0.1,K\n",
+    ] {
+        let errors = read(table).unwrap_err().to_string();
+        assert!(errors.contains(both), "{errors}");
+    }
+}
