@@ -7,6 +7,7 @@ mod both;
 pub(crate) mod columns;
 mod concise;
 pub(crate) mod coverage;
+mod cut;
 mod document;
 mod equation;
 mod extent;
@@ -249,8 +250,18 @@ impl Budget<'_> {
             return None;
         }
         let known = self.names(&header);
-        let (equations, unread) = match Equations::of(self.cells).of_result(&known) {
-            Ok(Equations { read, unread }) => (read, unread),
+        let found = Equations::of(self.cells);
+        let names = [Column::Symbol, Column::Quantity];
+        let is_name = |line: usize, place: usize| {
+            let mut columns = header.columns.iter();
+            line > header.line && columns.any(|(at, of)| *at == place && names.contains(of))
+        };
+        if let Some((line, reason)) = found.cut_row(is_name) {
+            self.fail(line, reason);
+            return None;
+        }
+        let (equations, unread) = match found.of_result(&known) {
+            Ok(Equations { read, unread, .. }) => (read, unread),
             Err((line, reason)) => {
                 self.fail(line, reason);
                 return None;

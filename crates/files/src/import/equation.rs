@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::Budget;
 use super::columns;
+use super::cut::Cut;
 use super::grid::Cells;
 use super::number::{expression, number_with_unit};
 use super::rows::Row;
@@ -47,6 +48,8 @@ pub(super) struct Unread {
 pub(super) struct Equations {
     pub(super) read: Vec<Equation>,
     pub(super) unread: Vec<Unread>,
+    /// Cells with an equation that may go on in the next ones.
+    cut: Vec<Cut>,
 }
 
 /// Words before an equation.
@@ -74,25 +77,41 @@ impl Equations {
             for (place, cell) in row.iter().enumerate() {
                 let label = columns::plain(cell);
                 let is_label = LABELS.contains(&label.as_str());
-                let written = if is_label {
-                    row.iter().skip(place + 1).find(|cell| !cell.trim().is_empty())
+                let at = if is_label {
+                    let behind = row.iter().enumerate().skip(place + 1);
+                    behind.into_iter().find(|(_, cell)| !cell.trim().is_empty())
                 } else {
-                    Some(cell).filter(|cell| cell.contains('='))
+                    Some((place, cell)).filter(|(_, cell)| cell.contains('='))
                 };
-                let Some(written) = written else { continue };
+                let Some((at, written)) = at else { continue };
                 let behind_label = LABELS.iter().find_map(|label| {
                     let lower = written.to_lowercase();
                     lower.strip_prefix(label)?.trim_start().strip_prefix(':')?;
                     written.get(written.find(':')? + 1..)
                 });
-                found.add(cells, line, behind_label.unwrap_or(written), is_label);
+                let text = behind_label.unwrap_or(written);
+                found.cut.extend(Cut::of(cells, line, at, text));
+                found.add(cells, line, text, is_label);
             }
         }
         found
     }
 
     fn add(&mut self, cells: &Cells, line: usize, written: &str, is_labelled: bool) {
-        let Some((left, right)) = written.split_once('=') else { return };
+        let Some((left, right)) = written.split_once('=') else {
+            if is_labelled {
+                self.without_name(cells, line, written, "it has no `=`");
+            }
+            return;
+        };
+        // `2y`, and not `1. R`
+        let begins_with_factor = left.trim().starts_with(|c: char| c.is_ascii_digit())
+            && !left.trim().contains([' ', '.', ')']);
+        let is_product = left.contains(['*', '·', '×', '⋅', '^']) || begins_with_factor;
+        if left.trim().is_empty() || is_product {
+            self.without_name(cells, line, written, "its left side is no name");
+            return;
+        }
         let name = columns::identifier(left);
         if check_name(&name).is_err() {
             return;
@@ -103,8 +122,7 @@ impl Equations {
         let is_known = self.read.iter().any(|known| known.name == name);
         let right = right.trim();
         let comma = cells.decimal_comma();
-        let formula = expression(&if comma { with_points(right) } else { right.to_owned() });
-        let formula = formula.replace(';', ",");
+        let formula = as_formula(right, comma);
         match Formula::parse(&formula) {
             Ok(parsed) => {
                 let same = |text: &str| text.split_whitespace().collect::<String>();
@@ -134,11 +152,40 @@ impl Equations {
         }
     }
 
+    /// The line and what is wrong, where the name of a row is a number's beginning.
+    pub(super) fn cut_row(
+        &self,
+        is_name: impl Fn(usize, usize) -> bool,
+    ) -> Option<(usize, String)> {
+        self.cut.iter().find_map(|cut| cut.fault_of_row(&is_name))
+    }
+
+    /// Keeps a formula that gives nothing a name.
+    fn without_name(&mut self, cells: &Cells, line: usize, written: &str, why: &str) {
+        let right = written.rsplit_once('=').map_or(written, |(_, right)| right).trim();
+        let Some(formula) = readable(right, cells.decimal_comma()) else { return };
+        if Formula::parse(&formula).is_ok_and(|formula| formula.names().next().is_none()) {
+            return;
+        }
+        self.unread.push(Unread {
+            line,
+            name: String::new(),
+            text: written.trim().to_owned(),
+            reason: format!("{why}; write `y = {right}`, with the name of the result"),
+            is_labelled: false,
+            is_repeated: false,
+            needs_names: true,
+        });
+    }
+
     /// Leaves the equation of the result, last, and those that it needs.
     ///
     /// # Errors
     /// The line and the reason where it is not clear which one is the result's.
     pub(super) fn of_result(mut self, known: &[String]) -> Result<Self, (usize, String)> {
+        if let Some(cut) = self.cut.iter().find_map(|cut| cut.fault(known)) {
+            return Err(cut);
+        }
         self.one_of_a_name(known)?;
         let names: Vec<Vec<String>> = self.read.iter().map(Equation::names).collect();
         let all_known: HashSet<&str> =
@@ -238,9 +285,20 @@ impl Equations {
     }
 }
 
+/// The right side of an equation of a sheet as formulas are written.
+fn as_formula(right: &str, decimal_comma: bool) -> String {
+    let points = if decimal_comma { with_points(right) } else { right.to_owned() };
+    expression(&points).replace(';', ",")
+}
+
+/// The same where it can be read.
+pub(super) fn readable(right: &str, decimal_comma: bool) -> Option<String> {
+    Some(as_formula(right, decimal_comma)).filter(|formula| Formula::parse(formula).is_ok())
+}
+
 /// Whether an equation says how the uncertainty of the result is made of others, `U = k*uc` or `u(y) =
 /// sqrt(u(a)^2 + u(b)^2)`: that is computed here. `U` alone may be a voltage, whose parts have other names.
-fn is_of_uncertainties(left: &str, right: &str) -> bool {
+pub(super) fn is_of_uncertainties(left: &str, right: &str) -> bool {
     const FUNCTIONS: [&str; 5] = ["u_c(", "uc(", "u_i(", "u(", "U("];
     let compact: String = left.split_whitespace().collect();
     let is_combined = FUNCTIONS.iter().any(|of| compact.starts_with(of))
@@ -309,7 +367,7 @@ impl Budget<'_> {
     ) {
         for Unread { line, name, text, reason, is_labelled, is_repeated, needs_names } in unread {
             let said = format!("`{text}` cannot be read as an equation: {reason}");
-            let right = text.split_once('=').map_or("", |(_, right)| right);
+            let right = text.split_once('=').map_or(text.as_str(), |(_, right)| right);
             let mut words = right.split(|c: char| !(c.is_alphanumeric() || c == '_'));
             // `2a`
             let names = words.any(|word| {

@@ -1,5 +1,6 @@
 //! The cells of a sheet, whatever stands in them.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use super::columns::{Column, Header};
@@ -23,6 +24,8 @@ pub(super) struct Cells {
     separator: Option<Separator>,
     /// Whether cells of a text with commas between them have decimal commas, in quotes.
     quoted_commas: bool,
+    /// The lines of a text that may hold equations, as they are written.
+    written: HashMap<usize, String>,
     /// What a workbook says of its cells besides their values.
     layout: Layout,
 }
@@ -55,6 +58,16 @@ impl Cells {
     /// What separated them in a text; `None` in a workbook.
     pub(super) fn separator(&self) -> Option<Separator> {
         self.separator
+    }
+
+    /// A cell and those behind it that no quotes part from it, as they stand in a text: what a separator
+    /// within an equation has made cells of. `count` of them, or `None` where there are not so many.
+    pub(super) fn run_on(&self, line: usize, place: usize, count: usize) -> Option<String> {
+        let cells = self.row(line).get(place..=place + count)?;
+        let sign = self.separator?.sign().to_string();
+        let joined = cells.join(&sign);
+        let is_bare = self.written.get(&line).is_some_and(|written| written.contains(&joined));
+        is_bare.then_some(joined)
     }
 
     /// What a workbook says of the cells besides their values; of a text nothing.
@@ -178,7 +191,7 @@ fn separated(text: &str, separator: Separator) -> Result<(Cells, String), Diagno
             format!("line {line}: a cell that begins with a quote has no quote at its end");
         return Err(unreadable(message));
     }
-    let mut rows = Vec::new();
+    let (mut rows, mut written) = (Vec::new(), HashMap::new());
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(separator.byte())
         .has_headers(false)
@@ -199,6 +212,11 @@ fn separated(text: &str, separator: Separator) -> Result<(Cells, String), Diagno
             rows.push(Vec::new());
             last += 1;
         }
+        if record.iter().any(|cell| cell.contains('=')) {
+            let start = record.position().map_or(0, |place| place.byte() as usize);
+            let content = text.get(start..).unwrap_or_default().trim_start_matches(['\n', '\r']);
+            written.insert(rows.len(), content.lines().next().unwrap_or_default().to_owned());
+        }
         rows.push(record.iter().map(str::to_owned).collect());
         last = line;
         if rows.len() > MOST_LINES {
@@ -208,7 +226,7 @@ fn separated(text: &str, separator: Separator) -> Result<(Cells, String), Diagno
     }
     let quoted_commas = separator == Separator::Comma && has_decimal_commas(&rows);
     let (cells, text) = of_rows(rows);
-    Ok((Cells { separator: Some(separator), quoted_commas, ..cells }, text))
+    Ok((Cells { separator: Some(separator), quoted_commas, written, ..cells }, text))
 }
 
 /// The line, from 1, with a cell that begins with a quote and has none at its end.

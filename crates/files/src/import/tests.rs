@@ -1722,6 +1722,85 @@ fn a_result_of_two_digits_is_no_input() {
     }
 }
 
+/// Between commas an equation with a decimal comma is several cells; it was cut off, or the sum was taken.
+#[test]
+fn equations_in_several_cells_are_refused() {
+    let head = "Quantity,Estimate,Unit,Uncertainty,Distribution,Divisor\n\
+        x,10,,0.1,normal,2\nz,4,,0.1,normal,2\n";
+    for (equation, whole) in [
+        ("y = x - 0,5*z", "y = x - 0.5*z"),
+        ("y = 1,5*x", "y = 1.5*x"),
+        ("y = 1,5*x + 2,5*z", "y = 1.5*x"),
+        ("y = x - 0,5 z", "y = x - 0.5 z"),
+        ("y = 2,5x", "y = 2.5x"),
+        ("Model: y = x - 0,5*z", "y = x - 0.5*z"),
+        ("Equation,y = x - 0,5*z", "y = x - 0.5*z"),
+        ("y = max(x,z)", "y = max(x,z)"),
+        ("y = x - 0,5*z,V,2020", "y = x - 0.5*z"),
+    ] {
+        for text in [format!("{equation}\n{head}"), format!("{head}\n{equation}\n")] {
+            let error = refusal(&text);
+            assert!(error.contains("quotation marks"), "{equation}: {error}");
+            assert!(error.contains(&format!("`\"{whole}")), "{equation}: {error}");
+        }
+    }
+    // with coefficients as well
+    let with = "Quantity,Estimate,Uncertainty,Sensitivity coefficient\nx,10,0.1,1\nz,4,0.1,1\n";
+    assert!(refusal(&format!("y = x - 0,5*z\n{with}")).contains("quotation marks"));
+    // cells beside an equation
+    for equation in [
+        "\"y = x - 0.5*z\",5*z",
+        "y = x - 0.5*z,V",
+        "y = x - 0.5*z, 2020",
+        "y = x - 0.5*z,see x",
+        "Equation,y = x - 0.5*z,,12",
+        "n = 10,5 V,y = x - 0.5*z",
+        "y = x - 0.5*z,\"T = 20,5 °C\"",
+    ] {
+        let text = format!("{equation}\n{head}");
+        let budget = import("b.csv", text.as_bytes()).unwrap_or_else(|e| panic!("{equation}: {e}"));
+        assert!(budget.text.contains(r#""y":"x - 0.5*z""#), "{equation}: {}", budget.text);
+    }
+    // digits of a name, and a separator that is no decimal mark
+    let named = head.replace("\nz,", "\nx1,");
+    for text in [format!("y = x - x1,2020\n{named}"), format!("y = x - x1/2.5,12\n{named}")] {
+        assert!(import("b.csv", text.as_bytes()).is_ok(), "{text}");
+    }
+    let text = format!("y = x - z/2;12\n{}", head.replace(',', ";"));
+    let budget = import("b.csv", text.as_bytes()).unwrap();
+    assert!(budget.text.contains(r#""y":"x - z/2""#), "{}", budget.text);
+    // a statement of the result, which would be a row, and one beside the table
+    for line in ["y = 14,05", "U = 2*0,05", "y = 14,0 V", "T = 20,5 °C"] {
+        let error = refusal(&format!("{head}\n{line}\n"));
+        assert!(error.contains("one number or two cells"), "{line}: {error}");
+        let budget = import("b.csv", format!("{line}\n{head}").as_bytes());
+        let budget = budget.unwrap_or_else(|e| panic!("{line}: {e}"));
+        assert!(budget.text.contains(r#""y":"x + z""#), "{line}: {}", budget.text);
+    }
+}
+
+/// A formula that gives nothing a name; the sum was taken in its place.
+#[test]
+fn equations_without_a_name_are_refused() {
+    let head = "Quantity;Estimate;Unit;Standard uncertainty\na;6.0;1;0.1\nb;2.0;1;0.1\n";
+    for (equation, why) in [
+        ("=a*b", "its left side is no name; write `y = a*b`"),
+        ("= a/b", "its left side is no name; write `y = a/b`"),
+        ("2*y = a*b", "its left side is no name"),
+        ("2y = a*b", "its left side is no name"),
+        ("Equation;a*b", "it has no `=`; write `y = a*b`"),
+    ] {
+        let error = refusal(&format!("{equation}\n{head}"));
+        assert!(error.contains("cannot be read as an equation"), "{equation}: {error}");
+        assert!(error.contains(why), "{equation}: {error}");
+    }
+    for line in ["=B2*C2", "=1", "Model;Fluke 8508A", "Model;c/d", "=", "Equation;12"] {
+        let text = format!("{line}\n{head}");
+        let budget = import("b.csv", text.as_bytes()).unwrap_or_else(|e| panic!("{line}: {e}"));
+        assert!(budget.text.contains(r#""y":"a + b""#), "{line}: {}", budget.text);
+    }
+}
+
 /// Equations in signs that are not known; the sum was taken in their place. Statements of uncertainties are
 /// computed here.
 #[test]
