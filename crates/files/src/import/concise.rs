@@ -1,5 +1,6 @@
 //! Estimates with their standard uncertainty in the last digits, `20.00(6) V` (JCGM 100, 7.2.2).
 
+use gumption_engine::decimal::to_15_digits;
 use gumption_engine::number::Shortest;
 
 use super::Budget;
@@ -8,19 +9,38 @@ use super::linear::standard_uncertainty;
 use super::number::number;
 use super::rows::Row;
 use super::stated::half_digit;
+use crate::value_text::with_exponents;
 
-/// The number, its standard uncertainty and the unit behind both; `None` of other texts.
+/// The number, its standard uncertainty and the unit behind both; `None` of other texts. A power of ten may
+/// follow the parenthesis, `1.5(3)e-3 V` or `1.5(3)×10⁻³ V`.
 pub(super) fn concise(text: &str, decimal_comma: bool) -> Option<(f64, f64, &str)> {
-    let (digits, rest) = text.trim().split_once('(')?;
-    let (inside, unit) = rest.split_once(')')?;
-    let digits = digits.trim_end();
-    let value = number(digits, decimal_comma).filter(|_| !digits.contains('%'))?;
+    let text = text.trim();
+    let written = with_exponents(text);
+    let (digits, rest) = written.split_once('(')?;
+    let (inside, behind) = rest.split_once(')')?;
+    let (power, unit) = exponent(behind).unwrap_or((0, behind));
+    let digits = match power {
+        0 => digits.trim_end().to_owned(),
+        power => format!("{}e{power}", digits.trim_end()),
+    };
+    let value = number(&digits, decimal_comma).filter(|_| !digits.contains('%'))?;
     let is_written = !inside.is_empty() && inside.bytes().all(|of| of.is_ascii_digit());
     // half of a unit of the last digit of the number
-    let std = number(inside, false).filter(|_| is_written)? * 2.0 * half_digit(digits);
-    let unit = unit.trim();
-    // a power of ten is none
-    (!unit.starts_with(['e', 'E', '·', '×', '*', '('])).then_some((value, std, unit))
+    let std = number(inside, false).filter(|_| is_written)? * 2.0 * half_digit(&digits);
+    let std = if power == 0 { std } else { to_15_digits(std) };
+    let unit = text.get(text.len() - unit.trim().len()..)?;
+    // any other power of ten is none
+    let is_unit = !unit.starts_with(['e', 'E', '·', '×', '*', '(']);
+    is_unit.then_some((value, std, unit))
+}
+
+/// The power of ten that a text begins with, `e-3`, and what follows it.
+fn exponent(text: &str) -> Option<(i32, &str)> {
+    let rest = text.strip_prefix(['e', 'E'])?;
+    let signed = rest.strip_prefix(['-', '+']).unwrap_or(rest);
+    let length = signed.find(|c: char| !c.is_ascii_digit()).unwrap_or(signed.len());
+    let (power, unit) = rest.split_at(rest.len() - signed.len() + length);
+    Some((power.parse().ok()?, unit))
 }
 
 impl Budget<'_> {
@@ -64,7 +84,13 @@ mod tests {
             ("100(2) mV", Some((100.0, 2.0, "mV"))),
             ("20.00 V (k=2)", None),
             ("20.00(k=2)", None),
-            ("1.5(3)e-3 V", None),
+            ("1.5(3)e-3 V", Some((0.0015, 0.0003, "V"))),
+            ("1.5(3)×10^-3 V", Some((0.0015, 0.0003, "V"))),
+            ("1.50(12) × 10⁻³ V", Some((0.0015, 0.00012, "V"))),
+            ("-1.5(3)E+3", Some((-1500.0, 300.0, ""))),
+            ("1.5(3)e V", None),
+            ("1.5e3(3)e3 V", None),
+            ("1.5(3)×2 V", None),
             ("20 V", None),
         ] {
             let read = concise(text, false);

@@ -1779,6 +1779,18 @@ fn equations_in_several_cells_are_refused() {
     }
 }
 
+/// The last digits of a number are those before its power of ten.
+#[test]
+fn uncertainties_in_parentheses_before_a_power_of_ten() {
+    for cell in ["1.5(3)e-3 V", "1.5(3)×10^-3 V", "1.5(3) × 10⁻³ V", "1.5(3)·10⁻³ V"] {
+        let (found, budget) = uncertainties(&format!(
+            "Quantity,Estimate,Standard uncertainty\nx,{cell},\nz,1 V,0.1 V\n"
+        ));
+        assert_eq!(found, [0.0003, 0.1], "{cell} {}", budget.text);
+        assert_eq!(task(&budget).rows[0].distributions[0].mean(), 0.0015, "{cell}");
+    }
+}
+
 /// A formula that gives nothing a name; the sum was taken in its place.
 #[test]
 fn equations_without_a_name_are_refused() {
