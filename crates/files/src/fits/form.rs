@@ -6,7 +6,9 @@ use super::super::DiagnosticKind;
 use super::super::json::{Json, Member};
 use super::super::object::Object;
 use super::super::scopes::report_formula;
-use super::super::value_text::{ValueOf, converted, with_unit};
+use super::super::value_text::{
+    ValueOf, converted, decimal_comma, grouped_digits, is_comma, with_unit,
+};
 use super::parameter_units;
 use gumption_engine::model::formula::{Formula, Scope, Typing, check_name};
 use gumption_engine::model::{NumberForm, Program, Recorder, Traced};
@@ -238,7 +240,18 @@ impl Start {
                         found: text.clone(),
                         reason: "a number with a unit is needed, such as `2 kN`".to_owned(),
                     });
-                    let (_, unit) = log.value(&member.value.span, read)?;
+                    let (number, unit) = log.value(&member.value.span, read)?;
+                    // what goes on behind the number is no unit
+                    let goes_on = match is_comma(unit) {
+                        true => Some(decimal_comma(number, unit)),
+                        false => grouped_digits(unit),
+                    };
+                    if let Some(reason) = goes_on {
+                        let (key, found) = (name.clone(), text.clone());
+                        let wrong = DiagnosticKind::Value { key, found, reason };
+                        log.report(&member.value.span, wrong);
+                        return None;
+                    }
                     let parsed = log
                         .unit(unit)
                         .map_err(|error| DiagnosticKind::Unit { unit: unit.to_owned(), error });

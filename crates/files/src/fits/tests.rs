@@ -345,6 +345,11 @@ fn units_of_parameters_follow() {
         file.warnings.iter().map(|warning| warning.code).collect::<Vec<_>>()
     };
     assert!(of(form, r#"{"a": 1, "b": 1.5, "c": 2}"#, "N").is_empty());
+    for (b, said) in [("1,5 mV/V", "such as `1.5`"), ("1 500 mV/V", "without blanks")] {
+        let start = format!(r#"{{"a": "1 mV/V", "b": "{b}", "c": "2 kN"}}"#);
+        let error = read_text("t", &text(form, &start, "kN"), Path::new(""), &[]).unwrap_err();
+        assert!(error.to_string().contains(said), "{error}");
+    }
     // a power that is fitted has no unit of its own, and neither has its factor
     assert!(of("b*x^c", r#"{"b": 1.9, "c": -0.3}"#, "1").contains(&"fit-units-not-checked"));
 }
