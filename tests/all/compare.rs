@@ -218,6 +218,17 @@ fn against_a_run() {
     fs::write(folder.path().join("s.csv"), text).expect("written");
     let found = answer(folder.path(), &["s.csv", "--against", "sweep.json"]);
     assert!(number(&found["rows"][0]["difference"]).abs() < 0.01);
+    // the conditions in other units: 35 deg in rad
+    let text = "label,tilt_nominal [rad],rotation_nominal,x1,U1\na_x,0.6108652381980153,30 deg,4.97,0.02\n";
+    fs::write(folder.path().join("r.csv"), text).expect("written");
+    let other = answer(folder.path(), &["r.csv", "--against", "sweep.json"]);
+    assert_eq!(other["rows"], found["rows"]);
+    let text = text.replace("[rad]", "[s]");
+    fs::write(folder.path().join("w.csv"), text).expect("written");
+    let refused = run(folder.path(), &["w.csv", "--against", "sweep.json"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&refused.stderr);
+    assert!(said.contains("`tilt_nominal` of the run is in `deg`"), "{said}");
 }
 
 /// A workbook as others write it: shared strings left out, numbers as they are.

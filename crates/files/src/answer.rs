@@ -9,6 +9,8 @@ use super::open::{FileKind, no_table};
 use super::source::{Place, SourceText};
 use super::{DiagnosticKind, bytes};
 use gumption_analysis::compare::StatedResult;
+use gumption_engine::number::Shortest;
+use gumption_units::listed;
 
 /// An answer: its rows of conditions with their outputs.
 #[derive(Debug)]
@@ -86,6 +88,19 @@ impl Answer {
         self.units.get(condition)?.as_str()
     }
 
+    /// Values of conditions in the units of the run.
+    fn shown(&self, at: &[(&str, f64)]) -> String {
+        let shown = |(name, value): &(&str, f64)| {
+            let unit = self.unit_of(name).filter(|unit| !matches!(*unit, "" | "1"));
+            let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
+            format!("{name} = {}{unit}", Shortest(*value))
+        };
+        match at {
+            [] => "results".to_owned(),
+            at => listed(&at.iter().map(shown).collect::<Vec<_>>(), " and "),
+        }
+    }
+
     /// The result of an output at some conditions, with its unit: that of the GUM, or that of the trials
     /// where it has none.
     pub(super) fn result(
@@ -100,11 +115,16 @@ impl Answer {
             })
         });
         let name = &self.name;
-        let (Some((_, outputs)), None) = (rows.next(), rows.next()) else {
-            return Err(format!(
-                "not one row of `{name}` but none or several have these conditions; the table needs \
-                 a column for each condition"
-            ));
+        let outputs = match (rows.next(), rows.next()) {
+            (Some((_, outputs)), None) => outputs,
+            (None, _) => return Err(format!("no row of `{name}` has {}", self.shown(at))),
+            (Some(_), Some(_)) => {
+                return Err(format!(
+                    "several rows of `{name}` have these conditions; the table needs a column for each \
+                     condition, one of {}",
+                    self.conditions().join(", ")
+                ));
+            }
         };
         let Some(found) = outputs.get(output) else {
             let known: Vec<&str> = outputs.keys().map(String::as_str).collect();

@@ -386,7 +386,7 @@ fn conditions_are_converted_to_the_unit_of_the_run() {
         assert_eq!(pairs[0].results.map(|result| result.value), [10.0, 10.0], "{table}");
     }
     for (table, said) in [
-        ("label,f [Hz],x1,U1\ny,0.1,10,0.2\n", "none or several have these conditions"),
+        ("label,f [Hz],x1,U1\ny,0.1,10,0.2\n", "no row of"),
         ("label,f [s],x1,U1\ny,0.1,10,0.2\n", "`f` of the run is in `kHz`, to which `s` cannot"),
         ("label,f [set],x1,U1\ny,0.1,10,0.2\n", "`set` is no unit"),
         ("label,f,x1,U1\ny,0.1 s,10,0.2\n", "row 1, condition `f`"),
@@ -395,6 +395,11 @@ fn conditions_are_converted_to_the_unit_of_the_run() {
         let error = read(table).unwrap_err();
         assert!(error.contains(said), "{table}: {error}");
     }
+    let error = read("label,f [Hz],x1,U1\ny,0.1,10,0.2\n").unwrap_err();
+    assert!(error.contains("has f = 0.0001 kHz"), "{error}");
+    let rows = format!(r#"{row}, {}"#, row.replace("0.1}", "0.2}"));
+    let error = against("label,x1,U1\ny,10,0.2\n", units, &rows).unwrap_err();
+    assert!(error.contains("a column for each condition, one of f"), "{error}");
     // an answer of an earlier version
     assert!(against("label,f,x1,U1\ny,0.1,10,0.2\n", "", &row).is_ok());
     for table in ["label,f [Hz],x1,U1\ny,100,10,0.2\n", "label,f,x1,U1\ny,100 Hz,10,0.2\n"] {
