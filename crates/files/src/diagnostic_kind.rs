@@ -429,8 +429,8 @@ pub enum DiagnosticKind {
         /// Why, as a part of the sentence.
         reason: &'static str,
     },
-    /// A result in degC for an input in another unit, or the other way round.
-    SavedCelsius {
+    /// A result for an input in a unit with another zero: degC and K, degC and degF, dBm and dBW.
+    SavedZero {
         /// The name that is concerned.
         name: String,
         /// What stands there.
@@ -584,7 +584,7 @@ impl DiagnosticKind {
             Self::NotResult { .. } => "not-a-result",
             Self::NoSuchResult { .. } => "no-such-result",
             Self::SavedEntry { .. } => "bad-result",
-            Self::SavedCelsius { .. } => "celsius-result",
+            Self::SavedZero { .. } => "celsius-result",
             Self::SavedCorrelation { .. } => "correlated-results",
             Self::SeveralRows { .. } => "several-rows",
             Self::Evaluation { .. } => "evaluation",
@@ -922,10 +922,10 @@ impl fmt::Display for DiagnosticKind {
                 write!(f, "the saved result `{file}` has no output `{name}`{hint}")
             }
             Self::SavedEntry { reason } => f.write_str(reason),
-            Self::SavedCelsius { name, found, saved } => write!(
+            Self::SavedZero { name, found, saved } => write!(
                 f,
-                "the saved result `{name}` is in `{saved}`, the input in `{found}`, and degrees \
-                 Celsius are never shifted; take the unit of the result"
+                "the saved result `{name}` is in `{saved}`, the input in `{found}`, whose values count \
+                 from another zero, and a saved result is never shifted; take the unit of the result"
             ),
             Self::SavedCorrelation { first, second } => write!(
                 f,

@@ -72,22 +72,24 @@ impl<'a> Results<'a> {
         let place = input.get("unit").or_else(|| input.get("output"));
         let place = place.map_or(input.place(), |member| &member.value.span);
         let factor = Unit::conversion_factor(&output.unit, unit).ok();
-        let Some(factor) = factor.filter(|f| f.is_finite() && *f > 0.0) else {
+        // the value that the zero of the result's unit has in the input's
+        let zero = Unit::convert(0.0, &output.unit, unit).ok();
+        let factor = factor.filter(|f| f.is_finite() && *f > 0.0);
+        let (Some(factor), Some(zero)) = (factor, zero) else {
             let diagnostic = DiagnosticKind::WrongDimension {
                 name: name.to_owned(),
                 found: unit.to_string(),
-                found_as: unit.dimension().describe(),
+                found_as: unit.describe(),
                 expected: output.unit.to_string(),
-                expected_as: output.unit.dimension().describe(),
+                expected_as: output.unit.describe(),
             };
             input.log.report(place, diagnostic);
             return None;
         };
-        if output.unit.is_celsius() != unit.is_celsius() && !component {
+        if zero != 0.0 && !component {
             let (found, saved) = (unit.to_string(), output.unit.to_string());
-            input
-                .log
-                .report(place, DiagnosticKind::SavedCelsius { name: output.name, found, saved });
+            let diagnostic = DiagnosticKind::SavedZero { name: output.name, found, saved };
+            input.log.report(place, diagnostic);
             return None;
         }
         if factor == 1.0 {

@@ -175,11 +175,13 @@ pub(super) fn number(term: &str) -> Result<(f64, &str), String> {
     Ok((value, term.get(end..).unwrap_or("").trim()))
 }
 
+/// Signs of shares and their sizes.
+const SHARES: [(&str, f64); 3] = [("%", 1e-2), ("ppm", 1e-6), ("ppb", 1e-9)];
+
 /// Whether the rest of a term is a share, of which size, and what it is of (`""` if not said).
 pub(super) fn share(rest: &str) -> Option<(f64, &str)> {
-    let (factor, after) = [("%", 1e-2), ("ppm", 1e-6), ("ppb", 1e-9)]
-        .into_iter()
-        .find_map(|(sign, factor)| Some((factor, rest.strip_prefix(sign)?)))?;
+    let (factor, after) =
+        SHARES.iter().find_map(|(sign, factor)| Some((*factor, rest.strip_prefix(sign)?)))?;
     if after.is_empty() {
         return Some((factor, ""));
     }
@@ -187,12 +189,16 @@ pub(super) fn share(rest: &str) -> Option<(f64, &str)> {
     of.starts_with(char::is_whitespace).then(|| (factor, of.trim()))
 }
 
-/// The same of a ratio of like units, `um/m` or `mV/V`, of a quantity that is no plain number itself.
+/// The same of a ratio of like units, `um/m` or `mV/V`, of a quantity that is no plain number itself,
+/// and of a share with a divisor, `0.1 %/sqrt(3)`, of any quantity.
 fn ratio<'r>(rest: &'r str, unit: &Unit, own: &[Unit]) -> Option<(f64, &'r str)> {
     let (text, of) = rest.split_once(" of ").unwrap_or((rest, ""));
     let ratio = unit_behind_number(text.trim(), own).ok().filter(|_| text.contains('/'))?;
     let is_share = ratio.dimension().is_none() && ratio.turn().is_none();
-    (is_share && !unit.dimension().is_none()).then(|| (ratio.factor(), of.trim()))
+    let divided = SHARES.iter().filter_map(|(sign, _)| text.trim().strip_prefix(sign));
+    let is_divided_share = divided.into_iter().any(|rest| !rest.starts_with(char::is_alphabetic));
+    (is_share && (is_divided_share || !unit.dimension().is_none()))
+        .then(|| (ratio.factor(), of.trim()))
 }
 
 fn converted(
@@ -219,9 +225,10 @@ fn converted(
         return Ok(value);
     }
     // data sheets count in digits of a display
-    let is_of_display = matches!(text, "digit" | "digits" | "count" | "counts" | "lsd" | "LSD");
+    let is_of_display =
+        matches!(text, "digit" | "digits" | "count" | "counts" | "lsd" | "LSD" | "LSB");
     // and of a range or a reading, in letters
-    let words = ["%", "ppm", "ppb"].into_iter().find_map(|sign| text.strip_prefix(sign));
+    let words = SHARES.iter().find_map(|(sign, _)| text.strip_prefix(sign));
     let words = words.map(str::trim).filter(|words| words.starts_with(char::is_alphabetic));
     let said = |error: String| {
         if let Some(words) = words.filter(|_| unit_behind_number(text, own).is_err()) {
@@ -238,6 +245,12 @@ fn converted(
             error
         }
     };
+    // a count is one of a plain number, and a digit of nothing but a display
+    let is_number = unit.factor() == 1.0 && unit.turn().is_none();
+    let counts = is_number && text.starts_with("count");
+    if is_of_display && unit.dimension().is_none() && !counts {
+        return Err(said(String::new()));
+    }
     let given =
         unit_behind_number(text, own).map_err(|error| said(format!("in `{term}`: {error}")))?;
     let factor = Unit::conversion_factor(&given, unit).map_err(|_| {
@@ -291,6 +304,26 @@ mod tests {
             assert_eq!(without_plus_minus(text, "half_width").as_deref(), Ok(expected));
         }
         assert!(without_plus_minus("±0.05 mm", "std").unwrap_err().contains("`half_width`"));
+    }
+
+    /// Of plain numbers, too, a share stays one behind a divisor, and a digit is none of a display.
+    #[test]
+    fn shares_and_digits_of_plain_numbers() {
+        for unit in ["mV/V", "1", "um/m"] {
+            for (text, expected) in [
+                ("0.1 %/sqrt(3)", 2e-3 / 3_f64.sqrt()),
+                ("50 ppm/2", 5e-5),
+                ("0.1 %/2 of reading", 1e-3),
+            ] {
+                let width = read(text, unit).unwrap();
+                assert!((width.at(2.0) - expected).abs() < 1e-15, "{text} of 2 {unit}");
+            }
+            assert!(read("1 digit", unit).unwrap_err().contains("how large a digit is"));
+        }
+        assert!(read("1 LSB", "deg").unwrap_err().contains("how large a digit is"));
+        assert!(read("0.1 %/2", "%").unwrap_err().contains("of reading"));
+        assert_eq!(read("3 count", "1").unwrap().at(7.0), 3.0);
+        assert_eq!(read("3 um/m", "1").unwrap().at(7.0), 3e-6);
     }
 
     #[test]

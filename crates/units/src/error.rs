@@ -90,16 +90,17 @@ pub enum UnitError {
         as_quotient: String,
     },
     /// A product that is written with a space or a dot after a quotient, as in `J/kg K`: joule per
-    /// kilogram and kelvin, or kelvin times joule per kilogram?
+    /// kilogram and kelvin, or kelvin times joule per kilogram? Or with a space in what is one symbol
+    /// without it, as in `° C`: degree Celsius, or degree times coulomb?
     AmbiguousProduct {
-        /// The quotient and the factor behind it.
+        /// What can be read in two ways.
         found: String,
-        /// Where the two stand.
+        /// Where it stands.
         span: Range<usize>,
-        /// The same divided by that factor as well: `J/(kg K)`.
-        as_divisor: String,
-        /// The same multiplied by it: `(J/kg) K`.
-        as_factor: String,
+        /// The likelier reading: `J/(kg K)`, `degC`.
+        likelier: String,
+        /// The other one: `(J/kg) K`, `deg*C`.
+        other: String,
     },
     /// A number or a share in parentheses behind a unit without a sign between them, as in `V (23)`,
     /// `ohm (0.1 %)`: an uncertainty, a coverage, or a factor?
@@ -171,7 +172,7 @@ impl UnitError {
                 suggestion.iter().map(String::as_str).collect()
             }
             Self::AmbiguousPower { as_root, as_quotient, .. } => vec![as_root, as_quotient],
-            Self::AmbiguousProduct { as_divisor, as_factor, .. } => vec![as_divisor, as_factor],
+            Self::AmbiguousProduct { likelier, other, .. } => vec![likelier, other],
             _ => Vec::new(),
         }
     }
@@ -263,10 +264,9 @@ impl fmt::Display for UnitError {
                 "a power followed by a division by a number can be read in two ways; write \
                  `{as_root}` or `{as_quotient}`"
             ),
-            Self::AmbiguousProduct { found, as_divisor, as_factor, .. } => write!(
-                f,
-                "`{found}` can be read in two ways; write `{as_divisor}` or `{as_factor}`"
-            ),
+            Self::AmbiguousProduct { found, likelier, other, .. } => {
+                write!(f, "`{found}` can be read in two ways; write `{likelier}` or `{other}`")
+            }
             Self::NumberInParentheses { found, .. } => write!(
                 f,
                 "`{found}` behind a unit can be an uncertainty, what belongs to one, or a factor: an \

@@ -158,7 +158,11 @@ impl Unit {
     /// ```
     pub fn defined(name: &str, definition: &Self) -> Result<Self, &'static str> {
         let interned = defined::intern(name)?;
-        let factors = vec![Factor::of(FactorBase::Defined(interned))];
+        let factors = if definition.has_kind() {
+            definition.factors.clone()
+        } else {
+            vec![Factor::of(FactorBase::Defined(interned))]
+        };
         Ok(Self::new(name.to_owned(), definition.meaning(), factors))
     }
 
@@ -168,9 +172,17 @@ impl Unit {
         Self { text, factors, dimension, scale, factor, fraction, flavour }
     }
 
-    /// What the unit is, without its text; one with a name of its own knows no zero.
+    /// What the unit is, without its text.
     fn meaning(&self) -> Meaning {
-        Meaning { dimension: self.dimension, scale: self.scale, flavour: Flavour::Plain }
+        Meaning { dimension: self.dimension, scale: self.scale, flavour: self.flavour }
+    }
+
+    /// Whether its values are more than a size: temperatures and levels with a zero, shares, angles
+    /// and numbers of periods.
+    fn has_kind(&self) -> bool {
+        self.flavour != Flavour::Plain
+            || self.turn().is_some()
+            || [self.level_exponent(), self.celsius_exponent()].iter().any(|e| !e.is_zero())
     }
 
     /// The text as written.

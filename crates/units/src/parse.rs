@@ -21,7 +21,7 @@
 //! Products and quotients have the same rank and are taken from left to right, as in formulas:
 //! `J/kg*K` is `(J/kg)*K`, `a/b/c` is `a/(b*c)`. A product that is written with a space or a dot after
 //! a quotient, `J/kg K`, means `J/(kg K)` to most who write it: it is refused, and both are named
-//! (ISO 80000-1:2022 allows it with parentheses only). A number in parentheses behind a unit without a
+//! (ISO 80000-1:2022 allows it with parentheses only). So is a symbol with a space in it, `° C`. A number in parentheses behind a unit without a
 //! sign, `V (23)`, is refused: it may be an uncertainty. Spaces are allowed around every operator.
 
 use std::ops::Range;
@@ -48,6 +48,16 @@ const FACTOR: &str = "a unit, a positive number or `(`";
 const OPERATOR: &str = "`*`, `/`, `^` or the end of the unit";
 const SECOND_EXPONENT: &str =
     "`*`, `/` or the end of the unit, because a unit takes one exponent only";
+
+/// Symbols that are another unit when a space stands in them: what stands before it, what behind it,
+/// and the symbol. `° C` would be degree times coulomb, `% RH` a per cent of a ronnahenry.
+const SPLIT: &[(&[&str], &[&str], &str)] = &[
+    (&["°", "deg", "˚"], &["C"], "degC"),
+    (&["°", "deg", "˚"], &["F"], "degF"),
+    (&["°", "deg", "˚"], &["K"], "K"),
+    (&["%"], &["RH"], "%RH"),
+    (&["dB"], &["m"], "dBm"),
+];
 
 /// The exponent of what is divided by.
 const MINUS_ONE: Exponent = Exponent::integer(-1);
@@ -200,6 +210,7 @@ impl<'t> Parser<'t> {
                         && !next.is_ascii_digit()
                         && (spaced || last.kind == Kind::Number && !last.has_exponent) =>
                 {
+                    self.refuse_split(&last, end)?;
                     // half a millimetre, 1/2 mm, is read in one way only
                     (false, last.kind != Kind::Number)
                 }
@@ -267,8 +278,27 @@ impl<'t> Parser<'t> {
         UnitError::AmbiguousProduct {
             found: whole.to_owned(),
             span: start..self.at,
-            as_divisor: format!("{dividend}/({divisor})"),
-            as_factor: format!("({quotient}){factor}"),
+            likelier: format!("{dividend}/({divisor})"),
+            other: format!("({quotient}){factor}"),
+        }
+    }
+
+    /// Refuses a space in what is one symbol without it; the factor before the space ends at `end`.
+    fn refuse_split(&self, last: &Power, end: usize) -> Result<(), UnitError> {
+        let before = self.slice(last.start..end);
+        let mut ahead = Parser::new(self.text, self.at);
+        let behind = ahead.take_while(|c| starts_name(c) || c.is_ascii_digit());
+        let split = SPLIT.iter().find(|(first, second, _)| {
+            first.contains(&before) && second.iter().any(|of| of.eq_ignore_ascii_case(behind))
+        });
+        match split {
+            Some((_, of, symbol)) if !last.has_exponent => Err(UnitError::AmbiguousProduct {
+                found: self.slice(last.start..ahead.at).to_owned(),
+                span: last.start..ahead.at,
+                likelier: (*symbol).to_owned(),
+                other: format!("{before}*{}", of.first().copied().unwrap_or(behind)),
+            }),
+            _ => Ok(()),
         }
     }
 

@@ -224,6 +224,9 @@ const WRONG: &[Wrong] = &[
     ("m^-3 / 2", "ambiguous", 2, "-3 / 2", &["m^(-3/2)", "(m^-3)/2"]),
     ("J/kg K", "ambiguous", 0, "J/kg K", &["J/(kg K)", "(J/kg) K"]),
     ("mV W / m² · K", "ambiguous", 0, "mV W / m² · K", &["mV W/(m² · K)", "(mV W / m²) · K"]),
+    ("° C", "ambiguous", 0, "° C", &["degC", "°*C"]), ("W/deg K", "ambiguous", 2, "deg K", &["K", "deg*K"]),
+    ("° F", "ambiguous", 0, "° F", &["degF", "°*F"]), ("% rh", "ambiguous", 0, "% rh", &["%RH", "%*RH"]),
+    ("dB m", "ambiguous", 0, "dB m", &["dBm", "dB*m"]), ("V/dB M", "ambiguous", 2, "dB M", &["dBm", "dB*m"]),
     ("1/(N/mm.s)", "ambiguous", 3, "N/mm.s", &["N/(mm.s)", "(N/mm).s"]),
     // Uncertainties and coverages behind units.
     ("V (23)", "number", 2, "(23)", &[]), ("ohm (0.1 %)", "number", 4, "(0.1 %)", &[]),
@@ -436,6 +439,39 @@ fn how_units_are_written_tells_what_they_count() {
     assert_eq!(unit("mrad").turn(), Some(Turn::Angle));
     for text in ["1/s", "Bq", "rad*Hz", "Hz/V"] {
         assert_eq!(unit(text).turn(), None, "{text}");
+    }
+}
+
+/// A name of one's own for a unit with a zero, a level, a share or an angle does not lose it.
+#[test]
+fn names_of_ones_own_keep_the_kind() {
+    let unit = |text: &str| Unit::parse(text).unwrap();
+    for (name, definition) in [
+        ("Cel", "degC"),
+        ("Fahr", "degF"),
+        ("dezM", "dBm"),
+        ("Proz", "%"),
+        ("upm", "rpm"),
+        ("Hx", "kHz"),
+    ] {
+        let definition = unit(definition);
+        let own = [Unit::defined(name, &definition).unwrap()];
+        for text in [name, &format!("({name})")] {
+            let read = Unit::parse_among(text, &own).unwrap();
+            assert_eq!(
+                (read.zero(), read.turn()),
+                (definition.zero(), definition.turn()),
+                "{text}"
+            );
+            assert_eq!(read.offset(), definition.offset(), "{text}");
+            assert_eq!(read.is_relative(), definition.is_relative(), "{text}");
+            assert_eq!(read.level_exponent(), definition.level_exponent(), "{text}");
+        }
+        let per = [
+            Unit::parse_among(&format!("V/{name}"), &own).unwrap(),
+            unit(&format!("V/{definition}")),
+        ];
+        assert_eq!(per[0].celsius_exponent(), per[1].celsius_exponent(), "{name}");
     }
 }
 

@@ -28,6 +28,7 @@ use std::sync::Arc;
 
 use crate::decimal::to_digits;
 use crate::distribution::Distribution;
+use crate::number::Number;
 use formula::Typing;
 use gumption_units::{Unit, Zero};
 
@@ -261,13 +262,13 @@ pub fn variables(inputs: &[InputQuantity], conditions: &[Quantity]) -> usize {
 }
 
 /// A value in a unit, converted to SI (a Celsius temperature to degrees Celsius).
-pub fn in_si<'r>(value: Traced<'r>, unit: &Unit) -> Traced<'r> {
+pub fn in_si<T: Number>(value: T, unit: &Unit) -> T {
     let scaled = if unit.factor() == 1.0 { value } else { value * unit.factor() };
     if unit.offset() == 0.0 { scaled } else { scaled + unit.offset() }
 }
 
 /// A value in SI of that kind, converted to a unit. A difference knows no zero.
-pub fn in_unit<'r>(value: Traced<'r>, unit: &Unit, typing: Typing) -> Traced<'r> {
+pub fn in_unit<T: Number>(value: T, unit: &Unit, typing: Typing) -> T {
     let shift = match typing.zero {
         Some(_) => Zero::shift(typing.zero, unit.zero()).unwrap_or(0.0) - unit.offset(),
         None => 0.0,

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::result::Regression;
-use crate::model::NumberForm;
+use crate::model::formula::Typing;
+use crate::model::{NumberForm, in_si, in_unit};
 use crate::number::Number;
 use gumption_units::Unit;
 
@@ -47,8 +48,9 @@ impl CurveFunction {
             .iter()
             .zip(&self.parameters)
             .map(|(value, (_, unit))| match self.form {
-                NumberForm::Coherent if unit.factor() != 1.0 => *value / unit.factor(),
-                _ => *value,
+                // those of a temperature or a level count from its zero
+                NumberForm::Coherent => in_unit(*value, unit, Typing::in_unit(unit)),
+                NumberForm::Declared => *value,
             })
             .collect();
         let (value, unit) = if inverse {
@@ -57,10 +59,9 @@ impl CurveFunction {
         } else {
             (self.fit.curve.value(argument, &own), &self.y)
         };
-        if self.form == NumberForm::Declared {
-            return value;
+        match self.form {
+            NumberForm::Coherent => in_si(value, unit),
+            NumberForm::Declared => value,
         }
-        let scaled = if unit.factor() == 1.0 { value } else { value * unit.factor() };
-        if unit.offset() == 0.0 { scaled } else { scaled + unit.offset() }
     }
 }

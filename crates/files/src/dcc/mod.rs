@@ -460,15 +460,16 @@ impl FromCertificate {
         unit: &Unit,
         at: Option<(&dyn ConditionValues, usize)>,
     ) -> Option<Distribution> {
-        let factor = match Unit::conversion_factor(&self.unit, unit) {
+        let factor = Unit::conversion_factor(&self.unit, unit);
+        let factor = match factor.and_then(|by| Unit::convert(0.0, &self.unit, unit).map(|_| by)) {
             Ok(factor) => factor,
             Err(_) => {
                 let diagnostic = DiagnosticKind::WrongDimension {
                     name: name.to_owned(),
                     found: unit.to_string(),
-                    found_as: unit.dimension().describe(),
+                    found_as: unit.describe(),
                     expected: self.unit.to_string(),
-                    expected_as: self.unit.dimension().describe(),
+                    expected_as: self.unit.describe(),
                 };
                 let place = object.get("unit").map_or(object.place(), |member| &member.value.span);
                 object.log.report(place, diagnostic);

@@ -239,6 +239,18 @@ pub enum FormulaError {
         /// Where it stands.
         span: Range<usize>,
     },
+    /// A unit in brackets where units are not checked, which is another number than the quantities
+    /// beside it.
+    UncheckedUnit {
+        /// The unit in brackets.
+        found: String,
+        /// A quantity of its dimension.
+        name: String,
+        /// The unit that this one is the number in.
+        unit: String,
+        /// Where the brackets, or the number with them, stand.
+        span: Range<usize>,
+    },
     /// A table in a formula that cannot read files.
     TableOutOfPlace {
         /// The file.
@@ -340,6 +352,7 @@ impl FormulaError {
             | Self::Scale { span, .. }
             | Self::TableColumns { span }
             | Self::TableMethod { span, .. }
+            | Self::UncheckedUnit { span, .. }
             | Self::TableOutOfPlace { span, .. }
             | Self::TooManySolves { span, .. }
             | Self::UnknownIsDefined { span, .. }

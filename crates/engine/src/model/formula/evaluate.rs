@@ -9,7 +9,7 @@ use super::function::{Function, Part};
 use super::suggest;
 use super::syntax::{Joint, Kind, Operator, Tree};
 use super::typing::{Scope, Typing};
-use crate::model::{NumberForm, Recorder, Root, Traced};
+use crate::model::{NumberForm, Recorder, Root, Traced, in_unit};
 use crate::number::{Binary, Number, Routine, Unary};
 use gumption_units::{Dimension, Unit, Zero};
 
@@ -77,20 +77,25 @@ pub(super) fn evaluate<T: Number>(
                 }
             }
             Kind::Infix { operator: Operator::Divide, left, right, .. }
-                if typings.get(*left).is_some_and(|typing| typing.is_celsius()) =>
+                if typings.get(*left).is_some_and(|typing| typing.zero.is_some()) =>
             {
-                let offset = match tree.nodes.get(*right).map(|node| &node.kind) {
-                    Some(Kind::Unit(unit)) => unit.offset(),
+                let zero = typings.get(*left).and_then(|typing| typing.zero);
+                let shift = match tree.nodes.get(*right).map(|node| &node.kind) {
+                    Some(Kind::Unit(unit)) if unit.zero().is_some() => {
+                        Zero::shift(zero, unit.zero()).unwrap_or(0.0) - unit.offset()
+                    }
                     _ => 0.0,
                 };
-                let value = at(&results, *left);
-                let value = if offset == 0.0 { value } else { value - offset };
-                value / at(&results, *right)
+                shifted(at(&results, *left), shift) / at(&results, *right)
             }
             Kind::Curve { curve, inverse, argument } => {
                 let typing = typings.get(*argument).copied().unwrap_or(Typing::ANY);
                 let from = if *inverse { &curve.y } else { &curve.x };
-                let argument = in_own_unit(at(&results, *argument), from, typing, curve.form);
+                let argument = at(&results, *argument);
+                let argument = match curve.form {
+                    NumberForm::Coherent => in_unit(argument, from, typing),
+                    NumberForm::Declared => argument,
+                };
                 let parameters: Option<Vec<T>> =
                     curve.parameters.iter().map(|(name, _)| values.get(name).copied()).collect();
                 let parameters = parameters.ok_or_else(|| FormulaError::UnknownName {
@@ -108,8 +113,11 @@ pub(super) fn evaluate<T: Number>(
             },
             Kind::Table { x, call } => match scope.table(call) {
                 Some(Some(data)) => {
+                    // the abscissas count from the zero of their column
+                    let zero = typings.get(*x).and_then(|typing| typing.zero);
+                    let shift = zero.and(Zero::shift(zero, data.units[0].zero())).unwrap_or(0.0);
                     let routine: Arc<dyn Routine> = Arc::clone(&data.table) as _;
-                    T::routine(&routine, &[at(&results, *x)])
+                    T::routine(&routine, &[shifted(at(&results, *x), shift)])
                 }
                 _ => {
                     let (file, span) = (call.file.clone(), call.span.clone());
@@ -138,6 +146,10 @@ pub(super) fn evaluate<T: Number>(
         results.push(result);
     }
     Ok(results.pop().unwrap_or_else(|| T::constant(f64::NAN)))
+}
+
+fn shifted<T: Number>(value: T, by: f64) -> T {
+    if by == 0.0 { value } else { value + by }
 }
 
 /// The unit that the value of a node is the number in, if the node is a name whose units are not
@@ -288,19 +300,6 @@ fn root(
     let result = evaluate(text, body, scope, &values)?;
     let program = recorder.program(names.len() + 1, &[result]);
     Ok((Root::new(unknown, program), names))
-}
-
-/// A formula's number of that kind as one in a unit. A difference knows no zero.
-fn in_own_unit<T: Number>(value: T, unit: &Unit, typing: Typing, form: NumberForm) -> T {
-    if form == NumberForm::Declared {
-        return value;
-    }
-    let shift = match typing.zero {
-        Some(_) => Zero::shift(typing.zero, unit.zero()).unwrap_or(0.0) - unit.offset(),
-        None => 0.0,
-    };
-    let value = if shift == 0.0 { value } else { value + shift };
-    if unit.factor() == 1.0 { value } else { value / unit.factor() }
 }
 
 fn infix<T: Number>(operator: Operator, x: T, y: T) -> T {

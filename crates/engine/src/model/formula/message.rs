@@ -246,6 +246,17 @@ impl fmt::Display for FormulaError {
                 "`{}` is no way of interpolation; there are `linear` and `cubic`",
                 short(found)
             ),
+            Self::UncheckedUnit { found, name, unit, .. } => write!(
+                f,
+                "units are not checked here: `{}` is the number in `{}`, but `[{}]` one of coherent SI \
+                 units; write the number alone, or divide a name by the unit, `{}/[{}]`, in parentheses \
+                 behind a factor",
+                short(name),
+                short(unit),
+                short(found),
+                short(name),
+                short(found)
+            ),
             Self::TableOutOfPlace { file, .. } => write!(
                 f,
                 "the table of `{}` cannot be read here; a table stands in the equations of a model \

@@ -46,6 +46,7 @@
 
 #![warn(clippy::indexing_slicing)]
 
+mod brackets;
 mod complexity;
 mod constant;
 mod dimension;
@@ -203,6 +204,9 @@ impl Formula {
             dimension::check(&self.text, &self.tree, scope, units);
         if scope.has_complex() {
             errors.extend(complexity::complexity(&self.text, &self.tree, scope).1);
+        }
+        if !units {
+            errors.extend(brackets::misread(&self.text, &self.tree, scope));
         }
         if errors.is_empty() {
             return Ok(typings.last().copied().unwrap_or(Typing::ANY));

@@ -358,6 +358,12 @@ impl Checker<'_> {
         {
             let unit = unit.as_ref().clone();
             self.refuse_kelvin_per_celsius(left, &unit);
+            if x.zero.is_some() && Zero::shift(x.zero, unit.zero()).is_none() {
+                let texts = [self.quoted(left), self.quoted(right)];
+                let zeros = [x.zero, unit.zero()];
+                self.fault(index, ScaleFault::DifferentZeros { operator: "/", texts, zeros });
+                return (Typing::ANY, Tie::None);
+            }
             let level = x.level.checked_add(Exponent::integer(-1)).unwrap_or(Exponent::ZERO);
             let level = if unit.is_celsius() { x.level } else { level };
             match dimension {

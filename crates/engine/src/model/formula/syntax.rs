@@ -190,9 +190,9 @@ impl Tree {
     pub(super) fn needs_typings(&self) -> bool {
         self.nodes.iter().any(|node| match &node.kind {
             Kind::Call { function: Some(Function::Kelvin | Function::Celsius), .. } => true,
-            Kind::Unit(unit) => unit.offset() != 0.0,
-            // the range tells what the unknown is
-            Kind::Solve { .. } | Kind::Curve { .. } => true,
+            Kind::Unit(unit) => unit.zero().is_some(),
+            // the range tells what the unknown is, and the columns what they count from
+            Kind::Solve { .. } | Kind::Curve { .. } | Kind::Table { .. } => true,
             _ => false,
         })
     }

@@ -179,6 +179,15 @@ impl Scope {
         self.declared.get(name)
     }
 
+    /// The first name, by its letters, whose value is the number in a unit of that dimension that is
+    /// not the coherent one.
+    pub(super) fn declared_of(&self, dimension: Dimension) -> Option<(&str, &Unit)> {
+        let coherent = |unit: &Unit| unit.factor() == 1.0 && unit.offset() == 0.0;
+        let of = self.declared.iter().map(|(name, unit)| (name.as_str(), unit));
+        of.filter(|(_, unit)| unit.dimension() == dimension && !coherent(unit))
+            .min_by_key(|of| of.0)
+    }
+
     /// Says that a name will be defined later, so that a formula that uses it too early is told so.
     pub fn announce(&mut self, name: impl Into<String>) {
         let name = name.into();
