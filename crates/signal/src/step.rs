@@ -201,6 +201,7 @@ impl ChannelStep {
             }
             Self::Correct { response, of_gain, of_phase, of_delay } => {
                 let ends = surroundings.ends(&signal)?;
+                response.reaches(surroundings.frequency)?;
                 // what a high-pass took out near zero does not come back
                 let lowest = match response {
                     Response::HighPasses(_) => surroundings.frequency / 2.0,

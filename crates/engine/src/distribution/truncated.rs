@@ -3,7 +3,7 @@
 use super::Distribution;
 use super::shape::{Invalid, Shape, finite};
 use super::stream::Stream;
-use crate::number::{COLUMN, Column};
+use crate::number::{COLUMN, Column, elementary};
 use crate::special::tails::moments;
 
 /// The least probability within the limits.
@@ -55,6 +55,15 @@ impl Truncated {
             }
             _ => {}
         }
+        let open = [
+            lower == f64::NEG_INFINITY && has_no_variance(|p| base.quantile(p)),
+            upper == f64::INFINITY && has_no_variance(|q| base.quantile_upper(q)),
+        ];
+        if open.contains(&true) {
+            let range = "above 2 where a side has no limit, else what is left has no standard \
+                         uncertainty: give both limits, or more readings";
+            return Err(Invalid::OutOfRange { parameter: "dof", value: base.dof(), range });
+        }
         let below = share(lower, |p| base.quantile(p));
         let above = share(-upper, |q| -base.quantile_upper(q));
         // in a tail the difference of two small probabilities
@@ -87,6 +96,14 @@ impl Truncated {
     pub fn limits(&self) -> [f64; 2] {
         [self.lower, self.upper]
     }
+}
+
+/// Whether a tail is as long as that of a t distribution with 2 degrees of freedom, whose quantiles
+/// grow with the root of 1/p: its second moment is infinite, and whatever a quadrature gives for it
+/// depends on where that ends.
+fn has_no_variance(quantile: impl Fn(f64) -> f64) -> bool {
+    let [near, far] = [1e-100, 1e-200].map(|p| quantile(p).abs());
+    far.is_infinite() || elementary::log10(far / near) / 100.0 > 0.5 - 1e-6
 }
 
 /// The probability below a value, from a quantile function.
@@ -216,6 +233,23 @@ mod tests {
         let of = Truncated::cut(base.into(), 50.0, f64::INFINITY).unwrap();
         assert!((of.mean() / 62.5 - 1.0).abs() < 5.0 / 2500.0);
         assert_eq!(of.dof(), 5.0);
+    }
+
+    /// The second moment of a t with 2 degrees of freedom or fewer is infinite unless both sides end.
+    #[test]
+    fn tails_without_a_variance() {
+        for dof in [1.0, 1.7, 2.0] {
+            let base = || Distribution::from(StudentT::new(0.1, 0.01, dof).unwrap());
+            for (lower, upper) in [(0.0, f64::INFINITY), (f64::NEG_INFINITY, 0.2)] {
+                let refused = Truncated::cut(base(), lower, upper).unwrap_err();
+                assert!(refused.to_string().contains("give both limits"), "{refused}");
+            }
+            assert!(Truncated::cut(base(), 0.0, 0.2).is_ok());
+        }
+        let three = StudentT::new(0.1, 0.01, 2.1).unwrap();
+        assert!(Truncated::cut(three.into(), 0.0, f64::INFINITY).is_ok());
+        let lognormal = crate::distribution::Lognormal::new(1.0, 2.0).unwrap();
+        assert!(Truncated::cut(lognormal.into(), 1.0, f64::INFINITY).is_ok());
     }
 
     #[test]

@@ -7,8 +7,9 @@ use crate::number::{COLUMN, CodePath, Column, Routine, Shortest};
 /// The range is looked at in so many cells for changes of sign.
 const CELLS: usize = 16;
 
-/// Steps at most; halving alone needs some 60 from a cell to the last bit.
-const STEPS: usize = 120;
+/// Steps at most. Halving alone needs some 60 from a cell to the last bit of a root of its size, and
+/// 2100 from the largest numbers to the smallest.
+const STEPS: usize = 2200;
 
 /// The value of an unknown at which a function of it and of other quantities is 0.
 ///
@@ -91,7 +92,6 @@ struct Search {
     share: f64,
     /// The largest value at the ends of the cell.
     largest: f64,
-    smallest_step: f64,
     /// The root, or a NaN if there is none.
     found: Option<f64>,
 }
@@ -99,15 +99,14 @@ struct Search {
 impl Search {
     fn nothing() -> Self {
         let points = [[0.0; 2]; 3];
-        Self { points, share: 0.5, largest: 0.0, smallest_step: 0.0, found: Some(f64::NAN) }
+        Self { points, share: 0.5, largest: 0.0, found: Some(f64::NAN) }
     }
 
     fn new(cell: Option<[[f64; 2]; 2]>) -> Self {
         let Some([first, second]) = cell else { return Self::nothing() };
         let found = (first[0] == second[0]).then_some(first[0]);
         let largest = first[1].abs().max(second[1].abs());
-        let smallest_step = 1e-18 * (second[0] - first[0]).abs();
-        Self { points: [second, first, first], share: 0.5, largest, smallest_step, found }
+        Self { points: [second, first, first], share: 0.5, largest, found }
     }
 
     /// Where to look next.
@@ -134,7 +133,7 @@ impl Search {
         };
         let [[a, p], [b, q], [c, r]] = self.points;
         let best = if q.abs() < p.abs() { [b, q] } else { [a, p] };
-        let tolerance = 2.0 * f64::EPSILON * best[0].abs() + self.smallest_step;
+        let tolerance = 2.0 * f64::EPSILON * best[0].abs() + f64::MIN_POSITIVE;
         let least = tolerance / (b - a).abs();
         if best[1] == 0.0 || least > 0.5 || a == b {
             // a jump or a pole changes sign without being 0
@@ -284,7 +283,7 @@ impl Routine for Root {
 mod tests {
     use super::*;
     use crate::model::{Recorder, Traced};
-    use crate::number::Number;
+    use crate::number::{Number, Unary};
 
     /// x^3 + p x - q = 0.
     fn cubic() -> Root {
@@ -306,6 +305,23 @@ mod tests {
         assert_eq!(slopes[..2], [0.0, 0.0]);
         assert!((slopes[2] + x / by_x).abs() < 1e-15);
         assert!((slopes[3] - 1.0 / by_x).abs() < 1e-15);
+    }
+
+    /// However wide the range, a root has all its digits.
+    #[test]
+    fn roots_in_wide_ranges() {
+        let recorder = Recorder::default();
+        let [x, b] = [0, 1].map(|v| recorder.variable(v));
+        let line = Root::new("x", recorder.program(2, &[x - b]));
+        let recorder = Recorder::default();
+        let [x, b] = [0, 1].map(|v| recorder.variable(v));
+        let growth = Root::new("x", recorder.program(2, &[x.unary(Unary::Exp) - b]));
+        for (from, to) in [(0.0, 1e6), (0.0, 1e20), (-3e17, 1e20), (0.0, 1e300), (1.0, 1e300)] {
+            let x = line.value(&[from, to, 4.0]);
+            assert!((x - 4.0).abs() < 2e-15, "{x} from {from} to {to}");
+            let x = growth.value(&[from, to, 4.0]);
+            assert!((x - 4.0_f64.ln()).abs() < 1e-15, "{x} from {from} to {to}");
+        }
     }
 
     #[test]

@@ -131,6 +131,17 @@ fn scale(of: &Object<'_>, own: &Unit, raw: &Unit) -> Option<(f64, f64)> {
                 }
                 return None;
             };
+            // an offset would be one of a scale that begins elsewhere
+            if let Some(member) =
+                of.get("raw_unit").filter(|_| Unit::convert(0.0, raw, own) != Ok(0.0))
+            {
+                let reason = format!(
+                    "values in `{raw}` count from another zero than those in `{own}`, and a channel is \
+                     scaled, never shifted; let `unit` be `{raw}`, too, and convert in the model"
+                );
+                of.log.report(&member.value.span, DiagnosticKind::Recipe { reason });
+                return None;
+            }
             return Some((factor, 0.0));
         }
     };

@@ -6,6 +6,8 @@ use std::f64::consts::TAU;
 use crate::rotation::Oscillation;
 use crate::spectral::{Ends, multiplied};
 use crate::{Changed, Filter, Measured, Phasor, Signal, Unsuitable, measured, phasor, wrapped};
+use gumption_engine::decimal::significant;
+use gumption_engine::number::Shortest;
 
 /// A known complex response: what the chain multiplied a component's phasor by.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +26,8 @@ pub enum Response {
     /// A filter that was run.
     Filtered(Filter),
     /// Points of a calibration by rising frequency; between them the gain and the phase on a
-    /// straight line (the phase by the shorter way round), beyond them the nearest point's.
+    /// straight line (the phase by the shorter way round), beyond them the nearest point's; a recipe's
+    /// frequencies must not lie there.
     Points(Vec<ResponsePoint>),
 }
 
@@ -39,7 +42,31 @@ pub struct ResponsePoint {
     pub phase: f64,
 }
 
+/// How far beyond its points a response may be taken, as a share of the frequency: the recording's own
+/// frequency is not quite the nominal one of a point.
+const BEYOND_POINTS: f64 = 0.01;
+
 impl Response {
+    /// Whether it is known at a frequency in hertz.
+    ///
+    /// # Errors
+    /// The frequency lies beyond the points of the calibration, in words.
+    pub fn reaches(&self, frequency: f64) -> Result<(), String> {
+        let Self::Points(points) = self else { return Ok(()) };
+        let (Some(first), Some(last)) = (points.first(), points.last()) else { return Ok(()) };
+        let [low, high] = [first.frequency, last.frequency];
+        if frequency >= low * (1.0 - BEYOND_POINTS) && frequency <= high * (1.0 + BEYOND_POINTS) {
+            return Ok(());
+        }
+        Err(format!(
+            "the points of `response` are from {} Hz to {} Hz, and the oscillation is at {} Hz; give a \
+             point beyond it",
+            Shortest(low),
+            Shortest(high),
+            significant(frequency, 6)
+        ))
+    }
+
     /// The complex gain at a frequency in hertz; one where there are no points.
     pub fn at(&self, frequency: f64) -> Phasor {
         match self {
@@ -163,6 +190,19 @@ mod tests {
         // before: the moduli's law, |h - 1| / sqrt(2)
         assert!((found.before.value - modulus(h - 1.0) / 2f64.sqrt()).abs() < 1e-11);
         assert!(found.reduction.value > 1.0 - 1e-10);
+    }
+
+    #[test]
+    fn points_reach_no_further_than_they_go() {
+        let point = |frequency| ResponsePoint { frequency, gain: 0.5, phase: 0.0 };
+        let of = Response::Points(vec![point(5.0), point(8.0)]);
+        for within in [4.96, 5.0, 6.0, 8.0, 8.05] {
+            assert_eq!(of.reaches(within), Ok(()));
+        }
+        for beyond in [4.9, 8.1, 10.0] {
+            assert!(of.reaches(beyond).unwrap_err().contains("from 5 Hz to 8 Hz"));
+        }
+        assert_eq!(Response::HighPasses(vec![0.1]).reaches(1e6), Ok(()));
     }
 
     /// A correction for a filter undoes it within the band; one for a delay moves the signal.
