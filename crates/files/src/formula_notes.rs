@@ -11,6 +11,7 @@ use super::shapes;
 use super::value_text::is_value;
 use gumption_engine::model::formula::{Formula, LevelReference, Scope, Typing};
 use gumption_engine::model::{Output, Quantity};
+use gumption_engine::number::Shortest;
 use gumption_engine::task::Warning;
 use gumption_units::{FactorBase, Turn, Unit};
 
@@ -30,6 +31,7 @@ pub(super) fn of_formulas(
         let notes = formula.iter().flat_map(|formula| formula.notes(unit_of, result));
         found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
     }
+    found.extend(angles_of_turns(equations, of));
     found.extend(picohenries(of));
     if of.check_units {
         found.extend(celsius_as_kelvin(scope, &of.outputs.outputs));
@@ -40,6 +42,50 @@ pub(super) fn of_formulas(
         found.extend(of.outputs.outputs.iter().filter_map(radians));
     }
     found
+}
+
+/// Numbers of more than a turn that an angle is taken from: `cos(a)` of 30, which is in radians as it
+/// has no unit.
+fn angles_of_turns(equations: &[Equation<'_>], of: &Quantities) -> Vec<Warning> {
+    let mut first = 0;
+    let mut found = HashMap::new();
+    for input in &of.inputs.quantities {
+        let parts = first..first + input.parts;
+        first = parts.end;
+        if is_plain(&input.quantity.unit) {
+            let estimates = parts.filter_map(|part| Some(of.inputs.known.get(part, 0)?.mean()));
+            found.insert(input.quantity.name.as_str(), estimates.sum::<f64>());
+        }
+    }
+    for (place, condition) in of.conditions.quantities.iter().enumerate() {
+        let values = of.conditions.rows.iter().filter_map(|row| row.get(place).copied());
+        let largest = values.max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        if let Some(largest) = largest.filter(|_| is_plain(&condition.unit)) {
+            found.insert(condition.name.as_str(), largest);
+        }
+    }
+    let mut told = HashSet::new();
+    let angles =
+        equations.iter().flat_map(|(_, _, formula)| formula.iter().flat_map(Formula::angles));
+    angles
+        .filter_map(|(function, name)| {
+            let value = *found.get(name)?;
+            if value.abs() <= std::f64::consts::TAU || !told.insert(name) {
+                return None;
+            }
+            let shown = Shortest(value);
+            let text = format!(
+                "`{function}` takes `{name}` in radians, as it has no unit of angle, and {shown} rad are \
+                 more than a turn; one in degrees says `\"unit\": \"deg\"`"
+            );
+            Some(Warning::new("angle-of-turns", name, text))
+        })
+        .collect()
+}
+
+/// Whether a unit is that of plain numbers.
+fn is_plain(unit: &Unit) -> bool {
+    unit.dimension().is_none() && unit.turn().is_none() && unit.factor() == 1.0
 }
 
 fn units_by_name<'q>(quantities: impl Iterator<Item = &'q Quantity>) -> HashMap<&'q str, &'q Unit> {

@@ -158,9 +158,24 @@ impl Tolerance {
         Self { lower: finite(lower), upper: finite(upper) }
     }
 
-    /// The limits moved inwards by a width.
-    pub fn narrowed(&self, width: f64) -> Self {
-        Self { lower: self.lower.map(|l| l + width), upper: self.upper.map(|u| u - width) }
+    /// The limits moved inwards by a width; `None` where nothing is left between them.
+    ///
+    /// ```
+    /// use gumption_engine::model::Tolerance;
+    ///
+    /// let tolerance = Tolerance { lower: Some(10.2), upper: Some(10.6) };
+    /// assert_eq!(tolerance.narrowed(0.1).map(|left| left.ends()), Some([10.2 + 0.1, 10.6 - 0.1]));
+    /// assert_eq!(tolerance.narrowed(0.3), None);
+    /// ```
+    pub fn narrowed(&self, width: f64) -> Option<Self> {
+        let narrowed =
+            Self { lower: self.lower.map(|l| l + width), upper: self.upper.map(|u| u - width) };
+        // where both limits meet the value there is left, also if they are rounded past each other
+        let is_left = match (narrowed.lower, narrowed.upper) {
+            (Some(lower), Some(upper)) => lower <= upper || narrowed.holds(lower),
+            _ => true,
+        };
+        is_left.then_some(narrowed)
     }
 
     /// Whether a value lies within the limits, or on one of them but for the rounding of binary

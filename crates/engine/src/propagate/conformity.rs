@@ -42,7 +42,7 @@ pub struct Conformity {
     /// 4.2.2).
     pub guard_factor: Option<f64>,
     /// The acceptance limits: the tolerance limits moved inwards by the guard band. `None` if no
-    /// value has so small a risk.
+    /// value has so small a risk, or the guard band is more than half of the tolerance.
     pub acceptance: Option<Tolerance>,
     /// The width w of the guard band (JCGM 106, 8.3); 0 for simple acceptance (8.2).
     pub guard_band: Option<f64>,
@@ -98,8 +98,8 @@ impl Conformity {
                 None => of_trials.or_else(|| ErrorLaw::normal(u).guard_band(risk, limits)),
             },
         };
-        let acceptance = guard_band.map(|width| tolerance.narrowed(width));
-        let accepted = guard_band.map(|width| Tolerance::between(limits).narrowed(width));
+        let acceptance = guard_band.and_then(|width| tolerance.narrowed(width));
+        let accepted = guard_band.and_then(|width| Tolerance::between(limits).narrowed(width));
         let located = on_branch(figures.location());
         let estimate = stated.map_or(located, |stated| on_branch(stated.value));
         let global = inspection.as_ref().zip(accepted).map(|(of, to)| of.risks(to.ends()));
@@ -207,8 +207,8 @@ impl Conformity {
             (Some(risk), Some(inspection)) => inspection.guard_band(risk),
             (Some(risk), None) => law.guard_band(risk, limits),
         };
-        let acceptance = guard_band.map(|width| tolerance.narrowed(width));
-        let accepted = guard_band.map(|width| Tolerance::between(limits).narrowed(width));
+        let acceptance = guard_band.and_then(|width| tolerance.narrowed(width));
+        let accepted = guard_band.and_then(|width| Tolerance::between(limits).narrowed(width));
         let share = turns::share(law, estimate, limits, output.period);
         let global = inspection.as_ref().zip(accepted).map(|(of, to)| of.risks(to.ends()));
         Some(Self {

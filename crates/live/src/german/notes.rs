@@ -303,6 +303,14 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{0} rechnet in {1} um, und die Ausgangsgröße in {2} noch einmal: Formeln rechnen mit Anteilen als Zahlen; der Faktor entfällt, oder die Ausgangsgröße hat keine Einheit",
     ),
     (
+        "{} converts to {}, and so does the output in {}, once more: formulas compute ratios as plain numbers; leave the factor out, or give the output without a unit",
+        "{0} rechnet in {1} um, und die Ausgangsgröße in {2} noch einmal: Formeln rechnen mit Verhältnissen als Zahlen; der Faktor entfällt, oder die Ausgangsgröße hat keine Einheit",
+    ),
+    (
+        "{} takes {} in radians, as it has no unit of angle, and {} rad are more than a turn; one in degrees says {}",
+        "{0} nimmt {1} in Radiant, da es keine Winkeleinheit hat, und {2} rad sind mehr als eine Umdrehung; ein Winkel in Grad hat {3}",
+    ),
+    (
         "{} converts to {}, and so does the output in {}, once more: formulas compute angles in radians; leave the factor out, or give the output without a unit",
         "{0} rechnet in {1} um, und die Ausgangsgröße in {2} noch einmal: Formeln rechnen mit Winkeln in Radiant; der Faktor entfällt, oder die Ausgangsgröße hat keine Einheit",
     ),

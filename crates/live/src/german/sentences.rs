@@ -136,6 +136,10 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
         "Entscheidungsregel: Annahme mit Schutzabstand (ILAC-G8, Schutzabstand von {0} U): {1}, angenommen {2:}. Entscheidung: {3:}",
     ),
     (
+        "Decision rule: guarded acceptance (ILAC-G8, guard band of {} U): {}, more than half of the tolerance, so that no value is accepted. Decision: {}",
+        "Entscheidungsregel: Annahme mit Schutzabstand (ILAC-G8, Schutzabstand von {0} U): {1}, mehr als die halbe Toleranz, so dass kein Wert angenommen wird. Entscheidung: {2:}",
+    ),
+    (
         "Decision rule: guarded acceptance (JCGM 106, 8.3) for a {} risk of false acceptance of at most {} %; no value has so small a one. Decision: {}",
         "Entscheidungsregel: Annahme mit Schutzabstand (JCGM 106, 8.3) für ein {0:} Risiko fälschlicher Annahme von höchstens {1} %; kein Wert hat ein so kleines. Entscheidung: {2:}",
     ),

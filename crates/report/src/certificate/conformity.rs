@@ -132,13 +132,14 @@ fn decision(found: &Conformity, words: &Words) -> &'static str {
 
 fn rule(row: &Stated<'_>, found: &Conformity, of: Said) -> String {
     let words = of.words();
-    if let (Some(factor), Some(width), Some(acceptance)) =
-        (found.guard_factor, found.guard_band, &found.acceptance)
-    {
+    if let (Some(factor), Some(width)) = (found.guard_factor, found.guard_band) {
         let place = position(width, GUARD_DIGITS);
         let guard = of.in_marks(&in_unit(&to(width, place), &printed(&row.quantity.unit)));
-        let said = words.multiple.replace("{factor}", &of.in_marks(&exact(factor)));
-        let accepted = of.in_marks(&limits(row, acceptance, place, words));
+        let (said, accepted) = match &found.acceptance {
+            Some(to) => (words.multiple, of.in_marks(&limits(row, to, place, words))),
+            None => (words.too_wide, String::new()),
+        };
+        let said = said.replace("{factor}", &of.in_marks(&exact(factor)));
         return said.replace("{guard}", &guard).replace("{limits}", &accepted);
     }
     let Some(risk) = found.wanted_risk else { return words.simple.to_owned() };

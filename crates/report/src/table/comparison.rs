@@ -251,16 +251,19 @@ fn risk_text(found: &Conformity, risk: f64) -> String {
 /// The decision rule and the decision.
 fn rule_text(output: &Quantity, found: &Conformity) -> String {
     let decision = decision(found);
-    if let (Some(factor), Some(width), Some(acceptance)) =
-        (found.guard_factor, found.guard_band, found.acceptance)
-    {
+    if let (Some(factor), Some(width)) = (found.guard_factor, found.guard_band) {
         let digits = position(width, 3);
-        return format!(
-            "Decision rule: guarded acceptance ({}): {}, accepted {}. Decision: {decision}.",
-            multiple_text(factor),
-            in_unit(&to(width, digits), &output.unit),
-            limits_text(output, &acceptance, digits)
-        );
+        let (rule, guard) = (multiple_text(factor), in_unit(&to(width, digits), &output.unit));
+        return match found.acceptance {
+            Some(acceptance) => format!(
+                "Decision rule: guarded acceptance ({rule}): {guard}, accepted {}. Decision: {decision}.",
+                limits_text(output, &acceptance, digits)
+            ),
+            None => format!(
+                "Decision rule: guarded acceptance ({rule}): {guard}, more than half of the tolerance, \
+                 so that no value is accepted. Decision: {decision}."
+            ),
+        };
     }
     let Some(risk) = found.wanted_risk else {
         return format!(

@@ -189,6 +189,18 @@ impl Formula {
         note::notes(&self.text, &self.tree, unit_of, result)
     }
 
+    /// The names that `sin`, `cos` and `tan` take as they are, with the name of the function.
+    pub fn angles(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        self.tree.nodes.iter().filter_map(|node| {
+            let Kind::Call { function: Some(function), arguments, .. } = &node.kind else {
+                return None;
+            };
+            let [argument] = arguments.as_slice() else { return None };
+            let of = self.tree.nodes.get(*argument).filter(|of| of.kind == Kind::Name)?;
+            function.takes_angle().then_some((function.name(), self.text.get(of.span.clone())?))
+        })
+    }
+
     /// Where the formula calls calibration functions: each with the text of the x at which it is used,
     /// its argument or, of `inverse(line, y)`, the whole call.
     pub fn curve_calls(&self) -> impl Iterator<Item = (&Arc<CurveFunction>, &str)> {

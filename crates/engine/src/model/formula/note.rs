@@ -249,7 +249,8 @@ impl Walk<'_> {
             node.kind,
             Kind::Infix { operator: Operator::Multiply | Operator::Divide, .. }
         );
-        let is_scaled = unit.is_relative() || unit.turn() == Some(Turn::Angle);
+        // a share, an angle, or a ratio of like units: mV/V
+        let is_scaled = unit.level_exponent().is_zero() && unit.turn() != Some(Turn::Periods);
         let is_inverse = |factor: &f64| (factor.abs() * unit.factor() - 1.0).abs() < SAME_FACTOR;
         // among other numbers one that is it, or all of them together
         let is_once = is_inverse(&of.factor) || self.factors(node).iter().any(is_inverse);
@@ -260,7 +261,11 @@ impl Walk<'_> {
             "`{}` converts to {unit}, and so does the output in {unit}, once more: formulas compute \
              {}; leave the factor out, or give the output without a unit",
             self.quoted(&node.span),
-            if unit.is_relative() { "shares as plain numbers" } else { "angles in radians" },
+            match unit.turn() {
+                Some(_) => "angles in radians",
+                None if unit.is_relative() => "shares as plain numbers",
+                None => "ratios as plain numbers",
+            },
         );
         is_once.then(|| FormulaNote {
             code: "result-converted-twice",

@@ -143,6 +143,9 @@ pub(super) const WORDS: Words = Words {
     simple: "Règle de décision : acceptation simple (JCGM 106:2012, 8.2).",
     multiple: "Règle de décision : acceptation avec une bande de garde de {factor} U \
         (ILAC-G8:09/2019, 4.2.2) ; bande de garde {guard}, accepté {limits}.",
+    too_wide: "Règle de décision : acceptation avec une bande de garde de {factor} U \
+        (ILAC-G8:09/2019, 4.2.2) ; bande de garde {guard}, plus que la moitié de la tolérance : aucune \
+        valeur n'est acceptée.",
     rule_agreed: "La règle de décision a été convenue avec le client.",
     specification: "Spécification : {name}.",
     guarded: "Règle de décision : acceptation avec bande de garde (JCGM 106:2012, 8.3) pour {kind} d'au plus \

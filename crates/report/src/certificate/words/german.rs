@@ -149,6 +149,9 @@ pub(super) const WORDS: Words = Words {
     simple: "Entscheidungsregel: einfache Annahme (JCGM 106:2012, 8.2).",
     multiple: "Entscheidungsregel: Annahme mit einem Sicherheitsband von {factor} U \
         (ILAC-G8:09/2019, 4.2.2); Sicherheitsband {guard}, angenommen {limits}.",
+    too_wide: "Entscheidungsregel: Annahme mit einem Sicherheitsband von {factor} U \
+        (ILAC-G8:09/2019, 4.2.2); Sicherheitsband {guard}, mehr als die halbe Toleranz: kein Wert wird \
+        angenommen.",
     rule_agreed: "Die Entscheidungsregel ist mit dem Kunden vereinbart.",
     specification: "Spezifikation: {name}.",
     guarded: "Entscheidungsregel: Annahme mit Sicherheitsband (JCGM 106:2012, 8.3) für {kind} von \

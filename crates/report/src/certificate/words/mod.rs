@@ -131,6 +131,8 @@ pub(super) struct Words {
     pub(super) simple: &'static str,
     /// A guard band in multiples of U: `{factor}`, `{guard}`, `{limits}`
     pub(super) multiple: &'static str,
+    /// The same of a guard band that leaves nothing: `{factor}`, `{guard}`
+    pub(super) too_wide: &'static str,
     pub(super) rule_agreed: &'static str,
     /// What the tolerance is that of: `{name}`
     pub(super) specification: &'static str,
