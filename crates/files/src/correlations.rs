@@ -207,7 +207,7 @@ impl Reader<'_> {
         object.check_keys(keys::CORRELATION_MATRIX);
         let (names, values, spans) = if let Some(file) = object.text("file") {
             let place = object.get("file").map_or(object.place(), |m| &m.value.span).clone();
-            let Some((table, bytes)) = table::read(log, folder, file, &place) else {
+            let Some((table, bytes)) = table::read(log, folder, file, &place, None) else {
                 return;
             };
             files.push((file.to_owned(), bytes));

@@ -34,20 +34,27 @@ pub(super) fn read(
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Interpolated {
     let mut found = Interpolated::default();
-    let mut opened: Vec<(String, Option<Table>)> = Vec::new();
+    let mut opened: Vec<(&TableCall, Option<Table>)> = Vec::new();
     for (quantity, member, formula) in equations {
         for call in formula.iter().flat_map(|formula| formula.tables()) {
             if found.tables.iter().any(|(known, _)| known.is_same(call)) {
                 continue;
             }
             let named = member.map_or(0..0, |member| place_in_formula(log, member, &call.span));
-            let known = opened.iter().position(|(name, _)| *name == call.file);
+            let is_read = |of: &TableCall| of.file == call.file && of.columns == call.columns;
+            let known = opened.iter().position(|(of, _)| is_read(of));
             let known = known.unwrap_or_else(|| {
-                let table = table::read(log, folder, &call.file, &named).map(|(table, bytes)| {
-                    files.push((call.file.clone(), bytes));
+                let wanted =
+                    call.columns.as_ref().map(|names| names.each_ref().map(String::as_str));
+                let wanted = wanted.as_ref().map(<[&str; 2]>::as_slice);
+                let read = table::read(log, folder, &call.file, &named, wanted);
+                let table = read.map(|(table, bytes)| {
+                    if files.iter().all(|(known, _)| *known != call.file) {
+                        files.push((call.file.clone(), bytes));
+                    }
                     table
                 });
-                opened.push((call.file.clone(), table));
+                opened.push((call, table));
                 opened.len() - 1
             });
             let table = opened.get(known).and_then(|(_, table)| table.as_ref());

@@ -256,7 +256,7 @@ impl<'a> ModelReader<'a> {
         let at = match self.options.at {
             Some(path) => {
                 let name = path.display().to_string();
-                Some(table::read(log, Folder::of_the_user(), &name, &(0..0))?.0)
+                Some(table::read(log, Folder::of_the_user(), &name, &(0..0), None)?.0)
             }
             None => None,
         };

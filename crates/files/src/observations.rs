@@ -44,7 +44,7 @@ pub(super) fn read(log: &Collector, member: &Member, folder: Folder<'_>) -> Opti
     let file = object.required("file")?;
     let name = object.text("file")?;
     let columns = object.required("columns");
-    let (table, bytes) = table::read(log, folder, name, &file.value.span)?;
+    let (table, bytes) = table::read(log, folder, name, &file.value.span, None)?;
     let mut files = vec![(name.to_owned(), bytes)];
     let columns = Object::new(log, "`columns`", &columns?.value, &member.key_span)?;
     let reader = Reader { log, folder, table: &table };
@@ -225,7 +225,7 @@ impl Reader<'_> {
             object.text("sim_covariance")?;
             return None;
         };
-        let (matrix, bytes) = table::read(self.log, self.folder, name, &member.value.span)?;
+        let (matrix, bytes) = table::read(self.log, self.folder, name, &member.value.span, None)?;
         files.push((name.clone(), bytes));
         let rows = self.table.rows.len();
         let square = matrix.rows.len() == rows && matrix.columns.len() == rows;

@@ -62,7 +62,10 @@ pub(super) fn of_file(
     let mut read = || {
         object.required("column")?;
         let path = object.text("file")?;
-        let (table, bytes) = table::read(object.log, folder, path, &file.value.span)?;
+        let wanted: Vec<&str> =
+            ["column", "groups"].into_iter().filter_map(|key| object.text(key)).collect();
+        let (table, bytes) =
+            table::read(object.log, folder, path, &file.value.span, Some(&wanted))?;
         if !files.iter().any(|(known, _)| known == path) {
             files.push((path.to_owned(), bytes));
         }

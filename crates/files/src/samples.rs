@@ -137,7 +137,7 @@ fn of_text(
     if let Some(member) = object.get("column") {
         let name = object.text("column")?;
         let span = &member.value.span;
-        let (table, _) = table::read(object.log, folder, file, place(object))?;
+        let (table, _) = table::read(object.log, folder, file, place(object), Some(&[name]))?;
         let Some(column) = table.column(name) else {
             let reason = table.no_column(name);
             object.log.report(span, DiagnosticKind::Table { reason });

@@ -22,6 +22,7 @@ const MOST_FAULTS: usize = 2000;
 pub(super) struct Table {
     pub(super) source: Arc<SourceText>,
     pub(super) columns: Vec<String>,
+    /// Not a number in columns that were not wanted.
     pub(super) rows: Vec<Vec<f64>>,
     /// Where each row stands in the text.
     lines: Vec<Range<usize>>,
@@ -56,12 +57,14 @@ impl Table {
 type PlacedKinds = Vec<(Place, DiagnosticKind)>;
 
 /// Reads the table `name` in `folder` and reports its kinds; a file that cannot be read is reported
-/// at `named`, where the model file names it. The content is given too.
+/// at `named`, where the model file names it. Of the columns these are `wanted`, all if none are named:
+/// what stands in others, the time of a logger or remarks, need not be numbers. The content is given too.
 pub(super) fn read(
     log: &Collector,
     folder: Folder<'_>,
     name: &str,
     named: &Range<usize>,
+    wanted: Option<&[&str]>,
 ) -> Option<(Table, Vec<u8>)> {
     let bytes = match folder.content(name, bytes::MOST) {
         Ok(bytes) => bytes,
@@ -70,7 +73,7 @@ pub(super) fn read(
             return None;
         }
     };
-    let kinds = match read_bytes(bytes, name) {
+    let kinds = match read_bytes(bytes, name, wanted) {
         Ok(read) => return Some(read),
         Err(kinds) => kinds,
     };
@@ -88,7 +91,11 @@ pub(super) fn read(
 
 /// Reads a table: a header row of names, cells between `,`, `;` or tabs (of the last two perhaps with
 /// decimal commas), lines that begin with `#` skipped. All faulty cells are returned.
-fn read_bytes(bytes: Vec<u8>, name: &str) -> Result<(Table, Vec<u8>), PlacedKinds> {
+fn read_bytes(
+    bytes: Vec<u8>,
+    name: &str,
+    wanted: Option<&[&str]>,
+) -> Result<(Table, Vec<u8>), PlacedKinds> {
     let unreadable = |message: String| {
         let place = Place { source: SourceText::new(name, ""), span: 0..0 };
         vec![(place, DiagnosticKind::Unreadable { message })]
@@ -96,7 +103,7 @@ fn read_bytes(bytes: Vec<u8>, name: &str) -> Result<(Table, Vec<u8>), PlacedKind
     let text = bytes::text(&bytes).map_err(unreadable)?;
     let source = SourceText::new(name, &text);
     drop(text);
-    match parse(&source) {
+    match parse(&source, wanted) {
         Ok(table) => Ok((table, bytes)),
         // it may be anything, and is not shown
         Err(_) if !has_numbers(&source.text) => {
@@ -120,7 +127,10 @@ fn has_numbers(text: &str) -> bool {
     }
 }
 
-pub(super) fn parse(source: &Arc<SourceText>) -> Result<Table, PlacedKinds> {
+pub(super) fn parse(
+    source: &Arc<SourceText>,
+    wanted: Option<&[&str]>,
+) -> Result<Table, PlacedKinds> {
     let starts: Vec<usize> = std::iter::once(0)
         .chain(source.text.match_indices('\n').map(|(newline, _)| newline + 1))
         .collect();
@@ -171,8 +181,16 @@ pub(super) fn parse(source: &Arc<SourceText>) -> Result<Table, PlacedKinds> {
     if let Some(kinds) = too_many {
         return Err(kinds);
     }
+    let is_wanted: Vec<bool> = match wanted {
+        None => vec![true; columns.len()],
+        Some(names) => {
+            let places = names.iter().filter_map(|name| column_heading::place_of(&columns, name));
+            let places: Vec<usize> = places.collect();
+            (0..columns.len()).map(|place| places.contains(&place)).collect()
+        }
+    };
     let mut kinds = Vec::new();
-    for (number, name) in columns.iter().enumerate() {
+    for (number, name) in columns.iter().enumerate().filter(|(number, _)| is_wanted[*number]) {
         let reason = if name.is_empty() {
             format!("column {} has no name in the header", number + 1)
         } else if columns.iter().take(number).any(|earlier| earlier == name) {
@@ -218,6 +236,10 @@ pub(super) fn parse(source: &Arc<SourceText>) -> Result<Table, PlacedKinds> {
         }
         let mut row = Vec::with_capacity(columns.len());
         for (number_of_cell, (cell, column)) in record.iter().zip(&columns).enumerate() {
+            if !is_wanted[number_of_cell] {
+                row.push(f64::NAN);
+                continue;
+            }
             let diagnostic = match marks.with_point(cell).map(|text| text.parse::<f64>()) {
                 Ok(Ok(value)) if value.is_finite() => {
                     row.push(value);
@@ -279,21 +301,31 @@ mod tests {
 
     #[test]
     fn both_separators_are_read() {
-        let table = parse(&SourceText::new("t", "# note\nf, x\n1,2.5\n")).unwrap();
+        let table = parse(&SourceText::new("t", "# note\nf, x\n1,2.5\n"), None).unwrap();
         assert_eq!(
             (table.columns, table.rows),
             (vec!["f".into(), "x".into()], vec![vec![1.0, 2.5]])
         );
-        let table = parse(&SourceText::new("t", "\u{feff}f;x\n1;2,5\n# end\n3;4\n")).unwrap();
+        let table = parse(&SourceText::new("t", "\u{feff}f;x\n1;2,5\n# end\n3;4\n"), None).unwrap();
         assert_eq!(table.rows, vec![vec![1.0, 2.5], vec![3.0, 4.0]]);
         // a comment may be the last line, without a line end, and may be indented
-        let table = parse(&SourceText::new("t", "f\n  # middle\n\n1\n# end")).unwrap();
+        let table = parse(&SourceText::new("t", "f\n  # middle\n\n1\n# end"), None).unwrap();
         assert_eq!(table.rows, vec![vec![1.0]]);
+    }
+
+    /// Times, remarks and a column without a name beside the one that is wanted.
+    #[test]
+    fn other_columns_need_not_be_numbers() {
+        let source = SourceText::new("t", "time,U [V],\n10:00:00,1.01,ok\n10:00:01,1.02,\n");
+        assert!(parse(&source, None).is_err());
+        let table = parse(&source, Some(&["U"])).unwrap();
+        assert_eq!(table.rows.iter().map(|row| row[1]).collect::<Vec<_>>(), vec![1.01, 1.02]);
+        assert!(parse(&source, Some(&["U", "time"])).is_err());
     }
 
     #[test]
     fn faults_name_row_column_and_line() {
-        let kinds = parse(&SourceText::new("t", "f,x\n1,\n# c\n2\nz,1\n")).unwrap_err();
+        let kinds = parse(&SourceText::new("t", "f,x\n1,\n# c\n2\nz,1\n"), None).unwrap_err();
         let lines: Vec<usize> =
             kinds.iter().map(|(place, _)| place.source.position(place.span.start).0).collect();
         assert_eq!(lines, vec![2, 4, 5]);
@@ -305,8 +337,8 @@ mod tests {
         let places: Vec<&str> =
             kinds.iter().map(|(place, _)| &place.source.text[place.span.clone()]).collect();
         assert_eq!(places, vec![",", "2", "z"]);
-        assert!(parse(&SourceText::new("t", "")).is_err());
-        assert!(parse(&SourceText::new("t", "a,b\n")).is_err());
-        assert!(parse(&SourceText::new("t", "a,a\n1,2\n")).is_err());
+        assert!(parse(&SourceText::new("t", ""), None).is_err());
+        assert!(parse(&SourceText::new("t", "a,b\n"), None).is_err());
+        assert!(parse(&SourceText::new("t", "a,a\n1,2\n"), None).is_err());
     }
 }

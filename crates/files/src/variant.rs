@@ -42,7 +42,7 @@ impl CaseFile {
                 continue;
             }
             let text = bytes::text(content).map_err(|_| whole("the data"))?;
-            let table = table::parse(&SourceText::new(name.as_str(), &text))
+            let table = table::parse(&SourceText::new(name.as_str(), &text), None)
                 .map_err(|_| whole("the data"))?;
             let mut rows = table.rows.clone();
             let observed = self.case.model.outputs.iter().zip(&self.case.observed);

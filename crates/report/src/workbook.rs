@@ -11,6 +11,7 @@ use rust_xlsxwriter::{
 
 use super::number::MISSING;
 use super::sheet::{Kind, Sheet};
+use gumption_engine::decimal::position;
 
 /// Letters of a worksheet's name, at most.
 const LONGEST_NAME: usize = 31;
@@ -32,6 +33,9 @@ pub(crate) const SHARE: &str = "0.0%";
 
 /// Decimals that are shown at most without an exponent.
 const MOST_DECIMALS: i32 = 9;
+
+/// Digits that a spreadsheet holds of a number.
+const MOST_DIGITS: i32 = 15;
 
 /// What a formula gives at the time of writing.
 #[derive(Clone, Debug, PartialEq)]
@@ -218,7 +222,7 @@ impl Leaf {
         place: Option<i32>,
         look: Look,
     ) -> Result<(), XlsxError> {
-        let format = format(place, look);
+        let format = format(place, value, look);
         if value.is_finite() {
             self.worksheet.write_number_with_format(row, column, value, &format)?;
         } else {
@@ -235,7 +239,7 @@ impl Leaf {
         value: f64,
         shown: &str,
     ) -> Result<(), XlsxError> {
-        let format = format(None, Look::Plain).set_num_format(shown);
+        let format = format(None, f64::NAN, Look::Plain).set_num_format(shown);
         self.worksheet.write_number_with_format(row, column, value, &format)?;
         self.widen(column, 12);
         Ok(())
@@ -249,7 +253,7 @@ impl Leaf {
         now: f64,
         shown: &str,
     ) -> Result<(), XlsxError> {
-        let format = format(None, Look::Plain).set_num_format(shown);
+        let format = format(None, f64::NAN, Look::Plain).set_num_format(shown);
         let formula = Formula::new(format!("={formula}")).set_result(format!("{now:?}"));
         self.worksheet.write_formula_with_format(row, column, formula, &format)?;
         self.widen(column, 12);
@@ -279,7 +283,12 @@ impl Leaf {
         text: &str,
         look: Look,
     ) -> Result<(), XlsxError> {
-        self.worksheet.write_string_with_format(row, column, text, &format(None, look))?;
+        self.worksheet.write_string_with_format(
+            row,
+            column,
+            text,
+            &format(None, f64::NAN, look),
+        )?;
         Ok(())
     }
 
@@ -298,7 +307,12 @@ impl Leaf {
             Cached::Text(text) => text.clone(),
         };
         let formula = Formula::new(format!("={formula}")).set_result(cached);
-        self.worksheet.write_formula_with_format(row, column, formula, &format(place, look))?;
+        self.worksheet.write_formula_with_format(
+            row,
+            column,
+            formula,
+            &format(place, f64::NAN, look),
+        )?;
         self.widen(column, 12);
         Ok(())
     }
@@ -363,7 +377,9 @@ fn decimals(text: &str) -> Option<i32> {
     Some(exponent.parse::<i32>().ok()? - i32::try_from(decimals).ok()?)
 }
 
-fn format(place: Option<i32>, look: Look) -> Format {
+/// The format of a cell with a value, not a number where that is not known, whose last digit that is
+/// shown has a place.
+fn format(place: Option<i32>, value: f64, look: Look) -> Format {
     let format = Format::new().set_align(FormatAlign::Right);
     let format = match place {
         None => format,
@@ -372,7 +388,18 @@ fn format(place: Option<i32>, look: Look) -> Format {
         Some(place) if (-MOST_DECIMALS..0).contains(&place) => {
             format.set_num_format(format!("0.{}", "0".repeat(place.unsigned_abs() as usize)))
         }
-        Some(_) => format.set_num_format("0.000E+00"),
+        Some(place) => {
+            // as many digits as there are, in plain decimals where that is readable
+            let leading = position(value, 1).unwrap_or(place);
+            let digits = leading.saturating_sub(place).clamp(3, MOST_DIGITS - 1);
+            let zeros = |count: i32| "0".repeat(count.unsigned_abs() as usize);
+            format.set_num_format(match digits - leading {
+                decimals if place < 0 && (-3..MOST_DECIMALS).contains(&leading) => {
+                    format!("0.{}", zeros(decimals))
+                }
+                _ => format!("0.{}E+00", zeros(digits)),
+            })
+        }
     };
     match look {
         Look::Plain => format,

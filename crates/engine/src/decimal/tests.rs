@@ -108,7 +108,7 @@ fn half_goes_away_from_zero() {
         // which thirteen digits do not excuse
         (0.124_999_999_99, -2, "0.12"),
         // digits behind the twelfth are kept where they are asked for
-        (9_192_631_770.123_45, -5, "9.19263177012345e9"),
+        (9_192_631_770.123_45, -5, "9192631770.12345"),
         (1.000_000_123_456_78, -13, "1.0000001234568"),
     ];
     for (value, position, expected) in cases {
@@ -130,8 +130,9 @@ fn extremes_stay_readable() {
     assert_eq!(to_digits(f64::MAX, 1), f64::INFINITY);
     assert_eq!(exact(-1e-5), "-0.00001");
     assert_eq!(exact(-9e-6), "-9e-6");
-    assert_eq!(exact(1e7), "1e7");
-    assert_eq!(exact(9_999_999.0), "9999999");
+    assert_eq!(exact(1e10), "1e10");
+    assert_eq!(exact(9_999_999_999.0), "9999999999");
+    assert_eq!(rounded(10_000_050.0, 1), "10000050");
     assert_eq!(exact(0.999_999_999_999_9), "1");
     assert_eq!(exact(-0.0), "0");
     assert_eq!(exact(f64::NAN), "-");

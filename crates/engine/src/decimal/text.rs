@@ -13,8 +13,9 @@ pub(super) const MOST_DIGITS: u32 = 15;
 /// Significant digits of a number that is known exactly; more would show binary rounding.
 const EXACT_DIGITS: u32 = 12;
 
-/// Leading digits at these powers of ten and between are written without an exponent.
-const PLAIN: std::ops::RangeInclusive<i32> = -5..=6;
+/// Leading digits at these powers of ten and between are written without an exponent: up to the
+/// gigahertz in hertz and the gigaohm in ohms, as certificates state them.
+const PLAIN: std::ops::RangeInclusive<i32> = -5..=9;
 
 /// A zero is written with this many decimals at most.
 const ZERO_DECIMALS: i32 = 8;

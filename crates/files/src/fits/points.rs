@@ -40,7 +40,7 @@ impl Tables {
         if let Some((_, known)) = self.0.iter().find(|(known, _)| known == name) {
             return Some(Rc::clone(known));
         }
-        let (table, bytes) = table::read(log, folder, name, place)?;
+        let (table, bytes) = table::read(log, folder, name, place, None)?;
         if files.iter().all(|(known, _)| known != name) {
             files.push((name.to_owned(), bytes));
         }
