@@ -303,12 +303,17 @@ pub(super) fn check_formula_outputs(log: &Collector, scope: &Scope, of: &Quantit
         if let Some(dimension) = typing.dimension.filter(|_| checked)
             && dimension != unit.dimension()
         {
+            let mut expected_as = dimension.describe();
+            if dimension.is_none() {
+                // of an empirical formula
+                expected_as += &format!(" (`(...) [{unit}]` makes one of its number)");
+            }
             let diagnostic = DiagnosticKind::WrongDimension {
                 name: name.clone(),
                 found: unit.to_string(),
                 found_as: unit.dimension().describe(),
                 expected: coherent(dimension),
-                expected_as: dimension.describe(),
+                expected_as,
             };
             log.report(unit_place, diagnostic);
         } else if let Err(misfit) = typing.reported_in(unit)

@@ -63,7 +63,9 @@ impl fmt::Display for ScaleMisfit {
             ),
             Self::KelvinInCelsius { thermodynamic: false } => f.write_str(
                 "is in K and not known to be a difference of Celsius temperatures; write \
-                 `celsius(...)` for the Celsius temperature, or give a difference in `K`",
+                 `celsius(...)` of a temperature in K for the Celsius temperature, without \
+                 `- 273.15 [K]`, `(...) [degC]` of its number of degrees Celsius, or give a difference \
+                 in `K`",
             ),
             Self::RatioAsLevel => f.write_str(
                 "is a plain ratio and no level; write `10*log10(...)` of a ratio of powers, \

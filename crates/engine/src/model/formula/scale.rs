@@ -213,6 +213,18 @@ impl Checker<'_> {
         }
     }
 
+    /// Whether a node is 273.15 K, written out, perhaps with fewer digits.
+    fn is_ice_point(&self, index: usize) -> bool {
+        let Some(Kind::InUnit { number, unit }) = self.tree.nodes.get(index).map(|node| &node.kind)
+        else {
+            return false;
+        };
+        let kelvins = self.constant(*number).map(|number| number * unit.factor());
+        unit.dimension() == Dimension::TEMPERATURE
+            && unit.zero().is_none()
+            && kelvins.is_some_and(|kelvins| (kelvins - 273.15).abs() < 0.16)
+    }
+
     /// A sum or a difference.
     pub(super) fn sum(
         &mut self,
@@ -240,6 +252,14 @@ impl Checker<'_> {
         }
         if y.dimension.is_none() && b == Tie::None {
             return (x, a);
+        }
+        for (celsius, added, tie) in [(left, right, a), (right, left, b)] {
+            let is_celsius = matches!(tie, Tie::Sum { zero: Zero::Celsius, weight: 1.0, .. });
+            if sign > 0.0 && is_celsius && self.is_ice_point(added) {
+                let text = self.quoted(celsius);
+                self.fault_at(operator_span, ScaleFault::IcePointAdded { text });
+                return (Typing::ANY, Tie::None);
+            }
         }
         self.refuse_unlike(operator, operator_span, [(left, x), (right, y)]);
         let typing = Typing {

@@ -56,6 +56,11 @@ pub enum ScaleFault {
         /// The difference.
         text: String,
     },
+    /// 273.15 K added to a Celsius temperature, which is then one of 273.15 degC more.
+    IcePointAdded {
+        /// The Celsius temperature.
+        text: String,
+    },
     /// A temperature in K that is divided by the degree Celsius.
     KelvinPerCelsius {
         /// The temperature.
@@ -125,6 +130,12 @@ impl fmt::Display for ScaleFault {
                     ScaledPlace::Power => f.write_str("it has no such power")?,
                     ScaledPlace::Function(name) => write!(f, "`{name}` does not take it")?,
                 }
+                if text.ends_with(']') && text.starts_with(|c: char| c.is_ascii_digit()) {
+                    return f.write_str(
+                        ". Write `(...) [degC]` for a number of degrees Celsius, a size in `K` where a \
+                         difference is meant",
+                    );
+                }
                 write!(
                     f,
                     ". Write `kelvin({text})` for the thermodynamic temperature, `{text} - t_ref` \
@@ -180,6 +191,11 @@ impl fmt::Display for ScaleFault {
                     ),
                 }
             }
+            Self::IcePointAdded { text } => write!(
+                f,
+                "`{text}` is a Celsius temperature and stays one when kelvins are added; write \
+                 `kelvin({text})` for the thermodynamic temperature"
+            ),
             Self::OfDifference { function, text } => write!(
                 f,
                 "`{text}` is a difference of temperatures, which is in K already, so `{function}` \
