@@ -476,3 +476,23 @@ fn sweeps_say_what_is_decided_of_each_row() {
         assert!(words.contains("decision") && words.contains("simple acceptance"), "{format}");
     }
 }
+
+/// A guard band of U = 0.4 about limits that are 0.4 apart leaves nothing to accept, however the value.
+#[test]
+fn guard_bands_that_leave_nothing() {
+    for factor in ["1", "0.51"] {
+        let text = model(
+            10.4,
+            0.2,
+            &format!(r#""tolerance": {{"lower": 10.2, "upper": 10.6, "guard_band": {factor}}}"#),
+        );
+        let of = &answer(&text)["outputs"]["y"]["conformity"];
+        assert_eq!((&of["conforms"], &of["guard_band"]["lower"]), (&json!(false), &json!(null)));
+        let (_, page, _) = run(&text, &[]);
+        let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(page.contains("more than half of the tolerance, so that no value is accepted"));
+    }
+    let whole =
+        model(10.4, 0.2, r#""tolerance": {"lower": 10.2, "upper": 10.6, "guard_band": 0.4}"#);
+    assert!(answer(&whole)["outputs"]["y"]["conformity"]["guard_band"]["lower"].is_number());
+}

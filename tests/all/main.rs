@@ -67,3 +67,4 @@ mod ways_in;
 mod workspace;
 mod wrong_files;
 mod wrong_numbers;
+mod zeros;

@@ -131,6 +131,20 @@ fn headings_are_checked_of_columns_by_number_and_of_scaled_ones() {
     }
 }
 
+/// A channel is scaled, never shifted: an offset of 68 degF was one of 37.78 degC.
+#[test]
+fn raw_values_of_another_zero_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    recorded(folder, "t [s],T", seconds, |_, value| value);
+    for (unit, raw) in [("degC", "degF"), ("K", "degC")] {
+        let channel = recipe(&json!({"column": 2, "unit": unit, "raw_unit": raw}));
+        refused(folder, &channel, &["another zero", &format!("let `unit` be `{raw}`")]);
+    }
+    let alike = recipe(&json!({"column": 2, "unit": "degF", "raw_unit": "degF"}));
+    assert_eq!(said(folder, &alike), "");
+}
+
 /// `g` is the gram here and standard gravity on an accelerometer: 9.806 65 m/s^2 (ISO 80000-3).
 #[test]
 fn a_heading_in_g_is_standard_gravity_where_the_recipe_says_so() {

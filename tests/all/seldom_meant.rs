@@ -50,6 +50,10 @@ fn formulas() {
         ("‰", "(2 [V])*1000/x", "V", Some("share-converted-twice")),
         ("%", "100*sqrt(4 [V^2])/x", "V", Some("share-converted-twice")),
         ("deg", "180/pi/x", "1", Some("angle-converted-twice")),
+        ("1", "x/(3 [V])*(2 [V])*1000", "mV/V", Some("result-converted-twice")),
+        ("1", "x*1000", "V/V", None),
+        ("1", "cos(x)", "1", None),
+        ("1", "cos(x + 1)", "1", None),
         // the factor may be meant for the result: one note
         ("%", "100/x", "%", Some("result-converted-twice")),
         ("%", "2 [V]/x", "V", None),
@@ -102,6 +106,17 @@ fn formulas() {
     ] {
         let found = codes(&of(unit, formula, result));
         assert_eq!(found, Vec::from_iter(wanted), "{formula} of {unit} in {result}");
+    }
+    // 30 without a unit is in radians
+    for (unit, formula, wanted) in [
+        ("1", "cos(x)*1 [N]", Some("angle-of-turns")),
+        ("1", "cos(x/30)*1 [N]", None),
+        ("deg", "cos(x)*1 [N]", None),
+        ("rad", "cos(x)*1 [N]", None),
+    ] {
+        let mut file = of(unit, formula, "N");
+        file["inputs"]["x"]["mean"] = json!(30);
+        assert_eq!(codes(&file), Vec::from_iter(wanted), "{formula} of 30 {unit}");
     }
     // numbers in their own units are meant so
     let mut unchecked = of("deg", "sin((x + 90)*pi/180)", "1");
