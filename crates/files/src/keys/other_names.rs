@@ -13,7 +13,7 @@ pub(crate) struct OtherName {
 }
 
 /// The names, each with the key that must be known there for it to be meant.
-const OTHER_NAMES: [(&[&str], OtherName); 6] = [
+const OTHER_NAMES: [(&[&str], OtherName); 10] = [
     (
         &["width", "full_width", "range", "span"],
         OtherName {
@@ -50,6 +50,34 @@ const OTHER_NAMES: [(&[&str], OtherName); 6] = [
             said: "limits are the keys `lower` and `upper`, in the output's unit",
         },
     ),
+    (
+        &["k", "K", "coverage"],
+        OtherName {
+            key: "coverage_factor",
+            is_same: true,
+            said: "the coverage factor of the results is the key `coverage_factor`",
+        },
+    ),
+    (
+        &["p", "probability", "confidence", "confidence_level", "level_of_confidence"],
+        OtherName {
+            key: "coverage_probability",
+            is_same: true,
+            said: "the coverage probability of the results is the key `coverage_probability`",
+        },
+    ),
+    (
+        &["degrees_of_freedom", "nu", "veff", "v_eff", "nu_eff"],
+        OtherName { key: "dof", is_same: true, said: "degrees of freedom are the key `dof`" },
+    ),
+    (
+        &["samples", "iterations", "draws", "M", "runs"],
+        OtherName {
+            key: "trials",
+            is_same: true,
+            said: "the number of Monte Carlo trials is the key `trials`",
+        },
+    ),
 ];
 
 /// What is meant by a key that is not among those that are known where it stands.
@@ -77,5 +105,8 @@ mod tests {
         assert_eq!(said("value", &["value", "mean"]), None);
         assert_eq!(said("nominal", &["lower", "upper"]), Some("lower"));
         assert_eq!(said("U", &["title"]), None);
+        assert_eq!(said("k", &["title", "coverage_factor"]), Some("coverage_factor"));
+        assert_eq!(said("k", &["expanded", "k", "dof"]), None);
+        assert_eq!(said("nu", &["std", "dof"]), Some("dof"));
     }
 }
