@@ -12,7 +12,7 @@ use crate::support::{gumption, root};
 
 /// Expanded uncertainties with k = 2 that are ties at two significant digits, or are so but for
 /// noise in the last bits, and what a half away from zero makes of them by hand.
-const TIES: [(&str, &str); 12] = [
+const TIES: [(&str, &str); 13] = [
     ("0.125", "0.13"),
     ("0.12499999999999999", "0.13"),
     ("0.375", "0.38"),
@@ -24,7 +24,8 @@ const TIES: [(&str, &str); 12] = [
     ("9.95", "10"),
     ("0.445", "0.45"),
     ("1150", "1200"),
-    ("6.45e8", "6.5e8"),
+    ("6.45e8", "650000000"),
+    ("6.45e12", "6.5e12"),
 ];
 
 /// A folder with a model `y = x` whose expanded uncertainty is known, and a certificate of it.

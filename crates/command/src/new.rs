@@ -10,7 +10,7 @@ use super::exit::say;
 use super::output::Place;
 use super::{CommandLine, Exit, Failure, output};
 use gumption_engine::model::formula::Formula;
-use gumption_files::schema;
+use gumption_files::{DiagnosticKind, schema};
 use gumption_report::plain;
 use gumption_units::{Unit, nearest};
 
@@ -54,7 +54,8 @@ impl New {
         if missing.is_empty()
             && let Err(found) = program.files().check_text("the new file", &text, Path::new(""))
         {
-            return Err(Failure::Diagnostics(found));
+            let unit = found.0.iter().find_map(|found| self.unit_needed(&found.kind));
+            return Err(unit.map_or(Failure::Diagnostics(found), Failure::Argument));
         }
         let name = self.output.as_ref().map_or_else(String::new, |path| path.display().to_string());
         file.map_or(Place::StandardOutput, Place::File).write(&text)?;
@@ -68,6 +69,19 @@ impl New {
             say(&format!("note: {next}\n"));
         }
         Ok(Exit::Done)
+    }
+
+    /// That an output needs a unit, of one that was not told: there is no line yet to look at.
+    fn unit_needed(&self, kind: &DiagnosticKind) -> Option<String> {
+        let DiagnosticKind::WrongDimension { name, expected, expected_as, .. } = kind else {
+            return None;
+        };
+        let is_output = self
+            .equation
+            .iter()
+            .any(|equation| equation.split_once('=').is_some_and(|(left, _)| left.trim() == name));
+        (is_output && self.unit.is_empty())
+            .then(|| format!("`{name}` is {expected_as}; say its unit: `--unit {name}={expected}`"))
     }
 
     /// The draft that the options tell.

@@ -203,6 +203,11 @@ fn is_other_quote(c: char) -> bool {
     matches!(c, '\'' | '`' | '´' | '‘' | '’' | '‚' | '“' | '”' | '„' | '«' | '»')
 }
 
+/// Whether nothing stands before a word but a part of it, as of the text `title: a budget`.
+fn is_first_word(before: &str) -> bool {
+    before.trim_start().chars().all(char::is_alphabetic)
+}
+
 /// What would be right, for the parser's messages that do not say it.
 fn in_plain_words(message: &str, found: Option<char>, before: &str) -> String {
     let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
@@ -217,7 +222,11 @@ fn in_plain_words(message: &str, found: Option<char>, before: &str) -> String {
         {
             "a decimal fraction is written with a point, such as 5.01, not with a comma"
         }
-        "expected value" => {
+        "expected ident" if is_first_word(before) => {
+            "a file begins with `{` and its keys stand in double quotes; YAML and TOML are not read, and \
+             budgets of other programs by `gumption import`"
+        }
+        "expected value" | "expected ident" => {
             "a value should stand here: a number, a text in double quotes, true, false, null, a \
              list or an object"
         }

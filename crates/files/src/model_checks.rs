@@ -312,7 +312,10 @@ pub(super) fn check_formula_outputs(log: &Collector, scope: &Scope, of: &Quantit
                 name: name.clone(),
                 found: unit.to_string(),
                 found_as: unit.dimension().describe(),
-                expected: coherent(dimension),
+                // a Celsius temperature is none in K
+                expected: typing
+                    .zero
+                    .map_or_else(|| coherent(dimension), |of| of.unit().to_owned()),
                 expected_as,
             };
             log.report(unit_place, diagnostic);

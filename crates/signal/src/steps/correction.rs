@@ -26,8 +26,8 @@ pub enum Response {
     /// A filter that was run.
     Filtered(Filter),
     /// Points of a calibration by rising frequency; between them the gain and the phase on a
-    /// straight line (the phase by the shorter way round), beyond them the nearest point's; a recipe's
-    /// frequencies must not lie there.
+    /// straight line (the phase by the shorter way round), beyond them the nearest point's. A recipe's
+    /// frequencies must not lie beyond several; one alone holds everywhere.
     Points(Vec<ResponsePoint>),
 }
 
@@ -53,7 +53,8 @@ impl Response {
     /// The frequency lies beyond the points of the calibration, in words.
     pub fn reaches(&self, frequency: f64) -> Result<(), String> {
         let Self::Points(points) = self else { return Ok(()) };
-        let (Some(first), Some(last)) = (points.first(), points.last()) else { return Ok(()) };
+        // one point alone holds everywhere
+        let [first, .., last] = points.as_slice() else { return Ok(()) };
         let [low, high] = [first.frequency, last.frequency];
         if frequency >= low * (1.0 - BEYOND_POINTS) && frequency <= high * (1.0 + BEYOND_POINTS) {
             return Ok(());
@@ -202,7 +203,9 @@ mod tests {
         for beyond in [4.9, 8.1, 10.0] {
             assert!(of.reaches(beyond).unwrap_err().contains("from 5 Hz to 8 Hz"));
         }
-        assert_eq!(Response::HighPasses(vec![0.1]).reaches(1e6), Ok(()));
+        for everywhere in [Response::HighPasses(vec![0.1]), Response::Points(vec![point(5.0)])] {
+            assert_eq!(everywhere.reaches(1e6), Ok(()));
+        }
     }
 
     /// A correction for a filter undoes it within the band; one for a delay moves the signal.

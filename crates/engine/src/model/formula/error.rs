@@ -239,6 +239,15 @@ pub enum FormulaError {
         /// Where it stands.
         span: Range<usize>,
     },
+    /// A part that depends on no name and has no finite value.
+    ConstantUndefined {
+        /// The part.
+        part: String,
+        /// Whether it is infinite, and not without any value.
+        is_infinite: bool,
+        /// Where it stands.
+        span: Range<usize>,
+    },
     /// A unit in brackets where units are not checked, which is another number than the quantities
     /// beside it.
     UncheckedUnit {
@@ -352,6 +361,7 @@ impl FormulaError {
             | Self::Scale { span, .. }
             | Self::TableColumns { span }
             | Self::TableMethod { span, .. }
+            | Self::ConstantUndefined { span, .. }
             | Self::UncheckedUnit { span, .. }
             | Self::TableOutOfPlace { span, .. }
             | Self::TooManySolves { span, .. }

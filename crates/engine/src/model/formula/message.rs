@@ -246,6 +246,12 @@ impl fmt::Display for FormulaError {
                 "`{}` is no way of interpolation; there are `linear` and `cubic`",
                 short(found)
             ),
+            Self::ConstantUndefined { part, is_infinite: true, .. } => {
+                write!(f, "`{part}` is infinite, whatever the inputs")
+            }
+            Self::ConstantUndefined { part, .. } => {
+                write!(f, "`{part}` has no value, whatever the inputs")
+            }
             Self::UncheckedUnit { found, name, unit, .. } => write!(
                 f,
                 "units are not checked here: `{}` is the number in `{}`, but `[{}]` one of coherent SI \

@@ -70,6 +70,7 @@ mod syntax;
 mod tests;
 mod tie;
 mod typing;
+mod undefined;
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -219,6 +220,9 @@ impl Formula {
         }
         if !units {
             errors.extend(brackets::misread(&self.text, &self.tree, scope));
+        }
+        if errors.is_empty() {
+            errors.extend(undefined::constant_part(&self.text, &self.tree));
         }
         if errors.is_empty() {
             return Ok(typings.last().copied().unwrap_or(Typing::ANY));
