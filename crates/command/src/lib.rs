@@ -168,7 +168,7 @@ impl CommandLine {
 
     /// The answers behind the live page, for files that may name the measurements.
     pub fn live(&self) -> Live<'_> {
-        Live::new(&self.catalogue, self.published.to_start_from())
+        Live::new(&self.catalogue, self.published.starting_points())
     }
 
     /// Runs with the arguments of the process: says what is wrong on standard error, and ends with

@@ -318,7 +318,7 @@ fn every_distribution_can_be_begun() {
 }
 
 #[test]
-fn there_is_something_to_start_from() {
+fn there_is_something_starting_points() {
     let list = call("examples", &json!({}));
     assert_eq!(list["examples"][0]["name"], "power");
     assert_eq!(call("new", &json!({"example": "power"}))["text"], POWER);

@@ -20,7 +20,7 @@ struct Sourced {
 /// A name that no example has.
 pub(super) fn named(published: &PublishedExamples, name: Option<&str>) -> Result<String, Failure> {
     let Some(name) = name else { return list(published) };
-    let models = published.to_start_from();
+    let models = published.starting_points();
     match models.clone().find(|(of, _)| *of == name) {
         Some((_, model)) => Ok(model.to_owned()),
         None => {
@@ -35,7 +35,7 @@ pub(super) fn named(published: &PublishedExamples, name: Option<&str>) -> Result
 
 fn list(published: &PublishedExamples) -> Result<String, Failure> {
     let mut text = String::from("Published measurements, each as a model file to start from:\n\n");
-    let widest = published.to_start_from().map(|(name, _)| name.len()).max().unwrap_or(0);
+    let widest = published.starting_points().map(|(name, _)| name.len()).max().unwrap_or(0);
     let values = published.with_values().map_err(Failure::System)?;
     for (name, _) in published.cases {
         let of = values.iter().find(|example| example.name == *name);

@@ -47,7 +47,7 @@ pub struct PublishedExamples {
 
 impl PublishedExamples {
     /// The model files to start from, by name.
-    pub(crate) fn to_start_from(&self) -> impl Iterator<Item = (&str, &str)> + Clone {
+    pub(crate) fn starting_points(&self) -> impl Iterator<Item = (&str, &str)> + Clone {
         self.cases.iter().chain(self.more).copied()
     }
 

@@ -175,7 +175,7 @@ fn mistakes() {
         ),
         (line().estimate("a", "b"), "the formula of `a`: "),
         (line().estimate("a", "dT"), "`a` is in `K`, which cannot be converted to `mV/K`"),
-        (line().estimate("a", "1e300*1e300*dT/dT").without_unit_check(), "`a` in row 1: "),
+        (line().estimate("a", "dT/dT*1e300*1e300").without_unit_check(), "`a` in row 1: "),
         (
             bare_line().conditions(&[("dT", "K")], [[f64::NAN]]),
             "row 1 of the conditions must have 1 ",

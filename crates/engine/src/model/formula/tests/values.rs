@@ -326,3 +326,22 @@ fn formulas_of_the_inclined_plane_are_the_typed_model() {
         assert_eq!(program.gradients(&point), typed.program.gradients(&point));
     }
 }
+
+/// Parts that depend on nothing and have no value; of a formula with a branch that need not be taken
+/// nothing is said.
+#[test]
+fn parts_without_a_value() {
+    let scope = Scope::from_iter([("x", Typing::NUMBER)]);
+    for (text, part) in [
+        ("asin(2)*x", "`asin(2)` has no value"),
+        ("x + 1/0", "`1/0` is infinite"),
+        ("x*sqrt(1 - 3)", "`sqrt(1 - 3)` has no value"),
+        ("x + log10(0)", "`log10(0)` is infinite"),
+    ] {
+        let errors = Formula::parse(text).unwrap().check(&scope).unwrap_err();
+        assert!(errors[0].to_string().contains(part), "{}", errors[0]);
+    }
+    for text in ["if(x > 0, x, 1/0)", "x/0", "asin(x)", "1/3*x"] {
+        assert!(Formula::parse(text).unwrap().check(&scope).is_ok(), "{text}");
+    }
+}
