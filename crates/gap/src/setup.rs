@@ -237,10 +237,14 @@ fn unknown_inputs(case: &Case, data: &Data, spread: &Spread) -> Vec<usize> {
         })
         .collect();
     let influence = |v: usize| {
+        let curved: Vec<Vec<f64>> = (0..data.points.len())
+            .map(|point| curved_effects(case, data, point, (v, spread.deviations[v][point])))
+            .collect();
         let mut sum = 0.0;
         for (row, &point) in data.point_of.iter().enumerate() {
             for output in 0..data.outputs.len() {
-                let effect = data.points[point].gradients[output][v] * spread.deviations[v][point];
+                let linear = data.points[point].gradients[output][v] * spread.deviations[v][point];
+                let effect = linear.abs().max(curved[point][output]);
                 let u = match &data.uncertainties[output] {
                     Some(u) => u[row],
                     None => scales[output],
@@ -271,6 +275,39 @@ fn unknown_inputs(case: &Case, data: &Data, spread: &Spread) -> Vec<usize> {
     }
     chosen.sort_unstable();
     chosen
+}
+
+/// How far from the estimate an input is tried, in standard deviations: within the limits of a
+/// symmetric distribution, the arc sine among them.
+const TRIED: [f64; 2] = [-1.4, 1.4];
+
+/// For each output the largest change of the sim at a point for an input away from its estimate, by the
+/// standard deviation. Where the sim has no slope at the estimate, as of a cosine at 0 or a modulus, the
+/// input counts all the same.
+fn curved_effects(
+    case: &Case,
+    data: &Data,
+    point: usize,
+    (variable, deviation): (usize, f64),
+) -> Vec<f64> {
+    let point = &data.points[point];
+    let mut largest = vec![0.0; data.outputs.len()];
+    let row = point.rows.first().and_then(|&row| case.task.rows.get(data.ids[row]));
+    let Some(row) = row.filter(|_| deviation > 0.0) else { return largest };
+    let at = row.estimates();
+    for tried in TRIED {
+        let mut at = at.clone();
+        at[variable] += tried * deviation;
+        let values = case.task.model.program.evaluate(&at);
+        for (place, (largest, &output)) in largest.iter_mut().zip(&data.outputs).enumerate() {
+            let change = (values[output] - point.nominal[place]).abs() / TRIED[1];
+            // outside the sim's domain nothing is known
+            if change.is_finite() {
+                *largest = change.max(*largest);
+            }
+        }
+    }
+    largest
 }
 
 /// For each value the logarithm of the model's size relative to its geometric mean over the rows.
