@@ -60,6 +60,19 @@ impl Node {
             _ => None,
         }
     }
+
+    /// All texts in it and all keys of its objects.
+    pub(crate) fn texts<'n>(&'n self, found: &mut Vec<&'n str>) {
+        match &self.value {
+            Json::Text(text) => found.push(text),
+            Json::List(nodes) => nodes.iter().for_each(|node| node.texts(found)),
+            Json::Object(members) => members.iter().for_each(|member| {
+                found.push(&member.key);
+                member.value.texts(found);
+            }),
+            Json::Null | Json::Bool(_) | Json::Number(_) => {}
+        }
+    }
 }
 
 /// Parses a whole text.

@@ -249,14 +249,19 @@ impl<'a> ModelReader<'a> {
     /// The table of the data and the rows of conditions.
     fn data(&self) -> Option<Data> {
         let (root, log) = (&self.root, self.root.log);
+        // columns that nothing names may hold remarks
+        let mut named = Vec::new();
+        for key in ["observations", "conditions"] {
+            root.get(key).into_iter().for_each(|member| member.value.texts(&mut named));
+        }
         let observations =
-            root.get("observations").map(|m| observations::read(log, m, self.folder));
+            root.get("observations").map(|m| observations::read(log, m, self.folder, &named));
         let unobserved = matches!(observations, Some(None));
         let observations = observations.flatten();
         let at = match self.options.at {
             Some(path) => {
                 let name = path.display().to_string();
-                Some(table::read(log, Folder::of_the_user(), &name, &(0..0), None)?.0)
+                Some(table::read(log, Folder::of_the_user(), &name, &(0..0), Some(&named))?.0)
             }
             None => None,
         };

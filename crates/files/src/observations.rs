@@ -37,14 +37,19 @@ pub(super) struct Column {
     pub(super) simulated: Option<String>,
 }
 
-/// Reads `observations`; paths are relative to `folder`.
-pub(super) fn read(log: &Collector, member: &Member, folder: Folder<'_>) -> Option<Observations> {
+/// Reads `observations`; paths are relative to `folder`. Of the columns of the data these are `wanted`.
+pub(super) fn read(
+    log: &Collector,
+    member: &Member,
+    folder: Folder<'_>,
+    wanted: &[&str],
+) -> Option<Observations> {
     let object = Object::new(log, "`observations`", &member.value, &member.key_span)?;
     object.check_keys(keys::OBSERVATIONS);
     let file = object.required("file")?;
     let name = object.text("file")?;
     let columns = object.required("columns");
-    let (table, bytes) = table::read(log, folder, name, &file.value.span, None)?;
+    let (table, bytes) = table::read(log, folder, name, &file.value.span, Some(wanted))?;
     let mut files = vec![(name.to_owned(), bytes)];
     let columns = Object::new(log, "`columns`", &columns?.value, &member.key_span)?;
     let reader = Reader { log, folder, table: &table };

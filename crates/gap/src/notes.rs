@@ -99,15 +99,26 @@ pub(crate) fn notes(
         && p < OVERDISPERSED
         && !of_noise
     {
-        note(
-            "scatter",
-            format!(
-                "The residuals are {:.2} times as large as their uncertainties allow, but without a \
-                 pattern that an effect or a smooth discrepancy would make: the stated noise is \
-                 probably too small, or values are wrong one by one.",
-                (gap.chi2 / gap.dof).sqrt()
-            ),
-        );
+        let times = (gap.chi2 / gap.dof).sqrt();
+        if shrinkage.chi2_per_dof[1] > misfit(setup.data.len()) {
+            note(
+                "scatter",
+                format!(
+                    "The residuals are {times:.2} times as large as their uncertainties allow, but \
+                     without a pattern that an effect or a smooth discrepancy would make: the stated \
+                     noise is probably too small, or values are wrong one by one."
+                ),
+            );
+        } else {
+            note(
+                "curved-sim",
+                format!(
+                    "At the estimates of the inputs the residuals are {times:.2} times as large as the \
+                     law of propagation allows, but values within what is known of the inputs explain \
+                     them: the sim is not linear in its inputs there."
+                ),
+            );
+        }
     }
     let name_of = |output: usize| {
         let output = setup.data.outputs[output];
