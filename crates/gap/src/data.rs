@@ -145,11 +145,7 @@ impl Data {
 
     /// A measured value less a value of the model, for phases within half a turn.
     pub(crate) fn residual(&self, output: usize, row: usize, sim: f64) -> f64 {
-        let residual = self.values[output][row] - sim;
-        match self.turns[output] {
-            Some(turn) => residual - turn * (residual / turn).round(),
-            None => residual,
-        }
+        within_half_a_turn(self.values[output][row] - sim, self.turns[output])
     }
 
     /// The residuals against the model at the inputs' estimates, output by output.
@@ -165,6 +161,14 @@ impl Data {
                     .collect()
             })
             .collect()
+    }
+}
+
+/// A difference of phases on the branch next to zero; of other values as it is.
+pub(crate) fn within_half_a_turn(difference: f64, turn: Option<f64>) -> f64 {
+    match turn {
+        Some(turn) => difference - turn * (difference / turn).round(),
+        None => difference,
     }
 }
 

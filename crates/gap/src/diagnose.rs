@@ -31,6 +31,9 @@ use gumption_engine::task::{Coverage, Row};
 /// Rows of the data that are handed back, at most; of longer records every so many-th.
 const MOST_ROWS: usize = 2000;
 
+/// Data with a larger chi-square have so small a probability without a gap.
+const UNLIKELY: f64 = 1e-3;
+
 /// How a diagnosis is made.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
@@ -163,6 +166,10 @@ fn diagnosed(
         gap(&Setup::new(case), verdict.kind)
     };
     let mut notes = notes(&setup, &posterior, &verdict, &shrinkage, &gap, &noise, best);
+    // where nothing is left to explain, an effect of another size has only noise to fit
+    let is_explained =
+        verdict.kind == HypothesisKind::None && gap.p_value.is_some_and(|p| p > UNLIKELY);
+    let prior_conflicts = if is_explained { Vec::new() } else { prior_conflicts };
     notes.extend(prior_conflicts.iter().map(|conflict| DiagnosisNote {
         code: "prior-conflict",
         text: prior_conflict::note(conflict),

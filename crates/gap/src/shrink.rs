@@ -5,8 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use gumption_engine::parallel;
 
 use super::composed::Compositions;
-use super::data::Data;
-use super::data::by_rows;
+use super::data::{Data, by_rows, within_half_a_turn};
 use super::departure_prediction;
 use super::diagnosis::{RowGap, Shrinkage, Shrunk, ValueGap};
 use super::discrepancy::{Base, Discrepancy, Weighted};
@@ -80,8 +79,9 @@ pub(crate) fn shrinkage(
             .iter()
             .flat_map(|&row| (0..outputs).map(move |output| data.values[output][row]))
             .collect();
-        gain +=
-            fold.density.ln_density(&measured, &noise) - fold.base.ln_density(&measured, &noise);
+        let turns = data.turns.repeat(block.len());
+        let of = |density: &Density| density.ln_density(&measured, &noise, &turns);
+        gain += of(&fold.density) - of(&fold.base);
     }
     let linear: Vec<f64> =
         rows.iter().flat_map(|row| predict::linear_variances(setup, row)).collect();
@@ -132,13 +132,18 @@ pub(crate) fn shrinkage(
     let all = shrunk(mean(&before2), mean(&after2), floor2);
     let per_output = (0..outputs)
         .map(|output| {
-            let of = |values: &[f64]| -> f64 {
-                mean(
-                    &values.iter().skip(output).step_by(outputs).map(|r| r * r).collect::<Vec<_>>(),
-                )
+            // a value that is off would be all of a mean in the output's unit
+            let is_off = |row: &usize| data.noise.stretch(data.ids[*row], output) != 1.0;
+            let kept: Vec<usize> = (0..rows.len()).filter(|row| !is_off(row)).collect();
+            let of = |squares: &dyn Fn(usize) -> f64| -> f64 {
+                mean(&kept.iter().map(|row| squares(row * outputs + output)).collect::<Vec<_>>())
             };
-            let noise: Vec<f64> = variances.iter().skip(output).step_by(outputs).copied().collect();
-            shrunk(of(&before), of(&after), mean(&noise) * floor2)
+            let [before2, after2, noise2] = [
+                of(&|value| before[value] * before[value]),
+                of(&|value| after[value] * after[value]),
+                of(&|value| variances[value]),
+            ];
+            shrunk(before2, after2, noise2 * floor2)
         })
         .collect();
     let claimed = claimed(setup, &fitted, variances);
@@ -303,25 +308,29 @@ impl Density {
         Self::Draws((0..draws).map(|d| flat.iter().map(|value| value[d]).collect()).collect())
     }
 
-    fn ln_density(&self, measured: &[f64], noise: &[f64]) -> f64 {
-        let ln = |mean: f64, value: f64, variance: f64| {
-            -0.5 * ((value - mean).powi(2) / variance + elementary::ln(variance)) - HALF_LN_TWO_PI
+    /// The logarithm of the density of measured values with these variances of their noise; those of
+    /// phases are within half a turn (`turns`) of what is predicted.
+    fn ln_density(&self, measured: &[f64], noise: &[f64], turns: &[Option<f64>]) -> f64 {
+        let ln = |mean: f64, value: f64, variance: f64, turn: Option<f64>| {
+            let residual = within_half_a_turn(value - mean, turn);
+            -0.5 * (residual.powi(2) / variance + elementary::ln(variance)) - HALF_LN_TWO_PI
         };
+        let of_block = || measured.iter().zip(noise).zip(turns);
         match self {
             Self::Draws(draws) => {
                 let each: Vec<f64> = draws
                     .iter()
                     .map(|draw| {
-                        draw.iter().zip(measured).zip(noise).map(|((m, y), v)| ln(*m, *y, *v)).sum()
+                        let each = draw.iter().zip(of_block());
+                        each.map(|(mean, ((y, v), turn))| ln(*mean, *y, *v, *turn)).sum()
                     })
                     .collect();
                 ln_sum(each.iter().copied()) - elementary::ln(each.len().max(1) as f64)
             }
             Self::Normal(values) => values
                 .iter()
-                .zip(measured)
-                .zip(noise)
-                .map(|(((mean, variance), y), v)| ln(*mean, *y, variance + v))
+                .zip(of_block())
+                .map(|((mean, variance), ((y, v), turn))| ln(*mean, *y, variance + v, *turn))
                 .sum(),
         }
     }
