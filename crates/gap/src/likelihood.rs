@@ -61,6 +61,9 @@ pub(crate) struct Evaluator {
 /// What happens with the residuals of a row: lanes of whitened residuals for each output and, where
 /// noise is estimated, of the logarithm of their variance.
 pub(crate) trait Visitor {
+    /// Whether it computes with what it sees, so that it is compiled for every path.
+    const COMPUTES: bool = true;
+
     fn row(&mut self, row: usize, residuals: &[Column], ln_variances: &[Column]);
 }
 
@@ -251,7 +254,8 @@ impl<'c> Likelihood<'c> {
     /// Goes through the rows of the data for up to a column of points.
     pub(crate) fn visit<V: Visitor>(&self, scores: &[Column], lanes: usize, visitor: &mut V) {
         let path = CodePath::best();
-        path.run(Walk { path, likelihood: self, scores: self.mixed(scores), lanes, visitor });
+        let walk = Walk { path, likelihood: self, scores: self.mixed(scores), lanes, visitor };
+        if V::COMPUTES { path.run(walk) } else { walk.run() }
     }
 
     /// The logarithms of the likelihood of up to a column of points; minus infinity where the model is

@@ -84,6 +84,8 @@ fn by_lane(columns: &[Column], lanes: usize) -> Vec<Vec<f64>> {
 }
 
 impl Visitor for Kept {
+    const COMPUTES: bool = false;
+
     #[inline(always)]
     fn row(&mut self, row: usize, residuals: &[Column], ln_variances: &[Column]) {
         let own = row * residuals.len()..(row + 1) * residuals.len();

@@ -56,6 +56,10 @@ pub trait Kernel {
     /// What the work gives.
     type Output;
 
+    /// Whether it is compiled for the widest registers as well: not where little of the time of what
+    /// calls it is its own.
+    const WIDEST: bool = true;
+
     /// Does the work.
     fn run(self) -> Self::Output;
 }
@@ -102,9 +106,9 @@ impl CodePath {
         #[cfg(target_arch = "x86_64")]
         match self.0 {
             // SAFETY: a path is made only where the machine has its instructions.
-            Instructions::Avx512 => return unsafe { run_avx512(kernel) },
-            // SAFETY: as above.
-            Instructions::Avx2 => return unsafe { run_avx2(kernel) },
+            Instructions::Avx512 if K::WIDEST => return unsafe { run_avx512(kernel) },
+            // SAFETY: as above, and what has AVX-512 has AVX2.
+            Instructions::Avx512 | Instructions::Avx2 => return unsafe { run_avx2(kernel) },
             Instructions::Baseline => {}
         }
         kernel.run()
@@ -133,7 +137,8 @@ impl Instructions {
             Self::Baseline => true,
             Self::Avx2 => is_x86_feature_detected!("avx2"),
             Self::Avx512 => {
-                is_x86_feature_detected!("avx512f")
+                Self::Avx2.are_available()
+                    && is_x86_feature_detected!("avx512f")
                     && is_x86_feature_detected!("avx512dq")
                     && is_x86_feature_detected!("avx512vl")
                     && is_x86_feature_detected!("avx512bw")
