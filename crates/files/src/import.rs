@@ -23,6 +23,7 @@ mod rows;
 mod sheets;
 mod stated;
 mod suncal;
+mod symbol;
 mod yaml;
 
 use crate::open::{FileKind, are_results};
@@ -39,6 +40,7 @@ use document::document;
 use equation::{Equation, Equations};
 use gumption_engine::model::formula::{Formula, FormulaError, Scope, Typing};
 use gumption_units::Unit;
+use number::value;
 use rows::{Row, Table};
 use sheets::Chosen;
 
@@ -281,6 +283,7 @@ impl Budget<'_> {
         let measured = equations.last().map(|equation| equation.name.clone());
         let used: Vec<String> = equations.iter().flat_map(Equation::names).collect();
         let Table { rows, result, stated, factor } = self.rows(&header, measured.as_deref(), &used);
+        self.needs_estimates(&header, &rows, &equations);
         let has_coefficients = rows.iter().any(|row| row.sensitivity.is_some());
         self.unread(&unread, has_coefficients || !equations.is_empty(), &equations, &known);
         self.remarks(&header, &equations);
@@ -321,6 +324,32 @@ impl Budget<'_> {
         };
         self.compare(&made, &stated, factor)?;
         Some(made)
+    }
+
+    /// Refuses a sheet without estimates whose equation is no sum: of a product all sensitivities would be
+    /// 0, and so would the result and its uncertainty.
+    fn needs_estimates(&self, header: &Header, rows: &[Row], equations: &[Equation]) {
+        let Some(equation) = equations.last() else { return };
+        if rows.iter().any(|row| row.estimate.is_some()) || equation::is_linear(equations) {
+            return;
+        }
+        let comma = self.cells.decimal_comma();
+        let has_number = |place: &&usize| {
+            let lines = header.line + 1..self.cells.lines();
+            lines.into_iter().any(|line| value(self.cells.text(line, **place), comma).is_some())
+        };
+        let advice = match header.unknown.iter().find(has_number) {
+            Some(place) => format!(
+                "has the column `{}` them? Then head it `Estimate`",
+                header.heading(*place).trim()
+            ),
+            None => "write them into a column `Estimate`".to_owned(),
+        };
+        let reason = format!(
+            "the equation `{} = {}` needs the estimates of its quantities, and no column has them: {advice}",
+            equation.name, equation.formula
+        );
+        self.fail(header.first, reason);
     }
 
     /// The names that the rows below the header would have in formulas.

@@ -5,6 +5,7 @@ use super::coverage::{HeaderCoverage, Statement};
 use super::grid::Cells;
 use super::heading::{unit_of_header, unit_of_line};
 use super::number::{number_with_unit, value};
+use super::symbol;
 use crate::named_shape::NamedShape;
 use crate::value_text::PLUS_MINUS;
 use gumption_engine::decimal::significant;
@@ -39,8 +40,8 @@ pub(crate) enum Column {
     Evaluation,
 }
 
-/// Words of measured values, which are estimates where no other column is one.
-pub(super) const MEASURED: [&str; 13] = [
+/// Words of measured values and other weak words, which head estimates where no other column is one.
+pub(super) const MEASURED: [&str; 27] = [
     "measured value",
     "measured",
     "measurement",
@@ -54,6 +55,20 @@ pub(super) const MEASURED: [&str; 13] = [
     "ablesung",
     "valeur mesurée",
     "lecture",
+    "x",
+    "average",
+    "average value",
+    "est",
+    "est. value",
+    "estimated value",
+    "central value",
+    "result",
+    "amount",
+    "ergebnis",
+    "durchschnitt",
+    "durchschnittswert",
+    "résultat",
+    "valeur moyenne",
 ];
 
 /// The words of each column, without what stands in brackets.
@@ -420,7 +435,7 @@ pub(super) fn is_expanded_symbol(text: &str) -> bool {
 
 /// Whether a heading is the symbol of standard uncertainties, `u`.
 pub(super) fn is_standard_symbol(heading: &str) -> bool {
-    plain_case(heading) == "u"
+    plain_case(symbol::before_unit(heading)) == "u"
 }
 
 /// Whether a heading speaks of nominal values.
@@ -512,13 +527,14 @@ pub(crate) fn column(text: &str) -> Option<Column> {
     let compact: String = text.to_lowercase().split_whitespace().collect();
     match compact.as_str() {
         "u(xi)" | "u(x_i)" | "u(x)" => return Some(Column::Std),
-        "u_i(y)" | "ui(y)" | "u(y)" | "|ci|u(xi)" | "|ci|·u(xi)" | "|c_i|u(x_i)" => {
-            return Some(Column::Contribution);
-        }
+        "u_i(y)" | "ui(y)" | "u(y)" => return Some(Column::Contribution),
         _ if is_dof(&compact) => return Some(Column::Dof),
         _ => {}
     }
     if let Some(column) = unit_column(text) {
+        return Some(column);
+    }
+    if let Some((column, _)) = symbol::of_uncertainties(text) {
         return Some(column);
     }
     // `Value (±)` is no value
@@ -554,7 +570,16 @@ pub(crate) fn column(text: &str) -> Option<Column> {
             });
         named.next().filter(|_| named.next().is_none())
     };
-    exact.map(|(column, _)| *column).or_else(begins).or_else(one_of_two)
+    // `u / mm`
+    let quotient = || {
+        let before = symbol::before_unit(text);
+        match (before != text).then(|| column(before))?? {
+            // a symbol has no unit, its estimate has
+            Column::Symbol => Some(Column::Estimate),
+            found => Some(found).filter(|found| found.is_of_numbers()),
+        }
+    };
+    exact.map(|(column, _)| *column).or_else(begins).or_else(one_of_two).or_else(quotient)
 }
 
 /// What a header that speaks of units beside another column's words names: `Uncertainty unit`, `Unit of
@@ -808,8 +833,7 @@ impl Header {
                 && u > c
                 && of(Column::Width).is_some()
                 && of(Column::Contribution).is_none()
-                && (matches!(plain(&headings[u]).as_str(), "ui" | "u_i")
-                    || is_standard_symbol(&headings[u]))
+                && (symbol::is_bare(&headings[u]) || is_standard_symbol(&headings[u]))
                 && let Some((_, column)) = columns.iter_mut().find(|(place, _)| *place == u)
             {
                 *column = Column::Contribution;
@@ -975,7 +999,7 @@ impl Header {
         }
         let comma = cells.decimal_comma();
         let is_measured = |header: &Self, place: usize| {
-            MEASURED.contains(&plain(header.heading(place)).as_str())
+            MEASURED.contains(&plain(symbol::before_unit(header.heading(place))).as_str())
                 && (header.line + 1..cells.lines())
                     .any(|line| number_with_unit(cells.text(line, place), comma).is_some())
         };
@@ -1456,7 +1480,7 @@ pub(super) fn is_of_limits(heading: &str) -> bool {
         "tolérance",
         "erreur maximale",
     ];
-    let words = plain(heading);
+    let words = plain(symbol::before_unit(heading));
     words == "a" || WORDS.iter().any(|of| words.starts_with(of))
 }
 

@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use super::columns::plain_case;
+use super::symbol::before_unit;
 use gumption_engine::number::smallest_first;
 use gumption_engine::special::student;
 
@@ -64,7 +65,7 @@ impl HeaderCoverage {
         let compact: String = text.to_lowercase().split_whitespace().collect();
         let words = ["expanded", "erweiterte", "erw.", "incertitudeélargie", "incertitudeelargie"];
         // `Uncertainty U`: the symbol stands behind the words
-        let symbol = plain_case(text).split_whitespace().next_back();
+        let symbol = plain_case(before_unit(text)).split_whitespace().next_back();
         if words.iter().any(|word| compact.starts_with(word)) || symbol == Some("U") {
             Self::Expanded
         } else {

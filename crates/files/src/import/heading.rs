@@ -6,6 +6,7 @@
 use super::columns::{MEASURED, WORDS, is_of_estimate, is_symbol, unit_as_meant};
 use super::coverage::Statement;
 use super::extent::Extent;
+use super::symbol;
 use crate::named_shape::NamedShape;
 use gumption_units::Unit;
 
@@ -25,6 +26,9 @@ enum Said {
 /// # Errors
 /// What is not understood and may be a unit or a factor, as a sentence.
 pub(crate) fn unit_of_header(text: &str, is_value: bool) -> Result<Option<String>, String> {
+    if let Some((_, rest)) = symbol::of_uncertainties(text) {
+        return of_pieces(pieces_of(rest).into_iter(), is_value).map_err(|reason| reason.of(text));
+    }
     let (outside, insides) = parts(text);
     let outside = match behind_words(&outside) {
         Some(rest) => separated(rest),
@@ -40,9 +44,13 @@ pub(crate) fn unit_of_header(text: &str, is_value: bool) -> Result<Option<String
 /// # Errors
 /// As [`unit_of_header`].
 pub(super) fn unit_of_line(text: &str) -> Result<Option<String>, String> {
+    of_pieces(pieces_of(text).into_iter(), false).map_err(|reason| reason.of(text))
+}
+
+/// All pieces of a text without words of a column, those in brackets first.
+fn pieces_of(text: &str) -> Vec<String> {
     let (outside, insides) = parts(text);
-    let pieces = insides.iter().flat_map(|inside| separated(inside)).chain(separated(&outside));
-    of_pieces(pieces, false).map_err(|reason| reason.of(text))
+    insides.iter().flat_map(|inside| separated(inside)).chain(separated(&outside)).collect()
 }
 
 /// Why a piece of a heading is refused.
@@ -279,6 +287,42 @@ fn is_name_of_unit(small: &str) -> bool {
     [small, bare].iter().any(|of| NAMES.contains(of) || NAMES.contains(&of.trim_end_matches('s')))
 }
 
+/// Words that say what kind of numbers stand in a column.
+const SCALES: [&str; 27] = [
+    "rms",
+    "pp",
+    "fs",
+    "eff",
+    "full",
+    "rdg",
+    "ppt",
+    "dex",
+    "per",
+    "pro",
+    "par",
+    "span",
+    "relative",
+    "relativ",
+    "rel",
+    "reading",
+    "readings",
+    "range",
+    "scale",
+    "peak",
+    "squared",
+    "thousand",
+    "thousands",
+    "million",
+    "millions",
+    "thousandths",
+    "millionths",
+];
+
+/// Whether a word says what kind of numbers stand in a column: `rms`, `rel`.
+pub(super) fn is_scale(word: &str) -> bool {
+    SCALES.contains(&word.to_lowercase().as_str())
+}
+
 /// Whether a word that is none of those known may be a unit, or change what numbers mean.
 fn may_be_unit(word: &str) -> bool {
     const SHORT: [&str; 68] = [
@@ -288,35 +332,6 @@ fn may_be_unit(word: &str) -> bool {
         "les", "et", "exp", "abs", "not", "note", "our", "own", "tol", "all", "each", "comb",
         "sub", "data", "max", "min", "a", "b", "ci", "xi", "mean", "this", "ext", "zum", "zur",
         "im", "its", "cal", "σ",
-    ];
-    const SCALES: [&str; 27] = [
-        "rms",
-        "pp",
-        "fs",
-        "eff",
-        "full",
-        "rdg",
-        "ppt",
-        "dex",
-        "per",
-        "pro",
-        "par",
-        "span",
-        "relative",
-        "relativ",
-        "rel",
-        "reading",
-        "readings",
-        "range",
-        "scale",
-        "peak",
-        "squared",
-        "thousand",
-        "thousands",
-        "million",
-        "millions",
-        "thousandths",
-        "millionths",
     ];
     let small = word.trim_matches(['.', '\'', '"', '*', '†', '|']).to_lowercase();
     if small.is_empty() || is_symbol(word) || SHORT.contains(&small.as_str()) {

@@ -1932,3 +1932,79 @@ fn dates_and_shares_of_shares_are_refused() {
         assert!(found.contains(said), "{found}");
     }
 }
+
+/// Weak words head the estimates where no other column does; an equation that needs estimates is refused
+/// without them.
+#[test]
+fn estimates_under_weak_words() {
+    for heading in [
+        "x",
+        "X",
+        "x / V",
+        "x_i / V",
+        "Average",
+        "Est.",
+        "Result",
+        "Amount",
+        "Central value",
+        "x (V)",
+    ] {
+        let text = format!(
+            "P = V*V2/R\nQuantity,{heading},Unit,Standard uncertainty\nV,10.0,V,0.01\nV2,2.0,V,0.002\n\
+             R,1,V,0\n"
+        );
+        let (_, budget) = uncertainties(&text);
+        let found = task(&budget);
+        let of: Vec<f64> = found.rows[0].distributions.iter().map(|d| d.mean()).collect();
+        assert_eq!(of, [10.0, 2.0, 1.0], "{heading}");
+    }
+    let text = "P = V*I\nQuantity,Foo,Unit,Standard uncertainty\nV,10.0,V,0.01\nI,2.0,A,0.002\n";
+    let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("has the column `Foo` them?"), "{error}");
+    // a sum of corrections has its uncertainty without estimates
+    let text =
+        "E = a - (b + c)/2\nQuantity,Unit,Standard uncertainty\na,V,0.01\nb,V,0.002\nc,V,0.003\n";
+    assert_eq!(uncertainties(text).0, [0.01, 0.002, 0.003]);
+}
+
+/// Contributions are compared under every heading in use, with the name of the measurand in place of `y`
+/// and with a unit wherever it stands; EA-4/02 and UKAS M3003 have such ones.
+#[test]
+fn contributions_under_their_symbols() {
+    for heading in [
+        "ui(y) mg",
+        "ui(y) (mg)",
+        "ui(Wx) mg",
+        "ui(Wx) (mg)",
+        "ui(Wx)",
+        "u_i mg",
+        "ui/mg",
+        "ui / mg",
+        "u_i(y) / mg",
+        "u(y) in mg",
+        "|ci|u(xi) (mg)",
+    ] {
+        let sheet = |combined: &str| {
+            format!(
+                "Symbol,Source of uncertainty,Value +/- mg,Probability distribution,Divisor,ci,{heading},vi or \
+                 veff\nWS,Cal,27.0,Normal,2,1.0,13.50,inf\nDS,Drift,30.0,Rectangular,1.732,1.0,17.32,inf\n\
+                 u(WX),Combined standard uncertainty,,Normal,,,{combined},>500\n"
+            )
+        };
+        let (found, _) = uncertainties(&sheet("21.96"));
+        assert_eq!(found[0], 13.5, "{heading}");
+        let error = import("b.csv", sheet("34.5").as_bytes()).unwrap_err().to_string();
+        assert!(error.contains("of the result is 34.5"), "{heading}: {error}");
+    }
+    for (heading, cell, u) in
+        [("u / mm", "0.01", 0.01), ("U / mm", "0.02", 0.01), ("u/µm", "10", 0.01)]
+    {
+        let text = format!("Quantity,Estimate / mm,{heading}\nA,5,{cell}\n");
+        let (found, _) = uncertainties(&text);
+        // a rounding of a conversion
+        assert!((found[0] / u - 1.0).abs() < 1e-12, "{heading}: {found:?}");
+    }
+    let text =
+        "Quantity,Estimate,Unit,Distribution,Divisor,U,ci,ui(rel)\nA,5,mm,normal,2,0.02,1,0.01\n";
+    assert!(import("b.csv", text.as_bytes()).is_err());
+}
