@@ -21,6 +21,7 @@ mod own;
 mod pint;
 mod rows;
 mod sheets;
+mod signs;
 mod stated;
 mod suncal;
 mod symbol;

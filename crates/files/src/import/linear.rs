@@ -34,6 +34,9 @@ impl Budget<'_> {
         measurand: &str,
     ) -> Option<Linear> {
         let with = rows.iter().filter(|row| row.sensitivity.is_some()).count();
+        if with == 0 && result.and_then(|result| result.estimate).is_none() {
+            self.meaningless_sum(rows)?;
+        }
         if with == 0 {
             self.guessed.push(format!(
                 "there is neither an equation nor a column of sensitivity coefficients: {measurand} \
@@ -356,7 +359,7 @@ impl Budget<'_> {
 }
 
 /// The difference of two numbers without the digits that only rounding makes.
-fn difference(a: f64, b: f64) -> f64 {
+pub(super) fn difference(a: f64, b: f64) -> f64 {
     let decimals = 12 - elementary::log10(a.abs().max(b.abs())).ceil() as i32;
     let decimals = usize::try_from(decimals).unwrap_or_default().min(300);
     format!("{:.decimals$}", a - b).parse().unwrap_or(a - b)

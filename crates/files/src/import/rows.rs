@@ -196,6 +196,14 @@ impl Budget<'_> {
             ));
             table.stated.extend(self.stated(header, last.line, &last));
             table.result = Some(last);
+        } else if measurand.is_none()
+            && table.result.as_ref().is_none_or(|result| result.is_summary)
+            && let Some(signs) = self.signs(header, &table.rows)
+            && let Some(mut last) = table.rows.pop()
+        {
+            self.difference(&mut table.rows, &mut last, &signs);
+            table.stated.extend(self.stated(header, last.line, &last));
+            table.result = Some(last);
         }
         self.blank_estimates(header, &table.rows);
         self.blank_uncertainties(header, &table.rows);
@@ -1271,7 +1279,7 @@ pub(super) fn near(a: f64, b: f64) -> bool {
 /// Two digits, of which the least are 1.0, are rounded by up to this share.
 const SAME: f64 = 0.05;
 
-fn is_near(a: f64, b: f64, share: f64) -> bool {
+pub(super) fn is_near(a: f64, b: f64, share: f64) -> bool {
     a == b || (a / b - 1.0).abs() < share
 }
 

@@ -2008,3 +2008,46 @@ fn contributions_under_their_symbols() {
         "Quantity,Estimate,Unit,Distribution,Divisor,U,ci,ui(rel)\nA,5,mm,normal,2,0.02,1,0.01\n";
     assert!(import("b.csv", text.as_bytes()).is_err());
 }
+
+/// A last row that is the difference of the others with their combined uncertainty is the result, and what
+/// could be a sum or a difference is refused with both.
+#[test]
+fn results_that_are_differences() {
+    let sheet = |unit: &str, rows: &str| {
+        format!("Quantity,Reading,Unit,U (k=2)\n{}", rows.replace('@', unit))
+    };
+    let volts = sheet(
+        "V",
+        "Indication,10.002,@,0.002\nReference,10.000,@,0.001\nError of indication,0.002,@,0.0022\n",
+    );
+    let (_, budget) = uncertainties(&volts);
+    assert!(budget.text.contains("\"Indication + (-1)*Reference\""), "{}", budget.text);
+    assert!(guesses(&budget, "with the sign of `Reference` turned"));
+    // a difference of temperatures counts from no zero
+    let degrees = "Indication,100.3,@,0.02\nReference,100.0,@,0.01\nError,0.3,@,0.022\n";
+    let (_, budget) = uncertainties(&sheet("°C", degrees));
+    assert!(budget.text.contains("\"Error\":{\"unit\":\"K\"}"), "{}", budget.text);
+    for (text, said) in [
+        (volts.replace("0.0022", "0.005"), "can be the result or a quantity that is added"),
+        (
+            sheet("°C", "Reference,100.0,@,0.01\nIndication,100.3,@,0.02\n"),
+            "can be the sum of `Indication` and `Reference`, 200.3 °C, or their difference, 0.3 K",
+        ),
+        (sheet("°C", "inlet,20,@,0.01\noutlet,25,@,0.02\n"), "or their difference, -5 K"),
+        (
+            sheet("mV", "DUT reading,10.3,@,0.02\nRef.,10.3,@,0.01\nError,0.0,@,0.022\n"),
+            "can be the sum of `DUT_reading` and `Ref`, 20.6 mV, or their difference, 0 mV",
+        ),
+    ] {
+        let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains(said), "{text}: {error}");
+    }
+    // what corrects a temperature is small, and coefficients say what is meant
+    for text in [
+        sheet("°C", "t,20.3,@,0.02\ncorrection,0.2,@,0.01\n"),
+        "Quantity,Reading,Unit,U (k=2),c\nIndication,9,V,0.02,1\nReference,9,V,0.01,-1\n"
+            .to_owned(),
+    ] {
+        assert_eq!(uncertainties(&text).0, [0.01, 0.005], "{text}");
+    }
+}
