@@ -20,6 +20,7 @@ pub(crate) mod number;
 mod own;
 mod pint;
 mod rows;
+mod scaled;
 mod sheets;
 mod signs;
 mod stated;

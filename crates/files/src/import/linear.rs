@@ -71,7 +71,12 @@ impl Budget<'_> {
         let mut terms = Vec::new();
         match estimate {
             Some(estimate) if (estimate - sum).abs() > 1e-9 * estimate.abs().max(sum.abs()) => {
-                let constant = written(difference(estimate, sum));
+                let constant = difference(estimate, sum);
+                if let Some(result) = result {
+                    let of = (result, unit.as_str());
+                    self.scaled_coefficients(header, (rows, &factors), of, constant)?;
+                }
+                let constant = written(constant);
                 let what = if with == 0 { "" } else { ", times their coefficients," };
                 let turned = Self::sign_that_explains(rows, &factors, estimate - sum);
                 // the derivatives of a product leave a constant; a plain sum has none

@@ -82,7 +82,7 @@ impl Budget<'_> {
     }
 
     /// Half of a unit of the last digit of the number in a cell.
-    fn half_digit(&self, header: &Header, row: &Row, column: Column) -> f64 {
+    pub(super) fn half_digit(&self, header: &Header, row: &Row, column: Column) -> f64 {
         let text = without_factor(header.cell(self.cells, row.line, column).trim());
         let unit = number_with_unit(text, self.cells.decimal_comma()).map_or("", |(_, unit)| unit);
         half_digit(text.strip_suffix(unit).unwrap_or(text))

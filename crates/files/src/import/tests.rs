@@ -2051,3 +2051,46 @@ fn results_that_are_differences() {
         assert_eq!(uncertainties(&text).0, [0.01, 0.005], "{text}");
     }
 }
+
+/// A coefficient that a power of ten brings to the sheet's own estimate is in another unit, and no constant
+/// is added: both readings are told.
+#[test]
+fn coefficients_in_other_units_than_the_result() {
+    let length = "Quantity,Estimate,Unit,u,c\nL_s,100.0002,mm,0.00005,1\ndT,0.5,°C,0.1,1.15\n\
+                  L,100.000775,mm,,\n";
+    for (text, said) in [
+        (
+            length.to_owned(),
+            "the coefficient 1.15 of `dT` can be 1.15 mm/K, with which the constant -0.574425 is added to make \
+             the sheet's estimate 100.000775, or 0.00115 mm/K, with which there is none",
+        ),
+        (
+            "Quantity,Estimate,Unit,u,c\nm,100,g,0.02,9.81\nForce,0.981,N,,\n".to_owned(),
+            "can be 9.81 N/g, with which the constant -980.019 is added to make the sheet's estimate 0.981, or \
+             0.00981 N/g",
+        ),
+        // two coefficients in µm
+        (
+            length.replace("L,100.000775", "a,2,K,0.1,0.5\nL,100.001775"),
+            "with which there is none, and of `a` as well",
+        ),
+    ] {
+        let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains(said), "{text}: {error}");
+    }
+    // the unit of the coefficients tells
+    let stated = length
+        .replace("u,c\n", "u,c,Unit of c\n")
+        .replace(",1\n", ",1,1\n")
+        .replace(",1.15\n", ",1.15,µm/K\n")
+        .replace(",,\n", ",,,\n");
+    let budget = import("b.csv", stated.as_bytes()).unwrap();
+    assert!(budget.text.contains("L_s + (0.00115)*dT"), "{}", budget.text);
+    // derivatives of a product and of a quotient leave a constant
+    for text in [
+        "Quantity,Estimate,Unit,u,c\nV,10,V,0.01,2\nI,2,A,0.002,10\nP,20,W,,\n",
+        "Quantity,Estimate,Unit,u,c\nV,10,V,0.01,100\nI,0.01,A,0.00002,-100000\nR,1000,ohm,,\n",
+    ] {
+        assert!(import("b.csv", text.as_bytes()).is_ok(), "{text}");
+    }
+}
