@@ -210,10 +210,12 @@ impl Budget<'_> {
         match scale.filter(|_| !shifted) {
             Some(1.0) => Some(c),
             Some(scale) if row.sensitivity.is_none() => {
-                self.guessed.push(format!(
-                    "line {line}: `{}` in {} is converted to {unit}",
-                    row.name, row.unit
-                ));
+                let of = match row.unit.as_str() {
+                    "" => "without a unit".to_owned(),
+                    unit => format!("in {unit}"),
+                };
+                self.guessed
+                    .push(format!("line {line}: `{}` {of} is converted to {unit}", row.name));
                 Some(scale)
             }
             Some(scale) if (c.abs() / scale - 1.0).abs() < 1e-6 => Some(c),

@@ -348,6 +348,7 @@ impl Budget<'_> {
         let of_type = header.cell(self.cells, line, Column::Evaluation);
         row.is_type_a = columns::evaluation(of_type) == Some('A');
         if !lenient {
+            self.numbers_as_units(header, line);
             self.said_in_words(header, &mut row);
         }
         let has_limits = self.limits(header, &mut row, lenient).is_some();
@@ -1140,6 +1141,30 @@ impl Budget<'_> {
                 ));
                 String::new()
             }
+        }
+    }
+
+    /// Refuses a number in a column of units, where a cell before it is missing; powers of ten (`10^-6`) and
+    /// 1 are units of plain numbers.
+    fn numbers_as_units(&self, header: &Header, line: usize) {
+        for column in [Column::Unit, Column::UnitOfUncertainty, Column::UnitOfSensitivity] {
+            let text = header.cell(self.cells, line, column).trim();
+            let is_power = text.contains(['^', '⁻']);
+            let number = number::number(text, self.cells.decimal_comma());
+            if is_power || number.is_none_or(|number| number == 1.0) {
+                continue;
+            }
+            let (count, columns) = (self.cells.row(line).len(), header.width(self.cells));
+            let shorter = if count < columns {
+                format!("the row has {count} cells, the header {columns}: is a cell missing?")
+            } else {
+                "write the unit, or `1` for a plain number".to_owned()
+            };
+            let reason = format!(
+                "the number `{text}` stands in the column of the {}: {shorter}",
+                column.name()
+            );
+            return self.fail(line, reason);
         }
     }
 

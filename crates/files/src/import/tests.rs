@@ -2094,3 +2094,29 @@ fn coefficients_in_other_units_than_the_result() {
         assert!(import("b.csv", text.as_bytes()).is_ok(), "{text}");
     }
 }
+
+/// A number where a unit should stand is the next cell of a row that lacks one, and no unit.
+#[test]
+fn numbers_are_no_units() {
+    let text = "Quantity,Estimate,Unit,Standard uncertainty,Sensitivity\na,10,0.1,1\nb,5,0.2,2\n";
+    let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+    assert!(
+        error.contains(
+            "the number `0.1` stands in the column of the unit: the row has 4 cells, the header 5"
+        ),
+        "{error}"
+    );
+    let text = "Quantity,Estimate,Unit,Standard uncertainty\na,10,1,0.1\nb,5,2,0.2\n";
+    let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+    assert!(
+        error.contains("the number `2` stands in the column of the unit: write the unit"),
+        "{error}"
+    );
+    let text = "Quantity;Estimate;Unit;u;c;Unit of c\na;10;V;0,1;2,5\nb;5;V;0,1;1;3\n";
+    let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("column of the unit of the sensitivity coefficient"), "{error}");
+    // empty cells at the end may be left out
+    let text = "Quantity,Estimate,Unit,Standard uncertainty,Sensitivity\na,10,1,0.1\nb,5,%,0.2,2\n";
+    let (_, budget) = uncertainties(&text.replace(",2\n", "\n"));
+    assert!(guesses(&budget, "`a` without a unit is converted to %"), "{:?}", budget.guessed);
+}
