@@ -7,7 +7,9 @@ use gumption_engine::number::Shortest;
 use super::Budget;
 use super::columns::{Column, Header};
 use super::coverage::HeaderCoverage;
+use super::number::number;
 use super::rows::{Row, divisor_of, near};
+use super::stated::half_digit;
 use crate::value_text::with_plus_minus;
 
 /// How much of a shape a number spans.
@@ -91,6 +93,11 @@ fn unknown_word(text: &str) -> Option<&str> {
     words.into_iter().find(changes).or(sign).or_else(deviations)
 }
 
+/// A root as people write it, `√3`.
+fn root_of(root: f64) -> String {
+    format!("√{}", Shortest((root * root).round()))
+}
+
 /// A number of standard deviations as two words, `2 SD` or `2 s`: the number, and the second word.
 fn standard_deviations(text: &str) -> Option<(f64, &str)> {
     const WORDS: [&str; 7] = ["s", "sd", "sds", "std", "stdev", "stddev", "standard"];
@@ -105,9 +112,51 @@ fn standard_deviations(text: &str) -> Option<(f64, &str)> {
 }
 
 impl Budget<'_> {
+    /// Takes a divisor with few digits, 1.7, for the root that its row's shape has and that it is rounded
+    /// from. A whole number is a factor.
+    fn rounded_divisor(&mut self, header: &Header, row: &mut Row) {
+        let text = header.cell(self.cells, row.line, Column::Divisor).trim();
+        let is_fraction = text.contains(['.', ',']);
+        let stated = number(text, self.cells.decimal_comma()).filter(|_| is_fraction);
+        let Some((stated, usual)) = stated.zip(row.distribution.and_then(divisor_of)) else {
+            return;
+        };
+        let is_it = |of: &f64| (stated - of).abs() <= half_digit(text) && !near(stated, *of);
+        if let Some(root) = [usual, 2.0 * usual].into_iter().find(is_it) {
+            row.divisor = Some(root);
+            self.understood.push(format!(
+                "line {}: the divisor {text} is taken for {}, rounded",
+                row.line + 1,
+                root_of(root)
+            ));
+        }
+    }
+
+    /// Halves the width of a row whose divisor is that of a full width: the root of 12 in place of that of 3.
+    /// It is said as a guess where words speak of a half-width (`is_half`).
+    fn full_by_divisor(&mut self, header: &Header, row: &mut Row, is_half: bool) {
+        let usual = row.distribution.and_then(divisor_of);
+        let Some((width, usual)) = row.width.zip(usual) else { return };
+        if !row.divisor.is_some_and(|divisor| near(divisor, 2.0 * usual)) {
+            return;
+        }
+        let half = to_15_digits(0.5 * width);
+        row.width = Some(half);
+        row.divisor = Some(usual);
+        let text = header.cell(self.cells, row.line, Column::Divisor).trim();
+        let said = format!(
+            "line {}: the divisor `{text}` is that of a full width: half of {} is taken, {}",
+            row.line + 1,
+            Shortest(width),
+            Shortest(half)
+        );
+        if is_half { self.guessed.push(said) } else { self.understood.push(said) }
+    }
+
     /// Halves what the row's distribution or the heading of its uncertainty calls a full width; `between`
     /// says that the width is that of two limits.
     pub(super) fn extent(&mut self, header: &Header, row: &mut Row, between: bool) {
+        self.rounded_divisor(header, row);
         let text = header.cell(self.cells, row.line, Column::Distribution).trim().to_owned();
         let Some(width) = row.width.filter(|width| *width > 0.0 && !between) else { return };
         if let Some(word) = unknown_word(&text) {
@@ -144,7 +193,9 @@ impl Budget<'_> {
             }
             (Some(Extent::Full), _) => text,
             (_, Some(Extent::Full)) => heading,
-            _ => return,
+            (of_cell, of_heading) => {
+                return self.full_by_divisor(header, row, of_cell.or(of_heading).is_some());
+            }
         };
         let half = to_15_digits(0.5 * width);
         let usual = row.distribution.and_then(divisor_of);

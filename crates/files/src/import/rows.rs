@@ -1092,7 +1092,10 @@ impl Budget<'_> {
             let text = header.cell(self.cells, line, Column::Distribution);
             match NamedShape::of(text) {
                 Some(NamedShape::Known(shape)) => {
-                    divisor_of(shape).map(|divisor| near(divisor, 1.0 / factor))
+                    // also that of a full width
+                    let is_it =
+                        |usual: f64| [usual, 2.0 * usual].iter().any(|of| near(*of, 1.0 / factor));
+                    divisor_of(shape).map(is_it)
                 }
                 _ => None,
             }

@@ -2120,3 +2120,43 @@ fn numbers_are_no_units() {
     let (_, budget) = uncertainties(&text.replace(",2\n", "\n"));
     assert!(guesses(&budget, "`a` without a unit is converted to %"), "{:?}", budget.guessed);
 }
+
+/// A divisor of a full width is no reason to take a normal distribution, nor is one with few digits.
+#[test]
+fn divisors_of_full_widths_and_with_few_digits() {
+    for (shape, divisor, half, root) in [
+        ("rectangular", "2√3", 0.05, 3.0),
+        ("rectangular", "√12", 0.05, 3.0),
+        ("rectangular", "3.46", 0.05, 3.0),
+        ("rectangular", "3.464", 0.05, 3.0),
+        ("rectangular", "3.5", 0.05, 3.0),
+        ("rectangular", "1.7", 0.1, 3.0),
+        ("rectangular", "1.73", 0.1, 3.0),
+        ("rectangular", "1.732", 0.1, 3.0),
+        ("triangular", "2.4", 0.1, 6.0),
+        ("triangular", "2.45", 0.1, 6.0),
+        ("triangular", "4.9", 0.05, 6.0),
+        ("U-shaped", "1.4", 0.1, 2.0),
+    ] {
+        for heading in ["Uncertainty", "Half-width"] {
+            let text = format!(
+                "Quantity,Estimate,Unit,{heading},Distribution,Divisor\nres,10,V,0.1,{shape},{divisor}\n"
+            );
+            let (found, budget) = uncertainties(&text);
+            // a rounding of a root
+            assert!((found[0] / (half / f64::sqrt(root)) - 1.0).abs() < 1e-12, "{text}: {found:?}");
+            assert!(!budget.text.contains("normal"), "{text}: {}", budget.text);
+            assert_eq!(
+                guesses(&budget, "is that of a full width"),
+                half == 0.05 && heading != "Uncertainty"
+            );
+        }
+    }
+    let text =
+        "Quantity,Estimate,Unit,Uncertainty,Distribution,Factor\nres,10,V,0.1,rectangular,0.289\n";
+    assert!((uncertainties(text).0[0] / 0.0288675 - 1.0).abs() < 1e-5);
+    // a whole number is another factor
+    let text =
+        "Quantity,Estimate,Unit,Uncertainty,Distribution,Divisor\nres,10,V,0.1,rectangular,2\n";
+    assert_eq!(uncertainties(text).0, [0.05]);
+}
