@@ -5,7 +5,7 @@
 
 mod both;
 pub(crate) mod columns;
-mod concise;
+pub(crate) mod concise;
 pub(crate) mod coverage;
 mod cut;
 mod document;

@@ -52,7 +52,8 @@ impl Reader<'_> {
             };
             let name = self.heading(place);
             self.fail(format!(
-                "the column `{name}` does not belong to a table of {table}, which has {names}"
+                "the column `{name}` does not belong to a table of {table}, which has {names}: take it out, \
+                 or write `#` before its words"
             ));
             return None;
         }

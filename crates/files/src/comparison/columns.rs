@@ -4,6 +4,7 @@ use super::headings::{self, Role, Said, UnitOfHeading};
 use super::numbers::Numbers;
 use crate::DiagnosticKind;
 use crate::column_heading;
+use crate::import::columns;
 use crate::import::coverage::HeaderCoverage;
 use gumption_engine::task::Warning;
 
@@ -51,6 +52,15 @@ impl Columns {
             }
         }
         let heading = |place: usize| headings.get(place).map_or("", String::as_str);
+        // a nominal value tells which point is meant where results stand beside it
+        let is_value = |role: Role| matches!(role, Role::Value(_));
+        let is_nominal = |(role, _, place): &(Role, bool, usize)| {
+            is_value(*role) && columns::is_nominal(heading(*place))
+        };
+        let mut nominal = Vec::new();
+        if found.iter().any(|of| is_value(of.0) && !is_nominal(of)) {
+            nominal.extend(found.extract_if(.., |of| is_nominal(of)).map(|(_, _, place)| place));
+        }
         let mut roles: Vec<(Role, usize)> = Vec::new();
         for &(role, is_symbol, place) in &found {
             let others: Vec<&(Role, bool, usize)> =
@@ -105,6 +115,7 @@ impl Columns {
                 heading(*place)
             ));
         }
+        let others = [others, nominal].concat();
         if !others.is_empty() {
             let mut places = others;
             places.sort_unstable();

@@ -93,6 +93,27 @@ const SYMBOLS: [&str; 16] = [
     "Mittelwert",
 ];
 
+/// Whether the label of a row is that of a reference value; `Reference laboratory` is a laboratory.
+pub(super) fn is_reference(label: &str) -> bool {
+    const REFERENCES: [&str; 14] = [
+        "reference",
+        "ref",
+        "reference value",
+        "ref. value",
+        "ref value",
+        "assigned value",
+        "kcrv",
+        "x_ref",
+        "xref",
+        "referenz",
+        "referenzwert",
+        "bezugswert",
+        "référence",
+        "valeur de référence",
+    ];
+    REFERENCES.contains(&columns::plain(label).as_str())
+}
+
 /// What a heading says.
 pub(super) fn said(heading: &str) -> Said {
     let name = name(heading);

@@ -142,6 +142,15 @@ struct Reader<'a> {
     options: ComparisonOptions<'a>,
 }
 
+/// Why a row of a reference value is refused in a table of laboratories: it would be averaged with them.
+fn reference_or_laboratory(name: &str) -> String {
+    format!(
+        "`{name}` can be the value that the laboratories are compared with, or one of them: write the former \
+         beside each result, in a table of pairs (label, x1, U1, x2, U2), and give the latter the name of \
+         its laboratory"
+    )
+}
+
 /// A result in the units of its cells.
 struct InUnits {
     value: Number,
@@ -258,6 +267,10 @@ impl Reader<'_> {
         let mut laboratories: Vec<Laboratory> = Vec::new();
         for row in self.rows() {
             let Some(name) = self.label(row, label) else { continue };
+            if headings::is_reference(&name) {
+                self.fail_at(self.numbers.table.place(row, label), reference_or_laboratory(&name));
+                continue;
+            }
             if self.is_without_result(row, &name) {
                 continue;
             }

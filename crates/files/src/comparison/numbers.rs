@@ -6,11 +6,13 @@ use super::sheet;
 use crate::DiagnosticKind;
 use crate::diagnostics::Collector;
 use crate::import::columns::without_in;
+use crate::import::concise::concise;
 use crate::import::number::{self, without_groups, written};
 use crate::separator::{DecimalMarks, Separator};
 use crate::text_table::TextTable;
 use crate::value_text::{decimal_comma, grouped_digits, is_comma, power_of_last_digit};
 use gumption_engine::decimal::{Decimal, to_position};
+use gumption_engine::number::Shortest;
 use gumption_units::Unit;
 
 /// A number as it stands in a cell.
@@ -99,6 +101,14 @@ impl<'a> Numbers<'a> {
         }
         let parsed = (!unit.is_empty()).then(|| self.log.unit(unit)).transpose();
         let Ok(parsed) = parsed else {
+            if let Some((_, std, _)) = concise(text, with_commas) {
+                fail(format!(
+                    "`{text}` is an estimate with its standard uncertainty, {}: write the estimate alone, and \
+                     the uncertainty into a column `u`",
+                    Shortest(std)
+                ));
+                return None;
+            }
             match grouped_digits(unit) {
                 Some(reason) => fail(reason),
                 None => no_number(),

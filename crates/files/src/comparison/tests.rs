@@ -97,6 +97,16 @@ fn mistakes_have_places() {
         ("label,x,U\na,1,1\n", "at least two laboratories"),
         ("label,x,U\na,1,1\na,2,1\n", "a second time"),
         ("label,x,U\na,1,0\nb,2,1\n", "t.csv:2:5:"),
+        (
+            "label,x,U\na,10.00(5),0.1\nb,2,1\n",
+            "`10.00(5)` is an estimate with its standard uncertainty, 0.05: write the estimate alone",
+        ),
+        (
+            "Lab,Value,U\nReference,10,0.02\nB,1,1\nC,1,1\n",
+            "t.csv:2:1: `Reference` can be the value",
+        ),
+        ("Lab,Value,U\nB,1,1\nRef.,10,0.02\nC,1,1\n", "t.csv:3:1: `Ref.` can be the value"),
+        ("label,x1,U1,x2,U2,Value\na,1,1,2,1,2\n", "take it out, or write `#` before its words"),
         ("label,x,U\na,1\n", "t.csv:2:1:"),
         ("", "the table is empty"),
     ];
@@ -443,4 +453,20 @@ fn values_from_two_zeros_are_asked() {
         let errors = read(table).unwrap_err().to_string();
         assert!(errors.contains(both), "{errors}");
     }
+}
+
+/// Nominal values beside results are not read, and a pilot or a reference laboratory is a laboratory.
+#[test]
+fn nominal_values_and_reference_laboratories() {
+    for text in [
+        "label,nominal,x1,U1,x2,U2\na,10,1,1,2,1\n",
+        "label,nominal,Value,U\na,10,1,1\nb,10,2,1\n",
+        "label,Nominal value,x,U\na,10,1,1\nb,10,2,1\n",
+    ] {
+        let read = noted(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        let said: Vec<&str> = read.warnings.iter().map(|of| of.text.as_str()).collect();
+        assert!(said.len() == 1 && said[0].to_lowercase().contains("nominal"), "{text}: {said:?}");
+    }
+    let found = laboratories("label,x,U\nPilot,10,1\nReference laboratory,10,1\n");
+    assert_eq!(found.len(), 2);
 }

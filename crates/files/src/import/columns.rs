@@ -439,7 +439,7 @@ pub(super) fn is_standard_symbol(heading: &str) -> bool {
 }
 
 /// Whether a heading speaks of nominal values.
-fn is_nominal(heading: &str) -> bool {
+pub(crate) fn is_nominal(heading: &str) -> bool {
     let words = plain(heading);
     ["nominal", "nennwert", "valeur nominale"].iter().any(|of| words.starts_with(of))
 }

@@ -13,7 +13,7 @@ use crate::value_text::with_exponents;
 
 /// The number, its standard uncertainty and the unit behind both; `None` of other texts. A power of ten may
 /// follow the parenthesis, `1.5(3)e-3 V` or `1.5(3)×10⁻³ V`.
-pub(super) fn concise(text: &str, decimal_comma: bool) -> Option<(f64, f64, &str)> {
+pub(crate) fn concise(text: &str, decimal_comma: bool) -> Option<(f64, f64, &str)> {
     let text = text.trim();
     let written = with_exponents(text);
     let (digits, rest) = written.split_once('(')?;
@@ -28,7 +28,7 @@ pub(super) fn concise(text: &str, decimal_comma: bool) -> Option<(f64, f64, &str
     // half of a unit of the last digit of the number
     let std = number(inside, false).filter(|_| is_written)? * 2.0 * half_digit(&digits);
     let std = if power == 0 { std } else { to_15_digits(std) };
-    let unit = text.get(text.len() - unit.trim().len()..)?;
+    let unit = text.get(text.len().checked_sub(unit.trim().len())?..)?;
     // any other power of ten is none
     let is_unit = !unit.starts_with(['e', 'E', '·', '×', '*', '(']);
     is_unit.then_some((value, std, unit))
