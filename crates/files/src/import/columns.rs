@@ -774,8 +774,11 @@ impl Header {
             let mut unknown = Vec::new();
             for (place, cell) in headings.iter().enumerate() {
                 // `X_i` and `x_i` side by side: the quantity and its estimate
+                // and beside the names of quantities where it has numbers
                 let is_estimate = matches!(cell.trim(), "x_i" | "xi")
-                    && columns.iter().any(|(_, known)| *known == Column::Symbol);
+                    && (columns.iter().any(|(_, known)| *known == Column::Symbol)
+                        || place_of(&columns, Column::Quantity).is_some()
+                            && has_numbers_alone(cells, line, place));
                 // `u` beside what is divided is the quotient
                 let width = columns.iter_mut().find(|(_, known)| *known == Column::Width);
                 let mut found = if is_estimate { Some(Column::Estimate) } else { column(cell) };
@@ -1382,6 +1385,14 @@ impl Header {
     pub(super) fn unit(&self, column: Column) -> Option<&str> {
         self.units.iter().find(|(of, _)| *of == column).map(|(_, unit)| unit.as_str())
     }
+}
+
+/// Whether a column has numbers below a line, and nothing else.
+fn has_numbers_alone(cells: &Cells, line: usize, place: usize) -> bool {
+    let texts = (line + 1..cells.lines()).map(|line| cells.text(line, place).trim());
+    let mut held = texts.filter(|text| !super::rows::is_empty(text)).peekable();
+    let comma = cells.decimal_comma();
+    held.peek().is_some() && held.all(|text| number_with_unit(text, comma).is_some())
 }
 
 /// The headings of a line and the one before, which heads several of its columns together (`Uncertainty`

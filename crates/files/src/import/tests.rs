@@ -1940,6 +1940,8 @@ fn estimates_under_weak_words() {
     for heading in [
         "x",
         "X",
+        "xi",
+        "x_i",
         "x / V",
         "x_i / V",
         "Average",
