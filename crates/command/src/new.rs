@@ -54,7 +54,9 @@ impl New {
         if missing.is_empty()
             && let Err(found) = program.files().check_text("the new file", &text, Path::new(""))
         {
-            let unit = found.0.iter().find_map(|found| self.unit_needed(&found.kind));
+            let units: Option<Vec<String>> =
+                found.0.iter().map(|found| self.unit_needed(&found.kind)).collect();
+            let unit = units.and_then(|units| units.into_iter().next());
             return Err(unit.map_or(Failure::Diagnostics(found), Failure::Argument));
         }
         let name = self.output.as_ref().map_or_else(String::new, |path| path.display().to_string());
