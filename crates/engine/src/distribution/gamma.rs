@@ -116,6 +116,9 @@ struct LogarithmKernel<'a> {
 impl Kernel for LogarithmKernel<'_> {
     type Output = ();
 
+    // drawn for beta distributions and small shapes only
+    const WIDEST: bool = false;
+
     #[inline(always)]
     fn run(self) {
         let Self { shape, stream, out } = self;
