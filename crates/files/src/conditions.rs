@@ -233,18 +233,7 @@ fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<
     object.check_keys(keys::TABLE_OF_CONDITIONS);
     let log = object.log;
     let name = object.text("file")?;
-    let wanted = object.get("columns").and_then(|member| match &member.value.value {
-        Json::List(nodes) => Some(
-            nodes
-                .iter()
-                .filter_map(|node| match &node.value {
-                    Json::Text(name) => Some(name.as_str()),
-                    _ => None,
-                })
-                .collect::<Vec<&str>>(),
-        ),
-        _ => None,
-    });
+    let wanted = object.get("columns").map(|member| member.value.texts());
     let table = table::read(log, folder, name, &file.value.span, wanted.as_deref());
     let units = match object.get("units") {
         Some(member) => Object::new(log, "`units`", &member.value, &member.key_span),

@@ -62,15 +62,15 @@ impl Node {
     }
 
     /// All texts in it and all keys of its objects.
-    pub(crate) fn texts<'n>(&'n self, found: &mut Vec<&'n str>) {
+    pub(crate) fn texts(&self) -> Vec<&str> {
         match &self.value {
-            Json::Text(text) => found.push(text),
-            Json::List(nodes) => nodes.iter().for_each(|node| node.texts(found)),
-            Json::Object(members) => members.iter().for_each(|member| {
-                found.push(&member.key);
-                member.value.texts(found);
-            }),
-            Json::Null | Json::Bool(_) | Json::Number(_) => {}
+            Json::Text(text) => vec![text],
+            Json::List(nodes) => nodes.iter().flat_map(Self::texts).collect(),
+            Json::Object(members) => members
+                .iter()
+                .flat_map(|of| [vec![of.key.as_str()], of.value.texts()].concat())
+                .collect(),
+            Json::Null | Json::Bool(_) | Json::Number(_) => Vec::new(),
         }
     }
 }

@@ -250,10 +250,8 @@ impl<'a> ModelReader<'a> {
     fn data(&self) -> Option<Data> {
         let (root, log) = (&self.root, self.root.log);
         // columns that nothing names may hold remarks
-        let mut named = Vec::new();
-        for key in ["observations", "conditions"] {
-            root.get(key).into_iter().for_each(|member| member.value.texts(&mut named));
-        }
+        let named = ["observations", "conditions"].into_iter().filter_map(|key| root.get(key));
+        let named: Vec<&str> = named.flat_map(|member| member.value.texts()).collect();
         let observations =
             root.get("observations").map(|m| observations::read(log, m, self.folder, &named));
         let unobserved = matches!(observations, Some(None));

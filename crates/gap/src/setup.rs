@@ -294,10 +294,10 @@ fn curved_effects(
     let mut largest = vec![0.0; data.outputs.len()];
     let row = point.rows.first().and_then(|&row| case.task.rows.get(data.ids[row]));
     let Some(row) = row.filter(|_| deviation > 0.0) else { return largest };
-    let at = row.estimates();
+    let mut at = row.estimates();
+    let estimate = at[variable];
     for tried in TRIED {
-        let mut at = at.clone();
-        at[variable] += tried * deviation;
+        at[variable] = estimate + tried * deviation;
         let values = case.task.model.program.evaluate(&at);
         for (place, (largest, &output)) in largest.iter_mut().zip(&data.outputs).enumerate() {
             let change = (values[output] - point.nominal[place]).abs() / TRIED[1];

@@ -222,7 +222,8 @@ impl Leaf {
         place: Option<i32>,
         look: Look,
     ) -> Result<(), XlsxError> {
-        let format = format(place, value, look);
+        let shown = place.map(|place| shown(place, Some(value)));
+        let format = format(shown.as_deref(), look);
         if value.is_finite() {
             self.worksheet.write_number_with_format(row, column, value, &format)?;
         } else {
@@ -239,7 +240,7 @@ impl Leaf {
         value: f64,
         shown: &str,
     ) -> Result<(), XlsxError> {
-        let format = format(None, f64::NAN, Look::Plain).set_num_format(shown);
+        let format = format(Some(shown), Look::Plain);
         self.worksheet.write_number_with_format(row, column, value, &format)?;
         self.widen(column, 12);
         Ok(())
@@ -253,7 +254,7 @@ impl Leaf {
         now: f64,
         shown: &str,
     ) -> Result<(), XlsxError> {
-        let format = format(None, f64::NAN, Look::Plain).set_num_format(shown);
+        let format = format(Some(shown), Look::Plain);
         let formula = Formula::new(format!("={formula}")).set_result(format!("{now:?}"));
         self.worksheet.write_formula_with_format(row, column, formula, &format)?;
         self.widen(column, 12);
@@ -283,12 +284,7 @@ impl Leaf {
         text: &str,
         look: Look,
     ) -> Result<(), XlsxError> {
-        self.worksheet.write_string_with_format(
-            row,
-            column,
-            text,
-            &format(None, f64::NAN, look),
-        )?;
+        self.worksheet.write_string_with_format(row, column, text, &format(None, look))?;
         Ok(())
     }
 
@@ -307,12 +303,9 @@ impl Leaf {
             Cached::Text(text) => text.clone(),
         };
         let formula = Formula::new(format!("={formula}")).set_result(cached);
-        self.worksheet.write_formula_with_format(
-            row,
-            column,
-            formula,
-            &format(place, f64::NAN, look),
-        )?;
+        let shown = place.map(|place| shown(place, None));
+        let format = format(shown.as_deref(), look);
+        self.worksheet.write_formula_with_format(row, column, formula, &format)?;
         self.widen(column, 12);
         Ok(())
     }
@@ -377,30 +370,31 @@ fn decimals(text: &str) -> Option<i32> {
     Some(exponent.parse::<i32>().ok()? - i32::try_from(decimals).ok()?)
 }
 
-/// The format of a cell with a value, not a number where that is not known, whose last digit that is
-/// shown has a place.
-fn format(place: Option<i32>, value: f64, look: Look) -> Format {
-    let format = Format::new().set_align(FormatAlign::Right);
-    let format = match place {
-        None => format,
-        Some(place @ 1..) if place <= MOST_DECIMALS => format.set_num_format("0"),
-        Some(0) => format.set_num_format("0"),
-        Some(place) if (-MOST_DECIMALS..0).contains(&place) => {
-            format.set_num_format(format!("0.{}", "0".repeat(place.unsigned_abs() as usize)))
-        }
-        Some(place) => {
+/// How a number is shown whose last digit has a place, by its value where that is known.
+fn shown(place: i32, value: Option<f64>) -> String {
+    let zeros = |count: i32| "0".repeat(count.unsigned_abs() as usize);
+    match place {
+        0..=MOST_DECIMALS => "0".to_owned(),
+        _ if (-MOST_DECIMALS..0).contains(&place) => format!("0.{}", zeros(place)),
+        _ => {
             // as many digits as there are, in plain decimals where that is readable
-            let leading = position(value, 1).unwrap_or(place);
+            let leading = value.and_then(|value| position(value, 1)).unwrap_or(place);
             let digits = leading.saturating_sub(place).clamp(3, MOST_DIGITS - 1);
-            let zeros = |count: i32| "0".repeat(count.unsigned_abs() as usize);
-            format.set_num_format(match digits - leading {
-                decimals if place < 0 && (-3..MOST_DECIMALS).contains(&leading) => {
-                    format!("0.{}", zeros(decimals))
-                }
-                _ => format!("0.{}E+00", zeros(digits)),
-            })
+            if place < 0 && (-3..MOST_DECIMALS).contains(&leading) {
+                format!("0.{}", zeros(digits - leading))
+            } else {
+                format!("0.{}E+00", zeros(digits))
+            }
         }
-    };
+    }
+}
+
+/// The format of a cell, whose number is shown in that way where one is given.
+fn format(shown: Option<&str>, look: Look) -> Format {
+    let mut format = Format::new().set_align(FormatAlign::Right);
+    if let Some(shown) = shown {
+        format = format.set_num_format(shown);
+    }
     match look {
         Look::Plain => format,
         Look::Input => {

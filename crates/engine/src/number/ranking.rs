@@ -1,4 +1,5 @@
-//! Sorting by a number that goes with each element: one compiled sort for whatever is sorted.
+//! Sorting by a number that goes with each element: one compiled sort for whatever is sorted, places and
+//! counts among it, which are exact as numbers.
 
 /// Sorts from the smallest number to the largest; equal ones keep their order. Numbers compare as
 /// [`f64::total_cmp`] does.

@@ -98,8 +98,8 @@ impl Conformity {
                 None => of_trials.or_else(|| ErrorLaw::normal(u).guard_band(risk, limits)),
             },
         };
-        let acceptance = guard_band.and_then(|width| tolerance.narrowed(width));
-        let accepted = guard_band.and_then(|width| Tolerance::between(limits).narrowed(width));
+        let [acceptance, accepted] = [tolerance, Tolerance::between(limits)]
+            .map(|limits| guard_band.and_then(|width| limits.narrowed(width)));
         let located = on_branch(figures.location());
         let estimate = stated.map_or(located, |stated| on_branch(stated.value));
         let global = inspection.as_ref().zip(accepted).map(|(of, to)| of.risks(to.ends()));
@@ -207,8 +207,8 @@ impl Conformity {
             (Some(risk), Some(inspection)) => inspection.guard_band(risk),
             (Some(risk), None) => law.guard_band(risk, limits),
         };
-        let acceptance = guard_band.and_then(|width| tolerance.narrowed(width));
-        let accepted = guard_band.and_then(|width| Tolerance::between(limits).narrowed(width));
+        let [acceptance, accepted] = [tolerance, Tolerance::between(limits)]
+            .map(|limits| guard_band.and_then(|width| limits.narrowed(width)));
         let share = turns::share(law, estimate, limits, output.period);
         let global = inspection.as_ref().zip(accepted).map(|(of, to)| of.risks(to.ends()));
         Some(Self {

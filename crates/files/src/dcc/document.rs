@@ -318,10 +318,10 @@ fn texts<'d>(
     for other in elements {
         let again = words(other);
         let count = found.len().max(again.len());
-        let both =
-            spread(found.clone(), Some(count)).len() == spread(again.clone(), Some(count)).len();
-        let pairs = found.iter().cycle().zip(again.iter().cycle()).take(count);
-        if !both || pairs.into_iter().any(|(a, b)| !is_same(a, b)) {
+        let both = [&found, &again].map(|words| spread(words.clone(), Some(count)));
+        let are_same = both[0].len() == both[1].len()
+            && both[0].iter().zip(&both[1]).all(|(a, b)| is_same(a, b));
+        if !are_same {
             let shown = |words: &[String]| -> String { words.join(" ").chars().take(40).collect() };
             let reason = format!(
                 "`{}` is `{}` and, here, `{}` of the same value: ask which is right",

@@ -27,6 +27,8 @@ const MAX_KNOWN: usize = 12;
 pub(super) struct Checked {
     /// What is known about each node.
     pub(super) typings: Vec<Typing>,
+    /// The value of every node that depends on no name and has no unit.
+    pub(super) constants: Vec<Option<f64>>,
     /// The mistakes, in the order in which the nodes stand.
     pub(super) errors: Vec<FormulaError>,
 }
@@ -40,11 +42,14 @@ pub(super) fn check(text: &str, tree: &Tree, scope: &Scope, units: bool) -> Chec
         scope,
         units,
         fractions: fractions(text, tree),
-        constants: constants(tree),
         ties: Vec::with_capacity(tree.nodes.len()),
         level_parts: Vec::with_capacity(tree.nodes.len()),
         reported: HashSet::new(),
-        done: Checked { typings: Vec::with_capacity(tree.nodes.len()), errors: Vec::new() },
+        done: Checked {
+            typings: Vec::with_capacity(tree.nodes.len()),
+            constants: constants(tree),
+            errors: Vec::new(),
+        },
     };
     for (index, node) in tree.nodes.iter().enumerate() {
         let (typing, tie) = checker.node(index, node);
@@ -70,8 +75,6 @@ pub(super) struct Checker<'c> {
     scope: &'c Scope,
     units: bool,
     fractions: Vec<Option<Fraction>>,
-    /// The value of every node that depends on no name and has no unit.
-    pub(super) constants: Vec<Option<f64>>,
     /// How every node hangs on a zero.
     pub(super) ties: Vec<Tie>,
     /// What every node is in the making of a level.
@@ -539,7 +542,7 @@ impl<'c> Checker<'c> {
 
     /// The value of a node that is a plain number written out.
     pub(super) fn constant(&self, index: usize) -> Option<f64> {
-        self.constants.get(index).copied().flatten()
+        self.done.constants.get(index).copied().flatten()
     }
 
     /// Whether a node is a rational number written out.

@@ -213,7 +213,7 @@ impl Formula {
     }
 
     fn checked(&self, scope: &Scope, units: bool) -> Result<Typing, Vec<FormulaError>> {
-        let dimension::Checked { typings, mut errors } =
+        let dimension::Checked { typings, constants, mut errors } =
             dimension::check(&self.text, &self.tree, scope, units);
         if scope.has_complex() {
             errors.extend(complexity::complexity(&self.text, &self.tree, scope).1);
@@ -222,7 +222,7 @@ impl Formula {
             errors.extend(brackets::misread(&self.text, &self.tree, scope));
         }
         if errors.is_empty() {
-            errors.extend(undefined::constant_part(&self.text, &self.tree));
+            errors.extend(undefined::constant_part(&self.text, &self.tree, &constants));
         }
         if errors.is_empty() {
             return Ok(typings.last().copied().unwrap_or(Typing::ANY));

@@ -2,20 +2,22 @@
 //! finite result, and none could say which operation it fails at.
 
 use super::error::FormulaError;
-use super::evaluate::constants;
 use super::function::Function;
 use super::message::excerpt;
 use super::syntax::{Kind, Tree};
 
 /// The first such part; none of a formula with a branch that need not be taken.
-pub(super) fn constant_part(text: &str, tree: &Tree) -> Option<FormulaError> {
+pub(super) fn constant_part(
+    text: &str,
+    tree: &Tree,
+    constants: &[Option<f64>],
+) -> Option<FormulaError> {
     let is_branch = |kind: &Kind| matches!(kind, Kind::Call { function: Some(Function::If), .. });
     if tree.nodes.iter().any(|node| is_branch(&node.kind)) {
         return None;
     }
     // operands stand before what is made of them
-    let known = constants(tree).into_iter().zip(&tree.nodes);
-    known.into_iter().find_map(|(value, node)| {
+    constants.iter().zip(&tree.nodes).find_map(|(value, node)| {
         let value = value.filter(|value| !value.is_finite())?;
         let (part, span) = (excerpt(text, node.span.clone()), node.span.clone());
         Some(FormulaError::ConstantUndefined { part, is_infinite: value.is_infinite(), span })
