@@ -107,6 +107,9 @@ impl Covariance {
                 }));
             }
         }
+        if let Some(shared) = &data.noise.shared {
+            basis.extend(shared.columns(case, data));
+        }
         basis.retain(|column| column.iter().any(|value| *value != 0.0));
         let variances = (0..rows * outputs)
             .map(|n| blocks[at(n / outputs, n % outputs, n % outputs)])

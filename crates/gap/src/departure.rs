@@ -4,6 +4,8 @@
 use super::diagnosis::{DepartureForm, DepartureKind, DepartureOver, DepartureShape};
 use super::discrepancy::{Of, Term, Weighted};
 use super::noise_model::Weighing;
+use super::posterior::Posterior;
+use super::shared_noise::Setting;
 use super::shrink;
 use super::weighed::names;
 use gumption_engine::number::{elementary, largest_first, smallest_first};
@@ -21,14 +23,20 @@ const WIGGLE: f64 = 0.2;
 /// The departure jumps where so much of its change lies within so much of the range.
 const JUMP: [f64; 2] = [0.75, 0.12];
 
-/// The probability of "unexplained" over all noises.
+/// The probability of "unexplained" over all noises, of what has a pattern.
 pub(crate) fn probability(weighings: &[Weighing<'_>]) -> f64 {
     weighings.iter().map(share).sum()
 }
 
-/// The probability of a noise with "unexplained".
+/// The probability of a noise with "unexplained", and with a pattern in what is.
 fn share(weighing: &Weighing<'_>) -> f64 {
-    weighing.probability * weighing.posterior.probability
+    let Posterior { probability, of_settings, .. } = weighing.posterior;
+    weighing.probability * (probability - of_settings).max(0.0)
+}
+
+/// The probability that the departure is an error of each setting.
+fn of_settings(weighing: &Weighing<'_>) -> f64 {
+    weighing.probability * weighing.posterior.of_settings
 }
 
 /// The place of the noise with which "unexplained" is most probable.
@@ -40,11 +48,73 @@ pub(crate) fn leading(weighings: &[Weighing<'_>]) -> usize {
 /// The forms, most probable first; their probabilities sum to that of "unexplained", apart from what
 /// is left out.
 pub(crate) fn forms(weighings: &[Weighing<'_>]) -> Vec<DepartureForm> {
-    let unexplained = probability(weighings);
-    let Some(weighing) = weighings.get(leading(weighings)) else { return Vec::new() };
-    if unexplained <= WORTH_TELLING {
+    let in_all: f64 = weighings.iter().map(of_settings).sum();
+    if probability(weighings) + in_all <= WORTH_TELLING {
         return Vec::new();
     }
+    let mut forms = with_pattern(weighings);
+    forms.extend(errors_of_settings(weighings));
+    largest_first(&mut forms, |form| form.probability);
+    forms
+}
+
+/// Errors of each setting of a condition, or of all together.
+fn errors_of_settings(weighings: &[Weighing<'_>]) -> Vec<DepartureForm> {
+    let mut forms: Vec<(Setting, DepartureForm)> = Vec::new();
+    for weighing in weighings {
+        let setup = &weighing.setup;
+        let Some(shared) = &setup.data.noise.shared else { continue };
+        let probability = of_settings(weighing);
+        let acts: Vec<usize> =
+            (0..shared.ratios.len()).filter(|&output| shared.ratios[output] > 0.0).collect();
+        let output = |place: usize| &setup.case.model.outputs[setup.data.outputs[place]].quantity;
+        let Some(&first) = acts.first() else { continue };
+        let size = shared.deviation(&setup.data, first);
+        let outputs: Vec<String> = acts.iter().map(|&place| output(place).name.clone()).collect();
+        let same = |(setting, form): &&mut (Setting, DepartureForm)| {
+            *setting == shared.setting && form.outputs == outputs
+        };
+        if let Some((_, known)) = forms.iter_mut().find(same) {
+            let both = known.probability + probability;
+            if both > 0.0 {
+                known.size = (known.size * known.probability + size * probability) / both;
+            }
+            known.probability = both;
+            continue;
+        }
+        let form = DepartureForm {
+            outputs,
+            kind: DepartureKind::Additive,
+            common: false,
+            over: match shared.setting {
+                Setting::Condition(c) => {
+                    DepartureOver::Condition(setup.case.model.conditions[c].name.clone())
+                }
+                Setting::All => DepartureOver::AllConditions,
+            },
+            shape: DepartureShape::Settings,
+            scale: None,
+            logarithmic: false,
+            scale_unit: String::new(),
+            size,
+            unit: output(first).unit.text().to_owned(),
+            beside: Vec::new(),
+            probability,
+        };
+        forms.push((shared.setting, form));
+    }
+    let total: f64 = weighings.iter().map(|w| w.probability * w.posterior.probability).sum();
+    forms
+        .into_iter()
+        .map(|(_, form)| form)
+        .filter(|form| form.probability >= LEAST_SHARE * total)
+        .collect()
+}
+
+/// Those that are functions of the conditions or of the sim.
+fn with_pattern(weighings: &[Weighing<'_>]) -> Vec<DepartureForm> {
+    let unexplained = probability(weighings);
+    let Some(weighing) = weighings.get(leading(weighings)) else { return Vec::new() };
     let kinds = &weighing.posterior.unexplained.kinds;
     let total: f64 = kinds.iter().map(|kind| kind.weight).sum();
     let mut groups: Vec<Vec<&Weighted>> = Vec::new();
@@ -61,7 +131,6 @@ pub(crate) fn forms(weighings: &[Weighing<'_>]) -> Vec<DepartureForm> {
     }
     let weight = |group: &[&Weighted]| group.iter().map(|kind| kind.weight).sum::<f64>() / total;
     groups.retain(|group| weight(group) >= LEAST_SHARE);
-    largest_first(&mut groups, |group| weight(group));
     groups.iter().map(|group| form(weighing, group, unexplained * weight(group))).collect()
 }
 

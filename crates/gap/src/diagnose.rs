@@ -8,7 +8,7 @@ use super::departure_prediction;
 use super::diagnosis::{
     DescribedEffect, Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, HypothesisKind,
     NamedQuantity, NextMeasurements, NoiseEstimate, Predicted, RowGap, SerialCorrelation,
-    SuspectValue, UncertaintyFactor,
+    SettingError, SuspectValue, UncertaintyFactor,
 };
 use super::discrepancy::Discrepancy;
 use super::goodness_of_fit::{gap, plus_rows};
@@ -19,6 +19,7 @@ use super::parameters::{equal_tails, parameters, present};
 use super::posterior::{Effort, Posterior};
 use super::prior_widths::{self, OtherPriors};
 use super::setup::Setup;
+use super::shared_noise::Setting;
 use super::weighed::{Weighed, names, rival};
 use super::weighed_noise::WeighedNoise;
 use super::{next, predict, prior_conflict, replication, scan, shrink, strength};
@@ -403,7 +404,23 @@ fn noise(
                 interval: equal_tails(draws, coverage),
                 probability: *probability,
             });
-            NoiseEstimate { output, estimated, factor, suspects, serial }
+            let settings = weighed.settings.get(output).and_then(Option::as_ref).map(|of| {
+                let estimate = of.ratios.iter().map(|(ratio, weight)| ratio * weight).sum();
+                SettingError {
+                    condition: match of.setting {
+                        Setting::Condition(c) => {
+                            setup.case.model.conditions.get(c).map(|known| known.name.clone())
+                        }
+                        Setting::All => None,
+                    },
+                    is_per_value: of.setting.is_per_value(setup.case, data),
+                    estimate,
+                    interval: equal_tails(&of.ratios, coverage),
+                    standard_deviation: estimate * of.typical,
+                    probability: of.probability,
+                }
+            });
+            NoiseEstimate { output, estimated, factor, suspects, serial, settings }
         })
         .collect()
 }

@@ -450,12 +450,21 @@ pub struct NoiseEstimate {
     pub suspects: Vec<SuspectValue>,
     /// Noise that neighbouring rows share.
     pub serial: Option<SerialCorrelation>,
+    /// An error that the rows of each setting share.
+    pub settings: Option<SettingError>,
 }
 
 impl NoiseEstimate {
     /// Of the output with this index, with nothing known of it.
     pub fn new(output: usize) -> Self {
-        Self { output, estimated: None, factor: None, suspects: Vec::new(), serial: None }
+        Self {
+            output,
+            estimated: None,
+            factor: None,
+            suspects: Vec::new(),
+            serial: None,
+            settings: None,
+        }
     }
 }
 
@@ -499,6 +508,25 @@ pub struct SerialCorrelation {
     pub estimate: f64,
     /// Coverage interval with equal tails, given that there is one.
     pub interval: [f64; 2],
+    /// Probability that there is one.
+    pub probability: f64,
+}
+
+/// An error of each setting, the same in all its rows (JCGM 100, H.5): rows that follow each other with
+/// the same value of a condition, or of all of them.
+#[derive(Clone, Debug)]
+pub struct SettingError {
+    /// The condition that is set; `None` for all together.
+    pub condition: Option<String>,
+    /// Whether each of its values was set once, so that an input with a value for each says the same.
+    pub is_per_value: bool,
+    /// Its standard deviation in standard uncertainties of a reading, stated or as they are within the
+    /// settings: the posterior expectation, given that there is one.
+    pub estimate: f64,
+    /// Coverage interval with equal tails, given that there is one.
+    pub interval: [f64; 2],
+    /// The standard deviation in the output's unit.
+    pub standard_deviation: f64,
     /// Probability that there is one.
     pub probability: f64,
 }
@@ -664,6 +692,8 @@ pub enum DepartureShape {
     Constant,
     /// A value of its own at each level of the condition.
     Levels,
+    /// An error of its own each time that the condition was set, in all readings until the next.
+    Settings,
     /// It rises from end to end.
     Rising,
     /// It falls from end to end.
@@ -695,6 +725,7 @@ impl DepartureShape {
         match self {
             Self::Constant => "constant",
             Self::Levels => "levels",
+            Self::Settings => "settings",
             Self::Rising => "rising",
             Self::Falling => "falling",
             Self::Step { .. } => "step",

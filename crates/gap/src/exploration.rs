@@ -83,6 +83,10 @@ impl<'s, 'c> Exploration<'s, 'c> {
             .iter()
             .take(HANDED_ON)
             .filter_map(|mode| converted_point(&mode.scores, &from, &likelihood.roles))
+            .map(|point| match &self.setup.data.noise.shared {
+                Some(shared) => shared.with_noise_within(point, &likelihood.roles),
+                None => point,
+            })
             .collect();
         if starts.is_empty() {
             return None;

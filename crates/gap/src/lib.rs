@@ -52,6 +52,7 @@ mod scan;
 mod search;
 mod selection;
 mod setup;
+mod shared_noise;
 mod shrink;
 mod strength;
 mod suspects;
@@ -68,8 +69,8 @@ pub use diagnosis::{
     DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapStrength, GapTest, Hypothesis,
     HypothesisKind, MostProbable, NamedQuantity, NextMeasurements, NoiseEstimate, Predicted,
     PresentEffect, PriorConflict, ProposalKind, ProposedMeasurement, ReplicatedEffect,
-    ReplicatedEffects, RowGap, SerialCorrelation, Shrinkage, Shrunk, StrengthPart, SuspectValue,
-    UncertaintyFactor, UnlistedEffect, ValueGap,
+    ReplicatedEffects, RowGap, SerialCorrelation, SettingError, Shrinkage, Shrunk, StrengthPart,
+    SuspectValue, UncertaintyFactor, UnlistedEffect, ValueGap,
 };
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use replication::{MOST_GROUPS, OwnSizes, Replication};

@@ -4,7 +4,8 @@
 //! small, and a row that is wrong. A diagnosis that takes the stated noise for certain explains them
 //! by whatever effect or discrepancy comes nearest. What the noise is therefore belongs to every
 //! hypothesis: as stated, or with the uncertainties of each output multiplied by an unknown factor
-//! (Birge 1932, Physical Review 40, 207), or with single values off by many standard uncertainties.
+//! (Birge 1932, Physical Review 40, 207), or with noise that neighbouring rows or those of one setting
+//! share, or with single values off by many standard uncertainties.
 //! Probabilities of effects are summed over it.
 
 use std::sync::Arc;
@@ -20,6 +21,7 @@ use super::posterior::{
 };
 use super::prior_widths::{self, Begun, OtherPriors, PriorWidths};
 use super::setup::Setup;
+use super::shared_noise::{self, SharedNoise};
 use super::suspects::more_suspects;
 use super::whitened;
 use crate::{Case, Prior, UncertaintyFactor};
@@ -43,6 +45,9 @@ const PRIOR_ANOTHER: f64 = 0.3;
 
 /// Prior probability that neighbouring rows share noise.
 const PRIOR_SERIAL: f64 = 0.25;
+
+/// Prior probability that the rows of a setting share an error.
+const PRIOR_SHARED: f64 = 0.1;
 
 /// The prior odds of no gap are multiplied by this where the noise is not as stated. A diagnosis is
 /// asked for where data depart; noise that is not as stated is a reason for that, after which there
@@ -103,6 +108,8 @@ pub(crate) struct NoiseModel {
     pub(crate) suspects: Vec<Suspect>,
     /// The coefficient of correlation of the noise of neighbouring rows.
     pub(crate) serial: Option<f64>,
+    /// The error that the rows of each setting share.
+    pub(crate) shared: Option<SharedNoise>,
 }
 
 /// A kind of noise that is drawn.
@@ -132,6 +139,11 @@ impl NoiseModel {
     /// With noise that neighbouring rows share in part.
     fn with_serial(coefficient: f64) -> Self {
         Self { serial: Some(coefficient), ..Self::default() }
+    }
+
+    /// With an error that the rows of each setting share.
+    pub(crate) fn with_shared(noise: SharedNoise) -> Self {
+        Self { shared: Some(noise), ..Self::default() }
     }
 
     /// What a value's standard uncertainty is multiplied by: a suspect is off by a normal quantity of
@@ -224,6 +236,9 @@ impl NoiseModel {
         if self.serial.is_some() {
             return PRIOR_SERIAL / SERIAL.len() as f64;
         }
+        if let Some(shared) = &self.shared {
+            return PRIOR_SHARED * shared.prior();
+        }
         let mut prior = match self.suspects.len() {
             0 => return PRIOR_AS_STATED,
             _ => PRIOR_SUSPECT,
@@ -311,6 +326,19 @@ pub(crate) fn weighings<'c>(
             let prior = model.prior(values);
             let setup = weighings[0].setup.with_noise(model);
             weighings.push(weighing(setup, prior, &weighings, [0.7, 0.7]));
+        }
+    }
+    if few && !effort.is_stopped() {
+        for noise in shared_noise::worth_trying(&weighings) {
+            let is_departure = noise.is_departure();
+            let model = NoiseModel::with_shared(noise);
+            let prior = model.prior(values);
+            let setup = weighings[0].setup.with_noise(model);
+            let mut own = weighing(setup, prior, &weighings, [0.7, 0.7]);
+            if is_departure {
+                own.posterior.none_is_unexplained();
+            }
+            weighings.push(own);
         }
     }
     for widths in [PriorWidths::Wider, PriorWidths::Narrower] {

@@ -93,6 +93,7 @@ pub(crate) fn notes(
     let of_noise = noise.iter().any(|of| {
         of.factor.is_some_and(|factor| factor.probability > LIKELY)
             || of.serial.is_some_and(|serial| serial.probability > LIKELY)
+            || of.settings.as_ref().is_some_and(|settings| settings.probability > LIKELY)
             || of.suspects.iter().any(|suspect| suspect.probability > LIKELY)
     });
     if let (HypothesisKind::None, Some(p)) = (verdict.kind, gap.p_value)

@@ -39,6 +39,8 @@ pub(crate) struct Posterior {
     pub(crate) prior: f64,
     /// Posterior probability of "unexplained".
     pub(crate) probability: f64,
+    /// What of it is that of errors of each setting, without an effect and without a pattern.
+    pub(crate) of_settings: f64,
     /// Logarithm of the evidence of all hypotheses together.
     pub(crate) ln_evidence: f64,
     /// Logarithm of the evidence of what else may be true, over this setup's prior probability.
@@ -188,6 +190,7 @@ pub(crate) fn posterior(
         unexplained,
         prior: prior.unexplained,
         probability: 0.0,
+        of_settings: 0.0,
         ln_evidence: f64::NEG_INFINITY,
         rivals,
     };
@@ -364,6 +367,14 @@ impl Posterior {
         );
         self.unexplained = alone.joined(others, 1.0 - BESIDE_AN_EFFECT);
         self.weigh();
+    }
+
+    /// Counts the hypothesis without effects as "unexplained", with errors of each setting that nothing
+    /// explains either.
+    pub(crate) fn none_is_unexplained(&mut self) {
+        let none = self.hypotheses.iter_mut().filter(|hypothesis| hypothesis.effects.is_empty());
+        self.of_settings = none.map(|none| std::mem::take(&mut none.probability)).sum();
+        self.probability += self.of_settings;
     }
 
     /// The hypothesis with these effects.

@@ -14,6 +14,7 @@ use super::logarithm::{HALF_LN_TWO_PI, ln_sum};
 use super::posterior::Posterior;
 use super::predict::{self, Normals, Values};
 use super::setup::Setup;
+use super::shared_noise::SharedNoise;
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::elementary;
 use gumption_engine::task::Row;
@@ -63,17 +64,21 @@ pub(crate) fn shrinkage(
     });
     let left_out: Option<Vec<(Vec<usize>, Fold)>> = left_out.into_iter().collect();
     let blocks = left_out.as_ref().map_or(0, Vec::len);
+    let of_settings = variances_of_settings(setup);
     let mut predicted: Vec<(f64, f64)> = fitted.iter().flatten().copied().collect();
     let mut gain = 0.0;
     for (block, fold) in left_out.iter().flatten() {
         for (n, &row) in block.iter().enumerate() {
             for output in 0..outputs {
-                predicted[row * outputs + output] = fold.predicted[n][output];
+                let value = row * outputs + output;
+                let (mean, variance) = fold.predicted[n][output];
+                predicted[value] = (mean, variance + of_settings[value]);
             }
         }
         let noise: Vec<f64> = block
             .iter()
-            .flat_map(|&row| (0..outputs).map(move |output| variances[row * outputs + output]))
+            .flat_map(|&row| (0..outputs).map(move |output| row * outputs + output))
+            .map(|value| variances[value] + of_settings[value])
             .collect();
         let measured: Vec<f64> = block
             .iter()
@@ -334,6 +339,18 @@ impl Density {
                 .sum(),
         }
     }
+}
+
+/// For each value the variance of the error of its setting, of which rows of others say nothing.
+fn variances_of_settings(setup: &Setup<'_>) -> Vec<f64> {
+    let data = &setup.data;
+    let outputs = data.outputs.len();
+    let of = |value: usize| {
+        let (row, output) = (value / outputs, value % outputs);
+        let of = |of: &SharedNoise| of.ratios[output] * of.uncertainty(data, output, row);
+        data.noise.shared.as_ref().map_or(0.0, of).powi(2)
+    };
+    (0..data.len()).map(of).collect()
 }
 
 fn fold(

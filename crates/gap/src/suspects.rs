@@ -46,7 +46,10 @@ pub(crate) fn more_suspects(
 ) -> Option<Vec<Suspect>> {
     let is_known = |w: &&Weighing<'_>| {
         let noise = &w.setup.data.noise;
-        !noise.factor && noise.serial.is_none() && w.widths == PriorWidths::AsStated
+        !noise.factor
+            && noise.serial.is_none()
+            && noise.shared.is_none()
+            && w.widths == PriorWidths::AsStated
     };
     let last = weighings.iter().rfind(is_known)?;
     if let Some(larger) = larger_suspects(last) {

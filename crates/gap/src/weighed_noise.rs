@@ -4,6 +4,7 @@ use super::latent::Role;
 use super::noise_model::{Suspect, Weighing, residuals_at_mode, serial_gain};
 use super::parameters::equal_tails;
 use super::setup::Setup;
+use super::shared_noise::{Groups, RATIOS, Remainder, Setting};
 use gumption_engine::number::{COLUMN, elementary, smallest_first};
 
 /// Hypotheses below this probability do not contribute to the factor.
@@ -22,6 +23,22 @@ pub(crate) struct WeighedNoise {
     /// Probability that neighbouring rows share noise, and draws of their coefficient of correlation,
     /// if they do, with weights that sum to one.
     pub(crate) serial: Option<(f64, Vec<(f64, f64)>)>,
+    /// For each output the error that the rows of each setting share, where it may have one.
+    pub(crate) settings: Vec<Option<WeighedSettings>>,
+}
+
+/// What is known of an error that the rows of each setting share.
+#[derive(Clone, Debug)]
+pub(crate) struct WeighedSettings {
+    /// What is set, most probably.
+    pub(crate) setting: Setting,
+    /// Probability that there is such an error, whatever is set.
+    pub(crate) probability: f64,
+    /// Draws of its standard deviation in standard uncertainties of the noise, if there is one, with
+    /// weights that sum to one.
+    pub(crate) ratios: Vec<(f64, f64)>,
+    /// The root mean square of those, in the output's unit.
+    pub(crate) typical: f64,
 }
 
 impl WeighedNoise {
@@ -32,6 +49,7 @@ impl WeighedNoise {
             of.factors = factors(weighing);
         }
         of.serial = serial(weighings);
+        of.settings = settings(weighings);
         for weighing in weighings {
             for &suspect in &weighing.setup.data.noise.suspects {
                 let Suspect { id, output, .. } = suspect;
@@ -44,16 +62,19 @@ impl WeighedNoise {
         of
     }
 
-    /// For each output the expected variance of noise that neighbouring rows share; `variances` are
-    /// those of the noise by value. Nobody can tell it from a slow departure of the model itself, so
-    /// that a prediction is uncertain by it.
+    /// For each output the expected variance of noise that neighbouring rows or those of a setting
+    /// share; `variances` are those of the noise by value. Nobody can tell it from a departure of the
+    /// model itself, so that a prediction is uncertain by it.
     pub(crate) fn shared(&self, setup: &Setup<'_>, variances: &[f64]) -> Vec<f64> {
-        let Some((probability, draws)) = &self.serial else { return Vec::new() };
-        let coefficient: f64 = draws.iter().map(|(r, weight)| r * weight).sum();
+        let serial = self.serial.as_ref().map_or(0.0, |(probability, draws)| {
+            probability * draws.iter().map(|(r, weight)| r * weight).sum::<f64>()
+        });
         let outputs = setup.data.outputs.len();
         let of = |output: usize| {
             let own: Vec<f64> = variances.iter().skip(output).step_by(outputs).copied().collect();
-            probability * coefficient * own.iter().sum::<f64>() / own.len().max(1) as f64
+            let neighbours = serial * own.iter().sum::<f64>() / own.len().max(1) as f64;
+            let settings = self.settings.get(output).and_then(Option::as_ref);
+            neighbours + settings.map_or(0.0, WeighedSettings::variance)
         };
         (0..outputs).map(of).collect()
     }
@@ -65,6 +86,54 @@ impl WeighedNoise {
         let ln: f64 = draws.iter().map(|(factor, w)| w * elementary::ln(*factor)).sum();
         Some((elementary::exp(ln), equal_tails(draws, coverage)))
     }
+}
+
+impl WeighedSettings {
+    /// The expected variance of the error in a setting.
+    fn variance(&self) -> f64 {
+        let squares: f64 = self.ratios.iter().map(|(ratio, weight)| weight * ratio * ratio).sum();
+        self.probability * squares * self.typical * self.typical
+    }
+}
+
+/// For each output the probability that the rows of a setting share an error, and the density of its
+/// standard deviation on a grid, of equal steps of its logarithm: that of the residuals of the leading
+/// hypothesis with it, at its best mode.
+fn settings(weighings: &[Weighing<'_>]) -> Vec<Option<WeighedSettings>> {
+    let Some(stated) = weighings.first() else { return Vec::new() };
+    let shared = |w: &Weighing<'_>, output: usize| {
+        let noise = w.setup.data.noise.shared.clone();
+        noise.filter(|noise| noise.ratios.get(output).is_some_and(|ratio| *ratio > 0.0))
+    };
+    let of = |output: usize| {
+        let own = || weighings.iter().filter(|w| shared(w, output).is_some());
+        let leading = own().max_by(|a, b| a.probability.total_cmp(&b.probability))?;
+        let noise = shared(leading, output)?;
+        let hypotheses = leading.posterior.hypotheses.iter();
+        let best = hypotheses.max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()))?;
+        let left = Remainder::of(&stated.setup, best);
+        let groups = Groups::of(&stated.setup, noise.setting);
+        let [least, most] = [0.5 * RATIOS[0], 2.0 * RATIOS[RATIOS.len() - 1]];
+        let step = elementary::ln(most / least) / GRID as f64;
+        let ratio = |n: usize| least * elementary::exp(step * (n as f64 + 0.5));
+        let grid: Vec<f64> = (0..GRID).map(ratio).collect();
+        let ln: Vec<f64> = grid.iter().map(|&r| groups.gain(&left, output, r)).collect();
+        Some(WeighedSettings {
+            setting: noise.setting,
+            probability: own().map(|w| w.probability).sum(),
+            ratios: normalized(grid, &ln),
+            typical: noise.typical(&stated.setup.data, output),
+        })
+    };
+    (0..stated.setup.data.outputs.len()).map(of).collect()
+}
+
+/// Values with weights that sum to one, from the logarithms of their weights.
+fn normalized(values: Vec<f64>, ln: &[f64]) -> Vec<(f64, f64)> {
+    let most = ln.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let density: Vec<f64> = ln.iter().map(|ln| elementary::exp(ln - most)).collect();
+    let total: f64 = density.iter().sum();
+    values.into_iter().zip(density).map(|(value, density)| (value, density / total)).collect()
 }
 
 /// The probability that neighbouring rows share noise, and the density of their coefficient of
@@ -82,14 +151,10 @@ fn serial(weighings: &[Weighing<'_>]) -> Option<(f64, Vec<(f64, f64)>)> {
     let residuals = residuals_at_mode(&stated.setup, best);
     let grid: Vec<f64> = (0..GRID).map(|n| (n as f64 + 0.5) / GRID as f64).collect();
     let ln: Vec<f64> = grid.iter().map(|&r| serial_gain(&stated.setup, &residuals, r)).collect();
-    let most = ln.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let density: Vec<f64> = ln.iter().map(|ln| elementary::exp(ln - most)).collect();
-    let total: f64 = density.iter().sum();
-    let draws = grid.into_iter().zip(density).map(|(r, density)| (r, density / total));
-    Some((probability, draws.collect()))
+    Some((probability, normalized(grid, &ln)))
 }
 
-/// Coefficients of correlation between 0 and 1.
+/// Points of a grid of coefficients of correlation, or of standard deviations.
 const GRID: usize = 200;
 
 /// Draws of the factors, over all hypotheses.

@@ -15,7 +15,8 @@ pub enum CheckedNoise {
     #[default]
     AsStated,
     /// Drawn as well, from what the diagnosis weighs: as stated, stated uncertainties off by a factor,
-    /// rows that are off, noise that neighbouring rows share.
+    /// rows that are off, noise that neighbouring rows share. Errors of settings are not drawn: without
+    /// an effect they would be a gap.
     Uncertain,
 }
 

@@ -12,7 +12,7 @@ mod prediction;
 
 pub(crate) use features::Axes;
 pub(crate) use form::{Form, forms};
-pub(crate) use grammar::{Of, Term};
+pub(crate) use grammar::{Of, Term, levels};
 pub(crate) use prediction::{conditioned, nominal};
 
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 //! What the noise may be, and modes that are hard to find.
 
 use super::{candidate, case, formulas, normal, observed, quantity};
-use crate::diagnosis::SuspectValue;
+use crate::diagnosis::{DepartureShape, SuspectValue};
 use crate::{Candidate, Case, Diagnosis, DiagnosisOptions, Effect, HypothesisKind, diagnose};
 use gumption_engine::distribution::{Distribution, LogUniform, Rectangular, StreamKey};
 use gumption_engine::task::Sharing;
@@ -520,4 +520,63 @@ fn sizes_are_those_of_all_noises() {
     let stated = (0.1f64 * 0.1 / 24.0 + 0.01 * 0.01).sqrt();
     let u = offset.parameters[0].standard_uncertainty;
     assert!(u > 1.08 * stated && u < 2.0 * stated, "{u} {stated} {serial}");
+}
+
+/// A line with ten settings of three rows each, an offset of it, and errors of each setting and of each row
+/// of these standard deviations; the rows in order, or the settings over and over.
+fn with_settings(offset: f64, sizes: [f64; 2], stated: bool, in_order: bool) -> Case {
+    let numbers = normals(40, 11);
+    let mut case = line_with(&[0.0; 30]);
+    let observed = case.observed[0].as_mut().unwrap();
+    for row in 0..30 {
+        let x = if in_order { row / 3 } else { row % 10 };
+        case.task.rows[row].conditions[0] = x as f64;
+        let error = sizes[0] * numbers[x] + sizes[1] * numbers[10 + row];
+        observed.values[row] = 1.0 + 0.5 * x as f64 + offset + error;
+    }
+    if !stated {
+        observed.standard_uncertainties = None;
+    }
+    case
+}
+
+/// Errors of settings are told, and an effect beside them is found; without them both are as ever.
+#[test]
+fn errors_that_settings_share_are_told() {
+    for stated in [true, false] {
+        let found = diagnosed(&with_settings(0.0, [0.5, 0.1], stated, true), 1);
+        assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained, "{stated}");
+        assert_eq!(found.departure[0].shape, DepartureShape::Settings);
+        let error = found.noise[0].settings.as_ref().unwrap();
+        assert!(error.probability > 0.9 && error.is_per_value, "{error:?}");
+        // what these ten numbers are; their standard error is a share of 1/sqrt(20) of it
+        let [low, high] = error.interval;
+        assert!(low < 5.0 && 5.0 < high, "{error:?}");
+        let sizes = normals(10, 11);
+        let rms = 0.5 * (sizes.iter().map(|z| z * z).sum::<f64>() / 10.0).sqrt();
+        let size = error.standard_deviation;
+        assert!((size / rms - 1.0).abs() < 4.0 / 20f64.sqrt(), "{size} {rms}");
+
+        // 1.2 with a standard uncertainty of 0.5/sqrt(10)
+        let found = diagnosed(&with_settings(1.2, [0.5, 0.1], stated, true), 1);
+        assert_eq!(found.most_probable.effects, ["offset"], "{stated}");
+        let offset = &found.present.iter().find(|of| of.effect == "offset").unwrap().parameters[0];
+        assert!(offset.standard_uncertainty > 0.1, "{offset:?}");
+        let [low, high] = offset.interval;
+        assert!(low < 1.2 && 1.2 < high, "{offset:?}");
+
+        let found = diagnosed(&with_settings(0.0, [0.0, 0.1], stated, true), 1);
+        assert_eq!(found.most_probable.kind, HypothesisKind::None);
+        let error = found.noise[0].settings.as_ref().map_or(0.0, |error| error.probability);
+        assert!(error < 0.3, "{error}");
+    }
+}
+
+/// What comes back with a value that was left in between is no error of a setting.
+#[test]
+fn departures_that_come_back_are_no_errors_of_settings() {
+    let found = diagnosed(&with_settings(0.0, [0.5, 0.1], true, false), 1);
+    assert!(found.noise[0].settings.is_none());
+    assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained);
+    assert!(found.departure.iter().all(|form| form.shape != DepartureShape::Settings));
 }

@@ -87,7 +87,7 @@ fn words(form: &DepartureForm, conditions: &[NamedQuantity]) -> String {
     let function = match (&form.over, form.shape) {
         (DepartureOver::Nothing, _) => "the same in all conditions".to_owned(),
         (DepartureOver::AllConditions, _) => "varying with several conditions together".to_owned(),
-        (_, DepartureShape::Levels | DepartureShape::Constant) => {
+        (_, DepartureShape::Levels | DepartureShape::Constant | DepartureShape::Settings) => {
             format!("with a value of its own at each level of {what}")
         }
         (_, DepartureShape::Rising) => format!("rising with {what}"),
@@ -102,6 +102,9 @@ fn words(form: &DepartureForm, conditions: &[NamedQuantity]) -> String {
         (_, DepartureShape::Dip { at }) => format!("with a minimum over {what} near {}", place(at)),
         (_, DepartureShape::Varying) => format!("varying with {what} more than once up or down"),
     };
+    if form.shape == DepartureShape::Settings {
+        return error_of_settings(form, &all, &what);
+    }
     let mut said = format!("{all} departs by what is {kind}, {function}");
     if outputs.len() > 1 {
         said = said.replacen("departs", "depart", 1);
@@ -126,4 +129,19 @@ fn words(form: &DepartureForm, conditions: &[NamedQuantity]) -> String {
         said.push_str(&format!(", beside {}", listed(&names, " and ")));
     }
     said
+}
+
+/// An error of each setting, with its standard deviation for the first output.
+fn error_of_settings(form: &DepartureForm, outputs: &str, condition: &str) -> String {
+    let what = match form.over {
+        DepartureOver::Condition(_) => condition,
+        _ => "the conditions",
+    };
+    let size = significant(form.size, 2);
+    let size = unit(&form.unit).map_or(size.clone(), |unit| format!("{size} {unit}"));
+    let verb = if form.outputs.len() > 1 { "depart" } else { "departs" };
+    format!(
+        "{outputs} {verb} by an error of its own each time that {what} was set, the same in all readings \
+         until the next; standard deviation {size}"
+    )
 }

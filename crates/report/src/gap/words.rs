@@ -6,7 +6,7 @@ use crate::plain;
 use crate::statement::Measurement;
 use gumption_gap::{
     Diagnosis, GapRegion, Hypothesis, HypothesisKind, NamedQuantity, NoiseEstimate, PriorConflict,
-    ProposalKind, ProposedMeasurement, Shrunk, UncertaintyFactor,
+    ProposalKind, ProposedMeasurement, SettingError, Shrunk, UncertaintyFactor,
 };
 use gumption_units::listed;
 
@@ -143,8 +143,9 @@ fn noise_is_off(diagnosis: &Diagnosis) -> f64 {
     let of = |noise: &NoiseEstimate| {
         let factor = noise.factor.map(|factor| factor.probability);
         let serial = noise.serial.map(|serial| serial.probability);
+        let settings = noise.settings.as_ref().map(|settings| settings.probability);
         let suspects = noise.suspects.iter().map(|suspect| suspect.probability);
-        suspects.chain(factor).chain(serial).fold(0.0, f64::max)
+        suspects.chain(factor).chain(serial).chain(settings).fold(0.0, f64::max)
     };
     diagnosis.noise.iter().map(of).fold(0.0, f64::max)
 }
@@ -240,6 +241,9 @@ pub(super) fn noise_verdict(diagnosis: &Diagnosis) -> Vec<String> {
                 probability(serial.probability)
             ));
         }
+        if let Some(error) = noise.settings.as_ref().filter(|of| of.probability > LIKELY) {
+            said.push(error_of_settings(error, named));
+        }
         for suspect in noise.suspects.iter().filter(|suspect| suspect.probability > LIKELY) {
             said.push(format!(
                 "Row {} of {name} is off by {} standard uncertainties with probability {}.",
@@ -250,6 +254,26 @@ pub(super) fn noise_verdict(diagnosis: &Diagnosis) -> Vec<String> {
         }
     }
     said
+}
+
+/// That the rows of a setting share an error, and what says so in a model file.
+fn error_of_settings(error: &SettingError, output: &NamedQuantity) -> String {
+    let [low, high] = error.interval.map(|end| significant(end, 2));
+    let size = significant(error.standard_deviation, 2);
+    let size = unit(&output.unit).map_or(size.clone(), |unit| format!("{size} {unit}"));
+    let set = error.condition.as_deref().map_or_else(|| "the conditions".to_owned(), plain);
+    let remedy = match error.is_per_value {
+        true => format!("; an input with `\"per\": \"{set}\"` says it"),
+        false => String::new(),
+    };
+    format!(
+        "Readings of {} at one setting of {set} share an error with a standard deviation of {size}, {} \
+         ({low} to {high}) times the standard uncertainty of a reading; that they do has the probability \
+         {}{remedy}.",
+        plain(&output.name),
+        significant(error.estimate, 2),
+        probability(error.probability)
+    )
 }
 
 /// The hypotheses that the data cannot tell from the verdict, if there are any.
