@@ -361,4 +361,54 @@ fn predictive_densities_of_phases_know_the_turn() {
     assert_eq!(answer["verdict"]["effects"], serde_json::json!(["extra-delay"]));
     let gain = answer["shrinks"]["log_density_gain"].as_f64().unwrap();
     assert!(gain > 1000.0, "{gain}");
+    assert!(!codes(&answer).contains(&"whole-turns"));
+    let answer = answered(&text.replace(r#", "periodic": 360"#, ""), &data);
+    let note = answer["notes"].as_array().unwrap().iter().find(|of| of["code"] == "whole-turns");
+    let said = note.unwrap()["message"].as_str().unwrap();
+    assert!(said.contains("of 24 values of p are more than half a turn from the sim"), "{said}");
+    assert!(said.contains(r#"says `"periodic": 360`"#), "{said}");
+}
+
+/// A bath whose temperature is off by 15 mK at each setting, with four currents in it: an error of the
+/// settings, beside which the self-heating of 10 mK/mA^2 is seen; the page says what would say it.
+#[test]
+fn errors_of_settings_are_said_on_the_page() {
+    let text = r#"{"inputs": {"R0": {"unit": "ohm", "distribution": "normal", "mean": 100,
+        "std": 0.005}},
+      "conditions": {"t": {"unit": "degC"}, "I": {"unit": "mA"}},
+      "equations": {"te": "t/[degC]", "R": "R0*(1 + 3.9083e-3*te - 5.775e-7*te^2)"},
+      "outputs": {"R": {"unit": "ohm"}},
+      "observations": {"file": "data.csv",
+        "columns": {"R": {"value": "R", "standard_uncertainty": "u"}}},
+      "effects": {"self-heating": {"parameters": {"k": {"unit": "1/mA^2", "distribution": "normal",
+          "mean": 0, "std": 0.02}}, "overrides": {"te": "te + k*I^2"}},
+        "leads": {"parameters": {"r": {"unit": "ohm", "distribution": "normal", "mean": 0,
+          "std": 0.03}}, "overrides": {"R": "R + r"}}}}"#;
+    let mut data = "t,I,R,u\n".to_owned();
+    for setting in 0..6_u32 {
+        let bath = [0.017, -0.021, 0.004, 0.011, -0.009, -0.014][setting as usize];
+        for (number, current) in [0.5, 1.0, 2.0, 3.0].into_iter().enumerate() {
+            let scatter = f64::from((7 * setting + 5 * number as u32) % 9) - 4.0;
+            let t = 50.0 * f64::from(setting);
+            let te = t + bath + 0.01 * current * current;
+            let r = 100.0 * (1.0 + 3.9083e-3 * te - 5.775e-7 * te * te) + 0.0007 * scatter;
+            writeln!(data, "{t},{current},{r:.5},0.002").unwrap();
+        }
+    }
+    let answer = answered(text, &data);
+    assert_eq!(answer["verdict"]["effects"], serde_json::json!(["self-heating"]));
+    let error = &answer["noise"]["R"]["setting_error"];
+    assert_eq!(error["condition"], "t");
+    assert!(error["probability"].as_f64().unwrap() > 0.9, "{error}");
+    // the bath's root mean square of 13.9 mK is 5.3 mohm, 2.7 standard uncertainties
+    let interval = [0, 1].map(|end| error["interval"][end].as_f64().unwrap());
+    assert!(interval[0] < 2.7 && 2.7 < interval[1], "{error}");
+
+    let (_folder, path) = case(text);
+    std::fs::write(path.with_file_name("data.csv"), &data).unwrap();
+    let (page, _) = diagnosed(&path, &[]);
+    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    let said = "Readings of R at one setting of t share an error with a standard deviation of 0.00";
+    assert!(page.contains(said), "{page}");
+    assert!(page.contains(r#"an input with `"per": "t"` says it."#), "{page}");
 }

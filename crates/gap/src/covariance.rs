@@ -7,6 +7,7 @@ use nalgebra::DMatrix;
 
 use super::correlated;
 use super::data::{Data, Spread};
+use super::resolution::Rounding;
 use crate::Case;
 use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, triangle};
@@ -109,6 +110,20 @@ impl Covariance {
         }
         if let Some(shared) = &data.noise.shared {
             basis.extend(shared.columns(case, data));
+        }
+        for output in 0..outputs {
+            let Some(rounding) = Rounding::of(case, data, output) else { continue };
+            let (deviation, groups) = rounding.errors(case, data, output);
+            for equal in groups {
+                // the mean of equal values is as uncertain as one of them
+                let shared = deviation * (1.0 - 1.0 / equal.len() as f64).sqrt();
+                let mut column = vec![0.0; rows * outputs];
+                for row in equal {
+                    blocks[at(row, output, output)] += deviation * deviation;
+                    column[row * outputs + output] = shared;
+                }
+                basis.push(column);
+            }
         }
         basis.retain(|column| column.iter().any(|value| *value != 0.0));
         let variances = (0..rows * outputs)

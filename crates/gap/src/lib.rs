@@ -46,6 +46,7 @@ mod prior_widths;
 mod profile_path;
 mod reachable;
 mod replication;
+mod resolution;
 mod response_scan;
 mod row_drift;
 mod scan;

@@ -7,8 +7,12 @@ use super::diagnosis::{
 use super::evidence::DISAGREE;
 use super::goodness_of_fit::misfit;
 use super::posterior::Posterior;
+use super::resolution::Rounding;
 use super::row_drift;
 use super::setup::Setup;
+use gumption_engine::decimal::{significant, to_15_digits};
+use gumption_engine::number::Shortest;
+use gumption_units::Turn;
 
 pub(crate) fn notes(
     setup: &Setup<'_>,
@@ -36,6 +40,25 @@ pub(crate) fn notes(
                     .to_owned()
             },
         );
+    }
+    for output in 0..setup.data.outputs.len() {
+        let Some(rounding) = Rounding::of(setup.case, &setup.data, output) else { continue };
+        let quantity = &setup.case.model.outputs[setup.data.outputs[output]].quantity;
+        let deviation = significant(rounding.resolution / 12f64.sqrt(), 2);
+        note(
+            "resolution",
+            format!(
+                "The values of {} are rounded to {}, more coarsely than their noise: what that may have \
+                 changed counts as a standard uncertainty of {}, the same for equal values at the same \
+                 conditions.",
+                quantity.name,
+                quantity.unit.after(&Shortest(rounding.resolution).to_string()),
+                quantity.unit.after(&deviation)
+            ),
+        );
+    }
+    if let Some(text) = turns(setup) {
+        note("whole-turns", text);
     }
     let winner = &posterior.hypotheses[best];
     let worth = posterior.hypotheses.iter().filter(|h| h.probability > WORTH_A_NOTE);
@@ -179,3 +202,28 @@ const LIKELY: f64 = 0.5;
 
 /// The chi-square test speaks against the verdict "no gap" below this probability.
 const OVERDISPERSED: f64 = 1e-3;
+
+/// That values of an angle are more than half a turn from the sim, and that nothing says that it comes
+/// round.
+fn turns(setup: &Setup<'_>) -> Option<String> {
+    let data = &setup.data;
+    let residuals = data.nominal_residuals();
+    residuals.iter().enumerate().find_map(|(output, residuals)| {
+        let quantity = &setup.case.model.outputs[data.outputs[output]].quantity;
+        let is_angle = quantity.unit.turn() == Some(Turn::Angle);
+        if data.turns[output].is_some() || !is_angle {
+            return None;
+        }
+        let turn = to_15_digits(std::f64::consts::TAU / quantity.unit.factor());
+        let count = residuals.iter().filter(|residual| residual.abs() > 0.5 * turn).count();
+        (count > 0).then(|| {
+            format!(
+                "{count} of {} values of {} are more than half a turn from the sim: an output that comes \
+                 round says `\"periodic\": {}`.",
+                residuals.len(),
+                quantity.name,
+                Shortest(turn)
+            )
+        })
+    })
+}

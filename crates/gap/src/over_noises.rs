@@ -63,6 +63,8 @@ pub(crate) fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Arc<Discre
             .map(|(w, theirs)| (w.probability * theirs.probability, w, theirs))
             .collect();
         hypothesis.probability += others.iter().map(|(p, ..)| p).sum::<f64>();
+        // sums to one but for the bits
+        hypothesis.probability = hypothesis.probability.min(1.0);
         let all = hypothesis.probability;
         if all < LEAST || !hypothesis.evidence.has_draws() {
             continue;
@@ -87,8 +89,8 @@ pub(crate) fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Arc<Discre
         evidence.scale_weights(sum.recip());
     }
     let unexplained = |w: &Weighing<'_>| w.probability * w.posterior.probability;
-    posterior.probability =
-        posterior.probability * own_share + weighings.iter().map(unexplained).sum::<f64>();
+    let others = weighings.iter().map(unexplained).sum::<f64>();
+    posterior.probability = (posterior.probability * own_share + others).min(1.0);
     (setup, discrepancy, posterior)
 }
 

@@ -16,6 +16,7 @@ use super::posterior::{Effort, Posterior};
 use super::predict;
 use super::prior_conflict;
 use super::prior_widths::{self, OtherPriors, PriorWidths};
+use super::resolution::Rounding;
 use super::setup::Setup;
 use super::shrink::Correction;
 use super::unlisted;
@@ -158,6 +159,19 @@ fn composed(weighings: &[Weighing<'_>]) -> (Vec<ComposedEffect>, Compositions) {
     (effects, if same { found } else { Compositions::default() })
 }
 
+/// Variances with those of values that are rounded more coarsely than their noise.
+fn with_rounding(setup: &Setup<'_>, mut variances: Vec<f64>) -> Vec<f64> {
+    let outputs = setup.data.outputs.len();
+    for output in 0..outputs {
+        let Some(rounding) = Rounding::of(setup.case, &setup.data, output) else { continue };
+        let (deviation, groups) = rounding.errors(setup.case, &setup.data, output);
+        for row in groups.into_iter().flatten() {
+            variances[row * outputs + output] += deviation * deviation;
+        }
+    }
+    variances
+}
+
 /// Variance of the noise by value: stated, or estimated with the best hypothesis.
 fn noise_variances(
     setup: &Setup<'_>,
@@ -170,7 +184,8 @@ fn noise_variances(
     let stated =
         |value: usize| data.uncertainties[value % outputs].as_ref().map(|u| u[value / outputs]);
     if !setup.covariance.fitted {
-        return (0..data.len()).map(|value| stated(value).map_or(1.0, |u| u * u)).collect();
+        let own = (0..data.len()).map(|value| stated(value).map_or(1.0, |u| u * u)).collect();
+        return with_rounding(setup, own);
     }
     if !explained
         && let Some(kind) = posterior.unexplained.kinds.first()
@@ -201,7 +216,8 @@ fn noise_variances(
             };
         }
     }
-    sums.iter().map(|sum| sum / draws.len().max(1) as f64).collect()
+    let own = sums.iter().map(|sum| sum / draws.len().max(1) as f64).collect();
+    with_rounding(setup, own)
 }
 
 /// What every hypothesis says at its most probable point, by value.

@@ -120,7 +120,7 @@ fn settings(weighings: &[Weighing<'_>]) -> Vec<Option<WeighedSettings>> {
         let ln: Vec<f64> = grid.iter().map(|&r| groups.gain(&left, output, r)).collect();
         Some(WeighedSettings {
             setting: noise.setting,
-            probability: own().map(|w| w.probability).sum(),
+            probability: own().map(|w| w.probability).sum::<f64>().min(1.0),
             ratios: normalized(grid, &ln),
             typical: noise.typical(&stated.setup.data, output),
         })

@@ -580,3 +580,30 @@ fn departures_that_come_back_are_no_errors_of_settings() {
     assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained);
     assert!(found.departure.iter().all(|form| form.shape != DepartureShape::Settings));
 }
+
+/// Readings of a display with a step of 0.1, each three times and equal: they are off by up to half a step,
+/// which is no gap, whether their noise of 0.001 is stated or not; the offset of a whole step is one.
+#[test]
+fn equal_readings_are_known_to_half_a_step() {
+    let read = |offset: f64, stated: bool| {
+        let mut case = with_settings(offset, [0.0, 0.0], stated, true);
+        let numbers = normals(10, 12);
+        let observed = case.observed[0].as_mut().unwrap();
+        for (row, value) in observed.values.iter_mut().enumerate() {
+            // slopes that rounding leaves differently at each setting
+            let exact = *value + 0.03 * numbers[row / 3];
+            *value = (exact * 10.0).round() / 10.0;
+        }
+        observed.standard_uncertainties = stated.then(|| vec![0.001; 30]);
+        diagnosed(&case, 1)
+    };
+    for stated in [true, false] {
+        let found = read(0.0, stated);
+        assert_eq!(found.most_probable.kind, HypothesisKind::None, "{stated}");
+        let note = found.notes.iter().find(|note| note.code == "resolution").unwrap();
+        let said = "rounded to 0.1, more coarsely than their noise: what that may have changed counts as a \
+                    standard uncertainty of 0.029,";
+        assert!(note.text.contains(said), "{}", note.text);
+        assert_eq!(read(0.2, stated).most_probable.effects, ["offset"], "{stated}");
+    }
+}

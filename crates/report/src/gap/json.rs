@@ -290,12 +290,13 @@ fn noise(diagnosis: &Diagnosis) -> Value {
         });
         entries.push(("factor", json!(factor)));
         entries.push(("serial_correlation", json!(serial)));
-        if let Some(of) = &noise.settings {
+        let settings = noise.settings.as_ref().map(|of| {
             let mut settings = figures(of.estimate, of.interval, of.probability);
             settings["condition"] = json!(of.condition);
             settings["standard_deviation"] = json!(of.standard_deviation);
-            entries.push(("setting_error", settings));
-        }
+            settings
+        });
+        entries.push(("setting_error", json!(settings)));
         entries.push(("suspect_rows", list(suspects)));
         Some((output.name.as_str(), object(entries)))
     }))
