@@ -102,14 +102,22 @@ pub(super) fn with_exponents(text: &str) -> String {
     written + rest
 }
 
-/// The power of `10^-3` or `10⁻³` at the start of a text, and what follows it.
-fn power_of_ten(text: &str) -> Option<(i32, &str)> {
-    const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+/// Raised digits, by their values.
+pub(super) const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+
+/// The power of `10^-3`, `10^(-3)` or `10⁻³` at the start of a text, and what follows it.
+pub(super) fn power_of_ten(text: &str) -> Option<(i32, &str)> {
     let behind = text.strip_prefix("10")?;
     let (is_raised, behind) = match behind.strip_prefix('^') {
         Some(rest) => (false, rest.trim_start()),
         None => (true, behind),
     };
+    for (open, close) in [("(", ')'), ("{", '}')] {
+        if let Some(inside) = behind.strip_prefix(open).filter(|_| !is_raised) {
+            let (power, after) = inside.split_once(close)?;
+            return Some((power.trim().replace('−', "-").parse().ok()?, after));
+        }
+    }
     let mut power = String::new();
     let mut length = 0;
     for sign in behind.chars() {
@@ -254,6 +262,8 @@ mod tests {
             ("6.02·10²³ 1/mol", "6.02e23 1/mol"),
             ("5 x 10^+3 m", "5e3 m"),
             ("1*10^−6 m", "1e-6 m"),
+            ("1·10^(−6) m", "1e-6 m"),
+            ("1·10^(2/3) m", "1·10^(2/3) m"),
             ("5 kg*10^3", "5 kg*10^3"),
             ("5 lux", "5 lux"),
             ("5 × 10 m", "5 × 10 m"),

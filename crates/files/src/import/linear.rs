@@ -101,7 +101,7 @@ impl Budget<'_> {
         for (row, factor) in rows.iter().zip(&factors) {
             terms.push(match *factor {
                 1.0 => row.name.clone(),
-                factor => format!("({})*{}", written(factor), row.name),
+                factor => format!("({})*{}", written(to_15_digits(factor)), row.name),
             });
         }
         Some(Linear { formula: terms.join(" + "), unit })

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use crate::value_text::{RAISED, power_of_ten, with_exponents};
 use gumption_engine::model::formula::{Formula, Scope};
 
 /// Spaces that stand between groups of digits.
@@ -19,7 +20,7 @@ pub(crate) fn number(text: &str, decimal_comma: bool) -> Option<f64> {
 /// A number as spreadsheets write it, and its digits as programs do.
 fn plain(text: &str, decimal_comma: bool) -> Option<(f64, String)> {
     let text = text.trim().replace(&SPACES[1..], "").replace(['−', '–'], "-");
-    let text = with_exponent(&text).unwrap_or(text);
+    let text = with_exponent(&text);
     let text = without_groups(&text).map_or(text, |text| text.replace(',', "."));
     let read = |text: String| {
         let value = text.parse::<f64>().ok().filter(|value| value.is_finite())?;
@@ -37,7 +38,7 @@ pub(crate) fn written(text: &str, decimal_comma: bool) -> Option<(f64, String, &
     let (_, unit) = number_with_unit(text, decimal_comma)?;
     let unit = if unit.is_empty() && text.ends_with('%') { "%" } else { unit };
     let digits = text.strip_suffix(unit)?.trim_end();
-    let (value, digits) = plain(&ungrouped(digits)?, decimal_comma)?;
+    let (value, digits) = plain(&ungrouped(&with_exponents(digits))?, decimal_comma)?;
     Some((value, digits, unit))
 }
 
@@ -56,21 +57,16 @@ pub(crate) fn without_groups(text: &str) -> Option<String> {
 }
 
 /// `0.41·10^-6` and `10⁻³` as `0.41e-6` and `1e-3`.
-fn with_exponent(text: &str) -> Option<String> {
-    let text = lowered(text);
-    let (mantissa, exponent) = text.split_once("10^")?;
-    let exponent: i32 = exponent.trim().trim_matches(['(', ')', '{', '}']).parse().ok()?;
-    let mantissa = mantissa.trim_end();
-    let mantissa = match mantissa {
-        "" | "-" => format!("{mantissa}1"),
-        _ => mantissa.strip_suffix(['·', '×', '*', 'x', '⋅'])?.trim_end().to_owned(),
-    };
-    Some(format!("{mantissa}e{exponent}"))
+fn with_exponent(text: &str) -> String {
+    let bare = text.strip_prefix('-').unwrap_or(text);
+    match power_of_ten(bare) {
+        Some((power, "")) => format!("{}1e{power}", text.strip_suffix(bare).unwrap_or("")),
+        _ => with_exponents(text),
+    }
 }
 
 /// A text with `^` and digits in place of raised ones.
 fn lowered(text: &str) -> String {
-    const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
     let mut lowered = String::new();
     let mut is_raised = false;
     for c in text.chars() {
@@ -108,7 +104,7 @@ pub(super) fn number_with_unit(text: &str, decimal_comma: bool) -> Option<(f64, 
     let ends = text.char_indices().take(LONGEST).map(|(at, c)| at + c.len_utf8());
     ends.collect::<Vec<_>>().into_iter().rev().find_map(|end| {
         let (digits, unit) = text.split_at_checked(end)?;
-        let value = number(&ungrouped(digits.trim_end())?, decimal_comma)?;
+        let value = number(&ungrouped(&with_exponents(digits.trim_end()))?, decimal_comma)?;
         // `20.00(6) V` is no number of a unit `(6) V`
         let inside = unit.trim_start().strip_prefix('(').unwrap_or_default();
         let is_unit = !inside.starts_with(|c: char| c.is_ascii_digit());
@@ -232,6 +228,10 @@ mod tests {
             ("0,000 12 V", 0.000_12, "V"),
             ("-575 nm/K", -575.0, "nm/K"),
             ("0,41·10^-6 V", 0.41e-6, "V"),
+            ("5 × 10³ V", 5e3, "V"),
+            ("5 × 10^3", 5e3, ""),
+            ("1,5 x 10^(-3) kg", 1.5e-3, "kg"),
+            ("10⁻³ m", 1e-3, "m"),
         ] {
             assert_eq!(number_with_unit(text, true), Some((value, unit)), "{text}");
         }
