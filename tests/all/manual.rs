@@ -173,7 +173,10 @@ fn new_asks() {
     let line = "gumption new --equation 'y = a*b' --input 'a=m,rectangular,mean=1,half_width=0.1' --output y.json";
     let said = shell(folder.path(), line);
     let error = String::from_utf8_lossy(&said.stderr);
-    assert!(said.status.success() && error.contains("fill in `mean` and `std` of `b`"), "{error}");
+    assert!(
+        said.status.success() && error.contains("fill in `unit`, `mean` and `std` of `b`"),
+        "{error}"
+    );
     assert_eq!(shell(folder.path(), "gumption check y.json").status.code(), Some(2));
 
     for (line, said) in [

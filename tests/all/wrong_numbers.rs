@@ -301,6 +301,9 @@ fn readings_far_from_the_estimate_are_told() {
         notes.iter().map(|note| code(note).to_owned()).collect::<Vec<_>>()
     };
     assert_eq!(codes(json!([5.1, 5.2, 5.3])), ["readings-apart"]);
+    // also by a decimal point that slipped
+    assert_eq!(codes(json!([0.51, 0.52, 0.53])), ["readings-apart"]);
+    assert_eq!(codes(json!([51, 52, 53])), ["readings-apart"]);
     // within their scatter, and deviations about zero
     assert!(codes(json!([5.1, 5.0, 5.3])).is_empty());
     assert!(codes(json!([0.1, -0.1, 0.05])).is_empty());

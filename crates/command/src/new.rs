@@ -287,7 +287,7 @@ impl Draft {
 /// An input of which nothing is known yet.
 fn blank() -> Map<String, Value> {
     let keys = [
-        ("unit", json!("1")),
+        ("unit", Value::Null),
         ("distribution", json!("normal")),
         ("mean", Value::Null),
         ("std", Value::Null),

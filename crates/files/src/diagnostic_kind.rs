@@ -721,7 +721,10 @@ impl fmt::Display for DiagnosticKind {
                 }
             }
             Self::UnknownFormat { found } => {
-                write!(f, "file format {found} is not known; this version reads `\"format\": 1`")
+                write!(
+                    f,
+                    "file format {found} is not known; this version reads `\"format\": 1` and `2`"
+                )
             }
             Self::WrongFile { what, command } => {
                 write!(f, "this is {what}, which `{command}` reads")

@@ -30,6 +30,10 @@ use gumption_units::Unit;
 /// At most so many variables.
 const MOST_VARIABLES: usize = 100_000;
 
+/// Readings of less than this share of an estimate are deviations from it: also a decimal point that
+/// slipped leaves a tenth.
+const DEVIATIONS: f64 = 0.05;
+
 /// Where a quantity's estimate comes from.
 enum EstimateSource {
     Own,
@@ -689,9 +693,9 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Tells of readings whose mean is far from the estimate of their input, of which only the scatter
-    /// counts. Deviations about zero are no readings of the quantity.
+    /// counts. Deviations from it are no readings of the quantity.
     fn note_of_mean(&mut self, part: &str, [mean, u]: [f64; 2], total: f64, unit: &Unit) {
-        let are_of_quantity = (mean - total).abs() < 0.5 * total.abs();
+        let are_of_quantity = mean.abs() > DEVIATIONS * total.abs();
         // to the digits that sums of readings have
         let apart = (mean - total).abs() > 3.0 * u + 1e-12 * total.abs();
         if !(are_of_quantity && apart) {

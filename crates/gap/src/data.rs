@@ -164,6 +164,16 @@ impl Data {
     }
 }
 
+/// Numbers keys, equal ones alike, in the order in which they first appear.
+pub(crate) fn numbered(keys: impl Iterator<Item = Vec<u64>>) -> Vec<usize> {
+    let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
+    let number = |key| {
+        let next = known.len();
+        *known.entry(key).or_insert(next)
+    };
+    keys.map(number).collect()
+}
+
 /// A difference of phases on the branch next to zero; of other values as it is.
 pub(crate) fn within_half_a_turn(difference: f64, turn: Option<f64>) -> f64 {
     match turn {
@@ -211,13 +221,9 @@ impl Spread {
             Sharing::All => None,
             Sharing::Row => Some((0..data.rows()).collect()),
             Sharing::Condition(place) => {
-                let mut levels: HashMap<u64, usize> = HashMap::new();
-                let mut level = |row: &gumption_engine::task::Row| {
-                    let value = row.conditions.get(place).copied().unwrap_or(0.0);
-                    let next = levels.len();
-                    *levels.entry(value.to_bits()).or_insert(next)
-                };
-                Some(data.ids.iter().map(|&id| level(&case.task.rows[id])).collect())
+                let value = |&id: &usize| case.task.rows[id].conditions.get(place).copied();
+                let level = |id| vec![value(id).unwrap_or(0.0).to_bits()];
+                Some(numbered(data.ids.iter().map(level)))
             }
         });
         Self { deviations, shared: shared.collect() }

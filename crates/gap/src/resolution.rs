@@ -4,11 +4,10 @@
 //! off by up to half a digit (JCGM 100, F.2.2.1). Noise that is estimated from such repeats would be nearly
 //! zero, and any effect would be found in what rounding leaves.
 
-use std::collections::HashMap;
-
 use gumption_engine::decimal::to_15_digits;
+use gumption_engine::task::Row;
 
-use super::data::Data;
+use super::data::{Data, numbered};
 use crate::{Case, ObservedOutput};
 
 /// Displays count in these steps of their last digit.
@@ -48,16 +47,15 @@ impl Rounding {
     /// The standard deviation of the errors, and the rows that share one: equal values at the same
     /// conditions.
     pub(crate) fn errors(&self, case: &Case, data: &Data, output: usize) -> (f64, Vec<Vec<usize>>) {
-        let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
-        let mut groups: Vec<Vec<usize>> = Vec::new();
-        for (row, &id) in data.ids.iter().enumerate().filter(|(row, _)| self.counts[*row]) {
-            let conditions = case.task.rows[id].conditions.iter();
-            let key = conditions.chain([&data.values[output][row]]).map(|value| value.to_bits());
-            let place = *known.entry(key.collect()).or_insert_with(|| {
-                groups.push(Vec::new());
-                groups.len() - 1
-            });
-            groups[place].push(row);
+        let rows: Vec<usize> = (0..data.rows()).filter(|&row| self.counts[row]).collect();
+        let key = |&row: &usize| {
+            let conditions = case.task.rows[data.ids[row]].conditions.iter();
+            conditions.chain([&data.values[output][row]]).map(|value| value.to_bits()).collect()
+        };
+        let numbers = numbered(rows.iter().map(key));
+        let mut groups = vec![Vec::new(); numbers.iter().max().map_or(0, |most| most + 1)];
+        for (row, number) in rows.into_iter().zip(numbers) {
+            groups[number].push(row);
         }
         (self.resolution / 12f64.sqrt(), groups)
     }
@@ -65,16 +63,18 @@ impl Rounding {
 
 /// The pooled standard deviation of values at the same conditions; `None` where there are no repeats.
 fn scatter(case: &Case, observed: &ObservedOutput) -> Option<f64> {
-    let mut points: HashMap<Vec<u64>, Vec<f64>> = HashMap::new();
-    for (row, value) in case.task.rows.iter().zip(&observed.values) {
-        let key = row.conditions.iter().map(|value| value.to_bits()).collect();
-        points.entry(key).or_default().push(*value);
+    let rows = case.task.rows.iter();
+    let key = |row: &Row| row.conditions.iter().map(|value| value.to_bits()).collect();
+    let numbers = numbered(rows.map(key));
+    let mut points = vec![Vec::new(); numbers.iter().max().map_or(0, |most| most + 1)];
+    for (number, &value) in numbers.into_iter().zip(&observed.values) {
+        points[number].push(value);
     }
     let (mut squares, mut free) = (0.0, 0.0);
-    for values in points.values() {
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
+    for values in &points {
+        let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
         squares += values.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
-        free += values.len() as f64 - 1.0;
+        free += values.len().saturating_sub(1) as f64;
     }
     (free > 0.0).then(|| (squares / free).sqrt())
 }

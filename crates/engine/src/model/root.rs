@@ -90,7 +90,7 @@ struct Search {
     points: [[f64; 2]; 3],
     /// Share of the way from the first point to the second at which to look next.
     share: f64,
-    /// The largest value at the ends of the cell.
+    /// The largest finite value at the ends of the cell.
     largest: f64,
     /// The root, or a NaN if there is none.
     found: Option<f64>,
@@ -105,7 +105,9 @@ impl Search {
     fn new(cell: Option<[[f64; 2]; 2]>) -> Self {
         let Some([first, second]) = cell else { return Self::nothing() };
         let found = (first[0] == second[0]).then_some(first[0]);
-        let largest = first[1].abs().max(second[1].abs());
+        // beside a pole at an end every value is small
+        let finite = |y: f64| if y.is_finite() { y.abs() } else { 0.0 };
+        let largest = finite(first[1]).max(finite(second[1]));
         Self { points: [second, first, first], share: 0.5, largest, found }
     }
 
@@ -322,6 +324,26 @@ mod tests {
             let x = growth.value(&[from, to, 4.0]);
             assert!((x - 4.0_f64.ln()).abs() < 1e-15, "{x} from {from} to {to}");
         }
+    }
+
+    /// A pole at one of the places that are looked at is no root, and a root beside one is.
+    #[test]
+    fn poles_at_places_are_no_roots() {
+        let recorder = Recorder::default();
+        let [x, k, one] = [0, 1, 2].map(|v| recorder.variable(v));
+        let pole = Root::new("x", recorder.program(3, &[one / x - k]));
+        for (from, to) in [(-10.0, 10.0), (-1.0, 1.0), (-10.0, 9.0)] {
+            assert!(pole.value(&[from, to, 0.01, 1.0]).is_nan(), "{from} to {to}");
+        }
+        let said = pole.undefined(&[-10.0, 10.0, 0.01, 1.0]);
+        assert!(said.contains("by a jump or a pole"), "{said}");
+        let x = pole.value(&[0.0, 10.0, 0.25, 1.0]);
+        assert!((x - 4.0).abs() < 2e-15, "{x}");
+        let recorder = Recorder::default();
+        let [x, k] = [0, 1].map(|v| recorder.variable(v));
+        let ln = Root::new("x", recorder.program(2, &[x.unary(Unary::Ln) - k]));
+        let x = ln.value(&[0.0, 10.0, -3.0]);
+        assert!((x - (-3.0_f64).exp()).abs() < 1e-16, "{x}");
     }
 
     #[test]

@@ -303,8 +303,8 @@ fn trials() -> Value {
         (
             "description",
             Value::from(
-                "Number of trials, 1 000 000 unless given; 0 for the GUM alone, `adaptive` for as \
-                 many as the digits need.",
+                "Number of trials; 1 000 000 unless given, and more where the digits of a result \
+                 need them; 0 for the GUM alone, `adaptive` for as many as the digits need.",
             ),
         ),
         (
