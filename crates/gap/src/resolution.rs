@@ -13,8 +13,8 @@ use crate::{Case, ObservedOutput};
 /// Displays count in these steps of their last digit.
 const STEPS: [i64; 3] = [10, 5, 2];
 
-/// Fewer different values have a common step by chance.
-const FEWEST: usize = 12;
+/// The odds against a step that values have in common by chance, at least.
+const LEAST_ODDS: f64 = 1e3;
 
 /// Decimals that a display has, at most; values that were computed have more.
 const MOST_DECIMALS: usize = 12;
@@ -101,8 +101,12 @@ pub(crate) fn resolution(values: &[f64]) -> Option<f64> {
     counts.sort_unstable();
     counts.dedup();
     let first = *counts.first()?;
-    let is_common = |of: &&i64| counts.iter().all(|count| (count - first) % **of == 0);
-    let common = STEPS.iter().find(is_common).filter(|_| counts.len() >= FEWEST);
+    let more = i32::try_from(counts.len() - 1).unwrap_or(i32::MAX);
+    let is_common = |of: &&i64| {
+        counts.iter().all(|count| (count - first) % **of == 0)
+            && (**of as f64).powi(more) > LEAST_ODDS
+    };
+    let common = STEPS.iter().find(is_common);
     Some(to_15_digits(step * common.map_or(1.0, |of| *of as f64)))
 }
 

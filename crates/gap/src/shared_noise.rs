@@ -38,7 +38,7 @@ pub(crate) const LEAST_SETTINGS: usize = 5;
 const LEAST_ROWS: usize = 2;
 
 /// So many errors of settings, at most: each is one more unknown quantity of the covariance.
-const MOST_ERRORS: usize = 200;
+const MOST_ERRORS: usize = 60;
 
 /// The same where the noise is estimated, and with it that covariance for every draw.
 const MOST_FITTED: usize = 40;
@@ -92,16 +92,10 @@ impl SharedNoise {
         self.ratios[output] * self.typical(data, output)
     }
 
-    /// The root mean square of the standard uncertainties of an output's noise, in its unit.
+    /// The standard uncertainty of an output's noise, in its unit: the root mean square of the stated
+    /// ones, or that within the settings.
     pub(crate) fn typical(&self, data: &Data, output: usize) -> f64 {
-        let squares: Vec<f64> =
-            (0..data.rows()).map(|row| self.uncertainty(data, output, row).powi(2)).collect();
-        (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
-    }
-
-    /// The standard uncertainty of the noise of a value: stated, or that within the settings.
-    pub(crate) fn uncertainty(&self, data: &Data, output: usize, row: usize) -> f64 {
-        let stated = data.uncertainties[output].as_ref().map(|u| u[row]);
+        let stated = data.uncertainties[output].as_deref().map(root_mean_square);
         stated.or(self.within[output]).unwrap_or(0.0)
     }
 
@@ -130,15 +124,19 @@ impl SharedNoise {
             if ratio == 0.0 {
                 continue;
             }
+            let size = self.deviation(data, output);
             let mut own = vec![vec![0.0; rows * outputs]; count];
             for (row, &id) in data.ids.iter().enumerate() {
-                let of = ratio * self.uncertainty(data, output, row);
-                own[settings[id]][row * outputs + output] = of;
+                own[settings[id]][row * outputs + output] = size;
             }
             columns.extend(own);
         }
         columns
     }
+}
+
+fn root_mean_square(values: &[f64]) -> f64 {
+    (dot(values, values) / values.len().max(1) as f64).sqrt()
 }
 
 impl Setting {
@@ -271,11 +269,14 @@ pub(crate) struct Remainder {
     residuals: Vec<f64>,
     /// The standard deviations of the estimated noise; empty where it is stated.
     deviations: Vec<f64>,
+    /// The same error in each value as a share of its standard uncertainty, relative to that of a typical
+    /// one.
+    shares: Vec<f64>,
 }
 
 impl Remainder {
     pub(crate) fn of(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Self {
-        let nothing = Self { residuals: Vec::new(), deviations: Vec::new() };
+        let nothing = Self { residuals: Vec::new(), deviations: Vec::new(), shares: Vec::new() };
         let Some(mode) = hypothesis.evidence.modes.first() else { return nothing };
         let likelihood = setup.likelihood(&hypothesis.effects);
         let found = whitened::residuals(&likelihood, std::slice::from_ref(&mode.scores)).pop();
@@ -303,7 +304,13 @@ impl Remainder {
         for (column, size) in basis.iter().zip(&sizes) {
             residuals.iter_mut().zip(column).for_each(|(left, value)| *left -= size * value);
         }
-        Self { residuals, deviations }
+        let outputs = setup.data.outputs.len();
+        let share = |value: usize| match &setup.data.uncertainties[value % outputs] {
+            Some(u) => root_mean_square(u) / u[value / outputs],
+            None => 1.0,
+        };
+        let shares = (0..residuals.len()).map(share).collect();
+        Self { residuals, deviations, shares }
     }
 }
 
@@ -360,12 +367,15 @@ impl Groups {
         let square = ratio * ratio;
         let of = |rows: &Vec<usize>| {
             let own = self.own(left, rows, output);
-            let squares: f64 = own.iter().map(|of| of * of).sum();
-            let sum = own.iter().sum::<f64>() / within;
-            let count = own.len() as f64;
-            let total = 1.0 + count * square;
-            let noise =
-                squares * (1.0 - 1.0 / (within * within)) - 2.0 * count * elementary::ln(within);
+            let shares = rows.iter().filter_map(|row| left.shares.get(row * self.outputs + output));
+            let squares = dot(&own, &own);
+            let (mut sum, mut total) = (0.0, 1.0);
+            for (of, share) in own.iter().zip(shares) {
+                sum += share * of / within;
+                total += square * share * share;
+            }
+            let noise = squares * (1.0 - 1.0 / (within * within))
+                - 2.0 * own.len() as f64 * elementary::ln(within);
             0.5 * (noise + square * sum * sum / total - elementary::ln(total))
         };
         self.rows.iter().map(of).sum()
@@ -381,13 +391,15 @@ mod tests {
     fn gain_by_determinants() {
         let groups = Groups { rows: vec![vec![0, 2], vec![1], vec![3, 4, 5]], outputs: 1 };
         let residuals = vec![0.7, -1.2, 1.9, 0.3, -0.4, 2.2];
-        let mut left = Remainder { residuals: residuals.clone(), deviations: Vec::new() };
+        let shares = vec![1.0, 0.5, 2.0, 1.0, 0.3, 1.4];
+        let [residuals_of, deviations] = [residuals.clone(), Vec::new()];
+        let mut left = Remainder { residuals: residuals_of, deviations, shares: shares.clone() };
         let ratio = 1.7;
         let mut wanted = 0.0;
         for rows in &groups.rows {
             let n = rows.len();
             let matrix = nalgebra::DMatrix::from_fn(n, n, |i, j| {
-                ratio * ratio + f64::from(u8::from(i == j))
+                ratio * ratio * shares[rows[i]] * shares[rows[j]] + f64::from(u8::from(i == j))
             });
             let r = nalgebra::DVector::from_iterator(n, rows.iter().map(|&row| residuals[row]));
             let inverse = matrix.clone().try_inverse().unwrap();
@@ -400,7 +412,7 @@ mod tests {
         let (share, within) = groups.within(&left, 0).unwrap();
         assert!((within - 0.1 * share).abs() < 1e-15);
         let scaled = residuals.iter().map(|r| r / share).collect();
-        let own = Remainder { residuals: scaled, deviations: Vec::new() };
+        let own = Remainder { residuals: scaled, deviations: Vec::new(), shares };
         let ln_normal =
             |s: f64| -> f64 { residuals.iter().map(|r| -0.5 * (r / s).powi(2) - s.ln()).sum() };
         let wanted = groups.gain(&own, 0, ratio) + ln_normal(share) - ln_normal(1.0);

@@ -346,8 +346,7 @@ fn variances_of_settings(setup: &Setup<'_>) -> Vec<f64> {
     let data = &setup.data;
     let outputs = data.outputs.len();
     let of = |value: usize| {
-        let (row, output) = (value / outputs, value % outputs);
-        let of = |of: &SharedNoise| of.ratios[output] * of.uncertainty(data, output, row);
+        let of = |of: &SharedNoise| of.deviation(data, value % outputs);
         data.noise.shared.as_ref().map_or(0.0, of).powi(2)
     };
     (0..data.len()).map(of).collect()
