@@ -113,8 +113,8 @@ impl Covariance {
         }
         for output in 0..outputs {
             let Some(rounding) = Rounding::of(case, data, output) else { continue };
-            let (deviation, groups) = rounding.errors(case, data, output);
-            for equal in groups {
+            let deviation = rounding.deviation();
+            for equal in rounding.equal(case, data, output) {
                 // the mean of equal values is as uncertain as one of them
                 let shared = deviation * (1.0 - 1.0 / equal.len() as f64).sqrt();
                 let mut column = vec![0.0; rows * outputs];

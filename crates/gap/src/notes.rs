@@ -44,7 +44,7 @@ pub(crate) fn notes(
     for output in 0..setup.data.outputs.len() {
         let Some(rounding) = Rounding::of(setup.case, &setup.data, output) else { continue };
         let quantity = &setup.case.model.outputs[setup.data.outputs[output]].quantity;
-        let deviation = significant(rounding.resolution / 12f64.sqrt(), 2);
+        let deviation = significant(rounding.deviation(), 2);
         note(
             "resolution",
             format!(

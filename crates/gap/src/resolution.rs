@@ -36,7 +36,7 @@ impl Rounding {
     pub(crate) fn of(case: &Case, data: &Data, output: usize) -> Option<Self> {
         let observed = case.observed[data.outputs[output]].as_ref()?;
         let resolution = resolution(&observed.values)?;
-        let least = resolution / 12f64.sqrt();
+        let least = deviation(resolution);
         let counts: Vec<bool> = match &observed.standard_uncertainties {
             Some(u) => data.ids.iter().map(|&id| u[id] < least).collect(),
             None => vec![scatter(case, observed)? < 0.5 * resolution; data.rows()],
@@ -44,10 +44,19 @@ impl Rounding {
         counts.contains(&true).then_some(Self { resolution, counts })
     }
 
-    /// The standard deviation of the errors, and the rows that share one: equal values at the same
-    /// conditions.
-    pub(crate) fn errors(&self, case: &Case, data: &Data, output: usize) -> (f64, Vec<Vec<usize>>) {
-        let rows: Vec<usize> = (0..data.rows()).filter(|&row| self.counts[row]).collect();
+    /// The standard deviation of what rounding changes.
+    pub(crate) fn deviation(&self) -> f64 {
+        deviation(self.resolution)
+    }
+
+    /// The rows of values that are rounded so.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = usize> {
+        (0..self.counts.len()).filter(|&row| self.counts[row])
+    }
+
+    /// The rows that share an error: equal values at the same conditions.
+    pub(crate) fn equal(&self, case: &Case, data: &Data, output: usize) -> Vec<Vec<usize>> {
+        let rows: Vec<usize> = self.rows().collect();
         let key = |&row: &usize| {
             let conditions = case.task.rows[data.ids[row]].conditions.iter();
             conditions.chain([&data.values[output][row]]).map(|value| value.to_bits()).collect()
@@ -57,8 +66,13 @@ impl Rounding {
         for (row, number) in rows.into_iter().zip(numbers) {
             groups[number].push(row);
         }
-        (self.resolution / 12f64.sqrt(), groups)
+        groups
     }
+}
+
+/// The standard deviation of a rectangular distribution as wide as a step.
+fn deviation(step: f64) -> f64 {
+    step / 12f64.sqrt()
 }
 
 /// The pooled standard deviation of values at the same conditions; `None` where there are no repeats.

@@ -164,9 +164,8 @@ fn with_rounding(setup: &Setup<'_>, mut variances: Vec<f64>) -> Vec<f64> {
     let outputs = setup.data.outputs.len();
     for output in 0..outputs {
         let Some(rounding) = Rounding::of(setup.case, &setup.data, output) else { continue };
-        let (deviation, groups) = rounding.errors(setup.case, &setup.data, output);
-        for row in groups.into_iter().flatten() {
-            variances[row * outputs + output] += deviation * deviation;
+        for row in rounding.rows() {
+            variances[row * outputs + output] += rounding.deviation() * rounding.deviation();
         }
     }
     variances
