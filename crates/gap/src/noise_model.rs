@@ -400,7 +400,7 @@ fn serial_correlations(weighings: &[Weighing<'_>]) -> Vec<f64> {
     let total = ln_total(weighings);
     let found: Vec<Vec<f64>> = parallel::map(&posterior.hypotheses, |hypothesis| {
         let residuals = residuals_at_mode(setup, hypothesis);
-        let ln = hypothesis.ln_weight() + ln_explained_away(setup, hypothesis);
+        let ln = ln_weight_at_mode(setup, hypothesis);
         SERIAL.iter().map(|&of| ln + serial_gain(setup, &residuals, of)).collect()
     });
     let ln_prior = elementary::ln(NoiseModel::with_serial(0.0).prior(setup.data.len()));
@@ -414,8 +414,25 @@ fn serial_correlations(weighings: &[Weighing<'_>]) -> Vec<f64> {
     (0..SERIAL.len()).filter(worth).map(|n| SERIAL[n]).collect()
 }
 
+/// An evidence with a larger standard error is that of draws far from the modes, which may stand at
+/// the end of what is searched: what they leave is more than those draws do.
+const ELSEWHERE: f64 = 0.5;
+
+/// The logarithm of the weight of a hypothesis with a noise that is not as stated, without what the
+/// residuals at its best mode gain by that.
+pub(crate) fn ln_weight_at_mode(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> f64 {
+    let evidence = &hypothesis.evidence;
+    let too_much = match evidence.modes.first() {
+        Some(mode) if evidence.standard_error > ELSEWHERE => {
+            (evidence.ln_evidence - mode.ln_evidence()).max(0.0)
+        }
+        _ => 0.0,
+    };
+    hypothesis.ln_weight() - too_much + ln_explained_away(setup, hypothesis)
+}
+
 /// By how much the logarithm of the prior probability of a hypothesis rises if the noise is another.
-pub(crate) fn ln_explained_away(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> f64 {
+fn ln_explained_away(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> f64 {
     let other = NoiseModel::other_than_stated(setup.case.prior);
     let (here, there) = (setup.prior(), other);
     let [here, there] = if hypothesis.effects.is_empty() {

@@ -58,19 +58,26 @@ impl Mode {
         -self.cost + 0.5 * self.scores.iter().map(|score| score * score).sum::<f64>()
     }
 
+    /// The logarithm of the evidence in its neighbourhood, in the Gaussian approximation.
+    pub(crate) fn ln_evidence(&self) -> f64 {
+        -self.cost - 0.5 * ln_det(self.information.clone())
+    }
+
     /// The logarithm of the share of the prior of the quantities after the first `shared` ones that
     /// the data leave, in the Gaussian approximation.
     pub(crate) fn ln_occam(&self, shared: usize) -> f64 {
         let own: f64 = self.scores.iter().skip(shared).map(|score| score * score).sum();
-        // the prior adds the identity, so that the information is positive definite
-        let ln_det = |matrix: DMatrix<f64>| {
-            let mut root = packed::of_matrix(&matrix);
-            packed::cholesky_of_definite(&mut root);
-            2.0 * packed::ln_diagonal(&root)
-        };
         let first = self.information.view((0, 0), (shared, shared)).into_owned();
         -0.5 * (own + ln_det(self.information.clone()) - ln_det(first))
     }
+}
+
+/// The logarithm of the determinant of an information: the prior adds the identity, so that it is
+/// positive definite.
+fn ln_det(information: DMatrix<f64>) -> f64 {
+    let mut root = packed::of_matrix(&information);
+    packed::cholesky_of_definite(&mut root);
+    2.0 * packed::ln_diagonal(&root)
 }
 
 /// The cost at a point with its gradient and information.

@@ -15,7 +15,7 @@ use super::data::Data;
 use super::discrepancy::levels;
 use super::latent::Role;
 use super::logarithm::ln_add;
-use super::noise_model::{NoiseModel, WORTH_TRYING, Weighing, ln_explained_away, ln_total};
+use super::noise_model::{NoiseModel, WORTH_TRYING, Weighing, ln_total, ln_weight_at_mode};
 use super::posterior::WeighedHypothesis;
 use super::setup::Setup;
 use super::whitened::{self, WhitenedResiduals};
@@ -197,8 +197,7 @@ pub(crate) fn worth_trying(weighings: &[Weighing<'_>]) -> Vec<SharedNoise> {
         return Vec::new();
     }
     let left: Vec<(f64, Remainder)> = parallel::map(&posterior.hypotheses, |hypothesis| {
-        let ln = hypothesis.ln_weight() + ln_explained_away(setup, hypothesis);
-        (ln, Remainder::of(setup, hypothesis))
+        (ln_weight_at_mode(setup, hypothesis), Remainder::of(setup, hypothesis))
     });
     let Some((_, leading)) = left.iter().max_by(|a, b| a.0.total_cmp(&b.0)) else {
         return Vec::new();

@@ -13,8 +13,8 @@ use super::beside_departure::beside_departure;
 use super::influence::{Influence, SizeGains, suspect};
 use super::logarithm::ln_add;
 use super::noise_model::{
-    MOST_SUSPECTS, NoiseModel, STILL_OFF, SUSPECT_SIZES, Suspect, WORTH_TRYING, Weighing,
-    ln_explained_away, ln_total, residuals_at_mode,
+    MOST_SUSPECTS, NoiseModel, STILL_OFF, SUSPECT_SIZES, Suspect, WORTH_TRYING, Weighing, ln_total,
+    ln_weight_at_mode, residuals_at_mode,
 };
 use super::posterior::{self, Effort, WeighedHypothesis};
 use super::prior_widths::PriorWidths;
@@ -84,12 +84,6 @@ fn is_suspect(last: &Weighing<'_>, value: usize) -> bool {
     last.setup.data.noise.suspects.iter().any(|known| known.is_of(id, output))
 }
 
-/// The logarithm of the weight of a hypothesis with the noise that is not as stated, without what it
-/// gains by that.
-fn ln_weight(last: &Weighing<'_>, hypothesis: &WeighedHypothesis) -> f64 {
-    hypothesis.ln_weight() + ln_explained_away(&last.setup, hypothesis)
-}
-
 /// The suspects of a weighing and the value whose evidences it would raise most, if that is enough.
 fn one_more(
     last: &Weighing<'_>,
@@ -98,7 +92,7 @@ fn one_more(
 ) -> Option<Vec<Suspect>> {
     let values = last.setup.data.len();
     let of_hypothesis = |(hypothesis, influence): (_, &Option<Influence>)| -> Vec<SizeGains> {
-        let ln = ln_weight(last, hypothesis);
+        let ln = ln_weight_at_mode(&last.setup, hypothesis);
         let Some(influence) = influence else { return Vec::new() };
         let alone = influence.with(&[]);
         (0..values).map(|value| alone.more(value).map(|gain| ln + gain)).collect()
@@ -137,7 +131,7 @@ fn several_more(
     }
     let hypotheses = last.posterior.hypotheses.iter().zip(influences);
     let found: Vec<Vec<WeighedSet>> = parallel::map(hypotheses, |(hypothesis, influence)| {
-        let ln = ln_weight(last, hypothesis);
+        let ln = ln_weight_at_mode(&last.setup, hypothesis);
         let influence = influence.as_ref().filter(|_| ln.is_finite());
         let sets = influence.map(|of| best_sets(last, of, most)).unwrap_or_default();
         sets.into_iter().map(|(gain, set)| (ln + gain, set)).collect()
