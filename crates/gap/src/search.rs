@@ -341,8 +341,20 @@ struct Block {
     /// Products of the basis with the residual, then with its derivatives.
     products: Vec<Points>,
     inner: Vec<Points>,
+    /// For each score of `noise` what the basis changes of its gradient.
+    shares: Vec<NoiseShare>,
     /// Of the value that is being added, by score.
     slopes: Vec<Points>,
+}
+
+/// Sums of the slopes of the logarithm of the variance, and of products of the basis with them: what
+/// the basis explains of a residual is not noise.
+#[derive(Clone)]
+struct NoiseShare {
+    slopes: Points,
+    /// Of the basis with the residual.
+    products: Vec<Points>,
+    inner: Vec<Points>,
 }
 
 /// The lanes of a column, with room to read a whole block from any of them.
@@ -353,6 +365,8 @@ impl<'l> Moments<'l> {
         let unknowns = likelihood.unknowns();
         let basis = &likelihood.covariance.basis;
         let fitted = likelihood.covariance.fitted;
+        let is_noise = |i: &usize| likelihood.roles[*i].is_noise();
+        let (noise, moving): (Vec<usize>, Vec<usize>) = (0..unknowns).partition(is_noise);
         let zeros = |count: usize| vec![[0.0; SIDE_BY_SIDE]; count];
         let block = || Block {
             square: [0.0; SIDE_BY_SIDE],
@@ -361,10 +375,16 @@ impl<'l> Moments<'l> {
             information: zeros(triangle(unknowns)),
             products: zeros(basis.len() * (unknowns + 1)),
             inner: zeros(if fitted { triangle(basis.len()) } else { 0 }),
+            shares: vec![
+                NoiseShare {
+                    slopes: [0.0; SIDE_BY_SIDE],
+                    products: zeros(basis.len()),
+                    inner: zeros(triangle(basis.len())),
+                };
+                if fitted { noise.len() } else { 0 }
+            ],
             slopes: zeros(unknowns),
         };
-        let is_noise = |i: &usize| likelihood.roles[*i].is_noise();
-        let (noise, moving) = (0..unknowns).partition(is_noise);
         let blocks = (0..points.div_ceil(SIDE_BY_SIDE)).map(|_| block()).collect();
         Self { basis, fitted, points, moving, noise, blocks }
     }
@@ -382,17 +402,23 @@ impl<'l> Moments<'l> {
             block.information[triangle(i.max(j)) + i.min(j)][lane]
         });
         if k > 0 {
-            let inner = if covariance.fitted {
+            let root = if covariance.fitted {
                 let mut root: Vec<f64> = block.inner.iter().map(|sums| sums[lane]).collect();
                 for i in 0..k {
                     root[triangle(i) + i] += 1.0;
                 }
                 packed::cholesky_of_definite(&mut root);
                 half_ln_det += packed::ln_diagonal(&root);
-                packed::to_matrix(&root)
+                let shares = self.noise.iter().zip(block.noise_shares(&root, lane));
+                for (&t, [gradient_less, information_share]) in shares {
+                    gradient[t] -= gradient_less;
+                    information[(t, t)] *= information_share;
+                }
+                root
             } else {
-                packed::to_matrix(&covariance.inner)
+                covariance.inner.clone()
             };
+            let inner = packed::to_matrix(&root);
             let products = DMatrix::from_fn(k, unknowns + 1, |i, j| {
                 block.products[i * (unknowns + 1) + j][lane]
             });
@@ -445,6 +471,44 @@ fn add_product(sums: &mut Points, a: &Points, b: &Points) {
 }
 
 impl Block {
+    /// For each score of the noise what its gradient is less, and the share of its information that is
+    /// left, with the root of the basis' inner products at a point: with w for what the basis leaves of
+    /// the residual and h for its share in each value, half the sum of slope times 1 - h - w^2 in place
+    /// of 1 - r^2.
+    fn noise_shares(&self, root: &[f64], lane: usize) -> impl Iterator<Item = [f64; 2]> {
+        let k = packed::rows(root).len();
+        let moved = self.products.len() / k;
+        let mut sizes: Vec<f64> = (0..k).map(|i| self.products[i * moved][lane]).collect();
+        packed::solve(root, &mut sizes);
+        packed::solve_transposed(root, &mut sizes);
+        let mut inverse = root.to_vec();
+        packed::invert(&mut inverse);
+        // of both halves of the symmetric matrices
+        let mut both = vec![0.0; root.len()];
+        for row in packed::rows(&inverse) {
+            for (i, own) in row.iter().enumerate() {
+                for (j, other) in row[..=i].iter().enumerate() {
+                    both[triangle(i) + j] += if i == j { own * other } else { 2.0 * own * other };
+                }
+            }
+        }
+        self.shares.iter().map(move |share| {
+            let (mut explained, mut less) = (0.0, 0.0);
+            for i in 0..k {
+                less += 2.0 * sizes[i] * share.products[i][lane];
+                for j in 0..=i {
+                    let inner = share.inner[triangle(i) + j][lane];
+                    explained += both[triangle(i) + j] * inner;
+                    let twice = if i == j { 1.0 } else { 2.0 };
+                    less -= twice * sizes[i] * sizes[j] * inner;
+                }
+            }
+            let slopes = share.slopes[lane];
+            let left = if slopes == 0.0 { 1.0 } else { (1.0 - explained / slopes).max(0.0) };
+            [0.5 * (explained - less), left]
+        })
+    }
+
     /// Adds what one value gives to the gradient, a multiple of its slopes by these scores, and to the
     /// information, a multiple of their products.
     #[inline(always)]
@@ -484,9 +548,11 @@ impl Visitor for Moments<'_> {
                     for (sum, ln) in block.half_ln_variances.iter_mut().zip(&ln) {
                         *sum += 0.5 * ln;
                     }
-                    for &t in &*noise {
+                    for (&t, share) in noise.iter().zip(&mut block.shares) {
                         let moved = block_at(&ln_variance, first + (t + 1) * *points);
-                        block.slopes[t] = each(|n| (moved[n] - ln[n]) / STEP);
+                        let slope = each(|n| (moved[n] - ln[n]) / STEP);
+                        share.slopes.iter_mut().zip(slope).for_each(|(sum, slope)| *sum += slope);
+                        block.slopes[t] = slope;
                     }
                     let excess = each(|n| 0.5 * (1.0 - r[n] * r[n]));
                     block.add_slopes(noise, &excess, 0.5);
@@ -511,14 +577,78 @@ impl Visitor for Moments<'_> {
                         add_product(&mut products[1 + t], &factor, &block.slopes[t]);
                     }
                     if *fitted {
+                        for (&t, share) in noise.iter().zip(&mut block.shares) {
+                            let factor = each(|n| factor[n] * block.slopes[t][n]);
+                            add_product(&mut share.products[i], &factor, &r);
+                        }
                         let factor = each(|n| factor[n] * root[n]);
                         for (j, other) in basis.iter().enumerate().take(i + 1) {
-                            let other = [other[place]; SIDE_BY_SIDE];
-                            add_product(&mut block.inner[triangle(i) + j], &factor, &other);
+                            if other[place] == 0.0 {
+                                continue;
+                            }
+                            let product = each(|n| factor[n] * other[place]);
+                            let sums = &mut block.inner[triangle(i) + j];
+                            sums.iter_mut().zip(product).for_each(|(sum, of)| *sum += of);
+                            for (&t, share) in noise.iter().zip(&mut block.shares) {
+                                let sums = &mut share.inner[triangle(i) + j];
+                                add_product(sums, &product, &block.slopes[t]);
+                            }
                         }
                     }
                 }
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::locals;
+    use crate::noise_model::NoiseModel;
+    use crate::setup::Setup;
+    use crate::shared_noise::{Setting, SharedNoise};
+    use crate::tests::{candidate, case, normal, observed};
+    use gumption_engine::task::Sharing;
+
+    /// With an estimated noise, and errors that the rows of a setting share beside it.
+    #[test]
+    fn gradients_are_those_of_differences() {
+        let off = |n: usize| [0.3, 1.5, -0.2, 0.1, -1.2, 0.1, 0.7][n % 7] + 0.2 * (n / 2) as f64;
+        let values: Vec<f64> = (0..12).map(|n| 1.0 + 0.5 * n as f64 + off(n)).collect();
+        let mut case = case(
+            normal(1.0, 0.3),
+            Sharing::All,
+            &[("y", "a + 0.5*x")],
+            vec![observed(&values, None)],
+            vec![candidate("offset", "o", normal(0.0, 0.4), &[("y", "y + o")])],
+        );
+        for (n, row) in case.task.rows.iter_mut().enumerate() {
+            row.conditions = vec![(n / 2) as f64];
+        }
+        let setup = Setup::new(&case);
+        let shared = SharedNoise {
+            setting: Setting::All,
+            among: 1,
+            ratios: vec![2.0],
+            within: vec![Some(0.4)],
+        };
+        let setup = setup.with_noise(NoiseModel::with_shared(shared));
+        let likelihood = setup.likelihood(&[0]);
+        let scores = vec![0.4; likelihood.unknowns()];
+        assert!(likelihood.roles.iter().any(crate::latent::Role::is_noise));
+        assert!(likelihood.covariance.basis.len() >= 6);
+        let at = |scores: &[f64]| locals(&likelihood, &[scores.to_vec()]).remove(0);
+        let local = at(&scores);
+        for i in 0..scores.len() {
+            let cost = |step: f64| {
+                let mut moved = scores.clone();
+                moved[i] += step;
+                at(&moved).cost
+            };
+            let slope = (cost(1e-4) - cost(-1e-4)) / 2e-4;
+            // slopes inside are differences to one side with steps of 1e-5
+            let miss = (local.gradient[i] - slope).abs();
+            assert!(miss < 1e-3 * slope.abs().max(1.0), "{i}: {} {slope}", local.gradient[i]);
         }
     }
 }

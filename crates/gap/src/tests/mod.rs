@@ -34,7 +34,7 @@ use gumption_engine::task::{Row, Sharing, Task, Variable};
 use gumption_units::Unit;
 
 /// A normal distribution.
-fn normal(mean: f64, std: f64) -> Distribution {
+pub(crate) fn normal(mean: f64, std: f64) -> Distribution {
     Normal::new(mean, std).unwrap().into()
 }
 
@@ -49,7 +49,12 @@ fn formulas(texts: &[(&str, &str)]) -> Vec<(String, Formula)> {
 }
 
 /// An effect with one parameter.
-fn candidate(name: &str, parameter: &str, prior: Distribution, of: &[(&str, &str)]) -> Candidate {
+pub(crate) fn candidate(
+    name: &str,
+    parameter: &str,
+    prior: Distribution,
+    of: &[(&str, &str)],
+) -> Candidate {
     let effect = Effect {
         name: name.to_owned(),
         parameters: vec![quantity(parameter)],
@@ -60,7 +65,7 @@ fn candidate(name: &str, parameter: &str, prior: Distribution, of: &[(&str, &str
 
 /// A model of the input `a` and the condition `x` = 0, 1, 2, ..., all of them dimensionless, with an
 /// output for each equation.
-fn case(
+pub(crate) fn case(
     a: Distribution,
     sharing: Sharing,
     equations: &[(&str, &str)],
@@ -97,7 +102,7 @@ fn case(
 }
 
 /// Measured values with their standard uncertainties, if these are known.
-fn observed(values: &[f64], uncertainties: Option<&[f64]>) -> ObservedOutput {
+pub(crate) fn observed(values: &[f64], uncertainties: Option<&[f64]>) -> ObservedOutput {
     ObservedOutput {
         values: values.to_vec(),
         standard_uncertainties: uncertainties.map(<[f64]>::to_vec),
