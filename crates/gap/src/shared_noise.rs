@@ -82,6 +82,19 @@ impl SharedNoise {
         each.product::<f64>() / (1.0 - NONE.powi(outputs)) / self.among.max(1) as f64
     }
 
+    /// The same with errors in one output less: what is a departure along the settings there no
+    /// hypothesis has at its modes.
+    fn without_one(&self) -> Vec<Self> {
+        let with_errors = |of: &Self| of.ratios.iter().any(|ratio| *ratio > 0.0);
+        let outputs = (0..self.ratios.len()).filter(|&output| self.ratios[output] > 0.0);
+        let without = outputs.map(|output| {
+            let mut fewer = self.clone();
+            fewer.ratios[output] = 0.0;
+            fewer
+        });
+        without.filter(with_errors).collect()
+    }
+
     /// Whether errors are so large that they are a gap, and not noise that is a little larger than stated.
     pub(crate) fn is_departure(&self) -> bool {
         self.ratios.iter().any(|ratio| *ratio >= DEPARTURE)
@@ -234,7 +247,15 @@ pub(crate) fn worth_trying(weighings: &[Weighing<'_>]) -> Vec<SharedNoise> {
     let best = found.iter().map(|(ln, _)| *ln).fold(ln_total(weighings), f64::max);
     found.retain(|(ln, _)| ln - best > elementary::ln(WORTH_TRYING));
     largest_first(&mut found, |(ln, _)| *ln);
-    found.into_iter().take(MOST_MODELS).map(|(_, noise)| noise).collect()
+    let mut found: Vec<SharedNoise> =
+        found.into_iter().take(MOST_MODELS).map(|(_, noise)| noise).collect();
+    let fewer = found.first().map(SharedNoise::without_one).unwrap_or_default();
+    for noise in fewer {
+        if !found.contains(&noise) {
+            found.push(noise);
+        }
+    }
+    found
 }
 
 /// The standard deviations of all outputs, as places in the list or none, of which each alone is near the
