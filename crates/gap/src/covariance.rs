@@ -51,6 +51,10 @@ impl Covariance {
             }
         }
         let mut basis: Vec<Vec<f64>> = Vec::new();
+        // first, as they have nothing to do with each other: the root of the inner products is zero there
+        if let Some(shared) = &data.noise.shared {
+            basis.extend(shared.columns(case, data));
+        }
         let root = correlated::root(case, linear);
         for (place, &variable) in linear.iter().enumerate() {
             let own = |variable: usize, row: usize, output: usize| {
@@ -107,9 +111,6 @@ impl Covariance {
                     column
                 }));
             }
-        }
-        if let Some(shared) = &data.noise.shared {
-            basis.extend(shared.columns(case, data));
         }
         for output in 0..outputs {
             let Some(rounding) = Rounding::of(case, data, output) else { continue };

@@ -45,15 +45,19 @@ pub(crate) fn leading(weighings: &[Weighing<'_>]) -> usize {
     all.max_by(|&a, &b| share(&weighings[a]).total_cmp(&share(&weighings[b]))).unwrap_or(0)
 }
 
-/// The forms, most probable first; their probabilities sum to that of "unexplained", apart from what
-/// is left out.
+/// The forms, most probable first; their probabilities sum to that of "unexplained", of which those
+/// that are left out have no part.
 pub(crate) fn forms(weighings: &[Weighing<'_>]) -> Vec<DepartureForm> {
-    let in_all: f64 = weighings.iter().map(of_settings).sum();
-    if probability(weighings) + in_all <= WORTH_TELLING {
+    let in_all = probability(weighings) + weighings.iter().map(of_settings).sum::<f64>();
+    if in_all <= WORTH_TELLING {
         return Vec::new();
     }
     let mut forms = with_pattern(weighings);
     forms.extend(errors_of_settings(weighings));
+    let told: f64 = forms.iter().map(|form| form.probability).sum();
+    for form in &mut forms {
+        form.probability *= in_all / told;
+    }
     largest_first(&mut forms, |form| form.probability);
     forms
 }

@@ -531,6 +531,16 @@ pub struct SettingError {
     pub probability: f64,
 }
 
+impl SettingError {
+    /// The standard deviations that are weighed, in standard uncertainties of a reading.
+    pub const LIMITS: [f64; 2] = [0.5, 256.0];
+
+    /// Whether the estimate is beyond what is weighed.
+    pub fn is_at_limit(&self) -> bool {
+        self.estimate > Self::LIMITS[1]
+    }
+}
+
 /// A measured value that may be off.
 #[derive(Clone, Copy, Debug)]
 pub struct SuspectValue {

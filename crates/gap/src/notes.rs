@@ -10,6 +10,7 @@ use super::posterior::Posterior;
 use super::resolution::Rounding;
 use super::row_drift;
 use super::setup::Setup;
+use super::shared_noise;
 use gumption_engine::decimal::{significant, to_15_digits};
 use gumption_engine::number::Shortest;
 use gumption_units::Turn;
@@ -57,10 +58,26 @@ pub(crate) fn notes(
             ),
         );
     }
+    let winner = &posterior.hypotheses[best];
+    if let Some(alike) = shared_noise::not_weighed(setup, winner) {
+        let quantity = &setup.case.model.outputs[setup.data.outputs[alike.output]].quantity;
+        note(
+            "many-settings",
+            format!(
+                "What is left of {} is alike in the rows of each setting, as if they shared an error of \
+                 about {} times the noise of one row. Such errors are weighed up to {} settings times \
+                 outputs, and here are {}: give an input that has a value for each setting (`per`), or \
+                 the means of the settings with their uncertainties.",
+                quantity.name,
+                significant(alike.ratio, 2),
+                alike.most,
+                alike.errors
+            ),
+        );
+    }
     if let Some(text) = turns(setup) {
         note("whole-turns", text);
     }
-    let winner = &posterior.hypotheses[best];
     let worth = posterior.hypotheses.iter().filter(|h| h.probability > WORTH_A_NOTE);
     let apart = worth.map(|h| h.evidence.disagreement).fold(0.0, f64::max);
     if apart > DISAGREE {
@@ -122,6 +139,7 @@ pub(crate) fn notes(
     if let (HypothesisKind::None, Some(p)) = (verdict.kind, gap.p_value)
         && p < OVERDISPERSED
         && !of_noise
+        && noise.iter().all(|of| of.estimated.is_none())
     {
         let times = (gap.chi2 / gap.dof).sqrt();
         if shrinkage.chi2_per_dof[1] > misfit(setup.data.len()) {

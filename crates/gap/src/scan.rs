@@ -13,14 +13,15 @@
 //! Statistics: Theory and Methods 26, 1481, has it). Sums of products over the bins of a condition are
 //! cumulated once, so that every interval costs a difference and a small Cholesky factorization.
 
+use std::borrow::Cow;
+
 use gumption_engine::parallel;
 
 use super::diagnosis::GapRegion;
 use super::setup::Setup;
 use crate::mixture::standard_normals;
 use gumption_engine::distribution::StreamKey;
-use gumption_engine::linalg::dot;
-use gumption_engine::linalg::packed::{self, triangle};
+use gumption_engine::linalg::packed::{self, TOGETHER, triangle};
 use gumption_engine::number::{COLUMN, Column, elementary};
 use gumption_engine::special;
 
@@ -67,15 +68,16 @@ pub(crate) fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<Ga
     let design = Design::new(setup, variances);
     let of_block = |block| -> Vec<f64> {
         let drawn = design.simulated(StreamKey::new(seed, "gap/where"), block as u64);
-        let surprise = |white: &Vec<f64>| design.scan(white, &[]).map_or(0.0, |best| best.surprise);
-        drawn.iter().map(surprise).collect()
+        let surprise = |best: Option<Best>| best.map_or(0.0, |best| best.surprise);
+        design.scan(&drawn, &[]).into_iter().map(surprise).collect()
     };
     let null = parallel::map(0..SIMULATED / COLUMN, of_block).concat();
     let mut found: Vec<GapRegion> = Vec::new();
     let mut taken: Vec<usize> = Vec::new();
     let total: f64 = white.iter().map(|z| z * z).sum::<f64>() - white.len() as f64;
     while found.len() < MOST_REGIONS {
-        let Some(best) = design.scan(&white, &taken) else { break };
+        let own = design.scan(std::slice::from_ref(&white), &taken).pop().flatten();
+        let Some(best) = own else { break };
         let beyond = null.iter().filter(|surprise| **surprise >= best.surprise).count();
         let by_rank = (1 + beyond) as f64 / (1 + null.len()) as f64;
         // beyond all simulated sets the bound of all regions together tells more
@@ -171,11 +173,7 @@ impl Design {
         let (mut products, mut counts) = (vec![sums.clone()], vec![count]);
         for bin in &bins {
             for &value in bin {
-                for i in 0..self.shared {
-                    for j in 0..=i {
-                        sums[triangle(i) + j] += self.basis[i][value] * self.basis[j][value];
-                    }
-                }
+                self.add_products(value, &mut sums);
             }
             products.push(sums.clone());
             count += bin.len();
@@ -211,69 +209,33 @@ impl Design {
         draws
     }
 
-    /// The most surprising region; values that are `taken` count as left out already.
-    fn scan(&self, white: &[f64], taken: &[usize]) -> Option<Best> {
+    /// For each of some whitened residuals the most surprising region; values that are `taken` count as
+    /// left out already. What a region leaves of the basis is factored once for all of them.
+    fn scan(&self, whites: &[Vec<f64>], taken: &[usize]) -> Vec<Option<Best>> {
         let k = self.shared;
         let mut out = vec![false; self.values];
         for &value in taken {
             out[value] = true;
         }
-        // sums over all values that are in
-        let mut square = 0.0;
-        let mut cross = vec![0.0; k];
         let mut inner = vec![0.0; triangle(k)];
         for i in 0..k {
             inner[triangle(i) + i] = 1.0;
         }
         for value in (0..self.values).filter(|&value| !out[value]) {
-            square += white[value] * white[value];
-            for i in 0..k {
-                cross[i] += self.basis[i][value] * white[value];
-                for j in 0..=i {
-                    inner[triangle(i) + j] += self.basis[i][value] * self.basis[j][value];
-                }
-            }
+            self.add_products(value, &mut inner);
         }
-        let all = square - explained(&inner, &cross);
-        let mut best: Option<Best> = None;
+        let all: Vec<Sums> = whites.iter().map(|white| self.sums(white, &out)).collect();
+        let mut explained = Explained::new(k, whites.len());
+        explained.with(&inner, |n, place| all[n].cross[place]);
+        let lengths: Vec<f64> =
+            all.iter().zip(&explained.squares).map(|(all, square)| all.square - square).collect();
+        let mut best: Vec<Option<Best>> = whites.iter().map(|_| None).collect();
+        let mut rest_inner = vec![0.0; triangle(k)];
         for (number, axis) in self.axes.iter().enumerate() {
             let bins = axis.bins.len();
-            let mut squares = vec![0.0; bins + 1];
-            let mut crosses = vec![vec![0.0; k]; bins + 1];
-            let mut counts = axis.counts.clone();
-            let mut products = std::borrow::Cow::Borrowed(&axis.products);
-            if !taken.is_empty() {
-                let mut without = axis.products.clone();
-                let (mut less, mut fewer) = (vec![0.0; triangle(k)], 0);
-                for (b, bin) in axis.bins.iter().enumerate() {
-                    for &value in bin.iter().filter(|&&value| out[value]) {
-                        fewer += 1;
-                        for i in 0..k {
-                            for j in 0..=i {
-                                less[triangle(i) + j] +=
-                                    self.basis[i][value] * self.basis[j][value];
-                            }
-                        }
-                    }
-                    counts[b + 1] -= fewer;
-                    for (sum, less) in without[b + 1].iter_mut().zip(&less) {
-                        *sum -= less;
-                    }
-                }
-                products = std::borrow::Cow::Owned(without);
-            }
-            for (b, bin) in axis.bins.iter().enumerate() {
-                squares[b + 1] = squares[b];
-                crosses[b + 1] = crosses[b].clone();
-                for &value in bin.iter().filter(|&&value| !out[value]) {
-                    squares[b + 1] += white[value] * white[value];
-                    for i in 0..k {
-                        crosses[b + 1][i] += self.basis[i][value] * white[value];
-                    }
-                }
-            }
-            let mut rest_inner = vec![0.0; triangle(k)];
-            let mut rest_cross = vec![0.0; k];
+            let (counts, products) = self.without(axis, &out, !taken.is_empty());
+            let cumulated: Vec<Vec<Sums>> =
+                whites.iter().map(|white| self.cumulated(axis, white, &out)).collect();
             for from in 0..bins {
                 for to in from..bins {
                     let count = counts[to + 1] - counts[from];
@@ -288,39 +250,135 @@ impl Design {
                     {
                         *rest = all - (up - low);
                     }
-                    for (rest, ((all, up), low)) in rest_cross
-                        .iter_mut()
-                        .zip(cross.iter().zip(&crosses[to + 1]).zip(&crosses[from]))
-                    {
-                        *rest = all - (up - low);
-                    }
-                    let rest = square
-                        - (squares[to + 1] - squares[from])
-                        - explained(&rest_inner, &rest_cross);
-                    let gone = (all - rest).max(0.0);
-                    // a cheap bound spares most regions the tail of the chi-square distribution
-                    let bounded =
-                        count > 1 && best.as_ref().is_some_and(|best| 0.5 * gone < best.surprise);
-                    if bounded {
-                        continue;
-                    }
-                    let surprise = -special::gamma::ln_sf(0.5 * gone, 0.5 * count as f64);
-                    if best.as_ref().is_none_or(|best| surprise > best.surprise) {
-                        best = Some(Best { axis: number, from, to, surprise });
+                    explained.with(&rest_inner, |n, place| {
+                        let [up, low] = [&cumulated[n][to + 1], &cumulated[n][from]];
+                        all[n].cross[place] - (up.cross[place] - low.cross[place])
+                    });
+                    for (n, best) in best.iter_mut().enumerate() {
+                        let [up, low] = [&cumulated[n][to + 1], &cumulated[n][from]];
+                        let square = all[n].square - (up.square - low.square);
+                        let gone = (lengths[n] - (square - explained.squares[n])).max(0.0);
+                        // a cheap bound spares most regions the tail of the chi-square distribution
+                        let bounded = count > 1
+                            && best.as_ref().is_some_and(|best| 0.5 * gone < best.surprise);
+                        if bounded {
+                            continue;
+                        }
+                        let surprise = -special::gamma::ln_sf(0.5 * gone, 0.5 * count as f64);
+                        if best.as_ref().is_none_or(|best| surprise > best.surprise) {
+                            *best = Some(Best { axis: number, from, to, surprise });
+                        }
                     }
                 }
             }
         }
         best
     }
+
+    /// Adds to a triangle the products of the basis with itself at a value.
+    fn add_products(&self, value: usize, sums: &mut [f64]) {
+        for (i, column) in self.basis.iter().enumerate().filter(|(_, c)| c[value] != 0.0) {
+            for (sum, other) in sums[triangle(i)..].iter_mut().zip(&self.basis[..=i]) {
+                *sum += column[value] * other[value];
+            }
+        }
+    }
+
+    /// The sums of residuals over all values that are in.
+    fn sums(&self, white: &[f64], out: &[bool]) -> Sums {
+        let mut sums = Sums { square: 0.0, cross: vec![0.0; self.shared] };
+        for value in (0..self.values).filter(|&value| !out[value]) {
+            self.add_value(&mut sums, white, value);
+        }
+        sums
+    }
+
+    /// The same cumulated over the bins of an axis.
+    fn cumulated(&self, axis: &Axis, white: &[f64], out: &[bool]) -> Vec<Sums> {
+        let mut sums = Sums { square: 0.0, cross: vec![0.0; self.shared] };
+        let mut cumulated = vec![sums.clone()];
+        for bin in &axis.bins {
+            for &value in bin.iter().filter(|&&value| !out[value]) {
+                self.add_value(&mut sums, white, value);
+            }
+            cumulated.push(sums.clone());
+        }
+        cumulated
+    }
+
+    fn add_value(&self, sums: &mut Sums, white: &[f64], value: usize) {
+        sums.square += white[value] * white[value];
+        for (sum, column) in sums.cross.iter_mut().zip(&self.basis) {
+            *sum += column[value] * white[value];
+        }
+    }
+
+    /// The counts and products of an axis without the values that are out, if there are any.
+    fn without<'a>(
+        &self,
+        axis: &'a Axis,
+        out: &[bool],
+        any: bool,
+    ) -> (Cow<'a, [usize]>, Cow<'a, [Vec<f64>]>) {
+        if !any {
+            return (Cow::Borrowed(&axis.counts), Cow::Borrowed(&axis.products));
+        }
+        let (mut counts, mut products) = (axis.counts.clone(), axis.products.clone());
+        let (mut less, mut fewer) = (vec![0.0; triangle(self.shared)], 0);
+        for (b, bin) in axis.bins.iter().enumerate() {
+            for &value in bin.iter().filter(|&&value| out[value]) {
+                fewer += 1;
+                self.add_products(value, &mut less);
+            }
+            counts[b + 1] -= fewer;
+            for (sum, less) in products[b + 1].iter_mut().zip(&less) {
+                *sum -= less;
+            }
+        }
+        (Cow::Owned(counts), Cow::Owned(products))
+    }
 }
 
-/// The part of the squared residuals that shared unknowns explain.
-fn explained(inner: &[f64], cross: &[f64]) -> f64 {
-    let (mut root, mut y) = (inner.to_vec(), cross.to_vec());
-    packed::cholesky_of_definite(&mut root);
-    packed::solve(&root, &mut y);
-    dot(&y, &y)
+/// Sums over values.
+#[derive(Clone)]
+struct Sums {
+    /// Of the squares of the residuals.
+    square: f64,
+    /// Of the products of the basis with the residuals.
+    cross: Vec<f64>,
+}
+
+/// The part of squared residuals that shared unknowns explain, for many residuals.
+struct Explained {
+    residuals: usize,
+    root: Vec<f64>,
+    vectors: Vec<f64>,
+    squares: Vec<f64>,
+}
+
+impl Explained {
+    fn new(shared: usize, residuals: usize) -> Self {
+        let count = residuals.next_multiple_of(TOGETHER);
+        let (vectors, squares) = (vec![0.0; count * shared], vec![0.0; count]);
+        Self { residuals, root: vec![0.0; triangle(shared)], vectors, squares }
+    }
+
+    /// With these products of the basis with itself; `cross` are those with the residuals, by their
+    /// number and the place in the basis. Groups are filled up with the last ones.
+    fn with(&mut self, inner: &[f64], cross: impl Fn(usize, usize) -> f64) {
+        let Self { residuals, root, vectors, squares } = self;
+        root.copy_from_slice(inner);
+        packed::cholesky_of_definite(root);
+        let shared = vectors.len() / squares.len().max(1);
+        for (group, vectors) in vectors.chunks_exact_mut((shared * TOGETHER).max(1)).enumerate() {
+            for (place, entries) in vectors.chunks_exact_mut(TOGETHER).enumerate() {
+                for (n, entry) in entries.iter_mut().enumerate() {
+                    *entry = cross((group * TOGETHER + n).min(*residuals - 1), place);
+                }
+            }
+        }
+        packed::solve_many(root, vectors, squares);
+    }
 }
 
 /// The rows at each level of a condition, in order; many levels are put together.

@@ -19,11 +19,12 @@ use super::noise_model::{NoiseModel, WORTH_TRYING, Weighing, ln_total, ln_weight
 use super::posterior::WeighedHypothesis;
 use super::setup::Setup;
 use super::whitened::{self, WhitenedResiduals};
-use crate::{Case, ObservedOutput};
+use crate::{Case, ObservedOutput, SettingError};
 
 /// Standard deviations of the shared error that are tried, in stated uncertainties, equally probable
 /// beforehand.
-pub(crate) const RATIOS: [f64; 8] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
+pub(crate) const RATIOS: [f64; 10] =
+    [SettingError::LIMITS[0], 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, SettingError::LIMITS[1]];
 
 /// From this standard deviation on, in stated uncertainties, errors are a gap.
 const DEPARTURE: f64 = 2.0;
@@ -38,13 +39,17 @@ pub(crate) const LEAST_SETTINGS: usize = 5;
 const LEAST_ROWS: usize = 2;
 
 /// So many errors of settings, at most: each is one more unknown quantity of the covariance.
-const MOST_ERRORS: usize = 60;
+const MOST_ERRORS: usize = 200;
 
 /// The same where the noise is estimated, and with it that covariance for every draw.
-const MOST_FITTED: usize = 40;
+const MOST_FITTED: usize = 100;
 
 /// Standard deviations are tried that are as probable as the best by a factor of this logarithm.
 const NEAR: f64 = 4.0;
+
+/// Errors that are not weighed are told where the density of what is left rises with them by a factor
+/// of this logarithm.
+const CLEAR: f64 = 10.0;
 
 /// Models that are tried, at most.
 const MOST_MODELS: usize = 6;
@@ -178,27 +183,75 @@ impl Setting {
         settings == levels(case, data, place)
     }
 
-    /// The settings that rows of a case may share errors of: of several rows, and enough of them.
-    pub(crate) fn all(case: &Case) -> Vec<Self> {
+    /// The settings that rows of a case may share errors of, of several rows, and how many errors
+    /// that are.
+    fn candidates(case: &Case) -> Vec<(Self, usize)> {
         let conditions = case.model.conditions.len().saturating_sub(case.simulated);
         let outputs = case.observed.iter().flatten().count();
-        let is_stated = |of: &ObservedOutput| of.standard_uncertainties.is_some();
-        let most =
-            if case.observed.iter().flatten().all(is_stated) { MOST_ERRORS } else { MOST_FITTED };
         let each = (0..conditions).map(Self::Condition).chain([Self::All]);
         let mut found: Vec<(Self, Vec<usize>)> = Vec::new();
         for setting in each {
             let rows = setting.of_rows(case);
             let count = rows.last().map_or(0, |last| last + 1);
-            let are_enough = count >= LEAST_SETTINGS && count * outputs <= most;
             // in rows of any order two follow each other by chance
             let are_held = LEAST_ROWS * count <= rows.len();
-            if are_enough && are_held && found.iter().all(|(_, known)| *known != rows) {
+            if count >= LEAST_SETTINGS && are_held && found.iter().all(|(_, known)| *known != rows)
+            {
                 found.push((setting, rows));
             }
         }
-        found.into_iter().map(|(setting, _)| setting).collect()
+        let errors = |rows: &[usize]| rows.last().map_or(0, |last| last + 1) * outputs;
+        found.into_iter().map(|(setting, rows)| (setting, errors(&rows))).collect()
     }
+
+    /// Those that are not too many.
+    pub(crate) fn all(case: &Case) -> Vec<Self> {
+        let most = most_errors(case);
+        let all = Self::candidates(case).into_iter();
+        all.filter(|(_, errors)| *errors <= most).map(|(setting, _)| setting).collect()
+    }
+}
+
+/// How many errors of settings are weighed, at most.
+fn most_errors(case: &Case) -> usize {
+    let is_stated = |of: &ObservedOutput| of.standard_uncertainties.is_some();
+    match case.observed.iter().flatten().all(is_stated) {
+        true => MOST_ERRORS,
+        false => MOST_FITTED,
+    }
+}
+
+/// Errors of settings that a hypothesis leaves and that are too many to be weighed.
+pub(crate) struct TooMany {
+    /// The output where they are clearest.
+    pub(crate) output: usize,
+    /// Their standard deviation in standard uncertainties of the noise.
+    pub(crate) ratio: f64,
+    /// How many there are, over all outputs, and how many would be weighed.
+    pub(crate) errors: usize,
+    pub(crate) most: usize,
+}
+
+/// Errors of settings that were not weighed, where what the hypothesis leaves speaks clearly for them.
+pub(crate) fn not_weighed(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Option<TooMany> {
+    let most = most_errors(setup.case);
+    let candidates = Setting::candidates(setup.case);
+    let mut too_many = candidates.into_iter().filter(|(_, errors)| *errors > most).peekable();
+    too_many.peek()?;
+    let left = Remainder::of(setup, hypothesis);
+    let mut found: Vec<(f64, TooMany)> = Vec::new();
+    for (setting, errors) in too_many {
+        let groups = Groups::of(setup, setting);
+        for output in 0..groups.outputs {
+            let of = |ratio: f64| {
+                let all = TooMany { output, ratio, errors, most };
+                (groups.gain(&left, output, ratio), all)
+            };
+            found.extend(RATIOS.map(of));
+        }
+    }
+    let best = found.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (best.0 > CLEAR && best.1.ratio >= DEPARTURE).then_some(best.1)
 }
 
 /// The shared errors that may be worth an evidence of their own: by the densities of the residuals that

@@ -4,6 +4,7 @@ use super::{candidate, case, formulas, normal, observed, quantity};
 use crate::diagnosis::{DepartureShape, SuspectValue};
 use crate::{Candidate, Case, Diagnosis, DiagnosisOptions, Effect, HypothesisKind, diagnose};
 use gumption_engine::distribution::{Distribution, LogUniform, Rectangular, StreamKey};
+use gumption_engine::number::elementary;
 use gumption_engine::task::Sharing;
 
 /// Standard normal numbers.
@@ -570,6 +571,82 @@ fn errors_that_settings_share_are_told() {
         let error = found.noise[0].settings.as_ref().map_or(0.0, |error| error.probability);
         assert!(error < 0.3, "{error}");
     }
+}
+
+/// Two lines with ten settings of three rows each: errors of settings in the first, and in the second an
+/// offset, or a wave over the settings that nothing explains.
+fn with_settings_of_one(offset: f64, wave: f64, stated: bool) -> Case {
+    let numbers = normals(70, 13);
+    let x = |row: usize| (row / 3) as f64;
+    let y = |row: usize| 1.0 + 0.5 * x(row) + 0.6 * numbers[row / 3] + 0.1 * numbers[10 + row];
+    let z = |row: usize| {
+        let error = offset + wave * elementary::sin(0.7 * x(row)) + 0.1 * numbers[40 + row];
+        1.0 - 0.5 * x(row) + error
+    };
+    let values = |of: &dyn Fn(usize) -> f64| (0..30).map(of).collect::<Vec<f64>>();
+    let u = stated.then_some(&[0.1; 30][..]);
+    let mut case = case(
+        normal(1.0, 0.01),
+        Sharing::All,
+        &[("y", "a + 0.5*x"), ("z", "a - 0.5*x")],
+        vec![observed(&values(&y), u), observed(&values(&z), u)],
+        vec![
+            candidate("offset", "o", normal(0.0, 1.0), &[("z", "z + o")]),
+            candidate("slope", "s", normal(0.0, 0.3), &[("y", "y + s*x")]),
+        ],
+    );
+    for row in 0..30 {
+        case.task.rows[row].conditions[0] = x(row);
+    }
+    case
+}
+
+/// Errors of settings in one output do not hide an effect in another, and what is smooth along the
+/// settings there is no such error.
+#[test]
+fn errors_of_settings_belong_to_their_outputs() {
+    let probability = |found: &Diagnosis, output: usize| {
+        let error = found.noise[output].settings.as_ref();
+        error.map_or(0.0, |error| error.probability)
+    };
+    for stated in [true, false] {
+        let found = diagnosed(&with_settings_of_one(1.5, 0.0, stated), 1);
+        assert_eq!(found.most_probable.effects, ["offset"], "{stated}");
+        assert!(probability(&found, 0) > 0.9 && probability(&found, 1) < 0.3, "{stated}");
+        let size = &found.present.iter().find(|of| of.effect == "offset").unwrap().parameters[0];
+        // u of the mean of 30 rows and that of the input, five times
+        assert!((size.estimate - 1.5).abs() < 5.0 * 0.021, "{size:?}");
+
+        let found = diagnosed(&with_settings_of_one(0.0, 1.5, stated), 1);
+        assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained, "{stated}");
+        let errors = [probability(&found, 0), probability(&found, 1)];
+        assert!(errors[0] > 0.9 && errors[1] < 0.5, "{stated} {errors:?}");
+        assert_eq!(found.departure[0].outputs, ["z"]);
+        let told: f64 = found.departure.iter().map(|form| form.probability).sum();
+        let unexplained = found.hypotheses.iter().find(|h| h.effects.is_none()).unwrap();
+        assert!((told - unexplained.probability).abs() < 1e-12, "{told}");
+    }
+}
+
+/// More settings than are weighed are told where what is left looks like errors of them.
+#[test]
+fn too_many_settings_are_told() {
+    let numbers = normals(900, 14);
+    let of = |size: f64| {
+        let mut case = line_with(&[0.0; 600]);
+        let observed = case.observed[0].as_mut().unwrap();
+        for row in 0..600 {
+            let x = (row / 2) as f64 / 30.0;
+            case.task.rows[row].conditions[0] = x;
+            let error = size * numbers[row / 2] + 0.1 * numbers[300 + row];
+            observed.values[row] = 1.0 + 0.5 * x + error;
+        }
+        diagnosed(&case, 1).notes.into_iter().find(|note| note.code == "many-settings")
+    };
+    let said = of(0.5).unwrap().text;
+    assert!(said.contains("about 4.0 times") && said.contains("up to 200"), "{said}");
+    assert!(said.contains("here are 300"), "{said}");
+    assert!(of(0.0).is_none());
 }
 
 /// What comes back with a value that was left in between is no error of a setting.

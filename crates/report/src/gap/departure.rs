@@ -85,9 +85,10 @@ fn words(form: &DepartureForm, conditions: &[NamedQuantity]) -> String {
     };
     let place = |at: f64| with_unit(condition(at), place_unit);
     let function = match (&form.over, form.shape) {
+        (_, DepartureShape::Settings) => return error_of_settings(form, &outputs, &what),
         (DepartureOver::Nothing, _) => "the same in all conditions".to_owned(),
         (DepartureOver::AllConditions, _) => "varying with several conditions together".to_owned(),
-        (_, DepartureShape::Levels | DepartureShape::Constant | DepartureShape::Settings) => {
+        (_, DepartureShape::Levels | DepartureShape::Constant) => {
             format!("with a value of its own at each level of {what}")
         }
         (_, DepartureShape::Rising) => format!("rising with {what}"),
@@ -102,9 +103,6 @@ fn words(form: &DepartureForm, conditions: &[NamedQuantity]) -> String {
         (_, DepartureShape::Dip { at }) => format!("with a minimum over {what} near {}", place(at)),
         (_, DepartureShape::Varying) => format!("varying with {what} more than once up or down"),
     };
-    if form.shape == DepartureShape::Settings {
-        return error_of_settings(form, &all, &what);
-    }
     let mut said = format!("{all} departs by what is {kind}, {function}");
     if outputs.len() > 1 {
         said = said.replacen("departs", "depart", 1);
@@ -132,16 +130,25 @@ fn words(form: &DepartureForm, conditions: &[NamedQuantity]) -> String {
 }
 
 /// An error of each setting, with its standard deviation for the first output.
-fn error_of_settings(form: &DepartureForm, outputs: &str, condition: &str) -> String {
+fn error_of_settings(form: &DepartureForm, outputs: &[String], condition: &str) -> String {
     let what = match form.over {
         DepartureOver::Condition(_) => condition,
         _ => "the conditions",
     };
     let size = significant(form.size, 2);
     let size = unit(&form.unit).map_or(size.clone(), |unit| format!("{size} {unit}"));
-    let verb = if form.outputs.len() > 1 { "depart" } else { "departs" };
+    let of = match outputs {
+        [first, _, ..] => {
+            let all = listed(outputs, " and ");
+            return format!(
+                "{all} depart by errors of their own each time that {what} was set, the same in all \
+                 readings until the next; standard deviation of those of {first}: {size}"
+            );
+        }
+        _ => listed(outputs, " and "),
+    };
     format!(
-        "{outputs} {verb} by an error of its own each time that {what} was set, the same in all readings \
+        "{of} departs by an error of its own each time that {what} was set, the same in all readings \
          until the next; standard deviation {size}"
     )
 }

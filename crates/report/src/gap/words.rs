@@ -243,6 +243,13 @@ pub(super) fn noise_verdict(diagnosis: &Diagnosis) -> Vec<String> {
         }
         if let Some(error) = noise.settings.as_ref().filter(|of| of.probability > LIKELY) {
             said.push(error_of_settings(error, named));
+            if error.is_at_limit() {
+                said.push(format!(
+                    "Up to {} times are weighed, so that the probabilities are less sure: look at how \
+                     the uncertainties were stated.",
+                    exact(SettingError::LIMITS[1])
+                ));
+            }
         }
         for suspect in noise.suspects.iter().filter(|suspect| suspect.probability > LIKELY) {
             said.push(format!(
