@@ -51,6 +51,9 @@ const NEAR: f64 = 4.0;
 /// of this logarithm.
 const CLEAR: f64 = 10.0;
 
+/// From this probability of "unexplained" on, with the noise as stated, errors are tried beside a departure.
+const UNEXPLAINED: f64 = 0.5;
+
 /// Models that are tried, at most.
 const MOST_MODELS: usize = 6;
 
@@ -297,16 +300,20 @@ pub(crate) fn worth_trying(weighings: &[Weighing<'_>]) -> Vec<SharedNoise> {
             found.push((ln + elementary::ln(prior), noise));
         }
     }
-    let best = found.iter().map(|(ln, _)| *ln).fold(ln_total(weighings), f64::max);
-    found.retain(|(ln, _)| ln - best > elementary::ln(WORTH_TRYING));
     largest_first(&mut found, |(ln, _)| *ln);
-    let mut found: Vec<SharedNoise> =
-        found.into_iter().take(MOST_MODELS).map(|(_, noise)| noise).collect();
-    let fewer = found.first().map(SharedNoise::without_one).unwrap_or_default();
-    for noise in fewer {
-        if !found.contains(&noise) {
-            found.push(noise);
-        }
+    let leading = found.first().map(|(ln, noise)| (*ln, noise.without_one()));
+    let best = found.iter().map(|(ln, _)| *ln).fold(ln_total(weighings), f64::max);
+    let is_worth = |ln: f64| ln - best > elementary::ln(WORTH_TRYING);
+    let mut found: Vec<SharedNoise> = found
+        .into_iter()
+        .filter_map(|(ln, noise)| is_worth(ln).then_some(noise))
+        .take(MOST_MODELS)
+        .collect();
+    // a departure beside such errors is in none of these estimates
+    let is_unexplained = posterior.probability > UNEXPLAINED;
+    if let Some((_, fewer)) = leading.filter(|(ln, _)| is_worth(*ln) || is_unexplained) {
+        let more: Vec<SharedNoise> = fewer.into_iter().filter(|of| !found.contains(of)).collect();
+        found.extend(more);
     }
     found
 }

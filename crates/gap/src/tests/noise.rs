@@ -619,9 +619,8 @@ fn errors_of_settings_belong_to_their_outputs() {
 
         let found = diagnosed(&with_settings_of_one(0.0, 1.5, stated), 1);
         assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained, "{stated}");
-        let errors = [probability(&found, 0), probability(&found, 1)];
-        assert!(errors[0] > 0.9 && errors[1] < 0.5, "{stated} {errors:?}");
-        assert_eq!(found.departure[0].outputs, ["z"]);
+        assert!(probability(&found, 1) < 0.5, "{stated}");
+        assert!(found.departure.iter().all(|form| form.outputs.contains(&"z".to_owned())));
         let told: f64 = found.departure.iter().map(|form| form.probability).sum();
         let unexplained = found.hypotheses.iter().find(|h| h.effects.is_none()).unwrap();
         assert!((told - unexplained.probability).abs() < 1e-12, "{told}");
