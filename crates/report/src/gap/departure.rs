@@ -137,18 +137,15 @@ fn error_of_settings(form: &DepartureForm, outputs: &[String], condition: &str) 
     };
     let size = significant(form.size, 2);
     let size = unit(&form.unit).map_or(size.clone(), |unit| format!("{size} {unit}"));
-    let of = match outputs {
-        [first, _, ..] => {
-            let all = listed(outputs, " and ");
-            return format!(
-                "{all} depart by errors of their own each time that {what} was set, the same in all \
-                 readings until the next; standard deviation of those of {first}: {size}"
-            );
-        }
-        _ => listed(outputs, " and "),
-    };
-    format!(
-        "{of} departs by an error of its own each time that {what} was set, the same in all readings \
-         until the next; standard deviation {size}"
-    )
+    let all = listed(outputs, " and ");
+    match outputs {
+        [first, _, ..] => format!(
+            "{all} depart by errors of their own each time that {what} was set, the same in all readings \
+             until the next; standard deviation of those of {first}: {size}"
+        ),
+        _ => format!(
+            "{all} departs by an error of its own each time that {what} was set, the same in all readings \
+             until the next; standard deviation {size}"
+        ),
+    }
 }
