@@ -23,6 +23,11 @@ const WIGGLE: f64 = 0.2;
 /// The departure jumps where so much of its change lies within so much of the range.
 const JUMP: [f64; 2] = [0.75, 0.12];
 
+/// The probability of "unexplained" over all noises.
+fn unexplained(weighings: &[Weighing<'_>]) -> f64 {
+    weighings.iter().map(|w| w.probability * w.posterior.probability).sum()
+}
+
 /// The probability of "unexplained" over all noises, of what has a pattern.
 pub(crate) fn probability(weighings: &[Weighing<'_>]) -> f64 {
     weighings.iter().map(share).sum()
@@ -48,7 +53,7 @@ pub(crate) fn leading(weighings: &[Weighing<'_>]) -> usize {
 /// The forms, most probable first; their probabilities sum to that of "unexplained", of which those
 /// that are left out have no part.
 pub(crate) fn forms(weighings: &[Weighing<'_>]) -> Vec<DepartureForm> {
-    let in_all = probability(weighings) + weighings.iter().map(of_settings).sum::<f64>();
+    let in_all = unexplained(weighings);
     if in_all <= WORTH_TELLING {
         return Vec::new();
     }
@@ -107,7 +112,7 @@ fn errors_of_settings(weighings: &[Weighing<'_>]) -> Vec<DepartureForm> {
         };
         forms.push((shared.setting, form));
     }
-    let total: f64 = weighings.iter().map(|w| w.probability * w.posterior.probability).sum();
+    let total = unexplained(weighings);
     forms
         .into_iter()
         .map(|(_, form)| form)

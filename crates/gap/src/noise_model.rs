@@ -416,14 +416,14 @@ fn serial_correlations(weighings: &[Weighing<'_>]) -> Vec<f64> {
 
 /// An evidence with a larger standard error is that of draws far from the modes, which may stand at
 /// the end of what is searched: what they leave is more than those draws do.
-const ELSEWHERE: f64 = 0.5;
+const FAR_DRAWS: f64 = 0.5;
 
 /// The logarithm of the weight of a hypothesis with a noise that is not as stated, without what the
 /// residuals at its best mode gain by that.
 pub(crate) fn ln_weight_at_mode(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> f64 {
     let evidence = &hypothesis.evidence;
     let too_much = match evidence.modes.first() {
-        Some(mode) if evidence.standard_error > ELSEWHERE => {
+        Some(mode) if evidence.standard_error > FAR_DRAWS => {
             (evidence.ln_evidence - mode.ln_evidence()).max(0.0)
         }
         _ => 0.0,

@@ -24,6 +24,10 @@ pub(crate) fn notes(
     noise: &[NoiseEstimate],
     best: usize,
 ) -> Vec<DiagnosisNote> {
+    let quantity = |output: usize| {
+        let output = setup.data.outputs[output];
+        &setup.case.model.outputs[output].quantity
+    };
     let mut notes = Vec::new();
     let mut note = |code: &'static str, text: String| notes.push(DiagnosisNote { code, text });
     if noise.iter().any(|of| of.estimated.is_some()) {
@@ -44,7 +48,7 @@ pub(crate) fn notes(
     }
     for output in 0..setup.data.outputs.len() {
         let Some(rounding) = Rounding::of(setup.case, &setup.data, output) else { continue };
-        let quantity = &setup.case.model.outputs[setup.data.outputs[output]].quantity;
+        let quantity = quantity(output);
         let deviation = significant(rounding.deviation(), 2);
         note(
             "resolution",
@@ -60,7 +64,6 @@ pub(crate) fn notes(
     }
     let winner = &posterior.hypotheses[best];
     if let Some(alike) = shared_noise::not_weighed(setup, winner) {
-        let quantity = &setup.case.model.outputs[setup.data.outputs[alike.output]].quantity;
         note(
             "many-settings",
             format!(
@@ -68,7 +71,7 @@ pub(crate) fn notes(
                  about {} times the noise of one row. Such errors are weighed up to {} settings times \
                  outputs, and here are {}: give an input that has a value for each setting (`per`), or \
                  the means of the settings with their uncertainties.",
-                quantity.name,
+                quantity(alike.output).name,
                 significant(alike.ratio, 2),
                 alike.most,
                 alike.errors
@@ -162,10 +165,6 @@ pub(crate) fn notes(
             );
         }
     }
-    let name_of = |output: usize| {
-        let output = setup.data.outputs[output];
-        &setup.case.model.outputs[output].quantity.name
-    };
     if let Some((output, change)) = row_drift::drift(setup, winner) {
         note(
             "row-drift",
@@ -179,7 +178,7 @@ pub(crate) fn notes(
                     HypothesisKind::Explained => "the verdict",
                     _ => "the best hypothesis",
                 },
-                name_of(output),
+                quantity(output).name,
                 change
             ),
         );
@@ -194,7 +193,7 @@ pub(crate) fn notes(
                  of correlation of {coefficient:.2} (as large by chance in one of 10 000 tables). If that is \
                  the order in which they were taken, something changes with time, and the stated \
                  uncertainties may be right: give the time as a condition, or an effect that changes with it.",
-                name_of(output)
+                quantity(output).name
             ),
         );
     }

@@ -13,8 +13,6 @@
 //! Statistics: Theory and Methods 26, 1481, has it). Sums of products over the bins of a condition are
 //! cumulated once, so that every interval costs a difference and a small Cholesky factorization.
 
-use std::borrow::Cow;
-
 use gumption_engine::parallel;
 
 use super::diagnosis::GapRegion;
@@ -233,7 +231,7 @@ impl Design {
         let mut rest_inner = vec![0.0; triangle(k)];
         for (number, axis) in self.axes.iter().enumerate() {
             let bins = axis.bins.len();
-            let (counts, products) = self.without(axis, &out, !taken.is_empty());
+            let (counts, products) = self.without(axis, &out);
             let cumulated: Vec<Vec<Sums>> =
                 whites.iter().map(|white| self.cumulated(axis, white, &out)).collect();
             for from in 0..bins {
@@ -313,16 +311,8 @@ impl Design {
         }
     }
 
-    /// The counts and products of an axis without the values that are out, if there are any.
-    fn without<'a>(
-        &self,
-        axis: &'a Axis,
-        out: &[bool],
-        any: bool,
-    ) -> (Cow<'a, [usize]>, Cow<'a, [Vec<f64>]>) {
-        if !any {
-            return (Cow::Borrowed(&axis.counts), Cow::Borrowed(&axis.products));
-        }
+    /// The counts and products of an axis without the values that are out.
+    fn without(&self, axis: &Axis, out: &[bool]) -> (Vec<usize>, Vec<Vec<f64>>) {
         let (mut counts, mut products) = (axis.counts.clone(), axis.products.clone());
         let (mut less, mut fewer) = (vec![0.0; triangle(self.shared)], 0);
         for (b, bin) in axis.bins.iter().enumerate() {
@@ -335,7 +325,7 @@ impl Design {
                 *sum -= less;
             }
         }
-        (Cow::Owned(counts), Cow::Owned(products))
+        (counts, products)
     }
 }
 

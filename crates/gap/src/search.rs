@@ -402,7 +402,7 @@ impl<'l> Moments<'l> {
             block.information[triangle(i.max(j)) + i.min(j)][lane]
         });
         if k > 0 {
-            let root = if covariance.fitted {
+            let inner = if covariance.fitted {
                 let mut root: Vec<f64> = block.inner.iter().map(|sums| sums[lane]).collect();
                 for i in 0..k {
                     root[triangle(i) + i] += 1.0;
@@ -414,11 +414,10 @@ impl<'l> Moments<'l> {
                     gradient[t] -= gradient_less;
                     information[(t, t)] *= information_share;
                 }
-                root
+                packed::to_matrix(&root)
             } else {
-                covariance.inner.clone()
+                packed::to_matrix(&covariance.inner)
             };
-            let inner = packed::to_matrix(&root);
             let products = DMatrix::from_fn(k, unknowns + 1, |i, j| {
                 block.products[i * (unknowns + 1) + j][lane]
             });
@@ -481,14 +480,13 @@ impl Block {
         let mut sizes: Vec<f64> = (0..k).map(|i| self.products[i * moved][lane]).collect();
         packed::solve(root, &mut sizes);
         packed::solve_transposed(root, &mut sizes);
-        let mut inverse = root.to_vec();
-        packed::invert(&mut inverse);
-        // of both halves of the symmetric matrices
-        let mut both = vec![0.0; root.len()];
-        for row in packed::rows(&inverse) {
+        let mut inverse_root = root.to_vec();
+        packed::invert(&mut inverse_root);
+        let mut inverse = vec![0.0; root.len()];
+        for row in packed::rows(&inverse_root) {
             for (i, own) in row.iter().enumerate() {
                 for (j, other) in row[..=i].iter().enumerate() {
-                    both[triangle(i) + j] += if i == j { own * other } else { 2.0 * own * other };
+                    inverse[triangle(i) + j] += own * other;
                 }
             }
         }
@@ -497,10 +495,12 @@ impl Block {
             for i in 0..k {
                 less += 2.0 * sizes[i] * share.products[i][lane];
                 for j in 0..=i {
-                    let inner = share.inner[triangle(i) + j][lane];
-                    explained += both[triangle(i) + j] * inner;
-                    let twice = if i == j { 1.0 } else { 2.0 };
-                    less -= twice * sizes[i] * sizes[j] * inner;
+                    let place = triangle(i) + j;
+                    // the other half of the symmetric matrices is the same
+                    let halves = if i == j { 1.0 } else { 2.0 };
+                    let inner = share.inner[place][lane];
+                    explained += halves * inverse[place] * inner;
+                    less -= halves * sizes[i] * sizes[j] * inner;
                 }
             }
             let slopes = share.slopes[lane];

@@ -139,7 +139,7 @@ impl SharedNoise {
     pub(crate) fn columns(&self, case: &Case, data: &Data) -> Vec<Vec<f64>> {
         let (rows, outputs) = (data.rows(), data.outputs.len());
         let settings = self.setting.of_rows(case);
-        let count = settings.last().map_or(0, |last| last + 1);
+        let count = count_of(&settings);
         let mut columns = Vec::new();
         for (output, &ratio) in self.ratios.iter().enumerate() {
             if ratio == 0.0 {
@@ -182,8 +182,7 @@ impl Setting {
     /// Whether a condition had each of its values once.
     pub(crate) fn is_per_value(self, case: &Case, data: &Data) -> bool {
         let Self::Condition(place) = self else { return false };
-        let settings = self.of_rows(case).last().map_or(0, |last| last + 1);
-        settings == levels(case, data, place)
+        count_of(&self.of_rows(case)) == levels(case, data, place)
     }
 
     /// The settings that rows of a case may share errors of, of several rows, and how many errors
@@ -195,7 +194,7 @@ impl Setting {
         let mut found: Vec<(Self, Vec<usize>)> = Vec::new();
         for setting in each {
             let rows = setting.of_rows(case);
-            let count = rows.last().map_or(0, |last| last + 1);
+            let count = count_of(&rows);
             // in rows of any order two follow each other by chance
             let are_held = LEAST_ROWS * count <= rows.len();
             if count >= LEAST_SETTINGS && are_held && found.iter().all(|(_, known)| *known != rows)
@@ -203,8 +202,7 @@ impl Setting {
                 found.push((setting, rows));
             }
         }
-        let errors = |rows: &[usize]| rows.last().map_or(0, |last| last + 1) * outputs;
-        found.into_iter().map(|(setting, rows)| (setting, errors(&rows))).collect()
+        found.into_iter().map(|(setting, rows)| (setting, count_of(&rows) * outputs)).collect()
     }
 
     /// Those that are not too many.
@@ -213,6 +211,11 @@ impl Setting {
         let all = Self::candidates(case).into_iter();
         all.filter(|(_, errors)| *errors <= most).map(|(setting, _)| setting).collect()
     }
+}
+
+/// The number of settings, from that of each row.
+fn count_of(settings: &[usize]) -> usize {
+    settings.last().map_or(0, |last| last + 1)
 }
 
 /// How many errors of settings are weighed, at most.
@@ -403,7 +406,7 @@ pub(crate) struct Groups {
 impl Groups {
     pub(crate) fn of(setup: &Setup<'_>, setting: Setting) -> Self {
         let settings = setting.of_rows(setup.case);
-        let mut rows = vec![Vec::new(); settings.last().map_or(0, |last| last + 1)];
+        let mut rows = vec![Vec::new(); count_of(&settings)];
         for (row, &id) in setup.data.ids.iter().enumerate() {
             rows[settings[id]].push(row);
         }
