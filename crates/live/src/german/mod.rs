@@ -1,17 +1,11 @@
 //! What the page says in German: the sentences and words of the reports, which are English, in their
 //! places. What has no translation stays as it is; `tests` holds that nothing has none.
 
-mod notes;
-mod sentences;
 #[cfg(test)]
 mod tests;
-mod words;
+mod texts;
 
-use std::sync::LazyLock;
-
-use notes::NOTES;
-use sentences::{BRIEF, BRIEF_LENGTH, SENTENCES};
-use words::{BETWEEN, SHAPES, WORDS};
+use texts::{BRIEF_LENGTH, Pair, TEXTS};
 
 /// Whose words stand at the beginnings of a part's rows and at the lines of its figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,8 +89,8 @@ fn of_holder(tag: &str, inner: &str, names: RowNames) -> String {
 }
 
 fn begins_like_a_title(text: &str) -> bool {
-    let mut all = SENTENCES.iter().filter_map(|(english, _)| english.split("{}").next());
-    all.any(|first| first.len() > 4 && text.starts_with(first))
+    let mut all = TEXTS.sentences.iter().filter_map(|sentence| sentence.pieces.first());
+    all.any(|first| first.len() > 4 && text.starts_with(first.as_str()))
 }
 
 /// A text in German: a word, or sentences one after the other.
@@ -119,46 +113,24 @@ fn text_of(text: &str) -> Option<String> {
 }
 
 fn word(text: &str) -> Option<&'static str> {
-    let mut all = WORDS.iter().chain(SHAPES);
-    all.find(|(english, _)| *english == text).map(|(_, german)| *german)
+    let mut all = TEXTS.words.iter().chain(&TEXTS.shapes);
+    all.find(|(english, _)| english == text).map(|(_, german)| german.as_str())
 }
-
-/// A sentence of the tables in both languages.
-struct Sentence {
-    /// What stands between the places of the English one: one piece more than it has places.
-    pieces: Vec<&'static str>,
-    /// The length of all pieces in bytes: no shorter text has them.
-    least: usize,
-    german: &'static str,
-}
-
-impl Sentence {
-    fn all<'a>(of: impl Iterator<Item = &'a (&'static str, &'static str)>) -> Vec<Self> {
-        let sentence = |&(english, german): &'a (&'static str, &'static str)| {
-            let pieces: Vec<&'static str> = english.split("{}").collect();
-            Self { least: pieces.iter().map(|piece| piece.len()).sum(), pieces, german }
-        };
-        of.map(sentence).collect()
-    }
-}
-
-static OF_ANY_LENGTH: LazyLock<Vec<Sentence>> =
-    LazyLock::new(|| Sentence::all(SENTENCES.iter().chain(NOTES)));
-static OF_BRIEF_TEXTS: LazyLock<Vec<Sentence>> = LazyLock::new(|| Sentence::all(BRIEF.iter()));
 
 /// The first sentence of a text in German, and what follows it.
 fn sentence(text: &str) -> Option<(String, &str)> {
-    let brief = if text.len() <= BRIEF_LENGTH { OF_BRIEF_TEXTS.as_slice() } else { &[] };
-    let mut all = OF_ANY_LENGTH.iter().chain(brief).filter(|sentence| sentence.least <= text.len());
+    let brief = if text.len() <= BRIEF_LENGTH { TEXTS.brief.as_slice() } else { &[] };
+    let all = TEXTS.sentences.iter().chain(&TEXTS.notes).chain(brief);
+    let mut all = all.filter(|sentence| sentence.least <= text.len());
     all.find_map(|sentence| {
         let (captured, rest) = fitted(&sentence.pieces, text)?;
-        Some((filled(sentence.german, &captured), rest))
+        Some((filled(&sentence.german, &captured), rest))
     })
 }
 
 /// What stands between the pieces of a pattern at the beginning of a text, and what follows them:
 /// nothing, or a full stop.
-fn fitted<'t>(pieces: &[&str], text: &'t str) -> Option<(Vec<&'t str>, &'t str)> {
+fn fitted<'t>(pieces: &[String], text: &'t str) -> Option<(Vec<&'t str>, &'t str)> {
     let (first, pieces) = pieces.split_first()?;
     let mut rest = beginning(text, first)?;
     let mut captured = Vec::new();
@@ -173,7 +145,7 @@ fn fitted<'t>(pieces: &[&str], text: &'t str) -> Option<(Vec<&'t str>, &'t str)>
             return Some((captured, rest.get(whole.len()..)?));
         }
         let found = rest
-            .match_indices(piece)
+            .match_indices(piece.as_str())
             .find(|(at, _)| !is_last || ends(rest.get(at + piece.len()..).unwrap_or("")));
         let (at, _) = found?;
         captured.push(rest.get(..at)?);
@@ -209,8 +181,8 @@ fn filled(german: &str, captured: &[&str]) -> String {
         let text = text.copied().unwrap_or("");
         made += &match place.strip_prefix(digits) {
             Some(":") => text_of(text).unwrap_or_else(|| text.to_owned()),
-            Some(";") => replaced(text, SHAPES, |name| format!("({name}, ")),
-            Some("+") => replaced(text, BETWEEN, str::to_owned),
+            Some(";") => replaced(text, &TEXTS.shapes, |name| format!("({name}, ")),
+            Some("+") => replaced(text, &TEXTS.between, str::to_owned),
             _ => text.to_owned(),
         };
         rest = after;
@@ -218,7 +190,7 @@ fn filled(german: &str, captured: &[&str]) -> String {
     made + rest
 }
 
-fn replaced(text: &str, all: &[(&str, &str)], form: impl Fn(&str) -> String) -> String {
+fn replaced(text: &str, all: &[Pair], form: impl Fn(&str) -> String) -> String {
     all.iter().fold(text.to_owned(), |text, (english, german)| {
         text.replace(&form(english), &form(german))
     })

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use gumption_files::FileSource;
 use serde_json::{Value, json};
 
-use super::{BETWEEN, BRIEF, NOTES, RowNames, SENTENCES, SHAPES, WORDS, note, part};
+use super::{RowNames, TEXTS, note, part};
 use crate::Live;
 
 /// The files beside a model.
@@ -28,9 +28,12 @@ fn words_of(text: &str) -> impl Iterator<Item = String> + '_ {
 
 /// Words that only English has: those of the tables' English sides that no German one uses.
 fn english() -> BTreeSet<String> {
-    let all = || [SENTENCES, BRIEF, NOTES, WORDS, SHAPES, BETWEEN].into_iter().flatten();
-    let german: BTreeSet<String> = all().flat_map(|(_, german)| words_of(german)).collect();
-    let english = all().flat_map(|(english, _)| words_of(english));
+    let words = || [&TEXTS.words, &TEXTS.shapes, &TEXTS.between].into_iter().flatten();
+    let sentences = || [&TEXTS.sentences, &TEXTS.notes, &TEXTS.brief].into_iter().flatten();
+    let german = words().map(|(_, german)| german).chain(sentences().map(|of| &of.german));
+    let german: BTreeSet<String> = german.flat_map(|text| words_of(text)).collect();
+    let english = words().map(|(english, _)| english).chain(sentences().flat_map(|of| &of.pieces));
+    let english = english.flat_map(|text| words_of(text));
     // a few that every sentence of ours might have, should it stand in no table at all
     let usual = ["the", "of", "is", "are", "and", "with", "that", "from", "which", "by", "not"];
     let usual = usual.into_iter().map(str::to_owned);
@@ -268,9 +271,9 @@ fn rare_sentences_are_german_too() {
 /// A translation has every place that the sentence has, and no other.
 #[test]
 fn translations_have_the_places_of_their_sentences() {
-    for (english, german) in SENTENCES.iter().chain(NOTES).chain(BRIEF) {
-        let count = english.matches("{}").count();
-        let places = german.split('{').skip(1).map(|place| {
+    for sentence in [&TEXTS.sentences, &TEXTS.notes, &TEXTS.brief].into_iter().flatten() {
+        let (english, count) = (sentence.pieces.join("{}"), sentence.pieces.len() - 1);
+        let places = sentence.german.split('{').skip(1).map(|place| {
             let digits = place.split(['}', ':', ';', '+']).next().unwrap();
             digits.parse::<usize>().unwrap()
         });

@@ -1,0 +1,90 @@
+//! The tables that translate, `texts.json`: English as the reports and the notes print it, then German.
+//!
+//! - `words`, `shapes`: words of tables and figures that stand alone; names of distributions.
+//! - `between`: what stands between names in enumerations.
+//! - `sentences`, `notes`: sentences, captions and cells; notes of the engine and of the readers. The
+//!   first one that fits is taken. English has `{}` for what varies, and German its places: `{0}` as
+//!   it stands, `{0:}` said in German itself, `{0;}` with the names of shapes in German, `{0+}` with
+//!   what stands between names in German. A full stop at the end belongs to neither.
+//! - `brief`: parts of sentences and cells, which might be found in many sentences: they are looked for
+//!   last, and in short texts alone.
+
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+
+/// The longest text in which the brief ones are looked for, in bytes.
+pub(super) const BRIEF_LENGTH: usize = 60;
+
+/// A text in English and in German.
+pub(super) type Pair = (String, String);
+
+/// The tables, read when the first text is translated.
+pub(super) static TEXTS: LazyLock<Texts> = LazyLock::new(Texts::of_program);
+
+/// The tables of one language.
+#[derive(Debug)]
+pub(super) struct Texts {
+    pub words: Vec<Pair>,
+    pub shapes: Vec<Pair>,
+    pub between: Vec<Pair>,
+    pub sentences: Vec<Sentence>,
+    pub notes: Vec<Sentence>,
+    pub brief: Vec<Sentence>,
+}
+
+/// A sentence in both languages.
+#[derive(Debug)]
+pub(super) struct Sentence {
+    /// What stands between the places of the English one: one piece more than it has places.
+    pub pieces: Vec<String>,
+    /// The length of all pieces in bytes: no shorter text has them.
+    pub least: usize,
+    pub german: String,
+}
+
+/// The tables as they are written.
+#[derive(Deserialize)]
+struct Written {
+    words: Vec<Section>,
+    shapes: Vec<Section>,
+    between: Vec<Section>,
+    sentences: Vec<Section>,
+    notes: Vec<Section>,
+    brief: Vec<Section>,
+}
+
+/// Texts of one subject; the file names it.
+#[derive(Deserialize)]
+struct Section {
+    texts: Vec<Pair>,
+}
+
+impl Texts {
+    #[expect(
+        clippy::expect_used,
+        reason = "the file is part of the program, and the tests read it"
+    )]
+    fn of_program() -> Self {
+        let written = serde_json::from_str(include_str!("texts.json"));
+        let Written { words, shapes, between, sentences, notes, brief } =
+            written.expect("the tables are of this form");
+        let pairs = |of: Vec<Section>| of.into_iter().flat_map(|section| section.texts);
+        let all = |of| pairs(of).map(Sentence::new).collect();
+        Self {
+            words: pairs(words).collect(),
+            shapes: pairs(shapes).collect(),
+            between: pairs(between).collect(),
+            sentences: all(sentences),
+            notes: all(notes),
+            brief: all(brief),
+        }
+    }
+}
+
+impl Sentence {
+    fn new((english, german): Pair) -> Self {
+        let pieces: Vec<String> = english.split("{}").map(str::to_owned).collect();
+        Self { least: pieces.iter().map(String::len).sum(), pieces, german }
+    }
+}
