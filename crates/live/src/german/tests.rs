@@ -8,7 +8,8 @@ use std::sync::Arc;
 use gumption_files::FileSource;
 use serde_json::{Value, json};
 
-use super::{RowNames, TEXTS, note, part};
+use super::texts::{Sentence, TEXTS};
+use super::{RowNames, note, part};
 use crate::Live;
 
 /// The files beside a model.
@@ -26,10 +27,14 @@ fn words_of(text: &str) -> impl Iterator<Item = String> + '_ {
     words.map(str::to_lowercase)
 }
 
+/// The sentences of all tables.
+fn sentences() -> impl Iterator<Item = &'static Sentence> {
+    [&TEXTS.sentences, &TEXTS.notes, &TEXTS.brief].into_iter().flatten()
+}
+
 /// Words that only English has: those of the tables' English sides that no German one uses.
 fn english() -> BTreeSet<String> {
     let words = || [&TEXTS.words, &TEXTS.shapes, &TEXTS.between].into_iter().flatten();
-    let sentences = || [&TEXTS.sentences, &TEXTS.notes, &TEXTS.brief].into_iter().flatten();
     let german = words().map(|(_, german)| german).chain(sentences().map(|of| &of.german));
     let german: BTreeSet<String> = german.flat_map(|text| words_of(text)).collect();
     let english = words().map(|(english, _)| english).chain(sentences().flat_map(|of| &of.pieces));
@@ -271,7 +276,7 @@ fn rare_sentences_are_german_too() {
 /// A translation has every place that the sentence has, and no other.
 #[test]
 fn translations_have_the_places_of_their_sentences() {
-    for sentence in [&TEXTS.sentences, &TEXTS.notes, &TEXTS.brief].into_iter().flatten() {
+    for sentence in sentences() {
         let (english, count) = (sentence.pieces.join("{}"), sentence.pieces.len() - 1);
         let places = sentence.german.split('{').skip(1).map(|place| {
             let digits = place.split(['}', ':', ';', '+']).next().unwrap();

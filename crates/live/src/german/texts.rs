@@ -11,7 +11,7 @@
 
 use std::sync::LazyLock;
 
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 
 /// The longest text in which the brief ones are looked for, in bytes.
 pub(super) const BRIEF_LENGTH: usize = 60;
@@ -23,18 +23,25 @@ pub(super) type Pair = (String, String);
 pub(super) static TEXTS: LazyLock<Texts> = LazyLock::new(Texts::of_program);
 
 /// The tables of one language.
-#[derive(Debug)]
+#[derive(Debug, Deserialize)]
 pub(super) struct Texts {
+    #[serde(deserialize_with = "of_sections")]
     pub words: Vec<Pair>,
+    #[serde(deserialize_with = "of_sections")]
     pub shapes: Vec<Pair>,
+    #[serde(deserialize_with = "of_sections")]
     pub between: Vec<Pair>,
+    #[serde(deserialize_with = "of_sections")]
     pub sentences: Vec<Sentence>,
+    #[serde(deserialize_with = "of_sections")]
     pub notes: Vec<Sentence>,
+    #[serde(deserialize_with = "of_sections")]
     pub brief: Vec<Sentence>,
 }
 
 /// A sentence in both languages.
-#[derive(Debug)]
+#[derive(Debug, Deserialize)]
+#[serde(from = "Pair")]
 pub(super) struct Sentence {
     /// What stands between the places of the English one: one piece more than it has places.
     pub pieces: Vec<String>,
@@ -43,21 +50,10 @@ pub(super) struct Sentence {
     pub german: String,
 }
 
-/// The tables as they are written.
-#[derive(Deserialize)]
-struct Written {
-    words: Vec<Section>,
-    shapes: Vec<Section>,
-    between: Vec<Section>,
-    sentences: Vec<Section>,
-    notes: Vec<Section>,
-    brief: Vec<Section>,
-}
-
 /// Texts of one subject; the file names it.
 #[derive(Deserialize)]
-struct Section {
-    texts: Vec<Pair>,
+struct Section<T> {
+    texts: Vec<T>,
 }
 
 impl Texts {
@@ -66,24 +62,20 @@ impl Texts {
         reason = "the file is part of the program, and the tests read it"
     )]
     fn of_program() -> Self {
-        let written = serde_json::from_str(include_str!("texts.json"));
-        let Written { words, shapes, between, sentences, notes, brief } =
-            written.expect("the tables are of this form");
-        let pairs = |of: Vec<Section>| of.into_iter().flat_map(|section| section.texts);
-        let all = |of| pairs(of).map(Sentence::new).collect();
-        Self {
-            words: pairs(words).collect(),
-            shapes: pairs(shapes).collect(),
-            between: pairs(between).collect(),
-            sentences: all(sentences),
-            notes: all(notes),
-            brief: all(brief),
-        }
+        serde_json::from_str(include_str!("texts.json")).expect("the tables are of this form")
     }
 }
 
-impl Sentence {
-    fn new((english, german): Pair) -> Self {
+/// A table, whose sections are there for those who read the file.
+fn of_sections<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    from: D,
+) -> Result<Vec<T>, D::Error> {
+    let sections = Vec::<Section<T>>::deserialize(from)?;
+    Ok(sections.into_iter().flat_map(|section| section.texts).collect())
+}
+
+impl From<Pair> for Sentence {
+    fn from((english, german): Pair) -> Self {
         let pieces: Vec<String> = english.split("{}").map(str::to_owned).collect();
         Self { least: pieces.iter().map(String::len).sum(), pieces, german }
     }

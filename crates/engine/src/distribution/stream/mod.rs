@@ -114,11 +114,15 @@ impl Stream {
 
     /// Fills `out` with numbers uniform on the open interval (0, 1): the odd multiples of 2^-53,
     /// so 0 and 1 never occur and u and 1 - u are equally likely. `N` is a multiple of eight.
-    ///
-    /// The loops are called, not copied: whoever draws is compiled for each code path, often draws in
-    /// many places, and a call costs nothing beside a column of numbers.
     #[inline(always)]
     pub fn uniform<const N: usize>(&mut self, out: &mut [f64; N]) {
+        self.fill(out);
+    }
+
+    /// As [`Stream::uniform`]. Called, not copied: whoever draws is compiled for each code path, often
+    /// draws in many places, and a call costs nothing beside a column of numbers.
+    #[inline(never)]
+    fn fill(&mut self, out: &mut [f64]) {
         #[cfg(target_arch = "x86_64")]
         match self.path.instructions() {
             // SAFETY: the machine has the instructions of a path.
@@ -127,12 +131,6 @@ impl Stream {
             Instructions::Avx2 => return unsafe { simd::fill_avx2(&mut self.state, out) },
             Instructions::Baseline => {}
         }
-        self.fill_baseline(out);
-    }
-
-    /// As [`Stream::uniform`], on every machine.
-    #[inline(never)]
-    fn fill_baseline(&mut self, out: &mut [f64]) {
         for chunk in out.chunks_exact_mut(LANES) {
             let bits = self.next();
             for i in 0..LANES {

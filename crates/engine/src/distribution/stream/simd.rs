@@ -21,7 +21,6 @@ const HALF: usize = LANES / 2;
 ///
 /// # Safety
 /// The machine has AVX-512 F, DQ, VL and BW.
-#[inline(never)]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
 pub(super) fn fill_avx512(state: &mut [[u64; LANES]; 4], out: &mut [f64]) {
     // no closures: they would not be compiled for these instructions
@@ -58,7 +57,6 @@ pub(super) fn fill_avx512(state: &mut [[u64; LANES]; 4], out: &mut [f64]) {
 ///
 /// # Safety
 /// The machine has AVX2.
-#[inline(never)]
 #[target_feature(enable = "avx2")]
 pub(super) fn fill_avx2(state: &mut [[u64; LANES]; 4], out: &mut [f64]) {
     for first in [0, HALF] {
