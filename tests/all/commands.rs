@@ -359,11 +359,11 @@ fn output_files_are_there_whole_or_not_at_all() {
     assert_eq!(ended(&arguments, REFUTED).0, 0);
     assert_ne!(fs::read_to_string(&file).expect("the answer"), first);
     assert_eq!(entries(folder.path()), ["answer.json"]);
-    // a folder that is not there is no fault of the model
+    // a folder that is not there is the argument's fault
     let nowhere = folder.path().join("no/such/folder.json");
     let (code, _, message) =
         ended(&["run", "-", "--output", nowhere.to_str().expect("UTF-8")], SMALL);
-    assert_eq!(code, 1);
+    assert_eq!(code, 2);
     assert!(message.contains("cannot write"), "{message}");
 }
 

@@ -122,7 +122,7 @@ fn what_cannot_be_written_is_told_at_once() {
     for option in ["--output", "--save", "--samples"] {
         let arguments = ["run", "m.json", "--trials", FOREVER, option, "none/x.csv"];
         let refused = folder.run(&arguments);
-        assert_eq!(refused.status.code(), Some(1), "{option}: {}", said(&refused));
+        assert_eq!(refused.status.code(), Some(2), "{option}: {}", said(&refused));
         let expected = "gumption: cannot write `none/x.csv`: there is no folder `none`\n";
         assert_eq!(said(&refused), expected);
         let arguments = ["run", "m.json", "--trials", FOREVER, option, "x.csv/x.csv"];
@@ -242,7 +242,7 @@ fn standard_error_that_cannot_be_written_costs_nothing() {
         // with a note about few trials
         (&["run", "m.json", "--trials", "10000", "--output", "a.txt"][..], 0),
         (&["run", "none.json"], 2),
-        (&["run", "m.json", "--output", "none/a.txt"], 1),
+        (&["run", "m.json", "--output", "none/a.txt"], 2),
         (&["check", "none.json"], 2),
     ] {
         let mut program = command();

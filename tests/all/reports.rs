@@ -55,7 +55,7 @@ fn an_output_file_has_what_standard_output_has() {
     }
     let missing = folder.path().join("missing/answer.xlsx");
     let arguments = ["run", MODEL, "--format", "xlsx", "--trials", "0", "--output"];
-    gumption().args(arguments).arg(&missing).assert().code(1);
+    gumption().args(arguments).arg(&missing).assert().code(2);
 }
 
 /// No page says where or when it was made.

@@ -175,7 +175,7 @@ pub(super) fn folder_of(path: &Path) -> &Path {
 impl Destination {
     /// Opens a file that the program names itself.
     pub(super) fn open(path: &Path) -> Result<Self, Failure> {
-        let sink = Sink::open(path).map_err(|error| failed(path, error))?;
+        let sink = Sink::open(path).map_err(|error| not_opened(path, &error))?;
         Ok(Self { path: path.to_owned(), sink })
     }
 
@@ -255,4 +255,14 @@ fn shown(path: &Path) -> String {
 
 fn failed(path: &Path, error: impl fmt::Display) -> Failure {
     Failure::System(format!("cannot write `{}`: {error}", shown(path)))
+}
+
+/// Why a file could not be opened: a place that there is not is the argument's fault.
+fn not_opened(path: &Path, error: &io::Error) -> Failure {
+    match error.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => {
+            Failure::Argument(format!("cannot write `{}`: {error}", shown(path)))
+        }
+        _ => failed(path, error),
+    }
 }

@@ -152,8 +152,7 @@ pub(super) fn contradiction(
 ) -> Option<DiagnosticKind> {
     let (unit, text) = stated(unit, column, declared)?;
     let is_declared = |unit: &Unit| {
-        unit.is_compatible(declared)
-            && unit.factor() == declared.factor()
+        Unit::conversion_factor(unit, declared) == Ok(1.0)
             && (of == ValueOf::Difference || unit.has_zero_of(declared))
     };
     let meant = || gravity::meant(text, declared.dimension());

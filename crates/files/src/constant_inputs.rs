@@ -1,12 +1,15 @@
 //! Inputs that are constants, as estimates' formulas see them: `"mean": "2*k"`.
 
-use super::conditions::unit;
+use super::condition_values::ConditionValues;
+use super::conditions::{Conditions, unit};
 use super::diagnostics::Collector;
 use super::json::{Json, Member};
 use super::object::Object;
 use super::overrides::Override;
+use super::scopes::ConditionSet;
 use super::value_text::{ValueOf, is_value};
 use gumption_engine::model::Quantity;
+use gumption_engine::model::formula::Formula;
 use gumption_units::Unit;
 
 /// The inputs of a file by whether formulas of estimates may use them.
@@ -14,32 +17,72 @@ use gumption_units::Unit;
 pub(super) struct ConstantInputs {
     /// Those with a constant for a distribution, each with its value in its unit.
     pub(super) known: Vec<(Quantity, f64)>,
+    /// The names of constants whose value is a formula of conditions, or one with a mistake.
+    pub(super) computed: Vec<String>,
     /// The names of the others.
     pub(super) uncertain: Vec<String>,
 }
 
+/// What the text of an input says of its value.
+enum Said {
+    /// A constant written out, in its unit.
+    Value(Unit, f64),
+    /// A constant that is a formula.
+    Formula(Unit, Formula),
+    /// No constant.
+    Uncertain,
+}
+
 impl ConstantInputs {
     /// Of `inputs`. Mistakes are reported where the inputs themselves are read.
-    pub(super) fn read(log: &Collector, inputs: &Member, overrides: &[Override]) -> Self {
+    pub(super) fn read(
+        log: &Collector,
+        inputs: &Member,
+        overrides: &[Override],
+        check_units: bool,
+    ) -> Self {
         let mut found = Self::default();
         let Json::Object(members) = &inputs.value.value else { return found };
         let unsaid = Collector::new(log.source.clone());
         log.own_units().iter().for_each(|unit| unsaid.define_unit(unit.clone()));
+        let quantity = |name: &str, unit| {
+            let (name, about) = (name.to_owned(), String::new());
+            Quantity { name, unit, about }
+        };
+        let mut formulas = Vec::new();
         for member in members {
-            match value(&unsaid, member, overrides) {
-                Some((unit, value)) => {
-                    let (name, about) = (member.key.clone(), String::new());
-                    found.known.push((Quantity { name, unit, about }, value));
-                }
-                None => found.uncertain.push(member.key.clone()),
+            match said(&unsaid, member, overrides) {
+                Said::Value(unit, value) => found.known.push((quantity(&member.key, unit), value)),
+                Said::Formula(unit, formula) => formulas.push((&member.key, unit, formula)),
+                Said::Uncertain => found.uncertain.push(member.key.clone()),
             }
         }
+        // of other constants, whose formulas may stand behind
+        let conditions = Conditions::none();
+        loop {
+            let set = ConditionSet { conditions: &conditions, check_units, constants: &found };
+            let of = ValueOf::Quantity;
+            let next = formulas.iter().position(|(_, unit, formula)| {
+                let is_known = |(name, _)| found.known.iter().any(|(known, _)| known.name == name);
+                formula.names().all(is_known) && set.check(formula, unit, of).is_ok()
+            });
+            let Some((name, unit, formula)) = next.map(|next| formulas.remove(next)) else { break };
+            let value = set.value(&formula, 0, &unit, of);
+            found.known.push((quantity(name, unit), value));
+        }
+        found.computed.extend(formulas.into_iter().map(|(name, ..)| name.clone()));
         found
     }
 }
 
-/// The value of an input that is a constant written out, with its unit.
-fn value(log: &Collector, member: &Member, overrides: &[Override]) -> Option<(Unit, f64)> {
+/// What an input says of its value.
+fn said(log: &Collector, member: &Member, overrides: &[Override]) -> Said {
+    let found = constant(log, member, overrides);
+    found.unwrap_or(Said::Uncertain)
+}
+
+/// An input that is a constant.
+fn constant(log: &Collector, member: &Member, overrides: &[Override]) -> Option<Said> {
     let object = Object::new(log, "an input", &member.value, &member.key_span)?;
     let is_constant = object.text("distribution") == Some("constant");
     if !is_constant || ["components", "complex"].iter().any(|key| object.get(key).is_some()) {
@@ -47,20 +90,20 @@ fn value(log: &Collector, member: &Member, overrides: &[Override]) -> Option<(Un
     }
     let unit = unit(&object, "unit")?;
     let moved = overrides.iter().rev().find(|o| o.input == member.key && o.field.is_none());
-    let value = match moved {
-        Some(moved) => moved.value_in(&unit, &log.own_units()).ok()?,
-        None => {
-            let is_formula = match &object.get("value")?.value.value {
-                Json::Text(text) => !is_value(text),
-                _ => false,
-            };
-            if is_formula {
-                return None;
-            }
-            object.value("value", &unit, ValueOf::Quantity)?
+    if let Some(moved) = moved {
+        let value = moved.value_in(&unit, &log.own_units()).ok()?;
+        return Some(Said::Value(unit, value));
+    }
+    match &object.get("value")?.value.value {
+        Json::Text(text) if !is_value(text) => {
+            let formula = Formula::parse_with(text, &[], &log.own_units()).ok()?;
+            Some(Said::Formula(unit, formula))
         }
-    };
-    Some((unit, value))
+        _ => {
+            let value = object.value("value", &unit, ValueOf::Quantity)?;
+            Some(Said::Value(unit, value))
+        }
+    }
 }
 
 #[cfg(test)]
@@ -93,6 +136,24 @@ mod tests {
                 assert!((known.standard_uncertainty() - 30.0).abs() < 1e-9, "{inputs}");
             }
         }
+    }
+
+    /// 2 c is 12 V where c is 4 k + 2 V and k is 1 V, in whatever order they stand.
+    #[test]
+    fn constants_that_are_formulas_of_constants() {
+        let k = r#""k": {"unit": "V", "distribution": "constant", "value": 1}"#;
+        let c = r#""c": {"unit": "mV", "distribution": "constant", "value": "4*k + 2 [V]"}"#;
+        let a = r#""a": {"unit": "V", "distribution": "normal", "mean": "2*c", "std": 1}"#;
+        for inputs in [[k, c, a], [a, c, k], [c, k, a]] {
+            let text = file(&inputs.join(", "), "a");
+            let task = read_text("t", &text, Path::new(""), &[]).unwrap().task;
+            let number = task.variables.iter().position(|of| of.name == "a").unwrap();
+            assert!((task.rows[0].distributions[number].mean() - 12.0).abs() < 1e-12);
+        }
+        let circular = c.replace("4*k + 2 [V]", "2*c");
+        let said = read_text("t", &file(&[&circular, a].join(", "), "a"), Path::new(""), &[]);
+        let said = said.unwrap_err().to_string();
+        assert!(said.contains("`c` is a formula itself"), "{said}");
     }
 
     /// A replaced value counts, and dimensions are checked.

@@ -309,6 +309,11 @@ pub enum DiagnosticKind {
         /// The input.
         name: String,
     },
+    /// An estimate's formula with a constant that is a formula of more than constants.
+    EstimateOfFormula {
+        /// The constant.
+        name: String,
+    },
     /// An estimate's formula that gives no finite number.
     EstimateUndefined {
         /// The row, from 1.
@@ -565,6 +570,7 @@ impl DiagnosticKind {
             Self::Component { .. } => "bad-component",
             Self::Formula { .. } => "bad-formula",
             Self::EstimateOfInput { .. } => "estimate-of-input",
+            Self::EstimateOfFormula { .. } => "estimate-of-formula",
             Self::EstimateUndefined { .. } => "estimate-undefined",
             Self::NoValues { .. } => "no-values",
             Self::ConditionRange { .. } => "bad-range",
@@ -843,6 +849,11 @@ impl fmt::Display for DiagnosticKind {
                 "`{name}` has an uncertainty, and an estimate is a formula of conditions, of inputs with \
                  the distribution `constant` and of constants; write a formula of `{name}` among the \
                  `equations`"
+            ),
+            Self::EstimateOfFormula { name } => write!(
+                f,
+                "`{name}` is a formula itself, of more than constants; write that formula here in its \
+                 place, or a formula of `{name}` among the `equations`"
             ),
             Self::EstimateUndefined { row, found } => {
                 write!(f, "this estimate is {found} in row {row} of the conditions")

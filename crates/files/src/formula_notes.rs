@@ -13,7 +13,7 @@ use gumption_engine::model::formula::{Formula, LevelReference, Scope, Typing};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Warning;
-use gumption_units::{FactorBase, Turn, Unit};
+use gumption_units::{Turn, Unit};
 
 /// Notes on the formulas of a file whose units are checked, and on the units of its outputs.
 pub(super) fn of_formulas(
@@ -37,7 +37,11 @@ pub(super) fn of_formulas(
         found.extend(celsius_as_kelvin(scope, &of.outputs.outputs));
         found.extend(of.outputs.outputs.iter().filter_map(|output| sum_of_levels(scope, output)));
         found.extend(of.outputs.outputs.iter().filter_map(|output| rate_of_turns(scope, output)));
-        let counts_turns = given.values().any(|unit| has_turns(unit));
+        let in_nepers = |unit: &&Unit| !unit.level_exponent().is_zero() && unit.factor() != 1.0;
+        if given.values().any(in_nepers) {
+            found.extend(of.outputs.outputs.iter().filter_map(|output| decibels(scope, output)));
+        }
+        let counts_turns = given.values().any(|unit| unit.counts_revolutions());
         let radians = |output| radians_of_turns(scope, output).filter(|_| counts_turns);
         found.extend(of.outputs.outputs.iter().filter_map(radians));
     }
@@ -218,6 +222,19 @@ fn picohenries(of: &Quantities) -> Option<Warning> {
 /// The code of [`unused_inputs`].
 pub(super) const UNUSED_INPUT: &str = "unused-input";
 
+/// A level that is reported as a plain number, of inputs that are given in nepers.
+fn decibels(scope: &Scope, output: &Output) -> Option<Warning> {
+    let Quantity { name, unit, .. } = &output.quantity;
+    let is_level = !scope.get(name)?.level.is_zero();
+    (is_level && is_plain(unit)).then(|| {
+        let text = format!(
+            "`{name}` is a level, and is reported as its number of decibels, as formulas compute it; \
+             report it in `dB` or in `Np`"
+        );
+        Warning::new("level-as-number", name, text)
+    })
+}
+
 /// A result that adds levels above a reference, as 5 dBm and 2 dBm.
 fn sum_of_levels(scope: &Scope, output: &Output) -> Option<Warning> {
     let Quantity { name, unit, .. } = &output.quantity;
@@ -238,7 +255,7 @@ fn rate_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
     let Quantity { name, unit, .. } = &output.quantity;
     let typing = scope.get(name)?;
     let unknown = typing.turn.is_none() && typing.dimension.is_some_and(|of| !of.is_none());
-    (has_turns(unit) && unknown && unit.turn().is_some()).then(|| {
+    (unit.counts_revolutions() && unknown && unit.turn().is_some()).then(|| {
         let text = format!(
             "`{name}` is taken for an angular frequency, of which 2*pi radians are a revolution, as \
              nothing says that it counts revolutions; if it does, write `...*[rev]`, or give it in \
@@ -259,14 +276,6 @@ fn radians_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
              revolutions are meant, write `.../[rev]`, or report it in rpm or rev"
         );
         Warning::new("radians-of-turns", name, text)
-    })
-}
-
-/// Whether a unit counts revolutions.
-fn has_turns(unit: &Unit) -> bool {
-    unit.factors().iter().any(|factor| match factor.base {
-        FactorBase::Named { symbol, .. } => matches!(symbol.name(), "rpm" | "rev" | "turn"),
-        _ => false,
     })
 }
 

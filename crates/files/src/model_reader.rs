@@ -52,7 +52,7 @@ use super::size::Size;
 use super::table::{self, Table};
 use super::{DiagnosticKind, correlations, inputs, keys, notation, regions, settings};
 use gumption_engine::distribution::{Correlation, Fits};
-use gumption_engine::model::formula::Formula;
+use gumption_engine::model::formula::{Formula, constants};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_engine::model::{Model, Output, Quantity, Tolerance, typed};
 use gumption_engine::number::Shortest;
@@ -296,7 +296,7 @@ impl<'a> ModelReader<'a> {
     ) -> Option<Quantities> {
         let (root, log) = (&self.root, self.root.log);
         let constants = root.get("inputs").map_or_else(ConstantInputs::default, |member| {
-            ConstantInputs::read(log, member, self.options.overrides)
+            ConstantInputs::read(log, member, self.options.overrides, check_units)
         });
         let of_inputs =
             ConditionSet { conditions: &conditions, check_units, constants: &constants };
@@ -595,11 +595,16 @@ fn own_units(root: &Object<'_>) {
         else {
             continue;
         };
-        match Unit::defined(&member.key, &definition) {
+        let constant = constants().find(|constant| constant.symbol == member.key);
+        let unit = match constant {
+            Some(constant) => Err(format!("in formulas `[{}]` is {}", member.key, constant.about)),
+            None => Unit::defined(&member.key, &definition).map_err(str::to_owned),
+        };
+        match unit {
             Ok(unit) => log.define_unit(unit),
             Err(reason) => {
-                let (name, reason) = (member.key.clone(), reason.to_owned());
-                log.report(&member.key_span, DiagnosticKind::BadName { name, reason });
+                let diagnostic = DiagnosticKind::BadName { name: member.key.clone(), reason };
+                log.report(&member.key_span, diagnostic);
             }
         }
     }

@@ -274,6 +274,9 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
     if let Some(after) = rest.strip_prefix('(') {
         let (inside, after) = after.split_once(')').ok_or("the parenthesis is not closed")?;
         let (power, after) = exponent(after);
+        if !power.is_empty() && value.contains(['e', 'E']) {
+            return Err(format!("one power of ten is enough; {FORMS}"));
+        }
         let shift: i32 = match power.get(1..).filter(|power| !power.is_empty()) {
             Some(power) => power.parse().map_err(|_| FORMS.to_owned())?,
             None => 0,
@@ -411,6 +414,9 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
         let found: f64 = match digits.parse() {
             // `k=2,28` falls into two parts
             Ok(found) if percent || part.contains('=') => found,
+            Ok(_) if k.is_none() && p.is_none() && dof.is_none() => {
+                return Err(format!("`{part}` alone does not say what it is; {MISSING}"));
+            }
             Ok(_) => {
                 return Err("a decimal fraction is written with a point, such as `k=2.28`".into());
             }
@@ -419,6 +425,9 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
         if key.trim() == "p" {
             let share = if percent { 0.01 } else { 1.0 };
             last_digit_of_p = Some(share * implied_dof::last_digit(digits));
+        }
+        if matches!(key.trim(), "dof" | "veff" | "νeff" | "ν_eff" | "ν") && found <= 0.0 {
+            return Err(format!("`{part}` is none: degrees of freedom are above zero"));
         }
         let found = if percent {
             (gumption_engine::decimal::exact(found / 100.0), found / 100.0)
@@ -467,13 +476,24 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
                     ));
                 }
             }
-            let dof = dof.or_else(|| {
-                let last_digit_of_p = last_digit_of_p.unwrap_or(0.0);
-                let stated = implied_dof::Factor::new(k, implied_dof::last_digit(&factor));
-                let implied = stated.dof_of_nothing_named(p, last_digit_of_p);
-                implied.is_finite().then(|| gumption_engine::decimal::exact(implied))
-            });
-            Ok(Coverage { key: "k", factor, dof })
+            if dof.is_some() {
+                return Ok(Coverage { key: "k", factor, dof });
+            }
+            let stated = implied_dof::Factor::new(k, implied_dof::last_digit(&factor));
+            let implied = stated.dof_of_nothing_named(p, last_digit_of_p.unwrap_or(0.0));
+            let dof = implied.is_finite().then(|| gumption_engine::decimal::exact(implied));
+            match dof.as_ref().filter(|_| k.fract() == 0.0) {
+                // a factor that was chosen, or that of few degrees of freedom to one digit
+                Some(dof) => {
+                    let percent = gumption_engine::decimal::exact(100.0 * p);
+                    Err(format!(
+                        "k = {factor} with {percent} % can be the factor of a normal distribution, beside \
+                         another probability than its own, or that of a t distribution with {dof} degrees \
+                         of freedom: write `k={factor}` alone, or `p={percent} %, dof={dof}`"
+                    ))
+                }
+                None => Ok(Coverage { key: "k", factor, dof }),
+            }
         }
         (Some((factor, _)), None) => Ok(Coverage { key: "k", factor, dof }),
         (None, Some((factor, _))) => Ok(Coverage { key: "p", factor, dof }),
@@ -678,6 +698,11 @@ mod tests {
             ("5.0, U = 2 mV, k = 2", "the value has no unit"),
             ("5.0 V ± 0.1 V (k=2, p=99 %)", "k = 2 is less than the 2.58"),
             ("5.0 V ± 0.1 V (k=1.65, 95 %)", "name it"),
+            ("5.0 V ± 0.1 V (k=3, p=95 %)", "write `k=3` alone, or `p=95 %, dof=3`"),
+            ("5.0 V ± 0.1 V (2)", "`2` alone does not say"),
+            ("5.0 V ± 0.1 V (k=2,28)", "with a point"),
+            ("5.0 V, U = 0.1 V, p = 95 %, dof = 0", "above zero"),
+            ("1.0e-3(2)e2 V", "one power of ten"),
             ("5.0 V ± 0.1 V (k=1.65, 95 %, rectangular)", "`rectangular` is not known there"),
         ] {
             let error = stated(text).unwrap_err();

@@ -87,7 +87,11 @@ pub(super) fn number_form(check_units: bool) -> NumberForm {
 /// What is added to a formula's number where it becomes a value in a unit.
 fn shift(typing: Typing, unit: &Unit, of: ValueOf) -> Result<f64, ScaleMisfit> {
     let is_difference = of == ValueOf::Difference && typing.level == unit.level_exponent();
-    if is_difference { Ok(0.0) } else { typing.shift_to(unit) }
+    match typing.shift_to(unit) {
+        Err(misfit @ ScaleMisfit::Turns { .. }) => Err(misfit),
+        _ if is_difference => Ok(0.0),
+        shift => shift,
+    }
 }
 
 /// The conditions as estimates' formulas see them.
@@ -137,6 +141,9 @@ impl ConditionValues for ConditionSet<'_> {
         let kind = |error: FormulaError| match error {
             FormulaError::UnknownName { name, .. } if self.constants.uncertain.contains(&name) => {
                 DiagnosticKind::EstimateOfInput { name }
+            }
+            FormulaError::UnknownName { name, .. } if self.constants.computed.contains(&name) => {
+                DiagnosticKind::EstimateOfFormula { name }
             }
             error => DiagnosticKind::Formula { error },
         };

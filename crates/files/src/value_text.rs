@@ -192,7 +192,7 @@ pub(super) fn converted(
         return Err(decimal_comma(value, text));
     }
     // also one that another file defines
-    if text == unit.text().trim() {
+    if text == unit.text().trim() && unit.has_name() {
         return Ok(value);
     }
     let given = unit_behind_number(text, own)?;

@@ -335,7 +335,7 @@ impl fmt::Display for IncompatibleUnits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "`{}` measures {} and `{}` {}; one cannot be converted to the other",
+            "`{}` measures {}, and `{}` {}; one cannot be converted to the other",
             self.from, self.from_is, self.to, self.to_is
         )
     }

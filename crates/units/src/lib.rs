@@ -345,20 +345,14 @@ impl Unit {
     ///
     /// # Errors
     ///
-    /// [`IncompatibleUnits`] if the dimensions differ, if the levels have references that are not
-    /// levels of one kind of quantity, or if one is a frequency in `Hz` and the other counts angle.
+    /// [`IncompatibleUnits`] as of [`Unit::conversion_factor`], and if the levels have references that
+    /// are not levels of one kind of quantity.
     pub fn convert(value: f64, from: &Self, to: &Self) -> Result<f64, IncompatibleUnits> {
-        let incompatible = || Self::incompatible(from, to);
-        let counts_alike = match (from.turn(), to.turn()) {
-            (Some(from), Some(to)) => from == to,
-            _ => true,
-        };
-        if !from.is_compatible(to) || !counts_alike {
-            return Err(incompatible());
-        }
-        let shift = Zero::shift(from.zero(), to.zero()).ok_or_else(incompatible)?;
+        let factor = Self::conversion_factor(from, to)?;
+        let shift = Zero::shift(from.zero(), to.zero());
+        let shift = shift.ok_or_else(|| Self::incompatible(from, to))?;
         if shift == 0.0 && from.offset() == 0.0 && to.offset() == 0.0 {
-            return Ok(value * Self::conversion_factor(from, to)?);
+            return Ok(value * factor);
         }
         Ok(to.value_from_si(from.value_to_si(value) + shift))
     }
@@ -378,13 +372,38 @@ impl Unit {
     }
 
     fn incompatible(from: &Self, to: &Self) -> IncompatibleUnits {
+        let beside = |unit: &Self, other: &Self| match unit.turn() {
+            None if unit.is_compatible(other) && other.counts_revolutions() => {
+                format!("{}, of revolutions or of radians", unit.describe())
+            }
+            _ => unit.describe(),
+        };
         IncompatibleUnits {
             from: from.text.clone().into(),
             from_dimension: from.dimension,
-            from_is: from.describe().into(),
+            from_is: beside(from, to).into(),
             to: to.text.clone().into(),
             to_dimension: to.dimension,
-            to_is: to.describe().into(),
+            to_is: beside(to, from).into(),
+        }
+    }
+
+    /// Whether the unit is one of revolutions: `rpm`, `rev/s`.
+    pub fn counts_revolutions(&self) -> bool {
+        self.factors.iter().any(|factor| match factor.base {
+            FactorBase::Named { symbol, .. } => matches!(symbol.name(), "rpm" | "rev" | "turn"),
+            FactorBase::Number(_) | FactorBase::Defined(_) => false,
+        })
+    }
+
+    /// Whether numbers in both units count the same: not periods and angle, nor revolutions and what
+    /// may be revolutions or radians, as those in `1/min`.
+    fn counts_as(&self, other: &Self) -> bool {
+        match (self.turn(), other.turn()) {
+            (Some(own), Some(other)) => own == other,
+            (Some(Turn::Angle), None) => !self.counts_revolutions(),
+            (None, Some(Turn::Angle)) => !other.counts_revolutions(),
+            (Some(Turn::Periods), None) | (None, Some(Turn::Periods) | None) => true,
         }
     }
 
@@ -399,9 +418,10 @@ impl Unit {
     ///
     /// # Errors
     ///
-    /// [`IncompatibleUnits`] if the dimensions differ, or if one only is a level.
+    /// [`IncompatibleUnits`] if the dimensions differ, if one only is a level, if one is a frequency in
+    /// `Hz` and the other counts angle, or if one counts revolutions and the other nothing, as `1/min`.
     pub fn conversion_factor(from: &Self, to: &Self) -> Result<f64, IncompatibleUnits> {
-        if !from.is_compatible(to) {
+        if !from.is_compatible(to) || !from.counts_as(to) {
             return Err(Self::incompatible(from, to));
         }
         let exact = to.scale.inverse().and_then(|inverse| from.scale.times(inverse));

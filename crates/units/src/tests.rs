@@ -379,7 +379,7 @@ fn values_convert_to_the_last_bit() {
     let error = factor("mm", "ms").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "`mm` measures a length (m) and `ms` a time (s); one cannot be converted to the other"
+        "`mm` measures a length (m), and `ms` a time (s); one cannot be converted to the other"
     );
 }
 
@@ -406,14 +406,28 @@ fn values_convert_with_the_zero_of_their_scale() {
         let found = convert(value, from, to).unwrap();
         assert!((found - right).abs() <= 1e-15 * right.abs().max(300.0), "{value} {from}: {found}");
     }
-    for (from, to) in
-        [("dB", "1"), ("1", "dB"), ("dBm", "dB"), ("dBm", "dBV"), ("rpm", "Hz"), ("Hz", "rad/s")]
-    {
+    for (from, to) in [("dBm", "dB"), ("dBm", "dBV")] {
         assert!(convert(1.0, from, to).is_err(), "{from} {to}");
+    }
+    // of a width as well
+    for (from, to) in [
+        ("dB", "1"),
+        ("1", "dB"),
+        ("rpm", "Hz"),
+        ("Hz", "rad/s"),
+        ("rpm", "1/min"),
+        ("1/s", "rev/s"),
+        ("rev", "1"),
+    ] {
+        assert!(convert(1.0, from, to).is_err(), "{from} {to}");
+        assert!(Unit::conversion_factor(&unit(from), &unit(to)).is_err(), "{from} {to}");
+    }
+    for (from, to) in [("rad/s", "1/s"), ("Hz", "1/min"), ("deg", "1"), ("rpm", "rad/s")] {
+        assert!(Unit::conversion_factor(&unit(from), &unit(to)).is_ok(), "{from} {to}");
     }
     assert_eq!(
         convert(60.0, "rpm", "Hz").unwrap_err().to_string(),
-        "`rpm` measures an angular velocity, which counts angle and `Hz` a frequency, which counts \
+        "`rpm` measures an angular velocity, which counts angle, and `Hz` a frequency, which counts \
          periods; one cannot be converted to the other"
     );
     // differences know no zero

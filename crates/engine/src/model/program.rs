@@ -311,6 +311,11 @@ impl Program {
                 continue;
             }
             match *node {
+                // what `solve` of numbers alone gives is known before any trial
+                Node::Constant(value) if value.is_nan() => {
+                    let part = "a part of the model that depends on no input and has no value";
+                    return Some(part.to_owned());
+                }
                 Node::Unary(operation, x) if values[x].is_finite() => {
                     return Some(format!("{} of {}", operation.name(), Shortest(values[x])));
                 }

@@ -13,9 +13,10 @@ const STEPS: usize = 2200;
 
 /// The value of an unknown at which a function of it and of other quantities is 0.
 ///
-/// Operands are both ends of the range, then the other quantities. There has to be one change of
-/// sign in the range, seen at 17 places evenly spread; the root is then found by Chandrupatla's
-/// method (inverse quadratic interpolation where that is safe, halving elsewhere) to the last bits.
+/// Operands are both ends of the range, then the other quantities. There has to be one root among the
+/// changes of sign in the range, seen at 17 places evenly spread; it is found by Chandrupatla's method
+/// (inverse quadratic interpolation where that is safe, halving elsewhere) to the last bits, and the
+/// other changes, of jumps and poles, by the same.
 /// Its derivatives are those of the implicit function theorem: by a quantity p,
 /// -(df/dp)/(df/dx).
 #[derive(Clone, Debug)]
@@ -80,6 +81,11 @@ impl Look {
             [cell] if self.hole.is_none() => Some(*cell),
             _ => None,
         }
+    }
+
+    /// Whether there are several changes of sign, of which all but one may be jumps or poles.
+    fn has_several(&self) -> bool {
+        self.hole.is_none() && self.changes.len() > 1
     }
 }
 
@@ -171,6 +177,32 @@ impl Root {
         }
         look
     }
+
+    /// What a search from a change of sign leads to: the root, or a NaN at a jump or a pole.
+    fn searched(&self, mut search: Search, rest: &[f64]) -> f64 {
+        for _ in 0..STEPS {
+            if search.found.is_some() {
+                break;
+            }
+            search.take(self.at(search.next(), rest));
+        }
+        search.found.unwrap_or(f64::NAN)
+    }
+
+    /// The changes of sign that are roots.
+    fn roots(&self, look: &Look, rest: &[f64]) -> Vec<f64> {
+        let cells = look.changes.iter().copied();
+        let all = cells.map(|cell| self.searched(Search::new(Some(cell)), rest));
+        all.filter(|root| !root.is_nan()).collect()
+    }
+
+    /// The one root among several changes of sign; a NaN if none is, or more.
+    fn among_several(&self, look: &Look, rest: &[f64]) -> f64 {
+        match self.roots(look, rest).as_slice() {
+            [root] => *root,
+            _ => f64::NAN,
+        }
+    }
 }
 
 impl Routine for Root {
@@ -180,14 +212,11 @@ impl Routine for Root {
 
     fn value(&self, operands: &[f64]) -> f64 {
         let (_, rest) = ends(operands);
-        let mut search = Search::new(self.look(operands).cell());
-        for _ in 0..STEPS {
-            if search.found.is_some() {
-                break;
-            }
-            search.take(self.at(search.next(), rest));
+        let look = self.look(operands);
+        if look.has_several() {
+            return self.among_several(&look, rest);
         }
-        search.found.unwrap_or(f64::NAN)
+        self.searched(Search::new(look.cell()), rest)
     }
 
     fn slopes(&self, operands: &[f64], value: f64) -> Vec<f64> {
@@ -211,14 +240,12 @@ impl Routine for Root {
                 "solve for `{unknown}` from {from} to {to}: the formula has no value at {hole}"
             );
         }
-        let near: Vec<String> = look
-            .changes
-            .iter()
-            .map(|[[a, _], [b, _]]| {
-                let [a, b] = [a, b].map(|x| Shortest(*x));
-                if a == b { format!("at {a}") } else { format!("between {a} and {b}") }
-            })
-            .collect();
+        let near = |[[a, _], [b, _]]: &[[f64; 2]; 2]| {
+            let [a, b] = [a, b].map(|x| Shortest(*x));
+            if a == b { format!("at {a}") } else { format!("between {a} and {b}") }
+        };
+        let near: Vec<String> = look.changes.iter().map(near).collect();
+        let roots = self.roots(&look, rest);
         match near.as_slice() {
             [] => {
                 let [first, last] = range.map(|x| Shortest(self.at(x, rest)));
@@ -232,10 +259,19 @@ impl Routine for Root {
                 "solve for `{unknown}`: the formula changes its sign {one} by a jump or a pole, \
                  and is not 0 there"
             ),
-            several => format!(
-                "solve for `{unknown}` from {from} to {to}: the formula is 0 more than once: {}",
+            several if roots.is_empty() => format!(
+                "solve for `{unknown}`: the formula changes its sign by jumps or poles, and is not 0 \
+                 there: {}",
                 several.join(", ")
             ),
+            _ => {
+                let roots: Vec<String> =
+                    roots.iter().map(|root| format!("at {}", Shortest(*root))).collect();
+                format!(
+                    "solve for `{unknown}` from {from} to {to}: the formula is 0 more than once: {}",
+                    roots.join(", ")
+                )
+            }
         }
     }
 
@@ -275,8 +311,14 @@ impl Routine for Root {
                 search.take(y);
             }
         }
-        for (out, search) in out.iter_mut().zip(searches) {
-            *out = search.found.unwrap_or(f64::NAN);
+        for (trial, search) in searches.into_iter().enumerate() {
+            let look = &looks[trial];
+            out[trial] = if look.has_several() {
+                let rest: Vec<f64> = rest.iter().map(|operand| operand[trial]).collect();
+                self.among_several(look, &rest)
+            } else {
+                search.found.unwrap_or(f64::NAN)
+            };
         }
     }
 }
@@ -380,8 +422,11 @@ mod tests {
         assert!(root.value(&twice).is_nan());
         assert_eq!(
             root.undefined(&twice),
-            "solve for `x` from -4 to 4: the formula is 0 more than once: between -2 and -1.5, at \
-             0, between 1.5 and 2"
+            format!(
+                "solve for `x` from -4 to 4: the formula is 0 more than once: at {}, at 0, at {}",
+                -3.0_f64.sqrt(),
+                3.0_f64.sqrt()
+            )
         );
         let recorder = Recorder::default();
         let pole = Traced::constant(1.0) / recorder.variable(0);
@@ -392,6 +437,24 @@ mod tests {
             "solve for `x`: the formula changes its sign between -0.0625 and 0.125 by a jump or a \
              pole, and is not 0 there"
         );
+        // 1/x + p has a pole at 0 and a root at -1/p
+        let recorder = Recorder::default();
+        let [x, p] = [0, 1].map(|v| recorder.variable(v));
+        let beside = Root::new("x", recorder.program(2, &[Traced::constant(1.0) / x + p]));
+        assert_eq!(beside.value(&[-1.0, 1.9, -2.0]), 0.5);
+        let mut column = [[0.0; COLUMN]; 3];
+        for (column, value) in column.iter_mut().zip([-1.0, 1.9, -2.0]) {
+            column.fill(value);
+        }
+        let mut out = [0.0; COLUMN];
+        beside.column(&column, &mut out);
+        assert_eq!(out, [0.5; COLUMN]);
+        // the poles of 1/x + 1/(x - 1) and its root between them
+        let recorder = Recorder::default();
+        let x = recorder.variable(0);
+        let [one, two] = [1.0, 1.0].map(Traced::constant);
+        let poles = Root::new("x", recorder.program(1, &[one / x + two / (x - 1.0)]));
+        assert!((poles.value(&[-1.0, 2.1]) - 0.5).abs() < 1e-16);
         let recorder = Recorder::default();
         let hole = Root::new("x", recorder.program(1, &[recorder.variable(0).sqrt()]));
         assert_eq!(

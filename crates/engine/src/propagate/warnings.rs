@@ -69,7 +69,11 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
                 note.into_iter().for_each(|note| push(&mut found, note));
             }
             let name = &output.quantity.name;
-            of_output((task, &named), (name, jumps), row, evaluated, &mut found);
+            let rounded = of_rounded_correlations(name, evaluated)
+                .filter(|_| evaluation.rounded_correlations);
+            let is_told = jumps || rounded.is_some();
+            rounded.into_iter().for_each(|note| push(&mut found, note));
+            of_output((task, &named), (name, is_told), row, evaluated, &mut found);
             of_noiseless(&output.quantity.name, evaluated, &mut found);
             of_capability(output, evaluated, &mut found);
             if is_looked_at {
@@ -209,6 +213,23 @@ fn push(found: &mut Vec<Warning>, warning: Warning) {
     }
 }
 
+/// A variance that declared coefficients leave nothing of, where they are possible only within their
+/// rounding.
+fn of_rounded_correlations(name: &str, output: &OutputEvaluation) -> Option<Warning> {
+    let drawn = output.monte_carlo.as_ref()?.spread()?;
+    let gum = output.gum.as_ref()?;
+    let rounding = ROUNDING * gum.largest_contribution();
+    let is_lost = gum.standard_uncertainty == 0.0 && drawn > rounding;
+    is_lost.then(|| {
+        let text = format!(
+            "`{name}`: the declared correlation coefficients leave no variance by the law of \
+             propagation, or one below zero, and the nearest possible ones do; take the Monte Carlo \
+             figures, or state the coefficients with more digits"
+        );
+        Warning::new("correlations-rounded", name, text)
+    })
+}
+
 /// Whether the expanded uncertainty is below the laboratory's capability.
 fn of_capability(output: &Output, evaluated: &OutputEvaluation, found: &mut Vec<Warning>) {
     let Some(stated) = evaluated.capability.as_deref() else {
@@ -237,7 +258,7 @@ fn of_capability(output: &Output, evaluated: &OutputEvaluation, found: &mut Vec<
 
 fn of_output(
     (task, named): (&Task, &[usize]),
-    (name, jumps): (&str, bool),
+    (name, is_told): (&str, bool),
     row: &RowEvaluation,
     output: &OutputEvaluation,
     found: &mut Vec<Warning>,
@@ -317,8 +338,7 @@ fn of_output(
             }
         );
         push(found, Warning::new("no-variance", name, text));
-    } else if !jumps {
-        // a jump by a turn is why they differ, and the trials' figures mean nothing
+    } else if !is_told {
         of_difference(task, (name, &at), row, (gum, output, monte_carlo), found);
     }
 }

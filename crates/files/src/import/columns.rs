@@ -26,6 +26,8 @@ pub(crate) enum Column {
     Lower,
     Upper,
     Std,
+    /// A standard uncertainty as a share of the estimate.
+    Relative,
     Distribution,
     Divisor,
     Sensitivity,
@@ -243,10 +245,35 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "std. unsicherheit",
             "standardabweichung",
             "standardmessunsicherheit",
+            "std.-unsicherheit",
+            "std.-messunsicherheit",
+            "std. messunsicherheit",
             "incertitude-type",
             "incertitude type",
             "écart-type",
             "écart type",
+        ],
+    ),
+    (
+        Column::Relative,
+        &[
+            "relative standard uncertainty",
+            "rel. standard uncertainty",
+            "relative std. uncertainty",
+            "relative u",
+            "rel. u",
+            "rel u",
+            "u_rel",
+            "urel",
+            "u(x)/x",
+            "u(xi)/xi",
+            "u(x_i)/x_i",
+            "relative standardunsicherheit",
+            "rel. standardunsicherheit",
+            "relative standardmessunsicherheit",
+            "rel. standardmessunsicherheit",
+            "incertitude-type relative",
+            "incertitude type relative",
         ],
     ),
     (
@@ -317,6 +344,11 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "|c_i|",
             "sensitivity coeff",
             "sens. coeff",
+            "sens.-koeff",
+            "sens. koeff",
+            "sens.-koeffizient",
+            "sensitivitäts-koeff",
+            "sensitivitäts-koeffizient",
             "coefficient de sensibilité",
         ],
     ),
@@ -351,6 +383,9 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "ui(y)",
             "beitrag",
             "unsicherheitsbeitrag",
+            "uns.-beitrag",
+            "uns. beitrag",
+            "unsicherheits-beitrag",
             "contribution à l'incertitude",
             "ci*ui",
             "c_i*u_i",
@@ -386,6 +421,9 @@ const RESULTS: &[&str] = &[
     "result",
     "combined",
     "combined standard uncertainty",
+    "rss",
+    "root sum square",
+    "root sum of squares",
     "expanded uncertainty",
     "total",
     "sum",
@@ -470,11 +508,12 @@ const ROUNDED: f64 = 0.05;
 
 impl Column {
     /// Columns of which each states an uncertainty; a lower limit has an upper one beside it.
-    pub(super) const UNCERTAIN: [Self; 3] = [Self::Width, Self::Std, Self::Upper];
+    pub(super) const UNCERTAIN: [Self; 4] = [Self::Width, Self::Std, Self::Relative, Self::Upper];
 
     /// Whether its cells are numbers of a quantity, in units.
     fn is_of_numbers(self) -> bool {
-        self.is_of_place() || matches!(self, Self::Width | Self::Std | Self::Contribution)
+        self.is_of_place()
+            || matches!(self, Self::Width | Self::Std | Self::Relative | Self::Contribution)
     }
 
     /// Whether its cells are values of a quantity, which may lie below zero.
@@ -494,6 +533,7 @@ impl Column {
             Self::Lower => "lower limit",
             Self::Upper => "upper limit",
             Self::Std => "standard uncertainty",
+            Self::Relative => "relative standard uncertainty",
             Self::Distribution => "distribution",
             Self::Divisor => "divisor",
             Self::Sensitivity => "sensitivity coefficient",
@@ -527,6 +567,7 @@ pub(crate) fn column(text: &str) -> Option<Column> {
     let compact: String = text.to_lowercase().split_whitespace().collect();
     match compact.as_str() {
         "u(xi)" | "u(x_i)" | "u(x)" => return Some(Column::Std),
+        "u(xi)/xi" | "u(x_i)/x_i" | "u(x)/x" => return Some(Column::Relative),
         "u_i(y)" | "ui(y)" | "u(y)" => return Some(Column::Contribution),
         _ if is_dof(&compact) => return Some(Column::Dof),
         _ => {}
@@ -1564,7 +1605,18 @@ pub(super) fn is_summary_symbol(words: &str) -> bool {
         ["U", "u", "k", "p", "uc", "u_c", "veff", "v_eff", "νeff", "ν_eff", "nu_eff", "dof"];
     let compact: String =
         words.split(['(', '=']).next().unwrap_or_default().split_whitespace().collect();
-    SYMBOLS.contains(&compact.as_str())
+    SYMBOLS.contains(&compact.as_str()) || is_u_of_probability(&compact)
+}
+
+/// Whether a row's words are the symbol of an expanded uncertainty with its probability: `U95`, `U_0.95`,
+/// `U95%`.
+pub(super) fn is_u_of_probability(words: &str) -> bool {
+    let index = words.trim().strip_prefix('U').map(|rest| rest.trim_start_matches('_'));
+    let index = index.map(|index| index.trim_end_matches('%'));
+    index.is_some_and(|index| {
+        let number = index.replace(',', ".").parse::<f64>();
+        number.is_ok_and(|p| (0.5..1.0).contains(&p) || (50.0..100.0).contains(&p))
+    })
 }
 
 /// Degrees of freedom without the type of the evaluation, which is often said with them: `9 (A)`.

@@ -102,7 +102,9 @@ impl Budget<'_> {
             let is_after = last_uncertain.is_some_and(|last| line > last);
             let is_symbol = !used.contains(&columns::identifier(words))
                 && (columns::is_combined_symbol(words) && !self.is_quantity(header, line)
-                    || columns::is_summary_symbol(words) && self.is_bare(header, line) && is_after);
+                    || columns::is_summary_symbol(words)
+                        && (self.is_bare(header, line) && is_after
+                            || self.is_figure(header, line, table.rows.len())));
             let is_result =
                 columns::is_result(&label) || columns::is_expanded_symbol(words) || is_measurand;
             if !is_result && columns::is_subtotal(&label) {
@@ -152,7 +154,8 @@ impl Budget<'_> {
             if is_result || is_symbol {
                 self.surplus(header, line);
                 table.stated.extend(self.stated(header, line, &row));
-                self.result_row(&mut table, row, is_symbol);
+                let is_figure = columns::is_expanded_symbol(words) && row.estimate.is_none();
+                self.result_row(&mut table, row, is_symbol || is_figure);
                 continue;
             }
             let is_unit_of_result =
@@ -335,6 +338,7 @@ impl Budget<'_> {
         row.estimate = self.in_unit(header, line, (Column::Estimate, lenient), &mut row);
         row.width = self.in_unit(header, line, (Column::Width, lenient), &mut row);
         row.std = self.in_unit(header, line, (Column::Std, lenient), &mut row);
+        self.relative(header, lenient, &mut row);
         if let Some((c, unit)) = self.with_unit(header, line, Column::Sensitivity, lenient) {
             row.sensitivity = Some(c);
             unit.clone_into(&mut row.unit_of_sensitivity);
@@ -424,15 +428,24 @@ impl Budget<'_> {
     fn last_is_result(&self, header: &Header, rows: &[Row]) -> Option<&'static str> {
         let (last, others) = rows.split_last().filter(|(_, others)| !others.is_empty())?;
         let bare = |row: &Row| row.width.is_none() && row.std.is_none();
+        let is_constant = says_constant(header.cell(self.cells, last.line, Column::Distribution));
+        let is_alone = last.distribution.is_none() && !is_constant && last.sensitivity.is_none();
+        // constants may have no coefficient either
+        let has_coefficients = others.iter().any(|row| row.sensitivity.is_some())
+            && others.iter().all(|row| row.sensitivity.is_some() || bare(row));
+        let contributes =
+            !is_empty(header.cell(self.cells, last.line, Column::Contribution).trim());
+        let is_told = others.iter().all(|row| row.sensitivity.is_some())
+            || has_coefficients && (contributes || !bare(last));
+        if is_alone && is_told {
+            return Some(if bare(last) {
+                NO_UNCERTAINTY
+            } else {
+                "has neither a sensitivity coefficient nor a distribution"
+            });
+        }
         if bare(last) {
-            return others.iter().all(|row| !bare(row)).then_some(NO_UNCERTAINTY);
-        }
-        let is_alone = last.distribution.is_none() && last.sensitivity.is_none();
-        if is_alone && others.iter().all(|row| row.sensitivity.is_some()) {
-            return Some("has neither a sensitivity coefficient nor a distribution");
-        }
-        if last.sensitivity.is_some() {
-            return None;
+            return others.iter().all(|row| is_alone && !bare(row)).then_some(NO_UNCERTAINTY);
         }
         // a sum of two rows may be a third one by chance, with its uncertainty as well hardly
         let near = |column: Column, a: f64, b: f64| {
@@ -443,17 +456,32 @@ impl Budget<'_> {
             });
             (a - b).abs() <= share.clamp(0.01, SAME) * a.abs().max(b.abs())
         };
+        let scaled = in_unit_of(last, others)?;
         let of = |row: &Row| row.sensitivity.unwrap_or(1.0);
-        let sum: f64 = others.iter().map(|row| of(row) * row.estimate.unwrap_or(0.0)).sum();
+        let sum: f64 = scaled.iter().map(|row| of(row) * row.estimate.unwrap_or(0.0)).sum();
         let squares =
-            others.iter().filter_map(|row| Some((of(row) * standard_uncertainty(row)?).powi(2)));
+            scaled.iter().filter_map(|row| Some((of(row) * standard_uncertainty(row)?).powi(2)));
         let combined = squares.sum::<f64>().sqrt();
         let column = if last.std.is_some() { Column::Std } else { Column::Width };
         let stated = last.std.or(last.width)?;
         let is_sum = last.estimate.is_some_and(|estimate| near(Column::Estimate, estimate, sum));
         let is_combined = near(column, stated, combined) || near(column, stated, 2.0 * combined);
-        (others.len() > 1 && is_sum && is_combined)
-            .then_some("is the sum of the others with their combined uncertainty")
+        if others.len() < 2 || !is_sum || !is_combined {
+            return None;
+        }
+        if last.sensitivity.is_none() {
+            return Some("is the sum of the others with their combined uncertainty");
+        }
+        let is_zero = last.estimate == Some(0.0);
+        if !is_zero && last.sensitivity == Some(1.0) {
+            let reason = format!(
+                "`{}` is the sum of the others with their combined uncertainty, and can be the result, or a \
+                 further quantity with its coefficient: leave that out, or name the result `Result`",
+                last.name
+            );
+            self.fail(last.line, reason);
+        }
+        None
     }
 
     /// Whether a line has no uncertainty, coefficient, shape or divisor.
@@ -462,6 +490,22 @@ impl Budget<'_> {
             .iter()
             .chain(&[Column::Sensitivity, Column::Distribution])
             .all(|column| header.cell(self.cells, line, *column).trim().is_empty())
+    }
+
+    /// Whether a line below the quantities is a figure of the result by what it lacks and the others have:
+    /// no estimate, and nothing but its coverage in place of a shape.
+    fn is_figure(&self, header: &Header, line: usize, quantities: usize) -> bool {
+        let cell = |line: usize, column| header.cell(self.cells, line, column).trim();
+        let of_shape = cell(line, Column::Distribution);
+        let has_estimate = |line: &usize| !is_empty(cell(*line, Column::Estimate));
+        let is_uncertain =
+            |line: &usize| Column::UNCERTAIN.iter().any(|of| !is_empty(cell(*line, *of)));
+        quantities > 1
+            && is_empty(cell(line, Column::Estimate))
+            && is_empty(cell(line, Column::Sensitivity))
+            && (is_empty(of_shape) || is_factor_of(of_shape))
+            && (header.line + 1..line).filter(is_uncertain).all(|line| has_estimate(&line))
+            && (line + 1..self.cells.lines()).all(|line| !has_estimate(&line))
     }
 
     /// Whether a line has the numbers of a quantity: an estimate, and an uncertainty.
@@ -725,6 +769,48 @@ impl Budget<'_> {
             _ if unit.is_empty() => Some(value),
             _ => self.converted((value, unit), line, (column, lenient), row),
         }
+    }
+
+    /// Takes the standard uncertainty that is stated as a share of the estimate, where no other one is;
+    /// refuses one that says something else than the other one.
+    fn relative(&mut self, header: &Header, lenient: bool, row: &mut Row) -> Option<()> {
+        let line = row.line;
+        let text = header.cell(self.cells, line, Column::Relative).trim().to_owned();
+        let (value, unit) = self.with_unit(header, line, Column::Relative, lenient)?;
+        let of_header = header.unit(Column::Relative).unwrap_or_default();
+        let unit = match unit {
+            // the number of a cell in per cent is a share already
+            "" if text.contains('%') => "",
+            "" => of_header,
+            unit => unit,
+        };
+        let unit = Unit::parse(unit).ok().filter(|unit| unit.dimension().is_none());
+        let share = unit.map(|unit| value * unit.factor()).filter(|share| *share >= 0.0);
+        let estimate = row.estimate.filter(|estimate| *estimate != 0.0 || share == Some(0.0));
+        let (Some(share), Some(estimate)) = (share, estimate) else {
+            if !lenient && row.std.is_none() && row.width.is_none() {
+                let heading = header.heading_of(Column::Relative);
+                self.fail(line, format!("`{text}` below `{heading}` is no share of an estimate"));
+            }
+            return None;
+        };
+        let found = to_15_digits(share * estimate.abs());
+        match row.std {
+            None if row.width.is_some() => {}
+            None => row.std = Some(found),
+            // as far as both are printed
+            Some(known) if !lenient && (found - known).abs() > 0.1 * found.max(known) => {
+                let reason = format!(
+                    "the standard uncertainty {} and the relative one, `{text}` of {}, are not one: which \
+                     is right?",
+                    Shortest(known),
+                    Shortest(estimate)
+                );
+                self.fail(line, reason);
+            }
+            Some(_) => {}
+        }
+        Some(())
     }
 
     /// What the column of the units of uncertainties has for a number; empty where it has nothing.
@@ -1198,6 +1284,13 @@ impl Budget<'_> {
 
     fn distribution(&mut self, header: &Header, row: &Row, lenient: bool) -> Option<&'static str> {
         let text = header.cell(self.cells, row.line, Column::Distribution).trim();
+        if says_constant(text) {
+            if !lenient && row.width.or(row.std).is_some_and(|u| u > 0.0) {
+                let reason = format!("a `{text}` has no uncertainty, and this row states one");
+                self.fail(row.line, reason);
+            }
+            return None;
+        }
         // a half width needs its shape, or what it is divided by
         let is_undivided = row.width.is_some_and(|width| width > 0.0)
             && row.divisor.is_none()
@@ -1253,7 +1346,7 @@ impl Budget<'_> {
                 None
             }
             NamedShape::Unknown => {
-                if !lenient {
+                if !lenient && !is_factor_of(text) {
                     self.guessed.push(format!(
                         "line {}: the distribution `{text}` is not known; the divisor decides",
                         row.line + 1
@@ -1268,6 +1361,32 @@ impl Budget<'_> {
 /// Whether a cell says that there is nothing.
 pub(super) fn is_empty(text: &str) -> bool {
     matches!(text.to_lowercase().as_str(), "" | "-" | "–" | "—" | "n/a" | "na" | "n.a.")
+}
+
+/// Rows in the unit of another one, where they are in one of its kind; `None` where they are not, or count
+/// from another zero.
+pub(super) fn in_unit_of(last: &Row, rows: &[Row]) -> Option<Vec<Row>> {
+    let to = Unit::parse(&last.unit).ok()?;
+    let scaled = |row: &Row| {
+        if row.unit == last.unit || row.sensitivity.is_some() {
+            return Some(row.clone());
+        }
+        let from = Unit::parse(&row.unit).ok()?;
+        let factor = Unit::conversion_factor(&from, &to).ok().filter(|_| from.has_zero_of(&to))?;
+        let times = |value: Option<f64>| value.map(|value| factor * value);
+        let [estimate, width, std] = [row.estimate, row.width, row.std].map(times);
+        Some(Row { estimate, width, std, unit: last.unit.clone(), ..row.clone() })
+    };
+    rows.iter().map(scaled).collect()
+}
+
+/// Whether the cell of a distribution says that there is none.
+fn says_constant(text: &str) -> bool {
+    let words = text.trim().to_lowercase();
+    matches!(
+        words.as_str(),
+        "constant" | "const" | "const." | "konstante" | "konstant" | "constante"
+    )
 }
 
 /// Whether a text states a coverage factor.

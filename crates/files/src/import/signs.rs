@@ -5,7 +5,7 @@ use super::Budget;
 use super::columns::{Column, Header};
 use super::linear::{difference, standard_uncertainty};
 use super::number::number_with_unit;
-use super::rows::{Row, is_near, without_factor};
+use super::rows::{Row, in_unit_of, is_near, without_factor};
 use super::stated::half_digit;
 use gumption_engine::decimal::{significant, to_15_digits};
 use gumption_engine::number::Shortest;
@@ -23,9 +23,12 @@ impl Budget<'_> {
     /// refused. The sum without signs is told elsewhere.
     pub(super) fn signs(&self, header: &Header, rows: &[Row]) -> Option<Vec<f64>> {
         let (last, others) = rows.split_last().filter(|(_, others)| others.len() > 1)?;
-        if rows.iter().any(|row| row.sensitivity.is_some()) || !are_of_one_unit(last, others) {
+        if rows.iter().any(|row| row.sensitivity.is_some()) {
             return None;
         }
+        let scaled =
+            if are_of_one_unit(last, others) { None } else { Some(in_unit_of(last, others)?) };
+        let others = scaled.as_deref().unwrap_or(others);
         let estimate = last.estimate?;
         let stated = last.std.or(last.width)?;
         let signs = signs_of(others, estimate, self.half_digit(header, last, Column::Estimate))?;
@@ -63,6 +66,9 @@ impl Budget<'_> {
         let mut negative = Vec::new();
         for (row, sign) in rows.iter_mut().zip(signs) {
             row.sensitivity = Some(*sign);
+            if row.unit != last.unit && !row.unit.is_empty() {
+                row.unit_of_sensitivity = format!("({0})/({0})", row.unit);
+            }
             if *sign < 0.0 {
                 negative.push(format!("`{}`", row.name));
             }

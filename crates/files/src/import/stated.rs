@@ -86,7 +86,9 @@ impl Budget<'_> {
                 texts.contains(&compact.as_str())
             })
         };
-        let is_expanded = columns::is_expanded(label) || is_symbol(&["U"]);
+        let is_expanded = columns::is_expanded(label)
+            || is_symbol(&["U"])
+            || [label, symbol].into_iter().any(columns::is_u_of_probability);
         let is_uncertainty =
             is_expanded || columns::is_of_uncertainty(label) || is_symbol(&["u", "uc", "u_c"]);
         let divisor = header.cell(self.cells, line, Column::Divisor);

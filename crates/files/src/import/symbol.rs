@@ -62,13 +62,18 @@ fn product(text: &str) -> Option<(Column, &str)> {
 fn with_argument(text: &str) -> Option<(Column, &str)> {
     let rest = text.strip_prefix('u')?;
     let indexed = rest.strip_prefix("_i").or(rest.strip_prefix('i'));
-    let (argument, rest) = indexed.unwrap_or(rest).strip_prefix('(')?.split_once(')')?;
+    let behind = indexed.map_or(rest, str::trim_start);
+    let (argument, rest) = behind.strip_prefix('(')?.split_once(')')?;
     let argument = argument.trim();
     let column = match argument {
         "x" | "xi" | "x_i" | "Xi" | "X_i" => Column::Std,
         "y" => Column::Contribution,
         // `u_i(mV)` has a unit there, and `u_i(rel)` says what kind of numbers they are
-        name if indexed.is_some() && is_name(name) && !is_unit(name) && !is_scale(name) => {
+        name if indexed.is_some()
+            && is_name(name)
+            && (!is_unit(name) || is_unit(rest))
+            && !is_scale(name) =>
+        {
             Column::Contribution
         }
         _ => return None,

@@ -405,6 +405,104 @@ fn the_last_row_may_be_the_result() {
     }
 }
 
+/// The result is told from quantities by what it lacks, in whatever unit, and figures of it are none of
+/// them: of EA-4/02, S9 and S10, and of sheets of GUM Workbench.
+#[test]
+fn results_among_constants_and_figures() {
+    let coefficients = "Quantity,Value,Standard uncertainty,Sensitivity coefficient,Contribution\n";
+    let shapes = "Quantity,Value,Unit,±,Distribution,Sensitivity coefficient,Contribution\n\
+                  A,10,V,0.003,normal,1,0.003\nB,5,V,0.004,normal,1,0.004\nY,15,V,,,,0.005\n";
+    for (text, name, estimate, u) in [
+        (
+            format!(
+                "{coefficients}V_iX,100.1 V,,1,\nV_S,100.0 V,0.003 V,-1,0.003 V\n\
+                 d,0 V,0.004 V,1,0.004 V\nE_X,0.1 V,,,0.005 V\n"
+            ),
+            "E_X",
+            0.1,
+            0.005,
+        ),
+        (
+            format!(
+                "{coefficients}V_iX,100.1 V,,,\nV_S,100.0 V,3 mV,-1,3 mV\n\
+                 d,0 V,4 mV,1,4 mV\nE_X,100.0 mV,5.0 mV,,\n"
+            ),
+            "E_X",
+            100.0,
+            5.0,
+        ),
+        (
+            "Quantity,Value,Standard uncertainty,Distribution,Sensitivity coefficient\n\
+             A,10 V,0.003 V,normal,1\nC,2 V,0.004 V,normal,1\nB,5 V,,constant,1\n"
+                .to_owned(),
+            "y",
+            17.0,
+            0.005,
+        ),
+        (
+            "Quantity,Value,Standard uncertainty\nA,10 V,3 mV\nB,5 V,4 mV\nY,15000 mV,5 mV\n"
+                .to_owned(),
+            "Y",
+            15000.0,
+            5.0,
+        ),
+        (
+            "Quantity,Value,Standard uncertainty\nA,10 V,3 mV\nB,5 V,4 mV\nY,5000 mV,5 mV\n"
+                .to_owned(),
+            "Y",
+            5000.0,
+            5.0,
+        ),
+        (format!("{shapes}U,,V,0.010,k=2,,\n"), "Y", 15.0, 0.005),
+        (format!("{shapes}RSS,,,,,,0.005\nU,,,,k=2,,0.010\n"), "Y", 15.0, 0.005),
+        (format!("{shapes}U95,,V,,,,0.010\n"), "Y", 15.0, 0.005),
+        (
+            "Quantity,Value,±,Divisor,Sensitivity coefficient,Contribution\n\
+             A,10 V,0.006 V,2,1,0.003 V\nB,5 V,0.004 V,1,1,0.004 V\nY,15 V,,,,0.005 V\n\
+             U (k=2),,0.010 V,,,\n"
+                .to_owned(),
+            "Y",
+            15.0,
+            0.005,
+        ),
+    ] {
+        let budget =
+            import("b.csv", text.as_bytes()).unwrap_or_else(|error| panic!("{text}{error}"));
+        let task = task(&budget);
+        let evaluated = gumption_engine::propagate::gum::evaluate(&task, &task.rows[0]);
+        let gum = evaluated.outputs[0].as_ref().unwrap();
+        assert_eq!(task.model.outputs[0].quantity.name, name, "{text}");
+        assert!(
+            (gum.estimate - estimate).abs() < 1e-9 * estimate.max(1.0),
+            "{text}{}",
+            gum.estimate
+        );
+        assert!((gum.standard_uncertainty - u).abs() < 1e-9 * u.max(1.0), "{text}");
+    }
+    let twice = "Quantity,Value,Standard uncertainty,Sensitivity coefficient\n\
+                 A,10 V,0.003 V,1\nB,5 V,0.004 V,1\nY,15 V,0.005 V,1\n";
+    let said = import("b.csv", twice.as_bytes()).unwrap_err().to_string();
+    assert!(said.contains("can be the result, or a further quantity"), "{said}");
+}
+
+/// 0.05 % of 100 mg is 0.05 mg; beside another number it has to be the same.
+#[test]
+fn relative_standard_uncertainties() {
+    for (head, m, v) in [
+        ("u,Relative u", ",0.05 %", ",0.1 %"),
+        ("Relative standard uncertainty [%]", "0.05", "0.1"),
+        ("u(x),u(x)/x", "0.05,0.0005", "0.05,0.001"),
+    ] {
+        let text = format!("c = m/V\n\nQuantity,Value,Unit,{head}\nm,100,mg,{m}\nV,50,mL,{v}\n");
+        let (found, _) = uncertainties(&text);
+        assert!(found.iter().all(|u| (u - 0.05).abs() < 1e-15), "{head}: {found:?}");
+    }
+    let text = "c = m/V\n\nQuantity,Value,Unit,u(x),u(x)/x\nm,100,mg,0.05,0.0005\n\
+                V,50,mL,0.05,0.002\n";
+    let said = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+    assert!(said.contains("which is right"), "{said}");
+}
+
 /// What the equation does not name, and contributions of the sheet that are others, are told.
 #[test]
 fn what_contributes_nothing_or_something_else_is_told() {

@@ -123,6 +123,10 @@ pub(super) fn same_dimension(
         object.log.report(&member.value.span, DiagnosticKind::Recipe { reason });
         return false;
     }
+    if let Err(error) = Unit::conversion_factor(found, expected) {
+        object.log.report(&member.value.span, DiagnosticKind::Recipe { reason: error.to_string() });
+        return false;
+    }
     true
 }
 

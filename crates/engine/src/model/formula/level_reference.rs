@@ -1,8 +1,10 @@
 //! What a level is above, by the argument of the logarithm that makes it: 1 mW in
-//! `10*log10(P/[mW])`, 2 mW in `10*log10(P/2 [mW])`, nothing in `20*log10(V2/V1)`.
+//! `10*log10(P/[mW])`, 2 mW in `10*log10(P/2 [mW])`, nothing in `20*log10(V2/V1)`; and whether the
+//! quantity that `10^(L/10)` of a level is multiplied by is its reference.
 
 use super::dimension::Checker;
 use super::function::Function;
+use super::scale_fault::ScaleFault;
 use super::syntax::{Kind, Operator};
 use super::typing::{LevelReference, Typing};
 use crate::number::Unary;
@@ -147,6 +149,59 @@ impl Checker<'_> {
             }
         }
         found
+    }
+
+    /// Refuses a factor that is one unit of the kind of a level's reference and not that reference, as
+    /// in `10^(L/10)*1 [W]` of a level in dBm.
+    pub(super) fn refuse_other_reference(&mut self, index: usize, [left, right]: [usize; 2]) {
+        for (power, quantity) in [(left, right), (right, left)] {
+            let Some((level, zero, divisor)) = self.taken_away(power) else { continue };
+            let is_one = match self.kind(quantity) {
+                Some(Kind::Unit(_)) => true,
+                Some(Kind::InUnit { number, .. }) => self.constant(*number) == Some(1.0),
+                _ => false,
+            };
+            let Some(written) = self.written(quantity).filter(|_| is_one) else { continue };
+            let is_of_kind = match (zero, divisor) {
+                (Zero::Milliwatt | Zero::Watt, 10.0) => written.dimension == POWER,
+                (Zero::Volt | Zero::Millivolt | Zero::Microvolt, 10.0) => {
+                    [VOLTAGE, SQUARED_VOLTAGE].contains(&written.dimension)
+                }
+                (Zero::Volt | Zero::Millivolt | Zero::Microvolt, _) => written.dimension == VOLTAGE,
+                _ => false,
+            };
+            if is_of_kind && above(divisor, written) != LevelReference::Above(zero) {
+                let (level, quantity) = (self.quoted(level), self.quoted(quantity));
+                self.fault(index, ScaleFault::OtherReference { level, zero, quantity });
+            }
+        }
+    }
+
+    /// The name of a level in `10^(L/10)` or `10^(L/20)`, its zero and the divisor.
+    fn taken_away(&self, index: usize) -> Option<(usize, Zero, f64)> {
+        let Kind::Infix { operator: Operator::Power, left, right, .. } = self.kind(index)? else {
+            return None;
+        };
+        let (level, divisor) = match self.kind(*right)? {
+            Kind::Infix { operator: Operator::Divide, left, right, .. } => {
+                (*left, self.constant(*right)?)
+            }
+            Kind::Infix { operator: Operator::Multiply, left, right, .. } => {
+                match self.constant(*left) {
+                    Some(factor) => (*right, 1.0 / factor),
+                    None => (*left, 1.0 / self.constant(*right)?),
+                }
+            }
+            _ => return None,
+        };
+        let is_taken = self.constant(*left) == Some(10.0) && matches!(divisor, 10.0 | 20.0);
+        let zero = self.typing(level).zero.filter(|_| is_taken)?;
+        (self.kind(level)? == &Kind::Name).then_some((level, zero, divisor))
+    }
+
+    /// Whether a node is a quantity that is written out.
+    pub(super) fn is_written_out(&self, index: usize) -> bool {
+        self.written(index).is_some()
     }
 
     /// A quantity that is written out: `[mW]`, `2 [mW]`, `2*[mW]`.

@@ -23,6 +23,8 @@ pub enum ScaleMisfit {
     RatioAsLevel,
     /// A level in a unit of ratios.
     LevelAsRatio,
+    /// A product of levels in a unit that is none of their power.
+    LevelPower,
     /// A level whose reference is not that of the unit.
     OtherReference {
         /// The reference of the level.
@@ -74,6 +76,9 @@ impl fmt::Display for ScaleMisfit {
             Self::LevelAsRatio => f.write_str(
                 "is a level in decibels; write `10^(.../10)` for the ratio of powers, \
                  `10^(.../20)` for that of amplitudes, or give it in `dB`",
+            ),
+            Self::LevelPower => f.write_str(
+                "is a product of levels in decibels, whose unit is a power of `dB`, such as `dB^2`",
             ),
             Self::OtherReference { found, expected: None } => write!(
                 f,
@@ -149,7 +154,8 @@ impl Typing {
                 }
                 // the number of decibels, as a number
                 (_, Exponent::ZERO) if unit.factors().is_empty() => Ok(()),
-                _ => Err(ScaleMisfit::LevelAsRatio),
+                (Exponent::ONE, _) => Err(ScaleMisfit::LevelAsRatio),
+                _ => Err(ScaleMisfit::LevelPower),
             };
         }
         match (self.zero, unit.zero()) {

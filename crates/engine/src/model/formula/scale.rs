@@ -90,7 +90,7 @@ impl Checker<'_> {
         Typing::ANY
     }
 
-    fn fault(&mut self, index: usize, fault: ScaleFault) {
+    pub(super) fn fault(&mut self, index: usize, fault: ScaleFault) {
         let span = self.tree.span(index);
         self.report_dimension(FormulaError::Scale { fault: Box::new(fault), span });
     }
@@ -204,7 +204,18 @@ impl Checker<'_> {
             let (level, number) = (self.quoted(level), self.quoted(number));
             let fault = ScaleFault::LevelAndNumber { operator, level, number, is_literal };
             self.fault_at(span, fault);
-        } else if let (Some(a), Some(b)) = (x.turn, y.turn)
+        } else {
+            self.refuse_periods_and_angle(operator, span, [(left, x), (right, y)]);
+        }
+    }
+
+    fn refuse_periods_and_angle(
+        &mut self,
+        operator: &'static str,
+        span: &Range<usize>,
+        [(left, x), (right, y)]: [(usize, Typing); 2],
+    ) {
+        if let (Some(a), Some(b)) = (x.turn, y.turn)
             && a != b
         {
             let (periods, angle) = if a == Turn::Periods { (left, right) } else { (right, left) };
@@ -333,6 +344,7 @@ impl Checker<'_> {
                 self.tie(other).times(factor),
             );
         }
+        self.refuse_other_reference(index, [left, right]);
         let (x, y) = (self.typing(left), self.typing(right));
         let turn = match (x.turn, y.turn) {
             (None, turn) | (turn, None) => turn,
@@ -393,6 +405,11 @@ impl Checker<'_> {
                 }
                 Some(_) => {}
             }
+        }
+        // the number of `[rpm]` in what is in Hz would be 2 pi times off
+        if dimension == Some(Dimension::NONE) && self.is_written_out(right) {
+            let span = self.tree.span(index);
+            self.refuse_periods_and_angle("/", &span, [(left, x), (right, y)]);
         }
         let turn = match (x.turn, y.turn) {
             (turn, None) => turn,

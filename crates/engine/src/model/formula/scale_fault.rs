@@ -91,6 +91,15 @@ pub enum ScaleFault {
         /// The level.
         text: String,
     },
+    /// `10^(L/10)` of a level times one unit that is not its reference.
+    OtherReference {
+        /// The level.
+        level: String,
+        /// What it is above.
+        zero: Zero,
+        /// The quantity that is written in place of its reference.
+        quantity: String,
+    },
     /// A quantity that counts periods and one that counts angle together.
     PeriodsAndAngle {
         /// The operator or function.
@@ -117,6 +126,17 @@ fn as_level(number: &str, is_literal: bool) -> String {
     } else {
         format!("take the logarithm of a ratio: `10*log10({number})` or `20*log10({number})`")
     }
+}
+
+/// Whether a text is a level as it is, not one that is scaled already.
+fn is_level_alone(text: &str) -> bool {
+    !text.contains(['*', '/'])
+}
+
+/// The power or the voltage that a level is of.
+fn above_reference(level: &str, zero: Zero) -> String {
+    let divisor = if matches!(zero, Zero::Milliwatt | Zero::Watt) { 10 } else { 20 };
+    format!("10^({level}/{divisor})*1 [{}]", zero.reference().unwrap_or_default())
 }
 
 impl fmt::Display for ScaleFault {
@@ -213,16 +233,30 @@ impl fmt::Display for ScaleFault {
                  cannot take them together: {}",
                 as_level(number, *is_literal)
             ),
-            Self::LevelInFunction { function, text } => write!(
+            Self::LevelInFunction { function, text } if is_level_alone(text) => write!(
                 f,
                 "`{function}` needs a plain number, but `{text}` is a level; write \
                  `10^({text}/10)` for the ratio of powers, `10^({text}/20)` for that of \
                  amplitudes, or `{text}/[dB]` for the number of decibels"
             ),
+            // of `exp(L/20)`, an amplitude of base e, nothing can be proposed for the whole
+            Self::LevelInFunction { function, text } => write!(
+                f,
+                "`{function}` needs a plain number, but `{text}` is a level; write `10^(L/10)` of a \
+                 level L for the ratio of powers, `10^(L/20)` for that of amplitudes, or `L/[dB]` for \
+                 the number of decibels"
+            ),
             Self::LevelAsExponent { text } => write!(
                 f,
                 "`{text}` is a level as an exponent; write `10^(L/10)` for a ratio of powers, \
                  `10^(L/20)` for one of amplitudes, or `.../[dB]` for the number of decibels"
+            ),
+            Self::OtherReference { level, zero, quantity } => write!(
+                f,
+                "`{level}` is a level in {}, so that this power of ten is not multiplied by `{quantity}`; \
+                 write `{}`",
+                zero.unit(),
+                above_reference(level, *zero)
             ),
             Self::PeriodsAndAngle { operator, periods, angle } => write!(
                 f,
@@ -243,7 +277,10 @@ impl ScaleFault {
             Self::KelvinPerCelsius { text, unit } => Some(format!("celsius({text})/[{unit}]")),
             Self::LevelAndNumber { number, is_literal: true, .. } => Some(format!("{number} [dB]")),
             Self::LevelAndNumber { number, .. } => Some(format!("20*log10({number})")),
-            Self::LevelInFunction { text, .. } => Some(format!("10^({text}/20)")),
+            Self::LevelInFunction { text, .. } if is_level_alone(text) => {
+                Some(format!("10^({text}/20)"))
+            }
+            Self::OtherReference { level, zero, .. } => Some(above_reference(level, *zero)),
             _ => None,
         }
     }

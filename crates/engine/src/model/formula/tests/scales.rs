@@ -308,6 +308,13 @@ fn levels_and_turns_that_do_not_go_together() {
         ("max(f, omega)", "max", "counts periods"),
         ("P1 + L > U1", ">", "dBV"),
         ("P1 - U1", "-", "dBm"),
+        ("f/[rpm]", "f/[rpm]", "2*pi*f"),
+        ("f/(3000 [rpm])", "f/(3000 [rpm])", "2*pi*f"),
+        ("speed/[Hz]", "speed/[Hz]", "speed/(2*pi)"),
+        ("exp(L/20)", "L/20", "`10^(L/10)` of a level L"),
+        ("10^(P1/10)*1 [W]", "10^(P1/10)*1 [W]", "`10^(P1/10)*1 [mW]`"),
+        ("[V]*10^(0.1*U1)", "[V]*10^(0.1*U1)", "`10^(U1/20)*1 [V]`"),
+        ("10^(U1/20)*1 [mV]", "10^(U1/20)*1 [mV]", "`10^(U1/20)*1 [V]`"),
     ];
     for (text, part, said) in table {
         let errors = checked(text).expect_err(text);
@@ -339,6 +346,16 @@ fn levels_and_turns_that_do_not_go_together() {
         "L + 20*(n*log10(u/u0))",
         "L + -20/n*log10(u/u0)",
         "(P1 + P2)/2",
+        "f*[rev]/[rpm]",
+        "f/[1/s]",
+        "speed/[rad/s]",
+        "omega/f",
+        "10^(P1/10)*0.001 [W]",
+        "10^(P1/10)*2 [W]",
+        "10^((P1 - 30 [dB])/10)*1 [W]",
+        "10^(P1/20)*1 [V]",
+        "10^(U1/10)*1 [V^2]",
+        "10^(L/10)*1 [W]",
     ] {
         assert!(checked(right).is_ok(), "{right}: {:?}", checked(right));
     }
