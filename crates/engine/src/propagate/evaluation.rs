@@ -18,7 +18,7 @@ use super::second_order::{SecondOrder, second_order};
 use super::statement::Stated;
 use super::validate::{Validation, validate};
 use super::{branch, quasi, rounding};
-use crate::decimal::{position, to_digits};
+use crate::decimal::{Decimal, Direction, position, to_digits};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Distribution, Invalid, Joint};
 use crate::model::{COMPUTED_DIGITS, Capability, Output, Program};
 use crate::number::{COLUMN, Column, Shortest};
@@ -120,6 +120,8 @@ pub struct CapabilityStatement {
     pub cmc: f64,
     /// The estimate.
     pub estimate: f64,
+    /// The expanded uncertainty that was evaluated: half of the interval that is stated.
+    pub evaluated: f64,
     /// The expanded uncertainty to be stated.
     pub expanded_uncertainty: f64,
     /// Whether the evaluated one is below the capability.
@@ -152,7 +154,19 @@ impl CapabilityStatement {
         let below = to_digits(evaluated, COMPUTED_DIGITS) < cmc;
         let raised = below && capability.floor;
         let expanded_uncertainty = if raised { cmc } else { evaluated };
-        Self { cmc, estimate, expanded_uncertainty, below, raised }
+        Self { cmc, estimate, evaluated, expanded_uncertainty, below, raised }
+    }
+
+    /// The expanded uncertainty to be stated, to so many significant digits: to the nearest, or up where
+    /// that would bring below the capability what is not below it. `None` of zero, and of what is not
+    /// finite.
+    pub fn rounded(&self, digits: u32) -> Option<Decimal> {
+        let exact = Decimal::shortest(self.expanded_uncertainty)?;
+        let to = |direction| exact.round_to_digits(digits, direction);
+        let nearest = to(Direction::Nearest);
+        let is_kept = (self.raised || !self.below) && nearest.value() < self.cmc;
+        Some(if is_kept { to(Direction::Up) } else { nearest })
+            .filter(|_| self.expanded_uncertainty > 0.0)
     }
 
     /// What may be stated of an output, as certificates do; `None` without a capability, or an

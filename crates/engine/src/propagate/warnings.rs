@@ -3,17 +3,17 @@
 use std::collections::HashMap;
 
 use super::evaluation::{
-    Evaluation, FEW_ROWS, NOTEWORTHY, OutputEvaluation, RowEvaluation, differs_from_linear,
-    scatter_of_few,
+    CapabilityStatement, Evaluation, FEW_ROWS, NOTEWORTHY, OutputEvaluation, RowEvaluation,
+    differs_from_linear, scatter_of_few,
 };
 use super::gum::{BudgetLine, Dof, Gum};
 use super::monte_carlo::{Adaptive, MonteCarlo};
 use super::second_order::SecondOrder;
 use super::{branch, rounding};
-use crate::decimal::{significant, to_digits};
+use crate::decimal::{exact, significant, to_digits};
 use crate::model::Output;
 use crate::number::Shortest;
-use crate::task::{Task, Trials, Warning};
+use crate::task::{Coverage, Task, Trials, Warning};
 
 /// Outputs of saved results that cancel are worth a note from this share of the standard uncertainty
 /// on.
@@ -75,7 +75,9 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
             rounded.into_iter().for_each(|note| push(&mut found, note));
             of_output((task, &named), (name, is_told), row, evaluated, &mut found);
             of_noiseless(&output.quantity.name, evaluated, &mut found);
-            of_capability(output, evaluated, &mut found);
+            if place == 0 {
+                of_capability((output, number), &evaluation.rows, task, &mut found);
+            }
             if is_looked_at {
                 let coarse =
                     evaluated.gum.as_ref().and_then(|gum| rounding::note(output, task, gum));
@@ -112,7 +114,7 @@ fn named(task: &Task, rows: &[RowEvaluation]) -> Vec<usize> {
 
 /// Which inputs were drawn by a copula, and where that could not be exact.
 fn copula(task: &Task, evaluation: &Evaluation, found: &mut Vec<Warning>) {
-    if evaluation.copula.is_empty() {
+    if evaluation.copula.is_empty() || task.settings.trials == Trials::Fixed(0) {
         return;
     }
     let names: Vec<String> = evaluation
@@ -230,28 +232,51 @@ fn of_rounded_correlations(name: &str, output: &OutputEvaluation) -> Option<Warn
     })
 }
 
-/// Whether the expanded uncertainty is below the laboratory's capability.
-fn of_capability(output: &Output, evaluated: &OutputEvaluation, found: &mut Vec<Warning>) {
-    let Some(stated) = evaluated.capability.as_deref() else {
-        return;
-    };
+/// Significant digits of a capability in words: as many as one is stated with.
+const CAPABILITY_DIGITS: u32 = 6;
+
+/// Whether expanded uncertainties of an output, by its number, are below the laboratory's capability.
+fn of_capability(
+    (output, number): (&Output, usize),
+    rows: &[RowEvaluation],
+    task: &Task,
+    found: &mut Vec<Warning>,
+) {
+    let stated = |row: &RowEvaluation| row.outputs.get(number)?.capability.as_deref().copied();
+    let below: Vec<CapabilityStatement> =
+        rows.iter().filter_map(stated).filter(|stated| stated.below).collect();
+    let Some(first) = below.first() else { return };
     let (name, unit) = (&output.quantity.name, &output.quantity.unit);
-    let in_unit = |value: f64| unit.after(&significant(value, 3));
-    let (cmc, expanded) = (in_unit(stated.cmc), in_unit(stated.expanded_uncertainty));
-    let (code, text) = if stated.raised {
-        let text = format!(
-            "the expanded uncertainty of `{name}` is below the laboratory's capability (CMC) and \
-             raised to it: {cmc} is to be stated"
-        );
-        ("raised-to-cmc", text)
-    } else if stated.below {
-        let text = format!(
-            "the expanded uncertainty of `{name}` is {expanded}, below the laboratory's capability \
-             (CMC) of {cmc}, and must not be stated (ILAC-P14)"
-        );
-        ("below-cmc", text)
-    } else {
-        return;
+    let code = if first.raised { "raised-to-cmc" } else { "below-cmc" };
+    let cmc = unit.after(&exact(to_digits(first.cmc, CAPABILITY_DIGITS)));
+    let text = match (rows, first.raised) {
+        ([_], true) => {
+            let expanded = first.rounded(task.settings.digits).map(|expanded| expanded.to_string());
+            let expanded = unit.after(&expanded.unwrap_or_default());
+            format!(
+                "the expanded uncertainty of `{name}` is below the laboratory's capability (CMC) of {cmc} \
+                 and raised to it: {expanded} is to be stated"
+            )
+        }
+        ([_], false) => {
+            let expanded = unit.after(&significant(first.expanded_uncertainty, 3));
+            format!(
+                "the expanded uncertainty of `{name}` is {expanded}, below the laboratory's capability \
+                 (CMC) of {cmc}, and must not be stated (ILAC-P14)"
+            )
+        }
+        (_, true) => format!(
+            "the expanded uncertainty of `{name}` is below the laboratory's capability (CMC) in {} of {} \
+             rows, and raised to it there",
+            below.len(),
+            rows.len()
+        ),
+        (_, false) => format!(
+            "the expanded uncertainty of `{name}` is below the laboratory's capability (CMC) in {} of {} \
+             rows, and must not be stated there (ILAC-P14)",
+            below.len(),
+            rows.len()
+        ),
     };
     push(found, Warning::new(code, name.as_str(), text));
 }
@@ -382,7 +407,11 @@ fn of_difference(
                  a larger standard deviation, which alone makes {}. {}",
                 fewest(output),
                 percent(drawn),
-                if output.drawn_dof.is_finite() {
+                if matches!(gum.dof, Dof::Undefined)
+                    || matches!(task.settings.coverage, Coverage::Factor { fixed: true, .. })
+                {
+                    "Neither is wrong; no coverage factor of the GUM allows for it here"
+                } else if output.drawn_dof.is_finite() {
                     "Neither is wrong; the GUM allows for it in the coverage factor"
                 } else {
                     "The GUM allows for it in its coverage factor, that of a t distribution, whose \

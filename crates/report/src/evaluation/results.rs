@@ -3,7 +3,7 @@
 use super::{Shown, figures};
 use crate::EvaluationReport;
 use crate::document::{Block, Document, sentence};
-use crate::number::{justified, place_of_ends, position, with_uncertainty};
+use crate::number::{justified, place_of_ends, position, to, with_uncertainty};
 use crate::sheet::Sheet;
 use crate::table;
 use crate::table::budget;
@@ -118,7 +118,7 @@ fn verdict(settings: &Settings, stated: &Output, found: &OutputEvaluation) -> Ve
     }
     let trials = found.monte_carlo.as_ref().map(|figures| figures.trials);
     said.extend(found.conformity.iter().flat_map(|c| comparison::conformity(output, c, trials)));
-    said.extend(comparison::capability(stated, found));
+    said.extend(comparison::capability(stated, found, settings.digits));
     said
 }
 
@@ -154,6 +154,14 @@ fn result(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> S
             format!("{name} = {} with standard uncertainty {u}", in_unit(&estimate, &output.unit))
         }
         ResultStatement::Undefined => format!("{name} is not defined at these estimates"),
+    }
+}
+
+/// An estimate and its expanded uncertainty, which rounding does not bring below the capability.
+fn with_capability(of: &CapabilityStatement, digits: u32) -> (String, String) {
+    match of.rounded(digits) {
+        Some(expanded) => (to(of.estimate, Some(expanded.position())), expanded.to_string()),
+        None => with_uncertainty(of.estimate, of.expanded_uncertainty, digits),
     }
 }
 
@@ -212,8 +220,7 @@ impl ResultStatement {
         let gum = found.gum.as_ref();
         if let Some(raised) = raised(found) {
             let factor = crate::number::rounded(settings.coverage.normal_factor(), -2);
-            let (estimate, expanded) =
-                with_uncertainty(raised.estimate, raised.expanded_uncertainty, settings.digits);
+            let (estimate, expanded) = with_capability(raised, settings.digits);
             return Self::Expanded { estimate, expanded, factor };
         }
         // an agreed factor is kept, also where trials show another interval
@@ -230,7 +237,12 @@ impl ResultStatement {
         {
             let factor = gum.coverage_factor.map_or(f64::NAN, |factor| factor);
             let factor = crate::number::rounded(factor, -2);
-            let (estimate, expanded) = with_uncertainty(gum.estimate, expanded, settings.digits);
+            let beside = found.capability.as_deref();
+            let (estimate, expanded) =
+                match beside.filter(|beside| beside.expanded_uncertainty == expanded) {
+                    Some(beside) => with_capability(beside, settings.digits),
+                    None => with_uncertainty(gum.estimate, expanded, settings.digits),
+                };
             return Self::Expanded { estimate, expanded, factor };
         }
         if let Some(figures) = &found.monte_carlo {

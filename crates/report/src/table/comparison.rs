@@ -8,6 +8,7 @@ use crate::number::{
     MISSING, Percent, coarser, exact, justified, place_of_ends, position, rounded, significant, to,
 };
 use crate::sheet::Sheet;
+use gumption_engine::decimal::to_digits;
 use gumption_engine::model::{Output, Quantity, Tolerance};
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
@@ -139,14 +140,24 @@ pub(crate) fn differences(
 }
 
 /// What may be stated beside the laboratory's capability.
-pub(crate) fn capability(output: &Output, figures: &OutputEvaluation) -> Option<String> {
+pub(crate) fn capability(
+    output: &Output,
+    figures: &OutputEvaluation,
+    digits: u32,
+) -> Option<String> {
     let stated = figures.capability.as_deref()?;
     let unit = &output.quantity.unit;
-    let number = |value: f64| in_unit(&significant(value, 3), unit);
-    let (cmc, expanded) = (number(stated.cmc), number(stated.expanded_uncertainty));
+    let cmc = in_unit(&exact(to_digits(stated.cmc, 6)), unit);
+    let expanded = match stated.rounded(digits.max(if stated.raised { 1 } else { 3 })) {
+        Some(expanded) => expanded.to_string(),
+        None => exact(stated.expanded_uncertainty),
+    };
+    let expanded = in_unit(&expanded, unit);
     Some(if stated.raised {
         format!(
-            "The laboratory's capability (CMC) is {cmc}; U is raised to it: {expanded} is to be stated."
+            "U = {} is below the laboratory's capability (CMC) of {cmc} and raised to it: {expanded} is \
+             to be stated.",
+            in_unit(&significant(stated.evaluated, digits), unit)
         )
     } else if stated.below {
         format!("U = {expanded} is below the laboratory's capability (CMC) of {cmc}.")

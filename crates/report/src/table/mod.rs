@@ -182,7 +182,7 @@ fn section(
     parts.extend(comparison::table(&output.quantity, figures, digits));
     let said = comparison::differences(report, output, figures);
     parts.extend(said.iter().map(|said| wrapped(said)));
-    parts.extend(comparison::capability(output, figures).map(|said| wrapped(&said)));
+    parts.extend(comparison::capability(output, figures, digits).map(|said| wrapped(&said)));
     parts.join("\n")
 }
 

@@ -152,6 +152,9 @@ pub(crate) fn summary(task: &Task, row: &RowEvaluation, digits: u32) -> Sheet {
     sheet
 }
 
+/// The header of uncertainties that are raised to the laboratory's capability in some rows.
+const RAISED: &str = "to be stated\n(CMC)";
+
 /// The columns of the answer.
 fn answer(sheet: &mut Sheet, lines: &[Line], has_trials: bool) {
     let column = |position: usize| lines.iter().map(move |line| line.texts[position].clone());
@@ -159,6 +162,9 @@ fn answer(sheet: &mut Sheet, lines: &[Line], has_trials: bool) {
     sheet.numbers("standard\nuncertainty", column(1));
     sheet.numbers("expanded\nuncertainty", column(2));
     sheet.numbers("k", column(3));
+    if lines.iter().any(|line| line.is_raised) {
+        sheet.numbers(RAISED, lines.iter().map(|line| line.stated.clone()));
+    }
     if has_trials {
         sheet.numbers("Monte Carlo\nfrom", column(4));
         sheet.numbers("to", column(5));
@@ -347,6 +353,9 @@ impl Sweep<'_> {
         grid.numbers(&format!("standard\n{uncertainty}"), column(1));
         grid.numbers(&format!("expanded\n{uncertainty}"), column(2));
         grid.numbers("k", column(3));
+        if lines.iter().any(|line| line.is_raised) {
+            grid.numbers(RAISED, lines.iter().map(|line| line.stated.clone()));
+        }
         if self.has_trials {
             let ends = [4, 5].map(|position| align(&column(position).collect::<Vec<_>>()));
             let [low, high] = ends;
@@ -389,6 +398,10 @@ struct Line {
     texts: [String; 7],
     /// Whether that interval is the shortest one, if there is one.
     shortest: Option<bool>,
+    /// The expanded uncertainty to be stated, beside the laboratory's capability.
+    stated: String,
+    /// Whether it is the capability.
+    is_raised: bool,
     /// What is decided of an output with a tolerance.
     decision: &'static str,
 }
@@ -427,5 +440,14 @@ fn line(output: Option<&OutputEvaluation>, digits: u32) -> Line {
     ];
     let conformity = output.and_then(|output| output.conformity.as_deref());
     let decision = conformity.map_or(MISSING, decision);
-    Line { texts, shortest: stated.map(|of| of.shortest), decision }
+    let beside = output.and_then(|output| output.capability.as_deref());
+    Line {
+        stated: beside
+            .and_then(|beside| beside.rounded(digits))
+            .map_or_else(missing, |expanded| expanded.to_string()),
+        is_raised: beside.is_some_and(|beside| beside.raised),
+        texts,
+        shortest: stated.map(|of| of.shortest),
+        decision,
+    }
 }

@@ -7,6 +7,7 @@ use super::budget::Totals;
 use crate::number::{place_of_ends, position};
 use crate::workbook::{Cached, Leaf, Look, PERCENT, here};
 use crate::{EvaluationReport, plain, table};
+use gumption_engine::decimal::Decimal;
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
@@ -49,6 +50,9 @@ const CONFORMITY: [&str; 8] = [
     "numerical standard error of it",
 ];
 
+/// Figures of outputs with a capability of the laboratory.
+const CAPABILITY: [&str; 2] = ["capability (CMC)", "expanded uncertainty to be stated"];
+
 /// Places of figures among the headers.
 const ESTIMATE: usize = 2;
 const UNCERTAINTY: usize = 3;
@@ -87,7 +91,10 @@ pub(super) fn write(
     leaf.line(1, &table::settings_text(evaluation))?;
     let tolerances = task.model.outputs.iter().any(|output| output.tolerance.is_some());
     let further = if tolerances { CONFORMITY.as_slice() } else { &[] };
-    let headers = HEADERS.iter().chain(further).copied();
+    let capabilities = task.model.outputs.iter().any(|output| output.capability.is_some());
+    let capability = if capabilities { CAPABILITY.as_slice() } else { &[] };
+    let place_of_capability = HEADERS.len() + further.len();
+    let headers = HEADERS.iter().chain(further).chain(capability).copied();
     let conditions: Vec<String> = task
         .model
         .conditions
@@ -121,6 +128,15 @@ pub(super) fn write(
             }
             let cells = totals.get(output).and_then(|rows| rows.get(number)?.as_ref());
             figures(leaf, line, (quantity, found), evaluation.settings.digits, cells)?;
+            if let Some(beside) = found.capability.as_deref() {
+                let digits = evaluation.settings.digits;
+                let expanded = beside.rounded(digits);
+                let stated = expanded.map_or(beside.expanded_uncertainty, Decimal::value);
+                let shown = expanded.map(Decimal::position);
+                let [cmc, to_be_stated] = [0, 1].map(|at| line.at(place_of_capability + at));
+                leaf.number(cmc, beside.cmc, None, Look::Plain)?;
+                leaf.number(to_be_stated, stated, shown, Look::Plain)?;
+            }
         }
     }
     if !task.swept {
