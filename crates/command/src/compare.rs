@@ -84,7 +84,7 @@ impl Compare {
         };
         let text = |text: &str| file::read_comparison_text("<stdin>", text, options);
         let table = options::given(&self.table, text, |path| file::read_comparison(path, options));
-        let ReadComparison { table, warnings } = table??;
+        let ReadComparison { table, units, warnings } = table??;
         let read = [Some(&self.table), self.against.as_ref(), self.correlations.as_ref()];
         let read: Vec<PathBuf> = read.into_iter().flatten().cloned().collect();
         let place = self.answer.open(&read)?;
@@ -97,7 +97,7 @@ impl Compare {
             ComparisonTable::Pairs(pairs) => {
                 // pairs without an uncertainty are mistakes of the table
                 let compared = pairs.iter().filter_map(ResultPair::compare).collect();
-                ComparedPair::Pairs { pairs, compared, rounding: self.rounding }
+                ComparedPair::Pairs { pairs, compared, units, rounding: self.rounding }
             }
             ComparisonTable::Laboratories { laboratories, correlations } => {
                 let found = laboratories::compare_by(&laboratories, &correlations, self.estimator);
@@ -105,9 +105,10 @@ impl Compare {
                     Some(path) => format!("{}: {error}", path.display()),
                     None => error.to_string(),
                 };
-                ComparedPair::Laboratories(
-                    found.map_err(|error| Failure::Argument(of_file(error)))?,
-                )
+                ComparedPair::Laboratories {
+                    comparison: found.map_err(|error| Failure::Argument(of_file(error)))?,
+                    unit: units.into_iter().next().unwrap_or_default(),
+                }
             }
         };
         self.answer.say(&warnings);

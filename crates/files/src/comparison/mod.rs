@@ -46,6 +46,8 @@ pub enum ComparisonTable {
 pub struct ReadComparison {
     /// The results.
     pub table: ComparisonTable,
+    /// The unit of each row, in which it is compared; an empty text where none is stated.
+    pub units: Vec<String>,
     /// Columns that are not read, uncertainties that are shares, the sheet.
     pub warnings: Vec<Warning>,
 }
@@ -126,12 +128,13 @@ fn read(
         let conditions: Vec<&str> = answer.iter().flat_map(|answer| answer.conditions()).collect();
         let columns = Columns::of(&numbers, &conditions, &mut warnings)?;
         let is_of_pairs = columns.has(Role::Value(1));
-        let mut reader = Reader { numbers, columns, shares: BTreeSet::new(), options };
+        let (shares, units) = (BTreeSet::new(), Vec::new());
+        let mut reader = Reader { numbers, columns, shares, units, options };
         let table = if is_of_pairs { reader.pairs(answer.as_ref()) } else { reader.laboratories() };
         warnings.extend(reader.relative());
-        table
+        Some((table?, reader.units))
     });
-    log.finish(table.map(|table| ReadComparison { table, warnings }))
+    log.finish(table.map(|(table, units)| ReadComparison { table, units, warnings }))
 }
 
 struct Reader<'a> {
@@ -139,6 +142,8 @@ struct Reader<'a> {
     columns: Columns,
     /// Units of uncertainties that were taken of the values.
     shares: BTreeSet<String>,
+    /// The unit of each row that was read.
+    units: Vec<String>,
     options: ComparisonOptions<'a>,
 }
 
@@ -158,6 +163,8 @@ struct InUnits {
     stated: StatedResult,
     /// The column of the uncertainty.
     column: usize,
+    /// The unit of a run's output, also where the table has none.
+    of_run: Option<String>,
 }
 
 impl Reader<'_> {
@@ -231,6 +238,7 @@ impl Reader<'_> {
             let unit: Option<Unit> =
                 if answer.is_some() { unit } else { wanted.get_or_insert(unit).clone() };
             let column = first.column;
+            let of_run = second.of_run.clone();
             let both = [first, second].map(|result| self.converted(row, result, unit.as_ref()));
             let [Some(first), Some(second)] = both else { continue };
             let pair = ResultPair { label: name, results: [first, second], correlation };
@@ -238,6 +246,7 @@ impl Reader<'_> {
                 let reason = "the difference has no uncertainty, so nothing can be compared";
                 self.fail_at(self.numbers.table.place(row, column), reason.to_owned());
             }
+            self.units.push(unit.map(|unit| unit.to_string()).or(of_run).unwrap_or_default());
             pairs.push(pair);
         }
         Some(ComparisonTable::Pairs(pairs))
@@ -286,6 +295,7 @@ impl Reader<'_> {
                 let reason = format!("the laboratory `{name}` stands here a second time");
                 self.fail_at(self.numbers.table.place(row, label), reason);
             }
+            self.units.push(unit.map(|unit| unit.to_string()).unwrap_or_default());
             laboratories.push(Laboratory { label: name, result });
         }
         if count < 2 {
@@ -369,15 +379,15 @@ impl Reader<'_> {
     ) -> Option<InUnits> {
         let found = answer.result(self.numbers.name(row, label), at);
         let found = found.and_then(|(stated, unit)| {
-            let unit = in_unit.then(|| self.numbers.log.unit(unit)).transpose();
-            Ok((stated, unit.map_err(|error| error.to_string())?))
+            let own = in_unit.then(|| self.numbers.log.unit(unit)).transpose();
+            Ok((stated, own.map_err(|error| error.to_string())?, Some(unit.to_owned())))
         });
-        let (stated, unit) = found
+        let (stated, unit, of_run) = found
             .map_err(|reason| self.fail_at(self.numbers.table.place(row, label), reason))
             .ok()?;
         let number =
             |value: f64| Number { value, printed: value, half_unit: 0.0, unit: unit.clone() };
         let (value, uncertainty) = (number(stated.value), number(stated.expanded));
-        Some(InUnits { value, uncertainty, stated, column: label })
+        Some(InUnits { value, uncertainty, stated, column: label, of_run })
     }
 }

@@ -172,7 +172,7 @@ impl Reader<'_> {
             printed: [value.printed, uncertainty.printed],
             rounding: [value.half_unit, uncertainty.half_unit],
         };
-        Some(InUnits { value, uncertainty, stated, column: u })
+        Some(InUnits { value, uncertainty, stated, column: u, of_run: None })
     }
 
     /// An uncertainty that is a share of the value, in the unit of that; every other one as it is.
@@ -226,7 +226,7 @@ impl Reader<'_> {
         result: InUnits,
         wanted: Option<&Unit>,
     ) -> Option<StatedResult> {
-        let InUnits { value, uncertainty, stated, column } = result;
+        let InUnits { value, uncertainty, stated, column, .. } = result;
         let fail = |reason: String| {
             self.fail_at(self.numbers.table.place(row, column), reason);
         };

@@ -331,6 +331,7 @@ mod of_workbooks {
                 Ok(ReadComparison {
                     table: ComparisonTable::Laboratories { laboratories, .. },
                     warnings,
+                    ..
                 }) => {
                     let said = warnings.iter().map(|warning| warning.text.clone());
                     Ok((laboratories[0].label.clone(), said.collect::<String>()))

@@ -11,22 +11,23 @@ pub fn csv(compare: &Compare) -> String {
         values.iter().map(|value| number(Some(*value))).collect()
     };
     match compare {
-        Compare::Pairs { compared, rounding, .. } => {
+        Compare::Pairs { compared, units, rounding, .. } => {
             let mut names = vec!["label", "difference", "U", "en", "zeta", "probability"];
             names.extend(rounding.then_some(["range_low", "range_high"]).into_iter().flatten());
-            names.push("compatible");
+            names.extend(["compatible", "unit"]);
             records.push(header(&names));
-            for row in compared {
+            for (row, unit) in compared.iter().zip(units) {
                 let figures =
                     [row.difference, row.expanded, row.normalized_error, row.zeta, row.probability];
                 let mut record = vec![text(&row.label)];
                 record.extend(numbers(&figures));
                 record.extend(numbers(if *rounding { &row.range } else { &[] }));
                 record.push(row.is_compatible().to_string());
+                record.push(text(unit));
                 records.push(record);
             }
         }
-        Compare::Laboratories(comparison) => {
+        Compare::Laboratories { comparison, unit } => {
             records.push(header(&[
                 "label",
                 "x",
@@ -37,6 +38,7 @@ pub fn csv(compare: &Compare) -> String {
                 "probability",
                 "compatible",
                 "in_reference",
+                "unit",
             ]));
             for row in &comparison.rows {
                 let mut record = vec![text(&row.label)];
@@ -50,6 +52,7 @@ pub fn csv(compare: &Compare) -> String {
                 ]));
                 record.push(row.is_compatible().map_or_else(String::new, |is| is.to_string()));
                 record.push(row.member.to_string());
+                record.push(text(unit));
                 records.push(record);
             }
         }

@@ -4,6 +4,7 @@ use plotters::element::{Circle, Rectangle};
 use plotters::style::Color;
 
 use super::Compare;
+use super::sheets::has_name;
 use crate::html::Drawing;
 use crate::number::with_uncertainty;
 use crate::plain;
@@ -24,15 +25,18 @@ type Bar = (String, f64, f64, bool);
 /// zero.
 pub(super) fn draw(compare: &Compare) -> Drawing {
     match compare {
-        Compare::Pairs { compared, .. } => {
+        Compare::Pairs { compared, units, .. } => {
+            // differences in several units have no one axis
+            let unit = units.first().filter(|first| units.iter().all(|unit| unit == *first));
             let bars = compared
                 .iter()
                 .map(|row| (plain(&row.label), row.difference, row.expanded, !row.is_compatible()));
             let caption = "Difference of the two results with its expanded uncertainty (k = 2). A bar \
                            that does not reach 0 (vermilion) is a pair that is not compatible.";
-            strip(&bars.collect::<Vec<Bar>>(), [0.0, 0.0], "difference", caption)
+            let label = of_unit("difference", unit.map_or("", String::as_str));
+            strip(&bars.collect::<Vec<Bar>>(), [0.0, 0.0], &label, caption)
         }
-        Compare::Laboratories(comparison) => {
+        Compare::Laboratories { comparison, unit } => {
             let bars = comparison
                 .rows
                 .iter()
@@ -42,9 +46,14 @@ pub(super) fn draw(compare: &Compare) -> Drawing {
             let caption = "Results with their expanded uncertainties as stated, and the reference \
                            value with its own (band, k = 2). Vermilion: not in the reference value.";
             let band = [of.value - half, of.value + half];
-            strip(&bars.collect::<Vec<Bar>>(), band, "result", caption)
+            strip(&bars.collect::<Vec<Bar>>(), band, &of_unit("result", unit), caption)
         }
     }
+}
+
+/// The title of an axis with its unit.
+fn of_unit(title: &str, unit: &str) -> String {
+    if has_name(unit) { format!("{title} in {}", plain(unit)) } else { title.to_owned() }
 }
 
 fn strip(bars: &[Bar], band: [f64; 2], label: &str, caption: &str) -> Drawing {

@@ -21,12 +21,12 @@ pub fn json(compare: &Compare, warnings: &[Warning]) -> String {
     let warnings = ("warnings", list(warnings));
     let version = ("gumption", Value::from(env!("CARGO_PKG_VERSION")));
     match compare {
-        Compare::Pairs { compared, rounding, .. } => {
-            let rows = compared.iter().map(|row| pair(row, *rounding));
+        Compare::Pairs { compared, units, rounding, .. } => {
+            let rows = compared.iter().zip(units).map(|(row, unit)| pair(row, unit, *rounding));
             pretty(&object([version, ("rows", list(rows)), warnings]))
         }
-        Compare::Laboratories(comparison) => {
-            let mut entries = vec![version];
+        Compare::Laboratories { comparison, unit } => {
+            let mut entries = vec![version, ("unit", known(unit))];
             entries.extend(laboratories(comparison));
             entries.push(warnings);
             pretty(&object(entries))
@@ -34,9 +34,15 @@ pub fn json(compare: &Compare, warnings: &[Warning]) -> String {
     }
 }
 
-fn pair(row: &ComparedPair, rounding: bool) -> Value {
+/// A unit; null where none is known.
+fn known(unit: &str) -> Value {
+    if unit.is_empty() { Value::Null } else { unit.into() }
+}
+
+fn pair(row: &ComparedPair, unit: &str, rounding: bool) -> Value {
     let mut entries = vec![
         ("label", Value::from(row.label.as_str())),
+        ("unit", known(unit)),
         ("difference", row.difference.into()),
         ("U", row.expanded.into()),
         ("en", row.normalized_error.into()),

@@ -22,11 +22,18 @@ pub enum Compare {
         pairs: Vec<ResultPair>,
         /// Their comparisons, in the same order.
         compared: Vec<ComparedPair>,
+        /// Their units, in the same order; an empty text where none is known.
+        units: Vec<String>,
         /// Whether the range that printed digits allow is asked for.
         rounding: bool,
     },
     /// The results of many laboratories.
-    Laboratories(Comparison),
+    Laboratories {
+        /// The comparison.
+        comparison: Comparison,
+        /// The unit of all of them; an empty text where none is stated.
+        unit: String,
+    },
 }
 
 impl Compare {
@@ -35,7 +42,7 @@ impl Compare {
     pub fn is_compatible(&self) -> bool {
         match self {
             Self::Pairs { compared, .. } => compared.iter().all(ComparedPair::is_compatible),
-            Self::Laboratories(comparison) => comparison.all.is_consistent(),
+            Self::Laboratories { comparison, .. } => comparison.all.is_consistent(),
         }
     }
 }

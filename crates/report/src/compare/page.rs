@@ -13,8 +13,10 @@ use gumption_engine::task::Warning;
 
 fn sheet(compare: &Compare) -> Sheet {
     match compare {
-        Compare::Pairs { pairs, compared, rounding } => sheets::pairs(pairs, compared, *rounding),
-        Compare::Laboratories(comparison) => sheets::laboratories(comparison),
+        Compare::Pairs { pairs, compared, units, rounding } => {
+            sheets::pairs((pairs, compared), units, *rounding)
+        }
+        Compare::Laboratories { comparison, unit } => sheets::laboratories(comparison, unit),
     }
 }
 
@@ -22,7 +24,7 @@ fn sheet(compare: &Compare) -> Sheet {
 fn estimators(compare: &Compare) -> Option<(Sheet, String)> {
     match compare {
         Compare::Pairs { .. } => None,
-        Compare::Laboratories(comparison) => {
+        Compare::Laboratories { comparison, .. } => {
             Some((sheets::estimators(comparison), words::recommended(comparison)))
         }
     }
@@ -32,7 +34,7 @@ fn notes(compare: &Compare) -> Vec<Cow<'static, str>> {
     match compare {
         Compare::Pairs { rounding: true, .. } => vec![words::PAIRS.into(), words::ROUNDING.into()],
         Compare::Pairs { .. } => vec![words::PAIRS.into()],
-        Compare::Laboratories(comparison) => {
+        Compare::Laboratories { comparison, .. } => {
             vec![words::laboratories(comparison).into(), words::ESTIMATORS.into()]
         }
     }

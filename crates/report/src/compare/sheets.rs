@@ -16,8 +16,22 @@ const PROBABILITY: i32 = -3;
 /// Significant digits of expanded uncertainties.
 const DIGITS: u32 = 2;
 
+/// Whether there is anything to write behind a number.
+pub(super) fn has_name(unit: &str) -> bool {
+    !matches!(unit.trim(), "" | "1")
+}
+
+/// A number with the unit behind it, if that has a name.
+pub(super) fn in_unit(number: &str, unit: &str) -> String {
+    if has_name(unit) { format!("{number} {}", plain(unit)) } else { number.to_owned() }
+}
+
 /// Results two by two.
-pub(super) fn pairs(pairs: &[ResultPair], compared: &[ComparedPair], rounding: bool) -> Sheet {
+pub(super) fn pairs(
+    (pairs, compared): (&[ResultPair], &[ComparedPair]),
+    units: &[String],
+    rounding: bool,
+) -> Sheet {
     let mut sheet = Sheet::default();
     sheet.text("", compared.iter().map(|row| plain(&row.label)));
     for (which, name) in ["first", "second"].into_iter().enumerate() {
@@ -26,6 +40,9 @@ pub(super) fn pairs(pairs: &[ResultPair], compared: &[ComparedPair], rounding: b
     let of = |row: &ComparedPair| with_uncertainty(row.difference, row.expanded, DIGITS);
     sheet.numbers("difference", compared.iter().map(|row| of(row).0));
     sheet.numbers("U", compared.iter().map(|row| of(row).1));
+    if units.iter().any(|unit| has_name(unit)) {
+        sheet.units("unit", units.iter().map(|unit| plain(unit)));
+    }
     sheet.numbers("En", compared.iter().map(|row| score(row.normalized_error)));
     if rounding {
         sheet
@@ -38,7 +55,7 @@ pub(super) fn pairs(pairs: &[ResultPair], compared: &[ComparedPair], rounding: b
 }
 
 /// Degrees of equivalence.
-pub(super) fn laboratories(comparison: &Comparison) -> Sheet {
+pub(super) fn laboratories(comparison: &Comparison, unit: &str) -> Sheet {
     let rows = &comparison.rows;
     let mut sheet = Sheet::default();
     sheet.text("laboratory", rows.iter().map(|row| plain(&row.label)));
@@ -51,6 +68,9 @@ pub(super) fn laboratories(comparison: &Comparison) -> Sheet {
     let of = |row: &DegreeOfEquivalence| with_uncertainty(row.difference, row.expanded, DIGITS);
     sheet.numbers("difference", rows.iter().map(|row| of(row).0));
     sheet.numbers("U", rows.iter().map(|row| of(row).1));
+    if has_name(unit) {
+        sheet.units("unit", rows.iter().map(|_| plain(unit)));
+    }
     sheet.numbers("En", rows.iter().map(|row| score(row.normalized_error)));
     sheet.numbers("zeta", rows.iter().map(|row| score(row.zeta)));
     sheet.numbers("probability", rows.iter().map(|row| probability(row.probability)));

@@ -1,7 +1,7 @@
 //! The sentences of a comparison.
 
 use super::Compare;
-use super::sheets::probability;
+use super::sheets::{in_unit, probability};
 use crate::document::sentence;
 use crate::number::{degrees_of_freedom, rounded, significant, with_uncertainty};
 use crate::plain;
@@ -53,7 +53,7 @@ pub(super) fn recommended(comparison: &Comparison) -> String {
 }
 
 /// What was done to the stated uncertainties.
-fn added(comparison: &Comparison) -> Option<String> {
+fn added(comparison: &Comparison, unit: &str) -> Option<String> {
     let own = comparison.estimators.iter().find(|of| of.estimator == comparison.estimator)?;
     match own.estimator {
         Estimator::WeightedMean | Estimator::LargestConsistentSubset => None,
@@ -66,11 +66,11 @@ fn added(comparison: &Comparison) -> Option<String> {
                 Estimator::DerSimonianLaird => "DerSimonian-Laird",
                 _ => "Mandel-Paule",
             };
-            let (tau, of) = (significant(own.tau?, 2), own.hartung_knapp?);
+            let (tau, of) = (in_unit(&significant(own.tau?, 2), unit), own.hartung_knapp?);
             Some(format!(
                 "{name}: a standard deviation of {tau} between laboratories; by Hartung and Knapp U = \
                  {} (k = {}, {})",
-                significant(of.expanded(), 2),
+                in_unit(&significant(of.expanded(), 2), unit),
                 rounded(of.coverage_factor, -2),
                 degrees_of_freedom(&of.dof.to_string())
             ))
@@ -81,7 +81,7 @@ fn added(comparison: &Comparison) -> Option<String> {
 pub(super) fn title(compare: &Compare) -> String {
     match compare {
         Compare::Pairs { .. } => "Normalized errors".to_owned(),
-        Compare::Laboratories(_) => "Comparison of laboratories".to_owned(),
+        Compare::Laboratories { .. } => "Comparison of laboratories".to_owned(),
     }
 }
 
@@ -95,17 +95,21 @@ pub(super) fn verdict(compare: &Compare) -> Vec<String> {
                 .filter(|row| !row.is_compatible())
                 .map(|row| plain(&row.label))
                 .collect();
-            vec![if not.is_empty() {
-                format!("All {all} pairs are compatible.")
-            } else {
-                format!("{} of {all} pairs are not compatible: {}.", not.len(), not.join(", "))
+            vec![match (not.as_slice(), all) {
+                ([], 1) => "The pair is compatible.".to_owned(),
+                ([], _) => format!("All {all} pairs are compatible."),
+                ([_], 1) => "The pair is not compatible.".to_owned(),
+                ([only], _) => format!("1 of {all} pairs is not compatible: {only}."),
+                _ => {
+                    format!("{} of {all} pairs are not compatible: {}.", not.len(), not.join(", "))
+                }
             }]
         }
-        Compare::Laboratories(comparison) => of_laboratories(comparison),
+        Compare::Laboratories { comparison, unit } => of_laboratories(comparison, unit),
     }
 }
 
-fn of_laboratories(comparison: &Comparison) -> Vec<String> {
+fn of_laboratories(comparison: &Comparison, unit: &str) -> Vec<String> {
     let chi = |of: &ReferenceValue| {
         format!(
             "chi-squared {} with {}, probability {}",
@@ -116,7 +120,7 @@ fn of_laboratories(comparison: &Comparison) -> Vec<String> {
     };
     let value = |of: &ReferenceValue| {
         let (y, u) = with_uncertainty(of.value, FACTOR * of.standard_uncertainty, 2);
-        format!("{y} with U = {u} (k = 2)")
+        format!("{} with U = {} (k = 2)", in_unit(&y, unit), in_unit(&u, unit))
     };
     let (all, reference) = (&comparison.all, &comparison.reference);
     let are = if all.is_consistent() { "are" } else { "are not" };
@@ -126,7 +130,7 @@ fn of_laboratories(comparison: &Comparison) -> Vec<String> {
     let Some(search) =
         search.filter(|_| comparison.estimator == Estimator::LargestConsistentSubset)
     else {
-        let how = added(comparison).map_or_else(String::new, |said| format!(" ({said})"));
+        let how = added(comparison, unit).map_or_else(String::new, |said| format!(" ({said})"));
         return vec![consistency, format!("Reference value {}{how}.", value(reference))];
     };
     let out: Vec<String> =
