@@ -64,6 +64,10 @@ pub(super) fn definition(unit: &Unit) -> String {
             "dB is the level difference 10 lg(P1/P2) of powers, 20 lg(x1/x2) of field quantities"
                 .to_owned()
         }
+        // the one scale whose zero is no unit's of D-SI
+        Some(Zero::Celsius) if unit.offset() != 0.0 => {
+            format!("t in {text} is the temperature T with T/K = (t/{text} + 459.67)*5/9")
+        }
         _ => {
             let dimension = unit.dimension();
             let size = exact(unit.factor());
@@ -73,7 +77,7 @@ pub(super) fn definition(unit: &Unit) -> String {
                 _ => format!("dB^{levels}"),
             };
             let si = match (dimension.is_none(), levels.is_zero()) {
-                (true, true) => "1".to_owned(),
+                (true, true) => return format!("{text} = {size}"),
                 (false, true) => dimension.to_string(),
                 (true, false) => level,
                 (false, false) => format!("{level} {dimension}"),
@@ -120,6 +124,10 @@ mod tests {
         assert_eq!(said("dBuV"), "dBuV is the level 20 lg(U/(1 uV)) of a voltage U");
         assert!(said("dB").starts_with("dB is the level difference 10 lg(P1/P2)"));
         assert_eq!(said("dB/m"), "dB/m = 1 dB m^-1");
-        assert_eq!(said("LSB"), "LSB = 1 1");
+        assert_eq!(said("LSB"), "LSB = 1");
+        assert_eq!(
+            said("degF"),
+            "t in degF is the temperature T with T/K = (t/degF + 459.67)*5/9"
+        );
     }
 }

@@ -1,7 +1,9 @@
 //! A stylesheet (XSLT 1.0) that shows a digital certificate to people.
 
+use crate::certificate::units::printed_text;
 use crate::certificate::words::{self, Words};
 use gumption_analysis::certificate::contents::Language;
+use gumption_units::{Prefix, Symbol};
 
 /// The stylesheet, with places for words and for the style of pages.
 const TEMPLATE: &str = include_str!("view.xsl");
@@ -10,7 +12,7 @@ const TEMPLATE: &str = include_str!("view.xsl");
 type NamedWord = (&'static str, fn(&Words) -> &'static str);
 
 /// The words that it takes from those of a certificate.
-const WORDS: [NamedWord; 18] = [
+const WORDS: [NamedWord; 24] = [
     ("title", |of| of.title),
     ("number", |of| of.number),
     ("device", |of| of.device),
@@ -23,6 +25,12 @@ const WORDS: [NamedWord; 18] = [
     ("received", |of| of.received),
     ("calibrated", |of| of.calibrated),
     ("issued", |of| of.issued),
+    ("place", |of| of.place),
+    ("at_laboratory", |of| of.places[0]),
+    ("at_customer", |of| of.places[1]),
+    ("at_laboratory_branch", |of| of.places[2]),
+    ("at_customer_branch", |of| of.places[3]),
+    ("elsewhere", |of| of.places[4]),
     ("value", |of| of.value),
     ("expanded", |of| of.expanded),
     ("low", |of| of.low),
@@ -35,7 +43,10 @@ const WORDS: [NamedWord; 18] = [
 /// languages that certificates can be written in; its parameter `lang` is a code of ISO 639-1.
 pub fn dcc_stylesheet() -> String {
     let style = escaped(crate::page_style());
-    let made = TEMPLATE.replace("@STYLE@", &style);
+    let made = TEMPLATE
+        .replace("@STYLE@", &style)
+        .replace("{units:prefixes}", &prefixes())
+        .replace("{units:symbols}", &symbols());
     WORDS.iter().fold(made, |made, (name, word)| {
         let of = |language: Language| escaped(word(words::of(language)));
         let others = [Language::German, Language::Italian, Language::French].map(|language| {
@@ -49,6 +60,30 @@ pub fn dcc_stylesheet() -> String {
         );
         made.replace(&format!("{{words:{name}}}"), &choice)
     })
+}
+
+/// A case of a choice by the name of a unit or of a prefix.
+fn case(name: &str, symbol: &str) -> String {
+    format!("<xsl:when test=\"$name = '{}'\">{}</xsl:when>", name.to_lowercase(), escaped(symbol))
+}
+
+/// The prefixes of D-SI with their symbols.
+fn prefixes() -> String {
+    let of = |prefix: &Prefix| {
+        let symbol = if prefix.symbol() == "u" { "\u{b5}" } else { prefix.symbol() };
+        prefix.macro_name().map(|name| case(name, symbol))
+    };
+    gumption_units::prefixes().filter_map(of).collect()
+}
+
+/// The units of D-SI with their symbols as print has them.
+fn symbols() -> String {
+    let of = |symbol: &Symbol| {
+        let name = symbol.dsi_name()?;
+        Some(case(name, &printed_text(symbol.name())))
+    };
+    let others = [case("kilogram", "kg"), case("one", "1")].concat();
+    gumption_units::symbols().filter_map(of).collect::<String>() + &others
 }
 
 /// A text as it stands in XML.

@@ -61,6 +61,21 @@
                     <xsl:if test="$core/dcc:endPerformanceDate != $core/dcc:beginPerformanceDate"> – <xsl:value-of select="$core/dcc:endPerformanceDate"/></xsl:if>
                   </td>
                 </tr>
+                <xsl:for-each select="$core/dcc:performanceLocation">
+                  <tr>
+                    <th scope="row">{words:place}</th>
+                    <td>
+                      <xsl:choose>
+                        <xsl:when test=". = 'laboratory'">{words:at_laboratory}</xsl:when>
+                        <xsl:when test=". = 'customer'">{words:at_customer}</xsl:when>
+                        <xsl:when test=". = 'laboratoryBranch'">{words:at_laboratory_branch}</xsl:when>
+                        <xsl:when test=". = 'customerBranch'">{words:at_customer_branch}</xsl:when>
+                        <xsl:when test=". = 'other'">{words:elsewhere}</xsl:when>
+                        <xsl:otherwise><xsl:value-of select="."/></xsl:otherwise>
+                      </xsl:choose>
+                    </td>
+                  </tr>
+                </xsl:for-each>
                 <xsl:for-each select="$core/dcc:issueDate">
                   <tr><th scope="row">{words:issued}</th><td><xsl:value-of select="."/></td></tr>
                 </xsl:for-each>
@@ -298,13 +313,46 @@
     </xsl:choose>
   </xsl:template>
 
-  <!-- D-SI units as they are spelled; those that the SI does not have stand behind a bar -->
+  <!-- D-SI units as print has them; those that the SI does not have stand behind a bar -->
   <xsl:template name="unit">
     <xsl:param name="unit"/>
     <xsl:choose>
       <xsl:when test="starts-with($unit, '|')"><xsl:value-of select="substring($unit, 2)"/></xsl:when>
       <xsl:when test="$unit = '\one'"/>
-      <xsl:otherwise><xsl:value-of select="translate($unit, '\', ' ')"/></xsl:otherwise>
+      <xsl:when test="starts-with($unit, '\')">
+        <xsl:call-template name="factors"><xsl:with-param name="names" select="substring($unit, 2)"/></xsl:call-template>
+      </xsl:when>
+      <xsl:otherwise><xsl:value-of select="$unit"/></xsl:otherwise>
     </xsl:choose>
+  </xsl:template>
+
+  <!-- the names of a unit, the first without its backslash, behind what parts it from those before -->
+  <xsl:template name="factors">
+    <xsl:param name="names"/>
+    <xsl:param name="before" select="''"/>
+    <xsl:variable name="name" select="translate(substring-before(concat($names, '\'), '\'), 'ABCDEFGHIJKLMNOPQRSTUVWXYZ', 'abcdefghijklmnopqrstuvwxyz')"/>
+    <xsl:variable name="rest" select="substring-after($names, '\')"/>
+    <xsl:variable name="prefix">
+      <xsl:choose>{units:prefixes}</xsl:choose>
+    </xsl:variable>
+    <xsl:choose>
+      <xsl:when test="starts-with($name, 'tothe{')">
+        <sup><xsl:value-of select="translate(substring-before(substring-after($name, '{'), '}'), '-', '&#8722;')"/></sup>
+      </xsl:when>
+      <xsl:when test="$name = 'per'">/</xsl:when>
+      <xsl:when test="string($prefix)"><xsl:value-of select="concat($before, $prefix)"/></xsl:when>
+      <xsl:otherwise>
+        <xsl:value-of select="$before"/>
+        <xsl:choose>{units:symbols}<xsl:otherwise><xsl:value-of select="$name"/></xsl:otherwise></xsl:choose>
+      </xsl:otherwise>
+    </xsl:choose>
+    <xsl:if test="string($rest)">
+      <xsl:call-template name="factors">
+        <xsl:with-param name="names" select="$rest"/>
+        <xsl:with-param name="before">
+          <xsl:if test="$name != 'per' and not(string($prefix))">&#160;</xsl:if>
+        </xsl:with-param>
+      </xsl:call-template>
+    </xsl:if>
   </xsl:template>
 </xsl:stylesheet>
