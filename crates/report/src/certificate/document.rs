@@ -62,20 +62,31 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
     measurement::sections(&mut document, report);
     document.section(beside(languages, |w| w.remarks));
     for language in languages {
-        let remarks = certificate.administrative.remarks.iter();
-        let remarks = remarks.filter_map(|remark| own(remark, *language, languages)).map(plain);
-        let asked = [words::of(*language).relates, words::of(*language).copies];
-        let asked = asked.into_iter().map(str::to_owned);
-        document.list_in(language.code(), remarks.chain(asked).collect());
+        document.list_in(language.code(), remarks(report, *language));
     }
-    let signer = certificate.administrative.responsible.as_ref().map(|name| plain(name));
-    let [place, signature] = [0, 1].map(|place| beside(languages, |w| w.signed[place]));
-    let signature = signer.map_or(signature.clone(), |name| format!("{signature}: {name}"));
-    document.blocks.push(Block::Signature(vec![place, signature]));
+    document.blocks.push(Block::Signature(signature(report).into()));
     document.section(beside(languages, |w| w.provenance));
     document.blocks.push(Block::List(provenance(report)));
     document.blocks.push(Block::End(beside(languages, |w| w.end)));
     document
+}
+
+/// The remarks in a language: the laboratory's own, and those that ISO/IEC 17025 asks for.
+pub(super) fn remarks(report: &CertificateReport<'_>, language: Language) -> Vec<String> {
+    let languages = &report.certificate.languages;
+    let remarks = report.certificate.administrative.remarks.iter();
+    let remarks = remarks.filter_map(|remark| own(remark, language, languages)).map(plain);
+    let asked = [words::of(language).relates, words::of(language).copies];
+    remarks.chain(asked.into_iter().map(str::to_owned)).collect()
+}
+
+/// What stands below the lines to be signed on.
+pub(super) fn signature(report: &CertificateReport<'_>) -> [String; 2] {
+    let languages = &report.certificate.languages;
+    let signer = report.certificate.administrative.responsible.as_ref().map(|name| plain(name));
+    let [place, signature] = [0, 1].map(|place| beside(languages, |w| w.signed[place]));
+    let signature = signer.map_or(signature.clone(), |name| format!("{signature}: {name}"));
+    [place, signature]
 }
 
 /// A remark among those of a language: its text in it, or with those of the first language what is the
@@ -98,7 +109,7 @@ fn foot(report: &CertificateReport<'_>) -> Foot {
 }
 
 /// Program, settings and digests.
-fn provenance(report: &CertificateReport<'_>) -> Vec<String> {
+pub(super) fn provenance(report: &CertificateReport<'_>) -> Vec<String> {
     let languages = report.certificate.languages.as_slice();
     let word = |word: fn(&Words) -> &'static str| beside(languages, word);
     let mut lines = vec![

@@ -95,6 +95,13 @@ pub(super) fn coverage(report: &CertificateReport<'_>, of: Said, beside: Beside)
     }
     said.push(words.time.to_owned());
     said.push(rounding(report, words));
+    let kept: Vec<usize> =
+        rows.iter().filter(|row| row.is_kept(report)).map(|row| row.number).collect();
+    match kept.len() {
+        0 => {}
+        count if count == rows.len() => said.push(words.kept.to_owned()),
+        _ => said.push(about(&kept, words) + words.kept),
+    }
     said
 }
 

@@ -5,7 +5,8 @@ use super::units::{printed, printed_value};
 use crate::number::{exact, rounded};
 use crate::sheet::Figure;
 use crate::{conditions_text, plain};
-use gumption_analysis::certificate::contents::{Asked, Language, Line};
+use gumption_analysis::certificate::contents::{Asked, Certificate, Language, Line};
+use gumption_analysis::certificate::rounding::expanded;
 use gumption_analysis::certificate::{Basis, Statement};
 use gumption_engine::decimal::{Decimal, position, to_digits, to_position};
 use gumption_engine::model::Quantity;
@@ -133,6 +134,13 @@ impl Stated<'_> {
     /// Whether the uncertainty is the laboratory's capability.
     pub(super) fn is_raised(&self) -> bool {
         self.statement.limit.is_some_and(|limit| limit.raised)
+    }
+
+    /// Whether rounding by the rule of the certificate would have brought U below the capability.
+    pub(super) fn is_kept(&self, report: &CertificateReport<'_>) -> bool {
+        let Certificate { digits, rounding, .. } = *report.certificate;
+        let by_rule = expanded(self.statement.expanded_uncertainty, digits, rounding);
+        by_rule.map(Decimal::value) != self.statement.rounded.map(Decimal::value)
     }
 
     /// The ends of the interval, where there is one that may be stated: not one that is narrower than

@@ -3,8 +3,9 @@
 use std::io;
 
 use super::sentences::{Beside, Said};
+use super::words::beside;
 use super::{
-    CertificateReport, administrative, conformity, file_name, functions, sentences, sheets,
+    CertificateReport, administrative, conformity, document, functions, sentences, sheets,
 };
 use crate::fits;
 use crate::workbook::{Book, failed};
@@ -38,12 +39,17 @@ pub fn xlsx(report: &CertificateReport<'_>) -> io::Result<Vec<u8>> {
             }
             row += 1;
         }
-        leaf.line(row, &format!("gumption {}", env!("CARGO_PKG_VERSION")))?;
-        leaf.line(row + 1, &format!("certificate file, SHA-256: {}", report.digest))?;
-        row += 2;
-        for model in report.models {
-            let name = file_name(model.name);
-            leaf.line(row, &format!("{name}, SHA-256: {}", model.digest))?;
+        let remarks = languages.iter().flat_map(|language| document::remarks(report, *language));
+        let signature = document::signature(report).map(|below| format!("{below}: ____________"));
+        let end = [beside(languages, |w| w.end)];
+        let below = remarks
+            .chain([String::new()])
+            .chain(signature)
+            .chain([String::new()])
+            .chain(document::provenance(report))
+            .chain(end);
+        for line in below {
+            leaf.line(row, &line)?;
             row += 1;
         }
         book.push(leaf)?;

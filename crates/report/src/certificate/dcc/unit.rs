@@ -125,9 +125,6 @@ mod tests {
         assert!(said("dB").starts_with("dB is the level difference 10 lg(P1/P2)"));
         assert_eq!(said("dB/m"), "dB/m = 1 dB m^-1");
         assert_eq!(said("LSB"), "LSB = 1");
-        assert_eq!(
-            said("degF"),
-            "t in degF is the temperature T with T/K = (t/degF + 459.67)*5/9"
-        );
+        assert_eq!(said("degF"), "t in degF is the temperature T with T/K = (t/degF + 459.67)*5/9");
     }
 }

@@ -77,6 +77,8 @@ pub(super) const WORDS: Words = Words {
         "rounded to the nearest, but up where that would take away more than 5 %, EA-4/02 M:2022",
         "rounded up",
     ],
+    kept: "U is rounded up, as it would be below the laboratory's calibration and measurement \
+        capability (CMC) otherwise.",
     digits: ["one significant digit", "{digits} significant digits"],
     raised: [
         "The evaluated expanded uncertainty is smaller than the laboratory's calibration and \

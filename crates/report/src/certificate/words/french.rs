@@ -78,6 +78,8 @@ pub(super) const WORDS: Words = Words {
         "arrondi au plus proche, mais par excès là où plus de 5 % seraient perdus, EA-4/02 M:2022",
         "arrondi par excès",
     ],
+    kept: "U est arrondie par excès, car elle serait sinon inférieure à l'aptitude en matière de mesures \
+        et d'étalonnages (CMC) du laboratoire.",
     digits: ["un chiffre significatif", "{digits} chiffres significatifs"],
     raised: [
         "L'incertitude élargie évaluée est inférieure à l'aptitude en matière de mesures et \

@@ -81,6 +81,8 @@ pub(super) const WORDS: Words = Words {
         "kaufmännisch gerundet, aber aufgerundet, wo sonst mehr als 5 % wegfielen, EA-4/02 M:2022",
         "aufgerundet",
     ],
+    kept: "U ist aufgerundet, da es sonst unter der kleinsten angebbaren Messunsicherheit (CMC) des \
+        Laboratoriums läge.",
     digits: ["eine signifikante Stelle", "{digits} signifikante Stellen"],
     raised: [
         "Die ermittelte erweiterte Messunsicherheit ist kleiner als die kleinste angebbare \

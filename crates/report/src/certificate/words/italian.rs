@@ -77,6 +77,8 @@ pub(super) const WORDS: Words = Words {
         "arrotondamento al più vicino, ma per eccesso dove altrimenti si perderebbe più del 5 %, EA-4/02 M:2022",
         "arrotondamento per eccesso",
     ],
+    kept: "U è arrotondata per eccesso, poiché altrimenti sarebbe minore della capacità di misura e \
+        taratura (CMC) del laboratorio.",
     digits: ["una cifra significativa", "{digits} cifre significative"],
     raised: [
         "L'incertezza estesa valutata è minore della capacità di misura e taratura (CMC) del \

@@ -75,6 +75,8 @@ pub(super) struct Words {
     pub(super) rounding: &'static str,
     /// By rule, in the order of [`Rounding::ALL`](gumption_analysis::certificate::contents::Rounding::ALL).
     pub(super) rules: [&'static str; 3],
+    /// That rounding is against the rule where U would be below the capability.
+    pub(super) kept: &'static str,
     /// One digit, and `{digits}` digits.
     pub(super) digits: [&'static str; 2],
     /// `{k}`, and with the probability that is reached at least: `{p}`.
