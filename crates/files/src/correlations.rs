@@ -162,7 +162,16 @@ impl Reader<'_> {
     fn variable(&self, name: &str, span: &Range<usize>) -> Option<usize> {
         let shown = |place: &usize| self.inputs.variables.get(*place).is_some_and(|v| v.shown);
         let place = self.by_name.get(name).copied();
-        if place.is_none() {
+        let begins = format!("{name}/");
+        let parts = self.inputs.variables.iter().filter(|v| v.name.starts_with(&begins));
+        let parts: Vec<String> = parts.map(|v| format!("`{}`", v.name)).collect();
+        if place.is_none() && !parts.is_empty() {
+            let reason = format!(
+                "`{name}` has components, and a coefficient is one of them: {}",
+                gumption_units::listed(&parts, " or ")
+            );
+            self.log.report(span, DiagnosticKind::Correlation { reason });
+        } else if place.is_none() {
             let names = (0..self.inputs.variables.len())
                 .filter(shown)
                 .filter_map(|v| self.inputs.variables.get(v).map(|v| v.name.as_str()));

@@ -174,7 +174,18 @@ pub(super) fn unit_behind_number(text: &str, own: &[Unit]) -> Result<Unit, Strin
     }
     match grouped_digits(text) {
         Some(reason) => Err(reason),
-        None => Unit::parse_among(text, own).map_err(|error| error.in_whole(text).to_string()),
+        None => Unit::parse_among(text, own).map_err(|error| {
+            let error = error.in_whole(text);
+            // `28.35*g` of an ounce would follow a number here
+            let near = error.suggestions().into_iter().next();
+            match near.filter(|unit| unit.starts_with(|c: char| c.is_ascii_digit())) {
+                Some(size) => format!(
+                    "{error} Behind a number stands a unit of one's own: `\"units\": {{\"{text}\": \
+                     \"{size}\"}}` at the root of the file"
+                ),
+                None => error.to_string(),
+            }
+        }),
     }
 }
 

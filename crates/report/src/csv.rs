@@ -52,7 +52,7 @@ pub fn write_csv(report: &EvaluationReport<'_>, mut out: impl Write) -> io::Resu
     let EvaluationReport { task, evaluation, .. } = report;
     let mut writer = csv::Writer::from_writer(&mut out);
     let conditions = task.model.conditions.iter().filter(|_| task.swept);
-    let names = conditions.map(|condition| text(&condition.name));
+    let names = conditions.map(|condition| heading(&condition.name));
     let outputs = evaluation.rows.iter().flat_map(|row| &row.outputs);
     let limited = outputs.into_iter().any(|figures| figures.capability.is_some());
     let last = CAPABILITY.map(str::to_owned).into_iter().filter(|_| limited);
@@ -69,6 +69,12 @@ pub fn write_csv(report: &EvaluationReport<'_>, mut out: impl Write) -> io::Resu
         Some(said) => writeln!(out, "# {said}"),
         None => Ok(()),
     }
+}
+
+/// The heading of a condition, which is none of the other columns.
+fn heading(condition: &str) -> String {
+    let taken = COLUMNS.contains(&condition) || CAPABILITY.contains(&condition);
+    if taken { format!("condition_{condition}") } else { text(condition) }
 }
 
 fn records<'a>(

@@ -297,13 +297,17 @@ impl Leaf {
         place: Option<i32>,
         look: Look,
     ) -> Result<(), XlsxError> {
+        let now = match cached {
+            Cached::Number(value) => Some(*value).filter(|value| value.is_finite()),
+            Cached::Text(_) => None,
+        };
         let cached = match cached {
             Cached::Number(value) if value.is_finite() => format!("{value:?}"),
             Cached::Number(_) => MISSING.to_owned(),
             Cached::Text(text) => text.clone(),
         };
         let formula = Formula::new(format!("={formula}")).set_result(cached);
-        let shown = place.map(|place| shown(place, None));
+        let shown = place.map(|place| shown(place, now));
         let format = format(shown.as_deref(), look);
         self.worksheet.write_formula_with_format(row, column, formula, &format)?;
         self.widen(column, 12);
@@ -378,10 +382,14 @@ fn shown(place: i32, value: Option<f64>) -> String {
         _ if (-MOST_DECIMALS..0).contains(&place) => format!("0.{}", zeros(place)),
         _ => {
             // as many digits as there are, in plain decimals where that is readable
-            let leading = value.and_then(|value| position(value, 1)).unwrap_or(place);
-            let digits = leading.saturating_sub(place).clamp(3, MOST_DIGITS - 1);
+            let leading = value.and_then(|value| position(value, 1));
+            // three of a number that is not known
+            let digits = leading.map_or(3, |leading| leading.saturating_sub(place));
+            let (leading, digits) = (leading.unwrap_or(place), digits.clamp(0, MOST_DIGITS - 1));
             if place < 0 && (-3..MOST_DECIMALS).contains(&leading) {
                 format!("0.{}", zeros(digits - leading))
+            } else if digits == 0 {
+                "0E+00".to_owned()
             } else {
                 format!("0.{}E+00", zeros(digits))
             }

@@ -352,9 +352,10 @@ fn of_output(
     }
     if output.drawn_dof <= 2.0 {
         let text = format!(
-            "`{name}`{at}: an input is drawn from a t distribution with {} degrees of freedom, which \
+            "`{name}`{at}: an input is drawn from a t distribution with {} {} of freedom, which \
              has no {}, so the trials have no {}; the coverage intervals stand",
             output.drawn_dof,
+            if output.drawn_dof == 1.0 { "degree" } else { "degrees" },
             if output.drawn_dof > 1.0 { "variance" } else { "expectation and no variance" },
             if output.drawn_dof > 1.0 {
                 "standard uncertainty"
@@ -519,13 +520,13 @@ fn conformity_by_propagation(name: &str) -> Warning {
 /// Trials of which a few carry the standard uncertainty.
 fn of_heavy_tails(name: &str, at: &str, figures: &MonteCarlo, found: &mut Vec<Warning>) {
     if figures.heavy_tailed {
+        let kurtosis = figures.excess_kurtosis.map(|kurtosis| significant(kurtosis, 1));
+        let kurtosis = kurtosis.map_or_else(String::new, |of| format!(" (excess kurtosis {of})"));
         let text = format!(
-            "`{name}`{at}: a few of the {} trials carry their standard uncertainty (excess kurtosis \
-             {}), so that its distribution may have no expectation and no standard deviation (JCGM \
+            "`{name}`{at}: a few of the {} trials carry their standard uncertainty{kurtosis}, so that its distribution may have no expectation and no standard deviation (JCGM \
              101, 3.6, note 1): estimate and standard uncertainty of the trials are of these trials \
              alone and have no numerical standard error; median and coverage intervals stand",
-            figures.trials,
-            significant(figures.excess_kurtosis.unwrap_or(f64::NAN), 1)
+            figures.trials
         );
         push(found, Warning::new("heavy-tails", name, text));
     }

@@ -128,6 +128,11 @@ fn as_level(number: &str, is_literal: bool) -> String {
     }
 }
 
+/// Whether a text is a name.
+fn is_name(text: &str) -> bool {
+    text.chars().all(|c| c.is_alphanumeric() || c == '_')
+}
+
 /// Whether a text is a level as it is, not one that is scaled already.
 fn is_level_alone(text: &str) -> bool {
     !text.contains(['*', '/'])
@@ -155,6 +160,19 @@ impl fmt::Display for ScaleFault {
                         ". Write `(...) [degC]` for a number of degrees Celsius, a size in `K` where a \
                          difference is meant",
                     );
+                }
+                if !is_name(text) {
+                    f.write_str(
+                        ". Write `kelvin(t)` of a temperature t in it for the thermodynamic temperature, \
+                         `t - t_ref` for a difference, `t/[degC]` for the number, or give the coefficient \
+                         per degC, such as in `1/degC`",
+                    )?;
+                    return match text.contains("[K]") {
+                        true => {
+                            f.write_str("; the difference from a temperature has that in `[degC]`")
+                        }
+                        false => Ok(()),
+                    };
                 }
                 write!(
                     f,
@@ -271,7 +289,7 @@ impl ScaleFault {
     /// What to write instead, where one text serves.
     pub(super) fn suggestion(&self) -> Option<String> {
         match self {
-            Self::ZeroOutOfPlace { text, zero: Zero::Celsius, .. } => {
+            Self::ZeroOutOfPlace { text, zero: Zero::Celsius, .. } if is_name(text) => {
                 Some(format!("kelvin({text})"))
             }
             Self::KelvinPerCelsius { text, unit } => Some(format!("celsius({text})/[{unit}]")),

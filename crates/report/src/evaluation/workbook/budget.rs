@@ -526,7 +526,14 @@ impl Block<'_> {
         let own = self.position;
         let shown = [own, own, Some(-2), Some(-2), expanded, own, own];
         for (at, (value, shown)) in (first..).zip(values.into_iter().zip(shown)) {
-            leaf.number((at, 2), value.unwrap_or(f64::NAN), shown, Look::Plain)?;
+            let word = match gum.dof {
+                Dof::Infinite => "∞",
+                Dof::Finite(_) | Dof::Undefined => "undefined",
+            };
+            match value {
+                None if at == first + 2 => leaf.word((at, 2), word, Look::Plain)?,
+                _ => leaf.number((at, 2), value.unwrap_or(f64::NAN), shown, Look::Plain)?,
+            }
         }
         let figures = found.outputs.get(output).and_then(|output| output.monte_carlo.as_ref());
         let Some(figures) = figures else { return Ok(()) };
