@@ -94,6 +94,11 @@ impl Compare {
                                one has results two by two";
                 return Err(Failure::Argument(message.to_owned()));
             }
+            ComparisonTable::Laboratories { .. } if self.rounding => {
+                let message = "`--rounding` is of results two by two: a table with columns label, x1, U1, \
+                               x2, U2; this one has laboratories";
+                return Err(Failure::Argument(message.to_owned()));
+            }
             ComparisonTable::Pairs(pairs) => {
                 // pairs without an uncertainty are mistakes of the table
                 let compared = pairs.iter().filter_map(ResultPair::compare).collect();

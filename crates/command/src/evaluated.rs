@@ -181,6 +181,12 @@ impl Evaluated {
                 report::MOST_RESULTS
             )));
         }
+        if !self.columns.is_empty() && matches!(format, Page::Json | Page::Csv | Page::Xlsx) {
+            return refuse(
+                "`--columns` is of budgets on pages (`table`, `markdown`, `latex`, `html`); the workbook \
+                 and JSON have all columns, CSV has no budget",
+            );
+        }
         if !self.histogram {
             return Ok(());
         }

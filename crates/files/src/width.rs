@@ -5,7 +5,9 @@ use super::DiagnosticKind;
 use super::diagnostic_kind::WITHOUT_UNCERTAINTY;
 use super::diagnostics::Collector;
 use super::json::{Json, Node};
-use super::value_text::{bare_number, unit_behind_number, with_plus_minus};
+use super::value_text::{
+    bare_number, decimal_comma, is_comma, unit_behind_number, with_plus_minus,
+};
 use gumption_units::Unit;
 
 /// A width that may follow the estimate: `relative` times its modulus, plus `absolute`.
@@ -67,6 +69,9 @@ impl Width {
             let (value, rest) = number(term)?;
             if value.is_nan() || value < 0.0 || value.is_infinite() {
                 return Err(format!("`{term}` is not a positive share or value"));
+            }
+            if is_comma(rest) {
+                return Err(decimal_comma(value, rest));
             }
             match share(rest).or_else(|| ratio(rest, unit, own)) {
                 Some((factor, "")) => {

@@ -196,6 +196,7 @@ fn population(stated: &Arc<Distribution>) -> Arc<Distribution> {
 fn parameter(stated: &Distribution) -> (&'static str, f64) {
     match stated {
         Distribution::Normal(_) => ("std", stated.standard_uncertainty()),
+        Distribution::Readings(_) => ("std", stated.standard_uncertainty()),
         Distribution::StudentT(_) => ("scale", stated.standard_uncertainty()),
         _ => match stated.divisor() {
             Some(divisor) => ("half_width", divisor * stated.standard_uncertainty()),

@@ -130,8 +130,10 @@ impl Shape for Readings {
         if self.bayesian { self.standard_deviation() } else { self.scale }
     }
 
+    /// The root of their number, which their standard deviation is divided by; of a Bayesian
+    /// evaluation, whose standard uncertainty is another one, 1.
     fn divisor(&self) -> Option<f64> {
-        Some(1.0)
+        Some(if self.bayesian { 1.0 } else { (self.values.len() as f64).sqrt() })
     }
 
     fn dof(&self) -> f64 {

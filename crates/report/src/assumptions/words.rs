@@ -18,8 +18,8 @@ pub(super) const SHAPES: &str = "Kept is the standard uncertainty u (of a t its 
 
 pub(super) const SOBOL: &str = "Sobol indices (Jansen's estimators) are shares of the variance: \
     first-order what an input does by itself, total with all that it does together with others. \
-    Where they depart from the share of the linear budget, the model is not linear, or few degrees of \
-    freedom make what is drawn for an input wider than its standard uncertainty.";
+    Their numerical standard errors are some units of the last digit. Where they depart by more from \
+    the share of the linear budget, the model is not linear, or few degrees of freedom make what is drawn for an input wider than its standard uncertainty.";
 
 pub(super) const EVIDENCE: &str = "The p-value (Anderson-Darling) is that of the stated distribution \
     as it stands, centre and width. Supported is the width of that shape about the stated centre. \
