@@ -26,15 +26,7 @@ fn written(document: &Document, escape: Escape) -> String {
     // two spaces at the end of a line break it
     let lines: Vec<String> = document.subtitle.iter().map(|line| escape(line)).collect();
     parts.push(lines.join("  \n"));
-    let blocks = document.blocks.iter().map(|of| (of, block(of, document.comma, escape)));
-    let blocks: Vec<(&Block, String)> = blocks.filter(|(_, part)| !part.is_empty()).collect();
-    for (place, (of, part)) in blocks.iter().enumerate() {
-        // of a section with nothing but figures nothing is left
-        let next = blocks.get(place + 1).map(|(next, _)| *next);
-        if !matches!((of, next), (Block::Section(_), None | Some(Block::Section(_)))) {
-            parts.push(part.clone());
-        }
-    }
+    parts.extend(document.written(|of| block(of, document.comma, escape)));
     parts.retain(|part| !part.is_empty());
     parts.join("\n\n") + "\n"
 }

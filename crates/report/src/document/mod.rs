@@ -154,6 +154,23 @@ impl Document {
     pub(crate) fn figure(&mut self, drawing: Option<Drawing>) {
         self.blocks.extend(drawing.map(Block::Figure));
     }
+
+    /// The blocks as a form without figures writes them, without what is empty there: of a section with
+    /// nothing but figures nothing is left.
+    fn written(&self, written: impl FnMut(&Block) -> String) -> Vec<String> {
+        let all: Vec<String> = self.blocks.iter().map(written).collect();
+        let all = self.blocks.iter().zip(all).filter(|(_, part)| !part.is_empty());
+        let mut left: Vec<(&Block, String)> = Vec::new();
+        let is_section = |of: &Block| matches!(of, Block::Section(_));
+        for (of, part) in all {
+            if is_section(of) {
+                left.pop_if(|(last, _)| is_section(last));
+            }
+            left.push((of, part));
+        }
+        left.pop_if(|(last, _)| is_section(last));
+        left.into_iter().map(|(_, part)| part).collect()
+    }
 }
 
 /// A sentence with its capital and full stop. What begins with a name keeps it as it is.

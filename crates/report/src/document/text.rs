@@ -21,10 +21,7 @@ pub(crate) fn text(document: &Document) -> String {
 
 /// What stands below title and subtitle.
 pub(crate) fn below(document: &Document) -> String {
-    let mut parts: Vec<String> =
-        document.blocks.iter().map(|part| block(part, document.comma)).collect();
-    parts.retain(|part| !part.is_empty());
-    parts.join("\n")
+    document.written(|part| block(part, document.comma)).join("\n")
 }
 
 fn heading(title: &str, rule: char) -> String {

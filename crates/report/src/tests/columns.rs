@@ -51,15 +51,15 @@ fn widths_and_divisors() {
                                                uncer-        bution              tivity   bution   in %
                                                tainty
     ───────────────────────────────────────────────────────────────────────────────────────────────────
-    reading      5010.000    0.091    1         0.091  mV    readings       3   1.000      0.091   15.5
-    certificate     0.50     0.2      2         0.10   mV    normal         ∞   1.000      0.10    18.6
-    drift           0.00     0.3      2.449     0.12   mV    triangular     ∞   1.000      0.12    27.9
-    resolution      0.000    0.05     1.732     0.029  mV    rectangular    ∞   1.000      0.029    1.5
-    offset          0.00     0.2      1.96      0.10   mV    normal         ∞   1.000      0.10    19.3
-    skew            0.100    -        -         0.071  mV    triangular     ∞   1.000      0.071    9.3
-    noise           0.000    0.03     1         0.030  mV    normal         ∞   1.000      0.030    1.7
-    temp           23.0      2        1.732     1.2    degC  rectangular    ∞   0.05000    0.058    6.2
-    slope           0.05     -        -         0      mV/K  constant       ∞  23.00       0        0.0
+    reading      5010.000     0.18    2         0.091  mV    readings       3   1.000      0.091   15.5
+    certificate     0.50      0.2     2         0.10   mV    normal         ∞   1.000      0.10    18.6
+    drift           0.00      0.3     2.449     0.12   mV    triangular     ∞   1.000      0.12    27.9
+    resolution      0.000     0.05    1.732     0.029  mV    rectangular    ∞   1.000      0.029    1.5
+    offset          0.00      0.2     1.96      0.10   mV    normal         ∞   1.000      0.10    19.3
+    skew            0.100     -       -         0.071  mV    triangular     ∞   1.000      0.071    9.3
+    noise           0.000     0.03    1         0.030  mV    normal         ∞   1.000      0.030    1.7
+    temp           23.0       2       1.732     1.2    degC  rectangular    ∞   0.05000    0.058    6.2
+    slope           0.05      -       -         0      mV/K  constant       ∞  23.00       0        0.0
     ───────────────────────────────────────────────────────────────────────────────────────────────────
     v            5011.75                        0.23   mV    combined     125              0.23   100.0
     sensitivity coefficients in mV per unit of the quantity, contributions in mV
@@ -148,16 +148,16 @@ fn all_columns() {
                                       tive     in %                   uncertainty
                                       in %
     ────────────────────────────────────────────────────────────────────────────────────
-    reading        0.091    1       0.0018  0.0018   A                repeatability
-    certificate    0.2      2      20       0.0020   B     voltmeter  certificate of the
+    reading         0.18    2       0.0018  0.0018   A                repeatability
+    certificate     0.2     2      20       0.0020   B     voltmeter  certificate of the
                                                                       voltmeter, k = 2
-    drift          0.3      2.449   -       0.0024   B     voltmeter  since calibration
-    resolution     0.05     1.732   -       0.00058  B     voltmeter
-    offset         0.2      1.96    -       0.0020   B
-    skew           -        -      71       0.0014   B
-    noise          0.03     1       -       0.00060  B
-    temp           2        1.732   -       0.0012   B
-    slope          -        -       0       0        B
+    drift           0.3     2.449   -       0.0024   B     voltmeter  since calibration
+    resolution      0.05    1.732   -       0.00058  B     voltmeter
+    offset          0.2     1.96    -       0.0020   B
+    skew            -       -      71       0.0014   B
+    noise           0.03    1       -       0.00060  B
+    temp            2       1.732   -       0.0012   B
+    slope           -       -       0       0        B
     ────────────────────────────────────────────────────────────────────────────────────
     v                               0.0046  0.0046
     sensitivity coefficients in mV per unit of the quantity, contributions in mV; relative: standard

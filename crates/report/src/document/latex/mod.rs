@@ -52,9 +52,7 @@ fn spaced(text: &str) -> String {
 /// The whole document, ending in a newline.
 pub(crate) fn latex(document: &Document) -> String {
     let mut units = unit::Declared::default();
-    let mut body: Vec<String> =
-        document.blocks.iter().map(|part| block(part, &mut units)).collect();
-    body.retain(|part| !part.is_empty());
+    let body = document.written(|part| block(part, &mut units));
     let subtitle: Vec<String> = document.subtitle.iter().map(|line| escaped(line)).collect();
     let mut parts = vec![
         "\\documentclass[10pt,a4paper]{article}".to_owned(),
