@@ -18,6 +18,10 @@ use super::svg::{Area, Drawn, FONT, px, text_style};
 const BELOW: f64 = 42.0;
 const LEFT: f64 = 60.0;
 
+/// The width of a digit, and what stands beside the marks: the label of the axis and its distance.
+const DIGIT: f64 = 6.6;
+const BESIDE: f64 = 26.0;
+
 /// An axis as the plotting library wants it.
 #[derive(Clone, Debug)]
 pub(crate) struct Marked {
@@ -79,15 +83,16 @@ pub(crate) struct Panel<'a> {
 impl Panel<'_> {
     /// Draws axes and grid.
     pub(crate) fn draw<'a>(&self, area: &Area<'a>) -> Drawn<Chart<'a>> {
-        let inner = f64::from(area.dim_in_pixel().0) / f64::from(px(1.0)) - LEFT - 18.0;
+        let y = Marked::new(self.y.0, self.marks[1]);
+        let longest = y.marks.iter().map(|(_, text)| text.chars().count()).max().unwrap_or(0);
+        let left = LEFT.max(DIGIT * longest as f64 + BESIDE);
+        let inner = f64::from(area.dim_in_pixel().0) / f64::from(px(1.0)) - left - 18.0;
         let area = area.margin(px(8.0), 0, px(6.0), px(12.0));
         let area = if self.title.is_empty() { area } else { titled(&area, &self.title)? };
         let mut builder = ChartBuilder::on(&area);
-        builder.x_label_area_size(px(BELOW)).y_label_area_size(px(LEFT));
-        let mut chart = builder.build_cartesian_2d(
-            Marked::new(self.x.0, self.marks[0].min(marks_within(inner))),
-            Marked::new(self.y.0, self.marks[1]),
-        )?;
+        builder.x_label_area_size(px(BELOW)).y_label_area_size(px(left));
+        let mut chart = builder
+            .build_cartesian_2d(Marked::new(self.x.0, self.marks[0].min(marks_within(inner))), y)?;
         chart
             .configure_mesh()
             .axis_style(WEAK.stroke_width(px(0.75).unsigned_abs()))

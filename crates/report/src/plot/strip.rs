@@ -11,7 +11,7 @@ use super::svg::{Anchor, Area, Drawn, FONT, Write, px, shortened, write};
 pub(crate) const STRIP_AXIS: f64 = 40.0;
 
 /// Names and figures beside a strip take this share of a figure's width, at most.
-const CHROME: f64 = 0.54;
+pub(crate) const CHROME: f64 = 0.54;
 
 /// The least distance of two marks of an axis in pixels.
 const MARK_ROOM: f64 = 62.0;
@@ -52,7 +52,10 @@ impl<'a> Strip<'a> {
         }
         line(area, [(self.from, bottom), (self.to, bottom)], stroke(WEAK, 0.75))?;
         let middle = 0.5 * (self.from + self.to);
-        write(area, label, centred((middle, bottom + 30.0), FONT))
+        // to the nearer edge of the figure on either side
+        let width = f64::from(area.dim_in_pixel().0) / f64::from(px(1.0));
+        let room = 2.0 * middle.min(width - middle);
+        write(area, &shortened(label, room, FONT), centred((middle, bottom + 30.0), FONT))
     }
 
     /// A name on the left of a row.

@@ -161,9 +161,17 @@ pub(crate) fn text_style(size: f64, colour: RGBColor, bold: bool) -> TextStyle<'
     TextStyle { color: colour.to_backend_color(), ..TextStyle::from(font) }
 }
 
+/// The usual width of a letter in sizes of its font.
+const LETTER: f64 = 0.58;
+
+/// The length of a text in pixels, by the usual width of letters.
+pub(crate) fn length(text: &str, size: f64) -> f64 {
+    LETTER * size * text.chars().count() as f64
+}
+
 /// A text that has room in a width in pixels, by the usual width of letters.
 pub(crate) fn shortened(text: &str, width: f64, size: f64) -> String {
-    let most = (width / (0.58 * size)).floor().max(2.0) as usize;
+    let most = (width / (LETTER * size)).floor().max(2.0) as usize;
     if text.chars().count() <= most {
         return text.to_owned();
     }

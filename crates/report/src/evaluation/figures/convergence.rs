@@ -69,7 +69,7 @@ pub(in crate::evaluation) fn convergence(
     let panel = |area: &Area<'_>, titles: &mut Titles, of: &Settling| -> Drawn {
         let chart = Panel {
             x: (&x, "trials".to_owned()),
-            y: (&y, format!("difference in % of {unit}")),
+            y: (&y, format!("in % of {unit}")),
             marks: [5, 5],
             title: of.name.to_owned(),
         }

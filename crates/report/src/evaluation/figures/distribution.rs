@@ -40,6 +40,9 @@ const EDGE: f64 = 0.06;
 /// Points of the GUM's density.
 const POINTS: usize = 300;
 
+/// Half of the height of a number, in pixels.
+const HALF_A_NUMBER: f64 = 7.0;
+
 /// Marks of the axis of densities, at most.
 const DENSITIES: usize = 4;
 
@@ -98,7 +101,8 @@ pub(in crate::evaluation) fn distribution(
             for (position, text) in Axis::linear(0.0, top).marks(DENSITIES) {
                 let at = y(position);
                 line(area, [(strip.from, at), (strip.to, at)], stroke(FAINT, 0.75))?;
-                if position > 0.0 {
+                // a number at the upper edge would be cut
+                if position > 0.0 && at > HALF_A_NUMBER {
                     strip.name(area, &text, at)?;
                 }
             }

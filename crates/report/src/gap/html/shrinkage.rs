@@ -6,12 +6,22 @@ use plotters::style::Color;
 use super::super::{digits, words};
 use super::Drawing;
 use crate::plain;
-use crate::plot::{AFTER, Axis, BEFORE, INK, STRIP_AXIS, Strip, line, px, stroke, svg};
+use crate::plot::{
+    AFTER, Axis, BEFORE, CHROME, FONT, INK, STRIP_AXIS, Strip, length, line, px, stroke, svg,
+};
 use gumption_gap::{Diagnosis, NamedQuantity, Shrunk};
 
 const ROW: f64 = 30.0;
 const LEFT: f64 = 150.0;
-const RIGHT: f64 = 215.0;
+
+/// How much wider than the usual letter digits and arrows are.
+const WIDER: f64 = 1.15;
+
+/// What parts the names from the strip.
+const BEFORE_STRIP: f64 = 16.0;
+
+/// From the end of the strip to the figures beside it.
+const BESIDE: f64 = 7.0;
 
 /// Half the side of a square mark, the radius of a round one.
 const MARK: f64 = 4.5;
@@ -51,14 +61,32 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
         Axis::linear(0.0, 1.08 * most)
     };
     let bottom = ROW * rows.len() as f64;
+    // in their units, which stand in the table as well and give way where there is no room
+    let figures: Vec<[String; 2]> = rows
+        .iter()
+        .map(|(_, unit, shrunk, _)| {
+            let [before, after] = [shrunk.rms_before, shrunk.rms_after]
+                .map(|value| digits::beside(value, shrunk.noise_floor));
+            let alone = format!("{before} → {after}");
+            [format!("{alone} {unit}").trim_end().to_owned(), alone]
+        })
+        .collect();
+    let names = rows.iter().map(|(name, ..)| length(name, FONT)).fold(0.0, f64::max);
     let drawn = |width: f64| {
-        let strip = Strip::within(&axis, width, [LEFT, RIGHT]);
+        let left = LEFT.min(names + BEFORE_STRIP);
+        let right = |which: usize| {
+            let lengths = figures.iter().map(|texts| length(&texts[which], FONT - 1.0));
+            // digits are wider than the usual letter
+            BESIDE + WIDER * lengths.fold(0.0, f64::max)
+        };
+        let which = usize::from(left + right(0) > CHROME * width);
+        let strip = Strip { axis: &axis, from: left, to: width - right(which) };
         svg(width, bottom + STRIP_AXIS, |area| {
             strip.draw(area, 0.0, bottom, "root mean square residual / noise floor")?;
             let floor = strip.x(1.0);
             line(area, [(floor, 0.0), (floor, bottom)], stroke(INK, 1.5))?;
-            for (row, entry) in rows.iter().enumerate() {
-                let (name, unit, shrunk, interval) = entry;
+            for (row, (entry, texts)) in rows.iter().zip(&figures).enumerate() {
+                let (name, _, _, interval) = entry;
                 let y = ROW * (row as f64 + 0.5);
                 strip.name(area, name, y)?;
                 let [before, after, low, high] = ratios(entry);
@@ -69,10 +97,7 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
                 let corners = [(px(x - MARK), px(y - MARK)), (px(x + MARK), px(y + MARK))];
                 area.draw(&Rectangle::new(corners, BEFORE.filled()))?;
                 area.draw(&Circle::new((px(strip.x(after)), px(y)), px(MARK), AFTER.filled()))?;
-                let [before, after] = [shrunk.rms_before, shrunk.rms_after]
-                    .map(|value| digits::beside(value, shrunk.noise_floor));
-                let text = format!("{before} → {after} {unit}");
-                strip.beside(area, text.trim_end(), f64::INFINITY, y)?;
+                strip.beside(area, &texts[which], f64::INFINITY, y)?;
             }
             Ok(())
         })
