@@ -18,6 +18,9 @@ use super::svg::{Area, Drawn, FONT, px, text_style};
 const BELOW: f64 = 42.0;
 const LEFT: f64 = 60.0;
 
+/// Space on the right of the axis, at least.
+const RIGHT: f64 = 12.0;
+
 /// The width of a digit, and what stands beside the marks: the label of the axis and its distance.
 const DIGIT: f64 = 6.6;
 const BESIDE: f64 = 26.0;
@@ -32,6 +35,16 @@ pub(crate) struct Marked {
 impl Marked {
     fn new(axis: &Axis, most: usize) -> Self {
         Self { ends: axis.ends(), marks: axis.marks(most) }
+    }
+}
+
+impl Marked {
+    /// How far the last number reaches beyond the end of a horizontal axis of a length in pixels.
+    fn beyond(&self, length: f64) -> f64 {
+        let [from, to] = self.ends;
+        let Some((place, text)) = self.marks.last() else { return 0.0 };
+        let free = (to - place) / (to - from) * length;
+        0.5 * DIGIT * (text.chars().count() + 1) as f64 - free
     }
 }
 
@@ -87,12 +100,12 @@ impl Panel<'_> {
         let longest = y.marks.iter().map(|(_, text)| text.chars().count()).max().unwrap_or(0);
         let left = LEFT.max(DIGIT * longest as f64 + BESIDE);
         let inner = f64::from(area.dim_in_pixel().0) / f64::from(px(1.0)) - left - 18.0;
-        let area = area.margin(px(8.0), 0, px(6.0), px(12.0));
+        let x = Marked::new(self.x.0, self.marks[0].min(marks_within(inner)));
+        let area = area.margin(px(8.0), 0, px(6.0), px(RIGHT.max(x.beyond(inner))));
         let area = if self.title.is_empty() { area } else { titled(&area, &self.title)? };
         let mut builder = ChartBuilder::on(&area);
         builder.x_label_area_size(px(BELOW)).y_label_area_size(px(left));
-        let mut chart = builder
-            .build_cartesian_2d(Marked::new(self.x.0, self.marks[0].min(marks_within(inner))), y)?;
+        let mut chart = builder.build_cartesian_2d(x, y)?;
         chart
             .configure_mesh()
             .axis_style(WEAK.stroke_width(px(0.75).unsigned_abs()))
