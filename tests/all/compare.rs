@@ -109,9 +109,7 @@ fn pairs_that_are_not_compatible() {
     assert_eq!(run(folder.path(), &["t.csv"]).status.code(), Some(0));
     let failed = run(folder.path(), &["t.csv", "--fail"]);
     assert_eq!(failed.status.code(), Some(3));
-    assert!(
-        String::from_utf8_lossy(&failed.stdout).contains("1 of 2 pairs are not compatible: b.")
-    );
+    assert!(String::from_utf8_lossy(&failed.stdout).contains("1 of 2 pairs is not compatible: b."));
 }
 
 /// Laboratories by hand: the mean of 10 and 12 with U = 2 each, and one far off that is left out.

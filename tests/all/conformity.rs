@@ -245,9 +245,34 @@ fn the_laboratorys_capability() {
     );
     assert_eq!(codes(&raised), ["raised-to-cmc"]);
     let (_, page, said) = run(&model(10.0, 0.01, r#""cmc": 0.05"#), &[]);
-    assert!(page.contains("is below the laboratory's capability (CMC) of 0.0500 um"), "{page}");
+    assert!(page.contains("is below the laboratory's capability (CMC) of 0.05 um"), "{page}");
     assert!(said.contains("must not be stated"), "{said}");
+    // what is stated is not rounded below it
+    let (_, page, said) = run(&model(10.0, 0.001, r#""cmc": 0.01244, "cmc_floor": true"#), &[]);
+    assert!(page.contains("capability (CMC) of 0.01244 um and raised to it: 0.013 um"), "{page}");
+    assert!(said.contains("0.013 um is to be stated"), "{said}");
+    let options = ["--format", "markdown"];
+    let (_, page, _) = run(&model(10.0, 0.001, r#""cmc": 0.01244, "cmc_floor": true"#), &options);
+    assert!(page.contains("y = (10.000 ± 0.013) um"), "{page}");
     assert!(codes(&answer(&model(10.0, 0.1, r#""cmc": 0.05"#))).is_empty());
+}
+
+/// 0.5 % of 1 V and of 2 V are stated in their rows, on pages as in CSV.
+#[test]
+fn every_row_has_what_is_to_be_stated() {
+    let text = r#"{"inputs": {"a": {"unit": "V", "distribution": "normal", "mean": 0, "std": 0.001}},
+        "conditions": {"p": {"unit": "V", "values": [1, 2]}}, "equations": {"y": "a + p"},
+        "outputs": {"y": {"unit": "V", "cmc": "0.5 % of p", "cmc_floor": true}}}"#;
+    let (_, page, said) = run(text, &["--trials", "0"]);
+    for (row, stated) in [("1 ", "0.0050"), ("2 ", "0.010")] {
+        let line = page.lines().find(|line| line.trim_start().starts_with(row)).expect("a row");
+        assert!(line.split_whitespace().any(|cell| cell == stated), "{page}");
+    }
+    assert!(said.contains("in 2 of 2 rows, and raised to it there"), "{said}");
+    let (_, csv, _) = run(text, &["--trials", "0", "--format", "csv"]);
+    let stated: Vec<&str> =
+        csv.lines().skip(1).filter_map(|line| line.rsplit(',').next()).collect();
+    assert_eq!(stated, ["0.005", "0.01"]);
 }
 
 /// Where U is raised to the capability, `run` decides with the U that is to be stated, as the

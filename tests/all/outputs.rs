@@ -126,7 +126,7 @@ fn what_cannot_be_written_is_told_at_once() {
         let expected = "gumption: cannot write `none/x.csv`: there is no folder `none`\n";
         assert_eq!(said(&refused), expected);
         let arguments = ["run", "m.json", "--trials", FOREVER, option, "x.csv/x.csv"];
-        assert_eq!(folder.run(&arguments).status.code(), Some(1), "{option}");
+        assert_eq!(folder.run(&arguments).status.code(), Some(2), "{option}");
     }
     assert_eq!(folder.names(), ["m.json", "x.csv"]);
 }

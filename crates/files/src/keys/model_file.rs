@@ -158,9 +158,12 @@ fn output() -> Value {
 }
 
 fn prior_of_tolerance() -> Value {
-    described("object", "What was known before measuring, for global risks.")
-        .with("properties", object([("distribution", reference("distribution"))]))
-        .with("required", texts(["distribution"]))
+    described(
+        "object",
+        "What was known before measuring, for global risks: a distribution with its keys.",
+    )
+    .with("properties", object([("distribution", reference("distribution"))]))
+    .with("required", texts(["distribution"]))
 }
 
 /// Keys of `tolerance`.

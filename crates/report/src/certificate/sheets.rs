@@ -23,7 +23,7 @@ pub(super) fn results(report: &CertificateReport<'_>) -> Sheet {
     let rows = stated::rows(report);
     let header = |word: fn(&Words) -> &'static str| stacked(languages, word);
     let mut sheet = Sheet::default();
-    sheet.numbers(&header(|w| w.row), rows.iter().map(|row| row.number.to_string()));
+    sheet.figures(&header(|w| w.row), rows.iter().map(Stated::numbered));
     sheet.text(&header(|w| w.quantity), rows.iter().map(|row| row.name(languages)));
     conditions(&mut sheet, report, &rows, &header(|w| w.conditions));
     if rows.iter().any(|row| row.line.nominal.is_some()) {
@@ -160,7 +160,7 @@ pub(super) fn unrounded(report: &CertificateReport<'_>) -> Sheet {
         rows.iter().map(|row| Figure::rounded(value(row), |value| value.to_string())).collect()
     };
     let mut sheet = Sheet::default();
-    sheet.numbers("row", rows.iter().map(|row| row.number.to_string()));
+    sheet.figures("row", rows.iter().map(Stated::numbered));
     sheet.text("quantity", rows.iter().map(|row| plain(&row.quantity.name)));
     sheet.units("unit", rows.iter().map(|row| plain(printed(&row.quantity.unit).text())));
     sheet.figures("value", column(|row| Some(row.statement.value)));

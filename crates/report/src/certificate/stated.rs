@@ -96,6 +96,11 @@ pub(super) fn reach_something(rows: &[Stated<'_>]) -> bool {
 }
 
 impl Stated<'_> {
+    /// Its number.
+    pub(super) fn numbered(&self) -> Figure {
+        Figure::of(self.number as f64, self.number.to_string())
+    }
+
     /// What the row is called.
     pub(super) fn name(&self, languages: &[Language]) -> String {
         match &self.line.label {

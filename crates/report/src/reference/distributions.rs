@@ -143,9 +143,12 @@ pub(super) fn document() -> Document {
         let required = keys::required(node);
         let own = node.get("properties").and_then(Value::as_object);
         let own = own.into_iter().flatten().filter(|(key, _)| shape.keys.contains(&key.as_str()));
-        document.table(definitions.table(own, &required));
+        document.table(definitions.table(own.clone(), &required));
         if let Some(said) = definitions.rules(node) {
             document.sentence(&said);
+        }
+        for (key, node) in own {
+            definitions.inside(&mut document, key, definitions.object_at(node).unwrap_or(node));
         }
     }
     document

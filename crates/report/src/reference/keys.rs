@@ -121,9 +121,12 @@ impl Definitions {
         } else if let Some(keys) = node.get("properties").and_then(Value::as_object) {
             let required = required(node);
             let keys = keys.iter().filter(|(key, _)| !left_out.contains(&key.as_str()));
-            document.table(self.table(keys, &required));
+            document.table(self.table(keys.clone(), &required));
             if let Some(said) = self.rules(node) {
                 document.sentence(&said);
+            }
+            for (key, node) in keys {
+                self.inside(document, key, node);
             }
         }
         if let Some(examples) = node.get("examples").and_then(Value::as_array) {
@@ -132,6 +135,25 @@ impl Definitions {
                 document.blocks.push(Block::Listing { about: "Example:".to_owned(), text });
             }
         }
+    }
+
+    /// The keys of an object at a key, or of those of its list, that has no section of its own.
+    pub(super) fn inside(&self, document: &mut Document, key: &str, node: &Value) {
+        let items = node.get("items");
+        let of =
+            if items.is_some_and(|of| of.get("properties").is_some()) { items } else { Some(node) };
+        let Some(of) = of else { return };
+        let Some(keys) = of.get("properties").and_then(Value::as_object) else { return };
+        document.text(format!("Keys of `{key}`:"));
+        document.table(self.table(keys.iter(), &required(of)));
+        if let Some(said) = self.rules(of) {
+            document.sentence(&said);
+        }
+    }
+
+    /// The object of a section of its own that a key refers to.
+    pub(super) fn object_at(&self, node: &Value) -> Option<&Value> {
+        self.get(referred(node)?).filter(|of| of.get("properties").is_some())
     }
 
     /// Which keys stand for each other, and which need others.

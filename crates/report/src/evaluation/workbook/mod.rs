@@ -17,7 +17,7 @@ use super::{Shown, repeat};
 use crate::document::{Block, Document};
 use crate::table::correlations;
 use crate::table::correlations::Coefficients;
-use crate::workbook::{Book, Leaf, failed};
+use crate::workbook::{Book, Leaf, Look, failed};
 use crate::{EvaluationReport, fits, plain, regions, statement, table};
 use gumption_engine::propagate::RowEvaluation;
 use gumption_engine::task::Task;
@@ -186,6 +186,9 @@ fn tapes(report: &EvaluationReport<'_>) -> Option<Vec<Tape>> {
     Some(all)
 }
 
+/// Numbers whose digits a spreadsheet keeps, 15 of them.
+const MOST_KEPT: f64 = 1e15;
+
 /// What is needed to get the same answer again.
 fn about(
     mut book: Book,
@@ -201,7 +204,11 @@ fn about(
     }
     for (name, value) in repeat::lines(report, shown) {
         leaf.text(row, 0, &name)?;
-        leaf.text(row, 1, &value)?;
+        // a seed may have more digits than a spreadsheet keeps
+        match value.parse::<f64>().ok().filter(|value| value.abs() < MOST_KEPT) {
+            Some(value) => leaf.number((row, 1), value, None, Look::Plain)?,
+            None => leaf.text(row, 1, &value)?,
+        }
         row += 1;
     }
     if !report.warnings.is_empty() {
