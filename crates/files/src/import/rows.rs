@@ -625,7 +625,13 @@ impl Budget<'_> {
         });
         if read.is_none() && !lenient {
             let groups = text.contains('.') && text.contains(',') || is_grouped(text);
-            let hint = if groups { ": digits are not grouped by points or commas" } else { "" };
+            let hint = if groups {
+                ": digits are not grouped by points or commas"
+            } else if text.ends_with(['*', '†', '‡']) {
+                ": what a mark says of it belongs into a column, such as `Distribution`"
+            } else {
+                ""
+            };
             let reason =
                 format!("`{text}` in the column of the {} is no number{hint}", column.name());
             self.fail(line, reason);

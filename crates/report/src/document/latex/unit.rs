@@ -67,7 +67,9 @@ impl Declared {
     /// The macro of a text that the package does not know: of its letters, or counted.
     fn declared(&mut self, text: &str) -> String {
         let (name, printed) = if text.chars().all(|c| c.is_ascii_alphabetic()) {
-            (format!("gumption{text}"), text.to_owned())
+            // the one that the package has no sign for
+            let printed = if text == "degF" { "\\textdegree F" } else { text };
+            (format!("gumption{text}"), printed.to_owned())
         } else {
             let printed = format!("\\mbox{{{}}}", escaped(text));
             let known = self.units.iter().find(|(_, t)| **t == printed).map(|(n, _)| n.clone());
@@ -107,12 +109,14 @@ mod tests {
         assert_eq!(unit("1e-6/K"), r"\unit{\per\gumptionunite\tothe{6}\per\kelvin}");
         assert_eq!(unit("10^-6"), r"\unit{\per\gumptionunite\tothe{6}}");
         assert_eq!(unit("several units"), r"\unit{\gumptionunitf}");
+        assert_eq!(unit("degF"), r"\unit{\gumptiondegF}");
         assert_eq!(
             declared.lines(),
             [
                 r"\DeclareSIUnit{\gumptionD}{D}",
                 r"\DeclareSIUnit{\gumptionQm}{Qm}",
                 r"\DeclareSIUnit{\gumptionbar}{bar}",
+                r"\DeclareSIUnit{\gumptiondegF}{\textdegree F}",
                 r"\DeclareSIUnit{\gumptionpsi}{psi}",
                 r"\DeclareSIUnit{\gumptionunite}{\mbox{10}}",
                 r"\DeclareSIUnit{\gumptionunitf}{\mbox{several units}}",

@@ -160,6 +160,10 @@ pub(super) fn write(
             at = at.max(block.below() + CHART_ROWS);
         }
     }
+    // nothing here is computed
+    if totals.iter().all(Option::is_none) {
+        return Ok(totals);
+    }
     leaf.line(
         at,
         "Figures \"as evaluated\" are those of gumption; the others are computed by this workbook \
