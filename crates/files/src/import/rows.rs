@@ -444,8 +444,8 @@ impl Budget<'_> {
                 "has neither a sensitivity coefficient nor a distribution"
             });
         }
-        if bare(last) {
-            return others.iter().all(|row| is_alone && !bare(row)).then_some(NO_UNCERTAINTY);
+        if bare(last) && last.sensitivity.is_none() && !is_constant {
+            return others.iter().all(|row| !bare(row)).then_some(NO_UNCERTAINTY);
         }
         // a sum of two rows may be a third one by chance, with its uncertainty as well hardly
         let near = |column: Column, a: f64, b: f64| {
@@ -463,20 +463,21 @@ impl Budget<'_> {
             scaled.iter().filter_map(|row| Some((of(row) * standard_uncertainty(row)?).powi(2)));
         let combined = squares.sum::<f64>().sqrt();
         let column = if last.std.is_some() { Column::Std } else { Column::Width };
-        let stated = last.std.or(last.width)?;
+        let stated = last.std.or(last.width);
+        let is_combined =
+            stated.map(|u| near(column, u, combined) || near(column, u, 2.0 * combined));
         let is_sum = last.estimate.is_some_and(|estimate| near(Column::Estimate, estimate, sum));
-        let is_combined = near(column, stated, combined) || near(column, stated, 2.0 * combined);
-        if others.len() < 2 || !is_sum || !is_combined {
+        if others.len() < 2 || !is_sum || is_combined == Some(false) || is_constant {
             return None;
         }
-        if last.sensitivity.is_none() {
+        if last.sensitivity.is_none() && is_combined == Some(true) {
             return Some("is the sum of the others with their combined uncertainty");
         }
-        let is_zero = last.estimate == Some(0.0);
-        if !is_zero && last.sensitivity == Some(1.0) {
+        if last.estimate != Some(0.0) && last.sensitivity == Some(1.0) {
+            let with = if is_combined.is_some() { " with their combined uncertainty" } else { "" };
             let reason = format!(
-                "`{}` is the sum of the others with their combined uncertainty, and can be the result, or a \
-                 further quantity with its coefficient: leave that out, or name the result `Result`",
+                "`{}` is the sum of the others{with}, and can be the result, or a further quantity with its \
+                 coefficient: leave that out, or name the result `Result`",
                 last.name
             );
             self.fail(last.line, reason);
@@ -1369,12 +1370,13 @@ pub(super) fn is_empty(text: &str) -> bool {
     matches!(text.to_lowercase().as_str(), "" | "-" | "–" | "—" | "n/a" | "na" | "n.a.")
 }
 
-/// Rows in the unit of another one, where they are in one of its kind; `None` where they are not, or count
-/// from another zero.
+/// Rows in the unit of another one, where they are in one of its kind or in none; `None` where they are in
+/// another one, or count from another zero.
 pub(super) fn in_unit_of(last: &Row, rows: &[Row]) -> Option<Vec<Row>> {
     let to = Unit::parse(&last.unit).ok()?;
     let scaled = |row: &Row| {
-        if row.unit == last.unit || row.sensitivity.is_some() {
+        let is_unsaid = row.unit.is_empty() || last.unit.is_empty();
+        if row.unit == last.unit || is_unsaid || row.sensitivity.is_some() {
             return Some(row.clone());
         }
         let from = Unit::parse(&row.unit).ok()?;
