@@ -165,6 +165,10 @@ impl Reader<'_> {
             place: member.key_span.clone(),
             observed: ObservedOutput {
                 values: values?,
+                last_digit: object
+                    .text("value")
+                    .and_then(|name| self.table.column(name))
+                    .and_then(|place| self.table.last_digits.get(place).copied().flatten()),
                 standard_uncertainties: uncertainties?,
                 simulation_uncertainties: simulation?,
                 simulation_covariance: covariance?,

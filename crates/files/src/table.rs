@@ -7,6 +7,7 @@ use super::diagnostics::Collector;
 use super::folder::Folder;
 use super::separator::{DecimalMarks, Separator, is_skipped};
 use super::source::{Place, SourceText};
+use super::value_text::power_of_last_digit;
 use super::{DiagnosticKind, bytes, column_heading};
 use gumption_units::nearest;
 
@@ -24,6 +25,9 @@ pub(super) struct Table {
     pub(super) columns: Vec<String>,
     /// Not a number in columns that were not wanted.
     pub(super) rows: Vec<Vec<f64>>,
+    /// For each column the power of ten of the last digit that any of its numbers is written with; none of
+    /// a column that was not wanted.
+    pub(super) last_digits: Vec<Option<i32>>,
     /// Where each row stands in the text.
     lines: Vec<Range<usize>>,
     separator: Separator,
@@ -201,6 +205,7 @@ pub(super) fn parse(
         kinds.push((at_line(header_line), DiagnosticKind::Table { reason }));
     }
     let mut rows = Vec::new();
+    let mut last_digits: Vec<Option<i32>> = vec![None; columns.len()];
     let mut lines = Vec::new();
     for (number, record) in reader.records().enumerate() {
         if kinds.len() >= MOST_FAULTS {
@@ -240,8 +245,12 @@ pub(super) fn parse(
                 row.push(f64::NAN);
                 continue;
             }
-            let diagnostic = match marks.with_point(cell).map(|text| text.parse::<f64>()) {
-                Ok(Ok(value)) if value.is_finite() => {
+            let read = marks.with_point(cell).map(|text| (text.parse::<f64>(), text));
+            let diagnostic = match read {
+                Ok((Ok(value), text)) if value.is_finite() => {
+                    let last = power_of_last_digit(&text);
+                    let finest = &mut last_digits[number_of_cell];
+                    *finest = Some(finest.map_or(last, |known| known.min(last)));
                     row.push(value);
                     continue;
                 }
@@ -265,7 +274,7 @@ pub(super) fn parse(
         kinds.push((at_line(header_line), DiagnosticKind::Table { reason }));
     }
     if kinds.is_empty() {
-        Ok(Table { source: source.clone(), columns, rows, lines, separator })
+        Ok(Table { source: source.clone(), columns, rows, last_digits, lines, separator })
     } else {
         Err(kinds)
     }

@@ -37,6 +37,9 @@ pub struct Case {
 pub struct ObservedOutput {
     /// The values.
     pub values: Vec<f64>,
+    /// The power of ten of the last digit that any of them is written with, zeros at its end included: -2
+    /// of `0.20`. `None` where it is not known.
+    pub last_digit: Option<i32>,
     /// Their standard uncertainties; without them the noise is estimated from the data.
     pub standard_uncertainties: Option<Vec<f64>>,
     /// Standard uncertainties of somebody else's simulation of the same rows.

@@ -101,6 +101,7 @@ fn refused(reason: String) -> OverrideError {
 fn fault(observed: &ObservedOutput, rows: usize) -> Option<String> {
     let ObservedOutput {
         values,
+        last_digit: _,
         standard_uncertainties,
         simulation_uncertainties,
         simulation_covariance,

@@ -115,12 +115,12 @@ impl Covariance {
         for output in 0..outputs {
             let Some(rounding) = Rounding::of(case, data, output) else { continue };
             let deviation = rounding.deviation();
-            for equal in rounding.equal(case, data, output) {
+            for equal in rounding.equal(data, output) {
                 // the mean of equal values is as uncertain as one of them
                 let shared = deviation * (1.0 - 1.0 / equal.len() as f64).sqrt();
                 let mut column = vec![0.0; rows * outputs];
                 for row in equal {
-                    blocks[at(row, output, output)] += deviation * deviation;
+                    blocks[at(row, output, output)] += rounding.variance(row);
                     column[row * outputs + output] = shared;
                 }
                 basis.push(column);

@@ -165,7 +165,7 @@ fn with_rounding(setup: &Setup<'_>, mut variances: Vec<f64>) -> Vec<f64> {
     for output in 0..outputs {
         let Some(rounding) = Rounding::of(setup.case, &setup.data, output) else { continue };
         for row in rounding.rows() {
-            variances[row * outputs + output] += rounding.deviation() * rounding.deviation();
+            variances[row * outputs + output] += rounding.variance(row);
         }
     }
     variances

@@ -62,6 +62,7 @@ fn case_of(bench: &Bench, simulated: &Simulated) -> Case {
     let observed = bench.outputs.iter().enumerate().map(|(n, (_, _, u))| {
         Some(ObservedOutput {
             values: simulated.values.iter().map(|values| values[n]).collect(),
+            last_digit: None,
             standard_uncertainties: Some(vec![*u; simulated.rows.len()]),
             simulation_uncertainties: None,
             simulation_covariance: None,

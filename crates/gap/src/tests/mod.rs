@@ -105,6 +105,7 @@ pub(crate) fn case(
 pub(crate) fn observed(values: &[f64], uncertainties: Option<&[f64]>) -> ObservedOutput {
     ObservedOutput {
         values: values.to_vec(),
+        last_digit: None,
         standard_uncertainties: uncertainties.map(<[f64]>::to_vec),
         simulation_uncertainties: None,
         simulation_covariance: None,
