@@ -144,12 +144,30 @@ pub(super) fn stated<'h>(
     })
 }
 
+/// What stands in square brackets for a unit and cannot be the declared one: the number 1, and what is
+/// nearly a unit, `lbs`. Other words may be anything.
+fn unreadable<'h>(
+    unit: impl Fn(&str) -> Option<Unit>,
+    column: &'h str,
+    declared: &Unit,
+) -> Option<&'h str> {
+    let (name, text) = enclosed(column, '[', "]")?;
+    let is_nearly = || Unit::parse(text).is_err_and(|error| !error.suggestions().is_empty());
+    let is_wrong = text == "1" || unit(text).is_none() && text != declared.text() && is_nearly();
+    (declared.has_name() && !name.is_empty() && is_wrong).then_some(text)
+}
+
 /// That a heading has another unit than `declared`, as [`check`] reports it; `unit` reads the text of one.
 pub(super) fn contradiction(
     unit: impl Fn(&str) -> Option<Unit>,
     column: &str,
     (declared, of): (&Unit, ValueOf),
 ) -> Option<DiagnosticKind> {
+    if let Some(text) = unreadable(&unit, column, declared) {
+        let (column, heading) = (column.to_owned(), text.to_owned());
+        let declared = declared.text().to_owned();
+        return Some(DiagnosticKind::ColumnUnit { column, heading, declared });
+    }
     let (unit, text) = stated(unit, column, declared)?;
     let is_declared = |unit: &Unit| {
         Unit::conversion_factor(unit, declared) == Ok(1.0)

@@ -226,7 +226,7 @@ pub(super) const UNUSED_INPUT: &str = "unused-input";
 fn decibels(scope: &Scope, output: &Output) -> Option<Warning> {
     let Quantity { name, unit, .. } = &output.quantity;
     let is_level = !scope.get(name)?.level.is_zero();
-    (is_level && is_plain(unit)).then(|| {
+    (is_level && is_plain(unit) && unit.level_exponent().is_zero()).then(|| {
         let text = format!(
             "`{name}` is a level, and is reported as its number of decibels, as formulas compute it; \
              report it in `dB` or in `Np`"

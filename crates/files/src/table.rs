@@ -42,6 +42,16 @@ impl Table {
 
     /// That there is no column of that name.
     pub(super) fn no_column(&self, name: &str) -> String {
+        let of_name = |column: &&String| column_heading::bare(column) == name;
+        let alike: Vec<String> =
+            self.columns.iter().filter(of_name).map(|column| format!("`{column}`")).collect();
+        if alike.len() > 1 {
+            return format!(
+                "`{}` has more than one column `{name}`: {}; name one as it stands there, with its unit",
+                self.source.name,
+                gumption_units::listed(&alike, " and ")
+            );
+        }
         let near = nearest(name, self.columns.iter().map(String::as_str));
         let hint = match near {
             Some(near) => format!("; did you mean `{near}`?"),
@@ -197,7 +207,9 @@ pub(super) fn parse(
     for (number, name) in columns.iter().enumerate().filter(|(number, _)| is_wanted[*number]) {
         let reason = if name.is_empty() {
             format!("column {} has no name in the header", number + 1)
-        } else if columns.iter().take(number).any(|earlier| earlier == name) {
+        } else if columns.iter().enumerate().any(|(other, of)| other != number && of == name)
+            && columns.iter().position(|of| of == name) == Some(number)
+        {
             format!("the header has the name `{name}` twice")
         } else {
             continue;

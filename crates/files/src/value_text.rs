@@ -207,7 +207,9 @@ pub(super) fn converted(
         return Ok(value);
     }
     let given = unit_behind_number(text, own)?;
-    if of == ValueOf::Either && !given.has_zero_of(unit) {
+    let are_levels = |unit: &Unit| unit.zero().is_some() && !unit.is_celsius();
+    let is_absolute = are_levels(&given) && are_levels(unit);
+    if of == ValueOf::Either && !given.has_zero_of(unit) && !is_absolute {
         return Err(either_temperature(unit));
     }
     let found = match of {
@@ -223,9 +225,12 @@ pub(super) fn converted(
 
 /// That a number in a unit with another zero than this one could be converted in two ways.
 pub(super) fn either_temperature(unit: &Unit) -> String {
-    format!(
-        "nothing tells whether it is a temperature or a difference of temperatures; write it in `{unit}`"
-    )
+    let (value, difference) = if unit.level_exponent().is_zero() {
+        ("a temperature", "a difference of temperatures")
+    } else {
+        ("a level above a reference", "a difference of levels")
+    };
+    format!("nothing tells whether it is {value} or {difference}; write it in `{unit}`")
 }
 
 /// The power of ten of the last written digit of a number, zeros at its end included: -3 of `0.100`.

@@ -372,19 +372,26 @@ impl Unit {
     }
 
     fn incompatible(from: &Self, to: &Self) -> IncompatibleUnits {
-        let beside = |unit: &Self, other: &Self| match unit.turn() {
-            None if unit.is_compatible(other) && other.counts_revolutions() => {
-                format!("{}, of revolutions or of radians", unit.describe())
+        let alike = from.is_compatible(to) && !from.counts_as(to);
+        let beside = |unit: &Self| {
+            let of = Counted::of(unit);
+            match (unit.turn(), of.angle, of.periods) {
+                _ if !alike => unit.describe(),
+                (Some(_), ..) => unit.describe(),
+                (None, true, _) => format!("{}, counted in angle", unit.describe()),
+                (None, false, true) => format!("{}, counted in periods", unit.describe()),
+                (None, false, false) => {
+                    format!("{}, of revolutions or of radians", unit.describe())
+                }
             }
-            _ => unit.describe(),
         };
         IncompatibleUnits {
             from: from.text.clone().into(),
             from_dimension: from.dimension,
-            from_is: beside(from, to).into(),
+            from_is: beside(from).into(),
             to: to.text.clone().into(),
             to_dimension: to.dimension,
-            to_is: beside(to, from).into(),
+            to_is: beside(to).into(),
         }
     }
 
@@ -396,15 +403,19 @@ impl Unit {
         })
     }
 
-    /// Whether numbers in both units count the same: not periods and angle, nor revolutions and what
-    /// may be revolutions or radians, as those in `1/min`.
+    /// Whether numbers in both units count the same: not periods and angle, in whatever power, as in
+    /// `V/Hz` and `V/rpm`; nor revolutions, or degrees per time, and what may be revolutions or radians, as
+    /// in `1/min`.
     fn counts_as(&self, other: &Self) -> bool {
-        match (self.turn(), other.turn()) {
-            (Some(own), Some(other)) => own == other,
-            (Some(Turn::Angle), None) => !self.counts_revolutions(),
-            (None, Some(Turn::Angle)) => !other.counts_revolutions(),
-            (Some(Turn::Periods), None) | (None, Some(Turn::Periods) | None) => true,
-        }
+        let own = Counted::of(self);
+        let others = Counted::of(other);
+        let unsaid = |of: Counted| !of.angle && !of.periods;
+        let is_open =
+            |of: Counted, unit: &Self| of.revolutions || of.degrees && !unit.dimension.is_none();
+        !(own.angle && others.periods && !own.periods && !others.angle
+            || own.periods && others.angle && !own.angle && !others.periods
+            || is_open(own, self) && unsaid(others)
+            || is_open(others, other) && unsaid(own))
     }
 
     /// Whether the other unit has the same dimension, and is one of levels if this one is.
@@ -426,6 +437,32 @@ impl Unit {
         }
         let exact = to.scale.inverse().and_then(|inverse| from.scale.times(inverse));
         Ok(exact.map_or(from.factor / to.factor, Scale::value))
+    }
+}
+
+/// What stands in a unit, in any power, that numbers in it count.
+#[derive(Clone, Copy)]
+struct Counted {
+    /// Angle of any kind.
+    angle: bool,
+    /// Revolutions.
+    revolutions: bool,
+    /// Degrees and their parts, which are no coherent unit.
+    degrees: bool,
+    /// Periods.
+    periods: bool,
+}
+
+impl Counted {
+    fn of(unit: &Unit) -> Self {
+        let has = |is: fn(&str) -> bool| !unit.exponent_of(|symbol| is(symbol.name())).is_zero();
+        let revolutions = unit.counts_revolutions();
+        Self {
+            angle: has(is_angle) || revolutions,
+            revolutions,
+            degrees: has(|name| matches!(name, "deg" | "arcmin" | "arcsec" | "gon")),
+            periods: has(|name| name == "Hz"),
+        }
     }
 }
 

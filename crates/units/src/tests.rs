@@ -418,11 +418,24 @@ fn values_convert_with_the_zero_of_their_scale() {
         ("rpm", "1/min"),
         ("1/s", "rev/s"),
         ("rev", "1"),
+        ("V/rpm", "V/Hz"),
+        ("rpm^2", "Hz^2"),
+        ("s", "s/rev"),
+        ("1/min", "deg/s"),
     ] {
         assert!(convert(1.0, from, to).is_err(), "{from} {to}");
         assert!(Unit::conversion_factor(&unit(from), &unit(to)).is_err(), "{from} {to}");
     }
-    for (from, to) in [("rad/s", "1/s"), ("Hz", "1/min"), ("deg", "1"), ("rpm", "rad/s")] {
+    for (from, to) in [
+        ("rad/s", "1/s"),
+        ("Hz", "1/min"),
+        ("deg", "1"),
+        ("rpm", "rad/s"),
+        ("nV/Hz^(1/2)", "V*s^(1/2)"),
+        ("N*m/rad", "N*m"),
+        ("V/rpm", "V*s/rad"),
+        ("mV/(deg/s)", "V*s/rad"),
+    ] {
         assert!(Unit::conversion_factor(&unit(from), &unit(to)).is_ok(), "{from} {to}");
     }
     assert_eq!(

@@ -201,6 +201,20 @@ impl Reader<'_> {
                 fail(share::two_meanings(unit.text(), "1"));
                 None
             }
+            Share::OfValue
+                if value
+                    .unit
+                    .as_ref()
+                    .is_some_and(|of| of.is_celsius() || !of.level_exponent().is_zero()) =>
+            {
+                let own = value.unit.as_ref().map_or("", Unit::text);
+                fail(format!(
+                    "it is not clear what the share `{}` of a quantity in `{own}` is of: write the \
+                     uncertainty in that unit",
+                    unit.after(&Shortest(uncertainty.value).to_string())
+                ));
+                None
+            }
             Share::OfValue => {
                 self.shares.insert(unit.text().to_owned());
                 let by = unit.factor() * value.value.abs();
@@ -241,7 +255,9 @@ impl Reader<'_> {
                 return None;
             }
         };
-        if of_x.is_compatible(wanted) && !of_x.has_zero_of(wanted) {
+        let are_levels = |unit: &Unit| unit.zero().is_some() && !unit.is_celsius();
+        let is_absolute = are_levels(of_x) && are_levels(wanted);
+        if of_x.is_compatible(wanted) && !of_x.has_zero_of(wanted) && !is_absolute {
             fail(format!(
                 "row {}: a value in `{of_x}` is compared in `{wanted}`: {}",
                 row + 1,

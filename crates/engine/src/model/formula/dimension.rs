@@ -352,7 +352,7 @@ impl<'c> Checker<'c> {
         }
         if !exponent_typing.level.is_zero() {
             self.check_level_as_exponent(base, exponent);
-            return (Typing::NUMBER, Tie::None);
+            return (self.number_of_level(exponent), Tie::None);
         }
         let constant = self.fractions.get(exponent).copied().flatten();
         if constant.and_then(Fraction::exponent) == Some(Exponent::ZERO) {

@@ -43,6 +43,33 @@ impl LevelReference {
         }
     }
 
+    /// Of a sum or a product of a plain number with another one, which no reference is known of.
+    fn beside(self, other: Typing) -> Self {
+        match self {
+            Self::Above(_) if other.dimension == Some(Dimension::NONE) => self,
+            _ => Self::Unknown,
+        }
+    }
+
+    /// Of a product of plain numbers: `10^(L/10)` times a gain is above what L is above.
+    pub(super) fn of_product(x: Typing, y: Typing) -> Self {
+        match (x.reference, y.reference) {
+            (Self::Above(_), Self::Above(_)) => Self::Unknown,
+            (Self::Above(_), _) => x.reference.beside(y),
+            (_, Self::Above(_)) => y.reference.beside(x),
+            _ => Self::Unknown,
+        }
+    }
+
+    /// Of a sum of plain numbers of one reference.
+    pub(super) fn of_numbers(x: Typing, y: Typing) -> Self {
+        match (x.reference, y.reference) {
+            (Self::Above(a), Self::Above(b)) if a == b => Self::Above(a),
+            (Self::Ratio, Self::Ratio) => Self::Ratio,
+            _ => Self::Unknown,
+        }
+    }
+
     /// Of a sum of levels: what one of them is, beside one that is above nothing.
     pub(super) fn of_sum(sign: f64, x: Typing, y: Typing) -> Self {
         use LevelReference::{Above, Added, Other, Ratio, Unknown};
@@ -77,6 +104,57 @@ impl Checker<'_> {
         }
     }
 
+    /// What `10^(L/10)` and `10^(L/20)` give: a number that is above what L is above.
+    pub(super) fn number_of_level(&mut self, exponent: usize) -> Typing {
+        let (level, divisor) = match self.kind(exponent) {
+            Some(Kind::Infix { operator: Operator::Divide, left, right, .. }) => {
+                (*left, self.constant(*right))
+            }
+            Some(Kind::Infix { operator: Operator::Multiply, left, right, .. }) => {
+                match self.constant(*left) {
+                    Some(factor) => (*right, Some(1.0 / factor)),
+                    None => (*left, self.constant(*right).map(|factor| 1.0 / factor)),
+                }
+            }
+            _ => return Typing::NUMBER,
+        };
+        let typing = self.settled(level);
+        let reference = match typing.zero {
+            Some(zero) => LevelReference::Above(zero),
+            None => typing.reference,
+        };
+        let is_of_kind = match reference {
+            LevelReference::Above(Zero::Milliwatt | Zero::Watt) => divisor == Some(10.0),
+            LevelReference::Above(Zero::Volt | Zero::Millivolt | Zero::Microvolt) => {
+                divisor == Some(20.0)
+            }
+            _ => false,
+        };
+        match is_of_kind {
+            true => Typing { reference, ..Typing::NUMBER },
+            false => Typing::NUMBER,
+        }
+    }
+
+    /// Refuses plain numbers together of which each is above another reference.
+    pub(super) fn refuse_other_references(
+        &mut self,
+        operator: &'static str,
+        index: usize,
+        [left, right]: [usize; 2],
+    ) {
+        let (x, y) = (self.typing(left), self.typing(right));
+        let are_numbers = x.level.is_zero() && y.level.is_zero();
+        if let (LevelReference::Above(a), LevelReference::Above(b)) = (x.reference, y.reference)
+            && a != b
+            && are_numbers
+        {
+            let texts = [left, right].map(|part| self.quoted(part));
+            let zeros = [Some(a), Some(b)];
+            self.fault(index, ScaleFault::OtherReferences { operator, texts, zeros });
+        }
+    }
+
     /// A number with what is known of levels of it: that they are above nothing, if it is the ratio of
     /// two quantities.
     pub(super) fn with_ratio(&self, index: usize, typing: Typing) -> Typing {
@@ -90,6 +168,13 @@ impl Checker<'_> {
     }
 
     fn reference_of_argument(&self, factor: Option<f64>, argument: usize) -> LevelReference {
+        if let LevelReference::Above(zero) = self.typing(argument).reference {
+            let of_kind = if matches!(zero, Zero::Milliwatt | Zero::Watt) { 10.0 } else { 20.0 };
+            return match factor {
+                Some(factor) if factor == of_kind => LevelReference::Above(zero),
+                _ => LevelReference::Unknown,
+            };
+        }
         let divisors = self.divisors(argument);
         let references: Vec<Written> =
             divisors.written.iter().copied().filter(|of| is_reference(of.dimension)).collect();
@@ -163,7 +248,7 @@ impl Checker<'_> {
             };
             let Some(written) = self.written(quantity).filter(|_| is_one) else { continue };
             let is_of_kind = match (zero, divisor) {
-                (Zero::Milliwatt | Zero::Watt, 10.0) => written.dimension == POWER,
+                (Zero::Milliwatt | Zero::Watt, _) => written.dimension == POWER,
                 (Zero::Volt | Zero::Millivolt | Zero::Microvolt, 10.0) => {
                     [VOLTAGE, SQUARED_VOLTAGE].contains(&written.dimension)
                 }

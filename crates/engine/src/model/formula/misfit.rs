@@ -71,7 +71,8 @@ impl fmt::Display for ScaleMisfit {
             ),
             Self::RatioAsLevel => f.write_str(
                 "is a plain ratio and no level; write `10*log10(...)` of a ratio of powers, \
-                 `20*log10(...)` of a ratio of amplitudes, or `... [dB]` for a number of decibels",
+                 `20*log10(...)` of a ratio of amplitudes, `ln(...)*1 [Np]` of it in nepers, or `... [dB]` \
+                 for a number of decibels",
             ),
             Self::LevelAsRatio => f.write_str(
                 "is a level in decibels; write `10^(.../10)` for the ratio of powers, \

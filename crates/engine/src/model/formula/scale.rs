@@ -258,6 +258,12 @@ impl Checker<'_> {
         let (a, b) = (self.tie(left), self.tie(right));
         // 10*log10(P/[mW]) beside a level in dBm counts from the same zero
         let (a, b) = (a.beside(x, b), b.beside(y, a).times(sign));
+        // a gain above an isotropic antenna, or a level above a carrier, beside one above a power
+        let (a, b) = match (a.is_relative(), b.is_relative()) {
+            (true, false) if b != Tie::None => (Tie::None, b),
+            (false, true) if a != Tie::None => (a, Tie::None),
+            _ => (a, b),
+        };
         if x.dimension.is_none() && a == Tie::None {
             return (y, b);
         }
@@ -273,11 +279,15 @@ impl Checker<'_> {
             }
         }
         self.refuse_unlike(operator, operator_span, [(left, x), (right, y)]);
+        self.refuse_other_references(operator, left, [left, right]);
         let typing = Typing {
             zero: None,
             kelvin: kelvin_of_sum(sign, x.kelvin, y.kelvin),
             celsius_exponent: nearer_zero(x.celsius_exponent, y.celsius_exponent),
-            reference: LevelReference::of_sum(sign, x, y),
+            reference: match x.level.is_zero() && y.level.is_zero() {
+                true => LevelReference::of_numbers(x, y),
+                false => LevelReference::of_sum(sign, x, y),
+            },
             turn: x.turn.or(y.turn),
             ..x
         };
@@ -338,7 +348,7 @@ impl Checker<'_> {
             let Some(factor) = self.constant(number) else { continue };
             let typing = self.typing(other);
             let turn = self.turned(typing.turn, number, factor);
-            let reference = typing.reference.scaled();
+            let reference = scaled(typing);
             return (
                 Typing { dimension, turn, reference, ..typing },
                 self.tie(other).times(factor),
@@ -356,7 +366,7 @@ impl Checker<'_> {
         let level = x.level.checked_add(y.level).unwrap_or(Exponent::ZERO);
         let unit = x.celsius_exponent.checked_add(y.celsius_exponent).unwrap_or(Exponent::ZERO);
         let reference = match (x.level, y.level) {
-            (Exponent::ZERO, Exponent::ZERO) => LevelReference::Unknown,
+            (Exponent::ZERO, Exponent::ZERO) => LevelReference::of_product(x, y),
             (_, Exponent::ZERO) => x.reference.scaled(),
             _ => y.reference.scaled(),
         };
@@ -379,7 +389,7 @@ impl Checker<'_> {
                 Some(Turn::Angle) if x.turn == Some(Turn::Angle) => Some(Turn::Periods),
                 _ => None,
             };
-            let reference = x.reference.scaled();
+            let reference = scaled(x);
             return (
                 Typing { dimension, turn, reference, ..x },
                 self.tie(left).times(1.0 / divisor),
@@ -421,8 +431,13 @@ impl Checker<'_> {
         let minus = |exponent: Exponent| exponent.checked_neg().unwrap_or(Exponent::ZERO);
         let level = x.level.checked_add(minus(y.level)).unwrap_or(Exponent::ZERO);
         let unit = x.celsius_exponent.checked_add(minus(y.celsius_exponent));
-        let reference = match x.level {
-            Exponent::ZERO => LevelReference::Unknown,
+        self.refuse_other_references("/", index, [left, right]);
+        let reference = match (x.level, x.reference, y.reference) {
+            (Exponent::ZERO, LevelReference::Above(a), LevelReference::Above(b)) if a == b => {
+                LevelReference::Ratio
+            }
+            (Exponent::ZERO, _, LevelReference::Above(_)) => LevelReference::Unknown,
+            (Exponent::ZERO, ..) => LevelReference::of_product(x, y),
             _ => x.reference.scaled(),
         };
         let typing = Typing { level, turn, reference, ..Typing { dimension, ..Typing::ANY } };
@@ -573,6 +588,11 @@ impl Checker<'_> {
             self.fault(left, ScaleFault::KelvinPerCelsius { text, unit });
         }
     }
+}
+
+/// What is known of the reference of a level, or of a number of one, times a plain number.
+fn scaled(typing: Typing) -> LevelReference {
+    if typing.level.is_zero() { typing.reference } else { typing.reference.scaled() }
 }
 
 /// What is known of a sum of temperatures in K.

@@ -100,6 +100,15 @@ pub enum ScaleFault {
         /// The quantity that is written in place of its reference.
         quantity: String,
     },
+    /// Numbers of two levels together that are above different references.
+    OtherReferences {
+        /// The operator.
+        operator: &'static str,
+        /// The two numbers.
+        texts: [String; 2],
+        /// What they are above.
+        zeros: [Option<Zero>; 2],
+    },
     /// A quantity that counts periods and one that counts angle together.
     PeriodsAndAngle {
         /// The operator or function.
@@ -276,6 +285,16 @@ impl fmt::Display for ScaleFault {
                 zero.unit(),
                 above_reference(level, *zero)
             ),
+            Self::OtherReferences { operator, texts: [a, b], zeros } => {
+                let of = |zero: &Option<Zero>| zero.and_then(Zero::reference).unwrap_or_default();
+                write!(
+                    f,
+                    "`{a}` is in {0} and `{b}` in {1}, of which `{operator}` knows nothing: write `{a}*1 \
+                     [{0}]` and `{b}*1 [{1}]`, or give both levels above one reference",
+                    of(&zeros[0]),
+                    of(&zeros[1])
+                )
+            }
             Self::PeriodsAndAngle { operator, periods, angle } => write!(
                 f,
                 "`{periods}` counts periods and `{angle}` counts angle; `{operator}` cannot take \

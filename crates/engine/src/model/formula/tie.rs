@@ -40,6 +40,12 @@ impl Tie {
         }
     }
 
+    /// Whether its zero is a quantity that another level can be given above: a carrier, an isotropic
+    /// antenna.
+    pub(super) fn is_relative(self) -> bool {
+        matches!(self, Self::Sum { zero: Zero::Carrier | Zero::Isotropic, .. })
+    }
+
     /// The power of degrees Celsius that count from the zero.
     pub(super) fn power(self) -> Exponent {
         match self {
