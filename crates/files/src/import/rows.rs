@@ -105,8 +105,13 @@ impl Budget<'_> {
                     || columns::is_summary_symbol(words)
                         && (self.is_bare(header, line) && is_after
                             || self.is_figure(header, line, table.rows.len())));
-            let is_result =
-                columns::is_result(&label) || columns::is_expanded_symbol(words) || is_measurand;
+            let is_y = matches!(words.as_str(), "y" | "Y")
+                && !used.contains(words)
+                && self.lacks_shape(header, line);
+            let is_result = columns::is_result(&label)
+                || columns::is_expanded_symbol(words)
+                || is_measurand
+                || is_y;
             if !is_result && columns::is_subtotal(&label) {
                 let text = format!("line {}: `{label}` is a sum of other rows; left out", line + 1);
                 self.guessed.push(text);
@@ -154,6 +159,10 @@ impl Budget<'_> {
             if is_result || is_symbol {
                 self.surplus(header, line);
                 table.stated.extend(self.stated(header, line, &row));
+                let mut row = row;
+                if is_y {
+                    row.name = columns::identifier(words);
+                }
                 let is_figure = columns::is_expanded_symbol(words) && row.estimate.is_none();
                 self.result_row(&mut table, row, is_symbol || is_figure);
                 continue;
@@ -437,6 +446,15 @@ impl Budget<'_> {
             !is_empty(header.cell(self.cells, last.line, Column::Contribution).trim());
         let is_told = others.iter().all(|row| row.sensitivity.is_some())
             || has_coefficients && (contributes || !bare(last));
+        if is_alone && is_told && bare(last) && !contributes && self.is_far(last, others) {
+            let reason = format!(
+                "`{}` has neither an uncertainty nor a coefficient, and is not what the others make: it can be \
+                 a constant, whose coefficient is missing, or a result that contradicts them",
+                last.name
+            );
+            self.fail(last.line, reason);
+            return None;
+        }
         if is_alone && is_told {
             return Some(if bare(last) {
                 NO_UNCERTAINTY
@@ -467,7 +485,45 @@ impl Budget<'_> {
         let is_combined =
             stated.map(|u| near(column, u, combined) || near(column, u, 2.0 * combined));
         let is_sum = last.estimate.is_some_and(|estimate| near(Column::Estimate, estimate, sum));
-        if others.len() < 2 || !is_sum || is_combined == Some(false) || is_constant {
+        let is_shaped = last.distribution.is_some_and(|shape| shape != "normal");
+        let is_combined_alone = last.estimate.is_none()
+            && is_alone
+            && is_combined == Some(true)
+            && others.iter().all(|row| row.estimate.is_some());
+        if others.len() > 1 && is_combined_alone && last.dof.is_none() {
+            return Some("has no estimate, and the combined uncertainty of the others");
+        }
+        if others.len() < 2 || !is_sum || is_constant || is_shaped {
+            return None;
+        }
+        let is_of_zeros = others.iter().all(|row| row.estimate.unwrap_or(0.0) == 0.0);
+        let others_are_shaped = others.iter().all(|row| row.distribution.is_some());
+        let can_be_either = |what: &str| {
+            let reason = format!(
+                "`{}` {what}, and can be the result or a further quantity: name the result `Result`, or \
+                 write its equation",
+                last.name
+            );
+            self.fail(last.line, reason);
+        };
+        if is_of_zeros && is_combined == Some(true) && last.sensitivity.is_none() {
+            // a row of its own kind among others that have shapes
+            if others_are_shaped && is_alone && last.dof.is_none() {
+                return Some("is the sum of the others with their combined uncertainty");
+            }
+            if last.distribution.is_none() && last.dof.is_none() {
+                can_be_either("is 0 like the others, with their combined uncertainty");
+            }
+            return None;
+        }
+        if is_combined == Some(false) && is_alone && others_are_shaped && !is_of_zeros {
+            can_be_either(
+                "is the sum of the others with another uncertainty than their combined one, and has no \
+                 distribution",
+            );
+            return None;
+        }
+        if is_combined == Some(false) {
             return None;
         }
         if last.sensitivity.is_none() && is_combined == Some(true) {
@@ -485,12 +541,35 @@ impl Budget<'_> {
         None
     }
 
+    /// Whether the estimate of a row is far from the sum of others that are in its unit with coefficients of
+    /// 1 and -1, which leave no constant to be added.
+    fn is_far(&self, last: &Row, others: &[Row]) -> bool {
+        let are_plain = others.iter().all(|row| {
+            row.unit == last.unit
+                && row.sensitivity.is_some_and(|c| c.abs() == 1.0)
+                && row.unit_of_sensitivity.is_empty()
+        });
+        let terms =
+            others.iter().map(|row| row.sensitivity.unwrap_or(1.0) * row.estimate.unwrap_or(0.0));
+        let squares = others.iter().filter_map(|row| Some(standard_uncertainty(row)?.powi(2)));
+        let (sum, combined) = (terms.sum::<f64>(), squares.sum::<f64>().sqrt());
+        let apart = last.estimate.map_or(0.0, |estimate| (estimate - sum).abs());
+        are_plain && apart > FAR * combined && apart > 0.01 * sum.abs()
+    }
+
     /// Whether a line has no uncertainty, coefficient, shape or divisor.
     fn is_bare(&self, header: &Header, line: usize) -> bool {
         Column::UNCERTAIN
             .iter()
             .chain(&[Column::Sensitivity, Column::Distribution])
             .all(|column| header.cell(self.cells, line, *column).trim().is_empty())
+    }
+
+    /// Whether a line has neither a shape nor a coefficient, where the table has columns of them.
+    fn lacks_shape(&self, header: &Header, line: usize) -> bool {
+        let columns = [Column::Distribution, Column::Sensitivity];
+        let is_blank = |of: &Column| is_empty(header.cell(self.cells, line, *of).trim());
+        columns.iter().any(|of| header.has(*of)) && columns.iter().all(is_blank)
     }
 
     /// Whether a line below the quantities is a figure of the result by what it lacks and the others have:
@@ -1416,6 +1495,9 @@ fn is_grouped(text: &str) -> bool {
 }
 
 /// Why the last row of a budget is taken for its result.
+/// A result this many combined standard uncertainties from what its quantities make is none of them.
+const FAR: f64 = 20.0;
+
 const NO_UNCERTAINTY: &str = "has no uncertainty of its own";
 
 /// Shapes that are stated by a half width, and the square of what that is divided by.

@@ -97,6 +97,17 @@ impl Budget<'_> {
     /// Refuses a sum that nobody means, where neither an equation nor coefficients say what the result is:
     /// an indication and a reference, or two temperatures in degrees Celsius.
     pub(super) fn meaningless_sum(&self, rows: &[Row]) -> Option<()> {
+        let of_levels = levels(rows);
+        if let Some([first, second]) = of_levels {
+            let reason = format!(
+                "without an equation the result would be the sum of `{}` and `{}`, which are levels above a \
+                 reference: write the equation (`y = 10*log10(10^({}/10) + 10^({}/10))` of powers), or give \
+                 gains in dB",
+                first.name, second.name, first.name, second.name
+            );
+            self.fail(second.line, reason);
+            return None;
+        }
         let Some([first, second]) = indication_and_reference(rows).or_else(|| temperatures(rows))
         else {
             return Some(());
@@ -189,6 +200,17 @@ fn indication_and_reference(rows: &[Row]) -> Option<[&Row; 2]> {
     let [a, b] = [indication.estimate?, reference.estimate?];
     let are_alike = indication.unit == reference.unit && a / b > 0.5 && a / b < 2.0;
     are_alike.then_some([indication, reference])
+}
+
+/// Two levels above a reference, of which neither is 0 as a correction may be.
+fn levels(rows: &[Row]) -> Option<[&Row; 2]> {
+    let is_level = |row: &&Row| {
+        let unit = Unit::parse(&row.unit).ok();
+        row.estimate != Some(0.0)
+            && unit.is_some_and(|unit| unit.zero().is_some() && !unit.is_celsius())
+    };
+    let mut found = rows.iter().filter(is_level);
+    Some([found.next()?, found.next()?])
 }
 
 /// Two temperatures in °C of which neither is as small as a correction.

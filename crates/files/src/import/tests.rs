@@ -489,6 +489,46 @@ fn results_among_constants_and_figures() {
     }
 }
 
+/// What the last row of a sheet is where its numbers alone could make it the result.
+#[test]
+fn last_rows_that_could_be_either() {
+    let head = "Quantity,Estimate,Unit,u,Distribution\n";
+    for (rows, name, u) in [
+        // a shape is no combined result's, and a sum of zeros proves nothing
+        ("r,0,mm,0.02,normal\nres,0,mm,0.3,rectangular\ndrift,0,mm,0.3,rectangular\n", "y", 0.4247),
+        ("a,10,mm,0.03,normal\nb,0,mm,0.04,normal\nu_ges,,mm,0.05,\n", "u_ges", 0.05),
+        ("a,10,mm,0.03,normal\nb,0,mm,0.04,normal\nQuadratic sum,,mm,0.05,\n", "y", 0.05),
+        ("y,10,mm,0.05,\na,7,mm,0.03,normal\nb,3,mm,0.04,normal\n", "y", 0.05),
+    ] {
+        let budget = import("b.csv", format!("{head}{rows}").as_bytes()).unwrap();
+        let task = task(&budget);
+        let evaluated = gumption_engine::propagate::gum::evaluate(&task, &task.rows[0]);
+        let found = evaluated.outputs[0].as_ref().unwrap().standard_uncertainty;
+        assert_eq!(task.model.outputs[0].quantity.name, name, "{rows}");
+        assert!((found - u).abs() < 1e-4, "{rows}: {found}");
+    }
+    for (text, said) in [
+        ("Quantity,Estimate,Unit,u\nA,0,mm,0.3\nB,0,mm,0.4\nC,0,mm,0.5\n", "is 0 like the others"),
+        (
+            "Quantity,Estimate,Unit,u,Distribution\na,7,mm,0.03,normal\nb,3,mm,0.04,normal\n\
+             m_x,10,mm,0.06,\n",
+            "with another uncertainty",
+        ),
+        (
+            "Quantity,Estimate,Unit,u,Distribution\nP,10,dBm,0.1,normal\nL,-20,dBW,0.1,normal\n",
+            "levels above a reference",
+        ),
+        (
+            "Quantity,Estimate,Unit,u,Distribution,c\nV,10,V,0.01,normal,1\n\
+             corr,0.2,V,0.02,rectangular,1\noffset,1.5,V,,,\n",
+            "whose coefficient is missing",
+        ),
+    ] {
+        let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains(said), "{text}{error}");
+    }
+}
+
 /// 0.05 % of 100 mg is 0.05 mg; beside another number it has to be the same.
 #[test]
 fn relative_standard_uncertainties() {
