@@ -42,6 +42,7 @@ pub(super) fn of_formulas(
             found.extend(of.outputs.outputs.iter().filter_map(|output| decibels(scope, output)));
         }
         let counts_turns = given.values().any(|unit| unit.counts_revolutions());
+
         let radians = |output| radians_of_turns(scope, output).filter(|_| counts_turns);
         found.extend(of.outputs.outputs.iter().filter_map(radians));
     }
@@ -254,7 +255,9 @@ fn sum_of_levels(scope: &Scope, output: &Output) -> Option<Warning> {
 fn rate_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
     let Quantity { name, unit, .. } = &output.quantity;
     let typing = scope.get(name)?;
-    let unknown = typing.turn.is_none() && typing.dimension.is_some_and(|of| !of.is_none());
+    let unknown = typing.turn.is_none()
+        && !typing.has_turns
+        && typing.dimension.is_some_and(|of| !of.is_none());
     (unit.counts_revolutions() && unknown && unit.turn().is_some()).then(|| {
         let text = format!(
             "`{name}` is taken for an angular frequency, of which 2*pi radians are a revolution, as \
@@ -268,8 +271,10 @@ fn rate_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
 /// A result that counts angle, in a unit that counts nothing (`1/min`, `1`), of inputs in revolutions.
 fn radians_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
     let Quantity { name, unit, .. } = &output.quantity;
-    let counts_angle = scope.get(name)?.turn == Some(Turn::Angle);
-    let counts_nothing = unit.turn().is_none() && unit.dimension().is_of_time();
+    let typing = scope.get(name)?;
+    let is_rate = typing.dimension.is_some_and(|of| of.is_of_time() && !of.is_none());
+    let counts_angle = typing.turn == Some(Turn::Angle) || typing.has_turns && is_rate;
+    let counts_nothing = unit.turn() != Some(Turn::Angle) && unit.dimension().is_of_time();
     (counts_angle && counts_nothing).then(|| {
         let text = format!(
             "`{name}` counts angle and is reported in `{unit}` in radians, 2*pi for a revolution; if \

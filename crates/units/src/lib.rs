@@ -403,6 +403,11 @@ impl Unit {
         })
     }
 
+    /// Whether angle stands in the unit, in any power: `deg`, `V/rpm`, `1/rev`.
+    pub fn counts_angle(&self) -> bool {
+        Counted::of(self).angle
+    }
+
     /// Whether numbers in both units count the same: not periods and angle, in whatever power, as in
     /// `V/Hz` and `V/rpm`; nor revolutions, or degrees per time, and what may be revolutions or radians, as
     /// in `1/min`.

@@ -185,7 +185,7 @@ impl<'c> Checker<'c> {
                 }
             );
             self.report_dimension(FormulaError::TableArgument { argument, expected });
-        } else if let Err(misfit) = typing.reported_in(unit) {
+        } else if let Err(misfit) = typing.given_in(unit) {
             let argument = self.operand(x, unit.dimension());
             let expected = format!("`{column}` of `{}` is in {unit}: it {misfit}", call.file);
             self.report_dimension(FormulaError::TableArgument { argument, expected });
@@ -258,7 +258,7 @@ impl<'c> Checker<'c> {
                 from.describe()
             );
             self.report_dimension(FormulaError::Curve { reason, span });
-        } else if let Err(misfit) = typing.reported_in(from) {
+        } else if let Err(misfit) = typing.given_in(from) {
             let text = self.quoted(argument);
             let reason =
                 format!("`{text}` cannot be {side} of `{}` in {from}: {misfit}", curve.fit.name);

@@ -42,6 +42,8 @@ pub enum ScaleMisfit {
         /// The reference of the unit.
         expected: Zero,
     },
+    /// A rate of revolutions where the unit does not say what it counts, or such a rate in revolutions.
+    Revolutions,
     /// Periods where angle is counted, or angle where periods are.
     Turns {
         /// What the quantity counts.
@@ -113,6 +115,10 @@ impl fmt::Display for ScaleMisfit {
                 )?;
                 written_out(*expected).map_or(Ok(()), |formula| write!(f, ", or write `{formula}`"))
             }
+            Self::Revolutions => f.write_str(
+                "can count revolutions or radians, of which one is in the unit and the other in the formula; \
+                 give both in `rpm` or both in `1/min`",
+            ),
             Self::Turns { found: Turn::Periods } => f.write_str(
                 "counts periods, and the unit counts angle; write `2*pi*...` or `...*[rev]`",
             ),
@@ -131,6 +137,18 @@ fn written_out(zero: Zero) -> Option<String> {
 }
 
 impl Typing {
+    /// Whether a value can be given in a unit, where nobody is told of what it counts: as
+    /// [`Self::reported_in`], and no revolutions for `1/min`, nor the reverse.
+    ///
+    /// # Errors
+    /// Why not.
+    pub fn given_in(self, unit: &Unit) -> Result<(), ScaleMisfit> {
+        match self.rate.is_unlike(Self::in_unit(unit).rate) {
+            true => Err(ScaleMisfit::Revolutions),
+            false => self.reported_in(unit),
+        }
+    }
+
     /// Whether a result can be reported in a unit of its dimension as it is.
     ///
     /// # Errors

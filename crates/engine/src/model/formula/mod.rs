@@ -85,7 +85,7 @@ pub use name::{NameError, check_name, is_name, looks_of};
 pub use note::FormulaNote;
 pub use scale_fault::{ScaleFault, ScaledPlace};
 pub use syntax::TableCall;
-pub use typing::{KelvinKind, LevelReference, Scope, TableData, Typing};
+pub use typing::{KelvinKind, LevelReference, Rate, Scope, TableData, Typing};
 
 use super::Traced;
 use crate::number::{Number, smallest_first};

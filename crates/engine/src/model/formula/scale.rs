@@ -9,7 +9,7 @@ use super::function::Function;
 use super::scale_fault::{ScaleFault, ScaledPlace};
 use super::syntax::{Kind, Node, Operator};
 use super::tie::{Tie, borne, taken_up};
-use super::typing::{KelvinKind, LevelReference, Typing};
+use super::typing::{KelvinKind, LevelReference, Rate, Typing};
 use crate::number::Unary;
 use gumption_units::{Dimension, Exponent, Turn, Unit, Zero};
 
@@ -215,7 +215,12 @@ impl Checker<'_> {
         span: &Range<usize>,
         [(left, x), (right, y)]: [(usize, Typing); 2],
     ) {
-        if let (Some(a), Some(b)) = (x.turn, y.turn)
+        if x.rate.is_unlike(y.rate) {
+            let (revolutions, rate) =
+                if x.rate == Rate::Revolutions { (left, right) } else { (right, left) };
+            let (revolutions, rate) = (self.quoted(revolutions), self.quoted(rate));
+            self.fault_at(span, ScaleFault::RevolutionsAndRate { operator, revolutions, rate });
+        } else if let (Some(a), Some(b)) = (x.turn, y.turn)
             && a != b
         {
             let (periods, angle) = if a == Turn::Periods { (left, right) } else { (right, left) };
@@ -289,6 +294,8 @@ impl Checker<'_> {
                 false => LevelReference::of_sum(sign, x, y),
             },
             turn: x.turn.or(y.turn),
+            rate: if x.rate == y.rate { x.rate } else { Rate::Unknown },
+            has_turns: x.has_turns || y.has_turns,
             ..x
         };
         let unlike = |of: Zero| {
@@ -356,7 +363,9 @@ impl Checker<'_> {
         }
         self.refuse_other_reference(index, [left, right]);
         let (x, y) = (self.typing(left), self.typing(right));
+        let has_turns = x.has_turns || y.has_turns;
         let turn = match (x.turn, y.turn) {
+            _ if has_turns => None,
             (None, turn) | (turn, None) => turn,
             // a number of revolutions
             (Some(Turn::Periods), Some(Turn::Angle)) if self.is_unit(right, "rev") => y.turn,
@@ -370,7 +379,8 @@ impl Checker<'_> {
             (_, Exponent::ZERO) => x.reference.scaled(),
             _ => y.reference.scaled(),
         };
-        let typing = Typing { level, turn, reference, ..Typing { dimension, ..Typing::ANY } };
+        let typing =
+            Typing { level, turn, reference, has_turns, ..Typing { dimension, ..Typing::ANY } };
         let powers = [self.tie(left).power(), self.tie(right).power()];
         self.tied(index, typing, unit, powers, [left, right])
     }
@@ -421,7 +431,9 @@ impl Checker<'_> {
             let span = self.tree.span(index);
             self.refuse_periods_and_angle("/", &span, [(left, x), (right, y)]);
         }
+        let has_turns = x.has_turns || y.has_turns;
         let turn = match (x.turn, y.turn) {
+            _ if has_turns => None,
             (turn, None) => turn,
             (Some(Turn::Angle), Some(Turn::Angle)) if self.is_unit(right, "rev") => {
                 Some(Turn::Periods)
@@ -440,7 +452,8 @@ impl Checker<'_> {
             (Exponent::ZERO, ..) => LevelReference::of_product(x, y),
             _ => x.reference.scaled(),
         };
-        let typing = Typing { level, turn, reference, ..Typing { dimension, ..Typing::ANY } };
+        let typing =
+            Typing { level, turn, reference, has_turns, ..Typing { dimension, ..Typing::ANY } };
         let powers = [self.tie(left).power(), minus(self.tie(right).power())];
         self.tied(index, typing, unit.unwrap_or(Exponent::ZERO), powers, [left, right])
     }

@@ -109,6 +109,15 @@ pub enum ScaleFault {
         /// What they are above.
         zeros: [Option<Zero>; 2],
     },
+    /// A rate of revolutions and one whose unit does not say what it counts together.
+    RevolutionsAndRate {
+        /// The operator or function.
+        operator: &'static str,
+        /// The rate of revolutions.
+        revolutions: String,
+        /// The other one.
+        rate: String,
+    },
     /// A quantity that counts periods and one that counts angle together.
     PeriodsAndAngle {
         /// The operator or function.
@@ -295,6 +304,12 @@ impl fmt::Display for ScaleFault {
                     of(&zeros[1])
                 )
             }
+            Self::RevolutionsAndRate { operator, revolutions, rate } => write!(
+                f,
+                "`{revolutions}` counts revolutions, and the unit of `{rate}` does not say whether it counts \
+                 revolutions or radians, so that `{operator}` cannot take them together: give it in `rpm` or \
+                 in `rad/s`"
+            ),
             Self::PeriodsAndAngle { operator, periods, angle } => write!(
                 f,
                 "`{periods}` counts periods and `{angle}` counts angle; `{operator}` cannot take \

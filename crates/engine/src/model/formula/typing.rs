@@ -28,7 +28,42 @@ pub struct Typing {
     pub reference: LevelReference,
     /// Whether it counts periods or angle, as far as that is known.
     pub turn: Option<Turn>,
+    /// What a rate is by the unit that it was given in.
+    pub rate: Rate,
+    /// Whether angle stands in its unit in another power than the first, as in `1/rev`: what a product with
+    /// it counts is not known.
+    pub has_turns: bool,
 }
+
+/// What a rate is by its unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rate {
+    /// Nothing is known of it, or nothing that matters.
+    #[default]
+    Unknown,
+    /// Of revolutions: `rpm`.
+    Revolutions,
+    /// Of what its unit does not say: `1/min`.
+    Bare,
+}
+
+impl Rate {
+    fn of(unit: &Unit) -> Self {
+        match unit.turn() {
+            Some(Turn::Angle) if unit.counts_revolutions() => Self::Revolutions,
+            None if unit.dimension() == RATE && unit.has_name() => Self::Bare,
+            _ => Self::Unknown,
+        }
+    }
+
+    /// Whether one is of revolutions, and the other of what may be radians.
+    pub(super) fn is_unlike(self, other: Self) -> bool {
+        matches!((self, other), (Self::Revolutions, Self::Bare) | (Self::Bare, Self::Revolutions))
+    }
+}
+
+/// The dimension of a rate.
+const RATE: Dimension = Dimension::of([0, 0, -1, 0, 0, 0, 0]);
 
 /// What a level is above by the formula that makes it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -75,6 +110,8 @@ impl Typing {
             level: Exponent::ZERO,
             reference: LevelReference::Unknown,
             turn: None,
+            rate: Rate::Unknown,
+            has_turns: false,
         }
     }
 
@@ -92,6 +129,8 @@ impl Typing {
             celsius_exponent: if zero.is_some() { Exponent::ZERO } else { celsius },
             level: unit.level_exponent(),
             turn: unit.turn(),
+            rate: Rate::of(unit),
+            has_turns: unit.turn().is_none() && unit.counts_angle(),
             ..Self::of(unit.dimension())
         }
     }
