@@ -147,6 +147,13 @@ impl CentralPoint {
         if hypothesis.effects.is_empty() || hypothesis.probability < 1e-3 {
             return Self::At(mode);
         }
+        // sizes of devices are products of a spread and departures, whose means fit nothing together; each
+        // parameter is told by itself all the same
+        let replication = setup.case.replication.as_ref();
+        let own = replication.map_or(&[][..], |of| &of.effects);
+        if own.iter().any(|of| hypothesis.effects.contains(&of.own)) {
+            return Self::Mean;
+        }
         let draws = evidence.resampled(128);
         let step = setup.data.points.len().div_ceil(500).max(1);
         let points = setup.data.points.iter().step_by(step);

@@ -619,10 +619,21 @@ pub(super) fn next(diagnosis: &Diagnosis) -> Vec<String> {
             found.map_or(f64::NAN, |of| of.probability)
         };
         let now = probability(own) / probability(other);
+        // one that is the verdict with more effects is no rival where there is another one
+        let is_more = own
+            .as_ref()
+            .zip(other.as_ref())
+            .is_some_and(|(own, other)| own.iter().all(|effect| other.contains(effect)));
+        let among = if is_more {
+            "its strongest rival"
+        } else {
+            "the strongest of the others that are \
+             not it with more effects"
+        };
         let [own, other] = [own.as_ref(), other.as_ref()].map(rival);
         if now >= 20.0 {
             said.push(format!(
-                "The odds of {own} against its strongest rival, {other}, are {} to 1 already.",
+                "The odds of {own} against {among}, {other}, are {} to 1 already.",
                 significant(now, 2)
             ));
             return said;
