@@ -60,6 +60,7 @@ fn a_gap_case_of_data_in_memory() {
         model,
         observed: vec![Some(ObservedOutput {
             values: values.map(|(volt, noise)| 0.5 * volt + 0.02 + 0.002 * noise).collect(),
+            last_digit: None,
             standard_uncertainties: Some(vec![0.002; 12]),
             simulation_uncertainties: None,
             simulation_covariance: None,
