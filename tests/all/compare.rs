@@ -112,6 +112,30 @@ fn pairs_that_are_not_compatible() {
     assert!(String::from_utf8_lossy(&failed.stdout).contains("1 of 2 pairs is not compatible: b."));
 }
 
+/// 1001 mV less 1.002 V is compared in V, the unit of the first column, which every form says.
+#[test]
+fn every_form_has_the_unit() {
+    let (folder, _) = with("t.csv", "label,x1 [V],U1 [mV],x2 [mV],U2 [uV]\na,1.002,3,1001,2000\n");
+    let shown = |arguments: &[&str]| {
+        String::from_utf8_lossy(&run(folder.path(), arguments).stdout).into_owned()
+    };
+    let found = answer(folder.path(), &["t.csv"]);
+    assert_eq!(found["rows"][0]["unit"], "V");
+    assert!((number(&found["rows"][0]["difference"]) - 0.001).abs() < 1e-15);
+    let line = |text: &str| text.lines().find(|line| line.contains("1.002")).map(str::to_owned);
+    let has_unit = |line: &str| line.split_whitespace().any(|cell| cell == "V");
+    assert!(has_unit(&line(&shown(&["t.csv"])).expect("a row")));
+    assert!(has_unit(&line(&shown(&["t.csv", "--format", "markdown"])).expect("a row")));
+    assert!(shown(&["t.csv", "--format", "csv"]).trim_end().ends_with(",V"));
+    let html = shown(&["t.csv", "--format", "html"]);
+    assert!(html.contains("difference in V"), "{html}");
+    fs::write(folder.path().join("l.csv"), "label,x [V],U [V]\na,10,0.1\nb,10.1,0.1\n").unwrap();
+    assert_eq!(answer(folder.path(), &["l.csv"])["unit"], "V");
+    // the mean of both, with U = 0.1/sqrt(2)
+    let page = shown(&["l.csv"]);
+    assert!(page.contains("Reference value 10.050 V with U = 0.071 V"), "{page}");
+}
+
 /// Laboratories by hand: the mean of 10 and 12 with U = 2 each, and one far off that is left out.
 #[test]
 fn laboratories_and_their_reference_value() {

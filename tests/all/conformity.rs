@@ -275,6 +275,29 @@ fn every_row_has_what_is_to_be_stated() {
     assert_eq!(stated, ["0.005", "0.01"]);
 }
 
+/// 2 x 0.0505 V is 0.101 V, as the capability is, and 0.10 to the nearest: 0.11 is stated, and why.
+#[test]
+fn a_certificate_says_where_rounding_gives_way() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let model = r#"{"inputs": {"a": {"unit": "V", "distribution": "normal", "mean": 10, "std": 0.0505}},
+        "equations": {"y": "a"}, "outputs": {"y": {"unit": "V", "cmc": 0.101, "cmc_floor": true}},
+        "monte_carlo": {"trials": 0}}"#;
+    fs::write(folder.path().join("m.json"), model).expect("written");
+    for (digits, is_said) in [(2, true), (3, false)] {
+        let file = json!({"language": "en", "digits": digits,
+            "rows": [{"model": "m.json", "output": "y"}]});
+        fs::write(folder.path().join("c.json"), file.to_string()).expect("written");
+        let output = command().current_dir(folder.path()).args(["certificate", "c.json"]).output();
+        let page = String::from_utf8(output.expect("the program runs").stdout).expect("UTF-8");
+        let words: Vec<&str> = page.split_whitespace().collect();
+        assert_eq!(
+            words.join(" ").contains("U is rounded up, as it would be below"),
+            is_said,
+            "{page}"
+        );
+    }
+}
+
 /// Where U is raised to the capability, `run` decides with the U that is to be stated, as the
 /// certificate does: u = 0.12/2 = 0.06, w = 1.644 854 u = 0.098 691, so that 1000 is above 1000.09 - w =
 /// 999.991 309 and rejected, with P = Phi(0.09/0.06) = Phi(1.5) = 0.933 193. With the evaluated u = 0.04
