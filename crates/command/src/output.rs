@@ -254,14 +254,18 @@ fn shown(path: &Path) -> String {
 }
 
 fn failed(path: &Path, error: impl fmt::Display) -> Failure {
-    Failure::System(format!("cannot write `{}`: {error}", shown(path)))
+    Failure::System(not_written(path, error))
+}
+
+fn not_written(path: &Path, error: impl fmt::Display) -> String {
+    format!("cannot write `{}`: {error}", shown(path))
 }
 
 /// Why a file could not be opened: a place that there is not is the argument's fault.
 fn not_opened(path: &Path, error: &io::Error) -> Failure {
     match error.kind() {
         ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => {
-            Failure::Argument(format!("cannot write `{}`: {error}", shown(path)))
+            Failure::Argument(not_written(path, error))
         }
         _ => failed(path, error),
     }

@@ -163,10 +163,13 @@ pub(super) fn contradiction(
     column: &str,
     (declared, of): (&Unit, ValueOf),
 ) -> Option<DiagnosticKind> {
+    let other_than = |heading: &str| DiagnosticKind::ColumnUnit {
+        column: column.to_owned(),
+        heading: heading.to_owned(),
+        declared: declared.text().to_owned(),
+    };
     if let Some(text) = unreadable(&unit, column, declared) {
-        let (column, heading) = (column.to_owned(), text.to_owned());
-        let declared = declared.text().to_owned();
-        return Some(DiagnosticKind::ColumnUnit { column, heading, declared });
+        return Some(other_than(text));
     }
     let (unit, text) = stated(unit, column, declared)?;
     let is_declared = |unit: &Unit| {
@@ -175,9 +178,7 @@ pub(super) fn contradiction(
     };
     let meant = || gravity::meant(text, declared.dimension());
     let is_same = is_declared(&unit) || meant().as_ref().is_some_and(is_declared);
-    let (column, heading) = (column.to_owned(), text.to_owned());
-    let declared = declared.text().to_owned();
-    (!is_same).then_some(DiagnosticKind::ColumnUnit { column, heading, declared })
+    (!is_same).then(|| other_than(text))
 }
 
 #[cfg(test)]

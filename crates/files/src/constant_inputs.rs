@@ -23,14 +23,12 @@ pub(super) struct ConstantInputs {
     pub(super) uncertain: Vec<String>,
 }
 
-/// What the text of an input says of its value.
+/// What the text of a constant says of its value.
 enum Said {
-    /// A constant written out, in its unit.
+    /// A number written out, in the constant's unit.
     Value(Unit, f64),
-    /// A constant that is a formula.
+    /// A formula, whose value is in the constant's unit.
     Formula(Unit, Formula),
-    /// No constant.
-    Uncertain,
 }
 
 impl ConstantInputs {
@@ -51,10 +49,12 @@ impl ConstantInputs {
         };
         let mut formulas = Vec::new();
         for member in members {
-            match said(&unsaid, member, overrides) {
-                Said::Value(unit, value) => found.known.push((quantity(&member.key, unit), value)),
-                Said::Formula(unit, formula) => formulas.push((&member.key, unit, formula)),
-                Said::Uncertain => found.uncertain.push(member.key.clone()),
+            match constant(&unsaid, member, overrides) {
+                Some(Said::Value(unit, value)) => {
+                    found.known.push((quantity(&member.key, unit), value));
+                }
+                Some(Said::Formula(unit, formula)) => formulas.push((&member.key, unit, formula)),
+                None => found.uncertain.push(member.key.clone()),
             }
         }
         // of other constants, whose formulas may stand behind
@@ -75,13 +75,7 @@ impl ConstantInputs {
     }
 }
 
-/// What an input says of its value.
-fn said(log: &Collector, member: &Member, overrides: &[Override]) -> Said {
-    let found = constant(log, member, overrides);
-    found.unwrap_or(Said::Uncertain)
-}
-
-/// An input that is a constant.
+/// What an input says of its value that is a constant; `None` of every other one.
 fn constant(log: &Collector, member: &Member, overrides: &[Override]) -> Option<Said> {
     let object = Object::new(log, "an input", &member.value, &member.key_span)?;
     let is_constant = object.text("distribution") == Some("constant");

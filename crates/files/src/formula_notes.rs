@@ -42,7 +42,6 @@ pub(super) fn of_formulas(
             found.extend(of.outputs.outputs.iter().filter_map(|output| decibels(scope, output)));
         }
         let counts_turns = given.values().any(|unit| unit.counts_revolutions());
-
         let radians = |output| radians_of_turns(scope, output).filter(|_| counts_turns);
         found.extend(of.outputs.outputs.iter().filter_map(radians));
     }

@@ -376,6 +376,9 @@ fn uncertain(
 /// digits, of which the least are 1.0, are rounded by up to 5 %.
 const LIKE: f64 = 0.05;
 
+/// What effective degrees of freedom are called behind a value.
+const DEGREES_OF_FREEDOM: [&str; 5] = ["dof", "veff", "νeff", "ν_eff", "ν"];
+
 /// What stands behind an uncertainty: `(k=2)`, `(p=95 %)`, `(p=0.95)`, `(95 %)`; of `(k=2, p=95 %)`, as
 /// certificates have it, the factor, which that probability must allow, with the degrees of freedom of
 /// the t distribution that both belong to; degrees of freedom behind them, `(k=2.28, dof=10)`. All of it also without parentheses behind a comma or a semicolon,
@@ -408,7 +411,7 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
         let place = match key.trim() {
             "k" if !percent => &mut k,
             "p" => &mut p,
-            "dof" | "veff" | "νeff" | "ν_eff" | "ν" if !percent => &mut dof,
+            key if DEGREES_OF_FREEDOM.contains(&key) && !percent => &mut dof,
             _ => return Err(format!("`{part}` is not known there; {MISSING}")),
         };
         let found: f64 = match digits.parse() {
@@ -426,7 +429,7 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
             let share = if percent { 0.01 } else { 1.0 };
             last_digit_of_p = Some(share * implied_dof::last_digit(digits));
         }
-        if matches!(key.trim(), "dof" | "veff" | "νeff" | "ν_eff" | "ν") && found <= 0.0 {
+        if DEGREES_OF_FREEDOM.contains(&key.trim()) && found <= 0.0 {
             return Err(format!("`{part}` is none: degrees of freedom are above zero"));
         }
         let found = if percent {

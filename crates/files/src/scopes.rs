@@ -87,13 +87,10 @@ pub(super) fn number_form(check_units: bool) -> NumberForm {
 /// What is added to a formula's number where it becomes a value in a unit.
 fn shift(typing: Typing, unit: &Unit, of: ValueOf) -> Result<f64, ScaleMisfit> {
     let is_difference = of == ValueOf::Difference && typing.level == unit.level_exponent();
-    if typing.given_in(unit) == Err(ScaleMisfit::Revolutions) {
-        return Err(ScaleMisfit::Revolutions);
-    }
-    match typing.shift_to(unit) {
-        Err(misfit @ ScaleMisfit::Turns { .. }) => Err(misfit),
+    match typing.given_in(unit) {
+        Err(misfit @ (ScaleMisfit::Revolutions | ScaleMisfit::Turns { .. })) => Err(misfit),
         _ if is_difference => Ok(0.0),
-        shift => shift,
+        _ => typing.shift_to(unit),
     }
 }
 

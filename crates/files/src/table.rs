@@ -207,8 +207,8 @@ pub(super) fn parse(
     for (number, name) in columns.iter().enumerate().filter(|(number, _)| is_wanted[*number]) {
         let reason = if name.is_empty() {
             format!("column {} has no name in the header", number + 1)
-        } else if columns.iter().enumerate().any(|(other, of)| other != number && of == name)
-            && columns.iter().position(|of| of == name) == Some(number)
+        } else if columns.iter().position(|of| of == name) == Some(number)
+            && columns.iter().skip(number + 1).any(|of| of == name)
         {
             format!("the header has the name `{name}` twice")
         } else {

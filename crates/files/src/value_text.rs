@@ -207,8 +207,7 @@ pub(super) fn converted(
         return Ok(value);
     }
     let given = unit_behind_number(text, own)?;
-    let are_levels = |unit: &Unit| unit.zero().is_some() && !unit.is_celsius();
-    let is_absolute = are_levels(&given) && are_levels(unit);
+    let is_absolute = given.has_reference() && unit.has_reference();
     if of == ValueOf::Either && !given.has_zero_of(unit) && !is_absolute {
         return Err(either_temperature(unit));
     }

@@ -297,14 +297,10 @@ impl Leaf {
         place: Option<i32>,
         look: Look,
     ) -> Result<(), XlsxError> {
-        let now = match cached {
-            Cached::Number(value) => Some(*value).filter(|value| value.is_finite()),
-            Cached::Text(_) => None,
-        };
-        let cached = match cached {
-            Cached::Number(value) if value.is_finite() => format!("{value:?}"),
-            Cached::Number(_) => MISSING.to_owned(),
-            Cached::Text(text) => text.clone(),
+        let (now, cached) = match cached {
+            Cached::Number(value) if value.is_finite() => (Some(*value), format!("{value:?}")),
+            Cached::Number(_) => (None, MISSING.to_owned()),
+            Cached::Text(text) => (None, text.clone()),
         };
         let formula = Formula::new(format!("={formula}")).set_result(cached);
         let shown = place.map(|place| shown(place, now));

@@ -232,6 +232,11 @@ impl Unit {
         }
     }
 
+    /// Whether values in the unit are levels above a reference: those in `dBm`, not those in `dB`.
+    pub fn has_reference(&self) -> bool {
+        matches!(self.flavour, Flavour::Level(Some(_)))
+    }
+
     /// The exponent of the decibels (or nepers) in the unit: 1 for `dB` and `dB/m`, 0 without any.
     pub fn level_exponent(&self) -> Exponent {
         self.exponent_of(|symbol| matches!(symbol.flavour, Flavour::Level(_)))

@@ -63,6 +63,16 @@ impl Zero {
         }
     }
 
+    /// What a level above it grows by for ten times the quantity, in dB: 10 for powers, 20 for voltages.
+    /// `None` where the reference is neither.
+    pub const fn decibels_per_decade(self) -> Option<u32> {
+        match self {
+            Self::Milliwatt | Self::Watt => Some(10),
+            Self::Volt | Self::Millivolt | Self::Microvolt => Some(20),
+            Self::Celsius | Self::FullScale | Self::Carrier | Self::Isotropic => None,
+        }
+    }
+
     /// The reference that a power or a voltage in coherent SI units is, but for the rounding of its
     /// digits: that of `dBm` of 0.001 W. `None` for every other quantity.
     pub fn above(dimension: Dimension, value: f64) -> Option<Self> {

@@ -195,8 +195,9 @@ fn population(stated: &Arc<Distribution>) -> Arc<Distribution> {
 /// Which width the statement is about, and its value.
 fn parameter(stated: &Distribution) -> (&'static str, f64) {
     match stated {
-        Distribution::Normal(_) => ("std", stated.standard_uncertainty()),
-        Distribution::Readings(_) => ("std", stated.standard_uncertainty()),
+        Distribution::Normal(_) | Distribution::Readings(_) => {
+            ("std", stated.standard_uncertainty())
+        }
         Distribution::StudentT(_) => ("scale", stated.standard_uncertainty()),
         _ => match stated.divisor() {
             Some(divisor) => ("half_width", divisor * stated.standard_uncertainty()),

@@ -142,6 +142,9 @@ fn with_coverage(cmc: f64, coverage: Coverage) -> f64 {
     to_digits(0.5 * coverage.normal_factor() * cmc, COMPUTED_DIGITS)
 }
 
+/// Significant digits of a capability in words.
+const CAPABILITY_DIGITS: u32 = 6;
+
 impl CapabilityStatement {
     /// What may be stated where this expanded uncertainty of this estimate was evaluated, with this
     /// coverage.
@@ -155,6 +158,11 @@ impl CapabilityStatement {
         let raised = below && capability.floor;
         let expanded_uncertainty = if raised { cmc } else { evaluated };
         Self { cmc, estimate, evaluated, expanded_uncertainty, below, raised }
+    }
+
+    /// The capability in words, in the output's unit: with as many digits as one is stated with.
+    pub fn cmc_text(&self) -> String {
+        crate::decimal::exact(to_digits(self.cmc, CAPABILITY_DIGITS))
     }
 
     /// The expanded uncertainty to be stated, to so many significant digits: to the nearest, or up where

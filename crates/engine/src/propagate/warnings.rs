@@ -10,7 +10,7 @@ use super::gum::{BudgetLine, Dof, Gum};
 use super::monte_carlo::{Adaptive, MonteCarlo};
 use super::second_order::SecondOrder;
 use super::{branch, rounding};
-use crate::decimal::{exact, significant, to_digits};
+use crate::decimal::{significant, to_digits};
 use crate::model::Output;
 use crate::number::Shortest;
 use crate::task::{Coverage, Task, Trials, Warning};
@@ -232,9 +232,6 @@ fn of_rounded_correlations(name: &str, output: &OutputEvaluation) -> Option<Warn
     })
 }
 
-/// Significant digits of a capability in words: as many as one is stated with.
-const CAPABILITY_DIGITS: u32 = 6;
-
 /// Whether expanded uncertainties of an output, by its number, are below the laboratory's capability.
 fn of_capability(
     (output, number): (&Output, usize),
@@ -248,7 +245,7 @@ fn of_capability(
     let Some(first) = below.first() else { return };
     let (name, unit) = (&output.quantity.name, &output.quantity.unit);
     let code = if first.raised { "raised-to-cmc" } else { "below-cmc" };
-    let cmc = unit.after(&exact(to_digits(first.cmc, CAPABILITY_DIGITS)));
+    let cmc = unit.after(&first.cmc_text());
     let text = match (rows, first.raised) {
         ([_], true) => {
             let expanded = first.rounded(task.settings.digits).map(|expanded| expanded.to_string());

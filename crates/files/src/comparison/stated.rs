@@ -255,8 +255,7 @@ impl Reader<'_> {
                 return None;
             }
         };
-        let are_levels = |unit: &Unit| unit.zero().is_some() && !unit.is_celsius();
-        let is_absolute = are_levels(of_x) && are_levels(wanted);
+        let is_absolute = of_x.has_reference() && wanted.has_reference();
         if of_x.is_compatible(wanted) && !of_x.has_zero_of(wanted) && !is_absolute {
             fail(format!(
                 "row {}: a value in `{of_x}` is compared in `{wanted}`: {}",

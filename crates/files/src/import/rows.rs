@@ -475,11 +475,7 @@ impl Budget<'_> {
             (a - b).abs() <= share.clamp(0.01, SAME) * a.abs().max(b.abs())
         };
         let scaled = in_unit_of(last, others)?;
-        let of = |row: &Row| row.sensitivity.unwrap_or(1.0);
-        let sum: f64 = scaled.iter().map(|row| of(row) * row.estimate.unwrap_or(0.0)).sum();
-        let squares =
-            scaled.iter().filter_map(|row| Some((of(row) * standard_uncertainty(row)?).powi(2)));
-        let combined = squares.sum::<f64>().sqrt();
+        let (sum, combined) = sum_of(&scaled);
         let column = if last.std.is_some() { Column::Std } else { Column::Width };
         let stated = last.std.or(last.width);
         let is_combined =
@@ -549,10 +545,7 @@ impl Budget<'_> {
                 && row.sensitivity.is_some_and(|c| c.abs() == 1.0)
                 && row.unit_of_sensitivity.is_empty()
         });
-        let terms =
-            others.iter().map(|row| row.sensitivity.unwrap_or(1.0) * row.estimate.unwrap_or(0.0));
-        let squares = others.iter().filter_map(|row| Some(standard_uncertainty(row)?.powi(2)));
-        let (sum, combined) = (terms.sum::<f64>(), squares.sum::<f64>().sqrt());
+        let (sum, combined) = sum_of(others);
         let apart = last.estimate.map_or(0.0, |estimate| (estimate - sum).abs());
         are_plain && apart > FAR * combined && apart > 0.01 * sum.abs()
     }
@@ -1467,6 +1460,16 @@ pub(super) fn in_unit_of(last: &Row, rows: &[Row]) -> Option<Vec<Row>> {
     rows.iter().map(scaled).collect()
 }
 
+/// What rows of one unit make together, each times its coefficient where it has one, and the standard
+/// uncertainty of that.
+fn sum_of(rows: &[Row]) -> (f64, f64) {
+    let of = |row: &Row| row.sensitivity.unwrap_or(1.0);
+    let terms = rows.iter().map(|row| of(row) * row.estimate.unwrap_or(0.0));
+    let squares =
+        rows.iter().filter_map(|row| Some((of(row) * standard_uncertainty(row)?).powi(2)));
+    (terms.sum(), squares.sum::<f64>().sqrt())
+}
+
 /// Whether the cell of a distribution says that there is none.
 fn says_constant(text: &str) -> bool {
     let words = text.trim().to_lowercase();
@@ -1494,10 +1497,10 @@ fn is_grouped(text: &str) -> bool {
     is_first && rest.peek().is_some() && rest.all(|group| group.len() == 3)
 }
 
-/// Why the last row of a budget is taken for its result.
 /// A result this many combined standard uncertainties from what its quantities make is none of them.
 const FAR: f64 = 20.0;
 
+/// Why the last row of a budget is taken for its result.
 const NO_UNCERTAINTY: &str = "has no uncertainty of its own";
 
 /// Shapes that are stated by a half width, and the square of what that is divided by.

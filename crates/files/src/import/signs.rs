@@ -205,9 +205,7 @@ fn indication_and_reference(rows: &[Row]) -> Option<[&Row; 2]> {
 /// Two levels above a reference, of which neither is 0 as a correction may be.
 fn levels(rows: &[Row]) -> Option<[&Row; 2]> {
     let is_level = |row: &&Row| {
-        let unit = Unit::parse(&row.unit).ok();
-        row.estimate != Some(0.0)
-            && unit.is_some_and(|unit| unit.zero().is_some() && !unit.is_celsius())
+        row.estimate != Some(0.0) && Unit::parse(&row.unit).is_ok_and(|unit| unit.has_reference())
     };
     let mut found = rows.iter().filter(is_level);
     Some([found.next()?, found.next()?])

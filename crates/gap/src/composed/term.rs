@@ -33,10 +33,7 @@ pub(super) fn conditions(setup: &Setup<'_>) -> Vec<(Argument, Values)> {
     let case = setup.case;
     let measured = case.model.conditions.len() - case.simulated;
     (0..measured)
-        .filter(|&c| {
-            let unit = &case.model.conditions[c].unit;
-            unit.zero().is_none() || unit.is_celsius()
-        })
+        .filter(|&c| !case.model.conditions[c].unit.has_reference())
         .filter_map(|c| {
             let rows = setup.data.points.iter().map(|point| {
                 let first = point.rows.first().copied().unwrap_or(0);

@@ -36,9 +36,7 @@ impl Marked {
     fn new(axis: &Axis, most: usize) -> Self {
         Self { ends: axis.ends(), marks: axis.marks(most) }
     }
-}
 
-impl Marked {
     /// How far the last number reaches beyond the end of a horizontal axis of a length in pixels.
     fn beyond(&self, length: f64) -> f64 {
         let [from, to] = self.ends;

@@ -139,10 +139,8 @@ impl Definitions {
 
     /// The keys of an object at a key, or of those of its list, that has no section of its own.
     pub(super) fn inside(&self, document: &mut Document, key: &str, node: &Value) {
-        let items = node.get("items");
-        let of =
-            if items.is_some_and(|of| of.get("properties").is_some()) { items } else { Some(node) };
-        let Some(of) = of else { return };
+        let items = node.get("items").filter(|items| items.get("properties").is_some());
+        let of = items.unwrap_or(node);
         let Some(keys) = of.get("properties").and_then(Value::as_object) else { return };
         document.text(format!("Keys of `{key}`:"));
         document.table(self.table(keys.iter(), &required(of)));

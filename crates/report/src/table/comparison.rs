@@ -8,7 +8,6 @@ use crate::number::{
     MISSING, Percent, coarser, exact, justified, place_of_ends, position, rounded, significant, to,
 };
 use crate::sheet::Sheet;
-use gumption_engine::decimal::to_digits;
 use gumption_engine::model::{Output, Quantity, Tolerance};
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
@@ -147,7 +146,7 @@ pub(crate) fn capability(
 ) -> Option<String> {
     let stated = figures.capability.as_deref()?;
     let unit = &output.quantity.unit;
-    let cmc = in_unit(&exact(to_digits(stated.cmc, 6)), unit);
+    let cmc = in_unit(&stated.cmc_text(), unit);
     let expanded = match stated.rounded(digits.max(if stated.raised { 1 } else { 3 })) {
         Some(expanded) => expanded.to_string(),
         None => exact(stated.expanded_uncertainty),

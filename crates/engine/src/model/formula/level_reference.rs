@@ -106,33 +106,34 @@ impl Checker<'_> {
 
     /// What `10^(L/10)` and `10^(L/20)` give: a number that is above what L is above.
     pub(super) fn number_of_level(&mut self, exponent: usize) -> Typing {
-        let (level, divisor) = match self.kind(exponent) {
-            Some(Kind::Infix { operator: Operator::Divide, left, right, .. }) => {
-                (*left, self.constant(*right))
-            }
-            Some(Kind::Infix { operator: Operator::Multiply, left, right, .. }) => {
-                match self.constant(*left) {
-                    Some(factor) => (*right, Some(1.0 / factor)),
-                    None => (*left, self.constant(*right).map(|factor| 1.0 / factor)),
-                }
-            }
-            _ => return Typing::NUMBER,
-        };
+        let Some((level, divisor)) = self.divided(exponent) else { return Typing::NUMBER };
         let typing = self.settled(level);
         let reference = match typing.zero {
             Some(zero) => LevelReference::Above(zero),
             None => typing.reference,
         };
-        let is_of_kind = match reference {
-            LevelReference::Above(Zero::Milliwatt | Zero::Watt) => divisor == Some(10.0),
-            LevelReference::Above(Zero::Volt | Zero::Millivolt | Zero::Microvolt) => {
-                divisor == Some(20.0)
+        match reference {
+            LevelReference::Above(zero) if is_of_kind(zero, divisor) => {
+                Typing { reference, ..Typing::NUMBER }
             }
-            _ => false,
-        };
-        match is_of_kind {
-            true => Typing { reference, ..Typing::NUMBER },
-            false => Typing::NUMBER,
+            _ => Typing::NUMBER,
+        }
+    }
+
+    /// A quantity and the constant that it is divided by, if it is one: `L/10`, `0.1*L`.
+    fn divided(&self, index: usize) -> Option<(usize, Option<f64>)> {
+        match self.kind(index)? {
+            Kind::Infix { operator: Operator::Divide, left, right, .. } => {
+                Some((*left, self.constant(*right)))
+            }
+            Kind::Infix { operator: Operator::Multiply, left, right, .. } => {
+                let (of, factor) = match self.constant(*left) {
+                    Some(factor) => (*right, Some(factor)),
+                    None => (*left, self.constant(*right)),
+                };
+                Some((of, factor.map(|factor| 1.0 / factor)))
+            }
+            _ => None,
         }
     }
 
@@ -150,8 +151,7 @@ impl Checker<'_> {
             && are_numbers
         {
             let texts = [left, right].map(|part| self.quoted(part));
-            let zeros = [Some(a), Some(b)];
-            self.fault(index, ScaleFault::OtherReferences { operator, texts, zeros });
+            self.fault(index, ScaleFault::OtherReferences { operator, texts, zeros: [a, b] });
         }
     }
 
@@ -169,10 +169,9 @@ impl Checker<'_> {
 
     fn reference_of_argument(&self, factor: Option<f64>, argument: usize) -> LevelReference {
         if let LevelReference::Above(zero) = self.typing(argument).reference {
-            let of_kind = if matches!(zero, Zero::Milliwatt | Zero::Watt) { 10.0 } else { 20.0 };
-            return match factor {
-                Some(factor) if factor == of_kind => LevelReference::Above(zero),
-                _ => LevelReference::Unknown,
+            return match is_of_kind(zero, factor) {
+                true => LevelReference::Above(zero),
+                false => LevelReference::Unknown,
             };
         }
         let divisors = self.divisors(argument);
@@ -267,19 +266,9 @@ impl Checker<'_> {
         let Kind::Infix { operator: Operator::Power, left, right, .. } = self.kind(index)? else {
             return None;
         };
-        let (level, divisor) = match self.kind(*right)? {
-            Kind::Infix { operator: Operator::Divide, left, right, .. } => {
-                (*left, self.constant(*right)?)
-            }
-            Kind::Infix { operator: Operator::Multiply, left, right, .. } => {
-                match self.constant(*left) {
-                    Some(factor) => (*right, 1.0 / factor),
-                    None => (*left, 1.0 / self.constant(*right)?),
-                }
-            }
-            _ => return None,
-        };
-        let is_taken = self.constant(*left) == Some(10.0) && matches!(divisor, 10.0 | 20.0);
+        let (level, divisor) = self.divided(*right)?;
+        let divisor = divisor.filter(|divisor| matches!(*divisor, 10.0 | 20.0))?;
+        let is_taken = self.constant(*left) == Some(10.0);
         let zero = self.typing(level).zero.filter(|_| is_taken)?;
         (self.kind(level)? == &Kind::Name).then_some((level, zero, divisor))
     }
@@ -325,6 +314,11 @@ impl Checker<'_> {
     fn kind(&self, index: usize) -> Option<&Kind> {
         self.tree.nodes.get(index).map(|node| &node.kind)
     }
+}
+
+/// Whether levels above a reference are so many times the decimal logarithm.
+fn is_of_kind(zero: Zero, factor: Option<f64>) -> bool {
+    factor.is_some_and(|factor| zero.decibels_per_decade().map(f64::from) == Some(factor))
 }
 
 /// Whether levels can be above a quantity of that dimension.

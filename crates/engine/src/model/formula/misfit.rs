@@ -132,7 +132,8 @@ impl fmt::Display for ScaleMisfit {
 /// A formula of the levels above a reference.
 fn written_out(zero: Zero) -> Option<String> {
     let unit = zero.reference()?;
-    let (factor, of) = if unit.ends_with('W') { (10, 'P') } else { (20, 'V') };
+    let factor = zero.decibels_per_decade()?;
+    let of = if factor == 10 { 'P' } else { 'V' };
     Some(format!("{factor}*log10({of}/1 [{unit}])"))
 }
 

@@ -107,7 +107,7 @@ pub enum ScaleFault {
         /// The two numbers.
         texts: [String; 2],
         /// What they are above.
-        zeros: [Option<Zero>; 2],
+        zeros: [Zero; 2],
     },
     /// A rate of revolutions and one whose unit does not say what it counts together.
     RevolutionsAndRate {
@@ -158,7 +158,7 @@ fn is_level_alone(text: &str) -> bool {
 
 /// The power or the voltage that a level is of.
 fn above_reference(level: &str, zero: Zero) -> String {
-    let divisor = if matches!(zero, Zero::Milliwatt | Zero::Watt) { 10 } else { 20 };
+    let divisor = zero.decibels_per_decade().unwrap_or_default();
     format!("10^({level}/{divisor})*1 [{}]", zero.reference().unwrap_or_default())
 }
 
@@ -295,13 +295,11 @@ impl fmt::Display for ScaleFault {
                 above_reference(level, *zero)
             ),
             Self::OtherReferences { operator, texts: [a, b], zeros } => {
-                let of = |zero: &Option<Zero>| zero.and_then(Zero::reference).unwrap_or_default();
+                let [of_a, of_b] = zeros.map(|zero| zero.reference().unwrap_or_default());
                 write!(
                     f,
-                    "`{a}` is in {0} and `{b}` in {1}, of which `{operator}` knows nothing: write `{a}*1 \
-                     [{0}]` and `{b}*1 [{1}]`, or give both levels above one reference",
-                    of(&zeros[0]),
-                    of(&zeros[1])
+                    "`{a}` is in {of_a} and `{b}` in {of_b}, of which `{operator}` knows nothing: write \
+                     `{a}*1 [{of_a}]` and `{b}*1 [{of_b}]`, or give both levels above one reference"
                 )
             }
             Self::RevolutionsAndRate { operator, revolutions, rate } => write!(
