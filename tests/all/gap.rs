@@ -369,6 +369,58 @@ fn predictive_densities_of_phases_know_the_turn() {
     assert!(said.contains(r#"says `"periodic": 360`"#), "{said}");
 }
 
+/// Phases that an instrument gives within a turn and whose sim is zero: none is more than half a turn
+/// from it, but they jump by a turn between two frequencies; a step of 200 deg is a step.
+#[test]
+fn phases_that_jump_by_a_turn_are_told() {
+    let text = r#"{"inputs": {"p0": {"unit": "deg", "distribution": "normal", "mean": 0,
+        "std": 0.2}},
+      "conditions": {"f": {"unit": "kHz"}, "g": {"unit": "1"}}, "equations": {"p": "p0"},
+      "outputs": {"p": {"unit": "deg"}},
+      "observations": {"file": "data.csv",
+        "columns": {"p": {"value": "p", "standard_uncertainty": "u"}}},
+      "effects": {"delay": {"parameters": {"td": {"unit": "us", "distribution": "normal",
+          "mean": 0, "std": 5}}, "overrides": {"p": "p - 2*pi*f*td"}}}}"#;
+    let data = |phase: &dyn Fn(f64) -> f64| {
+        let mut data = "f,g,p,u\n".to_owned();
+        for (row, gain) in (1..=20_u32).flat_map(|row| [(row, 1), (row, 10)]) {
+            let f = 50.0 * f64::from(row);
+            let noise = 0.1 * (f64::from((row + gain) * 5 % 13) - 6.0);
+            writeln!(data, "{f},{gain},{:.3},0.5", phase(f) + noise).unwrap();
+        }
+        data
+    };
+    let wrapped = |f: f64| if f > 550.0 { 360.0 - 0.324 * f } else { -0.324 * f };
+    let answer = answered(text, &data(&wrapped));
+    let note = answer["notes"].as_array().unwrap().iter().find(|of| of["code"] == "whole-turns");
+    let said = note.unwrap()["message"].as_str().unwrap();
+    assert!(said.contains("p jumps by nearly a turn between neighbouring conditions"), "{said}");
+    let round = text.replace(r#""p": {"unit": "deg"}"#, r#""p": {"unit": "deg", "periodic": 360}"#);
+    let answer = answered(&round, &data(&wrapped));
+    assert_eq!(answer["verdict"]["effects"], serde_json::json!(["delay"]));
+    assert!(!codes(&answer).contains(&"whole-turns"));
+    let step = |f: f64| if f > 500.0 { 100.0 } else { -100.0 };
+    assert!(!codes(&answered(text, &data(&step))).contains(&"whole-turns"));
+}
+
+/// A constant that two readings at one condition depart by: the effect of the list and the composed one
+/// are the same, and take the same off the gap.
+#[test]
+fn composed_effects_and_those_of_the_list_are_held_against_the_same_rows() {
+    let text = r#"{"inputs": {"x": {"unit": "mm", "distribution": "normal", "mean": 10, "std": 0.01}},
+      "conditions": {"t": {"unit": "s"}}, "equations": {"y": "x"}, "outputs": {"y": {"unit": "mm"}},
+      "observations": {"file": "data.csv",
+        "columns": {"y": {"value": "y", "standard_uncertainty": "u"}}},
+      "effects": {"offset": {"parameters": {"d": {"unit": "mm", "distribution": "normal", "mean": 0,
+          "std": 0.02}}, "overrides": {"y": "y + d"}}}}"#;
+    let answer = answered(text, "t,y,u\n1,10.2,0.01\n1,10.21,0.01\n");
+    let composed = answer["composed"].as_array().unwrap();
+    let removed = |of: &Value| of["removed_fraction"].as_f64().unwrap();
+    let largest = composed.iter().map(removed).fold(0.0, f64::max);
+    // of a departure of 20 with the noise of one value: the other tells it to sqrt(2)
+    assert!(largest > 0.95, "{composed:?}");
+}
+
 /// A bath whose temperature is off by 15 mK at each setting, with four currents in it: an error of the
 /// settings, beside which the self-heating of 10 mK/mA^2 is seen; the page says what would say it.
 #[test]

@@ -312,6 +312,7 @@ fn jump(departures: &[(f64, f64)], range: f64) -> Option<f64> {
         .then(|| 0.5 * (widest[0].0 + widest[1].0))
 }
 
-fn ends(values: &[f64]) -> (f64, f64) {
+/// The least and the greatest of values.
+pub(crate) fn ends(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)))
 }

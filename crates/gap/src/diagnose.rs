@@ -7,8 +7,8 @@ use super::departure;
 use super::departure_prediction;
 use super::diagnosis::{
     DescribedEffect, Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, HypothesisKind,
-    NamedQuantity, NextMeasurements, NoiseEstimate, Predicted, RowGap, SerialCorrelation,
-    SettingError, SuspectValue, UncertaintyFactor,
+    MostProbable, NamedQuantity, NextMeasurements, NoiseEstimate, Predicted, RowGap,
+    SerialCorrelation, SettingError, SuspectValue, UncertaintyFactor,
 };
 use super::discrepancy::Discrepancy;
 use super::goodness_of_fit::{gap, plus_rows};
@@ -179,7 +179,7 @@ fn diagnosed(
         let text = prior_widths::note(&verdict.effects);
         notes.push(DiagnosisNote { code: "wide-priors", text });
     }
-    if let Some(note) = at.and_then(|at| extrapolated(&setup, &posterior, at)) {
+    if let Some(note) = at.and_then(|at| extrapolated(&setup, &posterior, &verdict, at)) {
         notes.push(note);
     }
     if interrupted {
@@ -229,18 +229,31 @@ fn diagnosed(
     })
 }
 
-/// What is to be said of predictions outside of the conditions of the data, where a departure that
-/// nothing of the list explains goes on in a way that they do not tell.
-fn extrapolated(setup: &Setup<'_>, posterior: &Posterior, at: &[Row]) -> Option<DiagnosisNote> {
+/// What is to be said of predictions outside of the conditions of the data: how a departure that
+/// nothing of the list explains goes on the data do not tell, and that an effect does is a statement
+/// of its formula.
+fn extrapolated(
+    setup: &Setup<'_>,
+    posterior: &Posterior,
+    verdict: &MostProbable,
+    at: &[Row],
+) -> Option<DiagnosisNote> {
     let outside = departure_prediction::outside(setup, at);
-    let matters = posterior.probability > departure::WORTH_TELLING;
-    (matters && outside > 0).then(|| DiagnosisNote {
+    let reason = if posterior.probability > departure::WORTH_TELLING {
+        "No effect of the list says how the departure goes on there: smooth and composed departures \
+         are averaged with less regard to their probabilities, and the standard uncertainty is \
+         enlarged with the distance."
+    } else if verdict.kind == HypothesisKind::Explained {
+        "The effects go on there as their formulas say, and the data do not show whether they do: \
+         hypotheses that agree on the data may differ there, and are averaged with their \
+         probabilities."
+    } else {
+        return None;
+    };
+    (outside > 0).then(|| DiagnosisNote {
         code: "extrapolation",
         text: format!(
-            "{outside} of {} rows of the prediction lie outside of the conditions of the data. No \
-             effect of the list says how the departure goes on there: smooth and composed departures \
-             are averaged with less regard to their probabilities, and the standard uncertainty is \
-             enlarged with the distance.",
+            "{outside} of {} rows of the prediction lie outside of the conditions of the data. {reason}",
             at.len()
         ),
     })

@@ -57,6 +57,7 @@ mod shared_noise;
 mod shrink;
 mod strength;
 mod suspects;
+mod turns;
 mod unlisted;
 mod weighed;
 mod weighed_noise;

@@ -11,9 +11,9 @@ use super::resolution::Rounding;
 use super::row_drift;
 use super::setup::Setup;
 use super::shared_noise;
-use gumption_engine::decimal::{significant, to_15_digits};
+use super::turns;
+use gumption_engine::decimal::significant;
 use gumption_engine::number::Shortest;
-use gumption_units::Turn;
 
 pub(crate) fn notes(
     setup: &Setup<'_>,
@@ -78,7 +78,7 @@ pub(crate) fn notes(
             ),
         );
     }
-    if let Some(text) = turns(setup) {
+    if let Some(text) = turns::note(setup) {
         note("whole-turns", text);
     }
     let worth = posterior.hypotheses.iter().filter(|h| h.probability > WORTH_A_NOTE);
@@ -219,28 +219,3 @@ const LIKELY: f64 = 0.5;
 
 /// The chi-square test speaks against the verdict "no gap" below this probability.
 const OVERDISPERSED: f64 = 1e-3;
-
-/// That values of an angle are more than half a turn from the sim, and that nothing says that it comes
-/// round.
-fn turns(setup: &Setup<'_>) -> Option<String> {
-    let data = &setup.data;
-    let residuals = data.nominal_residuals();
-    residuals.iter().enumerate().find_map(|(output, residuals)| {
-        let quantity = &setup.case.model.outputs[data.outputs[output]].quantity;
-        let is_angle = quantity.unit.turn() == Some(Turn::Angle);
-        if data.turns[output].is_some() || !is_angle {
-            return None;
-        }
-        let turn = to_15_digits(std::f64::consts::TAU / quantity.unit.factor());
-        let count = residuals.iter().filter(|residual| residual.abs() > 0.5 * turn).count();
-        (count > 0).then(|| {
-            format!(
-                "{count} of {} values of {} are more than half a turn from the sim: an output that comes \
-                 round says `\"periodic\": {}`.",
-                residuals.len(),
-                quantity.name,
-                Shortest(turn)
-            )
-        })
-    })
-}

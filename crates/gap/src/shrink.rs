@@ -444,7 +444,7 @@ fn fold(
 /// Rows in blocks of whole levels of the condition with the most levels, or in their order. Levels
 /// take turns, so that what is left out lies between conditions that are not. None of a single row,
 /// without which nothing is left to fit.
-fn blocks(setup: &Setup<'_>) -> Vec<Vec<usize>> {
+pub(crate) fn blocks(setup: &Setup<'_>) -> Vec<Vec<usize>> {
     let rows = setup.data.rows();
     if rows < 2 {
         return Vec::new();

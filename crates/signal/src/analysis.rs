@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use super::Measured;
 use super::analysed::{Analysed, Fundamental, local, shares};
+use super::beside::{Besides, is_flanked};
 use super::effects::{Effects, KnownNoise};
 use super::frequency::{self, NoFrequency};
 use super::passes::{InMemorySamples, SampleSource, Selected, gathered};
@@ -247,10 +248,14 @@ impl Group<'_> {
             traces = found.map_err(Refused::Unreadable)?.into_iter().map(Some).collect();
         }
         let design = Rc::new(design);
-        let made = self.channels.iter().zip(fits).zip(left).zip(traces);
-        let analysed = made.map(|(((at, fit), residuals), trace)| {
+        let flanked: Vec<bool> = left.iter().map(|left| is_flanked(&design, left)).collect();
+        let is_any = flanked.contains(&true);
+        let made = self.channels.iter().zip(fits).zip(left).zip(traces).zip(flanked);
+        let analysed = made.map(|((((at, fit), residuals), trace), is_flanked)| {
             let spurious = spurious::found(&residuals.first);
-            let besides = besides.clone();
+            // frequencies are those of all channels, what is near to one may be in one of them
+            let too_near = besides.too_near && (is_flanked || !is_any);
+            let besides = Besides { too_near, ..besides.clone() };
             let stated = self.settings.channels.get(at.0).map_or(0.0, |of| of.resolution);
             // a step that is seen counts where it is coarser than the stated one
             let seen = residuals.lattice.filter(|step| *step > 1.5 * stated);

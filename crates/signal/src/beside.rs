@@ -8,7 +8,7 @@ use super::analysed::Fundamental;
 use super::analysis::{FittedTones, Group};
 use super::passes::SampleSource;
 use super::refused::Refused;
-use super::residuals::{KEPT, Remainder};
+use super::residuals::{KEPT, Remainder, Residuals};
 use super::sine_fit::{ToneCoefficients, ToneDesign};
 use super::spurious::{self, MOST};
 use gumption_engine::number::elementary::hypot;
@@ -45,6 +45,14 @@ const NEAREST_START: f64 = 1.5;
 /// Turns over the record on both sides of a fitted frequency within which two oscillations are one
 /// that grows, fades or wanders.
 const SIDEBANDS: f64 = 3.0;
+
+/// The highest multiple of a frequency that distortion is taken to make. The multiples of a low
+/// frequency, folded at half the sampling rate, are nearly everywhere: 50 Hz is next to the 97th of
+/// 20.1 Hz at 2000 samples a second.
+const DISTORTION: u32 = 20;
+
+/// The highest that rounding is, each by less than a step.
+const ROUNDING: u32 = 199;
 
 /// An oscillation that no one named.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -235,7 +243,11 @@ fn candidates(of: &FittedTones, samples: u64, known: &[f64]) -> Vec<f64> {
     for residuals in left {
         let deviation = residuals.variance.sqrt();
         for of in spurious::lines(&residuals.first) {
-            found.push((of.amplitude / deviation, of.cycles));
+            let may_be_rounding = residuals.lattice.is_some_and(|step| of.amplitude < step);
+            let most = if may_be_rounding { ROUNDING } else { DISTORTION };
+            if !is_multiple(design, of.cycles, most) {
+                found.push((of.amplitude / deviation, of.cycles));
+            }
         }
     }
     largest_first(&mut found, |a| a.0);
@@ -257,7 +269,6 @@ fn candidates(of: &FittedTones, samples: u64, known: &[f64]) -> Vec<f64> {
                 let away = f64::max(apart(from), NEAREST_START) / samples;
                 from + if cycles < from { -away } else { away }
             }
-            None if is_multiple(design, cycles) => continue,
             None => cycles,
         };
         if new.len() + known.len() < MOST {
@@ -267,20 +278,30 @@ fn candidates(of: &FittedTones, samples: u64, known: &[f64]) -> Vec<f64> {
     new
 }
 
-/// Whether an oscillation is a multiple of one that is fitted: distortion, which is said of the signal
-/// and not beside it.
-fn is_multiple(design: &ToneDesign, cycles: f64) -> bool {
+/// Whether an oscillation is a multiple, up to `most`, of one that is fitted, and not near to any:
+/// distortion, which is said of the signal and not beside it.
+fn is_multiple(design: &ToneDesign, cycles: f64, most: u32) -> bool {
     let samples = design.samples as f64;
+    let apart = |other: f64| (cycles - other).abs() * samples;
+    if design.tones.iter().any(|tone| apart(tone.cycles) < SIDEBANDS) {
+        return false;
+    }
     let folded = |cycles: f64| {
         let turn = cycles.fract();
         if turn > 0.5 { 1.0 - turn } else { turn }
     };
     design.tones.iter().filter(|tone| tone.multiple == 1).any(|tone| {
-        // those of rounding fold back at half the sampling rate
-        (2..200).any(|multiple| {
-            (folded(f64::from(multiple) * tone.cycles) - cycles).abs() * samples < 1.5
-        })
+        (2..=most).any(|multiple| apart(folded(f64::from(multiple) * tone.cycles)) < 1.5)
     })
+}
+
+/// Whether something oscillates within some turns over the record of a frequency that is named.
+pub(super) fn is_flanked(design: &ToneDesign, left: &Residuals) -> bool {
+    let samples = design.samples as f64;
+    let named = || design.tones.iter().filter(|tone| !tone.beside);
+    spurious::lines(&left.first)
+        .iter()
+        .any(|line| named().any(|tone| (line.cycles - tone.cycles).abs() * samples < SIDEBANDS))
 }
 
 /// Takes out what is too near to a named oscillation, and what lies on both sides of one.

@@ -96,20 +96,37 @@ fn of_pieces(
     Ok(unit)
 }
 
-/// What stands outside of brackets, and inside of each.
+/// What stands outside of brackets, and inside of each, with the brackets of a divisor in it:
+/// `u [mV/(m/s^2)]`.
 fn parts(text: &str) -> (String, Vec<String>) {
-    let (mut outside, mut insides, mut depth) = (String::new(), Vec::new(), 0_u32);
+    let (mut outside, mut insides) = (String::new(), Vec::<String>::new());
+    // of each open bracket whether it belongs to a unit
+    let mut open: Vec<bool> = Vec::new();
     for c in text.chars() {
-        match if c.is_whitespace() { ' ' } else { c } {
-            '(' | '[' => {
-                depth += 1;
-                if depth == 1 {
+        let c = if c.is_whitespace() { ' ' } else { c };
+        match c {
+            '(' | '[' => match insides.last_mut().filter(|_| !open.is_empty()) {
+                Some(inside) => {
+                    let is_of_unit = inside.trim_end().ends_with(['/', '*', '·', '⋅']);
+                    open.push(is_of_unit);
+                    inside.extend(is_of_unit.then_some(c));
+                }
+                None => {
+                    open.push(false);
                     insides.push(String::new());
                     outside.push(' ');
                 }
+            },
+            ')' | ']' => {
+                let is_of_unit = open.pop().unwrap_or(false);
+                insides
+                    .last_mut()
+                    .into_iter()
+                    .for_each(|inside| inside.extend(is_of_unit.then_some(c)));
             }
-            ')' | ']' => depth = depth.saturating_sub(1),
-            c if depth > 0 => insides.last_mut().into_iter().for_each(|inside| inside.push(c)),
+            c if !open.is_empty() => {
+                insides.last_mut().into_iter().for_each(|inside| inside.push(c))
+            }
             c => outside.push(c),
         }
     }
@@ -386,6 +403,9 @@ mod tests {
             ("Resolution / half-width", None),
             ("|ci|·u(xi)", None),
             ("Measured value (ohm)", Some("ohm")),
+            ("Standard uncertainty [mV/(m/s^2)]", Some("mV/(m/s^2)")),
+            ("U (k=2) (W/(m*K))", Some("W/(m*K)")),
+            ("Half-width (a_i (mm))", Some("mm")),
             ("Std. dev. (n-1)", None),
             ("Std. uncertainty u(x_i)", None),
             ("Standard uncertainty (type A)", None),

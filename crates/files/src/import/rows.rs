@@ -846,8 +846,44 @@ impl Budget<'_> {
                 None
             }
             _ if unit.is_empty() => Some(value),
-            _ => self.converted((value, unit), line, (column, lenient), row),
+            _ => {
+                if !column.is_of_place() && !lenient {
+                    self.unit_of_estimate(header, unit, (line, text), row)?;
+                }
+                self.converted((value, unit), line, (column, lenient), row)
+            }
         }
+    }
+
+    /// Refuses an uncertainty whose unit is none of its estimate's: of a plain number, or of an estimate
+    /// without a unit where it may be a share; tells that the estimate is taken to be in that unit else.
+    fn unit_of_estimate(
+        &mut self,
+        header: &Header,
+        unit: &str,
+        (line, text): (usize, &str),
+        row: &Row,
+    ) -> Option<()> {
+        let estimate = row.estimate.filter(|estimate| *estimate != 0.0 && row.unit.is_empty());
+        let Some(estimate) = estimate else { return Some(()) };
+        let is_ratio =
+            Unit::parse(unit).is_ok_and(|of| of.dimension().is_none() && of.turn().is_none());
+        let is_number = header.cell(self.cells, line, Column::Unit).trim() == "1";
+        if is_ratio {
+            self.fail(line, format!("`{text}`: {}", share::two_meanings(unit, "1")));
+            return None;
+        }
+        if is_number {
+            let reason = format!("`{text}` is in `{unit}`, but the unit of this row is `1`");
+            self.fail(line, reason);
+            return None;
+        }
+        self.guessed.push(format!(
+            "line {}: the estimate {} has no unit; that of its uncertainty, `{unit}`, is taken",
+            line + 1,
+            Shortest(estimate)
+        ));
+        Some(())
     }
 
     /// Takes the standard uncertainty that is stated as a share of the estimate, where no other one is;
@@ -948,9 +984,9 @@ impl Budget<'_> {
             Some(estimate) if row.unit.is_empty() && (estimate.abs() - 1.0).abs() > 1e-9 => {
                 format!(
                     "`{text}` of a quantity without a unit can be {text} of the estimate {}, or {} itself: \
-                 write that number",
+                     write that number",
                     Shortest(estimate),
-                    Shortest(share)
+                    Shortest(to_15_digits(share))
                 )
             }
             Some(estimate) => {

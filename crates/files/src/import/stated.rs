@@ -111,9 +111,11 @@ impl Budget<'_> {
                 Column::Estimate if !is_uncertainty => Figure::Estimate,
                 Column::Width if !is_expanded => {
                     let all = [coverage, HeaderCoverage::of(text), header.coverage(column)];
-                    let stated = all.into_iter().find(|of| of.factor(None).is_some());
-                    let Some(coverage) = stated else { continue };
-                    Figure::ExpandedUncertainty(coverage, row.dof)
+                    match all.into_iter().find(|of| of.factor(None).is_some()) {
+                        Some(coverage) => Figure::ExpandedUncertainty(coverage, row.dof),
+                        None if is_uncertainty => Figure::StandardUncertainty,
+                        None => continue,
+                    }
                 }
                 _ if is_expanded => expanded,
                 _ => Figure::StandardUncertainty,

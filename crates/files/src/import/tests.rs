@@ -196,6 +196,14 @@ fn values_that_are_divided_are_widths() {
     assert!((found[1] - 0.1 / 3f64.sqrt()).abs() < 1e-15, "{found:?}");
     assert_eq!(task(&budget).rows[0].distributions[0].mean(), 0.0);
     assert!(guesses(&budget, "`Value (mg)` is taken for half-widths"), "{:?}", budget.guessed);
+    // 0.0289 of a resolution of 0.1
+    for divisor in ["2√3", "2·√3", "2*sqrt(3)", "√12"] {
+        let rows =
+            format!("display,0.1,rectangular,{divisor},0.0289,1\nstandard,0.3,normal,2,0.15,1\n");
+        let (found, budget) = uncertainties(&format!("{head}{rows}"));
+        assert!((found[0] - 0.1 / 12f64.sqrt()).abs() < 1e-15, "{divisor}: {found:?}");
+        assert_eq!(task(&budget).rows[0].distributions[0].mean(), 0.0);
+    }
     // an estimate in one of the rows is one in all of them
     let rows = "standard,10.30,normal,2,0.15,1\nbuoyancy,0.10,rectangular,√3,0.058,1\n";
     let (found, budget) = uncertainties(&format!("{head}{rows}"));
@@ -2303,4 +2311,35 @@ fn divisors_of_full_widths_and_with_few_digits() {
     let text =
         "Quantity,Estimate,Unit,Uncertainty,Distribution,Divisor\nres,10,V,0.1,rectangular,2\n";
     assert_eq!(uncertainties(text).0, [0.05]);
+}
+
+/// A combined standard uncertainty below half-widths is compared as one below `u` is.
+#[test]
+fn combined_uncertainties_below_half_widths_are_compared() {
+    let text = "Quantity,Estimate,Unit,Half-width,Distribution,Divisor\na,1,V,0.1,normal,1\n\
+        b,2,V,0.1,rectangular,√3\nCombined standard uncertainty,,V,0.900,,\n";
+    let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("the standard uncertainty of the result is 0.900 V"), "{error}");
+    // 0.1 sqrt(1 + 1/3)
+    let (_, budget) = uncertainties(&text.replace("0.900", "0.115"));
+    assert!(!guesses(&budget, "the sheet says"), "{:?}", budget.guessed);
+}
+
+/// Ratios beside plain numbers are shares or counted as they are, and a unit of the uncertainty alone is
+/// told.
+#[test]
+fn units_of_uncertainties_beside_plain_numbers() {
+    for text in [
+        "Quantity,Estimate,Unit,Uncertainty,Divisor\nr,1.0000105,1,0.07 µΩ/Ω,1\n",
+        "Quantity,Estimate,Unit,Standard uncertainty (µV/V)\na,1.00002,1,3\n",
+        "Quantity,Estimate,Standard uncertainty\na,1.00002,3 µmol/mol\n",
+    ] {
+        let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains("can be a share of the value"), "{error}");
+    }
+    let text = "Quantity,Estimate,Unit,Uncertainty,Divisor\nr,0.85,1,5 mm,1\n";
+    let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("`5 mm` is in `mm`, but the unit of this row is `1`"), "{error}");
+    let (_, budget) = uncertainties("Quantity,Estimate,Standard uncertainty (um)\nd,25.0001,0.3\n");
+    assert!(guesses(&budget, "the estimate 25.0001 has no unit"), "{:?}", budget.guessed);
 }

@@ -2,18 +2,15 @@
 
 use nalgebra::DMatrix;
 
-use super::effect::rows_of_points;
 use super::{Composition, Compositions};
 use crate::data::by_rows;
 use crate::diagnosis::Shrunk;
 use crate::discrepancy::{conditioned, nominal};
 use crate::predict::Normals;
 use crate::setup::Setup;
+use crate::shrink::blocks;
 use gumption_engine::linalg::dot;
 use gumption_engine::task::Row;
-
-/// Blocks of points that are left out in turn.
-const BLOCKS: usize = 6;
 
 /// Composed departures that predictions are averaged over, at most.
 const MOST: usize = 12;
@@ -113,7 +110,7 @@ impl Compositions {
     }
 
     /// Root mean squares of the residuals before and after, each value being predicted from the
-    /// points of other blocks with the parameters of the functions held.
+    /// rows of other blocks with the parameters of the functions held.
     pub(super) fn shrunk(&self, setup: &Setup<'_>, composition: &Composition) -> Shrunk {
         let data = &setup.data;
         let outputs = data.outputs.len();
@@ -129,12 +126,17 @@ impl Compositions {
             column / variances[value].sqrt()
         });
         let white: Vec<f64> = residuals.iter().zip(variances).map(|(r, v)| r / v.sqrt()).collect();
-        let blocks = BLOCKS.min(rows_of_points(setup).len()).max(1);
-        let block = |value: usize| data.point_of[value / outputs] % blocks;
-        let mut after = vec![0.0; white.len()];
-        for left_out in 0..blocks {
+        let blocks = blocks(setup);
+        let mut block_of = vec![blocks.len(); data.rows()];
+        for (number, rows) in blocks.iter().enumerate() {
+            rows.iter().for_each(|&row| block_of[row] = number);
+        }
+        let is_in = |value: usize, block: usize| block_of[value / outputs] == block;
+        // a single row is in no block: nothing predicts it
+        let mut after = white.clone();
+        for left_out in 0..blocks.len() {
             let used: Vec<usize> =
-                (0..white.len()).filter(|&value| block(value) != left_out).collect();
+                (0..white.len()).filter(|&value| !is_in(value, left_out)).collect();
             let own = design.select_rows(&used);
             let own_white = nalgebra::DVector::from_iterator(
                 used.len(),
@@ -143,7 +145,7 @@ impl Compositions {
             let precision = own.tr_mul(&own) + DMatrix::identity(order, order);
             let Some(root) = precision.cholesky() else { continue };
             let coefficients = root.solve(&own.tr_mul(&own_white));
-            for value in (0..white.len()).filter(|&value| block(value) == left_out) {
+            for value in (0..white.len()).filter(|&value| is_in(value, left_out)) {
                 let row: Vec<f64> = design.row(value).iter().copied().collect();
                 after[value] = white[value] - dot(&row, coefficients.as_slice());
             }

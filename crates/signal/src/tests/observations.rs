@@ -121,6 +121,17 @@ fn situations() -> Vec<Situation> {
             &["offset"],
             Bench { hertz: 5.0, samples: 1730, beside: Some((45.03, 0.3)), ..Bench::default() },
         ),
+        of(
+            "hum next to a folded multiple",
+            MAIN,
+            Bench {
+                rate: 2000.0,
+                hertz: 20.1,
+                samples: 4000,
+                beside: Some((29.9, 0.3)),
+                ..Bench::default()
+            },
+        ),
         of("bins", RATIOS, Bench { method: Method::Fft, noise: 1e-3, ..plain.clone() }),
         of(
             "trend removed",
@@ -210,6 +221,7 @@ fn standard_scores_of_30_recordings() {
         "tone 1.3 Hz beside, estimated",
         "tone 1.3 Hz beside, frequency off",
         "hum beside",
+        "hum next to a folded multiple",
         "bins",
         "trend removed",
     ];
@@ -306,6 +318,23 @@ fn a_tone_beside_is_fitted_or_said_to_be_too_near() {
     let text = found(&of(0.1), "tones-too-near").unwrap();
     assert!(text.contains("within 0.32 Hz"), "{text}");
     assert_eq!(found(&of(0.1), "found-tone"), None);
+    // of the channel where it is alone
+    let mut held = plain.values(1);
+    held.channels[1] = of(0.1).values(1).channels.remove(1);
+    let notes = plain.observe(held).notes;
+    let channels: Vec<_> =
+        notes.iter().filter(|of| of.0 == "tones-too-near").map(|of| of.1).collect();
+    assert_eq!(channels, [1]);
+    // the 97th multiple of 20.1 Hz is folded to 50.3 Hz
+    let hum = Bench {
+        rate: 2000.0,
+        hertz: 20.1,
+        samples: 4000,
+        beside: Some((29.9, 0.3)),
+        ..Bench::default()
+    };
+    let text = self::notes(&hum).into_iter().find(|(code, _)| *code == "found-tone").unwrap().1;
+    assert!(text.contains("at 50 Hz") || text.contains("at 49.99") || text.contains("at 50.00"));
     let bench = of(1.3);
     let observation = bench.observe(bench.values(1));
     let first = &observation.frequencies[0][0];
