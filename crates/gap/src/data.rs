@@ -100,12 +100,14 @@ impl Data {
                 let stretch = noise.stretch(id, output);
                 let ln_scale = &mut ln_scales[row * outputs.len() + output];
                 match stated {
-                    Some(u) if noise.factor => *ln_scale = elementary::ln(u[row] * stretch),
+                    Some(u) if noise.factor.is_some() => {
+                        *ln_scale = elementary::ln(u[row] * stretch)
+                    }
                     Some(u) => u[row] *= stretch,
                     None => *ln_scale = elementary::ln(stretch),
                 }
             }
-            if noise.factor {
+            if noise.factor.is_some() {
                 *stated = None;
             }
         }

@@ -222,7 +222,7 @@ fn departures(weighing: &Weighing<'_>, group: &[&Weighted], term: &Term) -> Vec<
     let rows: Vec<Row> = ids.iter().map(|&row| setup.row(row).clone()).collect();
     let mut kinds: Vec<Weighted> = group.iter().map(|kind| (*kind).clone()).collect();
     largest_first(&mut kinds, |a| a.weight);
-    let predicted = discrepancy.predict(setup, shrink::top(&kinds), &rows);
+    let predicted = discrepancy.predict(setup, shrink::top(&kinds), &rows, false);
     let mut found: Vec<(f64, f64)> = Vec::new();
     for ((row, of), &id) in rows.iter().zip(&predicted).zip(&ids) {
         let nominal = setup.data.points[setup.data.point_of[id]].nominal[output];

@@ -62,7 +62,7 @@ pub(crate) fn within(
     compositions: &Compositions,
     rows: &[Row],
 ) -> Normals {
-    let process = discrepancy.predict(setup, shrink::top(kinds), rows);
+    let process = discrepancy.predict(setup, shrink::top(kinds), rows, false);
     joined(process, &compositions.predictions(setup, rows), &vec![0.0; rows.len()])
 }
 
@@ -75,14 +75,14 @@ pub(crate) fn unexplained(
     rows: &[Row],
 ) -> Normals {
     let distances = distances(setup, rows);
-    let mut process = discrepancy.predict(setup, shrink::top(kinds), rows);
+    let mut process = discrepancy.predict(setup, shrink::top(kinds), rows, false);
     let outside: Vec<usize> = (0..rows.len()).filter(|&row| distances[row] > 0.0).collect();
     if !outside.is_empty() {
         let of_rows: Vec<Row> = outside.iter().map(|&row| rows[row].clone()).collect();
         let mut tempered: Vec<Weighted> = kinds.to_vec();
         tempered.iter_mut().for_each(|kind| kind.weight = kind.weight.sqrt());
         tempered.truncate(MOST_KINDS);
-        let there = discrepancy.predict(setup, &tempered, &of_rows);
+        let there = discrepancy.predict(setup, &tempered, &of_rows, true);
         for (place, of_row) in outside.iter().zip(there) {
             let share = (distances[*place] / GRADUAL).min(1.0);
             let growth = (1.0 + GROWTH * distances[*place]).powi(2);

@@ -155,11 +155,13 @@ fn diagnosed(
     let step = rows.len().div_ceil(MOST_ROWS).max(1);
     let rows = rows.into_iter().step_by(step).collect();
     let hypotheses = hypotheses(&setup, &posterior, probability);
-    let prediction = at.map(|at| {
-        let mut rows = prediction(&setup, &discrepancy, &posterior, &compositions, at);
+    let predicted = at.map(|at| {
+        let of = prediction(&setup, &discrepancy, &posterior, &compositions, at);
+        let (mut rows, partly_defined) = of;
         enlarge(&mut rows, &weighed_noise.shared(&setup, &variances));
-        rows
+        (rows, partly_defined)
     });
+    let (prediction, partly_defined) = predicted.unzip();
     // the test is of the uncertainties as they are stated
     let gap = if setup.data.noise == NoiseModel::default() {
         gap(&setup, verdict.kind)
@@ -178,6 +180,15 @@ fn diagnosed(
     if wide_priors {
         let text = prior_widths::note(&verdict.effects);
         notes.push(DiagnosisNote { code: "wide-priors", text });
+    }
+    if let Some(count) = partly_defined.filter(|count| *count > 0) {
+        let text = format!(
+            "In {count} of {} rows of the prediction hypotheses of some probability have no value (a root \
+             or logarithm of a negative number, a division by zero). They are left out there; where they \
+             are more probable than the others nothing is predicted.",
+            at.map_or(0, <[Row]>::len)
+        );
+        notes.push(DiagnosisNote { code: "undefined-prediction", text });
     }
     if let Some(note) = at.and_then(|at| extrapolated(&setup, &posterior, &verdict, at)) {
         notes.push(note);
@@ -319,53 +330,77 @@ pub(crate) fn hypotheses(
     all
 }
 
-/// Corrected predictions, averaged over the hypotheses by their probabilities.
+/// A prediction is stated where hypotheses of at least this probability are defined.
+const DEFINED: f64 = 0.5;
+
+/// Hypotheses of less than this probability do not count in predictions.
+const LEAST_SHARE: f64 = 1e-3;
+
+/// Corrected predictions, averaged over the hypotheses by their probabilities: over those that are defined
+/// in a row; not a number where these are less probable than the others. With the number of rows in which
+/// some are not.
 pub(crate) fn prediction(
     setup: &Setup<'_>,
     discrepancy: &Discrepancy,
     posterior: &Posterior,
     compositions: &Compositions,
     rows: &[Row],
-) -> Vec<Predicted> {
+) -> (Vec<Predicted>, usize) {
     let outputs = setup.data.outputs.len();
-    let mut sums = vec![vec![(0.0, 0.0); outputs]; rows.len()];
+    let mut sums = vec![vec![(0.0, 0.0, 0.0); outputs]; rows.len()];
     let mut total = 0.0;
     let mut add = |share: f64, normals: &predict::Normals| {
         total += share;
         for (sums, values) in sums.iter_mut().zip(normals) {
             for (sum, (mean, variance)) in sums.iter_mut().zip(values) {
+                // what is not defined there says nothing
+                if !(mean.is_finite() && variance.is_finite()) {
+                    continue;
+                }
                 sum.0 += share * mean;
                 sum.1 += share * (variance + mean * mean);
+                sum.2 += share;
             }
         }
     };
-    for hypothesis in
-        posterior.hypotheses.iter().filter(|h| h.probability > 1e-3 && h.evidence.has_draws())
+    for hypothesis in posterior
+        .hypotheses
+        .iter()
+        .filter(|h| h.probability > LEAST_SHARE && h.evidence.has_draws())
     {
         let draws = hypothesis.evidence.resampled(shrink::draws_for(rows.len()));
         let values = predict::values(setup, &hypothesis.effects, &draws, rows);
         add(hypothesis.probability, &shrink::moments(&values));
     }
-    if posterior.probability > 1e-3 {
+    if posterior.probability > LEAST_SHARE {
         let kinds = &posterior.unexplained.kinds;
         let normals =
             departure_prediction::unexplained(setup, discrepancy, kinds, compositions, rows);
         add(posterior.probability, &normals);
     }
-    rows.iter()
+    let is_partly = |sums: &&Vec<(f64, f64, f64)>| {
+        sums.iter().any(|(_, _, share)| *share < (1.0 - LEAST_SHARE) * total)
+    };
+    let partly_defined = sums.iter().filter(is_partly).count();
+    let rows = rows
+        .iter()
         .zip(sums)
         .map(|(row, sums)| {
             let linear = predict::linear_variances(setup, row);
-            let outputs = sums.iter().zip(linear).map(|((mean, square), linear)| {
-                let mean = mean / total;
-                let variance = (square / total - mean * mean).max(0.0) + linear;
+            let outputs = sums.iter().zip(linear).map(|((mean, square, share), linear)| {
+                if *share < DEFINED * total {
+                    return (f64::NAN, f64::NAN);
+                }
+                let mean = mean / share;
+                let variance = (square / share - mean * mean).max(0.0) + linear;
                 (mean, variance.sqrt())
             });
             let model = predict::nominal(setup, row);
             let outputs = outputs.collect();
             Predicted { conditions: row.conditions.clone(), outputs, model }
         })
-        .collect()
+        .collect();
+    (rows, partly_defined)
 }
 
 /// Adds variances to the predictions of outputs.

@@ -491,7 +491,7 @@ pub struct UncertaintyFactor {
 
 impl UncertaintyFactor {
     /// The factors that are weighed.
-    pub const LIMITS: [f64; 2] = [0.25, 10.0];
+    pub const LIMITS: [f64; 2] = [0.25, 1000.0];
 
     /// Whether the estimate is as near to a limit as to be decided by it.
     pub fn is_at_limit(&self) -> bool {

@@ -98,6 +98,9 @@ impl Map {
 /// Where rectangular scores end: they have unit variance.
 pub(crate) const EDGE: f64 = 1.732_050_807_568_877_2;
 
+/// A rectangular score beyond this share of its range is at a bound.
+pub(crate) const AT_BOUND: f64 = 0.98;
+
 /// The logarithm of the density of a rectangular score, times the root of two pi as that of a normal
 /// one is given everywhere.
 pub(crate) const LN_BOUNDED: f64 = HALF_LN_TWO_PI - 1.242_453_324_894_000_3;

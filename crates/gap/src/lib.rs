@@ -45,6 +45,7 @@ mod prior_conflict;
 mod prior_widths;
 mod profile_path;
 mod reachable;
+mod remainder;
 mod replication;
 mod resolution;
 mod response_scan;

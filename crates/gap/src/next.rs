@@ -139,7 +139,7 @@ fn unexplained(
     let rest = 1.0 - parts.iter().map(|(share, _)| share).sum::<f64>();
     if rest * posterior.probability > LEAST_PROBABILITY {
         let kinds = shrink::top(&posterior.unexplained.kinds);
-        parts.push((rest, discrepancy.predict(setup, kinds, &rows)));
+        parts.push((rest, discrepancy.predict(setup, kinds, &rows, false)));
     }
     (parts, composed)
 }

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use gumption_engine::parallel;
 
 use super::discrepancy::Discrepancy;
-use super::latent::{Map, Role};
+use super::latent::{AT_BOUND, EDGE, Map, Role};
 use super::logarithm::ln_add;
 use super::needless::without_needless;
 use super::posterior::{
@@ -23,12 +23,13 @@ use super::prior_widths::{self, Begun, OtherPriors, PriorWidths};
 use super::setup::Setup;
 use super::shared_noise::{self, SharedNoise};
 use super::suspects::more_suspects;
-use super::whitened;
 use crate::{Case, Prior, UncertaintyFactor};
 use gumption_engine::number::elementary;
 
-/// The factor on stated uncertainties is log-uniform between these.
-const FACTORS: [f64; 2] = UncertaintyFactor::LIMITS;
+/// The factor on stated uncertainties is log-uniform between these, and where the data speak for more
+/// than that, between the others: a unit that was mistaken.
+const FACTORS: [f64; 2] = [0.25, 10.0];
+const FAR_FACTORS: [f64; 2] = UncertaintyFactor::LIMITS;
 
 /// Prior probability that the noise and the priors are as they are stated. It and those of all else
 /// count relative to each other; what was not tried takes nothing from them.
@@ -36,6 +37,9 @@ const PRIOR_AS_STATED: f64 = 0.35;
 
 /// Prior probability that stated uncertainties are off by a factor.
 const PRIOR_FACTOR: f64 = 0.2;
+
+/// Prior probability that they are off by one that may be beyond the usual ones.
+const PRIOR_FAR_FACTOR: f64 = 0.01;
 
 /// Prior probability that at least one value is off.
 const PRIOR_SUSPECT: f64 = 0.15;
@@ -102,14 +106,48 @@ impl Suspect {
 /// A noise that the data may have.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct NoiseModel {
-    /// Whether stated uncertainties are multiplied by an unknown factor.
-    pub(crate) factor: bool,
+    /// By which unknown factor stated uncertainties are multiplied, if they are.
+    pub(crate) factor: Option<Factor>,
     /// The values that are off.
     pub(crate) suspects: Vec<Suspect>,
     /// The coefficient of correlation of the noise of neighbouring rows.
     pub(crate) serial: Option<f64>,
     /// The error that the rows of each setting share.
     pub(crate) shared: Option<SharedNoise>,
+}
+
+/// An unknown factor on stated uncertainties.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Factor {
+    Usual,
+    /// As of a unit that was mistaken.
+    Far,
+}
+
+impl Factor {
+    /// Its bounds.
+    pub(crate) fn limits(self) -> [f64; 2] {
+        match self {
+            Self::Usual => FACTORS,
+            Self::Far => FAR_FACTORS,
+        }
+    }
+
+    /// What is known beforehand of its logarithm for an output.
+    pub(crate) fn role(self, output: usize) -> Role {
+        let [lower, upper] = self.limits();
+        let map =
+            Map::Uniform { lower: elementary::ln(lower), width: elementary::ln(upper / lower) };
+        Role::Noise { output, map }
+    }
+
+    /// Its prior probability.
+    fn prior(self) -> f64 {
+        match self {
+            Self::Usual => PRIOR_FACTOR,
+            Self::Far => PRIOR_FAR_FACTOR,
+        }
+    }
 }
 
 /// A kind of noise that is drawn.
@@ -127,8 +165,8 @@ pub(crate) enum DrawnNoise {
 
 impl NoiseModel {
     /// Stated uncertainties with an unknown factor.
-    fn with_factor() -> Self {
-        Self { factor: true, ..Self::default() }
+    fn with_factor(factor: Factor) -> Self {
+        Self { factor: Some(factor), ..Self::default() }
     }
 
     /// With these values off.
@@ -151,14 +189,6 @@ impl NoiseModel {
     pub(crate) fn stretch(&self, id: usize, output: usize) -> f64 {
         let suspect = self.suspects.iter().find(|suspect| suspect.is_of(id, output));
         suspect.map_or(1.0, |suspect| elementary::hypot(1.0, suspect.size().0))
-    }
-
-    /// The unknown factor of an output's stated uncertainties.
-    pub(crate) fn role(output: usize) -> Role {
-        let [lower, upper] = FACTORS;
-        let map =
-            Map::Uniform { lower: elementary::ln(lower), width: elementary::ln(upper / lower) };
-        Role::Noise { output, map }
     }
 
     /// The prior probabilities of a case's hypotheses with it. Where no uncertainties are stated nobody
@@ -207,11 +237,6 @@ impl NoiseModel {
         }
     }
 
-    /// The bounds of the factor on stated uncertainties.
-    pub(crate) fn factors() -> [f64; 2] {
-        FACTORS
-    }
-
     /// How many values are off, at most, and the probability that there is one more.
     pub(crate) fn suspects() -> (usize, f64) {
         (MOST_SUSPECTS, PRIOR_ANOTHER)
@@ -230,8 +255,8 @@ impl NoiseModel {
 
     /// Its prior probability, for data of so many values.
     pub(crate) fn prior(&self, values: usize) -> f64 {
-        if self.factor {
-            return PRIOR_FACTOR;
+        if let Some(factor) = self.factor {
+            return factor.prior();
         }
         if self.serial.is_some() {
             return PRIOR_SERIAL / SERIAL.len() as f64;
@@ -315,16 +340,20 @@ pub(crate) fn weighings<'c>(
     // of much data each model costs a pass for every draw
     let few = weighings[0].setup.data.len() <= MANY_VALUES && !effort.is_stopped();
     if stated.iter().any(Option::is_some) && few {
-        let model = NoiseModel::with_factor();
-        let prior = model.prior(values);
-        let setup = weighings[0].setup.with_noise(model);
-        weighings.push(weighing(setup, prior, &weighings, [0.35, 0.7]));
-    }
-    if few && !effort.is_stopped() {
-        for coefficient in serial_correlations(&weighings) {
-            let model = NoiseModel::with_serial(coefficient);
+        for factor in [Factor::Usual, Factor::Far] {
+            let is_known = weighings.last().is_some_and(|usual| !usual.is_beyond_factors());
+            if factor == Factor::Far && (is_known || effort.is_stopped()) {
+                break;
+            }
+            let model = NoiseModel::with_factor(factor);
             let prior = model.prior(values);
             let setup = weighings[0].setup.with_noise(model);
+            weighings.push(weighing(setup, prior, &weighings, [0.35, 0.7]));
+        }
+    }
+    if few && !effort.is_stopped() {
+        for setup in serial_correlations(&weighings) {
+            let prior = setup.data.noise.prior(values);
             weighings.push(weighing(setup, prior, &weighings, [0.7, 0.7]));
         }
     }
@@ -335,7 +364,8 @@ pub(crate) fn weighings<'c>(
             let prior = model.prior(values);
             let setup = weighings[0].setup.with_noise(model);
             let mut own = weighing(setup, prior, &weighings, [0.7, 0.7]);
-            if is_departure {
+            // where "unexplained" is ruled out beforehand they are errors of the settings all the same
+            if is_departure && own.posterior.prior > 0.0 {
                 own.posterior.none_is_unexplained();
             }
             weighings.push(own);
@@ -388,30 +418,49 @@ impl<'c> Weighing<'c> {
     pub(crate) fn ln_weight(&self) -> f64 {
         elementary::ln(self.prior) + self.posterior.ln_evidence
     }
+
+    /// Whether the leading hypothesis has a factor on stated uncertainties at the upper end of the usual
+    /// ones.
+    fn is_beyond_factors(&self) -> bool {
+        let hypotheses = self.posterior.hypotheses.iter();
+        let leading = hypotheses.max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()));
+        let Some(mode) = leading.and_then(|of| of.evidence.modes.first()) else { return false };
+        self.setup.roles.iter().zip(&mode.scores).any(|(role, score)| match role {
+            Role::Noise { output, .. } => {
+                self.setup.has_factor(*output) && *score > AT_BOUND * EDGE
+            }
+            _ => false,
+        })
+    }
 }
 
-/// The serial correlations that may be worth an evidence of their own: the densities of the
-/// residuals that the hypotheses leave at their modes, with the correlation and without.
-fn serial_correlations(weighings: &[Weighing<'_>]) -> Vec<f64> {
+/// The serial correlations that may be worth an evidence of their own, with setups of them: by the
+/// densities of the data at the modes that the hypotheses have without the correlation, and with it.
+fn serial_correlations<'c>(weighings: &[Weighing<'c>]) -> Vec<Setup<'c>> {
     let Some(Weighing { setup, posterior, .. }) = weighings.first() else { return Vec::new() };
     if setup.linear.fitted || setup.data.rows() < LEAST_ROWS {
         return Vec::new();
     }
     let total = ln_total(weighings);
-    let found: Vec<Vec<f64>> = parallel::map(&posterior.hypotheses, |hypothesis| {
-        let residuals = residuals_at_mode(setup, hypothesis);
-        let ln = ln_weight_at_mode(setup, hypothesis);
-        SERIAL.iter().map(|&of| ln + serial_gain(setup, &residuals, of)).collect()
-    });
+    let at_modes = |setup: &Setup<'_>| -> Vec<f64> {
+        parallel::map(&posterior.hypotheses, |hypothesis| {
+            let Some(mode) = hypothesis.evidence.modes.first() else { return f64::NEG_INFINITY };
+            let likelihood = setup.likelihood(&hypothesis.effects);
+            let scores = likelihood.columns(std::slice::from_ref(&mode.scores));
+            likelihood.log_likelihood(&scores, 1)[0]
+        })
+    };
+    let without = at_modes(setup);
     let ln_prior = elementary::ln(NoiseModel::with_serial(0.0).prior(setup.data.len()));
-    let worth = |n: &usize| {
-        let sum = found
-            .iter()
-            .filter_map(|of| of.get(*n))
-            .fold(f64::NEG_INFINITY, |sum, ln| ln_add(sum, *ln));
+    let is_worth = |serial: &Setup<'_>| {
+        let gains = at_modes(serial).into_iter().zip(&without).map(|(with, ln)| with - ln);
+        let hypotheses = posterior.hypotheses.iter().zip(gains);
+        let all = hypotheses.map(|(of, gain)| ln_weight_at_mode(setup, of) + gain);
+        let sum = all.filter(|ln| !ln.is_nan()).fold(f64::NEG_INFINITY, ln_add);
         sum + ln_prior + MOVED - total > elementary::ln(WORTH_TRYING)
     };
-    (0..SERIAL.len()).filter(worth).map(|n| SERIAL[n]).collect()
+    let with = |of: &f64| setup.with_noise(NoiseModel::with_serial(*of));
+    SERIAL.iter().map(with).filter(is_worth).collect()
 }
 
 /// An evidence with a larger standard error is that of draws far from the modes, which may stand at
@@ -445,14 +494,6 @@ fn ln_explained_away(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> f64 {
 
 /// Fewer rows say nothing of a serial correlation.
 const LEAST_ROWS: usize = 8;
-
-/// Residuals at the best mode of a hypothesis, whitened by the blocks, without a serial correlation.
-pub(crate) fn residuals_at_mode(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
-    let Some(mode) = hypothesis.evidence.modes.first() else { return Vec::new() };
-    let likelihood = setup.likelihood(&hypothesis.effects);
-    let found = whitened::residuals(&likelihood, std::slice::from_ref(&mode.scores)).pop();
-    found.map(|found| found.values).unwrap_or_default()
-}
 
 /// By how much the logarithm of the density of residuals rises if neighbouring rows are correlated.
 pub(crate) fn serial_gain(setup: &Setup<'_>, residuals: &[f64], coefficient: f64) -> f64 {

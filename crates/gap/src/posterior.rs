@@ -10,7 +10,7 @@ use super::discrepancy::{Base, Discrepancy, Unexplained};
 use super::evidence::EvidenceEstimate;
 use super::evidence_error;
 use super::exploration::Exploration;
-use super::latent::{EDGE, Map};
+use super::latent::{AT_BOUND, EDGE, Map};
 use super::likelihood::Likelihood;
 use super::logarithm::ln_add;
 use super::setup::Setup;
@@ -100,9 +100,6 @@ impl Effort<'_> {
 
 /// A normal score beyond this is far out in its prior.
 const FAR_OUT: f64 = 2.5;
-
-/// A rectangular score beyond this share of its range is at a bound.
-const AT_BOUND: f64 = 0.98;
 
 /// Hypotheses above this probability are looked at from end to end.
 const LEADING: f64 = 0.01;
@@ -279,6 +276,14 @@ impl WeighedHypothesis {
         })
     }
 
+    /// How many times larger the evidence about its best mode is, in the Gaussian approximation, than what
+    /// single draws make of it; 1 where there are more.
+    fn missed(&self) -> f64 {
+        let few = self.evidence.effective_sample_size < SINGLE_DRAWS;
+        let mode = self.evidence.modes.first().filter(|_| few);
+        mode.map_or(1.0, |mode| elementary::exp(mode.ln_evidence() - self.evidence.ln_evidence))
+    }
+
     /// Whether its probability, beside everything else of which this setup has a share, is not yet
     /// known well enough.
     fn is_open(&self, error: f64, share: f64) -> bool {
@@ -289,9 +294,13 @@ impl WeighedHypothesis {
         // what one more standard error, or a region that was missed by few draws, could change
         let own = self.evidence.standard_error.min(3.0);
         let poor = self.evidence.effective_sample_size < 60.0;
-        p * (1.0 - p) * own > error || (p > 0.02 && poor) || (poor && p * 20.0 > error)
+        let missed = if poor { 20.0_f64.max(self.missed()) } else { 1.0 };
+        p * (1.0 - p) * own > error || (p > 0.02 && poor) || (poor && p * missed > error)
     }
 }
+
+/// With fewer effective draws an evidence is that of single ones, which may be off by any factor.
+const SINGLE_DRAWS: f64 = 10.0;
 
 /// The logarithm of a prior probability times an evidence.
 pub(crate) fn ln_weight(prior: f64, ln_evidence: f64) -> f64 {

@@ -4,8 +4,8 @@
 //! among its conditions. What changes slowly over a campaign (a warming bench, a wearing bearing) then
 //! is no function of anything that a hypothesis knows, and looks like an offset with more noise.
 
-use super::noise_model::residuals_at_mode;
 use super::posterior::WeighedHypothesis;
+use super::remainder::Remainder;
 use super::setup::Setup;
 use gumption_engine::linalg::dot;
 use gumption_engine::special::{normal, student};
@@ -43,7 +43,7 @@ pub(crate) fn drift(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Option
     if squares < APART * dot(&whole, &whole) {
         return None;
     }
-    let residuals = residuals_at_mode(setup, hypothesis);
+    let residuals = Remainder::of(setup, hypothesis).residuals;
     let outputs = setup.data.outputs.len();
     let span = setup.data.ids.last()?.abs_diff(*setup.data.ids.first()?) as f64;
     let of_output = |output: usize| {
@@ -68,7 +68,7 @@ pub(crate) fn memory(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Optio
     if rows < LEAST_ROWS {
         return None;
     }
-    let residuals = residuals_at_mode(setup, hypothesis);
+    let residuals = Remainder::of(setup, hypothesis).residuals;
     let outputs = setup.data.outputs.len();
     let critical = normal::quantile(1.0 - 1.0 / SELDOM) / (rows as f64).sqrt();
     let of_output = |output: usize| {

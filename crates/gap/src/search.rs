@@ -347,14 +347,15 @@ struct Block {
     slopes: Vec<Points>,
 }
 
-/// Sums of the slopes of the logarithm of the variance, and of products of the basis with them: what
-/// the basis explains of a residual is not noise.
+/// Sums of products of the basis with the slopes of the logarithm of the variance: what the basis
+/// explains of a residual is not noise.
 #[derive(Clone)]
 struct NoiseShare {
-    slopes: Points,
     /// Of the basis with the residual.
     products: Vec<Points>,
     inner: Vec<Points>,
+    /// Of the squared slopes.
+    inner_squared: Vec<Points>,
 }
 
 /// The lanes of a column, with room to read a whole block from any of them.
@@ -377,9 +378,9 @@ impl<'l> Moments<'l> {
             inner: zeros(if fitted { triangle(basis.len()) } else { 0 }),
             shares: vec![
                 NoiseShare {
-                    slopes: [0.0; SIDE_BY_SIDE],
                     products: zeros(basis.len()),
                     inner: zeros(triangle(basis.len())),
+                    inner_squared: zeros(triangle(basis.len())),
                 };
                 if fitted { noise.len() } else { 0 }
             ],
@@ -409,10 +410,12 @@ impl<'l> Moments<'l> {
                 }
                 packed::cholesky_of_definite(&mut root);
                 half_ln_det += packed::ln_diagonal(&root);
-                let shares = self.noise.iter().zip(block.noise_shares(&root, lane));
-                for (&t, [gradient_less, information_share]) in shares {
+                let shares: Vec<[f64; 2]> = block.noise_shares(&root, lane, &self.noise).collect();
+                for (&t, [gradient_less, share]) in self.noise.iter().zip(&shares) {
                     gradient[t] -= gradient_less;
-                    information[(t, t)] *= information_share;
+                    for (&u, [_, other]) in self.noise.iter().zip(&shares) {
+                        information[(t, u)] *= (share * other).sqrt();
+                    }
                 }
                 packed::to_matrix(&root)
             } else {
@@ -470,11 +473,17 @@ fn add_product(sums: &mut Points, a: &Points, b: &Points) {
 }
 
 impl Block {
-    /// For each score of the noise what its gradient is less, and the share of its information that is
+    /// For each score of `noise` what its gradient is less, and the share of its information that is
     /// left, with the root of the basis' inner products at a point: with w for what the basis leaves of
     /// the residual and h for its share in each value, half the sum of slope times 1 - h - w^2 in place
-    /// of 1 - r^2.
-    fn noise_shares(&self, root: &[f64], lane: usize) -> impl Iterator<Item = [f64; 2]> {
+    /// of 1 - r^2, and of squared slopes times 1 - h in place of 1. Slopes may have either sign, as of a
+    /// power of sizes about their mean.
+    fn noise_shares(
+        &self,
+        root: &[f64],
+        lane: usize,
+        noise: &[usize],
+    ) -> impl Iterator<Item = [f64; 2]> {
         let k = packed::rows(root).len();
         let moved = self.products.len() / k;
         let mut sizes: Vec<f64> = (0..k).map(|i| self.products[i * moved][lane]).collect();
@@ -490,8 +499,10 @@ impl Block {
                 }
             }
         }
-        self.shares.iter().map(move |share| {
-            let (mut explained, mut less) = (0.0, 0.0);
+        // half of the sums of the squared slopes
+        let squares = noise.iter().map(|&t| 2.0 * self.information[triangle(t) + t][lane]);
+        self.shares.iter().zip(squares.collect::<Vec<_>>()).map(move |(share, squares)| {
+            let (mut explained, mut less, mut explained_squares) = (0.0, 0.0, 0.0);
             for i in 0..k {
                 less += 2.0 * sizes[i] * share.products[i][lane];
                 for j in 0..=i {
@@ -500,11 +511,12 @@ impl Block {
                     let halves = if i == j { 1.0 } else { 2.0 };
                     let inner = share.inner[place][lane];
                     explained += halves * inverse[place] * inner;
+                    explained_squares += halves * inverse[place] * share.inner_squared[place][lane];
                     less -= halves * sizes[i] * sizes[j] * inner;
                 }
             }
-            let slopes = share.slopes[lane];
-            let left = if slopes == 0.0 { 1.0 } else { (1.0 - explained / slopes).max(0.0) };
+            let left =
+                if squares > 0.0 { (1.0 - explained_squares / squares).max(0.0) } else { 1.0 };
             [0.5 * (explained - less), left]
         })
     }
@@ -548,11 +560,9 @@ impl Visitor for Moments<'_> {
                     for (sum, ln) in block.half_ln_variances.iter_mut().zip(&ln) {
                         *sum += 0.5 * ln;
                     }
-                    for (&t, share) in noise.iter().zip(&mut block.shares) {
+                    for &t in &*noise {
                         let moved = block_at(&ln_variance, first + (t + 1) * *points);
-                        let slope = each(|n| (moved[n] - ln[n]) / STEP);
-                        share.slopes.iter_mut().zip(slope).for_each(|(sum, slope)| *sum += slope);
-                        block.slopes[t] = slope;
+                        block.slopes[t] = each(|n| (moved[n] - ln[n]) / STEP);
                     }
                     let excess = each(|n| 0.5 * (1.0 - r[n] * r[n]));
                     block.add_slopes(noise, &excess, 0.5);
@@ -590,8 +600,10 @@ impl Visitor for Moments<'_> {
                             let sums = &mut block.inner[triangle(i) + j];
                             sums.iter_mut().zip(product).for_each(|(sum, of)| *sum += of);
                             for (&t, share) in noise.iter().zip(&mut block.shares) {
-                                let sums = &mut share.inner[triangle(i) + j];
-                                add_product(sums, &product, &block.slopes[t]);
+                                let (slope, place) = (&block.slopes[t], triangle(i) + j);
+                                add_product(&mut share.inner[place], &product, slope);
+                                let squared = slope.map(|slope| slope * slope);
+                                add_product(&mut share.inner_squared[place], &product, &squared);
                             }
                         }
                     }

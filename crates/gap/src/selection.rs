@@ -71,7 +71,8 @@ pub fn select_model(case: &Case, seed: u64) -> Result<ModelSelection, OverrideEr
             &weighed.posterior,
             &weighed.compositions,
             &rows,
-        ),
+        )
+        .0,
         claimed_fraction: shrink::claim(
             &weighed.setup,
             &weighed.discrepancy,

@@ -59,10 +59,10 @@ impl<'c> Setup<'c> {
     /// The same with another noise.
     pub(crate) fn with_noise(&self, noise: NoiseModel) -> Self {
         let mut roles = self.noise_roles();
-        if noise.factor {
+        if let Some(factor) = noise.factor {
             let stated = &self.data.uncertainties;
             for output in (0..stated.len()).filter(|&output| stated[output].is_some()) {
-                roles.push(NoiseModel::role(output));
+                roles.push(factor.role(output));
                 roles.extend(power(output, &self.data, &self.ln_sizes));
             }
         }
@@ -145,7 +145,8 @@ impl<'c> Setup<'c> {
     pub(crate) fn has_factor(&self, output: usize) -> bool {
         let observed =
             self.data.outputs.get(output).and_then(|&of| self.case.observed[of].as_ref());
-        self.data.noise.factor && observed.is_some_and(|of| of.standard_uncertainties.is_some())
+        self.data.noise.factor.is_some()
+            && observed.is_some_and(|of| of.standard_uncertainties.is_some())
     }
 
     /// The likelihood with these effects acting.

@@ -7,7 +7,7 @@
 //! settings. It is a normal error of each setting, of a standard deviation that is a multiple of the
 //! stated uncertainty of each output, beside the noise as stated.
 
-use gumption_engine::linalg::{dot, packed};
+use gumption_engine::linalg::dot;
 use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::parallel;
 
@@ -17,8 +17,8 @@ use super::latent::Role;
 use super::logarithm::ln_add;
 use super::noise_model::{NoiseModel, WORTH_TRYING, Weighing, ln_total, ln_weight_at_mode};
 use super::posterior::WeighedHypothesis;
+use super::remainder::Remainder;
 use super::setup::Setup;
-use super::whitened::{self, WhitenedResiduals};
 use crate::{Case, ObservedOutput, SettingError};
 
 /// Standard deviations of the shared error that are tried, in stated uncertainties, equally probable
@@ -156,7 +156,7 @@ impl SharedNoise {
     }
 }
 
-fn root_mean_square(values: &[f64]) -> f64 {
+pub(crate) fn root_mean_square(values: &[f64]) -> f64 {
     (dot(values, values) / values.len().max(1) as f64).sqrt()
 }
 
@@ -344,57 +344,6 @@ fn combinations(ln: &[f64], gains: &[Vec<Vec<f64>>]) -> Vec<Vec<Option<usize>>> 
     }
     all.retain(|ratios| ratios.iter().any(Option::is_some));
     all
-}
-
-/// What a hypothesis leaves at its best mode, less what the inputs explain that act linearly.
-pub(crate) struct Remainder {
-    /// Whitened by the blocks, or by the estimated noise.
-    residuals: Vec<f64>,
-    /// The standard deviations of the estimated noise; empty where it is stated.
-    deviations: Vec<f64>,
-    /// The same error in each value as a share of its standard uncertainty, relative to that of a typical
-    /// one.
-    shares: Vec<f64>,
-}
-
-impl Remainder {
-    pub(crate) fn of(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Self {
-        let nothing = Self { residuals: Vec::new(), deviations: Vec::new(), shares: Vec::new() };
-        let Some(mode) = hypothesis.evidence.modes.first() else { return nothing };
-        let likelihood = setup.likelihood(&hypothesis.effects);
-        let found = whitened::residuals(&likelihood, std::slice::from_ref(&mode.scores)).pop();
-        let Some(WhitenedResiduals { values: mut residuals, ln_variances }) = found else {
-            return nothing;
-        };
-        let covariance = &setup.covariance;
-        let mut deviations = Vec::new();
-        let mut basis = covariance.basis.clone();
-        if covariance.fitted {
-            deviations = ln_variances.iter().map(|ln| elementary::exp(0.5 * ln)).collect();
-            for column in &mut basis {
-                column.iter_mut().zip(&deviations).for_each(|(value, of)| *value /= of);
-            }
-        }
-        let mut inner = Vec::new();
-        for (i, column) in basis.iter().enumerate() {
-            inner.extend(basis[..i].iter().map(|other| dot(column, other)));
-            inner.push(1.0 + dot(column, column));
-        }
-        packed::cholesky_of_definite(&mut inner);
-        let mut sizes: Vec<f64> = basis.iter().map(|column| dot(column, &residuals)).collect();
-        packed::solve(&inner, &mut sizes);
-        packed::solve_transposed(&inner, &mut sizes);
-        for (column, size) in basis.iter().zip(&sizes) {
-            residuals.iter_mut().zip(column).for_each(|(left, value)| *left -= size * value);
-        }
-        let outputs = setup.data.outputs.len();
-        let share = |value: usize| match &setup.data.uncertainties[value % outputs] {
-            Some(u) => root_mean_square(u) / u[value / outputs],
-            None => 1.0,
-        };
-        let shares = (0..residuals.len()).map(share).collect();
-        Self { residuals, deviations, shares }
-    }
 }
 
 /// The rows of each setting.

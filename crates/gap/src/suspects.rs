@@ -14,10 +14,11 @@ use super::influence::{Influence, SizeGains, suspect};
 use super::logarithm::ln_add;
 use super::noise_model::{
     MOST_SUSPECTS, NoiseModel, STILL_OFF, SUSPECT_SIZES, Suspect, WORTH_TRYING, Weighing, ln_total,
-    ln_weight_at_mode, residuals_at_mode,
+    ln_weight_at_mode,
 };
 use super::posterior::{self, Effort, WeighedHypothesis};
 use super::prior_widths::PriorWidths;
+use super::remainder::Remainder;
 use gumption_engine::number::{elementary, largest_first};
 
 /// One of so many values may be off, where several at once are looked for: what most of the data say
@@ -46,7 +47,7 @@ pub(crate) fn more_suspects(
 ) -> Option<Vec<Suspect>> {
     let is_known = |w: &&Weighing<'_>| {
         let noise = &w.setup.data.noise;
-        !noise.factor
+        noise.factor.is_none()
             && noise.serial.is_none()
             && noise.shared.is_none()
             && w.widths == PriorWidths::AsStated
@@ -274,7 +275,7 @@ fn larger_suspects(weighing: &Weighing<'_>) -> Option<Vec<Suspect>> {
     let Weighing { setup, posterior, .. } = weighing;
     let hypotheses = posterior.hypotheses.iter();
     let best = hypotheses.max_by(|a, b| a.probability.total_cmp(&b.probability))?;
-    let residuals = residuals_at_mode(setup, best);
+    let residuals = Remainder::of(setup, best).residuals;
     let outputs = setup.data.outputs.len();
     let residual = |suspect: &Suspect| {
         let row = setup.data.ids.iter().position(|&id| id == suspect.id)?;

@@ -1,10 +1,12 @@
 //! What the data say of their noise, over all hypotheses.
 
 use super::latent::Role;
-use super::noise_model::{Suspect, Weighing, residuals_at_mode, serial_gain};
+use super::logarithm::ln_add;
+use super::noise_model::{Suspect, Weighing, serial_gain};
 use super::parameters::equal_tails;
+use super::remainder::Remainder;
 use super::setup::Setup;
-use super::shared_noise::{Groups, RATIOS, Remainder, Setting};
+use super::shared_noise::{Groups, RATIOS, Setting};
 use gumption_engine::number::{COLUMN, elementary, smallest_first};
 
 /// Hypotheses below this probability do not contribute to the factor.
@@ -44,9 +46,21 @@ pub(crate) struct WeighedSettings {
 impl WeighedNoise {
     pub(crate) fn of(weighings: &[Weighing<'_>]) -> Self {
         let mut of = Self::default();
-        for weighing in weighings.iter().filter(|w| w.setup.data.noise.factor) {
-            of.factor_probability += weighing.probability;
-            of.factors = factors(weighing);
+        let with_factor = || weighings.iter().filter(|w| w.setup.data.noise.factor.is_some());
+        of.factor_probability = with_factor().map(|w| w.probability).sum::<f64>().min(1.0);
+        let all = with_factor().map(Weighing::ln_weight).fold(f64::NEG_INFINITY, ln_add);
+        for weighing in with_factor() {
+            let share = elementary::exp(weighing.ln_weight() - all);
+            for (output, draws) in factors(weighing) {
+                let draws = draws.into_iter().map(|(factor, weight)| (factor, share * weight));
+                match of.factors.iter_mut().find(|(known, _)| *known == output) {
+                    Some((_, known)) => known.extend(draws),
+                    None => of.factors.push((output, draws.collect())),
+                }
+            }
+        }
+        for (_, draws) in &mut of.factors {
+            smallest_first(draws, |a| a.0);
         }
         of.serial = serial(weighings);
         of.settings = settings(weighings);
@@ -148,7 +162,7 @@ fn serial(weighings: &[Weighing<'_>]) -> Option<(f64, Vec<(f64, f64)>)> {
     let leading = correlated.max_by(|a, b| a.probability.total_cmp(&b.probability))?;
     let hypotheses = leading.posterior.hypotheses.iter();
     let best = hypotheses.max_by(|a, b| a.probability.total_cmp(&b.probability))?;
-    let residuals = residuals_at_mode(&stated.setup, best);
+    let residuals = Remainder::of(&stated.setup, best).residuals;
     let grid: Vec<f64> = (0..GRID).map(|n| (n as f64 + 0.5) / GRID as f64).collect();
     let ln: Vec<f64> = grid.iter().map(|&r| serial_gain(&stated.setup, &residuals, r)).collect();
     Some((probability, normalized(grid, &ln)))
@@ -178,7 +192,6 @@ fn factors(weighing: &Weighing<'_>) -> Vec<(usize, Vec<(f64, f64)>)> {
                 }
                 let total: f64 = draws.iter().map(|(_, w)| w).sum();
                 draws.iter_mut().for_each(|(_, w)| *w /= total);
-                smallest_first(&mut draws, |a| a.0);
                 (!draws.is_empty()).then_some((*output, draws))
             }
             _ => None,

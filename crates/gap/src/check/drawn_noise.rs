@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::truth::Scores;
-use crate::noise_model::{DrawnNoise, NoiseModel};
+use crate::noise_model::{DrawnNoise, Factor, NoiseModel};
 use crate::{Case, Prior};
 use gumption_engine::number::elementary;
 
@@ -49,7 +49,7 @@ impl NoiseOfDraw {
         match kind {
             DrawnNoise::AsStated => {}
             DrawnNoise::Factor => {
-                let [lower, upper] = NoiseModel::factors();
+                let [lower, upper] = Factor::Usual.limits();
                 for factor in &mut of.factors {
                     *factor = lower * elementary::pow(upper / lower, scores.uniform());
                 }

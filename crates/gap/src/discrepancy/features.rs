@@ -204,6 +204,16 @@ impl Coordinates {
         features
     }
 
+    /// For each value the variance of the function, of unit variance, that features do not determine: all
+    /// of it at a level that the data do not have, or farther than its length from them.
+    pub(crate) fn undetermined(&self, roots: &DMatrix<f64>, values: usize) -> Vec<f64> {
+        let mut variances = vec![0.0; values];
+        for &(value, place, _, factor) in &self.touched {
+            variances[value] = factor * factor * (1.0 - roots.row(place).norm_squared()).max(0.0);
+        }
+        variances
+    }
+
     /// The shortest length of a smooth function that can be told from noise: where every value has a
     /// coordinate of its own, a function that varies from one to the next is as white as noise is.
     pub(crate) fn shortest_length(&self) -> f64 {

@@ -12,7 +12,15 @@ use gumption_engine::task::Row;
 impl Discrepancy {
     /// What "unexplained" says in these rows: the model at the inputs' estimates, corrected by what the
     /// data say of shared inputs and of the discrepancy (a Gaussian process conditioned on the data).
-    pub(crate) fn predict(&self, setup: &Setup<'_>, kinds: &[Weighted], rows: &[Row]) -> Normals {
+    /// `beyond` says that rows are outside of the data and the caller enlarges the variances of smooth
+    /// functions with their distance.
+    pub(crate) fn predict(
+        &self,
+        setup: &Setup<'_>,
+        kinds: &[Weighted],
+        rows: &[Row],
+        beyond: bool,
+    ) -> Normals {
         let outputs = setup.data.outputs.len();
         let plain = by_rows(&setup.data.nominal_residuals());
         let nominals: Vec<(Vec<f64>, Vec<Vec<f64>>)> =
@@ -53,6 +61,12 @@ impl Discrepancy {
             let coordinates = Coordinates::new(&form.term, &self.axes, &sites, outputs);
             let roots = coordinates.roots(&form.term, form.length, &form.nodes);
             let there = coordinates.features(&roots, rows.len() * outputs) * form.scale;
+            // what the nodes do not determine of the function is left at its prior variance
+            let undetermined = match form.term.is_smooth() && beyond {
+                true => vec![0.0; rows.len() * outputs],
+                false => coordinates.undetermined(&roots, rows.len() * outputs),
+            };
+            let size = kind.multiplier * form.scale;
             let features = form.features(setup, &self.axes);
             let Some(found) = conditioned(
                 setup,
@@ -66,8 +80,8 @@ impl Discrepancy {
                 continue;
             };
             for (value, (shift, variance)) in found.into_iter().enumerate() {
-                // what the nodes do not determine of the function is left at its prior variance
                 let mean = sims[value] + shift;
+                let variance = variance + size * size * undetermined[value];
                 let sum = &mut sums[value / outputs][value % outputs];
                 sum.0 += share * mean;
                 sum.1 += share * (variance + mean * mean);

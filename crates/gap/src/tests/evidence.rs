@@ -6,7 +6,7 @@ use super::{line, ln_normal};
 use crate::data::by_rows;
 use crate::discrepancy::Discrepancy;
 use crate::evidence::EvidenceEstimate;
-use crate::noise_model::NoiseModel;
+use crate::noise_model::{Factor, NoiseModel};
 use crate::posterior::{Before, Beginnings, Effort, posterior, singles, singles_again};
 use crate::setup::Setup;
 use gumption_engine::distribution::StreamKey;
@@ -121,7 +121,7 @@ fn hopeless_evidences_are_those_about_known_modes() {
     };
     let stated = weighed(&setup, None, f64::NEG_INFINITY);
     for noise in [
-        NoiseModel { factor: true, ..NoiseModel::default() },
+        NoiseModel { factor: Some(Factor::Usual), ..NoiseModel::default() },
         NoiseModel { serial: Some(0.6), ..NoiseModel::default() },
     ] {
         let other = setup.with_noise(noise.clone());

@@ -2,10 +2,12 @@
 
 use super::{candidate, case, formulas, normal, observed, quantity};
 use crate::diagnosis::{DepartureShape, SuspectValue};
-use crate::{Candidate, Case, Diagnosis, DiagnosisOptions, Effect, HypothesisKind, diagnose};
+use crate::{
+    Candidate, Case, Diagnosis, DiagnosisOptions, Effect, HypothesisKind, Prior, diagnose,
+};
 use gumption_engine::distribution::{Distribution, LogUniform, Rectangular, StreamKey};
 use gumption_engine::number::elementary;
-use gumption_engine::task::Sharing;
+use gumption_engine::task::{Row, Sharing};
 
 /// Standard normal numbers.
 fn normals(count: usize, seed: u64) -> Vec<f64> {
@@ -93,6 +95,142 @@ fn a_factor_at_its_limit_is_known_as_such() {
     let factor = found(0.0025);
     assert!(factor.probability > 0.9 && factor.is_at_limit(), "{factor:?}");
     assert!(!found(0.05).is_at_limit());
+}
+
+/// Uncertainties of 0.1 mV for ones of 0.1 V, and per cent taken for shares: white noise is none of an
+/// effect, nor of what nobody named.
+#[test]
+fn units_of_uncertainties_that_were_mistaken() {
+    for times in [30.0, 100.0, 1000.0] {
+        let residuals: Vec<f64> = normals(30, 3).into_iter().map(|z| 0.1 * times * z).collect();
+        let found = diagnosed(&line_with(&residuals), 1);
+        assert_eq!(found.most_probable.kind, HypothesisKind::None, "{times}");
+        let factor = found.noise[0].factor.unwrap();
+        assert!(factor.probability > 0.9, "{factor:?}");
+        // as in the test above: 4.5 standard errors of 1/sqrt(60)
+        let rms = (residuals.iter().map(|r| r * r).sum::<f64>() / 30.0).sqrt() / 0.1;
+        assert!((factor.estimate / rms - 1.0).abs() < 4.5 / 60f64.sqrt(), "{factor:?} {rms}");
+    }
+}
+
+/// Readings at set points that come back, five of each, with an error of 0.3 % that each has in all its
+/// readings, and an offset as candidate: residuals beside these errors are given.
+fn set_points_with(residuals: &[f64], u: f64) -> Case {
+    let points = [0.0, 100.0, 200.0, 400.0, 800.0];
+    let errors = [0.4, -1.1, 0.8, -0.3, 1.2];
+    let at = |n: usize| (points[n * 2 % 5], 1.0 + 0.003 * errors[n * 2 % 5]);
+    let values: Vec<f64> =
+        residuals.iter().enumerate().map(|(n, r)| at(n).0 * at(n).1 + r).collect();
+    let mut case = case(
+        normal(1.0, 0.003),
+        Sharing::Condition(0),
+        &[("y", "a*x")],
+        vec![observed(&values, Some(&vec![u; values.len()]))],
+        vec![candidate("zero", "z", normal(0.0, 4.0), &[("y", "y + z")])],
+    );
+    for (n, row) in case.task.rows.iter_mut().enumerate() {
+        row.conditions = vec![at(n).0];
+    }
+    case
+}
+
+/// Uncertainties three times too small beside errors of set points, with a noise that may grow with the
+/// size: the evidences are those of other random numbers too. Those of single draws were off by ten and
+/// more in their logarithm.
+#[test]
+fn evidences_beside_errors_of_set_points_are_repeatable() {
+    let residuals: Vec<f64> = normals(30, 6).into_iter().map(|z| 1.5 * z).collect();
+    let case = set_points_with(&residuals, 0.5);
+    let of = |seed: u64| {
+        let found = diagnosed(&case, seed);
+        let none = found.hypotheses.iter().find(|of| of.effects.as_deref() == Some(&[]));
+        (none.unwrap().log_evidence, present(&found, "zero"))
+    };
+    let (ln, zero) = of(1);
+    for seed in 2..=6 {
+        let (other, present) = of(seed);
+        // five standard errors of two evidences, of 0.05 at most each, and what is promised
+        assert!((other - ln).abs() < 0.35, "{seed}: {other} {ln}");
+        assert!((present - zero).abs() < 0.02, "{seed}: {present} {zero}");
+    }
+}
+
+/// Noise that neighbouring rows share is seen beside errors of set points, which are larger than it.
+#[test]
+fn serial_noise_is_seen_beside_errors_of_set_points() {
+    let mut before = 0.0;
+    let residuals: Vec<f64> = normals(40, 7)
+        .into_iter()
+        .map(|z| {
+            before = 0.92 * before + (1.0 - 0.92_f64 * 0.92).sqrt() * z;
+            0.5 * before
+        })
+        .collect();
+    let found = diagnosed(&set_points_with(&residuals, 0.5), 1);
+    assert_eq!(found.most_probable.kind, HypothesisKind::None);
+    let serial = found.noise[0].serial.unwrap();
+    assert!(serial.probability > 0.95, "{serial:?}");
+    assert!(serial.interval[0] < 0.92 && serial.interval[1] > 0.75, "{serial:?}");
+}
+
+/// Errors of each setting are a gap that nothing explains, but where that is ruled out beforehand.
+#[test]
+fn what_is_ruled_out_beforehand_stays_out() {
+    let noise = normals(30, 8);
+    let errors = [0.9, -1.4, 1.1, 0.2, -1.2, 0.7, -0.8, 1.5, -0.4, 0.6];
+    let residuals: Vec<f64> = (0..30).map(|n| errors[n / 3] + 0.1 * noise[n]).collect();
+    let mut case = line_with(&residuals);
+    for (n, row) in case.task.rows.iter_mut().enumerate() {
+        row.conditions = vec![(n / 3) as f64];
+    }
+    let values = &mut case.observed[0].as_mut().unwrap().values;
+    for (n, value) in values.iter_mut().enumerate() {
+        *value = 1.0 + 0.5 * (n / 3) as f64 + residuals[n];
+    }
+    assert_eq!(diagnosed(&case, 1).most_probable.kind, HypothesisKind::Unexplained);
+    case.prior = Prior { none: 1.0, one: 0.0, two: 0.0, three: 0.0, unexplained: 0.0 };
+    let found = diagnosed(&case, 1);
+    assert_eq!(found.most_probable.kind, HypothesisKind::None);
+    assert!(found.hypotheses.iter().all(|of| of.effects.is_some() || of.probability == 0.0));
+}
+
+/// A departure that changes from each level to the next says nothing between them.
+#[test]
+fn levels_that_the_data_do_not_have_are_not_known() {
+    let levels = [1.3, 1.1, -1.6, 0.9, -0.4, -1.1, 1.8, -1.5];
+    let residuals: Vec<f64> =
+        normals(32, 9).iter().enumerate().map(|(n, z)| levels[n % 8] + 0.1 * z).collect();
+    let mut case = line_with(&residuals);
+    for (n, row) in case.task.rows.iter_mut().enumerate() {
+        row.conditions = vec![(n % 8) as f64];
+    }
+    let values = &mut case.observed[0].as_mut().unwrap().values;
+    for (n, value) in values.iter_mut().enumerate() {
+        *value = 1.0 + 0.5 * (n % 8) as f64 + residuals[n];
+    }
+    let at = |x: f64| Row { conditions: vec![x], ..case.task.rows[0].clone() };
+    let rows = [at(3.0), at(3.5)];
+    let found = diagnose(&case, Some(&rows), DiagnosisOptions::new(1), &|_| {}).unwrap();
+    assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained);
+    let predicted = found.prediction.unwrap();
+    let u = |row: usize| predicted[row].outputs[0].1;
+    // four readings of 0.1, and the root mean square of the levels, 1.3
+    assert!(u(0) < 0.1 && u(1) > 0.7 && u(1) < 3.0, "{} {}", u(0), u(1));
+}
+
+/// A prediction where an effect has no value is that of the others, and a note says so.
+#[test]
+fn predictions_leave_out_what_has_no_value_there() {
+    let residuals: Vec<f64> = normals(30, 10).into_iter().map(|z| 0.6 + 0.1 * z).collect();
+    let mut case = line_with(&residuals);
+    case.candidates.push(candidate("pole", "p", normal(0.0, 0.3), &[("y", "y + p/(x - 40)")]));
+    let at = |x: f64| Row { conditions: vec![x], ..case.task.rows[0].clone() };
+    let rows = [at(40.0)];
+    let found = diagnose(&case, Some(&rows), DiagnosisOptions::new(1), &|_| {}).unwrap();
+    assert_eq!(found.most_probable.effects, ["offset"]);
+    let (value, u) = found.prediction.unwrap()[0].outputs[0];
+    assert!((value - 21.6).abs() < 0.2 && u > 0.0 && u < 0.2, "{value} {u}");
+    assert!(found.notes.iter().any(|note| note.code == "undefined-prediction"));
 }
 
 /// A row that was copied has a note; rows that share their conditions, or values of few digits, none.
