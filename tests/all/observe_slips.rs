@@ -77,6 +77,39 @@ fn note(folder: &Path, recipe: &Value, code: &str) -> String {
     found.unwrap_or_else(|| panic!("{code}: {notes:?}")).1.clone()
 }
 
+/// Samples that never stand in a row at the end of the range, at nearly four in each period: three are
+/// saturated where the range is stated, and a heap of them is told where it is not.
+#[test]
+fn single_samples_at_the_end_of_the_range_are_saturated() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let clipped = |i: u32, _: f64| {
+        let value = 200.0 * (2.0 * PI * 263.0 * f64::from(i) / 1000.0 + 0.3).cos();
+        (value + 0.2 * noise(i)).clamp(-160.0, 160.0)
+    };
+    recorded(folder, "t [s],acc [mV]", seconds, clipped);
+    let fast = |channel: Value| {
+        let mut recipe = recipe(&channel);
+        recipe["frequency"] = json!(263);
+        recipe
+    };
+    let text = note(folder, &fast(json!({"column": "acc", "unit": "mV"})), "saturated");
+    assert!(text.contains("of 4000 values are 160, the highest of the recording"), "{text}");
+    let stated = fast(json!({"column": "acc", "unit": "mV", "range": [-160, 160]}));
+    refused(folder, &stated, &["the channel is saturated", "at or beyond its range, -160 to 160"]);
+    // a sine that is not, with 12 decimals and with two, and one whose samples repeat each period
+    let sines: [&dyn Fn(u32) -> f64; 3] = [
+        &|i| 200.0 * (2.0 * PI * 263.0 * f64::from(i) / 1000.0 + 0.3).cos(),
+        &|i| (200.0 * (2.0 * PI * 16.0 * f64::from(i) / 1000.0).cos()).round(),
+        &|i| 200.0 * (2.0 * PI * 20.0 * f64::from(i) / 1000.0).cos(),
+    ];
+    for sine in sines {
+        recorded(folder, "t [s],acc [mV]", seconds, |i, _| sine(i));
+        let notes = notes(folder, &millivolts());
+        assert!(notes.iter().all(|(code, _)| code != "saturated"), "{notes:?}");
+    }
+}
+
 #[test]
 fn headings_are_checked_of_columns_by_number_and_of_scaled_ones() {
     let folder = tempfile::tempdir().unwrap();

@@ -256,6 +256,12 @@ fn a_value_has_one_unit() {
         ("kg", "(1000 ± 4) g (k=2)", [1.0, 2e-3]),
         ("°C", "20 ± 0.5 degC (k=2)", [20.0, 0.25]),
         ("m", "10 +0.2 -0.2 m", [10.0, 0.2]),
+        // per cent and ppm behind both are counted alike
+        ("1", "(50 ± 2) % (k=2)", [0.5, 0.01]),
+        ("1", "150 ppm ± 5 ppm (k=2)", [150e-6, 2.5e-6]),
+        ("umol/mol", "(400 ± 1) ppm (k=2)", [400.0, 0.5]),
+        ("ppm", "(50 ± 2) % (k=2)", [500_000.0, 10_000.0]),
+        ("1", "0.5 ± 0.01 (k=2)", [0.5, 0.005]),
     ] {
         let found = answer(&of(unit, value), &["--trials", "0"]);
         let gum = &found["outputs"]["y"]["gum"];
@@ -264,6 +270,22 @@ fn a_value_has_one_unit() {
         let near =
             found.iter().zip(right).all(|(found, right)| (found / right - 1.0).abs() < 1e-14);
         assert!(near, "{value}: {found:?}");
+    }
+}
+
+/// A width in per cent of an estimate in per cent, and in ppm of what counts as ppm does: a share of it,
+/// or as much. Earlier versions took a share, so that 150 ppm with a half-width of 5 ppm had 0.8 ppb.
+#[test]
+fn a_share_of_a_share_is_asked() {
+    for (unit, mean, key, width) in [
+        ("1", json!("150 ppm"), "half_width", "5 ppm"),
+        ("1", json!("50 %"), "half_width", "2 %"),
+        ("umol/mol", json!(400), "half_width", "1 ppm"),
+        ("uV/V", json!(12), "half_width", "5 ppm"),
+    ] {
+        let x = json!({"unit": unit, "distribution": "rectangular", "mean": mean, key: width});
+        let found = refused(&model(&json!({"x": x}), "x", unit), &["--trials", "0"]);
+        assert!(found.contains("of reading`"), "{width} of {mean} {unit}: {found}");
     }
 }
 

@@ -13,6 +13,8 @@ use super::json::{Json, Member, Node};
 use super::value_text::{
     grouped_digits, is_comma, number_in_parentheses, with_exponents, with_plus_minus,
 };
+use gumption_engine::decimal::to_15_digits;
+use gumption_engine::number::Shortest;
 use gumption_engine::special;
 use gumption_units::Unit;
 
@@ -126,11 +128,17 @@ fn quantity(log: &Collector, name: &str, node: &mut Node, input_unit: Option<&st
             let mut made = members(&span, unit, stated);
             if !behind.is_empty() {
                 for member in &mut made {
-                    if let Json::Number(number) = &member.value.value
-                        && !matches!(member.key.as_str(), "k" | "p" | "dof")
-                    {
-                        member.value.value = Json::Text(format!("{number}{behind}"));
+                    let Json::Number(number) = &member.value.value else { continue };
+                    if matches!(member.key.as_str(), "k" | "p" | "dof") {
+                        continue;
                     }
+                    let is_place = matches!(member.key.as_str(), "mean" | "mode" | "value");
+                    let own = own.as_deref().filter(|_| !is_place);
+                    member.value.value = match own.and_then(|own| counted_in(number, &behind, own))
+                    {
+                        Some(number) => Json::Number(number),
+                        None => Json::Text(format!("{number}{behind}")),
+                    };
                 }
             }
             fields.extend(made);
@@ -157,6 +165,14 @@ fn in_one_unit(text: &str, unit: &str, declared: &str, own: &[Unit]) -> Result<(
          unit: give the value a unit of its own, such as `{value} {declared} ± 0.1 {unit} (k=2)`, or \
          leave `unit` out"
     ))
+}
+
+/// A width in per cent or the like that has its unit in common with its value, so that it is counted as
+/// that is and no share of it, in the unit of its input.
+fn counted_in(number: &str, unit: &str, of_input: &str) -> Option<String> {
+    let (unit, of_input) = (Unit::parse(unit.trim()).ok()?, Unit::parse(of_input).ok()?);
+    let converted = Unit::convert(number.parse().ok()?, &unit, &of_input).ok()?;
+    unit.is_relative().then(|| Shortest(to_15_digits(converted)).to_string())
 }
 
 fn reported(

@@ -12,7 +12,7 @@ use super::object::Object;
 use super::readings::{self, FileReadings, Pooled};
 use super::results::Results;
 use super::value_text::ValueOf;
-use super::width::{Width, without_plus_minus};
+use super::width::{Width, number, share, terms, without_plus_minus};
 use gumption_engine::distribution::{
     Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, Fitted, Gamma,
     Invalid, LogUniform, Lognormal, Normal, PoissonCount, Quantiles, Readings, Rectangular,
@@ -668,10 +668,36 @@ impl<'a> Fields<'a> {
             }
         }
         let log = self.object.log;
-        let read = Width::read(log, &member.value, (self.name, key), self.unit);
+        let read = Width::read(log, &member.value, (self.name, key), self.unit)
+            .and_then(|width| self.share_beside_share(key).map_or(Ok(width), Err));
         let width = log.value(&member.value.span, read)?;
         let value = width.at(self.share_of.unwrap_or(estimate));
         if value == 0.0 && width.is_relative_only() { Some(None) } else { Some(Some(value)) }
+    }
+
+    /// Why a width in per cent or the like is refused: the estimate is written so as well, and nothing
+    /// tells whether the width is a share of it.
+    fn share_beside_share(&self, key: &str) -> Option<DiagnosticKind> {
+        let text = |key: &str| match &self.object.get(key)?.value.value {
+            Json::Text(text) => Some(text.trim()),
+            _ => None,
+        };
+        let found = text(key)?;
+        let is_bare = |term: &str| {
+            let behind = number(term).ok().and_then(|(_, behind)| share(behind));
+            behind.is_some_and(|(_, of)| of.is_empty())
+        };
+        let is_share = |text: &&str| !self.unit.is_relative() && is_bare(text);
+        let estimate = ["mean", "mode", "value"].into_iter().filter_map(text).find(is_share)?;
+        terms(found).into_iter().any(is_bare).then(|| DiagnosticKind::Width {
+            name: self.name.to_owned(),
+            found: found.to_owned(),
+            reason: format!(
+                "the estimate `{estimate}` is a share as well, so that this can be a share of it or be \
+                 counted as it is: write `{found} of reading`, or both in `{}`",
+                self.unit
+            ),
+        })
     }
 
     /// The width that a formula of conditions gives in a row; inside, `None` where it is 0.

@@ -24,9 +24,20 @@ impl Share {
                 Self::Own
             }
             Some(value) if value.is_relative() || value.text().trim() == "1" => Self::Doubtful,
+            Some(value) if counts_alike(uncertainty.factor(), value) => Self::Doubtful,
             _ => Self::OfValue,
         }
     }
+}
+
+/// Whether a share of this size, 1e-6 for ppm, counts as a ratio of like units does: ppm beside
+/// `umol/mol` or `uV/V`, and ppb beside them.
+pub(super) fn counts_alike(share: f64, unit: &Unit) -> bool {
+    let is_ratio = unit.dimension().is_none() && unit.turn().is_none() && unit.factor() != 1.0;
+    let is_small = |size: f64| size <= 1.000_001e-6;
+    is_ratio
+        && ((unit.factor() / share - 1.0).abs() < 1e-9
+            || is_small(share) && is_small(unit.factor()))
 }
 
 /// The two meanings of an uncertainty in a unit of shares beside a value in another one, or in 1.
@@ -46,7 +57,12 @@ mod tests {
         for (uncertainty, value, expected) in [
             ("%", "mV", Share::OfValue),
             ("%", "mg/kg", Share::OfValue),
-            ("ppm", "um/m", Share::OfValue),
+            ("ppm", "um/m", Share::Doubtful),
+            ("ppm", "umol/mol", Share::Doubtful),
+            ("ppb", "uV/V", Share::Doubtful),
+            ("%", "cg/g", Share::Doubtful),
+            ("ppm", "mV/V", Share::OfValue),
+            ("ppm", "urad", Share::OfValue),
             ("%", "deg", Share::OfValue),
             ("%", "%", Share::Own),
             ("ppm", "%", Share::Doubtful),

@@ -5,6 +5,7 @@ use super::DiagnosticKind;
 use super::diagnostic_kind::WITHOUT_UNCERTAINTY;
 use super::diagnostics::Collector;
 use super::json::{Json, Node};
+use super::share::counts_alike;
 use super::value_text::{
     bare_number, decimal_comma, is_comma, unit_behind_number, with_plus_minus,
 };
@@ -75,8 +76,9 @@ impl Width {
             }
             match share(rest).or_else(|| ratio(rest, unit, own)) {
                 Some((factor, "")) => {
-                    if unit.is_relative() || unit.is_celsius() || !unit.level_exponent().is_zero() {
-                        let own = if unit.is_relative() {
+                    let is_ratio = unit.is_relative() || counts_alike(factor, unit);
+                    if is_ratio || unit.is_celsius() || !unit.level_exponent().is_zero() {
+                        let own = if is_ratio {
                             format!("the number alone, without quotes, for as much in `{unit}`")
                         } else {
                             "a value with its unit".to_owned()
@@ -93,7 +95,8 @@ impl Width {
                     let (full, range_unit) = number(range).map_err(|_| {
                         format!(
                             "`{term}`: what it is a share of is a value, such as `0.01 % of 10 V`, or \
-                             `reading`; `{range}` is neither"
+                             `reading`; `{range}` is neither (of a condition the width is a formula, such \
+                             as `1e-4*{range}`)"
                         )
                     })?;
                     width.absolute +=
@@ -311,10 +314,25 @@ mod tests {
         assert!(without_plus_minus("±0.05 mm", "std").unwrap_err().contains("`half_width`"));
     }
 
+    /// A ratio counts as ppm does; one of another size does not.
+    #[test]
+    fn shares_of_ratios() {
+        for (text, unit) in
+            [("1 ppm", "umol/mol"), ("5 ppm", "uV/V"), ("2 ppb", "umol/mol"), ("1 %", "cg/g")]
+        {
+            let error = read(text, unit).unwrap_err();
+            assert!(error.contains("it is not clear what"), "{text} {unit}: {error}");
+            let of_reading = read(&format!("{text} of reading"), unit).unwrap();
+            assert!(of_reading.is_relative_only(), "{text} {unit}");
+        }
+        assert!((read("5 ppm", "mV/V").unwrap().at(2.0) - 1e-5).abs() < 1e-18);
+        assert!((read("0.1 %", "1").unwrap().at(0.5) - 5e-4).abs() < 1e-18);
+    }
+
     /// Of plain numbers, too, a share stays one behind a divisor, and a digit is none of a display.
     #[test]
     fn shares_and_digits_of_plain_numbers() {
-        for unit in ["mV/V", "1", "um/m"] {
+        for unit in ["mV/V", "1", "mm/m"] {
             for (text, expected) in [
                 ("0.1 %/sqrt(3)", 2e-3 / 3_f64.sqrt()),
                 ("50 ppm/2", 5e-5),

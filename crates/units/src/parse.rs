@@ -211,8 +211,13 @@ impl<'t> Parser<'t> {
                         && (spaced || last.kind == Kind::Number && !last.has_exponent) =>
                 {
                     self.refuse_split(&last, end)?;
-                    // half a millimetre, 1/2 mm, is read in one way only
-                    (false, last.kind != Kind::Number)
+                    // half a millimetre, 1/2 mm, is read in one way only, and `g/100 g` is not
+                    let is_number = |solidus: usize| {
+                        !self
+                            .slice(start..solidus)
+                            .contains(|c: char| c.is_alphabetic() || c == '%')
+                    };
+                    (false, last.kind != Kind::Number || !quotient.is_none_or(is_number))
                 }
                 Some(_) => return Err(self.no_operator(&last, end)),
             };

@@ -101,7 +101,8 @@ struct Scanned<'r> {
     extremes: Vec<[Extreme; 2]>,
     /// The smallest step between neighbours, and the value before, of each channel.
     steps: Vec<(f64, f64)>,
-    beyond: Vec<u64>,
+    /// Values at or beyond the range of each channel: in a row, and in all.
+    beyond: Vec<[u64; 2]>,
     clock: Option<Clock>,
 }
 
@@ -110,7 +111,8 @@ fn significant(value: f64) -> Shortest {
     Shortest(format!("{value:.5e}").parse().unwrap_or(value))
 }
 
-/// The highest or lowest value, the longest run of it, and where that begins.
+/// The highest or lowest value, the longest run of it, and where that begins; how often it is there, and
+/// the next value to it.
 #[derive(Clone, Copy)]
 struct Extreme {
     sign: f64,
@@ -118,11 +120,38 @@ struct Extreme {
     run: u64,
     longest: u64,
     at: u64,
+    count: u64,
+    next: f64,
+    next_count: u64,
 }
+
+/// Values that are apart by less than this share of themselves are one: the rounding of what was computed.
+const SAME: f64 = 1e-9;
+
+/// From this many values on that are all the highest one, as single ones among others, a channel may be
+/// saturated; where they are this many times as many as those of the next value. The values of a sine that
+/// round to its highest step are 2.4 times those that round to the next one, at most.
+const LEAST_AT_END: u64 = 10;
+const TIMES_NEXT: u64 = 6;
+
+/// So many values in all at or beyond the range of a channel are saturated, and two in a row.
+const BEYOND_IN_ALL: u64 = 3;
 
 impl Extreme {
     fn see(&mut self, value: f64, sample: u64) {
         let value = self.sign * value;
+        // none was seen yet at minus infinity
+        let is_at = |other: f64| other.is_finite() && (value - other).abs() <= SAME * other.abs();
+        if is_at(self.value) {
+            self.count += 1;
+        } else if value > self.value {
+            (self.next, self.next_count) = (self.value, self.count);
+            self.count = 1;
+        } else if is_at(self.next) {
+            self.next_count += 1;
+        } else if value > self.next {
+            (self.next, self.next_count) = (value, 1);
+        }
         if value > self.value {
             *self = Self { value, run: 1, longest: 1, at: sample, ..*self };
         } else if value == self.value {
@@ -134,12 +163,30 @@ impl Extreme {
             self.run = 0;
         }
     }
+
+    /// Whether there are more values of it than a signal has that goes to it and comes back.
+    fn is_heaped(&self) -> bool {
+        self.value != 0.0 && self.count >= LEAST_AT_END && self.count > TIMES_NEXT * self.next_count
+    }
+
+    fn name(&self) -> &'static str {
+        if self.sign > 0.0 { "highest" } else { "lowest" }
+    }
 }
 
 impl<'r> Scanned<'r> {
     fn new(reading: &'r Reading, known: Option<f64>) -> Self {
         let channels = reading.channels.len();
-        let extreme = |sign| Extreme { sign, value: f64::NEG_INFINITY, run: 0, longest: 0, at: 0 };
+        let extreme = |sign| Extreme {
+            sign,
+            value: f64::NEG_INFINITY,
+            run: 0,
+            longest: 0,
+            at: 0,
+            count: 0,
+            next: f64::NEG_INFINITY,
+            next_count: 0,
+        };
         Self {
             reading,
             known,
@@ -149,7 +196,7 @@ impl<'r> Scanned<'r> {
             held: Some(vec![Vec::new(); channels]),
             extremes: vec![[extreme(1.0), extreme(-1.0)]; channels],
             steps: vec![(f64::INFINITY, f64::NAN); channels],
-            beyond: vec![0; channels],
+            beyond: vec![[0; 2]; channels],
             clock: None,
         }
     }
@@ -198,16 +245,18 @@ impl<'r> Scanned<'r> {
     fn channel(&mut self, channel: usize, values: &[f64], first: u64) -> Result<(), String> {
         let (wanted, conversion) = &self.reading.channels[channel];
         let (least, before) = &mut self.steps[channel];
-        let beyond = &mut self.beyond[channel];
+        let [in_a_row, in_all] = &mut self.beyond[channel];
         let [high, low] = &mut self.extremes[channel];
         for (sample, value) in (first..).zip(values) {
             if let Some([lower, upper]) = conversion.range {
-                *beyond = if *value <= lower || *value >= upper { *beyond + 1 } else { 0 };
-                if *beyond == 2 {
+                let is_beyond = *value <= lower || *value >= upper;
+                *in_a_row = if is_beyond { *in_a_row + 1 } else { 0 };
+                *in_all += u64::from(is_beyond);
+                if *in_a_row == 2 || *in_all == BEYOND_IN_ALL {
                     return Err(format!(
-                        "{}: the channel is saturated: two values in a row at or beyond its range, {} \
-                         to {}",
+                        "{}: the channel is saturated: {} at or beyond its range, {} to {}",
                         place(sample + 1, &wanted.channel),
+                        if *in_a_row == 2 { "two values in a row" } else { "three values" },
                         Shortest(lower),
                         Shortest(upper)
                     ));
@@ -270,7 +319,7 @@ impl<'r> Scanned<'r> {
     }
 
     /// Channels that stay at their highest or lowest value for longer than a sine of the recipe's
-    /// lowest frequency and their resolution would.
+    /// lowest frequency and their resolution would, or are there more often.
     fn suspects(&self, rate: f64, channels: usize) -> Vec<Warning> {
         let mut warnings = Vec::new();
         for channel in 0..channels {
@@ -285,6 +334,22 @@ impl<'r> Scanned<'r> {
                     Shortest(ends[0].value)
                 );
                 warnings.push(Warning::new("flat-channel", wanted.channel.clone(), text));
+                continue;
+            }
+            if let Some(end) = ends.iter().filter(|end| end.is_heaped()).max_by_key(|end| end.count)
+            {
+                let text = format!(
+                    "`{}`, {}: {} of {} values are {}, the {} of the recording, and {} the next one to \
+                     it; the channel may be saturated",
+                    self.reading.name,
+                    place(end.at + 1, &wanted.channel),
+                    end.count,
+                    self.kept,
+                    Shortest(end.sign * end.value),
+                    end.name(),
+                    end.next_count
+                );
+                warnings.push(Warning::new("saturated", wanted.channel.clone(), text));
                 continue;
             }
             let Some(hertz) = self.reading.slowest else { continue };
@@ -303,7 +368,7 @@ impl<'r> Scanned<'r> {
                     place(end.at + 1, &wanted.channel),
                     end.longest,
                     Shortest(end.sign * end.value),
-                    if end.sign > 0.0 { "highest" } else { "lowest" }
+                    end.name()
                 );
                 warnings.push(Warning::new("saturated", wanted.channel.clone(), text));
             }

@@ -6,12 +6,17 @@ use super::ObservationReport;
 use crate::csv::{number, of_records};
 
 /// The observations as comma-separated values: the conditions, the frequency in hertz, and for each
-/// figure `NAME` its value and `u_NAME`, its standard uncertainty; each with its unit, `NAME [m/s^2]`.
+/// figure `NAME` its value and `u_NAME`, its standard uncertainty; each with its unit, `NAME [m/s^2]`. So
+/// for the frequency where it has one.
 pub fn csv(observed: &ObservationReport<'_>) -> String {
     let figures = observed.figures();
     let conditions = observed.conditions.iter();
     let mut header: Vec<String> = conditions.map(|c| heading(&c.name, c.unit.text())).collect();
     header.push(heading(observed.frequency, "Hz"));
+    let is_uncertain = observed.lines().any(|(_, channels)| observed.hertz(channels).1 > 0.0);
+    if is_uncertain {
+        header.push(heading(&format!("u_{}", observed.frequency), "Hz"));
+    }
     header.extend(figures.iter().flat_map(|of| {
         [heading(&of.name, &of.unit), heading(&format!("u_{}", of.name), &of.unit)]
     }));
@@ -20,7 +25,9 @@ pub fn csv(observed: &ObservationReport<'_>) -> String {
         observed.lines().enumerate().try_for_each(|(line, (conditions, channels))| {
             let mut record: Vec<String> =
                 conditions.iter().map(|value| number(Some(*value))).collect();
-            record.push(number(Some(observed.hertz(channels).0)));
+            let (hertz, u) = observed.hertz(channels);
+            record.push(number(Some(hertz)));
+            record.extend(is_uncertain.then(|| number(Some(u))));
             for figure in &figures {
                 let (value, u) = figure.values.get(line).copied().unwrap_or((f64::NAN, f64::NAN));
                 record.extend([number(Some(value)), number(Some(u))]);

@@ -4,9 +4,10 @@
 pub(crate) const LOOKED_AT: usize = 4096;
 
 /// How far a gap between values may be from a whole number of steps, of that number; and, of the
-/// largest value, what single precision and scaling round.
+/// largest value, what single precision and scaling round, or double precision: a step may be that of
+/// single precision itself, beside a large constant.
 const OFF: f64 = 1e-3;
-const ROUNDED: f64 = 4e-7;
+const ROUNDED: [f64; 2] = [4e-7, 4e-15];
 
 /// Different values that a lattice must have been seen at: by chance as many have a probability of
 /// (2 [`OFF`])^n.
@@ -23,12 +24,16 @@ const LEFT: f64 = 1e-3;
 /// The step that values are multiples of, but for a constant; none where there is none that counts
 /// beside residuals of the standard deviation `left`.
 pub(crate) fn step(values: &[f64], left: f64) -> Option<f64> {
-    // a step below a third of the noise adds less than a hundredth to its variance
-    let least = left / 3.0;
     let mut sorted = values.get(..LOOKED_AT.min(values.len()))?.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
-    let (first, last) = (*sorted.first()?, *sorted.last()?);
-    let rounded = ROUNDED * first.abs().max(last.abs());
+    let largest = sorted.first()?.abs().max(sorted.last()?.abs());
+    ROUNDED.into_iter().find_map(|share| step_of(sorted.clone(), share * largest, left))
+}
+
+/// The same of sorted values, of which those that are apart by no more than `rounded` are one.
+fn step_of(mut sorted: Vec<f64>, rounded: f64, left: f64) -> Option<f64> {
+    // a step below a third of the noise adds less than a hundredth to its variance
+    let least = left / 3.0;
     let levels = || sorted.chunk_by(|before, next| *next - *before <= rounded);
     let (different, met_again) = (levels().count(), levels().filter(|of| of.len() > 1).count());
     let few = different < LEAST;
@@ -66,6 +71,10 @@ mod tests {
         assert!((step(&single, 0.15 * 0.1e-3).unwrap() / (0.05 * 0.244e-3) - 1.0).abs() < 1e-3);
         let smooth: Vec<f64> = (0..1000).map(wave).collect();
         assert_eq!(step(&smooth, 0.03), None);
+        // that of single precision, beside a constant: 2^-14 from 512 to 1024
+        let offset: Vec<f64> =
+            (0..1000).map(|i| f64::from((1e-3 * (wave(i) - 9.81) + 1000.0) as f32)).collect();
+        assert_eq!(step(&offset, 2e-5), Some(f64::powi(2.0, -14)));
         // a step far below the noise is nobody's concern
         assert_eq!(step(&rounded, 0.3), None);
         assert_eq!(step(&[1.0, 2.0, 1.0], 0.3), None);

@@ -139,7 +139,7 @@ fn explained(xml: &mut Xml, of: &Unit) {
     xml.element("dcc:measurementMetaData", |xml| {
         xml.element("dcc:metaData", |xml| {
             xml.leaf("dcc:nonSIDefinition", &definition(of));
-            xml.leaf("dcc:nonSIUnit", of.text());
+            xml.leaf("dcc:nonSIUnit", &of.normal_text());
         });
     });
 }

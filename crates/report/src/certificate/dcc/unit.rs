@@ -41,7 +41,8 @@ fn factor(factor: &Factor) -> Option<String> {
 /// What a unit is that D-SI does not have: its size in the SI, or what a level is the logarithm of
 /// (IEC 60027-3).
 pub(super) fn definition(unit: &Unit) -> String {
-    let text = unit.text();
+    // as it stands behind the bar
+    let text = unit.normal_text();
     let power = |over: &str| format!("{text} is the level 10 lg({over}) of a power P");
     let voltage = |over: &str| format!("{text} is the level 20 lg({over}) of a voltage U");
     match unit.zero() {

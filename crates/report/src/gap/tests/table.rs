@@ -84,7 +84,7 @@ fn headlines_are_no_surer_than_their_probabilities() {
         off.noise = vec![noise];
         let text = page(&off).split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(text.contains(said), "{text}");
-        assert!(text.contains("limit of what is weighed (0.25 to 10 times"), "{text}");
+        assert!(text.contains("limit of what is weighed (0.25 to 1000 times"), "{text}");
     }
 }
 
