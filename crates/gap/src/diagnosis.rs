@@ -566,6 +566,8 @@ pub struct PriorConflict {
     pub prior_distance: f64,
     /// Whether the distance is beyond the bound of a bounded prior.
     pub bounded: bool,
+    /// How many times wider than stated the priors are with which these effects explain the data.
+    pub widened: f64,
     /// Probability that these effects, with wider priors, are the truth.
     pub probability: f64,
 }

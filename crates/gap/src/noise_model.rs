@@ -371,7 +371,7 @@ pub(crate) fn weighings<'c>(
             weighings.push(own);
         }
     }
-    for widths in [PriorWidths::Wider, PriorWidths::Narrower] {
+    for widths in [PriorWidths::Wider, PriorWidths::Widest, PriorWidths::Narrower] {
         if !few || effort.is_stopped() {
             break;
         }

@@ -3,7 +3,6 @@
 use super::diagnosis::PriorConflict;
 use super::noise_model::Weighing;
 use super::parameters::parameters;
-use super::prior_widths::{PriorWidths, WIDER};
 use super::weighed::names;
 use crate::Case;
 use gumption_engine::distribution::Distribution;
@@ -22,7 +21,8 @@ pub(crate) fn conflicts(
     coverage: f64,
 ) -> Vec<PriorConflict> {
     let mut found = Vec::new();
-    for weighing in weighings.iter().filter(|weighing| weighing.widths == PriorWidths::Wider) {
+    for weighing in weighings {
+        let Some(widened) = weighing.widths.widened() else { continue };
         for hypothesis in &weighing.posterior.hypotheses {
             let probability = hypothesis.probability * weighing.probability;
             if probability < LEAST {
@@ -42,6 +42,7 @@ pub(crate) fn conflicts(
                         parameter,
                         prior_distance,
                         bounded,
+                        widened,
                         probability,
                     });
                 }
@@ -72,14 +73,14 @@ fn distance(prior: &Distribution, value: f64) -> (f64, bool) {
 
 /// The sentence of the note.
 pub(crate) fn note(conflict: &PriorConflict) -> String {
-    let PriorConflict { effects, parameter, prior_distance, probability, .. } = conflict;
+    let PriorConflict { effects, parameter, prior_distance, probability, widened, .. } = conflict;
     let who = match &effects[..] {
         [effect] => format!("{effect} alone"),
         several => gumption_units::listed(several, " and "),
     };
     format!(
         "{who} would explain the data with {} of a size that is {prior_distance:.1} {} \
-         (probability {probability:.2}, with priors {WIDER} times as wide).",
+         (probability {probability:.2}, with priors {widened} times as wide).",
         parameter.name,
         conflict.counted_in()
     )

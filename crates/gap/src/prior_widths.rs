@@ -14,8 +14,10 @@ use crate::Case;
 use gumption_engine::distribution::{Distribution, LogUniform, Normal, Rectangular};
 use gumption_engine::number::{elementary, largest_first};
 
-/// By how much priors are widened where they contradict the data.
+/// By how much priors are widened where they contradict the data, and where they still do: the unit of a
+/// size that was mistaken.
 pub(crate) const WIDER: f64 = 10.0;
+pub(crate) const WIDEST: f64 = 1000.0;
 
 /// By how much priors are narrowed where they may hide an effect.
 pub(crate) const NARROWER: f64 = 10.0;
@@ -23,7 +25,12 @@ pub(crate) const NARROWER: f64 = 10.0;
 /// Prior probability that the priors of the effects' parameters are too narrow, and that they are too
 /// wide.
 const PRIOR_WIDER: f64 = 0.05;
+const PRIOR_WIDEST: f64 = 0.005;
 const PRIOR_NARROWER: f64 = 0.15;
+
+/// The widest priors are tried where what no effect within its prior explains has more than this
+/// probability, with wider priors as well.
+const WORTH_WIDEST: f64 = 0.5;
 
 /// Pairs with wider priors are tried where what no effect within its prior explains has more than
 /// this probability, and of them those with one of the best single effects. Narrower ones are tried
@@ -38,6 +45,8 @@ pub(crate) enum PriorWidths {
     AsStated,
     /// [`WIDER`] times as wide.
     Wider,
+    /// [`WIDEST`] times as wide.
+    Widest,
     /// Sizes a [`NARROWER`]th as wide.
     Narrower,
 }
@@ -48,7 +57,17 @@ impl PriorWidths {
         match self {
             Self::AsStated => 1.0,
             Self::Wider => PRIOR_WIDER,
+            Self::Widest => PRIOR_WIDEST,
             Self::Narrower => PRIOR_NARROWER,
+        }
+    }
+
+    /// By how much the priors are wider than stated, where they are.
+    pub(crate) fn widened(self) -> Option<f64> {
+        match self {
+            Self::Wider => Some(WIDER),
+            Self::Widest => Some(WIDEST),
+            Self::AsStated | Self::Narrower => None,
         }
     }
 }
@@ -57,12 +76,17 @@ impl PriorWidths {
 #[derive(Clone, Debug)]
 pub(crate) struct OtherPriors {
     wider: Case,
+    widest: Case,
     narrower: Case,
 }
 
 impl OtherPriors {
     pub(crate) fn of(case: &Case) -> Self {
-        Self { wider: case.with_priors(widened), narrower: case.with_priors(narrowed) }
+        Self {
+            wider: case.with_priors(|prior| widened(prior, WIDER)),
+            widest: case.with_priors(|prior| widened(prior, WIDEST)),
+            narrower: case.with_priors(narrowed),
+        }
     }
 }
 
@@ -80,6 +104,7 @@ pub(crate) fn begin<'c>(
     match widths {
         PriorWidths::AsStated => None,
         PriorWidths::Wider => wider(&others.wider, weighings, seed, effort),
+        PriorWidths::Widest => widest(&others.widest, weighings, seed, effort),
         PriorWidths::Narrower => narrower(&others.narrower, weighings, seed, effort),
     }
 }
@@ -111,6 +136,24 @@ fn wider<'c>(
     };
     let is_worth = !pairs.is_empty() || own - ln_total(weighings) > elementary::ln(WORTH_TRYING);
     is_worth.then_some((setup, singles, pairs))
+}
+
+/// Every effect alone with the widest priors, where effects within wider ones explain little.
+fn widest<'c>(
+    case: &'c Case,
+    weighings: &[Weighing<'_>],
+    seed: u64,
+    effort: Effort<'_>,
+) -> Option<Begun<'c>> {
+    if ln_held_back(weighings) - ln_total(weighings) < elementary::ln(WORTH_WIDEST) {
+        return None;
+    }
+    let setup = Setup::new(case).sharing(&weighings.first()?.setup);
+    let singles = posterior::singles(&setup, seed, effort);
+    let effects = singles.iter().filter(|h| !h.effects.is_empty());
+    let own = effects.map(WeighedHypothesis::ln_weight).fold(f64::NEG_INFINITY, ln_add);
+    let ratio = own + elementary::ln(PRIOR_WIDEST) - ln_total(weighings);
+    (ratio > elementary::ln(WORTH_TRYING)).then_some((setup, singles, Vec::new()))
 }
 
 /// The logarithm of prior probabilities times evidences of what no effect within its prior explains:
@@ -202,20 +245,20 @@ pub(crate) fn note(effects: &[String]) -> String {
     )
 }
 
-/// A prior that is [`WIDER`] times as wide; one with a form that has no width of its own stays.
-fn widened(prior: &Distribution) -> Distribution {
+/// A prior that is so many times as wide; one with a form that has no width of its own stays.
+fn widened(prior: &Distribution, times: f64) -> Distribution {
     let wide = match prior {
         Distribution::Normal(_) => {
-            Normal::new(prior.mean(), WIDER * prior.standard_uncertainty()).map(Into::into)
+            Normal::new(prior.mean(), times * prior.standard_uncertainty()).map(Into::into)
         }
         Distribution::Rectangular(_) => {
-            Rectangular::new(prior.mean(), WIDER * half_width(prior)).map(Into::into)
+            Rectangular::new(prior.mean(), times * half_width(prior)).map(Into::into)
         }
         Distribution::LogUniform(_) => {
             let ends = [prior.quantile(0.25), prior.quantile(0.75)];
             let ratio = ends[1] / ends[0];
             let [low, high] = [ends[0] / ratio.sqrt(), ends[1] * ratio.sqrt()];
-            LogUniform::new(low / WIDER, high * WIDER).map(Into::into)
+            LogUniform::new(low / times, high * times).map(Into::into)
         }
         _ => return prior.clone(),
     };

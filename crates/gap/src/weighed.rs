@@ -15,7 +15,7 @@ use super::over_noises;
 use super::posterior::{Effort, Posterior};
 use super::predict;
 use super::prior_conflict;
-use super::prior_widths::{self, OtherPriors, PriorWidths};
+use super::prior_widths::{self, OtherPriors};
 use super::resolution::Rounding;
 use super::setup::Setup;
 use super::shrink::Correction;
@@ -79,7 +79,7 @@ impl<'c> Weighed<'c> {
         progress: &(dyn Fn(f64) + Sync),
     ) -> Self {
         let weighings = noise_model::weighings(case, others, seed, effort, progress);
-        let prior_conflict = noise_model::most_probable_widths(&weighings) == PriorWidths::Wider;
+        let prior_conflict = noise_model::most_probable_widths(&weighings).widened().is_some();
         let hidden = prior_widths::hidden(&weighings);
         let prior_conflicts =
             prior_conflict::conflicts(case, &weighings, super::diagnose::coverage(case));

@@ -392,7 +392,9 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
         if !expected && unexplained::level_wanders(of) {
             let text = format!(
                 "`{name}`: the level wanders and does not come back within the record; the \
-                 uncertainty of the offset is that of the record's first value"
+                 uncertainty of the offset is that of the record's first value. A steady drift, which \
+                 is no noise, leaks into amplitudes and phases more than their uncertainties say: the \
+                 step `remove-trend` takes a straight line out"
             );
             notes.push(("wandering-level", of.channel, text));
         } else if !expected && residuals.coloured.as_ref().is_some_and(|coloured| coloured.flickers)

@@ -501,6 +501,18 @@ fn an_effect_far_outside_its_prior_is_named() {
     assert!(present(&found, "slope") > 0.5);
 }
 
+/// A prior of 0.4 that was meant to be one of 400: a hundred standard deviations out the effect is told,
+/// whatever the verdict.
+#[test]
+fn a_prior_in_a_mistaken_unit_is_told() {
+    let residuals: Vec<f64> = normals(30, 7).into_iter().map(|z| 0.1 * z + 40.0).collect();
+    let found = diagnosed(&line_with(&residuals), 1);
+    let conflict = found.prior_conflicts.iter().find(|of| of.effects == ["offset"]).unwrap();
+    assert!((conflict.prior_distance - 100.0).abs() < 0.5, "{conflict:?}");
+    assert_eq!(conflict.widened, 1000.0);
+    assert!(found.notes.iter().any(|note| note.code == "prior-conflict"));
+}
+
 #[test]
 fn two_effects_far_outside_their_priors_are_named() {
     // five and six standard deviations of the priors: neither alone, with whatever prior, fits a line

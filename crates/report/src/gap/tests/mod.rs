@@ -265,6 +265,7 @@ fn diagnosis() -> Diagnosis {
             parameter: low_pass(),
             prior_distance: 6.1234,
             bounded: false,
+            widened: 10.0,
             probability: 0.81,
         }],
         notes: vec![DiagnosisNote {
