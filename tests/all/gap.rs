@@ -403,6 +403,35 @@ fn phases_that_jump_by_a_turn_are_told() {
     assert!(!codes(&answered(text, &data(&step))).contains(&"whole-turns"));
 }
 
+/// Values in volts where the sim is in millivolts: the factor is told, and none of one that is as it is.
+#[test]
+fn units_that_were_mistaken_in_the_data_are_told() {
+    let text = r#"{"inputs": {"s": {"unit": "mV/N", "distribution": "normal", "mean": 2, "std": 0.001}},
+      "conditions": {"F": {"unit": "N"}}, "equations": {"v": "s*F"}, "outputs": {"v": {"unit": "mV"}},
+      "observations": {"file": "data.csv",
+        "columns": {"v": {"value": "v", "standard_uncertainty": "u"}}},
+      "effects": {"gain": {"parameters": {"g": {"unit": "%", "distribution": "normal", "mean": 0,
+          "std": 2}}, "overrides": {"v": "v*(1 + g)"}}}}"#;
+    let data = |factor: f64| {
+        let mut data = "F,v,u\n".to_owned();
+        for row in 0..=12_u32 {
+            let noise = 0.02 * (f64::from(row * 5 % 13) - 6.0) / 6.0;
+            let value = factor * (20.0 * f64::from(row) + noise);
+            writeln!(data, "{},{value:.6},{}", 10 * row, 0.01 * factor.abs()).unwrap();
+        }
+        data
+    };
+    for (factor, cause) in [(1e-3, "a prefix"), (-1.0, "a sign")] {
+        let answer = answered(text, &data(factor));
+        let note = answer["notes"].as_array().unwrap().iter().find(|of| of["code"] == "unit-slip");
+        let said = note.unwrap()["message"].as_str().unwrap();
+        assert!(said.contains("The values of v are about") && said.contains(cause), "{said}");
+    }
+    for factor in [1.0, 1.05, 1.3] {
+        assert!(!codes(&answered(text, &data(factor))).contains(&"unit-slip"), "{factor}");
+    }
+}
+
 /// A constant that two readings at one condition depart by: the effect of the list and the composed one
 /// are the same, and take the same off the gap.
 #[test]
@@ -415,7 +444,7 @@ fn composed_effects_and_those_of_the_list_are_held_against_the_same_rows() {
           "std": 0.02}}, "overrides": {"y": "y + d"}}}}"#;
     let answer = answered(text, "t,y,u\n1,10.2,0.01\n1,10.21,0.01\n");
     let composed = answer["composed"].as_array().unwrap();
-    let removed = |of: &Value| of["removed_fraction"].as_f64().unwrap();
+    let removed = |of: &Value| of["shrinks"]["removed_fraction"].as_f64().unwrap();
     let largest = composed.iter().map(removed).fold(0.0, f64::max);
     // of a departure of 20 with the noise of one value: the other tells it to sqrt(2)
     assert!(largest > 0.95, "{composed:?}");

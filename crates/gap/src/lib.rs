@@ -59,6 +59,7 @@ mod shrink;
 mod strength;
 mod suspects;
 mod turns;
+mod unit_slip;
 mod unlisted;
 mod weighed;
 mod weighed_noise;

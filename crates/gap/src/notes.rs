@@ -12,6 +12,7 @@ use super::row_drift;
 use super::setup::Setup;
 use super::shared_noise;
 use super::turns;
+use super::unit_slip;
 use gumption_engine::decimal::significant;
 use gumption_engine::number::Shortest;
 
@@ -75,6 +76,19 @@ pub(crate) fn notes(
                 significant(alike.ratio, 2),
                 alike.most,
                 alike.errors
+            ),
+        );
+    }
+    if let Some(slip) = unit_slip::found(setup).filter(|_| verdict.kind != HypothesisKind::None) {
+        let quantity = quantity(slip.output);
+        note(
+            "unit-slip",
+            format!(
+                "The values of {} are about {} times what the sim says, all of them: {} makes such a \
+                 factor; look at the unit of the data and of the sim before an effect is believed.",
+                quantity.name,
+                significant(slip.ratio, 3),
+                slip.cause
             ),
         );
     }

@@ -280,11 +280,12 @@ impl<'t> Parser<'t> {
         let [whole, dividend, divisor] = [start..self.at, start..solidus, solidus + 1..self.at]
             .map(|span| self.slice(span).trim());
         let (quotient, factor) = (self.slice(start..end), self.slice(end..self.at));
+        let space = if factor.starts_with(starts_factor) { " " } else { "" };
         UnitError::AmbiguousProduct {
             found: whole.to_owned(),
             span: start..self.at,
             likelier: format!("{dividend}/({divisor})"),
-            other: format!("({quotient}){factor}"),
+            other: format!("({quotient}){space}{factor}"),
         }
     }
 

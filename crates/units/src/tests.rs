@@ -223,7 +223,7 @@ const WRONG: &[Wrong] = &[
     ("Hz^1/2", "ambiguous", 3, "1/2", &["Hz^(1/2)", "(Hz^1)/2"]),
     ("m^-3 / 2", "ambiguous", 2, "-3 / 2", &["m^(-3/2)", "(m^-3)/2"]),
     ("J/kg K", "ambiguous", 0, "J/kg K", &["J/(kg K)", "(J/kg) K"]),
-    ("g/100g", "ambiguous", 0, "g/100g", &["g/(100g)", "(g/100)g"]),
+    ("g/100g", "ambiguous", 0, "g/100g", &["g/(100g)", "(g/100) g"]),
     ("mg/100 mL", "ambiguous", 0, "mg/100 mL", &["mg/(100 mL)", "(mg/100) mL"]),
     ("mV W / m² · K", "ambiguous", 0, "mV W / m² · K", &["mV W/(m² · K)", "(mV W / m²) · K"]),
     ("° C", "ambiguous", 0, "° C", &["degC", "°*C"]), ("W/deg K", "ambiguous", 2, "deg K", &["K", "deg*K"]),

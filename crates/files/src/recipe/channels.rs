@@ -41,6 +41,7 @@ pub(super) struct ChannelFile {
 pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile]) -> Option<Vec<ChannelFile>> {
     let member = root.required("channels")?;
     let object = Object::new(root.log, "`channels`", &member.value, &member.key_span)?;
+    refuse_uncertainties_of(root.log, object.members());
     let read: Vec<Option<ChannelFile>> =
         object.members().iter().map(|member| channel(root.log, member, recordings)).collect();
     if read.is_empty() {
@@ -48,6 +49,20 @@ pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile]) -> Option<Ve
         return None;
     }
     read.into_iter().collect()
+}
+
+/// Refuses a channel whose figures would have the names of the uncertainties of another one's: `u_a`
+/// beside `a`.
+fn refuse_uncertainties_of(log: &Collector, members: &[Member]) {
+    for member in members {
+        let of = member.key.strip_prefix("u_");
+        if let Some(of) = of.filter(|of| members.iter().any(|other| other.key == *of)) {
+            let reason =
+                format!("`{}_amplitude` is the uncertainty of the amplitude of `{of}`", member.key);
+            let name = member.key.clone();
+            log.report(&member.key_span, DiagnosticKind::BadName { name, reason });
+        }
+    }
 }
 
 fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Option<ChannelFile> {

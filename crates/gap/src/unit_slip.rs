@@ -1,0 +1,109 @@
+//! Data that are a well-known multiple of the sim: a slip of the unit, and no effect.
+//!
+//! A prefix, a turn, a peak value for an effective one or a sign that was mistaken multiplies all values of
+//! an output. Of effects a gain comes nearest, with a prior that excludes it, or a departure that no one
+//! would think of.
+
+use super::setup::Setup;
+use gumption_engine::number::{elementary, median};
+
+/// The median of the ratios is known for one of the factors within this share of it.
+const NEAR: f64 = 0.02;
+
+/// Half of the ratios are nearer to their median than this share of it.
+const TOGETHER: f64 = 0.05;
+
+/// Ratios that there must be.
+const LEAST_RATIOS: usize = 4;
+
+/// Values of the sim below this share of the largest one give no ratios.
+const LEAST_SIM: f64 = 1e-3;
+
+/// Powers of ten of prefixes, at most.
+const MOST_POWER: i32 = 12;
+
+/// An output whose values are all about the same multiple of the sim.
+pub(crate) struct UnitSlip {
+    /// The observed output.
+    pub(crate) output: usize,
+    /// The median of the ratios.
+    pub(crate) ratio: f64,
+    /// What makes such a factor.
+    pub(crate) cause: &'static str,
+}
+
+/// The first output whose values are the sim times a factor that slips of units have.
+pub(crate) fn found(setup: &Setup<'_>) -> Option<UnitSlip> {
+    let data = &setup.data;
+    (0..data.outputs.len()).filter(|&output| data.turns[output].is_none()).find_map(|output| {
+        let sims: Vec<f64> =
+            data.point_of.iter().map(|&point| data.points[point].nominal[output]).collect();
+        let largest = sims.iter().fold(0.0_f64, |most, sim| most.max(sim.abs()));
+        let pairs = data.values[output].iter().zip(&sims);
+        let ratios: Vec<f64> = pairs
+            .filter(|(_, sim)| sim.abs() > LEAST_SIM * largest)
+            .map(|(value, sim)| value / sim)
+            .filter(|ratio| ratio.is_finite())
+            .collect();
+        if ratios.len() < LEAST_RATIOS {
+            return None;
+        }
+        let ratio = median(ratios.clone())?;
+        let apart = median(ratios.iter().map(|of| (of - ratio).abs()).collect())?;
+        let cause = cause(ratio).filter(|_| apart < TOGETHER * ratio.abs())?;
+        Some(UnitSlip { output, ratio, cause })
+    })
+}
+
+/// What makes a factor of this size.
+fn cause(ratio: f64) -> Option<&'static str> {
+    const TURN: f64 = std::f64::consts::TAU;
+    const DEGREE: f64 = std::f64::consts::PI / 180.0;
+    const KNOWN: [(f64, &str); 6] = [
+        (1.0, "a sign"),
+        (TURN, "a frequency in Hz for one in rad/s"),
+        (60.0, "a time in minutes for one in seconds, or minutes for degrees"),
+        (3600.0, "a time in hours for one in seconds"),
+        (DEGREE, "an angle in degrees for one in rad"),
+        (std::f64::consts::SQRT_2, "an effective value for a peak value"),
+    ];
+    let is_near = |of: f64| (ratio.abs() / of - 1.0).abs() < NEAR;
+    let power = elementary::log10(ratio.abs()).round();
+    let is_power = power != 0.0
+        && power.abs() <= f64::from(MOST_POWER)
+        && is_near(elementary::pow(10.0, power));
+    if is_power {
+        return Some("a prefix, or per cent");
+    }
+    KNOWN.into_iter().find_map(|(factor, cause)| {
+        let is_it = if factor == 1.0 {
+            ratio < 0.0 && is_near(1.0)
+        } else {
+            is_near(factor) || is_near(factor.recip())
+        };
+        is_it.then_some(cause)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cause;
+
+    #[test]
+    fn factors_of_slips() {
+        for (ratio, said) in [
+            (0.001, Some("a prefix, or per cent")),
+            (-998.0, Some("a prefix, or per cent")),
+            (-1.0, Some("a sign")),
+            (6.3, Some("a frequency in Hz for one in rad/s")),
+            (57.3, Some("an angle in degrees for one in rad")),
+            (0.71, Some("an effective value for a peak value")),
+            (1.0, None),
+            (1.02, None),
+            (2.0, None),
+            (0.9, None),
+        ] {
+            assert_eq!(cause(ratio), said, "{ratio}");
+        }
+    }
+}
