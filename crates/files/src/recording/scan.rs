@@ -424,8 +424,15 @@ impl Clock {
             self.count += 1;
             return Ok(());
         };
+        let rounded = match what {
+            "jumps" => {
+                "; where no samples are missing and the stamps are rounded, leave out `time` and state \
+                 `sampling_rate`"
+            }
+            _ => "",
+        };
         Err(format!(
-            "sample {}: the time {what}, from {} s to {} s, where steps of {:.6e} s are usual",
+            "sample {}: the time {what}, from {} s to {} s, where steps of {:.6e} s are usual{rounded}",
             sample + 1,
             Shortest(self.last),
             Shortest(instant),
@@ -489,7 +496,9 @@ mod tests {
             clock.see(instant, 5)
         };
         assert!(after(0.5).is_ok());
-        assert!(after(0.6).unwrap_err().contains("sample 6: the time jumps"));
+        let jump = after(0.6).unwrap_err();
+        assert!(jump.contains("sample 6: the time jumps"), "{jump}");
+        assert!(jump.contains("leave out `time` and state `sampling_rate`"), "{jump}");
         assert!(after(0.3).unwrap_err().contains("runs backwards"));
         let repeated = after(0.4).unwrap_err();
         assert!(repeated.contains("sample 6: the time repeats, 0.4 s stands twice"), "{repeated}");
