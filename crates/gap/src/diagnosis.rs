@@ -387,7 +387,8 @@ impl ProposalKind {
 pub struct Predicted {
     /// Values of the conditions, in their units.
     pub conditions: Vec<f64>,
-    /// For each observed output value and standard uncertainty, in its unit.
+    /// For each observed output value and standard uncertainty, in its unit; not numbers where what is
+    /// probable has no value.
     pub outputs: Vec<(f64, f64)>,
     /// For each observed output what the model says without a correction.
     pub model: Vec<f64>,
