@@ -170,10 +170,7 @@ fn refuse_bare_share(
     (unit, width): (&Unit, Width),
     set: &ConditionSet<'_>,
 ) -> Option<()> {
-    let is_bare = |term: &&&str| {
-        let rest = width::number(term).ok().and_then(|(_, rest)| width::share(rest));
-        rest.is_some_and(|(_, of)| of.is_empty())
-    };
+    let is_bare = |term: &&&str| width::is_bare_share(term);
     let Some(term) = terms.iter().find(is_bare).filter(|_| width.relative > 0.0) else {
         return Some(());
     };

@@ -12,7 +12,7 @@ use super::object::Object;
 use super::readings::{self, FileReadings, Pooled};
 use super::results::Results;
 use super::value_text::ValueOf;
-use super::width::{Width, number, share, terms, without_plus_minus};
+use super::width::{Width, is_bare_share, terms, without_plus_minus};
 use gumption_engine::distribution::{
     Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, Fitted, Gamma,
     Invalid, LogUniform, Lognormal, Normal, PoissonCount, Quantiles, Readings, Rectangular,
@@ -683,13 +683,9 @@ impl<'a> Fields<'a> {
             _ => None,
         };
         let found = text(key)?;
-        let is_bare = |term: &str| {
-            let behind = number(term).ok().and_then(|(_, behind)| share(behind));
-            behind.is_some_and(|(_, of)| of.is_empty())
-        };
-        let is_share = |text: &&str| !self.unit.is_relative() && is_bare(text);
+        let is_share = |text: &&str| !self.unit.is_relative() && is_bare_share(text);
         let estimate = ["mean", "mode", "value"].into_iter().filter_map(text).find(is_share)?;
-        terms(found).into_iter().any(is_bare).then(|| DiagnosticKind::Width {
+        terms(found).into_iter().any(is_bare_share).then(|| DiagnosticKind::Width {
             name: self.name.to_owned(),
             found: found.to_owned(),
             reason: format!(

@@ -209,6 +209,12 @@ fn ratio<'r>(rest: &'r str, unit: &Unit, own: &[Unit]) -> Option<(f64, &'r str)>
         .then(|| (ratio.factor(), of.trim()))
 }
 
+/// Whether a term is a share that does not say what it is of: `0.1 %`.
+pub(super) fn is_bare_share(term: &str) -> bool {
+    let share = number(term).ok().and_then(|(_, rest)| share(rest));
+    share.is_some_and(|(_, of)| of.is_empty())
+}
+
 fn converted(
     value: f64,
     (text, own): (&str, &[Unit]),

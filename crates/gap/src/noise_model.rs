@@ -336,19 +336,20 @@ pub(crate) fn weighings<'c>(
     let values = setup.data.len();
     let stated = NoiseModel::default().prior(values);
     let mut weighings = vec![weighing(setup, stated, &[], [0.0, 0.35])];
+    let noisy = |model: NoiseModel, known: &[Weighing<'c>], parts: [f64; 2]| {
+        let prior = model.prior(values);
+        weighing(known[0].setup.with_noise(model), prior, known, parts)
+    };
     let stated = &weighings[0].setup.data.uncertainties;
     // of much data each model costs a pass for every draw
     let few = weighings[0].setup.data.len() <= MANY_VALUES && !effort.is_stopped();
     if stated.iter().any(Option::is_some) && few {
-        for factor in [Factor::Usual, Factor::Far] {
-            let is_known = weighings.last().is_some_and(|usual| !usual.is_beyond_factors());
-            if factor == Factor::Far && (is_known || effort.is_stopped()) {
-                break;
-            }
-            let model = NoiseModel::with_factor(factor);
-            let prior = model.prior(values);
-            let setup = weighings[0].setup.with_noise(model);
-            weighings.push(weighing(setup, prior, &weighings, [0.35, 0.7]));
+        let usual = noisy(NoiseModel::with_factor(Factor::Usual), &weighings, [0.35, 0.7]);
+        let is_beyond = usual.is_beyond_factors();
+        weighings.push(usual);
+        if is_beyond && !effort.is_stopped() {
+            let far = NoiseModel::with_factor(Factor::Far);
+            weighings.push(noisy(far, &weighings, [0.35, 0.7]));
         }
     }
     if few && !effort.is_stopped() {
@@ -360,10 +361,7 @@ pub(crate) fn weighings<'c>(
     if few && !effort.is_stopped() {
         for noise in shared_noise::worth_trying(&weighings) {
             let is_departure = noise.is_departure();
-            let model = NoiseModel::with_shared(noise);
-            let prior = model.prior(values);
-            let setup = weighings[0].setup.with_noise(model);
-            let mut own = weighing(setup, prior, &weighings, [0.7, 0.7]);
+            let mut own = noisy(NoiseModel::with_shared(noise), &weighings, [0.7, 0.7]);
             // where "unexplained" is ruled out beforehand they are errors of the settings all the same
             if is_departure && own.posterior.prior > 0.0 {
                 own.posterior.none_is_unexplained();
@@ -381,10 +379,7 @@ pub(crate) fn weighings<'c>(
         }
     }
     let off = |suspects: Vec<Suspect>, known: &[Weighing<'c>]| {
-        let model = NoiseModel::with_suspects(suspects);
-        let prior = model.prior(values);
-        let setup = known[0].setup.with_noise(model);
-        weighing(setup, prior, known, [0.8, 1.0])
+        noisy(NoiseModel::with_suspects(suspects), known, [0.8, 1.0])
     };
     while few && !effort.is_stopped() {
         let Some(suspects) = more_suspects(&weighings, seed, effort) else { break };
@@ -422,8 +417,7 @@ impl<'c> Weighing<'c> {
     /// Whether the leading hypothesis has a factor on stated uncertainties at the upper end of the usual
     /// ones.
     fn is_beyond_factors(&self) -> bool {
-        let hypotheses = self.posterior.hypotheses.iter();
-        let leading = hypotheses.max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()));
+        let leading = self.posterior.leading();
         let Some(mode) = leading.and_then(|of| of.evidence.modes.first()) else { return false };
         self.setup.roles.iter().zip(&mode.scores).any(|(role, score)| match role {
             Role::Noise { output, .. } => {

@@ -333,6 +333,11 @@ const MOST_GUARDED: usize = 4;
 const DOUBTFUL: f64 = 0.02;
 
 impl Posterior {
+    /// The hypothesis with the greatest prior times evidence.
+    pub(crate) fn leading(&self) -> Option<&WeighedHypothesis> {
+        self.hypotheses.iter().max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()))
+    }
+
     /// The posterior predictive check: where the leading hypotheses fit badly, each is tried with a
     /// discrepancy beside it, which counts as "unexplained". Without it the least bad name would
     /// win, however badly it fits.

@@ -118,13 +118,10 @@ fn wider<'c>(
     seed: u64,
     effort: Effort<'_>,
 ) -> Option<Begun<'c>> {
-    let setup = Setup::new(case).sharing(&weighings.first()?.setup);
-    let singles = posterior::singles(&setup, seed, effort);
-    let effects = singles.iter().filter(|h| !h.effects.is_empty());
-    let own = effects.clone().map(WeighedHypothesis::ln_weight).fold(f64::NEG_INFINITY, ln_add);
-    let own = own + elementary::ln(PRIOR_WIDER);
+    let (setup, singles, own) = alone(case, weighings, PRIOR_WIDER, seed, effort)?;
     let total = ln_add(own, ln_total(weighings));
     let pairs = if ln_held_back(weighings) - total > elementary::ln(WORTH_PAIRS) {
+        let effects = singles.iter().filter(|h| !h.effects.is_empty());
         let mut best: Vec<&WeighedHypothesis> = effects.collect();
         largest_first(&mut best, |a| a.ln_weight());
         best.truncate(MEMBERS);
@@ -148,12 +145,25 @@ fn widest<'c>(
     if ln_held_back(weighings) - ln_total(weighings) < elementary::ln(WORTH_WIDEST) {
         return None;
     }
+    let (setup, singles, own) = alone(case, weighings, PRIOR_WIDEST, seed, effort)?;
+    let is_worth = own - ln_total(weighings) > elementary::ln(WORTH_TRYING);
+    is_worth.then_some((setup, singles, Vec::new()))
+}
+
+/// No gap and every effect alone with the priors of `case`, which have this prior probability, and the
+/// logarithm of that times the evidences of the effects, summed.
+fn alone<'c>(
+    case: &'c Case,
+    weighings: &[Weighing<'_>],
+    prior: f64,
+    seed: u64,
+    effort: Effort<'_>,
+) -> Option<(Setup<'c>, Vec<WeighedHypothesis>, f64)> {
     let setup = Setup::new(case).sharing(&weighings.first()?.setup);
     let singles = posterior::singles(&setup, seed, effort);
     let effects = singles.iter().filter(|h| !h.effects.is_empty());
     let own = effects.map(WeighedHypothesis::ln_weight).fold(f64::NEG_INFINITY, ln_add);
-    let ratio = own + elementary::ln(PRIOR_WIDEST) - ln_total(weighings);
-    (ratio > elementary::ln(WORTH_TRYING)).then_some((setup, singles, Vec::new()))
+    Some((setup, singles, own + elementary::ln(prior)))
 }
 
 /// The logarithm of prior probabilities times evidences of what no effect within its prior explains:

@@ -123,8 +123,7 @@ fn settings(weighings: &[Weighing<'_>]) -> Vec<Option<WeighedSettings>> {
         let own = || weighings.iter().filter(|w| shared(w, output).is_some());
         let leading = own().max_by(|a, b| a.probability.total_cmp(&b.probability))?;
         let noise = shared(leading, output)?;
-        let hypotheses = leading.posterior.hypotheses.iter();
-        let best = hypotheses.max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()))?;
+        let best = leading.posterior.leading()?;
         let left = Remainder::of(&stated.setup, best);
         let groups = Groups::of(&stated.setup, noise.setting);
         let [least, most] = [0.5 * RATIOS[0], 2.0 * RATIOS[RATIOS.len() - 1]];

@@ -248,7 +248,8 @@ impl Group<'_> {
             traces = found.map_err(Refused::Unreadable)?.into_iter().map(Some).collect();
         }
         let design = Rc::new(design);
-        let flanked: Vec<bool> = left.iter().map(|left| is_flanked(&design, left)).collect();
+        let is_it = |left| besides.too_near && is_flanked(&design, left);
+        let flanked: Vec<bool> = left.iter().map(is_it).collect();
         let is_any = flanked.contains(&true);
         let made = self.channels.iter().zip(fits).zip(left).zip(traces).zip(flanked);
         let analysed = made.map(|((((at, fit), residuals), trace), is_flanked)| {

@@ -239,22 +239,20 @@ fn step(left: &[Remainder], number: usize) -> (f64, f64) {
 /// a hump on either side.
 fn candidates(of: &FittedTones, samples: u64, known: &[f64]) -> Vec<f64> {
     let (design, _, left) = of;
-    let mut found: Vec<(f64, f64)> = Vec::new();
+    let mut found: Vec<(f64, f64, u32)> = Vec::new();
     for residuals in left {
         let deviation = residuals.variance.sqrt();
         for of in spurious::lines(&residuals.first) {
             let may_be_rounding = residuals.lattice.is_some_and(|step| of.amplitude < step);
             let most = if may_be_rounding { ROUNDING } else { DISTORTION };
-            if !is_multiple(design, of.cycles, most) {
-                found.push((of.amplitude / deviation, of.cycles));
-            }
+            found.push((of.amplitude / deviation, of.cycles, most));
         }
     }
     largest_first(&mut found, |a| a.0);
     let samples = samples as f64;
     let mut new: Vec<f64> = Vec::new();
     let mut flanked = vec![false; design.tones.len()];
-    for (_, cycles) in found {
+    for (_, cycles, most) in found {
         let apart = |other: f64| (cycles - other).abs() * samples;
         if new.iter().chain(known).any(|other| apart(*other) < 2.0) {
             continue;
@@ -269,6 +267,7 @@ fn candidates(of: &FittedTones, samples: u64, known: &[f64]) -> Vec<f64> {
                 let away = f64::max(apart(from), NEAREST_START) / samples;
                 from + if cycles < from { -away } else { away }
             }
+            None if is_multiple(design, cycles, most) => continue,
             None => cycles,
         };
         if new.len() + known.len() < MOST {
@@ -278,14 +277,11 @@ fn candidates(of: &FittedTones, samples: u64, known: &[f64]) -> Vec<f64> {
     new
 }
 
-/// Whether an oscillation is a multiple, up to `most`, of one that is fitted, and not near to any:
-/// distortion, which is said of the signal and not beside it.
+/// Whether an oscillation is a multiple, up to `most`, of one that is fitted: distortion, which is said of
+/// the signal and not beside it.
 fn is_multiple(design: &ToneDesign, cycles: f64, most: u32) -> bool {
     let samples = design.samples as f64;
     let apart = |other: f64| (cycles - other).abs() * samples;
-    if design.tones.iter().any(|tone| apart(tone.cycles) < SIDEBANDS) {
-        return false;
-    }
     let folded = |cycles: f64| {
         let turn = cycles.fract();
         if turn > 0.5 { 1.0 - turn } else { turn }

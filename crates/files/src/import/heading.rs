@@ -104,30 +104,22 @@ fn parts(text: &str) -> (String, Vec<String>) {
     let mut open: Vec<bool> = Vec::new();
     for c in text.chars() {
         let c = if c.is_whitespace() { ' ' } else { c };
-        match c {
-            '(' | '[' => match insides.last_mut().filter(|_| !open.is_empty()) {
-                Some(inside) => {
-                    let is_of_unit = inside.trim_end().ends_with(['/', '*', '·', '⋅']);
-                    open.push(is_of_unit);
-                    inside.extend(is_of_unit.then_some(c));
-                }
-                None => {
-                    open.push(false);
-                    insides.push(String::new());
-                    outside.push(' ');
-                }
-            },
-            ')' | ']' => {
-                let is_of_unit = open.pop().unwrap_or(false);
-                insides
-                    .last_mut()
-                    .into_iter()
-                    .for_each(|inside| inside.extend(is_of_unit.then_some(c)));
+        let (opens, closes) = (matches!(c, '(' | '['), matches!(c, ')' | ']'));
+        let Some(inside) = insides.last_mut().filter(|_| !open.is_empty()) else {
+            if opens {
+                open.push(false);
+                insides.push(String::new());
             }
-            c if !open.is_empty() => {
-                insides.last_mut().into_iter().for_each(|inside| inside.push(c))
-            }
-            c => outside.push(c),
+            outside.extend((!closes).then_some(if opens { ' ' } else { c }));
+            continue;
+        };
+        if opens {
+            open.push(inside.trim_end().ends_with(['/', '*', '·', '⋅']));
+        }
+        let is_kept = !(opens || closes) || open.last() == Some(&true);
+        inside.extend(is_kept.then_some(c));
+        if closes {
+            open.pop();
         }
     }
     (outside.split_whitespace().collect::<Vec<_>>().join(" "), insides)

@@ -148,9 +148,9 @@ fn ungrouped(digits: &str) -> Option<String> {
 pub(super) fn value(text: &str, decimal_comma: bool) -> Option<f64> {
     // the root behind a number is a factor and no unit: `2√3`
     let is_root = expression(&text.to_lowercase()).contains("sqrt");
-    let root = is_root.then(|| constant(text, decimal_comma)).flatten();
     let number = || number_with_unit(text, decimal_comma).map(|(value, _)| value);
-    root.or_else(number).or_else(|| constant(text, decimal_comma))
+    let constant = || constant(text, decimal_comma);
+    if is_root { constant().or_else(number) } else { number().or_else(constant) }
 }
 
 /// A number that may be written as an expression: `√3`, `2*√3`, `1/3`, `3^0.5`, `sqrt(3)`, and what
