@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use super::Measured;
 use super::beside::{Besides, amplitude};
+use super::drift;
 use super::effects::{Effects, KnownNoise};
 use super::quantization::quantization_variance;
 use super::recipe::TimeBase;
@@ -14,6 +15,9 @@ use super::sine_fit::{ToneCoefficients, ToneDesign};
 use super::spurious::Spurious;
 use super::trace::RecordTrace;
 use gumption_engine::number::elementary::{exp, hypot, sinh};
+
+/// Instants at which the range of a drift is looked for.
+const DRIFT_PLACES: u32 = 256;
 
 /// A frequency in a recording.
 #[derive(Clone, Copy, Debug)]
@@ -103,6 +107,23 @@ impl Analysed {
             amplitude: amplitude(&self.fit, place),
             fitted: true,
         })
+    }
+
+    /// How far the level drifts over the record, in the channel's unit: greatest less least.
+    pub(super) fn drift_range(&self) -> f64 {
+        let last = self.design.samples.saturating_sub(1) as f64;
+        let places =
+            (0..=DRIFT_PLACES).map(|place| last * f64::from(place) / f64::from(DRIFT_PLACES));
+        let levels = places.map(|at| drift::at(&self.fit.drift, self.design.samples, at));
+        let (least, greatest) = levels
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), level| (a.min(level), b.max(level)));
+        greatest - least
+    }
+
+    /// The mean square of the drift over the record.
+    pub(super) fn drift_power(&self) -> f64 {
+        let degrees = self.fit.drift.iter().zip(1_u32..);
+        degrees.map(|(factor, degree)| factor * factor / f64::from(2 * degree + 1)).sum()
     }
 
     /// The peak amplitude of the strongest tone.

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::Measured;
 use super::analysed::{Analysed, Fundamental, local, shares};
-use super::beside::{Besides, is_flanked};
+use super::beside::{Accompanying, Besides, is_flanked};
 use super::effects::{Effects, KnownNoise};
 use super::frequency::{self, NoFrequency};
 use super::passes::{InMemorySamples, SampleSource, Selected, gathered};
@@ -220,7 +220,10 @@ impl Group<'_> {
             self.with_besides(passes, &mut fundamentals)?;
         if fundamentals.iter().any(|of| of.of_cut > 0.0) {
             // what a fit at the bins' frequencies leaves of the sine is no noise
-            design = self.design(&fundamentals, passes.frames(), &[], |of| of.cycles)?;
+            design =
+                self.design(&fundamentals, passes.frames(), Accompanying::default(), |of| {
+                    of.cycles
+                })?;
             fits = design.fit(passes).map_err(Refused::Unreadable)?;
         }
         if let Some(through) = self.through {
@@ -281,45 +284,42 @@ impl Group<'_> {
         Ok(analysed.collect())
     }
 
-    /// The design of the tones of all frequencies and of those `beside` them.
+    /// The design of the tones of all frequencies and of what accompanies them.
     pub(super) fn design<E>(
         &self,
         fundamentals: &[Fundamental],
         samples: u64,
-        beside: &[f64],
+        with: Accompanying<'_>,
         cycles: impl Fn(&Fundamental) -> f64,
     ) -> Result<ToneDesign, Refused<E>> {
         let mut tones = self.tones(fundamentals, samples, cycles)?;
-        tones.extend(beside.iter().zip(fundamentals.len()..).map(|(cycles, fundamental)| Tone {
-            cycles: *cycles,
-            fundamental,
-            multiple: 1,
-            beside: true,
+        tones.extend(with.tones.iter().zip(fundamentals.len()..).map(|(cycles, fundamental)| {
+            Tone { cycles: *cycles, fundamental, multiple: 1, beside: true }
         }));
-        ToneDesign::new(tones, samples).map_err(|no| self.refusal(no, samples))
+        ToneDesign::with_drift(tones, samples, with.drift).map_err(|no| self.refusal(no, samples))
     }
 
     /// The fits and what they leave at the frequencies that the recording has. A stated frequency is
     /// the recording's within its uncertainty (and the rate's): where the recording tells the cycles
     /// of a sample interval better than these do, they are moved to its own. What a fit beside them
     /// leaves of the sine would pass for noise.
-    /// With oscillations `beside` them an estimated frequency is estimated once more.
+    /// With what accompanies them an estimated frequency is estimated once more.
     pub(super) fn at_own_frequencies<E>(
         &self,
         passes: &mut dyn SampleSource<Error = E>,
         fundamentals: &mut [Fundamental],
-        beside: &[f64],
+        with: Accompanying<'_>,
     ) -> Result<FittedTones, Refused<E>> {
         let samples = passes.frames();
         let lead = self.lead().1;
         let as_stated = fundamentals.to_vec();
         let within = |of: &Fundamental| elementary::hypot(of.of_stated, of.of_rate);
-        let again_estimated = |of: &Fundamental| !of.is_stated && !beside.is_empty();
+        let again_estimated = |of: &Fundamental| !of.is_stated && !with.is_none();
         let mut may_move: Vec<bool> =
             as_stated.iter().map(|of| within(of) > 0.0 || again_estimated(of)).collect();
         let mut moves = 0;
         loop {
-            let design = self.design(fundamentals, samples, beside, |of| of.turning)?;
+            let design = self.design(fundamentals, samples, with, |of| of.turning)?;
             let mut fits = design.fit(passes).map_err(Refused::Unreadable)?;
             let left = residuals::of(&design, passes, &mut fits).map_err(Refused::Unreadable)?;
             let Some(residuals) = left.get(lead) else { return Ok((design, fits, left)) };

@@ -1,4 +1,5 @@
-//! Oscillations beside those that a recipe names: found in what a fit leaves, and fitted with it.
+//! What accompanies the oscillations that a recipe names: others, and a drift of the level, found in
+//! what a fit leaves, and fitted with it.
 //!
 //! What leaks from an oscillation that is not fitted into one that is depends on phases that a budget
 //! can only take for unknown. Fitted with the others it leaks nothing, and the uncertainty that is
@@ -6,6 +7,7 @@
 
 use super::analysed::Fundamental;
 use super::analysis::{FittedTones, Group};
+use super::drift;
 use super::passes::SampleSource;
 use super::refused::Refused;
 use super::residuals::{KEPT, Remainder, Residuals};
@@ -51,6 +53,9 @@ const SIDEBANDS: f64 = 3.0;
 /// 20.1 Hz at 2000 samples a second.
 const DISTORTION: u32 = 20;
 
+/// By how much a drift may multiply the variance of what is asked for.
+const MOST_COST: f64 = 2.0;
+
 /// The highest that rounding is, each by less than a step.
 const ROUNDING: u32 = 199;
 
@@ -64,6 +69,22 @@ pub(super) struct Beside {
     /// Its amplitude over that one's standard deviation in white noise, in the channel where it is
     /// clearest.
     clear: f64,
+}
+
+/// What is fitted together with the named oscillations.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Accompanying<'a> {
+    /// Cycles in a sample interval of other oscillations.
+    pub(super) tones: &'a [f64],
+    /// The degree of a polynomial.
+    pub(super) drift: usize,
+}
+
+impl Accompanying<'_> {
+    /// Whether there is nothing.
+    pub(super) fn is_none(&self) -> bool {
+        self.tones.is_empty() && self.drift == 0
+    }
 }
 
 /// What was found beside the named oscillations.
@@ -82,11 +103,16 @@ impl Group<'_> {
         passes: &mut dyn SampleSource<Error = E>,
         fundamentals: &mut Vec<Fundamental>,
     ) -> Result<(FittedTones, Besides), Refused<E>> {
-        let mut best = self.at_own_frequencies(passes, fundamentals, &[])?;
+        let as_stated = fundamentals.clone();
+        let mut best = self.at_own_frequencies(passes, fundamentals, Accompanying::default())?;
         let mut besides = Besides::default();
         let samples = passes.frames();
         if !self.is_fit() || samples > LONGEST {
             return Ok((best, besides));
+        }
+        let mut drift = 0;
+        if let Some((of, fits)) = self.with_drift(passes, &as_stated, &best, &[])? {
+            (drift, *fundamentals, best) = (fits.0.drift, of, fits);
         }
         for _ in 0..ROUNDS {
             let known: Vec<f64> = besides.fitted.iter().map(|of| of.cycles).collect();
@@ -95,7 +121,7 @@ impl Group<'_> {
                 break;
             }
             let all: Vec<f64> = known.into_iter().chain(new).collect();
-            let Some(mut tuned) = self.tuned(passes, fundamentals, all)? else {
+            let Some(mut tuned) = self.tuned(passes, fundamentals, (all, drift))? else {
                 besides.too_near = true;
                 break;
             };
@@ -109,7 +135,7 @@ impl Group<'_> {
                 break;
             }
             let mut moved = fundamentals.clone();
-            let Some(fits) = self.settled_together(passes, &mut moved, &mut tuned)? else {
+            let Some(fits) = self.settled_together(passes, &mut moved, &mut tuned, drift)? else {
                 besides.too_near = true;
                 break;
             };
@@ -119,7 +145,67 @@ impl Group<'_> {
                 break;
             }
         }
+        // a slow oscillation looks like a drift as long as it is not fitted, and hides one
+        let tones: Vec<f64> = besides.fitted.iter().map(|of| of.cycles).collect();
+        if !tones.is_empty()
+            && let Some((of, fits)) = self.with_drift(passes, &as_stated, &best, &tones)?
+        {
+            (*fundamentals, best) = (of, fits);
+        }
         Ok((best, besides))
+    }
+
+    /// The fits with a drift of the level where there is one, and the frequencies that they have; none
+    /// where the level drifts no more than noise does, or the record is too short to tell a drift from
+    /// the oscillations.
+    fn with_drift<E>(
+        &self,
+        passes: &mut dyn SampleSource<Error = E>,
+        as_stated: &[Fundamental],
+        before: &FittedTones,
+        tones: &[f64],
+    ) -> Result<Option<(Vec<Fundamental>, FittedTones)>, Refused<E>> {
+        let (design, _, left) = before;
+        if design.drift == 0 && !left.iter().any(|of| of.drifts) {
+            return Ok(None);
+        }
+        let of = |drift: usize| {
+            let with = Accompanying { tones, drift };
+            self.design::<E>(as_stated, passes.frames(), with, |of| of.turning).ok()
+        };
+        let plain = of(0);
+        let costs =
+            |of: &ToneDesign| plain.as_ref().is_none_or(|plain| self.is_much_less_known(of, plain));
+        let is_told = |degree: &usize| of(*degree).is_some_and(|of| !costs(&of));
+        let mut degree = (1..=drift::MOST_DEGREES).take_while(is_told).count();
+        while degree > 0 {
+            let mut moved = as_stated.to_vec();
+            let with = Accompanying { tones, drift: degree };
+            let Ok(fits) = self.at_own_frequencies(passes, &mut moved, with) else { break };
+            let each = fits.1.iter().zip(&fits.2);
+            let each = each.map(|(fit, left)| clear_degree(&fits.0, fit, left));
+            let clear = each.max().unwrap_or(0);
+            if clear == degree {
+                return Ok(Some((moved, fits)));
+            }
+            degree = clear;
+        }
+        if design.drift == 0 {
+            return Ok(None);
+        }
+        let mut moved = as_stated.to_vec();
+        let fits = self.at_own_frequencies(passes, &mut moved, Accompanying { tones, drift: 0 })?;
+        Ok(Some((moved, fits)))
+    }
+
+    /// Whether a drift makes the factors of a named oscillation much less known than they are in
+    /// another design of the same tones.
+    fn is_much_less_known(&self, with: &ToneDesign, other: &ToneDesign) -> bool {
+        self.named(with).any(|(place, _)| {
+            let even = |of: &ToneDesign| of.even[(place + 1, place + 1)];
+            let odd = |of: &ToneDesign| of.odd[(place, place)];
+            even(with) > MOST_COST * even(other) || odd(with) > MOST_COST * odd(other)
+        })
     }
 
     /// The fits at the frequencies that the recording has, those of what oscillates beside the named
@@ -130,13 +216,15 @@ impl Group<'_> {
         passes: &mut dyn SampleSource<Error = E>,
         fundamentals: &mut [Fundamental],
         tuned: &mut Vec<Beside>,
+        drift: usize,
     ) -> Result<Option<FittedTones>, Refused<E>> {
         let samples = passes.frames() as f64;
         let mut turns = 0;
         loop {
             let before: Vec<f64> = fundamentals.iter().map(|of| of.turning).collect();
             let cycles: Vec<f64> = tuned.iter().map(|of| of.cycles).collect();
-            let Ok(fits) = self.at_own_frequencies(passes, fundamentals, &cycles) else {
+            let with = Accompanying { tones: &cycles, drift };
+            let Ok(fits) = self.at_own_frequencies(passes, fundamentals, with) else {
                 return Ok(None);
             };
             let moves = |of: (&Fundamental, f64)| (of.0.turning - of.1).abs() * samples > SETTLED;
@@ -144,7 +232,9 @@ impl Group<'_> {
             if turns == MOST_TURNS || !fundamentals.iter().zip(before).any(moves) {
                 return Ok(Some(fits));
             }
-            let Some(again) = self.tuned(passes, fundamentals, cycles)? else { return Ok(None) };
+            let Some(again) = self.tuned(passes, fundamentals, (cycles, drift))? else {
+                return Ok(None);
+            };
             *tuned = again;
         }
     }
@@ -164,7 +254,7 @@ impl Group<'_> {
         &self,
         passes: &mut dyn SampleSource<Error = E>,
         fundamentals: &[Fundamental],
-        cycles: Vec<f64>,
+        (cycles, drift): (Vec<f64>, usize),
     ) -> Result<Option<Vec<Beside>>, Refused<E>> {
         let samples = passes.frames();
         let mut all: Vec<Beside> = cycles
@@ -173,7 +263,8 @@ impl Group<'_> {
             .collect();
         for _ in 0..MOST_STEPS {
             let cycles: Vec<f64> = all.iter().map(|of| of.cycles).collect();
-            let design = match self.design::<E>(fundamentals, samples, &cycles, |of| of.turning) {
+            let with = Accompanying { tones: &cycles, drift };
+            let design = match self.design::<E>(fundamentals, samples, with, |of| of.turning) {
                 Ok(design) => design,
                 Err(_) => return Ok(None),
             };
@@ -202,6 +293,21 @@ impl Group<'_> {
         }
         Ok(Some(all))
     }
+}
+
+/// The highest degree of a drift that stands out of the noise of a channel.
+pub(super) fn clear_degree(design: &ToneDesign, fit: &ToneCoefficients, left: &Residuals) -> usize {
+    // what is left has no more than higher degrees would tell of noise that grows towards zero frequency:
+    // a walk's power is that of the next degree times the square of their ratio
+    let growth = |degree: usize| ((drift::MOST_DEGREES + 1) as f64 / degree as f64).powi(2);
+    let noise = |degree: usize| {
+        let modelled = left.coloured.as_ref().and_then(|of| of.drift.get(degree - 1).copied());
+        let modelled = modelled.map(|variance| variance * growth(degree));
+        modelled.unwrap_or_else(|| left.variance * design.variance_of_degree(degree))
+    };
+    let is_clear =
+        |degree: &usize| fit.drift[degree - 1].abs() > drift::CLEAR * noise(*degree).sqrt();
+    (1..=fit.drift.len()).rev().find(is_clear).unwrap_or(0)
 }
 
 /// The amplitude of a tone over its standard deviation in white noise, in the channel where it is

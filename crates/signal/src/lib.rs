@@ -54,8 +54,8 @@ mod unsuitable;
 mod values;
 
 use fit::{
-    coloured, common_noise, dirichlet, frequency, lattice, outlying, periodic, polar, quantization,
-    residuals, rounding, sine_fit, spurious, turns, whole_periods,
+    coloured, common_noise, dirichlet, drift, frequency, lattice, outlying, periodic, polar,
+    quantization, residuals, rounding, sine_fit, spurious, turns, whole_periods,
 };
 use steps::{
     butterworth, changed, correction, delay, derivative, noise, resimulation, rms, rotation,

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::analysed::{Analysed, local};
 use super::analysis::{Group, Through};
 use super::asked;
-use super::beside::amplitude;
+use super::beside::{amplitude, clear_degree};
 use super::coloured::Memory;
 use super::common_noise::correlation;
 use super::effects::{Effects, StepEffect};
@@ -377,6 +377,17 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
                  signal-to-noise ratio"
             );
             notes.push(("found-tone", of.channel, text));
+        }
+        if clear_degree(&of.design, &of.fit, residuals) > 0 {
+            let unit = unit_text(settings, of);
+            let text = format!(
+                "`{name}`: the level drifts by {}{unit} over the record; a polynomial of degree {} is \
+                 fitted together with the named frequencies, the offset is the mean over the record, \
+                 and the drift counts as noise in the signal-to-noise ratio",
+                short(of.drift_range(), 2),
+                of.design.drift
+            );
+            notes.push(("found-drift", of.channel, text));
         }
         if of.besides.too_near {
             let text = format!(

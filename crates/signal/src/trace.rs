@@ -2,6 +2,7 @@
 //! smoothed: of the values that share a column of a figure the least and the greatest are kept.
 
 use super::analysed::Fundamental;
+use super::drift;
 use super::frequency::windowed;
 use super::passes::SampleSource;
 use super::recipe::TimeBase;
@@ -144,14 +145,7 @@ pub(super) fn traces<E>(
     }
     design.each(passes, |first, blocks, waves| {
         for ((of, fit), values) in gathered.iter_mut().zip(&fits).zip(blocks) {
-            let mut fitted = vec![fit.offset; values.len()];
-            let tones = fit.cosines.iter().zip(&fit.sines);
-            let waves = waves.cosines.iter().zip(&waves.sines);
-            for ((a, b), (cosines, sines)) in tones.zip(waves) {
-                for (fitted, (cos, sin)) in fitted.iter_mut().zip(cosines.iter().zip(sines)) {
-                    *fitted += a * cos + b * sin;
-                }
-            }
+            let fitted = waves.values(fit, values.len());
             for (number, (value, fitted)) in (first..).zip(values.iter().zip(&fitted)) {
                 if number < shown {
                     of.trace.waveform.take(number, *value);
@@ -176,7 +170,8 @@ pub(super) fn traces<E>(
 /// The fit at an instant, in sample intervals from the first sample; of the first periods only.
 fn at(design: &ToneDesign, fit: &ToneCoefficients, instant: f64) -> f64 {
     let waves = design.tones.iter().zip(fit.cosines.iter().zip(&fit.sines));
-    waves.fold(fit.offset, |sum, (tone, (a, b))| {
+    let level = fit.offset + drift::at(&fit.drift, design.samples, instant);
+    waves.fold(level, |sum, (tone, (a, b))| {
         let turns = tone.cycles * instant;
         let (sin, cos) = sin_cos_turn(turns - turns.floor());
         sum + a * cos + b * sin

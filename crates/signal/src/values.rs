@@ -353,7 +353,7 @@ fn ratio(analysed: &Analysed, tones: &[Polar], with_multiples: bool) -> Budgeted
     let others: f64 = above.clone().map(|polar| power(&polar)).sum();
     // what oscillates beside the signal is no part of it, whether it is fitted or not
     let besides: f64 = analysed.fitted_besides().map(|of| of.amplitude * of.amplitude / 2.0).sum();
-    let noise = residuals.variance + besides;
+    let noise = residuals.variance + besides + analysed.drift_power();
     let disturbance = noise + others;
     if disturbance <= 0.0 || amplitude <= 0.0 {
         return BudgetedValue::new(f64::INFINITY, Vec::new(), f64::INFINITY);

@@ -11,6 +11,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::dirichlet::sum_of_cosines;
+use super::drift;
 use super::residuals::{LAGS, NOT_WHITE};
 use super::sine_fit::ToneDesign;
 use crate::Phasor;
@@ -91,6 +92,9 @@ pub(crate) struct Coloured {
     /// The variances of the factors of the cosine and the sine of each tone; none where the model does
     /// not fit and the record has periods enough to do without it.
     pub(crate) tones: Option<Vec<[f64; 2]>>,
+    /// The variances of the factors of the polynomials of a drift; none where the record is too short for
+    /// them.
+    pub(crate) drift: Vec<f64>,
     /// Degrees of freedom of these.
     pub(crate) freedom: f64,
     /// Whether the innovations that the model leaves are white.
@@ -185,6 +189,13 @@ impl Series {
         squares * length > variance * freedom * cube * cube * cube
     }
 
+    /// Whether values go steadily up or down or bend over the record more than white noise of this
+    /// variance does.
+    pub(crate) fn drifts(&self, variance: f64) -> bool {
+        let deviation = (variance / self.every as f64).sqrt();
+        deviation > 0.0 && drift::clearest(&self.values, deviation) > drift::CLEAR
+    }
+
     /// Up to [`MEANS`] means of successive values, and the samples of each.
     fn means(&self) -> (Vec<f64>, f64) {
         let length = self.values.len().div_ceil(MEANS).max(1);
@@ -196,7 +207,7 @@ impl Series {
     /// What a short record tells of a memory of first order, by the restricted likelihood: the
     /// autocorrelation of what a fit of many parameters leaves is too low.
     pub(crate) fn memory(&self, design: &ToneDesign) -> Memory {
-        let parameters = 1 + 2 * design.tones.len();
+        let parameters = 1 + 2 * design.tones.len() + design.drift;
         if self.values.len() >= parameters + TELLS {
             return Memory::None;
         }
@@ -230,15 +241,21 @@ impl Series {
         let count = self.values.len();
         let constant = vec![1.0; count];
         let (columns, seen) = self.waves(design);
-        let whole = Regression { columns: [vec![constant.clone()], columns].concat() };
-        let short = Regression { columns: vec![constant] };
+        let level = |count| [vec![vec![1.0; count]], drift::columns(design.drift, count)].concat();
+        let whole = Regression { columns: [vec![constant], columns].concat() };
+        let short = Regression { columns: level(count) };
         let (process, fits) = if many { &short } else { &whole }.process(&self.values)?;
         let nearest = process;
         let mut slow_values = None;
         let (mut process, mut freedom) = (process, process.freedom(count));
         let variance = |weights: &[f64]| process.variance_of(weights);
-        let mut level = variance(&whole.weights(0)?);
+        let mut of_level = variance(&whole.weights(0)?);
         let mut tones = None;
+        let of_drift = |of: &Regression, process: &Process| -> Option<Vec<f64>> {
+            let places = of.columns.len() - design.drift..of.columns.len();
+            places.map(|place| Some(process.variance_of(&of.weights(place)?))).collect()
+        };
+        let mut drift = if fits { of_drift(&whole, &process)? } else { Vec::new() };
         if fits || !many {
             let places = seen.then_some(0..design.tones.len());
             tones = places.and_then(|mut places| {
@@ -252,9 +269,10 @@ impl Series {
         if !fits {
             // hum and the like: the means of long parts know nothing of it
             let (means, _) = self.means();
-            let slow = Regression { columns: vec![vec![1.0; means.len()]] };
+            let slow = Regression { columns: level(means.len()) };
             if let Some((of_means, _)) = slow.process(&means).filter(|_| means.len() >= 8) {
-                level = of_means.variance_of(&slow.weights(0)?);
+                of_level = of_means.variance_of(&slow.weights(0)?);
+                drift = of_drift(&slow, &of_means)?;
                 freedom = of_means.freedom(means.len());
                 process = of_means;
                 slow_values = Some(means);
@@ -263,8 +281,8 @@ impl Series {
         let flicker = (!process.walks)
             .then(|| process.flicker(slow_values.as_deref().unwrap_or(&self.values), design, fits))
             .flatten();
-        if let Some((of_flicker, bins)) = flicker.filter(|(of, _)| *of > level) {
-            (level, freedom) = (of_flicker, bins);
+        if let Some((of_flicker, bins)) = flicker.filter(|(of, _)| *of > of_level) {
+            (of_level, freedom) = (of_flicker, bins);
         }
         let flickers = flicker.is_some();
         let (means, _) = self.means();
@@ -272,8 +290,9 @@ impl Series {
             means.iter().map(|mean| mean * mean).sum::<f64>() / (means.len() as f64).powi(2);
         let (walks, every) = (process.walks, self.every);
         Some(Coloured {
-            level,
+            level: of_level,
             tones,
+            drift,
             freedom,
             fits,
             walks,
@@ -284,8 +303,8 @@ impl Series {
         })
     }
 
-    /// Cosine and sine of the tones as the values have them, and whether they do: means of much of
-    /// a period have little of it.
+    /// Cosine and sine of the tones as the values have them, then the polynomials of a drift, and
+    /// whether the values have the tones: means of much of a period have little of it.
     fn waves(&self, design: &ToneDesign) -> (Vec<Vec<f64>>, bool) {
         let (count, every) = (self.values.len(), self.every as f64);
         let middle = (count as f64 - 1.0) / 2.0;
@@ -305,6 +324,7 @@ impl Series {
             let (cosines, sines) = waves.unzip();
             columns.extend([cosines, sines]);
         }
+        columns.extend(drift::columns(design.drift, count));
         (columns, seen)
     }
 }
@@ -601,7 +621,9 @@ impl Process {
             let apart = |cycles: f64| (cycles * design.samples as f64 - *bin as f64).abs();
             design.tones.iter().all(|tone| apart(tone.cycles) > 1.5)
         };
-        let bins: Vec<usize> = (1..=SLOW.min(values.len() / 4)).filter(is_free).collect();
+        // polynomials take half a turn out of the noise with each degree
+        let lowest = 1 + design.drift.div_ceil(2);
+        let bins: Vec<usize> = (lowest..=SLOW.min(values.len() / 4)).filter(is_free).collect();
         let power = |bin: &usize| {
             let step = Turns::new(*bin as f64 / count)?;
             let (mut cos, mut sin) = (vec![0.0; values.len()], vec![0.0; values.len()]);

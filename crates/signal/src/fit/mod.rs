@@ -4,6 +4,7 @@
 pub(super) mod coloured;
 pub(super) mod common_noise;
 pub(super) mod dirichlet;
+pub(super) mod drift;
 pub(super) mod frequency;
 pub(super) mod lattice;
 pub(super) mod outlying;

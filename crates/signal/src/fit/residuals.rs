@@ -51,6 +51,8 @@ pub(crate) struct Residuals {
     pub(crate) farthest: Farthest,
     /// The step that the values are multiples of, where there is one that counts beside the noise.
     pub(crate) lattice: Option<f64>,
+    /// Whether they go steadily up or down or bend over the record, beyond what white noise does.
+    pub(crate) drifts: bool,
     /// What is known of the noise otherwise, after steps that change it.
     pub(crate) known: Option<KnownNoise>,
 }
@@ -172,7 +174,7 @@ impl Gathered {
         let tones = design.tones.len();
         Self {
             at_first: design.at_first(fit),
-            sums: Sums::plain(tones),
+            sums: Sums::plain(design),
             squares: 0.0,
             products: [0.0; LAGS],
             last: Vec::new(),
@@ -204,6 +206,9 @@ impl Gathered {
                 *residual -= a * cos + b * sin;
                 *slope += speed * (b * cos - a * sin);
             }
+        }
+        for (factor, column) in self.at_first.drift.iter().zip(&waves.drift) {
+            residuals.iter_mut().zip(column).for_each(|(left, drift)| *left -= factor * drift);
         }
         let middle = (design.samples as f64 - 1.0) / 2.0;
         for (sums, slope) in self.derivatives.iter_mut().zip(&slopes) {
@@ -255,7 +260,11 @@ impl Gathered {
         for (value, rest) in fit.sines.iter_mut().zip(&rest.sines) {
             *value += rest;
         }
-        let degrees_of_freedom = design.samples as f64 - 1.0 - 2.0 * design.tones.len() as f64;
+        for (value, rest) in fit.drift.iter_mut().zip(&rest.drift) {
+            *value += rest;
+        }
+        let parameters = 1 + 2 * design.tones.len() + design.drift;
+        let degrees_of_freedom = design.samples as f64 - parameters as f64;
         let cycles = self.derivatives.iter().enumerate();
         let cycles = cycles.map(|(fundamental, (product, square))| {
             let (even, odd) = design.derivative_products(fit, fundamental);
@@ -307,6 +316,7 @@ impl Gathered {
             first: self.first,
             farthest: self.farthest,
             lattice: lattice::step(&self.values, variance.sqrt()),
+            drifts: self.series.drifts(variance),
             known: None,
         }
     }

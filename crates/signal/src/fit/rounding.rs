@@ -114,8 +114,7 @@ impl Rounding {
         resolution: f64,
         terms: u32,
     ) -> Vec<[Sums; 2]> {
-        let count = design.tones.len();
-        let plain = || [Sums::plain(count), Sums::plain(count)];
+        let plain = || [Sums::plain(design), Sums::plain(design)];
         let mut sums: Vec<[Sums; 2]> = (0..terms).map(|_| plain()).collect();
         each(design, fit, |values, waves| {
             let once: Vec<(f64, f64)> = values
@@ -196,17 +195,11 @@ fn moved(design: &ToneDesign, fit: &ToneCoefficients, by: f64, larger: f64) -> T
 /// Goes through the values of a fit with the waves of its tones.
 fn each(design: &ToneDesign, fit: &ToneCoefficients, mut with: impl FnMut(&[f64], &Waves)) {
     let at_first = design.at_first(fit);
-    let mut waves = Waves::new(design.tones.len());
+    let mut waves = design.waves();
     for first in (0..design.samples).step_by(BLOCK) {
         let length = (design.samples - first).min(BLOCK as u64) as usize;
         design.fill(&mut waves, first, length);
-        let mut values = vec![at_first.offset; length];
-        for tone in 0..design.tones.len() {
-            let (a, b) = (at_first.cosines[tone], at_first.sines[tone]);
-            let waves = waves.cosines[tone].iter().zip(&waves.sines[tone]);
-            values.iter_mut().zip(waves).for_each(|(x, (cos, sin))| *x += a * cos + b * sin);
-        }
-        with(&values, &waves);
+        with(&waves.values(&at_first, length), &waves);
     }
 }
 

@@ -13,6 +13,7 @@ use std::fmt;
 use nalgebra::{DMatrix, DVector};
 
 use crate::dirichlet::Kernel;
+use crate::drift::{self, DriftProducts};
 use crate::passes::{BLOCK, SampleSource};
 use crate::turns::{Turns, oscillation};
 use gumption_engine::number::{CodePath, Shortest};
@@ -72,10 +73,14 @@ pub struct ToneDesign {
     pub tones: Vec<Tone>,
     /// Samples of the record.
     pub samples: u64,
+    /// The degree of the polynomial by which the level drifts; 0 where it is constant.
+    pub drift: usize,
     steps: Vec<Turns>,
-    /// The inverse normal matrix of the constant and the cosines, in that order.
+    products: DriftProducts,
+    /// The inverse normal matrix of the constant, the cosines and the polynomials of even degree, in
+    /// that order.
     pub(crate) even: DMatrix<f64>,
-    /// The inverse normal matrix of the sines.
+    /// The inverse normal matrix of the sines and the polynomials of odd degree.
     pub(crate) odd: DMatrix<f64>,
 }
 
@@ -88,6 +93,9 @@ pub struct ToneCoefficients {
     pub cosines: Vec<f64>,
     /// The factor of the sine of each tone.
     pub sines: Vec<f64>,
+    /// The factors of the Legendre polynomials of degrees 1, 2, ... by which the level drifts, over the
+    /// record from -1 to 1.
+    pub drift: Vec<f64>,
 }
 
 impl ToneDesign {
@@ -96,18 +104,27 @@ impl ToneDesign {
     /// # Errors
     /// [`NoFit`] where the tones have no unique fit.
     pub fn new(tones: Vec<Tone>, samples: u64) -> Result<Self, NoFit> {
+        Self::with_drift(tones, samples, 0)
+    }
+
+    /// The same with a level that drifts by a polynomial of the degree `drift`.
+    ///
+    /// # Errors
+    /// As [`ToneDesign::new`].
+    pub fn with_drift(tones: Vec<Tone>, samples: u64, drift: usize) -> Result<Self, NoFit> {
         let wrong = tones.iter().find(|tone| !(tone.cycles > 0.0 && tone.cycles < 0.5));
         if let Some(tone) = wrong {
             return Err(NoFit::Frequency { cycles: tone.cycles });
         }
-        if samples < 2 * tones.len() as u64 + 2 {
+        if samples < 2 * tones.len() as u64 + drift as u64 + 2 {
             return Err(NoFit::TooShort);
         }
         let steps: Vec<Turns> = tones.iter().filter_map(|tone| Turns::new(tone.cycles)).collect();
         let count = steps.len();
         let sum = |turns: Turns| Kernel::new(turns, samples).cosines;
-        let mut even = DMatrix::zeros(count + 1, count + 1);
-        let mut odd = DMatrix::zeros(count, count);
+        let (even_size, odd_size) = (count + 1 + drift / 2, count + drift.div_ceil(2));
+        let mut even = DMatrix::zeros(even_size, even_size);
+        let mut odd = DMatrix::zeros(odd_size, odd_size);
         even[(0, 0)] = samples as f64;
         for (k, step) in steps.iter().enumerate() {
             even[(0, k + 1)] = sum(*step);
@@ -118,9 +135,29 @@ impl ToneDesign {
                 odd[(k, l)] = (apart - together) / 2.0;
             }
         }
+        let products = DriftProducts::new(drift, &steps, samples);
+        for (i, level) in products.level.iter().enumerate() {
+            let (is_even, place) = place_of_degree(count, i + 1);
+            let matrix = if is_even { &mut even } else { &mut odd };
+            let mut both = |other: usize, product: f64| {
+                matrix[(other, place)] = product;
+                matrix[(place, other)] = product;
+            };
+            for (tone, products) in products.waves.iter().enumerate() {
+                both(tone + usize::from(is_even), products[i]);
+            }
+            for j in (0..drift).filter(|j| (i + j) % 2 == 0) {
+                both(place_of_degree(count, j + 1).1, products.own[(i, j)]);
+            }
+            if is_even {
+                both(0, *level);
+            }
+        }
         let (even, odd) = (inverse(even), inverse(odd));
         match (even, odd) {
-            (Some(even), Some(odd)) => Ok(Self { tones, samples, steps, even, odd }),
+            (Some(even), Some(odd)) => {
+                Ok(Self { tones, samples, drift, steps, products, even, odd })
+            }
             _ => Err(NoFit::TooShort),
         }
     }
@@ -135,7 +172,7 @@ impl ToneDesign {
     ) -> Result<Vec<ToneCoefficients>, E> {
         let mut sums: Vec<Sums> = Vec::new();
         self.each(passes, |_, channels, waves| {
-            sums.resize_with(channels.len(), || Sums::new(self.tones.len()));
+            sums.resize_with(channels.len(), || Sums::new(self));
             for (sums, values) in sums.iter_mut().zip(channels) {
                 sums.add(values, waves);
             }
@@ -145,10 +182,10 @@ impl ToneDesign {
 
     /// Fits values in memory.
     pub(crate) fn fit_values(&self, values: &[f64]) -> ToneCoefficients {
-        let mut sums = Sums::new(self.tones.len());
-        let mut waves = Waves::new(self.steps.len());
+        let mut sums = Sums::new(self);
+        let mut waves = self.waves();
         for (block, values) in values.chunks(BLOCK).enumerate() {
-            waves.fill(&self.steps, (block * BLOCK) as u64, values.len());
+            self.fill(&mut waves, (block * BLOCK) as u64, values.len());
             sums.add(values, &waves);
         }
         self.solve(&sums)
@@ -160,56 +197,81 @@ impl ToneDesign {
         passes: &mut dyn SampleSource<Error = E>,
         mut each: impl FnMut(u64, &[&[f64]], &Waves),
     ) -> Result<(), E> {
-        let mut waves = Waves::new(self.steps.len());
+        let mut waves = self.waves();
         passes.pass(&mut |first, channels| {
             let length = channels.first().map_or(0, |values| values.len()).min(BLOCK);
-            waves.fill(&self.steps, first, length);
+            self.fill(&mut waves, first, length);
             each(first, channels, &waves);
         })
     }
 
+    /// Room for the waves of a block.
+    pub(crate) fn waves(&self) -> Waves {
+        Waves::new(self.steps.len(), self.drift)
+    }
+
     /// The waves at `length` samples from sample `first` on.
     pub(crate) fn fill(&self, waves: &mut Waves, first: u64, length: usize) {
-        waves.fill(&self.steps, first, length);
+        waves.fill(&self.steps, self.samples, first, length);
+    }
+
+    /// The variance of the factor of a polynomial, of degree 1 or more, for white noise of variance 1.
+    pub(crate) fn variance_of_degree(&self, degree: usize) -> f64 {
+        let (is_even, place) = place_of_degree(self.steps.len(), degree);
+        let matrix = if is_even { &self.even } else { &self.odd };
+        matrix[(place, place)]
     }
 
     /// The least-squares solution for sums of products.
     pub(crate) fn solve(&self, sums: &Sums) -> ToneCoefficients {
         let (even, odd) = self.to_middle(sums);
+        let mut solution = self.coefficients(&(&self.even * even), &(&self.odd * odd));
         // the pilot was taken off every value
-        let mut solution = &self.even * even;
-        let sines = &self.odd * odd;
-        solution[0] += sums.pilot.unwrap_or(0.0);
+        solution.offset += sums.pilot.unwrap_or(0.0);
+        solution
+    }
+
+    /// The coefficients that two solutions are, of what is even and of what is odd.
+    fn coefficients(&self, even: &DVector<f64>, odd: &DVector<f64>) -> ToneCoefficients {
+        let count = self.steps.len();
+        let of_degree = |degree: usize| {
+            let (is_even, place) = place_of_degree(count, degree);
+            if is_even { even[place] } else { odd[place] }
+        };
         ToneCoefficients {
-            offset: solution[0],
-            cosines: solution.iter().skip(1).copied().collect(),
-            sines: sines.iter().copied().collect(),
+            offset: even[0],
+            cosines: even.iter().skip(1).take(count).copied().collect(),
+            sines: odd.iter().take(count).copied().collect(),
+            drift: (1..=self.drift).map(of_degree).collect(),
         }
     }
 
     /// The sums, which count phases from the first sample, turned to the middle: even and odd ones.
     fn to_middle(&self, sums: &Sums) -> (DVector<f64>, DVector<f64>) {
-        let mut even = DVector::zeros(self.steps.len() + 1);
-        let mut odd = DVector::zeros(self.steps.len());
+        let (mut even, mut odd) = self.zeros();
         even[0] = sums.values;
         for (k, step) in self.steps.iter().enumerate() {
-            let (sin, cos) = self.middle(*step);
+            let (sin, cos) = step.to_middle(self.samples).sin_cos();
             even[k + 1] = sums.cosines[k] * cos + sums.sines[k] * sin;
             odd[k] = sums.sines[k] * cos - sums.cosines[k] * sin;
+        }
+        for (sum, degree) in sums.drift.iter().zip(1..) {
+            let (is_even, place) = place_of_degree(self.steps.len(), degree);
+            *(if is_even { &mut even[place] } else { &mut odd[place] }) = *sum;
         }
         (even, odd)
     }
 
-    /// Sine and cosine of a tone's phase from the first sample to the middle of the record.
-    fn middle(&self, step: Turns) -> (f64, f64) {
-        step.half().times(self.samples.saturating_sub(1)).sin_cos()
+    /// Right sides of the two systems.
+    fn zeros(&self) -> (DVector<f64>, DVector<f64>) {
+        (DVector::zeros(self.even.nrows()), DVector::zeros(self.odd.nrows()))
     }
 
     /// The factors of the tones with phases counted from the first sample.
     pub(crate) fn at_first(&self, fit: &ToneCoefficients) -> ToneCoefficients {
         let mut turned = fit.clone();
         for (k, step) in self.steps.iter().enumerate() {
-            let (sin, cos) = self.middle(*step);
+            let (sin, cos) = step.to_middle(self.samples).sin_cos();
             let (a, b) = (fit.cosines[k], fit.sines[k]);
             turned.cosines[k] = a * cos - b * sin;
             turned.sines[k] = a * sin + b * cos;
@@ -221,12 +283,7 @@ impl ToneDesign {
     /// too large by e is off by e times this (the negative of the projected derivative).
     pub(crate) fn slope(&self, fit: &ToneCoefficients, fundamental: usize) -> ToneCoefficients {
         let (even, odd) = self.derivative_products(fit, fundamental);
-        let (even, odd) = (-(&self.even * even), -(&self.odd * odd));
-        ToneCoefficients {
-            offset: even[0],
-            cosines: even.iter().skip(1).copied().collect(),
-            sines: odd.iter().copied().collect(),
-        }
+        self.coefficients(&-(&self.even * even), &-(&self.odd * odd))
     }
 
     /// The products of the constant and the waves with the derivative of a channel's fit by the
@@ -241,8 +298,7 @@ impl ToneDesign {
             let size = moment(from.apart(other));
             if from.value() < other.value() { -size } else { size }
         };
-        let mut even = DVector::zeros(self.steps.len() + 1);
-        let mut odd = DVector::zeros(self.steps.len());
+        let (mut even, mut odd) = self.zeros();
         for (k, (tone, step)) in self.tones.iter().zip(&self.steps).enumerate() {
             if tone.fundamental != fundamental {
                 continue;
@@ -255,9 +311,22 @@ impl ToneDesign {
                 even[l + 1] += a * (together + signed(*step, *other)) / 2.0;
                 odd[l] += b * (together + signed(*other, *step)) / 2.0;
             }
+            for (moment, degree) in self.products.moments[k].iter().zip(1..) {
+                let (is_even, place) = place_of_degree(self.steps.len(), degree);
+                if is_even {
+                    even[place] += a * moment;
+                } else {
+                    odd[place] += b * moment;
+                }
+            }
         }
         (even, odd)
     }
+}
+
+/// Whether a polynomial is even, and its place among the even or the odd coefficients of so many tones.
+fn place_of_degree(tones: usize, degree: usize) -> (bool, usize) {
+    (degree.is_multiple_of(2), tones + degree / 2)
 }
 
 /// The inverse of a normal matrix, if it is not near a singular one.
@@ -270,24 +339,46 @@ fn inverse(matrix: DMatrix<f64>) -> Option<DMatrix<f64>> {
     (inverse.diagonal().max() * largest < WORST_CONDITION).then_some(inverse)
 }
 
-/// The tones at the samples of a block, with phases counted from the first sample of the record.
+/// The tones at the samples of a block, with phases counted from the first sample of the record, and
+/// the polynomials of a drift.
 #[derive(Clone, Debug)]
 pub(crate) struct Waves {
     pub(crate) cosines: Vec<Vec<f64>>,
     pub(crate) sines: Vec<Vec<f64>>,
+    pub(crate) drift: Vec<Vec<f64>>,
 }
 
 impl Waves {
-    pub(crate) fn new(count: usize) -> Self {
-        Self { cosines: vec![Vec::new(); count], sines: vec![Vec::new(); count] }
+    pub(crate) fn new(tones: usize, degrees: usize) -> Self {
+        let columns = |count| vec![Vec::new(); count];
+        Self { cosines: columns(tones), sines: columns(tones), drift: columns(degrees) }
     }
 
-    fn fill(&mut self, steps: &[Turns], first: u64, length: usize) {
+    /// Those of a block of a record of so many samples.
+    pub(crate) fn fill(&mut self, steps: &[Turns], samples: u64, first: u64, length: usize) {
+        drift::fill(&mut self.drift, samples, first, length);
         for ((step, cos), sin) in steps.iter().zip(&mut self.cosines).zip(&mut self.sines) {
             cos.resize(length, 0.0);
             sin.resize(length, 0.0);
             oscillation(*step, first, cos, sin);
         }
+    }
+}
+
+impl Waves {
+    /// The values of a fit, whose phases count from the first sample, at the samples of the block.
+    pub(crate) fn values(&self, at_first: &ToneCoefficients, length: usize) -> Vec<f64> {
+        let mut values = vec![at_first.offset; length];
+        let tones = at_first.cosines.iter().zip(&at_first.sines);
+        for ((a, b), (cosines, sines)) in tones.zip(self.cosines.iter().zip(&self.sines)) {
+            for (value, (cos, sin)) in values.iter_mut().zip(cosines.iter().zip(sines)) {
+                *value += a * cos + b * sin;
+            }
+        }
+        for (factor, column) in at_first.drift.iter().zip(&self.drift) {
+            values.iter_mut().zip(column).for_each(|(value, drift)| *value += factor * drift);
+        }
+        values
     }
 }
 
@@ -299,16 +390,19 @@ pub(crate) struct Sums {
     pub(crate) values: f64,
     pub(crate) cosines: Vec<f64>,
     pub(crate) sines: Vec<f64>,
+    drift: Vec<f64>,
 }
 
 impl Sums {
-    pub(crate) fn new(tones: usize) -> Self {
-        Self { pilot: None, values: 0.0, cosines: vec![0.0; tones], sines: vec![0.0; tones] }
+    pub(crate) fn new(design: &ToneDesign) -> Self {
+        let zeros = |count| vec![0.0; count];
+        let (tones, drift) = (design.tones.len(), zeros(design.drift));
+        Self { pilot: None, values: 0.0, cosines: zeros(tones), sines: zeros(tones), drift }
     }
 
     /// Sums of values from which nothing is taken off.
-    pub(crate) fn plain(tones: usize) -> Self {
-        Self { pilot: Some(0.0), ..Self::new(tones) }
+    pub(crate) fn plain(design: &ToneDesign) -> Self {
+        Self { pilot: Some(0.0), ..Self::new(design) }
     }
 
     pub(crate) fn add(&mut self, values: &[f64], waves: &Waves) {
@@ -320,6 +414,9 @@ impl Sums {
         }
         for (sums, wave) in self.sines.iter_mut().zip(&waves.sines) {
             *sums += sum(wave);
+        }
+        for (sums, column) in self.drift.iter_mut().zip(&waves.drift) {
+            *sums += sum(column);
         }
     }
 }

@@ -29,6 +29,11 @@ impl Turns {
         Self(self.0 >> 1)
     }
 
+    /// From the first of so many samples to the middle of them.
+    pub(crate) fn to_middle(self, samples: u64) -> Self {
+        self.half().times(samples.saturating_sub(1))
+    }
+
     /// The sum, modulo one turn.
     pub(crate) fn plus(self, other: Self) -> Self {
         Self(self.0.wrapping_add(other.0))

@@ -50,6 +50,73 @@ fn fits_are_those_of_the_singular_value_decomposition() {
     }
 }
 
+/// With a drift of the level: the factors against the normal equations of columns written out here, and
+/// the slope along the frequency against fits at two frequencies.
+#[test]
+fn fits_with_a_drift_are_those_of_the_normal_equations() {
+    let (samples, cycles) = (301_u64, [0.0113, 0.0371]);
+    let fundamental = |cycles: [f64; 2]| -> Vec<Tone> {
+        let tone = |(fundamental, cycles)| Tone { cycles, fundamental, multiple: 1, beside: false };
+        (0..).zip(cycles).map(tone).collect()
+    };
+    let values: Vec<f64> = (0..samples)
+        .map(|i| {
+            let t = i as f64;
+            let noise = (i * i * 7919 % 10007) as f64 / 10007.0 - 0.5;
+            9.0 + (0.07 * t).cos() + 0.3 * (0.23 * t + 1.0).sin() + (-t / 90.0).exp() + 0.1 * noise
+        })
+        .collect();
+    let rows = samples as usize;
+    let columns = DMatrix::from_fn(rows, 8, |i, j| {
+        let tau = i as f64 - 150.0;
+        let x = 2.0 * tau / 301.0;
+        let angle = |k: usize| 2.0 * PI * cycles[k] * tau;
+        match j {
+            0 => 1.0,
+            1 => angle(0).cos(),
+            2 => angle(0).sin(),
+            3 => angle(1).cos(),
+            4 => angle(1).sin(),
+            5 => x,
+            6 => (3.0 * x * x - 1.0) / 2.0,
+            _ => (5.0 * x * x * x - 3.0 * x) / 2.0,
+        }
+    });
+    let solved = columns.svd(true, true).solve(&DVector::from_column_slice(&values), 1e-14);
+    let fitted = |cycles: [f64; 2]| {
+        let design = ToneDesign::with_drift(fundamental(cycles), samples, 3).unwrap();
+        let fit = design.fit_values(&values);
+        (design, fit)
+    };
+    let (design, fit) = fitted(cycles);
+    let flat = |fit: &crate::ToneCoefficients| {
+        let tones = fit.cosines.iter().zip(&fit.sines).flat_map(|(a, b)| [*a, *b]);
+        [fit.offset].into_iter().chain(tones).chain(fit.drift.iter().copied()).collect::<Vec<f64>>()
+    };
+    for (own, expected) in flat(&fit).iter().zip(solved.unwrap().iter()) {
+        // as without a drift
+        assert!((own - expected).abs() < 1e-10, "{own} {expected}");
+    }
+    // of a signal that is the fit itself the factors move as the slope says
+    let made = |cycles: [f64; 2]| {
+        let design = ToneDesign::with_drift(fundamental(cycles), samples, 3).unwrap();
+        let mut waves = design.waves();
+        design.fill(&mut waves, 0, rows);
+        waves.values(&design.at_first(&fit), rows)
+    };
+    let step = 1e-7;
+    let [up, down] = [step, -step].map(|step| {
+        let values = made([cycles[0] - step, cycles[1]]);
+        flat(&design.fit_values(&values))
+    });
+    let slope = flat(&design.slope(&fit, 0));
+    for ((up, down), slope) in up.iter().zip(&down).zip(slope) {
+        let differences = (up - down) / (2.0 * step);
+        // rounding of 1e-14 over the step, and the third derivative: (2 pi 150)^3 step^2
+        assert!((differences - slope).abs() < 1e-4, "{differences} {slope}");
+    }
+}
+
 /// Three- and four-parameter fits against those of numpy and scipy (tests/data/sine_fits.csv says how
 /// they were made).
 #[test]

@@ -344,6 +344,51 @@ fn a_tone_beside_is_fitted_or_said_to_be_too_near() {
     assert!((u / 2.52e-4 - 1.0).abs() < 0.1, "{u}");
 }
 
+/// A level that moves steadily is fitted with the oscillations: their errors are those of the noise,
+/// where they were three standard uncertainties and more; noise that walks is no drift.
+#[test]
+fn a_drift_is_fitted() {
+    let bench = Bench { samples: 1000, noise: 0.02, ..Bench::default() };
+    let shapes: [fn(f64) -> f64; 3] =
+        [|x| 0.3 * x, |x| 0.3 * (-x / 0.3).exp(), |x| 0.2 * (2.6 * PI * x).sin()];
+    let mut squares = [0.0; 3];
+    let mut count = 0.0;
+    for seed in 0..40 {
+        let mut held = bench.values(seed);
+        for values in &mut held.channels {
+            let shape = shapes[(seed % 3) as usize];
+            (0_u32..).zip(values).for_each(|(i, value)| *value += shape(f64::from(i) / 1000.0));
+        }
+        let observation = bench.observe(held);
+        for channel in [0, 1] {
+            assert!(observation.notes.iter().any(|of| (of.0, of.1) == ("found-drift", channel)));
+        }
+        let second = &observation.frequencies[0][1].components[0];
+        let first = &observation.frequencies[0][0].components[0];
+        // sqrt(2/1000) of the noise, and for the phase of both channels over their sizes; a tenth more
+        // for what the drift costs and u is known to
+        let found = [
+            (&first.amplitude, 1.0, 8.9e-4),
+            (&second.amplitude, 0.5, 8.9e-4),
+            (&second.phase, -1.5, 2.0e-3),
+        ];
+        for (square, (found, truth, u)) in squares.iter_mut().zip(found) {
+            let found = found.measured;
+            *square += ((found.value - truth) / found.standard_uncertainty).powi(2);
+            assert!(found.standard_uncertainty < 1.1 * u, "{}", found.standard_uncertainty);
+        }
+        count += 1.0;
+    }
+    for square in squares {
+        // the mean square of 40 standard normal numbers: below 2 but for one set in 10 000
+        assert!(square / count < 2.0, "{}", square / count);
+    }
+    let walk = Bench { memory: 1.0, noise: 0.002, ..bench };
+    let drifts =
+        |seed: &u64| walk.observe(walk.values(*seed)).notes.iter().any(|of| of.0 == "found-drift");
+    assert_eq!((0..40).filter(drifts).count(), 0);
+}
+
 /// A stated frequency with an uncertainty gives way to what the recording tells only within it.
 #[test]
 fn a_wrong_frequency_stays_wrong() {
