@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 
+use super::exit::say;
 use super::options::{Answer, CoverageOption, Interactive, Model, Seed, Threads};
 use super::{CommandLine, Exit, Failure, options, progress, run, signals};
 use gumption_analysis::assumptions::{Audit, Question, audit, trials_to_make};
@@ -87,6 +88,7 @@ impl Assumptions {
         let place = self.answer.open(&self.model.paths(&file))?;
         let stop = signals::stop_flag();
         let Some(found) = self.audit(&file, &task, question, &stop)? else {
+            say("gumption: interrupted; part of an audit is no answer, and none is given\n");
             return Ok(Exit::Interrupted);
         };
         warnings.extend(found.warnings.iter().cloned());

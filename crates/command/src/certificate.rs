@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 
+use super::exit::say;
 use super::options::{self, Answer, CoverageOption, Interactive, Seed, Threads, Trust};
 use super::output::Place;
 use super::{CommandLine, Exit, Failure, output, progress, run, signals};
@@ -149,7 +150,7 @@ impl Certificate {
             warnings: &warnings,
         };
         if issued.stopped || stop.load(Ordering::Relaxed) {
-            // half a certificate is none
+            say("gumption: interrupted; no certificate is issued from part of the trials\n");
             return Ok(Exit::Interrupted);
         }
         if self.answer.format == Format::Dcc {

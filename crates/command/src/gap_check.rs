@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 
+use super::exit::say;
 use super::options::{Answer, Case, Interactive, Seed, Threads};
 use super::shared_draws::SharedCheck;
 use super::signals::{self, Temporary};
@@ -117,7 +118,10 @@ impl GapCheck {
             Some(folder) => Some(shared().together(folder)?),
             None => self.made(program, &file, seed, range.clone(), &stop)?,
         };
-        let Some(checked) = checked else { return Ok(Exit::Interrupted) };
+        let Some(checked) = checked else {
+            say("gumption: interrupted; part of a check is no answer, and none is given\n");
+            return Ok(Exit::Interrupted);
+        };
         if let Some(partial) = partial {
             let content = shared().file(&range, checked)?;
             partial.write_with(|out| out.write_all(content.as_bytes()).map(|()| true))?;

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
+use super::exit::say;
 use super::options::{self, Answer, CoverageOption, Interactive, Model, Seed, Threads};
 use super::{CommandLine, Exit, Failure, progress, run, signals};
 use gumption_analysis::integrity;
@@ -93,6 +94,7 @@ impl Planning {
             costs.map_or((Costs::Equal, None), |CostFile { costs, text }| (costs, Some(text)));
         let question = PlanQuestion { target, costs, drift };
         let Some(found) = self.plan(&file, &task, &question, &stop)? else {
+            say("gumption: interrupted; part of a plan is no answer, and none is given\n");
             return Ok(Exit::Interrupted);
         };
         let mut provenance = run::provenance(&file.source.text, &file.files);

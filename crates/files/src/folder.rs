@@ -87,6 +87,12 @@ impl<'a> Folder<'a> {
         })
     }
 
+    /// The file of that name as messages call it: from the disk by its path from the current folder, as
+    /// the file that names it is called, so that an editor finds it.
+    pub(super) fn shown(self, name: &str) -> String {
+        if self.holds(name) { name.to_owned() } else { self.path.join(name).display().to_string() }
+    }
+
     /// The current folder, for files that the user names himself.
     pub(super) fn of_the_user() -> Self {
         Self { path: Path::new(""), allowed: None, held: &[], source: None, within: None }

@@ -11,6 +11,7 @@ use super::folder::Folder;
 use super::input_set::InputSet;
 use super::json::{Json, Member};
 use super::keys::{self, Shape};
+use super::notation;
 use super::object::Object;
 use super::overrides::Override;
 use super::paired;
@@ -277,6 +278,16 @@ impl<'a> Reader<'a, '_> {
             let value = self.object.value(key, unit, ValueOf::Quantity);
             return value.map(EstimateSource::Fixed);
         }
+        if notation::states_uncertainty(text) {
+            let diagnostic = DiagnosticKind::WrongType {
+                what: format!("`{key}`"),
+                found: "a value with its uncertainty",
+                expected: "the estimate alone; as the whole input, in place of the braces, such a \
+                           text is a value and its uncertainty",
+            };
+            log.report(&member.value.span, diagnostic);
+            return None;
+        }
         let formula = log.value(
             &member.value.span,
             log.formula(text).map_err(|error| DiagnosticKind::Formula { error }),
@@ -333,7 +344,13 @@ impl<'a> Reader<'a, '_> {
         }
         let certificate = self.certificate.clone();
         let (results, conditions) = (self.results, self.conditions);
+        // a formula has no estimate of its own that limits would belong to
+        let is_formula = object.get(key).is_some_and(
+            |member| matches!(&member.value.value, Json::Text(text) if !is_value(text)),
+        );
+        let replaces = self.moved.is_some() && !is_formula;
         let fields = |estimate, row| Fields {
+            replaces,
             samples: samples.as_ref(),
             read: read.as_ref(),
             certificate: certificate.as_ref(),

@@ -15,7 +15,9 @@ use super::object::Object;
 use super::outputs::Outputs;
 use super::scopes::{coherent, condition_scope, report_formula};
 use gumption_engine::model::Quantity;
-use gumption_engine::model::formula::{Scope, TableCall, TableData, Typing, check_name, looks_of};
+use gumption_engine::model::formula::{
+    Formula, Scope, TableCall, TableData, Typing, check_name, looks_of,
+};
 use gumption_engine::model::typed::CatalogueEntry;
 use gumption_engine::task::Warning;
 use gumption_units::Unit;
@@ -244,29 +246,56 @@ pub(super) fn check_equations(
 
 /// Complex quantities that are pairs of inputs, and in models that have some the imaginary unit.
 fn define_complex(scope: &mut Scope, of: &Quantities, equations: &[Equation<'_>]) {
-    let mut found = !of.outputs.complex.is_empty();
-    let names = of.inputs.quantities.iter().map(|input| &input.quantity);
-    for Quantity { name, unit, .. } in names.clone() {
-        let Some((whole, part)) = name.rsplit_once('.') else { continue };
-        let other = match part {
-            "re" => "im",
-            "abs" => "arg",
-            _ => continue,
-        };
-        let other = format!("{whole}.{other}");
-        if names.clone().any(|quantity| quantity.name == other) {
-            scope.define(whole, Typing::in_unit(unit));
-            scope.define_complex(whole);
-            found = true;
-        }
+    for (whole, unit) in complex_inputs(of) {
+        scope.define(whole, Typing::in_unit(unit));
+        scope.define_complex(whole);
     }
-    let own = names.clone().any(|quantity| quantity.name == IMAGINARY_UNIT)
-        || equations.iter().any(|(name, ..)| name == IMAGINARY_UNIT)
-        || of.conditions.quantities.iter().any(|quantity| quantity.name == IMAGINARY_UNIT);
-    if found && !own {
+    if has_complex(of) && !is_quantity(IMAGINARY_UNIT, of, equations) {
         scope.define(IMAGINARY_UNIT, Typing::NUMBER);
         scope.define_complex(IMAGINARY_UNIT);
     }
+}
+
+/// The names and units of complex inputs.
+fn complex_inputs(of: &Quantities) -> impl Iterator<Item = (&str, &Unit)> {
+    let names = || of.inputs.quantities.iter().map(|input| &input.quantity);
+    names().filter_map(move |Quantity { name, unit, .. }| {
+        let (whole, part) = name.rsplit_once('.')?;
+        let other = match part {
+            "re" => "im",
+            "abs" => "arg",
+            _ => return None,
+        };
+        let other = format!("{whole}.{other}");
+        names().any(|quantity| quantity.name == other).then_some((whole, unit))
+    })
+}
+
+fn has_complex(of: &Quantities) -> bool {
+    !of.outputs.complex.is_empty() || complex_inputs(of).next().is_some()
+}
+
+/// Whether a name is that of an input, an equation or a condition.
+fn is_quantity(name: &str, of: &Quantities, equations: &[Equation<'_>]) -> bool {
+    of.inputs.quantities.iter().any(|input| input.quantity.name == name)
+        || equations.iter().any(|(equation, ..)| equation == name)
+        || of.conditions.quantities.iter().any(|quantity| quantity.name == name)
+}
+
+/// That formulas of complex quantities take `i` for a quantity, and not for the imaginary unit.
+pub(super) fn imaginary_unit_hidden(
+    of: &Quantities,
+    equations: &[Equation<'_>],
+) -> Option<Warning> {
+    let mut formulas = equations.iter().filter_map(|(_, _, formula)| formula.as_ref());
+    let is_used = |formula: &Formula| formula.names().any(|(name, _)| name == IMAGINARY_UNIT);
+    let is_hidden =
+        has_complex(of) && is_quantity(IMAGINARY_UNIT, of, equations) && formulas.any(is_used);
+    is_hidden.then(|| {
+        let text = "`i` is the quantity of that name in the formulas of this file, and not the \
+                    imaginary unit; if you mean that, give the quantity another name";
+        Warning::new("imaginary-unit", IMAGINARY_UNIT, text.to_owned())
+    })
 }
 
 /// The name of the imaginary unit.

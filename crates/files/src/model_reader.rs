@@ -36,7 +36,7 @@ use super::interpolated;
 use super::json::{Json, Member, Node};
 use super::model_checks::{
     Quantities, check_equations, check_formula_outputs, check_names, check_typed,
-    units_not_checked, unknown_output,
+    imaginary_unit_hidden, units_not_checked, unknown_output,
 };
 use super::model_file::ModelFile;
 use super::object::Object;
@@ -176,7 +176,7 @@ impl<'a> ModelReader<'a> {
         own_units(root);
         let title = root.text("title").unwrap_or("").to_owned();
         let source = root.text("source").unwrap_or("").to_owned();
-        let check_units = root.truth("check_units").unwrap_or(true);
+        let check_units = self.check_units();
         let mut settings = settings::read(root);
         settings.method = settings::method(root);
 
@@ -233,6 +233,18 @@ impl<'a> ModelReader<'a> {
             None => (None, None),
         };
         Some(Found { file, sim, observed, simulated, reachable, replication, data })
+    }
+
+    /// Whether units are checked. Where formulas are built in, their quantities have units of their own.
+    fn check_units(&self) -> bool {
+        let checked = self.root.truth("check_units").unwrap_or(true);
+        if let Some(member) = self.root.get("check_units").filter(|_| !checked)
+            && self.root.get("model").is_some()
+        {
+            let diagnostic = DiagnosticKind::OnlyWith { key: "check_units", with: "equations" };
+            self.root.log.report(&member.key_span, diagnostic);
+        }
+        checked
     }
 
     /// The calibration functions; `None` after a mistake in one, without which formulas mean nothing.
@@ -374,6 +386,7 @@ impl<'a> ModelReader<'a> {
                 if !of.check_units {
                     warnings.push(units_not_checked(&self.root, of));
                 }
+                warnings.extend(imaginary_unit_hidden(of, &equations));
                 warnings.extend(formula_notes::of_formulas(&equations, &scope, of));
                 let outputs = &of.outputs.outputs;
                 warnings.extend(formula_notes::unused_inputs(&self.root, &equations, outputs));

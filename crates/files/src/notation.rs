@@ -251,6 +251,11 @@ impl Uncertainty {
     }
 }
 
+/// Whether a text is a value with its uncertainty.
+pub(super) fn states_uncertainty(text: &str) -> bool {
+    matches!(stated(text), Ok((_, stated)) if !matches!(stated, Stated::Exact(_)))
+}
+
 /// Reads a text: its unit (empty without one) and what it says.
 fn stated(text: &str) -> Result<(String, Stated), String> {
     let text = with_plus_minus(&text.trim().replace('−', "-"));

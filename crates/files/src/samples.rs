@@ -147,7 +147,7 @@ fn of_text(
         column_heading::check(object.log, span, heading, unit).then_some(())?;
         return Some(table.rows.iter().filter_map(|row| row.get(column)).copied().collect());
     }
-    let source = SourceText::new(file, text);
+    let source = SourceText::new(folder.shown(file), text);
     let heading = heading(&source.text);
     if let Some((heading, _)) = heading {
         let separator = Separator::of_header(heading);

@@ -121,6 +121,11 @@ fn rule(object: &Object<'_>) -> Option<StoppingRule> {
 /// The coverage that a root object asks for, if it does.
 pub(super) fn coverage(root: &Object<'_>) -> Option<Coverage> {
     let fixed = root.truth("coverage_factor_fixed").unwrap_or(false);
+    if let (Some(member), None) = (root.get("coverage_factor_fixed"), root.get("coverage_factor")) {
+        let diagnostic = DiagnosticKind::MissingKey { key: "coverage_factor", what: "the file" };
+        root.log.report(&member.key_span, diagnostic);
+        return None;
+    }
     match (root.get("coverage_probability"), root.get("coverage_factor")) {
         (Some(_), Some(second)) => {
             let diagnostic = DiagnosticKind::Exclusive {
@@ -155,13 +160,6 @@ pub(super) fn coverage(root: &Object<'_>) -> Option<Coverage> {
             root.log.report(&member.value.span, DiagnosticKind::OutOfRange { key, found, range });
             None
         }
-        (None, None) => {
-            if let Some(member) = root.get("coverage_factor_fixed") {
-                let diagnostic =
-                    DiagnosticKind::MissingKey { key: "coverage_factor", what: "the file" };
-                root.log.report(&member.key_span, diagnostic);
-            }
-            None
-        }
+        (None, None) => None,
     }
 }

@@ -87,7 +87,7 @@ pub(super) fn read(
             return None;
         }
     };
-    let kinds = match read_bytes(bytes, name, wanted) {
+    let kinds = match read_bytes(bytes, &folder.shown(name), wanted) {
         Ok(read) => return Some(read),
         Err(kinds) => kinds,
     };

@@ -149,7 +149,7 @@ impl OverridableModel {
             })
             .collect();
         let given = recorded_values(&recorder, &self.inputs, &self.conditions, self.numbers);
-        let given = with_complex(given);
+        let given = with_complex(given, &self.inputs, self.numbers);
         let outputs = Making::new(self, effects, parameters, given).results()?;
         let results: Vec<Traced<'_>> = self
             .outputs
@@ -157,7 +157,12 @@ impl OverridableModel {
             .zip(outputs)
             .map(|(output, value)| {
                 let Quantity { name, unit, .. } = &output.quantity;
-                self.numbers.given(value.re, unit, self.scope.get(name).unwrap_or(Typing::ANY))
+                let is_given =
+                    |name: &String| self.inputs.iter().any(|of| of.quantity.name == *name);
+                // the phase of a complex quantity is computed here, in radians
+                let is_phase = name.ends_with(".arg") && !is_given(name);
+                let numbers = if is_phase { NumberForm::Coherent } else { self.numbers };
+                numbers.given(value.re, unit, self.scope.get(name).unwrap_or(Typing::ANY))
             })
             .collect();
         Ok(recorder.program(next, &results))
@@ -409,16 +414,29 @@ impl<'s, 'r> Making<'s, 'r> {
 const IMAGINARY_UNIT: &str = "i";
 
 /// The values of inputs and conditions, with the complex quantities that pairs of inputs are.
-fn with_complex<'r>(given: Vec<(String, Traced<'r>)>) -> HashMap<String, Value<'r>> {
+fn with_complex<'r>(
+    given: Vec<(String, Traced<'r>)>,
+    inputs: &[InputQuantity],
+    form: NumberForm,
+) -> HashMap<String, Value<'r>> {
+    let radians = |name: &str, phase: Traced<'r>| {
+        let of = inputs.iter().find(|input| input.quantity.name == name);
+        let declared = of.filter(|_| form == NumberForm::Declared);
+        declared.map_or(phase, |of| NumberForm::Coherent.taken(phase, &of.quantity.unit))
+    };
     let mut values: HashMap<String, Value<'r>> = HashMap::new();
     let parts: HashMap<&str, Traced<'r>> =
         given.iter().map(|(name, value)| (name.as_str(), *value)).collect();
     for (name, value) in &given {
         let Some((whole, part)) = name.rsplit_once('.') else { continue };
-        let other = |part: &str| parts.get(format!("{whole}.{part}").as_str()).copied();
+        let other = |part: &str| {
+            let name = format!("{whole}.{part}");
+            parts.get(name.as_str()).map(|value| (name, *value))
+        };
         let complex = match part {
-            "re" => other("im").map(|im| ComplexNumber::new(*value, im)),
-            "abs" => other("arg").map(|phase| ComplexNumber::polar(*value, phase)),
+            "re" => other("im").map(|(_, im)| ComplexNumber::new(*value, im)),
+            "abs" => other("arg")
+                .map(|(name, phase)| ComplexNumber::polar(*value, radians(&name, phase))),
             _ => None,
         };
         if let Some(complex) = complex {

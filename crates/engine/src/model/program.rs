@@ -338,6 +338,12 @@ impl Program {
                 _ => {}
             }
         }
-        None
+        let is_infinite = |(node, taken): (&Node, bool)| {
+            taken && matches!(node, Node::Constant(value) if value.is_infinite())
+        };
+        let has_infinite = self.nodes.iter().zip(taken).any(is_infinite);
+        has_infinite.then(|| {
+            "a part of the model that depends on no input and is infinite, as `1/0` is".to_owned()
+        })
     }
 }

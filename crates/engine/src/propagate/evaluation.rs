@@ -13,6 +13,7 @@ use super::conformity::{Conformity, ErrorLaw};
 use super::exact::{self, Noiseless};
 use super::gum::{self, Gum, GumRow};
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
+use super::nonlinearity;
 use super::regions::{RegionEvaluation, regions};
 use super::second_order::{SecondOrder, second_order};
 use super::statement::Stated;
@@ -89,6 +90,9 @@ pub struct OutputEvaluation {
     /// The law of propagation with its terms of second order, where they tell why the two differ, or
     /// what the law leaves out.
     pub second_order: Option<Box<SecondOrder>>,
+    /// Whether the trials tell that the model is not linear over the uncertainties of its inputs; `None`
+    /// without trials or without a law of propagation.
+    pub(super) nonlinear: Option<bool>,
     /// Figures without the noise of trials, or why there are none; `None` where none were asked for.
     pub noiseless: Option<Result<Box<Noiseless>, String>>,
     /// Their comparison.
@@ -214,10 +218,19 @@ pub enum EvaluationError {
         row: usize,
         /// How many, out of how many, and the first one's drawn inputs.
         undefined: Undefined,
-        /// Names and values of the varying inputs in the first such trial.
+        /// Names and values of the varying inputs in the first such trial, and of the conditions.
         inputs: Vec<(String, f64)>,
         /// The operation that gave no number.
         operation: Option<String>,
+    },
+    /// An output has no value at the inputs' estimates, and there are no trials that would tell more.
+    NoEstimate {
+        /// The row.
+        row: usize,
+        /// The output, by its number.
+        output: usize,
+        /// The sentence.
+        message: String,
     },
     /// More trials are not finite than are allowed, of which no more is known.
     NotFinite {
@@ -249,19 +262,17 @@ impl fmt::Display for EvaluationError {
         match self {
             Self::Task(error) => error.fmt(f),
             Self::Paired { variable, error } => write!(f, "`{variable}`: {error}"),
-            Self::Correlation { message, .. } | Self::Rounding { message, .. } => {
-                f.write_str(message)
-            }
+            Self::Correlation { message, .. }
+            | Self::NoEstimate { message, .. }
+            | Self::Rounding { message, .. } => f.write_str(message),
             Self::Undefined { undefined, inputs, operation, .. } => {
                 let Undefined { count, trials, .. } = undefined;
                 write!(f, "{count} of {trials} trials have no finite result")?;
-                if let Some(operation) = operation {
-                    write!(f, "; the first is {operation}")?;
-                }
-                let at = inputs.iter().map(|(name, v)| format!("{name} = {}", Shortest(*v)));
-                let at: Vec<String> = at.collect();
-                if !at.is_empty() {
-                    write!(f, ", at {}", at.join(", "))?;
+                let at = named_values(inputs);
+                match operation {
+                    Some(operation) => write!(f, "; the first is {operation}{at}")?,
+                    None if at.is_empty() => {}
+                    None => write!(f, "; the first is the one{at}")?,
                 }
                 let missing = inputs.iter().filter(|(_, value)| value.is_nan());
                 let missing: Vec<&str> = missing.map(|(name, _)| name.as_str()).collect();
@@ -284,6 +295,13 @@ impl fmt::Display for EvaluationError {
             Self::Threads(error) => write!(f, "cannot start threads: {error}"),
         }
     }
+}
+
+/// The place that values of names are.
+fn named_values(values: &[(String, f64)]) -> String {
+    let each = values.iter().map(|(name, value)| format!("{name} = {}", Shortest(*value)));
+    let each: Vec<String> = each.collect();
+    if each.is_empty() { String::new() } else { format!(", at {}", each.join(", ")) }
 }
 
 impl std::error::Error for EvaluationError {}
@@ -493,7 +511,9 @@ fn evaluate_row(
     };
     let mut figures: Vec<Option<MonteCarlo>> = vec![None; gums.len()];
     let mut stopped = false;
-    if task.settings.trials != Trials::Fixed(0) {
+    if task.settings.trials == Trials::Fixed(0) {
+        have_estimates(task, (number, row), &linear.estimates)?;
+    } else {
         paired_have_covariance(task, row)?;
         rounding::check(task, number, &gums)?;
         let finished = known(number).unwrap_or_else(|| {
@@ -524,7 +544,7 @@ fn evaluate_row(
     let by_product = (task.rows.len() <= FEW_ROWS).then_some(());
     let asks = gums.iter().zip(&figures).any(|(gum, figures)| {
         gum.as_ref().is_some_and(|gum| match figures {
-            Some(figures) => differs_from_linear(gum, figures),
+            Some(figures) => nonlinearity::differs_from_linear(gum, figures),
             None => by_product.is_some(),
         })
     });
@@ -538,12 +558,15 @@ fn evaluate_row(
     let evaluated = evaluated.zip(second).enumerate();
     let again = OnceCell::new();
     for (number, ((((gum, monte_carlo), drawn_dof), output), second_order)) in evaluated {
+        let problem = exact::Problem { task, row, joint: &joint, output: number, drawn_dof };
+        let nonlinear = gum.as_ref().zip(monte_carlo.as_ref()).map(|(gum, figures)| {
+            nonlinearity::is_nonlinear(&problem, gum, figures, second_order.as_ref())
+        });
         // only where there is something to say
         let second_order = second_order.filter(|second| {
             gum.as_ref().is_some_and(|gum| {
                 let u = gum.standard_uncertainty;
-                let told = monte_carlo.as_ref().is_none_or(|m| differs_from_linear(gum, m));
-                told && (second.standard_uncertainty - u).abs() > NOTEWORTHY * u
+                nonlinear != Some(false) && (second.standard_uncertainty - u).abs() > NOTEWORTHY * u
             })
         });
         let validation = match (&gum, &monte_carlo) {
@@ -554,13 +577,13 @@ fn evaluate_row(
         let needed = !validation
             .zip(monte_carlo.as_ref())
             .is_some_and(|(validation, figures)| is_clearly_valid(&validation, figures));
-        let problem = exact::Problem { task, row, joint: &joint, output: number, drawn_dof };
         let noiseless = noiseless(&problem, needed);
         let mut found = OutputEvaluation {
             gum,
             monte_carlo,
             second_order: second_order.map(Box::new),
             noiseless,
+            nonlinear,
             validation,
             capability: None,
             conformity: None,
@@ -702,30 +725,6 @@ pub(super) const NOTEWORTHY: f64 = 0.01;
 /// Rows at most of an evaluation without trials for which terms of second order are computed.
 pub(super) const FEW_ROWS: usize = 16;
 
-/// Whether the trials' standard deviation is noteworthily another one than that of a linear model.
-pub(super) fn differs_from_linear(gum: &Gum, figures: &MonteCarlo) -> bool {
-    let Some(u) = figures.spread() else {
-        return false;
-    };
-    let drawn = gum.drawn_uncertainty();
-    let noteworthy = NOTEWORTHY * gum.standard_uncertainty;
-    let few = 3.0 * scatter_of_few(drawn, figures.trials);
-    if few.is_finite() && (u - drawn).abs() <= few {
-        return false;
-    }
-    match figures.errors.standard_uncertainty {
-        Some(error) => (u - drawn).abs() > f64::max(3.0 * error, noteworthy),
-        // of few degrees of freedom it settles slowly, and of up to 3, which have no skewness, so
-        // slowly that it may still be anywhere below, down to what the GUM says, or a little below
-        // that where the GUM has the same
-        None if figures.skewness.is_some() => (u - drawn).abs() > 0.03 * drawn,
-        None => {
-            let least = f64::min(gum.standard_uncertainty - noteworthy, 0.97 * drawn);
-            u > 1.03 * drawn || u < least
-        }
-    }
-}
-
 /// The standard deviation of the standard deviation of so many normal trials (JCGM 100, E.4.3). What
 /// few trials tell of it themselves is as uncertain as it is.
 pub(super) fn scatter_of_few(u: f64, trials: u64) -> f64 {
@@ -863,8 +862,46 @@ fn explain(task: &Task, number: usize, row: &Row, undefined: Undefined) -> Evalu
         values.push(value.unwrap_or(f64::NAN));
     }
     values.extend(&row.conditions);
+    inputs.extend(swept(task, row));
     let operation = task.model.program.first_undefined(&values);
     EvaluationError::Undefined { row: number, undefined, inputs, operation }
+}
+
+/// Names and values of the conditions of a row, where there are several rows.
+fn swept(task: &Task, row: &Row) -> impl Iterator<Item = (String, f64)> {
+    let conditions = task.model.conditions.iter().zip(&row.conditions);
+    let conditions = conditions.filter(|_| task.rows.len() > 1);
+    conditions.map(|(condition, value)| (condition.name.clone(), *value))
+}
+
+/// Whether outputs have values at the inputs' estimates, which without trials are all there is.
+fn have_estimates(
+    task: &Task,
+    (number, row): (usize, &Row),
+    estimates: &[f64],
+) -> Result<(), EvaluationError> {
+    if task.settings.allowed_undefined > 0.0 {
+        return Ok(());
+    }
+    let Some(output) = estimates.iter().position(|estimate| !estimate.is_finite()) else {
+        return Ok(());
+    };
+    let values = row.estimates();
+    let name = task.model.outputs.get(output).map_or("", |of| of.quantity.name.as_str());
+    let varies =
+        |place: &usize| row.distributions.get(*place).is_some_and(|of| of.constant().is_none());
+    let inputs = task.variables.iter().zip(&values).enumerate();
+    let inputs = inputs.filter(|(place, _)| varies(place));
+    let mut at: Vec<(String, f64)> =
+        inputs.map(|(_, (variable, value))| (variable.name.clone(), *value)).collect();
+    at.extend(swept(task, row));
+    let operation = task.model.program.first_undefined(&values).filter(|_| task.function.is_none());
+    let operation = operation.map_or_else(String::new, |operation| format!(": {operation}"));
+    let message = format!(
+        "`{name}` has no finite value at the estimates of the inputs{operation}{}",
+        named_values(&at)
+    );
+    Err(EvaluationError::NoEstimate { row: number, output, message })
 }
 
 /// The hash over the bits of all trials of all rows: whether two machines, code paths or numbers of

@@ -15,6 +15,7 @@ pub mod gum;
 mod input_figures;
 pub mod monte_carlo;
 mod naming;
+mod nonlinearity;
 mod origins;
 pub mod parts;
 mod quasi;

@@ -1,7 +1,7 @@
 //! What is stated of an output: value, expanded uncertainty and coverage factor, by the method that
 //! is to be believed.
 
-use super::evaluation::{OutputEvaluation, differs_from_linear};
+use super::evaluation::OutputEvaluation;
 use super::exact::Noiseless;
 use super::gum::{Dof, Gum};
 use super::monte_carlo::MonteCarlo;
@@ -85,9 +85,7 @@ impl Stated {
         // an agreed factor is kept; what is refuted has no distribution that it could belong to
         if let Coverage::Factor { factor, fixed: true } = settings.coverage {
             let agreed = |found: Stated| found.with_factor(factor);
-            let bends = output.gum.as_ref().zip(output.monte_carlo.as_ref());
-            let bends = bends.is_none_or(|(gum, trials)| differs_from_linear(gum, trials));
-            return match (refuted, bends) {
+            return match (refuted, output.nonlinear.unwrap_or(true)) {
                 (false, _) => linear().or_else(|| trials().map(agreed)),
                 (true, true) => trials().or_else(linear).map(agreed),
                 (true, false) => linear().or_else(trials).map(agreed),

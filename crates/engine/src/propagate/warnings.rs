@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::evaluation::{
     CapabilityStatement, Evaluation, FEW_ROWS, NOTEWORTHY, OutputEvaluation, RowEvaluation,
-    differs_from_linear, scatter_of_few,
+    scatter_of_few,
 };
 use super::gum::{BudgetLine, Dof, Gum};
 use super::monte_carlo::{Adaptive, MonteCarlo};
@@ -386,6 +386,7 @@ fn of_difference(
     let error = own.max(scatter_of_few(linear, monte_carlo.trials));
     // contributions that cancel leave rounding alone
     let rounding = ROUNDING * gum.largest_contribution();
+    let rounding = rounding.max(4.0 * f64::EPSILON * gum.estimate.abs());
     if (u - linear).abs() <= f64::max(NOTEWORTHY * linear, 3.0 * error).max(rounding) {
         return;
     }
@@ -397,7 +398,7 @@ fn of_difference(
     } else {
         "is not zero as that of the GUM is".to_owned()
     };
-    if !differs_from_linear(gum, monte_carlo) {
+    if output.nonlinear != Some(true) {
         if by_dof {
             let text = format!(
                 "`{name}`{at}: the Monte Carlo standard uncertainty {difference} because standard \

@@ -60,7 +60,7 @@ impl Certificates {
             if !text.trim_start().starts_with('<') {
                 return Err(unreadable("it is no XML".to_owned()));
             }
-            Ok((SourceText::new(name, &text), bytes))
+            Ok((SourceText::new(folder.shown(name), &text), bytes))
         };
         let found = match read() {
             Ok((text, bytes)) => {

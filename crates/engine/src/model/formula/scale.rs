@@ -367,9 +367,10 @@ impl Checker<'_> {
         let turn = match (x.turn, y.turn) {
             _ if has_turns => None,
             (None, turn) | (turn, None) => turn,
-            // a number of revolutions
-            (Some(Turn::Periods), Some(Turn::Angle)) if self.is_unit(right, "rev") => y.turn,
-            (Some(Turn::Angle), Some(Turn::Periods)) if self.is_unit(left, "rev") => x.turn,
+            // so much angle in each period
+            (Some(Turn::Periods), Some(Turn::Angle)) | (Some(Turn::Angle), Some(Turn::Periods)) => {
+                Some(Turn::Angle)
+            }
             _ => None,
         };
         let level = x.level.checked_add(y.level).unwrap_or(Exponent::ZERO);

@@ -117,12 +117,25 @@ impl Law {
         }
     }
 
-    /// Whether the density is symmetric and falls from its middle.
+    /// Whether the density is known to be symmetric and to fall from its middle.
     fn is_symmetric(&self) -> bool {
         match self {
             Self::Sum { symmetric, outer, .. } => *symmetric && *outer == Outer::Sum,
             Self::One { .. } => false,
         }
+    }
+
+    /// Whether quantiles of equal probabilities of both sides are equally far from the median, as far
+    /// as they are known.
+    fn has_equal_sides(&self) -> bool {
+        let Some(median) = self.quantile(0.5, 0.5) else { return false };
+        [1e-4, 1e-3, 0.01, 0.05, 0.15, 0.3, 0.45].into_iter().all(|p| {
+            let ends = self.quantile(p, 1.0 - p).zip(self.quantile(1.0 - p, p));
+            ends.is_some_and(|(low, high)| {
+                let off = low.bound + high.bound + 2.0 * median.bound;
+                (low.value + high.value - 2.0 * median.value).abs() <= off
+            })
+        })
     }
 
     /// The shortest interval of probability `p`, with what its ends may be off, and whether there is
@@ -153,18 +166,23 @@ impl Law {
             let flat = symmetric[1].value - symmetric[0].value <= lengths[best] * (1.0 + 1e-7);
             return if flat { Some((symmetric, false)) } else { Some((ends(place(best))?, false)) };
         }
+        // the best of the places is then the middle one, where the slopes of both ends are the same but
+        // for what differences leave of them
+        if 2 * best == PARTS && self.has_equal_sides() {
+            return Some((symmetric, true));
+        }
         // the density is the same at both ends
         let excess = |low: f64| {
             let ([a, a_off], [b, b_off]) = (self.density(low)?, self.density(low + p)?);
             Some([a - b, a_off + b_off])
         };
         let (mut low, mut high) = (place(best.saturating_sub(1)), place((best + 1).min(PARTS)));
+        // the shortest one starts or ends at a limit of the values
+        let at_edge = best == 0 || best == PARTS;
         let (Some(mut at_low), Some(mut at_high)) = (excess(low), excess(high)) else {
-            return Some((ends(place(best))?, false));
+            return Some((ends(place(best))?, at_edge));
         };
         if at_low[0] >= 0.0 || at_high[0] <= 0.0 {
-            // the shortest one starts or ends at a limit of the values
-            let at_edge = best == 0 || best == PARTS;
             return at_edge.then_some((ends(place(best))?, true));
         }
         let mut at = 0.5 * (low + high);

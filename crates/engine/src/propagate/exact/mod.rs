@@ -22,7 +22,7 @@ use std::sync::Arc;
 
 use self::invert::{Decay, Inversion, Sum};
 use self::law::{Found, Law};
-use self::separate::{Group, Leaf, Outer, Separated, separate};
+use self::separate::{Group, Leaf, Outer, Separated, is_linear, separate};
 use self::term::{Inputs, Term};
 use crate::distribution::characteristic::Characteristic;
 use crate::distribution::{Dependence, Distribution, Joint, Normal, StudentT};
@@ -124,6 +124,14 @@ impl<'a> Problem<'a> {
             self.row.distributions.iter().map(|d| d.constant()).collect();
         bound.extend(self.row.conditions.iter().map(|&value| Some(value)));
         fold(&self.task.model.program, &bound)
+    }
+
+    /// Whether the output is a sum of inputs times constants.
+    pub(crate) fn is_linear(&self) -> bool {
+        let program = &self.task.model.program;
+        let output = program.outputs.get(self.output);
+        let is_sum = output.is_some_and(|node| is_linear(program, &self.folded(), *node));
+        self.task.function.is_none() && self.quantity().period.is_none() && is_sum
     }
 
     pub(crate) fn probability(&self) -> f64 {

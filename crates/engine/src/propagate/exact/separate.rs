@@ -169,6 +169,14 @@ fn independent(group: &Group, linked: &[Linked]) -> usize {
     group.variables.len() - tied.sum::<usize>()
 }
 
+/// Whether a node is a sum of variables times constants.
+pub(super) fn is_linear(program: &Program, folded: &[Option<f64>], node: usize) -> bool {
+    let mut parts = Parts { program, folded, constant: 0.0, leaves: Vec::new() };
+    parts.add(node, 1.0);
+    let is_variable = |leaf: &Leaf| matches!(program.nodes[leaf.node], Node::Variable(_));
+    parts.leaves.iter().all(|leaf| !leaf.logarithm && is_variable(leaf))
+}
+
 /// Takes an output apart. `folded` are the values of the nodes that do not vary.
 pub(super) fn separate(
     program: &Program,
