@@ -18,6 +18,7 @@ mod commands;
 mod compare;
 mod complex;
 mod conformity;
+mod contract;
 mod diff;
 mod errors;
 mod formulas;

@@ -1,4 +1,4 @@
-//! Phases whose trials lie on both sides of the cut of the arctangent.
+//! Phases whose trials lie on both sides of the cut of a phase.
 
 use std::fs;
 

@@ -419,4 +419,14 @@ fn the_workbook_of_a_certificate_is_no_budget() {
             "{said}"
         );
     }
+    for language in ["de", "fr", "it"] {
+        let text = rows.replacen('{', &format!("{{\"language\": [\"{language}\"], "), 1);
+        fs::write(at.join("c.json"), text).unwrap();
+        let (_, said, code) = told(at, &export);
+        assert_eq!(code, Some(0), "{said}");
+        for ask in ["import", "compare"] {
+            let (_, said, code) = told(at, &[ask, "c.xlsx"]);
+            assert!(code == Some(2) && said.contains("the workbook of a certificate"), "{said}");
+        }
+    }
 }

@@ -4,7 +4,9 @@
 
 use std::path::Path;
 
-use gumption_engine::propagate::{Control, Evaluation, OutputEvaluation, evaluate, warnings};
+use gumption_engine::propagate::{
+    Control, Evaluation, OutputEvaluation, Stated, evaluate, warnings,
+};
 use gumption_engine::task::{Coverage, Task, Trials};
 use gumption_files as file;
 
@@ -178,4 +180,124 @@ fn clause_8_is_decided() {
         }
     }
     assert!(went_on > 0);
+}
+
+/// The standard deviation of trials of a t distribution of three degrees of freedom is another one with
+/// each seed; of a sum, and of a smooth product without noteworthy curvature, it is no sign of a model
+/// that is not linear, and what an agreed factor states does not move with it.
+#[test]
+fn few_degrees_of_freedom_are_no_curvature() {
+    let text = |formula: &str| {
+        format!(
+            r#"{{"coverage_factor": 2, "coverage_factor_fixed": true, "inputs": {{
+            "x": {{"distribution": "readings", "values": [10.0, 10.1, 9.9, 10.3]}},
+            "b": {{"distribution": "normal", "mean": 1, "std": 0.01}}}},
+            "equations": {{"y": "{formula}"}}, "outputs": {{"y": {{}}}}}}"#
+        )
+    };
+    for formula in ["x + b", "2*(x - b)/3", "x*b"] {
+        let mut stated = Vec::new();
+        for seed in 1..=12 {
+            let mut task = task(&text(formula));
+            (task.settings.trials, task.settings.seed) = (Trials::Fixed(100_000), seed);
+            let evaluation = evaluate(&task, &Control::default()).unwrap();
+            let notes = warnings(&task, &evaluation);
+            assert!(notes.iter().all(|note| note.code != "non-linear"), "{formula} {notes:?}");
+            let found = Stated::of(first(&evaluation), &task.settings, |_| None).unwrap();
+            stated.push(found.expanded_uncertainty);
+        }
+        assert!(stated.iter().all(|u| *u == stated[0]), "{formula} {stated:?}");
+    }
+    // a product of which the other factor is as good as zero bends, whatever the seed says
+    let bent = r#"{"inputs": {
+        "x": {"distribution": "readings", "values": [-0.1, 0.0, 0.05, 0.05]},
+        "b": {"distribution": "normal", "mean": 0, "std": 1}},
+        "equations": {"y": "x*b + x"}, "outputs": {"y": {}}}"#;
+    let (_, notes) = run(bent, 100_000);
+    assert!(notes.iter().any(|note| note.0 == "non-linear"), "{notes:?}");
+}
+
+/// Phases near the cut, times a factor, in another unit or as what is left of whole multiples: half of
+/// the trials lie a period away, and the law of propagation is what is stated.
+#[test]
+fn trials_on_both_sides_of_a_cut() {
+    let text = |formula: &str, unit: &str| {
+        format!(
+            r#"{{"inputs": {{
+            "x": {{"distribution": "normal", "mean": -1, "std": 0.05}},
+            "y": {{"distribution": "normal", "mean": 0.001, "std": 0.05}},
+            "a": {{"unit": "deg", "distribution": "normal", "mean": 359.99, "std": 0.05}},
+            "f": "10 Hz"}},
+            "equations": {{"p": "{formula}"}}, "outputs": {{"p": {{"unit": "{unit}"}}}}}}"#
+        )
+    };
+    // what lies on the other side: a turn, 1/f, two turns, half a turn
+    for (formula, unit, away) in [
+        ("atan2(y, x)", "deg", "a turn away"),
+        ("-atan2(y, x)/(2*pi*f)", "ms", "100 ms away"),
+        ("2*atan2(y, x)", "rad", "13 rad away"),
+        ("atan2(y, x)/2", "rad", "3.1 rad away"),
+        ("mod(a, 360 [deg])", "deg", "a turn away"),
+    ] {
+        let (evaluation, notes) = run(&text(formula, unit), 100_000);
+        let note = notes.iter().find(|note| note.0 == "phase-jumps");
+        assert!(note.is_some_and(|note| note.1.contains(away)), "{formula} {notes:?}");
+        assert!(notes.iter().all(|note| note.0 != "non-linear"), "{formula} {notes:?}");
+        let found = first(&evaluation);
+        let gum = found.gum.as_ref().unwrap();
+        let stated = Stated::of(found, &task(&text(formula, unit)).settings, |_| None).unwrap();
+        assert_eq!(
+            (stated.value, stated.standard_uncertainty),
+            (gum.estimate, gum.standard_uncertainty)
+        );
+    }
+    // a turn from the cut, and a modulus that bends: no jump
+    let away = text("atan2(y, -x)", "deg");
+    assert!(run(&away, 100_000).1.iter().all(|note| note.0 != "phase-jumps"));
+}
+
+/// Without trials the estimate is all there is: where it has none the operation is named, as trials do,
+/// and conditions too; a branch that is not taken is no reason.
+#[test]
+fn estimates_that_are_not_there() {
+    let message = |formula: &str| {
+        let text = format!(
+            r#"{{"inputs": {{"x": {{"distribution": "normal", "mean": 2, "std": 0.1}}}},
+            "conditions": {{"c": {{"values": [1, 3]}}}},
+            "equations": {{"y": "{formula}"}}, "outputs": {{"y": {{}}}}}}"#
+        );
+        let mut task = task(&text);
+        task.settings.trials = Trials::Fixed(0);
+        evaluate(&task, &Control::default()).map(|_| ()).map_err(|error| error.to_string())
+    };
+    let sqrt = message("sqrt(x - c)").unwrap_err();
+    assert!(sqrt.contains("sqrt of -1, at x = 2, c = 3"), "{sqrt}");
+    let root = message("solve(u^2 + x + c, u, 0, 5)").unwrap_err();
+    assert!(root.contains("no finite value at the estimates") && root.contains("solve"), "{root}");
+    let constant = message("if(x > 1, x, 1/0) + if(c > 2, 1/0, 0)").unwrap_err();
+    assert!(constant.contains("depends on no input and is infinite"), "{constant}");
+    assert_eq!(message("if(x > 1, x, 1/0)"), Ok(()));
+}
+
+/// What has no moments is stated by its median and its interval, whose factor does not move with the
+/// few trials far out.
+#[test]
+fn quotients_by_what_may_be_zero() {
+    let text = r#"{"inputs": {"z": {"distribution": "normal", "mean": 1, "std": 0.3}},
+        "equations": {"y": "1/z"}, "outputs": {"y": {}}}"#;
+    let mut found = Vec::new();
+    for seed in 1..=4 {
+        let mut task = task(text);
+        (task.settings.trials, task.settings.seed) = (Trials::Fixed(200_000), seed);
+        task.settings.decide_up_to = 0;
+        let evaluation = evaluate(&task, &Control::default()).unwrap();
+        let stated = Stated::of(first(&evaluation), &task.settings, |_| None).unwrap();
+        found.push((stated.value, stated.coverage_factor));
+    }
+    for (value, factor) in &found {
+        // the median of 1/z is 1; its standard error is 0.3 sqrt(pi/2)/sqrt(200 000) = 0.0008, and the
+        // interval's end is known to about 1 %
+        assert!((value - 1.0).abs() < 0.004, "{found:?}");
+        assert!((factor / found[0].1 - 1.0).abs() < 0.05, "{found:?}");
+    }
 }

@@ -73,7 +73,8 @@ pub fn text(bytes: &[u8]) -> Result<Cow<'_, str>, String> {
             let text = std::str::from_utf8(bytes).map_err(|_| {
                 // archives, which workbooks are, begin so
                 if bytes.starts_with(b"PK\x03\x04") {
-                    return "it is a workbook, or another archive: save its sheet as `CSV UTF-8`"
+                    return "it is a workbook, or another archive: `gumption import` makes a model file of a \
+                            budget; of a table save the sheet as `CSV UTF-8`"
                         .to_owned();
                 }
                 "it is not UTF-8 text: save it as UTF-8, of a spreadsheet as `CSV UTF-8` or as a workbook"

@@ -140,12 +140,35 @@ pub(super) struct SheetName {
     pub(super) is_hidden: bool,
 }
 
+/// What stands before the digest of a certificate's file, in the languages of certificates.
+const CERTIFICATE_FILE: [&str; 4] = [
+    "certificate file, SHA-256",
+    "Kalibrierscheindatei, SHA-256",
+    "fichier du certificat, SHA-256",
+    "file del certificato, SHA-256",
+];
+
 impl Book {
     /// # Errors
     /// What is wrong with the workbook, as a sentence about it.
     pub(super) fn open(bytes: Vec<u8>) -> Result<Self, String> {
         check_parts(&bytes)?;
         Ok(Self { workbook: opened(bytes.clone())?, bytes, size: 0 })
+    }
+
+    /// Whether it is the workbook of a certificate of this program: its first sheet names the file that
+    /// the certificate was made of, in the certificate's language.
+    pub(super) fn is_certificate(&mut self) -> bool {
+        let sheets = self.sheets();
+        let [first, _, ..] = sheets.as_slice() else { return false };
+        let size = self.size;
+        let cells = self.sheet(first).map(|(cells, _)| cells).unwrap_or_default();
+        // it is read once more, if at all
+        self.size = size;
+        cells
+            .iter()
+            .flatten()
+            .any(|cell| CERTIFICATE_FILE.iter().any(|text| cell.starts_with(text)))
     }
 
     /// The sheets with cells, in their order.

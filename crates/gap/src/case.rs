@@ -4,6 +4,7 @@ use crate::{Effect, OverridableModel, OverrideError, Replication};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::model::Program;
 use gumption_engine::task::Task;
+use gumption_units::Unit;
 
 /// A model with measured data and candidate effects.
 #[derive(Clone, Debug)]
@@ -96,13 +97,15 @@ impl Case {
 
     /// The same with other priors of the listed parameters, of two effects at most: more wide ones
     /// together would explain anything.
-    pub(crate) fn with_priors(&self, other: impl Fn(&Distribution) -> Distribution) -> Self {
+    pub(crate) fn with_priors(&self, other: impl Fn(&Distribution, &Unit) -> Distribution) -> Self {
         let mut case = self.clone();
         case.prior = Prior { three: 0.0, ..case.prior };
         for place in 0..case.candidates.len() {
             let listed = self.listed_parameters(place);
-            for prior in case.candidates[place].priors.iter_mut().take(listed) {
-                *prior = other(prior);
+            let candidate = &mut case.candidates[place];
+            let priors = candidate.priors.iter_mut().zip(&candidate.effect.parameters);
+            for (prior, parameter) in priors.take(listed) {
+                *prior = other(prior, &parameter.unit);
             }
         }
         case

@@ -11,8 +11,10 @@ use super::noise_model::{WORTH_TRYING, Weighing, ln_total};
 use super::posterior::{self, Effort, Posterior, WeighedHypothesis};
 use super::setup::Setup;
 use crate::Case;
-use gumption_engine::distribution::{Distribution, LogUniform, Normal, Rectangular};
+use gumption_engine::distribution::{Distribution, LogUniform, Normal, Rectangular, Truncated};
 use gumption_engine::number::{elementary, largest_first};
+use gumption_units::{Turn, Unit};
+use std::f64::consts::TAU;
 
 /// By how much priors are widened where they contradict the data, and where they still do: the unit of a
 /// size that was mistaken.
@@ -37,6 +39,12 @@ const WORTH_WIDEST: f64 = 0.5;
 /// where "unexplained" has.
 const WORTH_PAIRS: f64 = 0.05;
 const MEMBERS: usize = 3;
+
+/// The part of a turn from which on a rectangular prior of an angle is one of all angles.
+const WHOLE_TURN: f64 = 0.95;
+
+/// A probability below which a prior has nothing on a side of zero that counts.
+const LEAST: f64 = 1e-9;
 
 /// How wide the priors of the effects' parameters are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,9 +91,9 @@ pub(crate) struct OtherPriors {
 impl OtherPriors {
     pub(crate) fn of(case: &Case) -> Self {
         Self {
-            wider: case.with_priors(|prior| widened(prior, WIDER)),
-            widest: case.with_priors(|prior| widened(prior, WIDEST)),
-            narrower: case.with_priors(narrowed),
+            wider: case.with_priors(|prior, unit| widened(prior, unit, WIDER)),
+            widest: case.with_priors(|prior, unit| widened(prior, unit, WIDEST)),
+            narrower: case.with_priors(|prior, _| narrowed(prior)),
         }
     }
 }
@@ -255,12 +263,23 @@ pub(crate) fn note(effects: &[String]) -> String {
     )
 }
 
-/// A prior that is so many times as wide; one with a form that has no width of its own stays.
-fn widened(prior: &Distribution, times: f64) -> Distribution {
+/// Whether a prior has all angles there are, so that no other is beyond it.
+fn is_whole_turn(prior: &Distribution, unit: &Unit) -> bool {
+    let range = unit.factor() * 2.0 * half_width(prior);
+    unit.turn() == Some(Turn::Angle)
+        && matches!(prior, Distribution::Rectangular(_))
+        && range > WHOLE_TURN * TAU
+}
+
+/// A prior that is so many times as wide, in what it does not state of itself: a normal one in place of
+/// any other shape, on one side of zero where that has no other; one of all angles stays.
+fn widened(prior: &Distribution, unit: &Unit, times: f64) -> Distribution {
+    if prior.constant().is_some() || is_whole_turn(prior, unit) {
+        return prior.clone();
+    }
+    let normal = || Normal::new(prior.mean(), times * prior.standard_uncertainty());
     let wide = match prior {
-        Distribution::Normal(_) => {
-            Normal::new(prior.mean(), times * prior.standard_uncertainty()).map(Into::into)
-        }
+        Distribution::Normal(_) => normal().map(Into::into),
         Distribution::Rectangular(_) => {
             Rectangular::new(prior.mean(), times * half_width(prior)).map(Into::into)
         }
@@ -270,7 +289,21 @@ fn widened(prior: &Distribution, times: f64) -> Distribution {
             let [low, high] = [ends[0] / ratio.sqrt(), ends[1] * ratio.sqrt()];
             LogUniform::new(low / times, high * times).map(Into::into)
         }
-        _ => return prior.clone(),
+        _ if !prior.has_quantiles() => return prior.clone(),
+        _ => {
+            let limits = match [prior.quantile(LEAST), prior.quantile_upper(LEAST)] {
+                [low, _] if low >= 0.0 => [0.0, f64::INFINITY],
+                [_, high] if high <= 0.0 => [f64::NEG_INFINITY, 0.0],
+                _ => [f64::NEG_INFINITY, f64::INFINITY],
+            };
+            normal().map(Into::into).and_then(|wide: Distribution| {
+                let [low, high] = limits;
+                if limits.iter().all(|limit| limit.is_infinite()) {
+                    return Ok(wide);
+                }
+                Truncated::cut(wide, low, high)
+            })
+        }
     };
     // what is not finite once it is wider stays as it is
     wide.unwrap_or_else(|_| prior.clone())

@@ -45,6 +45,9 @@ pub struct Statement {
     pub interval: Option<[f64; 2]>,
     /// Whether that interval is from figures without the noise of trials.
     pub without_trials: bool,
+    /// Whether value and standard uncertainty are those of the distribution that trials show, and not
+    /// those of the law of propagation.
+    pub of_distribution: bool,
     /// The laboratory's capability, where it is known.
     pub limit: Option<Limit>,
     /// The expanded uncertainty to the digits of the certificate; `None` if it is 0.
@@ -125,6 +128,7 @@ pub(super) fn of(
             .then(|| settings.coverage.probability()),
         interval: found.interval,
         without_trials: found.without_trials,
+        of_distribution: found.of_distribution,
         limit,
         rounded,
     })

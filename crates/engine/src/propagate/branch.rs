@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 
 use super::gum::Gum;
 use super::monte_carlo::MonteCarlo;
+use crate::decimal::significant;
 use crate::model::{Node, Output, Program};
 use crate::number::Binary;
 use crate::task::Warning;
@@ -18,45 +19,93 @@ const LEAST_SHARE: f64 = 1e-5;
 /// relative to the standard deviation.
 const OFF: f64 = 0.1;
 
-/// The note about output `number` of a model, if its trials jump by a turn.
-pub(super) fn note(
+/// Trials in two lumps, of which one lies beyond a cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Jump {
+    /// The share of the trials that are not where the estimate is.
+    away: f64,
+    /// How far these are from the others, in the output's unit.
+    size: f64,
+    /// Whether that is a turn of an output that is an angle.
+    is_turn: bool,
+}
+
+/// The jump of output `number` of a model, if its trials jump.
+pub(super) fn jump(
     program: &Program,
     (number, output): (usize, &Output),
     gum: &Gum,
     trials: &MonteCarlo,
-) -> Option<Warning> {
-    let unit = &output.quantity.unit;
+) -> Option<Jump> {
     if output.period.is_some() || !has_cut(program, *program.outputs.get(number)?) {
         return None;
     }
-    let turn = turn(unit)?;
-    let spread = trials.standard_uncertainty?;
-    // a share p of the trials is a turn away: their mean by p turns, their variance larger by
-    // p (1 - p) turns squared
-    let away = (trials.estimate? - gum.estimate).abs() / turn;
-    let u = gum.standard_uncertainty;
-    let expected = (u * u + turn * turn * away * (1.0 - away)).sqrt();
-    let few = away * trials.trials as f64 <= LEAST || away < LEAST_SHARE;
-    // less than twice the standard uncertainty of the law of propagation is not a jump
-    if few || away >= 1.0 || expected < 2.0 * u || (spread / expected - 1.0).abs() > OFF {
-        return None;
+    let (spread, u) = (trials.standard_uncertainty?, gum.standard_uncertainty);
+    let moved = trials.estimate? - gum.estimate;
+    let count = trials.trials as f64;
+    let is_seen = |away: f64, size: f64| {
+        // a share p of the trials is away: their mean by p sizes, their variance larger by
+        // p (1 - p) sizes squared; less than twice the standard uncertainty of the law of propagation is
+        // not a jump
+        let expected = (u * u + size * size * away * (1.0 - away)).sqrt();
+        let is_one = away * count > LEAST && away >= LEAST_SHARE && away < 1.0;
+        is_one && expected >= 2.0 * u && (spread / expected - 1.0).abs() <= OFF
+    };
+    if let Some(turn) = turn(&output.quantity.unit) {
+        let away = moved.abs() / turn;
+        if is_seen(away, turn) {
+            return Some(Jump { away, size: turn, is_turn: true });
+        }
     }
-    let name = &output.quantity.name;
-    let text = format!(
-        "`{name}`: {:.2} % of the trials lie a turn away from the others, beyond the cut of the \
-         arctangent, so that mean, standard deviation and interval of the trials mean nothing; \
-         write `\"periodic\": {turn}` at the output, which takes its values within half a turn of \
-         the estimate",
-        100.0 * away
-    );
-    Some(Warning::new("phase-jumps", name.as_str(), text))
+    // of two lumps of any distance the mean and the variance tell it, and the fourth moment whether they
+    // are two
+    let more = spread * spread - u * u;
+    let size = (more + moved * moved) / moved;
+    let away = moved / size;
+    let other = 1.0 - away;
+    let fourth = away * other * (1.0 - 3.0 * away * other) * size.powi(4)
+        + 6.0 * away * other * size * size * u * u
+        + 3.0 * u.powi(4);
+    let found = (trials.excess_kurtosis? + 3.0) * spread.powi(4);
+    let is_two = (found / fourth - 1.0).abs() <= OFF;
+    // lumps that are cut have their means nearer to each other than what is the same lies apart
+    let [low, high] = trials.symmetric_interval;
+    let apart = size.abs().max(high - low);
+    (is_two && is_seen(away, size)).then_some(Jump { away, size: apart, is_turn: false })
 }
 
-/// Whether an output comes from an arctangent of two arguments.
+impl Jump {
+    /// The note about it.
+    pub(super) fn note(&self, output: &Output) -> Warning {
+        let Self { away, size, is_turn } = *self;
+        let name = &output.quantity.name;
+        let percent = 100.0 * away;
+        let text = if is_turn {
+            format!(
+                "`{name}`: {percent:.2} % of the trials lie a turn away from the others, beyond the cut \
+                 of a phase, so that mean, standard deviation and interval of the trials mean \
+                 nothing; write `\"periodic\": {size}` at the output, which takes its values within half \
+                 a turn of the estimate"
+            )
+        } else {
+            let size = output.quantity.unit.after(&significant(size, 2));
+            format!(
+                "`{name}`: {percent:.2} % of the trials lie about {size} away from the others, beyond a \
+                 cut of `atan2`, a phase or `mod`, so that mean, standard deviation and interval of the \
+                 trials mean nothing; where values that far apart are the same, write that distance as \
+                 `\"periodic\"` at the output, which takes its values within half of it of the estimate"
+            )
+        };
+        Warning::new("phase-jumps", name.as_str(), text)
+    }
+}
+
+/// Whether an output comes from an arctangent of two arguments, or from what is left of whole
+/// multiples.
 fn has_cut(program: &Program, output: usize) -> bool {
     let output = Some(output).filter(|&output| output < program.nodes.len());
     let needed = program.needed_by(&[], output);
-    let cut = |node: &Node| matches!(node, Node::Binary(Binary::Atan2, ..));
+    let cut = |node: &Node| matches!(node, Node::Binary(Binary::Atan2 | Binary::Modulo, ..));
     program.nodes.iter().zip(needed).any(|(node, needed)| needed && cut(node))
 }
 

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::Control;
+use super::branch::{self, Jump};
 use super::conformity::{Conformity, ErrorLaw};
 use super::exact::{self, Noiseless};
 use super::gum::{self, Gum, GumRow};
@@ -18,7 +19,7 @@ use super::regions::{RegionEvaluation, regions};
 use super::second_order::{SecondOrder, second_order};
 use super::statement::Stated;
 use super::validate::{Validation, validate};
-use super::{branch, quasi, rounding};
+use super::{quasi, rounding};
 use crate::decimal::{Decimal, Direction, position, to_digits};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Distribution, Invalid, Joint};
 use crate::model::{COMPUTED_DIGITS, Capability, Output, Program};
@@ -93,6 +94,8 @@ pub struct OutputEvaluation {
     /// Whether the trials tell that the model is not linear over the uncertainties of its inputs; `None`
     /// without trials or without a law of propagation.
     pub(super) nonlinear: Option<bool>,
+    /// How the trials lie on both sides of a cut, where they do.
+    pub(super) jump: Option<Jump>,
     /// Figures without the noise of trials, or why there are none; `None` where none were asked for.
     pub noiseless: Option<Result<Box<Noiseless>, String>>,
     /// Their comparison.
@@ -562,6 +565,10 @@ fn evaluate_row(
         let nonlinear = gum.as_ref().zip(monte_carlo.as_ref()).map(|(gum, figures)| {
             nonlinearity::is_nonlinear(&problem, gum, figures, second_order.as_ref())
         });
+        let both = gum.as_ref().zip(monte_carlo.as_ref());
+        let jump = both.and_then(|(gum, figures)| {
+            branch::jump(&task.model.program, (number, output), gum, figures)
+        });
         // only where there is something to say
         let second_order = second_order.filter(|second| {
             gum.as_ref().is_some_and(|gum| {
@@ -584,6 +591,7 @@ fn evaluate_row(
             second_order: second_order.map(Box::new),
             noiseless,
             nonlinear,
+            jump,
             validation,
             capability: None,
             conformity: None,
@@ -639,7 +647,7 @@ fn correlations_by_law(
     let scatter: Vec<bool> = outputs
         .map(|((output, gum), figures)| {
             let Some(figures) = figures else { return true };
-            let jumps = |gum| branch::note(program, output, gum, figures).is_some();
+            let jumps = |gum| branch::jump(program, output, gum, figures).is_some();
             figures.spread().is_some() && !gum.as_ref().is_some_and(jumps)
         })
         .collect();
@@ -769,7 +777,9 @@ pub(super) fn goes_on(
     count: u64,
 ) -> Option<u64> {
     let settings = &task.settings;
-    let most = settings.decide_up_to / task.rows.len().max(1) as u64;
+    // what is kept of the trials grows with the outputs as well
+    let kept = task.rows.len().max(1) * task.model.outputs.len().max(1);
+    let most = settings.decide_up_to / kept as u64;
     let further = count.saturating_mul(FURTHER);
     if settings.trials != Trials::Fixed(Settings::USUAL_TRIALS) || further > most {
         return None;

@@ -55,6 +55,9 @@ pub struct Stated {
     pub interval: Option<[f64; 2]>,
     /// Whether that interval is from figures without the noise of trials.
     pub without_trials: bool,
+    /// Whether value and standard uncertainty are those of the distribution that trials show, and not
+    /// those of the law of propagation.
+    pub of_distribution: bool,
 }
 
 impl Stated {
@@ -82,6 +85,12 @@ impl Stated {
             let noiseless = noiseless.and_then(|noiseless| without_noise(noiseless, gum));
             noiseless.or_else(|| by_trials(output.monte_carlo.as_ref()?, gum))
         };
+        // trials on both sides of a cut have no mean and no interval
+        if output.jump.is_some()
+            && let Some(linear) = linear()
+        {
+            return Some(linear);
+        }
         // an agreed factor is kept; what is refuted has no distribution that it could belong to
         if let Coverage::Factor { factor, fixed: true } = settings.coverage {
             let agreed = |found: Stated| found.with_factor(factor);
@@ -143,6 +152,7 @@ fn by_propagation(gum: &Gum, settings: &Settings) -> Option<Stated> {
         coverage_factor,
         interval: None,
         without_trials: false,
+        of_distribution: false,
     })
 }
 
@@ -171,7 +181,7 @@ fn without_noise(figures: &Noiseless, gum: Option<&Gum>) -> Option<Stated> {
 
 fn by_trials(figures: &MonteCarlo, gum: Option<&Gum>) -> Option<Stated> {
     let ends = figures.stated_interval().ends;
-    by_interval(located(figures, gum), ends, figures.standard_uncertainty, gum)
+    by_interval(located(figures, gum), ends, figures.spread(), gum)
 }
 
 /// Numerical standard errors within which the mean of the trials is no other than the estimate by the
@@ -185,12 +195,14 @@ fn located(figures: &MonteCarlo, gum: Option<&Gum>) -> f64 {
         gum.map(|gum| gum.estimate).zip(figures.estimate.zip(figures.errors.estimate));
     match of_propagation {
         Some((linear, (mean, error))) if (linear - mean).abs() <= SAME_ESTIMATE * error => linear,
+        // a few trials far out carry the mean
+        _ if figures.heavy_tailed => figures.median,
         _ => figures.location(),
     }
 }
 
-/// What an interval says; few readings have no variance in trials, and their standard uncertainty is
-/// that of the law of propagation.
+/// What an interval says; few readings and quotients by what may be zero have no variance in trials,
+/// and their standard uncertainty is that of the law of propagation.
 fn by_interval(
     value: f64,
     [low, high]: [f64; 2],
@@ -207,5 +219,6 @@ fn by_interval(
         coverage_factor: expanded_uncertainty / u,
         interval: Some([low, high]),
         without_trials: false,
+        of_distribution: true,
     })
 }

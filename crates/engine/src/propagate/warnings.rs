@@ -8,8 +8,8 @@ use super::evaluation::{
 };
 use super::gum::{BudgetLine, Dof, Gum};
 use super::monte_carlo::{Adaptive, MonteCarlo};
+use super::rounding;
 use super::second_order::SecondOrder;
-use super::{branch, rounding};
 use crate::decimal::{significant, to_digits};
 use crate::model::Output;
 use crate::number::Shortest;
@@ -62,12 +62,8 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
         }
         for (number, (output, evaluated)) in task.model.outputs.iter().zip(&row.outputs).enumerate()
         {
-            let mut jumps = false;
-            if let (Some(gum), Some(trials)) = (&evaluated.gum, &evaluated.monte_carlo) {
-                let note = branch::note(&task.model.program, (number, output), gum, trials);
-                jumps = note.is_some();
-                note.into_iter().for_each(|note| push(&mut found, note));
-            }
+            let jumps = evaluated.jump.is_some();
+            evaluated.jump.iter().for_each(|jump| push(&mut found, jump.note(output)));
             let name = &output.quantity.name;
             let rounded = of_rounded_correlations(name, evaluated)
                 .filter(|_| evaluation.rounded_correlations);
@@ -297,8 +293,7 @@ fn of_output(
             .filter(|(place, _)| named.contains(place))
             .map(|(_, (c, &value))| {
                 let value = Shortest(to_digits(value, NAMED_DIGITS));
-                let text = format!("{} = {value} {}", c.name, c.unit);
-                text.trim_end().to_owned()
+                format!("{} = {}", c.name, c.unit.after(&value.to_string()))
             })
             .collect();
         format!(" at {}", values.join(", "))

@@ -94,6 +94,11 @@ fn read(
         return Ok(Content { text, ..Content::default() });
     }
     let mut book = Book::open(content).map_err(unreadable)?;
+    if book.is_certificate() {
+        let message = "it is the workbook of a certificate, whose rows are results of one laboratory and \
+                       no results of several";
+        return Err(unreadable(message.to_owned()));
+    }
     let (table, said) = choice::of(
         &mut book,
         sheet,

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use super::super::diagnostics::Collector;
-use gumption_engine::decimal::significant;
+use gumption_engine::decimal::to_digits;
 use gumption_engine::model::formula::Typing;
 use gumption_engine::model::{Output, Quantity};
+use gumption_engine::number::{Shortest, elementary};
 use gumption_engine::regression::CurveFunction;
 use gumption_engine::task::{Task, Warning};
 use gumption_gap::{ModelForm, OverridableModel};
@@ -15,6 +16,9 @@ const LITTLE: f64 = 0.1;
 
 /// Digits of an abscissa in a note.
 const DIGITS: u32 = 4;
+
+/// The distance from zero over the range that more digits than these are given for.
+const FARTHEST: f64 = 1e8;
 
 /// A note for each calibration function that the equations use, at the estimates of some row, outside
 /// of the range of its points: the one farthest out.
@@ -66,7 +70,10 @@ pub(crate) fn notes(
         let name = curve.fit.name.as_str();
         let Some(x) = x.filter(|_| notes.iter().all(|note| note.place != name)) else { continue };
         let [low, high] = curve.fit.points.range();
-        let of = |x: f64| format!("{} {}", significant(x, DIGITS), curve.x).trim_end().to_owned();
+        // digits of the range, where it is short beside its distance from zero, as of dates
+        let far = low.abs().max(high.abs()).max(x.abs()) / (high - low);
+        let digits = DIGITS + elementary::log10(far.clamp(1.0, FARTHEST)).ceil() as u32;
+        let of = |x: f64| curve.x.after(&Shortest(to_digits(x, digits)).to_string());
         let text = format!(
             "`{name}` is used at x = {}, and its points lie from {} to {}: beyond them nothing says that \
              the form holds, and the stated uncertainty supposes that it does",

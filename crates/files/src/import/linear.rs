@@ -207,7 +207,8 @@ impl Budget<'_> {
         let scale = Unit::conversion_factor(&own, &whole).ok();
         let shifted = own.offset() != whole.offset();
         let c = row.sensitivity.unwrap_or(1.0);
-        match scale.filter(|_| !shifted) {
+        // a coefficient multiplies differences, whose zeros do not matter
+        match scale.filter(|_| !shifted || row.sensitivity.is_some()) {
             Some(1.0) => Some(c),
             Some(scale) if row.sensitivity.is_none() => {
                 let of = match row.unit.as_str() {

@@ -23,8 +23,11 @@ impl Chosen {
     pub(super) fn of(content: Vec<u8>, wanted: Option<&str>) -> Result<Self, DiagnosticKind> {
         let unreadable = |message| DiagnosticKind::Unreadable { message };
         let mut book = Book::open(content).map_err(unreadable)?;
-        let sheets = book.sheets();
-        if let Some(message) = of_certificate(&mut book, &sheets) {
+        if book.is_certificate() {
+            let message = format!(
+                "it is the workbook of a certificate, whose rows are results and no inputs of a sum; \
+                 {FROM_CERTIFICATES}"
+            );
             return Err(unreadable(message));
         }
         let read = |book: &mut Book, sheet: &SheetName| {
@@ -40,20 +43,6 @@ impl Chosen {
 }
 
 const BUDGET: Wanted = Wanted { a: "a budget", one: "one budget", has_option: true };
-
-/// Why the workbook of a certificate of this program is no budget; `None` of other ones.
-fn of_certificate(book: &mut Book, sheets: &[SheetName]) -> Option<String> {
-    let named = |name: &str| sheets.iter().find(|sheet| sheet.name == name);
-    let (certificate, _) = named("Certificate").zip(named("Unrounded"))?;
-    let (rows, _) = book.sheet(certificate).ok()?;
-    let is_ours = |cell: &String| cell.starts_with("certificate file, SHA-256:");
-    rows.iter().flatten().any(is_ours).then(|| {
-        format!(
-            "it is the workbook of a certificate, whose rows are results and no inputs of a sum; \
-             {FROM_CERTIFICATES}"
-        )
-    })
-}
 
 impl Budget<'_> {
     /// Says which columns are read though nobody sees them.

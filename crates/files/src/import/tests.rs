@@ -328,6 +328,7 @@ fn coefficients_have_units() {
     assert!(budget.text.contains(r#""y":"a + (0.001)*b""#), "{}", budget.text);
     assert!(!guesses(&budget, "contributes"), "{:?}", budget.guessed);
     for (rows, part) in [
+        ("a,293,K,0.9,1,\nb,0,degF,0.9,1,", "can be 1 K/degF or 1 K/K"),
         ("a,5,V,0.002,1,\nb,2,mV,1,1,", "can be 1 V/mV or 1 V/V"),
         ("a,5,V,0.002,1,1\nb,2,mV,1,1,V/A", "a coefficient in `V/A` times `mV`"),
         ("a,5,V,0.002,1,1\nb,2,mV,1,1,V/foo", "`V/foo` of the coefficient is not known"),

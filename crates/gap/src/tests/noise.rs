@@ -5,7 +5,10 @@ use crate::diagnosis::{DepartureShape, SuspectValue};
 use crate::{
     Candidate, Case, Diagnosis, DiagnosisOptions, Effect, HypothesisKind, Prior, diagnose,
 };
-use gumption_engine::distribution::{Distribution, LogUniform, Rectangular, StreamKey};
+use gumption_engine::distribution::{
+    Arcsine, Distribution, Gamma, LogUniform, Rectangular, SplitNormal, StreamKey, Trapezoidal,
+    Triangular, Truncated,
+};
 use gumption_engine::number::elementary;
 use gumption_engine::task::{Row, Sharing};
 
@@ -499,6 +502,29 @@ fn an_effect_far_outside_its_prior_is_named() {
     assert!((conflict.prior_distance - 6.0).abs() < 0.2, "{conflict:?}");
     assert!(found.notes.iter().any(|note| note.code == "prior-conflict"));
     assert!(present(&found, "slope") > 0.5);
+}
+
+/// The slope of 0.3 is six standard deviations or more from priors of every shape.
+#[test]
+fn priors_of_every_shape_are_widened() {
+    let residuals: Vec<f64> =
+        normals(30, 7).into_iter().enumerate().map(|(n, z)| 0.1 * z + 0.3 * n as f64).collect();
+    let shapes: [Distribution; 6] = [
+        Triangular::between(-0.1, 0.1, Some(0.0)).unwrap().into(),
+        Trapezoidal::new(0.0, 0.1, 0.5).unwrap().into(),
+        Arcsine::new(0.0, 0.08).unwrap().into(),
+        Gamma::new(9.0, 200.0).unwrap().into(),
+        SplitNormal::new(0.0, 0.04, 0.05).unwrap().into(),
+        Truncated::cut(normal(0.0, 0.05), 0.0, f64::INFINITY).unwrap(),
+    ];
+    for shape in shapes {
+        let mut case = line_with(&residuals);
+        let slope = case.candidates.iter_mut().find(|of| of.effect.name == "slope").unwrap();
+        slope.priors = vec![shape.clone()];
+        let found = diagnosed(&case, 1);
+        assert_eq!(found.most_probable.effects, ["slope"], "{shape:?}");
+        assert_eq!(found.prior_conflicts[0].effect, "slope", "{shape:?}");
+    }
 }
 
 /// A prior of 0.4 that was meant to be one of 400: a hundred standard deviations out the effect is told,

@@ -77,7 +77,7 @@ pub(super) fn coverage(report: &CertificateReport<'_>, of: Said, beside: Beside)
         say(&kind.sentence(of), &|row| kind.holds(row, &agreed));
     }
     // an uncertainty that is the laboratory's capability was not evaluated so, nor confirmed
-    say(words.propagation, &|row| row.statement.basis != Basis::Shortest && !raised(row));
+    say(words.propagation, &|row| !row.statement.of_distribution && !raised(row));
     for (probability, factor) in raised_to(&rows) {
         let template = words.raised[usize::from(probability.is_none())];
         let sentence = template.replace("{p}", &self::probability(of, probability));

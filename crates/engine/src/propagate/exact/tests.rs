@@ -391,3 +391,31 @@ fn moments_of_quotients() {
     let std = (1.0 / 0.75 - 1.0f64 / 2.25).sqrt();
     assert!((inverse.standard_uncertainty.unwrap() / std - 1.0).abs() < 1e-10, "{inverse:?}");
 }
+
+/// One symmetric quantity, whatever is added to it: the shortest interval is the symmetric one. Of a
+/// rectangle there are many.
+#[test]
+fn one_symmetric_quantity() {
+    let shapes: [Distribution; 4] = [
+        normal(1.0, 0.1),
+        t(1.0, 0.1, 5.0),
+        Triangular::between(0.0, 2.0, Some(1.0)).unwrap().into(),
+        Trapezoidal::new(1.0, 1.0, 0.5).unwrap().into(),
+    ];
+    for shape in shapes {
+        for p in [0.9, 0.95, 0.9545, 0.99] {
+            let found = exact_of(&task(vec![shape.clone()], "3 - 2*x0", p)).unwrap();
+            assert_eq!(found.shortest_interval, Some(found.symmetric_interval), "{shape:?} {p}");
+            assert!(found.shortest_unique);
+        }
+    }
+    let flat = exact_of(&task(vec![rectangular(1.0, 1.0)], "x0", 0.95)).unwrap();
+    assert!(!flat.shortest_unique);
+    // 1/x of a rectangle from 2 to 4 is densest at 1/4
+    let quotient = exact_of(&task(vec![rectangular(3.0, 1.0)], "1/x0", 0.95)).unwrap();
+    let [low, high] = quotient.shortest_interval.unwrap();
+    // 95 % of the values of x from 4 downwards end at 2.1
+    assert!(
+        (low - 0.25).abs() < 1e-9 && (high - 1.0 / 2.1).abs() < 1e-9 && quotient.shortest_unique
+    );
+}

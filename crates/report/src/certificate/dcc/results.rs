@@ -80,7 +80,7 @@ fn result(
         if !first.quantity.about.trim().is_empty() {
             lines.push(first.quantity.about.trim().to_owned());
         }
-        lines.extend(rows.iter().map(|row| match stated::reach_something(rows) {
+        lines.extend(rows.iter().map(|row| match are_in_lists(rows) {
             true => named(report, row, *language),
             false => named(report, row, *language) + &without_probability(report, row, *language),
         }));
@@ -109,6 +109,13 @@ pub(super) fn named(
     let circumstances = row.circumstances(report, UnitsAre::Printed);
     parts.extend(circumstances.iter().map(|part| of.in_marks(part)));
     format!("{} {}: {}", words::of(language).row, row.number, parts.join(", "))
+}
+
+/// Whether the expanded uncertainties of these rows can stand in a list: D-SI has no coverage factor
+/// below 1, and none without a probability.
+fn are_in_lists(rows: &[Stated<'_>]) -> bool {
+    let below = rows.iter().any(|row| row.statement.coverage_factor < 1.0);
+    !below && stated::reach_something(rows)
 }
 
 /// What an agreed factor makes of a row without a coverage probability, for which D-SI has no place.
@@ -187,9 +194,7 @@ fn measured(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
     xml.within("dcc:quantity", &[("refType", "basic_measuredValue")], |xml| {
         xml.text("dcc:name", &localized(languages, |w| w.measured_value), languages);
         list(xml, &texts(|row| row.value().text), &first.quantity.unit, |xml| {
-            // D-SI has no coverage factor below 1, and none without a probability
-            let below = rows.iter().any(|row| row.statement.coverage_factor < 1.0);
-            if below || !stated::reach_something(rows) {
+            if !are_in_lists(rows) {
                 return;
             }
             xml.element("si:expandedUncXMLList", |xml| {

@@ -159,6 +159,15 @@
       <xsl:text> </xsl:text>
       <xsl:call-template name="unit"><xsl:with-param name="unit" select="$value/si:unit"/></xsl:call-template>
       <xsl:for-each select="$value//si:coverageFactor[1]">, k = <xsl:value-of select="."/></xsl:for-each>
+      <xsl:for-each select="$value/si:coverageInterval">
+        <xsl:for-each select="si:standardUnc">, u = <xsl:value-of select="."/></xsl:for-each>
+        <xsl:text>, [</xsl:text><xsl:value-of select="si:intervalMin"/><xsl:text>, </xsl:text><xsl:value-of select="si:intervalMax"/><xsl:text>]</xsl:text>
+      </xsl:for-each>
+      <xsl:for-each select="$value//si:coverageProbability[1]">, p = <xsl:value-of select="."/></xsl:for-each>
+      <xsl:for-each select="dcc:relativeUncertainty/dcc:relativeUncertaintySingle">
+        <xsl:text>, </xsl:text><xsl:value-of select="local-name()"/><xsl:text>: </xsl:text><xsl:value-of select="si:value"/><xsl:text> </xsl:text>
+        <xsl:call-template name="unit"><xsl:with-param name="unit" select="si:unit"/></xsl:call-template>
+      </xsl:for-each>
       <xsl:apply-templates select="dcc:noQuantity|dcc:charsXMLList" mode="data"/>
     </p>
   </xsl:template>
@@ -215,14 +224,32 @@
 
   <!-- quantities over rows: a column for each, with its uncertainty -->
   <xsl:template match="dcc:list" mode="data">
-    <xsl:variable name="lists" select="dcc:quantity[si:realListXMLList]"/>
+    <xsl:call-template name="lists">
+      <xsl:with-param name="lists" select="dcc:quantity[si:realListXMLList or si:hybrid/si:realListXMLList]"/>
+    </xsl:call-template>
+    <xsl:apply-templates select="dcc:quantity[not(si:realListXMLList or si:hybrid/si:realListXMLList)]|dcc:list" mode="data"/>
+  </xsl:template>
+
+  <!-- numbers of one quantity: a table of its own -->
+  <xsl:template match="dcc:quantity[si:realListXMLList or si:hybrid/si:realListXMLList]" mode="data">
+    <xsl:call-template name="lists"><xsl:with-param name="lists" select="."/></xsl:call-template>
+  </xsl:template>
+
+  <xsl:template name="lists">
+    <xsl:param name="lists"/>
     <xsl:if test="$lists">
       <div class="table long" tabindex="0">
         <table>
           <thead>
             <tr>
               <xsl:for-each select="$lists">
-                <xsl:variable name="list" select="si:realListXMLList"/>
+                <xsl:variable name="list" select="si:realListXMLList|si:hybrid/si:realListXMLList[1]"/>
+                <xsl:if test="$list/si:coverageIntervalXMLList and not(@refType = 'gumption_coverageInterval')">
+                  <th scope="col" class="number">
+                    <xsl:apply-templates select="dcc:name"/><br/>
+                    <xsl:call-template name="unit"><xsl:with-param name="unit" select="$list/si:unitXMLList"/></xsl:call-template>
+                  </th>
+                </xsl:if>
                 <xsl:choose>
                   <xsl:when test="$list/si:coverageIntervalXMLList">
                     <th scope="col" class="number"><xsl:apply-templates select="dcc:name"/><br/>{words:low}</th>
@@ -246,13 +273,12 @@
           <tbody>
             <xsl:call-template name="rows">
               <xsl:with-param name="lists" select="$lists"/>
-              <xsl:with-param name="left" select="normalize-space($lists[1]/si:realListXMLList/si:valueXMLList)"/>
+              <xsl:with-param name="left" select="normalize-space(($lists[1]/si:realListXMLList|$lists[1]/si:hybrid/si:realListXMLList[1])/si:valueXMLList)"/>
             </xsl:call-template>
           </tbody>
         </table>
       </div>
     </xsl:if>
-    <xsl:apply-templates select="dcc:quantity[not(si:realListXMLList)]|dcc:list" mode="data"/>
   </xsl:template>
 
   <!-- a row for each value that is left of the first list -->
@@ -262,7 +288,10 @@
     <xsl:param name="row" select="1"/>
     <xsl:if test="$left != ''">
       <tr>
-        <xsl:for-each select="$lists/si:realListXMLList">
+        <xsl:for-each select="$lists/si:realListXMLList|$lists/si:hybrid/si:realListXMLList[1]">
+          <xsl:if test="si:coverageIntervalXMLList and not(ancestor::dcc:quantity[1]/@refType = 'gumption_coverageInterval')">
+            <xsl:call-template name="cell"><xsl:with-param name="of" select="si:valueXMLList"/><xsl:with-param name="row" select="$row"/></xsl:call-template>
+          </xsl:if>
           <xsl:choose>
             <xsl:when test="si:coverageIntervalXMLList">
               <xsl:call-template name="cell"><xsl:with-param name="of" select="si:coverageIntervalXMLList/si:intervalMinXMLList"/><xsl:with-param name="row" select="$row"/></xsl:call-template>
