@@ -285,14 +285,11 @@ mod tests {
     #[test]
     fn faults_name_the_file_and_the_line() {
         let diagnostics = model("1\n2\nvolt\n").unwrap_err().to_string();
-        assert!(
-            diagnostics.starts_with("s.txt:3:1: `volt` is not a finite number"),
-            "{diagnostics}"
-        );
+        assert!(diagnostics.contains("/s.txt:3:1: `volt` is not a finite number"), "{diagnostics}");
         let diagnostics = model("1,5\n2,5\n").unwrap_err().to_string();
         assert!(
-            diagnostics.starts_with(
-                "s.txt:1:1: `1,5` is no number: a decimal fraction is written with a point, `1.5`"
+            diagnostics.contains(
+                "/s.txt:1:1: `1,5` is no number: a decimal fraction is written with a point, `1.5`"
             ),
             "{diagnostics}"
         );
@@ -348,7 +345,7 @@ mod tests {
                     `column`";
         assert!(several.contains(said), "{several}");
         let none = of_file("s.csv", two, r#", "column": "r""#).unwrap_err();
-        assert!(none.contains("`s.csv` has no column `r`"), "{none}");
+        assert!(none.contains("s.csv` has no column `r`"), "{none}");
         for (content, more) in
             [(&b"p [mV]\n1\n3\n"[..], ""), (b"p [mV],q\n1,2\n3,4\n", r#", "column": "p""#)]
         {

@@ -328,7 +328,6 @@ fn coefficients_have_units() {
     assert!(budget.text.contains(r#""y":"a + (0.001)*b""#), "{}", budget.text);
     assert!(!guesses(&budget, "contributes"), "{:?}", budget.guessed);
     for (rows, part) in [
-        ("a,293,K,0.9,1,\nb,0,degF,0.9,1,", "can be 1 K/degF or 1 K/K"),
         ("a,5,V,0.002,1,\nb,2,mV,1,1,", "can be 1 V/mV or 1 V/V"),
         ("a,5,V,0.002,1,1\nb,2,mV,1,1,V/A", "a coefficient in `V/A` times `mV`"),
         ("a,5,V,0.002,1,1\nb,2,mV,1,1,V/foo", "`V/foo` of the coefficient is not known"),
@@ -336,6 +335,20 @@ fn coefficients_have_units() {
         let error = import("b.csv", table(rows).as_bytes()).unwrap_err().to_string();
         assert!(error.contains(part), "{error}");
     }
+}
+
+/// The zeros of two scales do not matter to a coefficient, and the sizes of their degrees do.
+#[test]
+fn coefficients_between_scales_of_temperatures() {
+    let of = |unit: &str| {
+        let text = format!(
+            "Quantity,Estimate,Unit,Standard uncertainty,c_i\na,293,K,0.9,1\nd,0,{unit},0.9,1\n"
+        );
+        import("b.csv", text.as_bytes()).map(|budget| budget.text)
+    };
+    let error = of("degF").unwrap_err().to_string();
+    assert!(error.contains("can be 1 K/degF or 1 K/K"), "{error}");
+    assert!(of("degC").unwrap().contains(r#""y":"a + d""#));
 }
 
 /// EA-4/02, S2 as it is printed: units behind the numbers, in g and mg, and digits in groups.
