@@ -5,6 +5,7 @@ use roxmltree::{Document, Node};
 use serde_json::{Value, json};
 
 use super::document::{measured, names, quantities};
+use super::missing;
 
 /// The name of a quantity that has none.
 const NAMELESS: &str = "q";
@@ -23,9 +24,10 @@ pub(crate) fn inputs(document: &Document<'_>, file: &str) -> Vec<(String, String
     for (place, node) in all.iter().enumerate().filter(|(_, node)| !some || in_results(node)) {
         let Ok(of) = measured(*node) else { continue };
         let count = of.values.len();
+        let is_read = |place: usize| missing::refused(*node, &of, place, &all).is_none();
         let called = names(*node);
         let stem = identifier(called.first().map_or("", String::as_str));
-        for index in 0..count {
+        for index in (0..count).filter(|place| is_read(*place)) {
             let wanted = if count > 1 { format!("{stem}_{}", index + 1) } else { stem.clone() };
             let taken = |name: &str| found.iter().any(|(known, ..)| known == name);
             let name = (1..)
