@@ -1,32 +1,109 @@
 //! Values without an uncertainty. A certificate may state exact ones; where others beside a value have an
 //! uncertainty, it has one too, which stands somewhere else.
 
-use roxmltree::Node;
+use std::collections::{HashMap, HashSet};
+
+use roxmltree::{Node, NodeId};
 
 use super::document::{self, Fault, Measured};
 
-/// Why a value without an uncertainty is not read as an exact one; `None` for one that is, and for one
-/// with an uncertainty.
-pub(super) fn refused<'d>(
-    node: Node<'d, 'd>,
-    of: &Measured,
+/// The quantities that are one in several rows: those of one reference type in one place, a list or the
+/// lists in it, or those at the same place of lists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct Row<'d> {
+    around: NodeId,
+    kind: Option<&'d str>,
     place: usize,
-    all: &[Node<'d, 'd>],
-) -> Option<Fault> {
-    if of.is_uncertain(place) {
-        return None;
+}
+
+impl<'d> Row<'d> {
+    /// That of a quantity; `None` if it is no row of anything.
+    fn of(node: Node<'d, 'd>) -> Option<Self> {
+        let parent = node.parent()?;
+        let is_list = parent.tag_name().name() == "list";
+        let around = if is_list { parent.parent()? } else { parent };
+        let kind = node.attribute("refType");
+        let before = node.prev_siblings().skip(1);
+        let place = match kind {
+            Some(_) => 0,
+            None if is_list => before.filter(|of| of.tag_name().name() == "quantity").count(),
+            None => return None,
+        };
+        Some(Self { around: around.id(), kind, place })
     }
-    if of.unread.is_some() {
-        return of.unread.clone();
+}
+
+/// Which quantities of a certificate state uncertainties.
+pub(super) struct Rows<'a, 'd> {
+    all: &'a [Node<'d, 'd>],
+    /// The units of those that do, by row; of nothing before it is asked for.
+    stated: Option<HashMap<Row<'d>, HashSet<String>>>,
+}
+
+impl<'a, 'd> Rows<'a, 'd> {
+    pub(super) fn new(all: &'a [Node<'d, 'd>]) -> Self {
+        Self { all, stated: None }
     }
-    let beside = (0..of.values.len()).any(|other| of.is_uncertain(other));
-    let which = match of.values.len() {
-        1 => "this value".to_owned(),
-        _ => format!("value {place} (from 0) of this quantity"),
-    };
-    let others = if beside { "others of its list" } else { "the same quantity of other rows" };
-    let is_missed = beside || rows(node, all).into_iter().any(|row| is_stated(row, of));
-    is_missed.then(|| (of.span.clone(), without(&which, others)))
+
+    /// Why values of a quantity without an uncertainty are not read as exact ones; `None` if they are, or
+    /// there are none.
+    pub(super) fn lacking(&mut self, node: Node<'d, 'd>, of: &Measured) -> Option<Lacking> {
+        let mut places = 0..of.values.len();
+        if places.clone().all(|place| of.is_uncertain(place)) {
+            return None;
+        }
+        if let Some(fault) = &of.unread {
+            return Some(Lacking::Unread(fault.clone()));
+        }
+        if places.any(|place| of.is_uncertain(place)) {
+            return Some(Lacking::Beside("others of its list"));
+        }
+        let all = self.all;
+        let stated = self.stated.get_or_insert_with(|| stated(all));
+        let units = stated.get(&Row::of(node)?)?;
+        let is_missed = units.contains(of.unit.text());
+        is_missed.then_some(Lacking::Beside("the same quantity of other rows"))
+    }
+}
+
+/// The units of quantities with an uncertainty.
+fn stated<'d>(all: &[Node<'d, 'd>]) -> HashMap<Row<'d>, HashSet<String>> {
+    let mut found: HashMap<Row<'d>, HashSet<String>> = HashMap::new();
+    for node in all {
+        if let Some(row) = Row::of(*node)
+            && let Ok(of) = document::measured(*node)
+            && of.uncertainty.is_some()
+        {
+            found.entry(row).or_default().insert(of.unit.text().to_owned());
+        }
+    }
+    found
+}
+
+/// Why a value without an uncertainty is not read as an exact one.
+#[derive(Clone, Debug)]
+pub(super) enum Lacking {
+    /// Something is stated, in a way that is not read.
+    Unread(Fault),
+    /// Others have one.
+    Beside(&'static str),
+}
+
+impl Lacking {
+    /// The fault of a value; `None` if it has an uncertainty.
+    pub(super) fn fault(&self, of: &Measured, place: usize) -> Option<Fault> {
+        if of.is_uncertain(place) {
+            return None;
+        }
+        let which = match of.values.len() {
+            1 => "this value".to_owned(),
+            _ => format!("value {place} (from 0) of this quantity"),
+        };
+        Some(match self {
+            Self::Unread(fault) => fault.clone(),
+            Self::Beside(others) => (of.span.clone(), without(&which, others)),
+        })
+    }
 }
 
 /// What is to be said of a value without an uncertainty beside others that have one.
@@ -40,32 +117,4 @@ pub(super) fn without(which: &str, others: &str) -> String {
 /// Whether values without an uncertainty are exact beyond doubt.
 pub(super) fn is_nominal(node: Node<'_, '_>) -> bool {
     document::has_ref_type(node, "basic_nominalValue")
-}
-
-/// Whether a quantity in the same unit states an uncertainty.
-fn is_stated(row: Node<'_, '_>, of: &Measured) -> bool {
-    let read = document::measured(row);
-    read.is_ok_and(|row| row.uncertainty.is_some() && row.unit.text() == of.unit.text())
-}
-
-/// The same quantity in other rows: of one reference type in one list, or in the same place of lists
-/// beside that of a quantity.
-fn rows<'d>(node: Node<'d, 'd>, all: &[Node<'d, 'd>]) -> Vec<Node<'d, 'd>> {
-    let is_list = |of: Node<'d, 'd>| of.tag_name().name() == "list";
-    let kind = |of: Node<'d, 'd>| of.attribute("refType");
-    let place = |of: Node<'d, 'd>| {
-        let before = of.prev_siblings().skip(1);
-        before.filter(|of| of.tag_name().name() == "quantity").count()
-    };
-    let around =
-        |of: Node<'d, 'd>| of.parent().filter(|of| is_list(*of)).and_then(|of| of.parent());
-    let is_row = |other: Node<'d, 'd>| {
-        let in_list = other.parent() == node.parent() && kind(node).is_some();
-        let in_row = around(node).is_some()
-            && around(other) == around(node)
-            && other.parent() != node.parent()
-            && (kind(node).is_some() || place(other) == place(node));
-        other != node && kind(other) == kind(node) && (in_list || in_row)
-    };
-    all.iter().copied().filter(|other| is_row(*other)).collect()
 }

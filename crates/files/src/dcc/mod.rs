@@ -30,6 +30,7 @@ use gumption_engine::distribution::{
 use gumption_engine::number::smallest_first;
 use gumption_units::{Unit, nearest};
 use known::{Interval, Known, known};
+use missing::Rows;
 pub(super) use own::Certified;
 use own::OwnCertificate;
 pub(super) use quantities::inputs;
@@ -209,7 +210,8 @@ fn parsed(
     let mut left = index;
     for (node, of) in chosen.iter().zip(measured) {
         if left < of.values.len() {
-            if let Some(fault) = missing::refused(*node, &of, left, &all) {
+            let lacking = Rows::new(&all).lacking(*node, &of);
+            if let Some(fault) = lacking.and_then(|lacking| lacking.fault(&of, left)) {
                 return Err(fault);
             }
             let is_without = !of.is_uncertain(left) && !missing::is_nominal(*node);
@@ -357,6 +359,7 @@ fn table<'d>(
     let Some(condition) = object.text("at").map(str::to_owned) else { return Ok(None) };
     let mut points: Vec<Point> = Vec::new();
     let are_exact = measured.iter().all(|of| of.uncertainty.is_none() && of.unread.is_none());
+    let mut rows = Rows::new(all);
     let mut unit: Option<Unit> = None;
     for (node, of) in chosen.iter().zip(measured) {
         let Some(abscissa) = abscissa(object, *node, of, all, &condition)? else { return Ok(None) };
@@ -365,9 +368,10 @@ fn table<'d>(
             let reason = "this quantity has another unit than that of the first point".to_owned();
             return Err((abscissa.span, reason));
         }
+        let lacking = rows.lacking(*node, of);
         for (place, (&x, &y)) in abscissa.values.iter().zip(&of.values).enumerate() {
             let fault = |reason: String| (of.span.clone(), reason);
-            if let Some(fault) = missing::refused(*node, of, place, all) {
+            if let Some(fault) = lacking.as_ref().and_then(|lacking| lacking.fault(of, place)) {
                 return Err(fault);
             }
             let known = match of.is_uncertain(place) {
