@@ -49,7 +49,7 @@ pub fn carried_models(path: &Path) -> Result<Vec<CarriedModel>, Diagnostics> {
         };
     }
     let text = match bytes::text(&content) {
-        Ok(text) => text.into_owned(),
+        Ok(text) => text.trim_start_matches('\u{feff}').to_owned(),
         Err(message) => return refused("", 0..0, unreadable(message)),
     };
     let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();

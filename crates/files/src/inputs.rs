@@ -538,6 +538,20 @@ impl<'a> Reader<'a, '_> {
             );
             self.inputs.warnings.push(Warning::new("certificate-distribution", &name, text));
         }
+        if of.is_some_and(|of| of.is_without) {
+            let text = format!(
+                "`{name}`: `{file}` states no uncertainty for this value, which is taken as exact; one that \
+                 stands in a text, or with another quantity, has to be stated in the model file"
+            );
+            self.inputs.warnings.push(Warning::new("certificate-exact", &name, text));
+        }
+        if of.is_some_and(|of| of.is_asymmetric) {
+            let text = format!(
+                "`{name}`: `{file}` states a coverage interval that is not symmetric about the value; the \
+                 value and its standard uncertainty are taken, and nothing of the asymmetry"
+            );
+            self.inputs.warnings.push(Warning::new("certificate-asymmetric", &name, text));
+        }
         let certified = of.and_then(|of| of.certified.clone());
         self.inputs.certified.extend(certified.map(|of| (name, of, file)));
     }

@@ -4,7 +4,7 @@
 use gumption_engine::number::Shortest;
 use gumption_units::Unit;
 
-use super::document::{Measured, Stated};
+use super::document::{Measured, Stated, at};
 
 /// Standard uncertainties that have lost their digits are the same within this share of them.
 pub(super) const ROUNDED: f64 = 0.05;
@@ -46,15 +46,14 @@ pub(super) fn contradiction(one: &Measured, other: &Measured) -> Option<[String;
 /// The standard uncertainty of a value, and what its rounding may have taken: that of an expanded one is
 /// to the nearest or up. `None` where its factor is not stated.
 fn standard(stated: &Stated, place: usize) -> Option<(f64, f64)> {
-    let at = |all: &Option<Vec<f64>>| all.as_ref().and_then(|all| all.get(place)).copied();
-    if let Some(u) = at(&stated.standard) {
+    if let Some(u) = at(&stated.standard, place) {
         return Some((u, ROUNDED * u));
     }
-    let (expanded, factor) = (at(&stated.expanded)?, at(&stated.factors)?);
-    let [of_expanded, of_factor, _] =
-        stated.last_digits.each_ref().map(|all| at(all).unwrap_or(0.0));
+    let (expanded, factor) = (at(&stated.expanded, place)?, at(&stated.factors, place)?);
+    let digit = |of| at(of, place).unwrap_or(0.0);
+    let of_expanded = digit(&stated.last_digits.expanded);
     // a whole factor is chosen, not rounded
-    let of_factor = if factor.fract() == 0.0 { 0.0 } else { of_factor };
+    let of_factor = if factor.fract() == 0.0 { 0.0 } else { digit(&stated.last_digits.factors) };
     let u = expanded / factor;
     (factor > 0.0).then_some((u, 1.001 * (of_expanded + 0.5 * u * of_factor) / factor))
 }

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::agreement;
+use super::{agreement, definitions, relative};
 use crate::implied_dof::last_digit;
 use crate::named_shape::NamedShape;
 use gumption_units::Unit;
@@ -14,6 +14,20 @@ use roxmltree::{Document, Node};
 
 /// What is wrong, and where in the text.
 pub(crate) type Fault = (Range<usize>, String);
+
+/// How deep lists and hybrids may stand in each other.
+const DEEPEST: usize = 64;
+
+/// Blanks of XML; a space that does not break stands within a word.
+const BLANKS: [char; 4] = [' ', '\t', '\n', '\r'];
+
+/// A number for each value; none where nothing is stated of it, or of all behind the end.
+pub(super) type Column = Vec<Option<f64>>;
+
+/// The number of a value.
+pub(super) fn at(column: &Column, place: usize) -> Option<f64> {
+    column.get(place).copied().flatten()
+}
 
 /// The values of a quantity, with what is stated of their uncertainty.
 #[derive(Clone, Debug)]
@@ -25,33 +39,100 @@ pub(super) struct Measured {
     /// What one in the last written digit of each value is.
     pub(super) last_digits: Vec<f64>,
     pub(super) uncertainty: Option<Stated>,
+    /// What is stated of their uncertainty in a way that is not read; it matters where a value has no
+    /// other one.
+    pub(super) unread: Option<Fault>,
 }
 
 /// Uncertainties of the values, in their unit.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stated {
-    pub(super) expanded: Option<Vec<f64>>,
-    pub(super) standard: Option<Vec<f64>>,
-    pub(super) factors: Option<Vec<f64>>,
-    pub(super) probabilities: Option<Vec<f64>>,
-    pub(super) distributions: Option<Vec<String>>,
-    /// What one in the last written digit of each expanded uncertainty, factor and probability is.
-    pub(super) last_digits: [Option<Vec<f64>>; 3],
+    pub(super) expanded: Column,
+    pub(super) standard: Column,
+    pub(super) factors: Column,
+    pub(super) probabilities: Column,
+    /// The ends of coverage intervals.
+    pub(super) ends: [Column; 2],
+    /// What the distributions are called; empty where nothing is said.
+    pub(super) distributions: Vec<String>,
+    /// What one in the last written digit of these is.
+    pub(super) last_digits: LastDigits,
     /// The standard uncertainties of values whose coverage intervals stand in a quantity of their own.
-    pub(super) of_interval: Vec<Option<f64>>,
+    pub(super) of_interval: Column,
+}
+
+/// What one in the last written digit is.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LastDigits {
+    pub(super) expanded: Column,
+    pub(super) standard: Column,
+    pub(super) factors: Column,
+    pub(super) probabilities: Column,
+    pub(super) ends: [Column; 2],
+}
+
+impl Stated {
+    fn columns(&mut self) -> [&mut Column; 13] {
+        let digits = &mut self.last_digits;
+        let [low, high] = &mut self.ends;
+        let [of_low, of_high] = &mut digits.ends;
+        [
+            &mut self.expanded,
+            &mut self.standard,
+            &mut self.factors,
+            &mut self.probabilities,
+            low,
+            high,
+            &mut self.of_interval,
+            &mut digits.expanded,
+            &mut digits.standard,
+            &mut digits.factors,
+            &mut digits.probabilities,
+            of_low,
+            of_high,
+        ]
+    }
+
+    /// What the distribution of a value is called.
+    pub(super) fn called(&self, place: usize) -> Option<&str> {
+        self.distributions.get(place).map(String::as_str).filter(|text| !text.is_empty())
+    }
+
+    /// Adds what is stated of further values, behind so many.
+    fn join(&mut self, mut next: Self, [count, further]: [usize; 2]) {
+        for (all, next) in self.columns().into_iter().zip(next.columns()) {
+            if all.is_empty() && next.is_empty() {
+                continue;
+            }
+            all.resize(count, None);
+            all.append(next);
+            all.resize(count + further, None);
+        }
+        self.distributions.resize(count, String::new());
+        self.distributions.append(&mut next.distributions);
+    }
 }
 
 impl Measured {
+    /// Whether something is stated of the uncertainty of a value.
+    pub(super) fn is_uncertain(&self, place: usize) -> bool {
+        let stated = self.uncertainty.as_ref();
+        stated.is_some_and(|of| at(&of.expanded, place).or(at(&of.standard, place)).is_some())
+    }
+
     /// The standard uncertainty of a coverage interval that is taken for a value, or for any of them.
     pub(super) fn interval_taken(&self, place: Option<usize>) -> Option<f64> {
-        let stated = self.uncertainty.as_ref().filter(|stated| stated.standard.is_none())?;
+        let stated = self.uncertainty.as_ref()?;
         let mut places = stated.of_interval.iter().enumerate();
-        places.find_map(|(at, u)| u.filter(|_| place.is_none_or(|place| place == at)))
+        places.find_map(|(number, u)| {
+            u.filter(|_| place.is_none_or(|place| place == number))
+                .filter(|_| at(&stated.standard, number).is_none())
+        })
     }
 
     /// What the distribution of a value, or of any of them, is called where that is not known.
     pub(super) fn unknown_distribution(&self, place: Option<usize>) -> Option<String> {
-        let called = self.uncertainty.as_ref()?.distributions.as_ref()?.iter().enumerate();
+        let called = self.uncertainty.as_ref()?.distributions.iter().enumerate();
         let mut of_place = called.filter(|(at, _)| place.is_none_or(|place| place == *at));
         let unknown = |text: &str| NamedShape::of(text) == Some(NamedShape::Unknown);
         of_place.find(|(_, text)| unknown(text)).map(|(_, text)| text.clone())
@@ -107,7 +188,7 @@ pub(super) fn quantities<'d>(document: &'d Document<'d>) -> Vec<Node<'d, 'd>> {
 
 /// Whether one of an element's reference types is this one.
 pub(super) fn has_ref_type(node: Node<'_, '_>, wanted: &str) -> bool {
-    node.attribute("refType").is_some_and(|all| all.split_whitespace().any(|of| of == wanted))
+    node.attribute("refType").is_some_and(|all| all.split(BLANKS).any(|of| of == wanted))
 }
 
 /// The names of a quantity, in all languages.
@@ -119,7 +200,7 @@ pub(super) fn names(node: Node<'_, '_>) -> Vec<String> {
 }
 
 /// The text of an element: comments stand between parts of it, and end none.
-fn content_of(element: Node<'_, '_>) -> String {
+pub(super) fn content_of(element: Node<'_, '_>) -> String {
     element.children().filter(Node::is_text).filter_map(|part| part.text()).collect()
 }
 
@@ -134,19 +215,29 @@ pub(super) fn called(node: Node<'_, '_>) -> String {
 pub(super) fn measured(quantity: Node<'_, '_>) -> Result<Measured, Fault> {
     let fault = |reason: &str| (tag(quantity), format!("this quantity {reason}"));
     let none = || fault("has no real value (`si:real`, `si:constant` or a list of such)");
-    let all = of_list(quantity, &tag(quantity))?.ok_or_else(none)?;
+    let mut all = of_list(quantity, &tag(quantity), 0)?.ok_or_else(none)?;
     if all.values.is_empty() {
         return Err(fault("has no value"));
     }
+    relative::compare(quantity, &mut all)?;
     Ok(all)
 }
 
 /// Reads what an element holds, one value behind the other; `None` where it holds none. What is of data
 /// about the measurement is no value.
-fn of_list(list: Node<'_, '_>, span: &Range<usize>) -> Result<Option<Measured>, Fault> {
+fn of_list(
+    list: Node<'_, '_>,
+    span: &Range<usize>,
+    depth: usize,
+) -> Result<Option<Measured>, Fault> {
     let mut all: Option<Measured> = None;
+    let mut unread = None;
     for part in list.children().filter(Node::is_element) {
-        let Some(next) = of_part(part, span)? else { continue };
+        let Some(next) = of_part(part, span, depth)? else {
+            let is_of_list = list.tag_name().name() != "quantity" && !is_of_each(part);
+            unread = unread.or_else(|| unread_in(part).filter(|_| is_of_list));
+            continue;
+        };
         match &mut all {
             None => all = Some(next),
             Some(all) if all.unit.text() == next.unit.text() => join(all, next),
@@ -155,29 +246,51 @@ fn of_list(list: Node<'_, '_>, span: &Range<usize>) -> Result<Option<Measured>, 
             }
         }
     }
+    if let Some(all) = &mut all {
+        all.unread = all.unread.take().or(unread);
+    }
     Ok(all)
 }
 
-fn of_part(part: Node<'_, '_>, span: &Range<usize>) -> Result<Option<Measured>, Fault> {
+fn of_part(
+    part: Node<'_, '_>,
+    span: &Range<usize>,
+    depth: usize,
+) -> Result<Option<Measured>, Fault> {
+    if depth > DEEPEST {
+        let reason = format!(
+            "lists and hybrids stand in each other more than {DEEPEST} deep here, which is the most \
+             that is read"
+        );
+        return Err((tag(part), reason));
+    }
     match part.tag_name().name() {
         "real" | "constant" | "realListXMLList" => of_holder(part, span.clone()).map(Some),
-        "list" => of_list(part, span),
-        "hybrid" => of_hybrid(part, span),
+        "list" | "realList" => of_list(part, span, depth + 1),
+        "hybrid" => of_hybrid(part, span, depth + 1),
         _ => Ok(None),
     }
 }
 
 /// Reads a hybrid, which says the same in several units: the first part, or the first with an
-/// uncertainty, where the others do not contradict it.
-fn of_hybrid(hybrid: Node<'_, '_>, span: &Range<usize>) -> Result<Option<Measured>, Fault> {
+/// uncertainty, where the others do not contradict it. Parts in units that are not known are passed by,
+/// as hybrids are there for units that D-SI does not have.
+fn of_hybrid(
+    hybrid: Node<'_, '_>,
+    span: &Range<usize>,
+    depth: usize,
+) -> Result<Option<Measured>, Fault> {
     let mut found: Option<Measured> = None;
+    let mut unknown: Option<Fault> = None;
     for part in hybrid.children().filter(Node::is_element) {
-        let next = match (&found, of_part(part, span)) {
-            (_, Ok(None)) => continue,
-            (_, Ok(Some(next))) => next,
-            (None, Err(fault)) => return Err(fault),
-            // hybrids are there for units that D-SI does not have
-            (Some(_), Err(_)) => continue,
+        let next = match of_part(part, span, depth) {
+            Ok(None) => continue,
+            Ok(Some(next)) => next,
+            Err(fault) if has_unknown_unit(part) => {
+                unknown.get_or_insert(fault);
+                continue;
+            }
+            Err(fault) => return Err(fault),
         };
         let Some(first) = &found else {
             found = Some(next);
@@ -193,123 +306,226 @@ fn of_hybrid(hybrid: Node<'_, '_>, span: &Range<usize>) -> Result<Option<Measure
             found = Some(next);
         }
     }
-    Ok(found)
+    match (found, unknown) {
+        (None, Some(fault)) => Err(fault),
+        (found, _) => Ok(found),
+    }
+}
+
+/// Whether a part of a hybrid has a unit that is not known.
+fn has_unknown_unit(part: Node<'_, '_>) -> bool {
+    let units = part.descendants().filter(|of| UNITS.contains(&of.tag_name().name()));
+    let is_unknown = |element: Node<'_, '_>| {
+        let written = content_of(element);
+        let written = written.trim_matches(BLANKS);
+        let is_one = !element.tag_name().name().ends_with("XMLList");
+        let mut words = written.split(BLANKS).filter(|word| !word.is_empty());
+        let not = |unit: &str| matches!(definitions::unit(element, unit), Ok(None));
+        if is_one { not(written) } else { words.any(not) }
+    };
+    units.into_iter().any(is_unknown)
 }
 
 fn join(all: &mut Measured, next: Measured) {
+    let counts = [all.values.len(), next.values.len()];
     all.values.extend(next.values);
     all.last_digits.extend(next.last_digits);
-    let both = all.uncertainty.as_mut().zip(next.uncertainty);
-    let Some((all, next)) = both else {
-        all.uncertainty = None;
-        return;
-    };
-    let numbers = |all: &mut Option<Vec<f64>>, next: Option<Vec<f64>>| match (all.as_mut(), next) {
-        (Some(all), Some(next)) => all.extend(next),
-        _ => *all = None,
-    };
-    numbers(&mut all.expanded, next.expanded);
-    numbers(&mut all.standard, next.standard);
-    numbers(&mut all.factors, next.factors);
-    numbers(&mut all.probabilities, next.probabilities);
-    for (all, next) in all.last_digits.iter_mut().zip(next.last_digits) {
-        numbers(all, next);
+    all.unread = all.unread.take().or(next.unread);
+    if all.uncertainty.is_some() || next.uncertainty.is_some() {
+        let stated = all.uncertainty.get_or_insert_default();
+        stated.join(next.uncertainty.unwrap_or_default(), counts);
     }
-    match (all.distributions.as_mut(), next.distributions) {
-        (Some(all), Some(next)) => all.extend(next),
-        _ => all.distributions = None,
-    }
+}
+
+const VALUES: [&str; 2] = ["value", "valueXMLList"];
+const UNITS: [&str; 3] = ["unit", "unitXMLList", "listUnit"];
+/// The uncertainty that the values of a list have which state none of their own.
+const OF_EACH: [&str; 2] = ["listUnivariateUnc", "globalUnivariateUnc"];
+
+/// Whether an element of a list holds for each of its values.
+fn is_of_each(element: Node<'_, '_>) -> bool {
+    OF_EACH.contains(&element.tag_name().name())
 }
 
 /// Reads a `real`, a `constant` or a list in one element.
-fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Measured, Fault> {
-    let values = numbers(holder, &["value", "valueXMLList"], None)?
+pub(super) fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Measured, Fault> {
+    let values = numbers(holder, &VALUES, None)?
         .ok_or_else(|| (tag(holder), "this has no value".to_owned()))?;
-    let units = texts(holder, &["unit", "unitXMLList"])?;
-    let Some((element, units)) = units else {
+    let unit = unit_of(holder)?;
+    let count = values.len();
+    let uncertain = uncertainty_of(holder);
+    let of_constant = holder.tag_name().name() == "constant"
+        && !holder.descendants().any(|of| of.tag_name().name() == "expandedUnc");
+    let mut expanded = vec!["valueExpandedMU", "uncertaintyXMLList", "valueExpandedMUXMLList"];
+    let mut standard =
+        vec!["standardUnc", "valueStandardMU", "standardUncXMLList", "valueStandardMUXMLList"];
+    // that of a constant is its standard deviation, says D-SI
+    if of_constant {
+        standard.push("uncertainty")
+    } else {
+        expanded.push("uncertainty")
+    }
+    let column = |names: &[&str]| -> Result<[Column; 2], Fault> {
+        let Some(numbers) = numbers(uncertain, names, Some(count))? else {
+            return Ok([Vec::new(), Vec::new()]);
+        };
+        let digits = last_digits(uncertain, names, count)?;
+        Ok([numbers, digits].map(|all| all.into_iter().map(Some).collect()))
+    };
+    let [expanded, of_expanded] = column(&expanded)?;
+    let [standard, of_standard] = column(&standard)?;
+    let [factors, of_factors] = column(&["coverageFactor", "coverageFactorXMLList"])?;
+    let [probabilities, of_probabilities] =
+        column(&["coverageProbability", "coverageProbabilityXMLList"])?;
+    let [low, of_low] = column(&["intervalMin", "intervalMinXMLList"])?;
+    let [high, of_high] = column(&["intervalMax", "intervalMaxXMLList"])?;
+    let is_uncertain = !expanded.is_empty() || !standard.is_empty();
+    let stated = Stated {
+        expanded,
+        standard,
+        factors,
+        probabilities,
+        ends: [low, high],
+        distributions: distributions(uncertain, count)?,
+        last_digits: LastDigits {
+            expanded: of_expanded,
+            standard: of_standard,
+            factors: of_factors,
+            probabilities: of_probabilities,
+            ends: [of_low, of_high],
+        },
+        of_interval: Vec::new(),
+    };
+    Ok(Measured {
+        span,
+        unit,
+        last_digits: last_digits(holder, &VALUES, count)?,
+        values,
+        uncertainty: is_uncertain.then_some(stated),
+        unread: if is_uncertain { None } else { unread_in(uncertain) },
+    })
+}
+
+/// The element of this name in the list of a value.
+fn in_list_of<'d>(holder: Node<'d, 'd>, names: &[&str]) -> Option<Node<'d, 'd>> {
+    let list = holder.parent().filter(|of| ["list", "realList"].contains(&of.tag_name().name()))?;
+    list.children().find(|of| names.contains(&of.tag_name().name()))
+}
+
+/// The unit of values, or that of their list.
+fn unit_of(holder: Node<'_, '_>) -> Result<Unit, Fault> {
+    let own = texts(holder, &UNITS)?;
+    let shared = match in_list_of(holder, &["listUnit"]) {
+        Some(element) => texts_of([element].into_iter())?,
+        None => None,
+    };
+    let Some((element, units)) = own.clone().or(shared.clone()) else {
         return Err((tag(holder), "this has no unit".to_owned()));
     };
     let written = units.first().map_or("", String::as_str);
-    if units.iter().any(|unit| unit != written) {
+    let differs = |(_, units): &(Node<'_, '_>, Vec<String>)| units.iter().any(|of| of != written);
+    if let Some((element, _)) = [own, shared].into_iter().flatten().find(differs) {
         return Err((tag(element), "the values of a list have different units".to_owned()));
     }
-    let unit = Unit::parse_dsi(written)
-        .or_else(|| defined(holder, written))
-        .ok_or_else(|| (element.range(), format!("`{written}` is no unit of D-SI")))?;
-    let count = Some(values.len());
-    let expanded = ["uncertainty", "valueExpandedMU", "uncertaintyXMLList"];
-    let expanded = [&expanded[..], &["valueExpandedMUXMLList"]].concat();
-    let standard = ["standardUnc", "valueStandardMU", "standardUncXMLList"];
-    let standard = [&standard[..], &["valueStandardMUXMLList"]].concat();
-    let factors = ["coverageFactor", "coverageFactorXMLList"];
-    let probabilities = ["coverageProbability", "coverageProbabilityXMLList"];
-    let last_digits = |names: &[&str]| -> Result<Option<Vec<f64>>, Fault> {
-        let words = texts(holder, names)?.map(|(_, words)| words);
-        let digits = |words: Vec<String>| words.iter().map(|word| last_digit(word)).collect();
-        Ok(words.map(|words| spread(digits(words), Some(values.len()))))
-    };
-    let [of_values, of_expanded, of_factors, of_probabilities] =
-        [&["value", "valueXMLList"][..], &expanded, &factors, &probabilities].map(last_digits);
-    let stated = Stated {
-        last_digits: [of_expanded?, of_factors?, of_probabilities?],
-        expanded: numbers(holder, &expanded, count)?,
-        standard: numbers(holder, &standard, count)?,
-        factors: numbers(holder, &factors, count)?,
-        probabilities: numbers(holder, &probabilities, count)?,
-        distributions: distributions(holder, count)?,
-        of_interval: Vec::new(),
-    };
-    let uncertain = stated.expanded.is_some() || stated.standard.is_some();
-    let last_digits = of_values?.unwrap_or_default();
-    Ok(Measured { span, unit, values, last_digits, uncertainty: uncertain.then_some(stated) })
+    definitions::unit(element, written)?
+        .ok_or_else(|| (element.range(), definitions::unknown(element, written)))
 }
 
-/// A unit that D-SI does not have, `|tex`, by its definition in the quantity, `tex = 1e-6 kg m^-1`.
-fn defined(holder: Node<'_, '_>, written: &str) -> Option<Unit> {
-    let name = written.strip_prefix('|')?;
-    let quantity = holder.ancestors().find(|of| of.tag_name().name() == "quantity")?;
-    let definition = quantity.descendants().find(|of| of.tag_name().name() == "nonSIDefinition")?;
-    let definition = content_of(definition);
-    let (_, size) = definition.split_once('=')?;
-    let size = Unit::parse(size.trim()).ok()?;
-    // a product of units has no name of its own
-    Some(Unit::defined(name, &size).unwrap_or(size))
+/// Where the uncertainty of values stands: in their element, or for all values of their list.
+fn uncertainty_of<'d>(holder: Node<'d, 'd>) -> Node<'d, 'd> {
+    if unread_in(holder).is_some() {
+        return holder;
+    }
+    in_list_of(holder, &OF_EACH).unwrap_or(holder)
+}
+
+/// A statement of uncertainty in an element, as something that is not read.
+fn unread_in(element: Node<'_, '_>) -> Option<Fault> {
+    let is_uncertainty = |of: &Node<'_, '_>| {
+        let name = of.tag_name().name().to_lowercase();
+        let name = name.strip_suffix("xmllist").unwrap_or(&name);
+        name.contains("uncertainty")
+            || name == "coverageinterval"
+            || ["unc", "mu", "region"].iter().any(|end| name.ends_with(end))
+    };
+    let found = element.descendants().find(is_uncertainty)?;
+    let reason = format!(
+        "the uncertainty of this quantity is stated as `{}` here, which is not read: \
+         `si:expandedUnc` or `si:coverageInterval` can be, or their lists",
+        found.tag_name().name()
+    );
+    Some((tag(found), reason))
 }
 
 /// One value for all, where a list has one.
-fn spread<T: Clone>(all: Vec<T>, count: Option<usize>) -> Vec<T> {
+pub(super) fn spread<T: Clone>(all: Vec<T>, count: Option<usize>) -> Vec<T> {
     match (all.as_slice(), count) {
         ([one], Some(count)) => vec![one.clone(); count],
         _ => all,
     }
 }
 
-/// What the distributions of values are called: one name, which may have several words, or a list.
-fn distributions(holder: Node<'_, '_>, count: Option<usize>) -> Result<Option<Vec<String>>, Fault> {
-    let found = texts(holder, &["distribution", "distributionXMLList"])?;
-    Ok(found.map(|(element, words)| match element.tag_name().name() {
-        "distribution" => spread(vec![words.join(" ")], count),
-        _ => spread(words, count),
-    }))
+/// What the distributions of values are called: one name, which may have several words, or a list;
+/// empty where nothing is said.
+fn distributions(holder: Node<'_, '_>, count: usize) -> Result<Vec<String>, Fault> {
+    let Some((element, words)) = texts(holder, &["distribution", "distributionXMLList"])? else {
+        return Ok(vec![String::new(); count]);
+    };
+    let words = if is_list(element) { words } else { vec![words.join(" ")] };
+    let found = spread(words, Some(count));
+    if found.len() != count {
+        let name = element.tag_name().name();
+        let reason = format!("`{name}` has {} names for {count} values", found.len());
+        return Err((element.range(), reason));
+    }
+    Ok(found)
 }
+
+/// What one in the last written digit of numbers is.
+fn last_digits(holder: Node<'_, '_>, names: &[&str], count: usize) -> Result<Vec<f64>, Fault> {
+    let words = texts(holder, names)?.map_or_else(Vec::new, |(_, words)| words);
+    Ok(spread(words.iter().map(|word| last_digit(word)).collect(), Some(count)))
+}
+
+/// Whether an element holds a list of words.
+fn is_list(element: Node<'_, '_>) -> bool {
+    element.tag_name().name().ends_with("XMLList")
+}
+
+/// An element and the words in it.
+type Words<'d> = (Node<'d, 'd>, Vec<String>);
 
 /// The words of the element below with one of these names.
 ///
 /// # Errors
-/// Another one says something else, so that their order would decide; what is in it is no text alone.
-fn texts<'d>(
-    holder: Node<'d, 'd>,
-    names: &[&str],
-) -> Result<Option<(Node<'d, 'd>, Vec<String>)>, Fault> {
+/// Another one says something else, so that their order would decide; what is in it is no text alone, or
+/// several words where one is to stand.
+fn texts<'d>(holder: Node<'d, 'd>, names: &[&str]) -> Result<Option<Words<'d>>, Fault> {
+    texts_of(holder.descendants().filter(|of| names.contains(&of.tag_name().name())))
+}
+
+fn texts_of<'d>(
+    mut elements: impl Iterator<Item = Node<'d, 'd>>,
+) -> Result<Option<Words<'d>>, Fault> {
     let words = |element: Node<'d, 'd>| -> Vec<String> {
-        content_of(element).split_whitespace().map(str::to_owned).collect()
+        let text = content_of(element);
+        text.split(BLANKS).filter(|word| !word.is_empty()).map(str::to_owned).collect()
     };
-    let mut elements = holder.descendants().filter(|of| names.contains(&of.tag_name().name()));
+    let shown = |words: &[String]| -> String { words.join(" ").chars().take(40).collect() };
     let Some(element) = elements.next() else { return Ok(None) };
+    let name = element.tag_name().name();
     let found = words(element);
     if let Some(inside) = element.children().find(Node::is_element) {
-        let (name, inner) = (element.tag_name().name(), inside.tag_name().name());
+        let inner = inside.tag_name().name();
         return Err((tag(inside), format!("`{inner}` has no place in `{name}`, which is a text")));
+    }
+    if found.len() > 1 && !is_list(element) && name != "distribution" {
+        let reason = format!(
+            "`{name}` is `{}`, which is more than one word; one is to stand here, a number without \
+             blanks for example",
+            shown(&found)
+        );
+        return Err((element.range(), reason));
     }
     let is_same = |a: &String, b: &String| {
         let both = a.parse::<f64>().ok().zip(b.parse::<f64>().ok());
@@ -322,10 +538,8 @@ fn texts<'d>(
         let are_same = both[0].len() == both[1].len()
             && both[0].iter().zip(&both[1]).all(|(a, b)| is_same(a, b));
         if !are_same {
-            let shown = |words: &[String]| -> String { words.join(" ").chars().take(40).collect() };
             let reason = format!(
-                "`{}` is `{}` and, here, `{}` of the same value: ask which is right",
-                element.tag_name().name(),
+                "`{name}` is `{}` and, here, `{}` of the same value: ask which is right",
                 shown(&found),
                 shown(&again)
             );
@@ -335,6 +549,7 @@ fn texts<'d>(
     Ok(Some((element, found)))
 }
 
+/// The numbers of the element below with one of these names, so many of them if that is known.
 fn numbers(
     holder: Node<'_, '_>,
     names: &[&str],

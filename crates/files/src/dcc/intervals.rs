@@ -53,12 +53,14 @@ fn beside<'d>(node: Node<'d, 'd>, of: &mut Measured, all: &[Node<'d, 'd>]) {
         // a damaged one matters where it is wanted
         let Ok(interval) = document::measured(*interval) else { continue };
         let Some(places) = places(&interval, of) else { continue };
-        let standard = interval.uncertainty.and_then(|stated| stated.standard);
+        let standard = interval.uncertainty.map(|stated| stated.standard);
         let Some(stated) = of.uncertainty.as_mut() else { continue };
         stated.of_interval.resize(of.values.len(), None);
         for (place, u) in places.into_iter().zip(standard.unwrap_or_default()) {
-            if let Some(slot) = place.and_then(|place| stated.of_interval.get_mut(place)) {
-                *slot = Some(u);
+            if let Some(slot) = place.and_then(|place| stated.of_interval.get_mut(place))
+                && u.is_some()
+            {
+                *slot = u;
             }
         }
     }
@@ -71,7 +73,7 @@ fn places(interval: &Measured, of: &Measured) -> Option<Vec<Option<usize>>> {
         return None;
     }
     let distribution = |of: &Measured, place: usize| -> Option<String> {
-        of.uncertainty.as_ref()?.distributions.as_ref()?.get(place).cloned()
+        of.uncertainty.as_ref()?.called(place).map(str::to_owned)
     };
     let is_it = |own: usize, place: usize| {
         let (a, b) = (distribution(interval, own), distribution(of, place));

@@ -2,10 +2,14 @@
 //! quantity, or a table of it interpolated over a condition.
 
 mod agreement;
+mod definitions;
 mod document;
 mod intervals;
+mod known;
+mod missing;
 mod own;
 mod quantities;
+mod relative;
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -13,24 +17,24 @@ use std::sync::Arc;
 
 use super::condition_values::ConditionValues;
 use super::folder::Folder;
-use super::implied_dof::Factor;
 use super::named_shape::NamedShape;
 use super::object::Object;
 use super::source::{Place, SourceText};
 use super::value_text::ValueOf;
 use super::{DiagnosticKind, bytes};
+use document::Measured;
 pub(super) use document::{Fault, parse, tag};
-use document::{Measured, Stated};
 use gumption_engine::distribution::{
     Arcsine, Constant, Distribution, Invalid, Normal, Rectangular, Triangular,
 };
 use gumption_engine::number::smallest_first;
-use gumption_engine::special;
 use gumption_units::{Unit, nearest};
+use known::{Interval, Known, known};
+use missing::Rows;
 pub(super) use own::Certified;
 use own::OwnCertificate;
 pub(super) use quantities::inputs;
-use roxmltree::Node;
+use roxmltree::{Document, Node};
 
 /// The certificates that a model file names: name, text if it could be read, content.
 #[derive(Debug, Default)]
@@ -57,10 +61,12 @@ impl Certificates {
             };
             let bytes = folder.content(name, bytes::MOST)?;
             let text = bytes::text(&bytes).map_err(unreadable)?.into_owned();
-            if !text.trim_start().starts_with('<') {
+            // without a byte-order mark
+            let source = SourceText::new(folder.shown(name), &text);
+            if !source.text.trim_start().starts_with('<') {
                 return Err(unreadable("it is no XML".to_owned()));
             }
-            Ok((SourceText::new(folder.shown(name), &text), bytes))
+            Ok((source, bytes))
         };
         let found = match read() {
             Ok((text, bytes)) => {
@@ -91,15 +97,26 @@ pub(super) struct FromCertificate {
     pub(super) of_interval: bool,
     /// What the certificate calls a distribution that is not known here.
     pub(super) unknown_distribution: Option<String>,
+    /// Whether it states no uncertainty, and is no nominal value.
+    pub(super) is_without: bool,
+    /// Whether a coverage interval is not symmetric about its value.
+    pub(super) is_asymmetric: bool,
 }
 
 #[derive(Clone, Debug)]
 enum Taken {
     /// One value, at this place of the lists.
     One(Box<Measured>, usize),
-    /// Points of a table over a condition, in order: abscissa, value, standard uncertainty, degrees
-    /// of freedom. Between them is the shape that all of them have.
-    Table { condition: String, unit: Box<Unit>, points: Vec<[f64; 4]>, shape: Option<NamedShape> },
+    /// Points of a table over a condition, in order.
+    Table { condition: String, unit: Box<Unit>, points: Vec<Point> },
+}
+
+/// A point of a table: abscissa, value, and what is known of it.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    x: f64,
+    y: f64,
+    known: Known,
 }
 
 /// Reads what the object takes from a certificate; mistakes are reported, those of the certificate
@@ -140,9 +157,18 @@ fn parsed(
         return Err((other.span.clone(), reason));
     }
     if object.get("at").is_some() {
+        for node in chosen.iter().filter(|_| measured.iter().all(|of| of.uncertainty.is_none())) {
+            stated_elsewhere(own, source, &document, (*node, 0))?;
+        }
         let Some(table) = table(object, &chosen, &measured, &all)? else { return Ok(None) };
         let source = Arc::clone(source);
         let of_interval = measured.iter().any(|of| of.interval_taken(None).is_some());
+        let is_asymmetric = measured.iter().any(|of| {
+            let mut intervals = (0..of.values.len()).filter_map(|place| Interval::of(of, place));
+            intervals.any(Interval::is_asymmetric)
+        });
+        let is_exact = measured.iter().all(|of| of.uncertainty.is_none());
+        let is_without = is_exact && !chosen.iter().all(|node| missing::is_nominal(*node));
         let unknown_distribution = measured.iter().find_map(|of| of.unknown_distribution(None));
         return Ok(Some(FromCertificate {
             unit,
@@ -152,6 +178,8 @@ fn parsed(
             certified: None,
             of_interval,
             unknown_distribution,
+            is_without,
+            is_asymmetric,
         }));
     }
     let count: usize = measured.iter().map(|of| of.values.len()).sum();
@@ -182,26 +210,60 @@ fn parsed(
     let mut left = index;
     for (node, of) in chosen.iter().zip(measured) {
         if left < of.values.len() {
-            let (source, span) = (Arc::clone(source), of.span.clone());
-            let of_interval = of.interval_taken(Some(left)).is_some();
-            let unknown_distribution = of.unknown_distribution(Some(left));
-            let taken = Taken::One(Box::new(of), left);
-            let own = own.entry(source.name.clone());
-            let own = own.or_insert_with(|| OwnCertificate::of(&document).map(Arc::new));
-            let certified = own.as_ref().and_then(|own| own.part(*node, left));
+            let lacking = Rows::new(&all).lacking(*node, &of);
+            if let Some(fault) = lacking.and_then(|lacking| lacking.fault(&of, left)) {
+                return Err(fault);
+            }
+            let is_without = !of.is_uncertain(left) && !missing::is_nominal(*node);
+            let certified = match is_without {
+                true => stated_elsewhere(own, source, &document, (*node, left))?,
+                false => certified(own, source, &document, (*node, left)),
+            };
             return Ok(Some(FromCertificate {
                 unit,
-                taken,
-                source,
-                span,
+                source: Arc::clone(source),
+                span: of.span.clone(),
                 certified,
-                of_interval,
-                unknown_distribution,
+                of_interval: of.interval_taken(Some(left)).is_some(),
+                unknown_distribution: of.unknown_distribution(Some(left)),
+                is_without,
+                is_asymmetric: Interval::of(&of, left).is_some_and(Interval::is_asymmetric),
+                taken: Taken::One(Box::new(of), left),
             }));
         }
         left -= of.values.len();
     }
     Ok(None)
+}
+
+/// The result of a certificate of our own that a value is.
+fn certified(
+    own: &mut HashMap<String, Option<Arc<OwnCertificate>>>,
+    source: &SourceText,
+    document: &Document<'_>,
+    (node, place): (Node<'_, '_>, usize),
+) -> Option<Certified> {
+    let own = own.entry(source.name.clone());
+    let own = own.or_insert_with(|| OwnCertificate::of(document).map(Arc::new));
+    own.as_ref()?.part(node, place)
+}
+
+/// As [`certified`], of a value without an uncertainty.
+///
+/// # Errors
+/// It is a result of a certificate of our own, whose uncertainty stands in a text.
+fn stated_elsewhere(
+    own: &mut HashMap<String, Option<Arc<OwnCertificate>>>,
+    source: &SourceText,
+    document: &Document<'_>,
+    (node, place): (Node<'_, '_>, usize),
+) -> Result<Option<Certified>, Fault> {
+    let Some(_) = certified(own, source, document, (node, place)) else { return Ok(None) };
+    let reason = "the uncertainty of this result stands in the description of the certificate alone, as \
+                  D-SI has no place for a coverage factor without a probability, or below 1: take the \
+                  value with the U and k that are said there"
+        .to_owned();
+    Err((tag(node), reason))
 }
 
 /// The quantities that the object names; `None` where a mistake has been reported.
@@ -237,11 +299,17 @@ fn chosen<'d>(object: &Object<'_>, all: &[Node<'d, 'd>]) -> Option<Vec<Node<'d, 
     }
     if object.get("id").is_some() {
         let wanted = object.text("id")?;
+        let is_it = |of: &Node<'d, 'd>| of.attribute("id") == Some(wanted);
+        let is_quantity = |of: &Node<'d, 'd>| of.tag_name().name() == "quantity";
+        // quantities may stand in each other
         let has = |node: &&Node<'d, 'd>| {
-            let mut inside = node.descendants();
-            inside.any(|of| of.attribute("id") == Some(wanted))
+            let mut inside = node.descendants().filter(is_it);
+            inside.any(|of| of.ancestors().find(is_quantity) == Some(**node))
         };
-        let found: Vec<Node<'d, 'd>> = all.iter().filter(has).copied().collect();
+        let mut found: Vec<Node<'d, 'd>> = all.iter().filter(|of| is_it(of)).copied().collect();
+        if found.is_empty() {
+            found = all.iter().filter(has).copied().collect();
+        }
         if found.is_empty() {
             let known = all.iter().filter_map(|node| node.attribute("id")).collect();
             let known = suggest(wanted, known);
@@ -289,8 +357,9 @@ fn table<'d>(
     all: &[Node<'d, 'd>],
 ) -> Result<Option<Taken>, Fault> {
     let Some(condition) = object.text("at").map(str::to_owned) else { return Ok(None) };
-    let mut points: Vec<[f64; 4]> = Vec::new();
-    let mut shapes: Vec<Option<NamedShape>> = Vec::new();
+    let mut points: Vec<Point> = Vec::new();
+    let are_exact = measured.iter().all(|of| of.uncertainty.is_none() && of.unread.is_none());
+    let mut rows = Rows::new(all);
     let mut unit: Option<Unit> = None;
     for (node, of) in chosen.iter().zip(measured) {
         let Some(abscissa) = abscissa(object, *node, of, all, &condition)? else { return Ok(None) };
@@ -299,27 +368,32 @@ fn table<'d>(
             let reason = "this quantity has another unit than that of the first point".to_owned();
             return Err((abscissa.span, reason));
         }
+        let lacking = rows.lacking(*node, of);
         for (place, (&x, &y)) in abscissa.values.iter().zip(&of.values).enumerate() {
-            let (u, dof) = match &of.uncertainty {
-                None => (0.0, f64::INFINITY),
-                Some(stated) => {
-                    let known = known(stated, place).map_err(|reason| (of.span.clone(), reason))?;
-                    shapes.push(known.shape);
-                    (known.standard, known.dof)
+            let fault = |reason: String| (of.span.clone(), reason);
+            if let Some(fault) = lacking.as_ref().and_then(|lacking| lacking.fault(of, place)) {
+                return Err(fault);
+            }
+            let known = match of.is_uncertain(place) {
+                true => {
+                    known(of, place).map_err(|reason| fault(format!("this quantity {reason}")))?
+                }
+                false if are_exact => Known::EXACT,
+                false => {
+                    let others = "other points of the table";
+                    return Err(fault(missing::without("this value", others)));
                 }
             };
-            points.push([x, y, u, dof]);
+            points.push(Point { x, y, known });
         }
     }
-    smallest_first(&mut points, |point| point[0]);
-    if points.windows(2).any(|pair| pair[0][0] == pair[1][0]) {
+    smallest_first(&mut points, |point| point.x);
+    if points.windows(2).any(|pair| pair[0].x == pair[1].x) {
         let span = measured.first().map_or(0..0, |of| of.span.clone());
         let reason = "two points of this table have the same abscissa".to_owned();
         return Err((span, reason));
     }
-    let first = shapes.first().copied().flatten();
-    let shape = first.filter(|_| shapes.iter().all(|shape| *shape == first));
-    Ok(unit.map(|unit| Taken::Table { condition, unit: Box::new(unit), points, shape }))
+    Ok(unit.map(|unit| Taken::Table { condition, unit: Box::new(unit), points }))
 }
 
 /// The quantity that a table goes over: in the same list, equally many values; by the name of the
@@ -389,68 +463,6 @@ fn abscissa<'d>(
     Ok(Some(first))
 }
 
-/// What is known of one value.
-struct Known {
-    standard: f64,
-    dof: f64,
-    shape: Option<NamedShape>,
-    /// What the expanded uncertainty was divided by.
-    factor: f64,
-}
-
-fn known(stated: &Stated, place: usize) -> Result<Known, String> {
-    let at = |all: &Option<Vec<f64>>| all.as_ref().and_then(|all| all.get(place)).copied();
-    let texts = stated.distributions.as_ref();
-    let shape = texts.and_then(|all| all.get(place)).and_then(|text| NamedShape::of(text));
-    let is_t = shape == Some(NamedShape::Student);
-    let probability = at(&stated.probabilities);
-    if let Some(p) = probability
-        && !(p > 0.0 && p < 1.0)
-    {
-        return Err(format!("has a coverage probability of {p}, which must be between 0 and 1"));
-    }
-    let normal = |p: f64| special::student::two_sided_factor(p, f64::INFINITY);
-    let factor = match (at(&stated.factors), probability) {
-        (Some(k), _) if k > 0.0 => k,
-        (Some(k), _) => return Err(format!("has a coverage factor of {k}, which must be above 0")),
-        (None, Some(p)) => normal(p),
-        (None, None) => 1.0,
-    };
-    let last_digits = stated.last_digits.each_ref().map(|all| at(all).unwrap_or(0.0));
-    let [of_expanded, of_factor, of_probability] = last_digits;
-    let (standard, factor) = match (at(&stated.standard), at(&stated.expanded)) {
-        (Some(u), Some(expanded))
-            if at(&stated.factors).is_some()
-                && (expanded / factor - u).abs() > agreement::ROUNDED * u =>
-        {
-            (intervals::agreeing(u, (expanded, factor), [of_expanded, of_factor])?, 1.0)
-        }
-        (Some(standard), _) => (standard, 1.0),
-        (None, Some(_)) if stated.factors.is_none() && probability.is_none() => {
-            let reason = "has an expanded uncertainty without a coverage factor or probability";
-            return Err(reason.to_owned());
-        }
-        (None, Some(expanded)) => match stated.of_interval.get(place).copied().flatten() {
-            Some(u) => (intervals::agreeing(u, (expanded, factor), [of_expanded, of_factor])?, 1.0),
-            None => (expanded / factor, factor),
-        },
-        (None, None) => return Err("has no uncertainty".to_owned()),
-    };
-    if !(standard >= 0.0 && standard.is_finite()) {
-        return Err(format!("has a standard uncertainty of {standard}"));
-    }
-    // a standard uncertainty that is stated has not been divided by the factor
-    let divided = at(&stated.standard).is_none() && at(&stated.factors) == Some(factor);
-    let dof = match probability {
-        Some(p) if divided && (is_t || shape.is_none()) => {
-            let stated = Factor::new(factor, of_factor);
-            if is_t { stated.dof(p) } else { stated.dof_of_nothing_named(p, of_probability) }
-        }
-        _ => f64::INFINITY,
-    };
-    Ok(Known { standard, dof, shape, factor })
-}
-
 impl FromCertificate {
     /// The distribution in a row of the conditions, in the unit of the input.
     pub(super) fn distribution(
@@ -480,20 +492,20 @@ impl FromCertificate {
         let made = match &self.taken {
             Taken::One(of, place) => {
                 let value = in_unit(of.values.get(*place).copied().unwrap_or(f64::NAN));
-                match &of.uncertainty {
-                    None => Constant::new(value).map(Into::into),
-                    Some(stated) => match known(stated, *place) {
+                match of.is_uncertain(*place) {
+                    false => Constant::new(value).map(Into::into),
+                    true => match known(of, *place) {
                         Ok(known) => shaped(value, known, factor),
                         Err(reason) => return self.fault(object, reason),
                     },
                 }
             }
-            Taken::Table { condition, unit: of, points, shape } => {
+            Taken::Table { condition, unit: of, points } => {
                 let (conditions, row) = at?;
                 let x = self.condition(object, condition, of, (conditions, row))?;
-                let Some([_, y, u, dof]) = interpolated(points, x) else {
+                let Some(Point { y, known, .. }) = interpolated(points, x) else {
                     let ends = points.first().zip(points.last());
-                    let (low, high) = ends.map_or((f64::NAN, f64::NAN), |(a, b)| (a[0], b[0]));
+                    let (low, high) = ends.map_or((f64::NAN, f64::NAN), |(a, b)| (a.x, b.x));
                     let reason = format!(
                         "`{condition}` is {x} {of} in row {}, outside the certificate's range {low} \
                          to {high} {of}",
@@ -503,7 +515,6 @@ impl FromCertificate {
                     object.log.report(place, DiagnosticKind::Certificate { reason });
                     return None;
                 };
-                let known = Known { standard: u, dof, shape: *shape, factor: 1.0 };
                 shaped(in_unit(y), known, factor)
             }
         };
@@ -562,22 +573,31 @@ fn shaped(value: f64, known: Known, factor: f64) -> Result<Distribution, Invalid
     }
 }
 
-/// On straight lines between the points; `None` outside.
-fn interpolated(points: &[[f64; 4]], x: f64) -> Option<[f64; 4]> {
+/// On straight lines between the points, with the shape that both neighbours have; `None` outside. At a
+/// point it is what is known there.
+fn interpolated(points: &[Point], x: f64) -> Option<Point> {
     let [first, last] = [points.first()?, points.last()?];
-    let slack = 1e-12 * (last[0] - first[0]);
-    if !(x >= first[0] - slack && x <= last[0] + slack) {
+    let slack = 1e-12 * (last.x - first.x);
+    if !(x >= first.x - slack && x <= last.x + slack) {
         return None;
     }
-    let above = points.partition_point(|point| point[0] <= x).clamp(1, points.len().max(2) - 1);
-    let (a, b) = (points.get(above - 1)?, points.get(above).unwrap_or(first));
-    if points.len() == 1 || x == a[0] {
-        return Some(*a);
+    let x = x.clamp(first.x, last.x);
+    let above = points.partition_point(|point| point.x < x);
+    let b = points.get(above)?;
+    let Some(a) = above.checked_sub(1).and_then(|below| points.get(below)) else { return Some(*b) };
+    if b.x == x {
+        return Some(*b);
     }
-    let share = (x - a[0]) / (b[0] - a[0]);
-    let between = |which: usize| a[which] + share * (b[which] - a[which]);
-    // the fewer degrees of freedom
-    Some([x, between(1), between(2), a[3].min(b[3])])
+    let share = (x - a.x) / (b.x - a.x);
+    let between = |a: f64, b: f64| a + share * (b - a);
+    let known = Known {
+        standard: between(a.known.standard, b.known.standard),
+        // the fewer degrees of freedom
+        dof: a.known.dof.min(b.known.dof),
+        shape: a.known.shape.filter(|shape| b.known.shape == Some(*shape)),
+        factor: 1.0,
+    };
+    Some(Point { x, y: between(a.y, b.y), known })
 }
 
 #[cfg(test)]

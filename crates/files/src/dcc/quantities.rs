@@ -5,6 +5,7 @@ use roxmltree::{Document, Node};
 use serde_json::{Value, json};
 
 use super::document::{measured, names, quantities};
+use super::missing::Rows;
 
 /// The name of a quantity that has none.
 const NAMELESS: &str = "q";
@@ -19,13 +20,16 @@ fn in_results(node: &Node<'_, '_>) -> bool {
 pub(crate) fn inputs(document: &Document<'_>, file: &str) -> Vec<(String, String, Value)> {
     let all = quantities(document);
     let some = all.iter().any(in_results);
+    let mut rows = Rows::new(&all);
     let mut found: Vec<(String, String, Value)> = Vec::new();
     for (place, node) in all.iter().enumerate().filter(|(_, node)| !some || in_results(node)) {
         let Ok(of) = measured(*node) else { continue };
         let count = of.values.len();
+        let lacking = rows.lacking(*node, &of);
+        let fault = |place: usize| lacking.as_ref().and_then(|lacking| lacking.fault(&of, place));
         let called = names(*node);
         let stem = identifier(called.first().map_or("", String::as_str));
-        for index in 0..count {
+        for index in (0..count).filter(|place| fault(*place).is_none()) {
             let wanted = if count > 1 { format!("{stem}_{}", index + 1) } else { stem.clone() };
             let taken = |name: &str| found.iter().any(|(known, ..)| known == name);
             let name = (1..)

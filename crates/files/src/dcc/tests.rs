@@ -1,18 +1,66 @@
 //! Certificates of the versions in use, as inputs.
 
+mod reading;
+mod uncertainty;
+
 use super::*;
 use crate::{Diagnostics, ModelFile, read as read_model};
 
 /// A model of an input `x` from `ref.xml`.
 fn model(xml: &str, input: &str, more: &str) -> Result<ModelFile, Diagnostics> {
+    model_in("mV", xml, input, more)
+}
+
+/// A model whose result is in this unit.
+fn model_in(unit: &str, xml: &str, input: &str, more: &str) -> Result<ModelFile, Diagnostics> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("ref.xml"), xml).unwrap();
     let text = format!(
         r#"{{"inputs": {{"x": {{"distribution": "dcc", "file": "ref.xml", {input}}}}}{more},
-        "equations": {{"y": "x"}}, "outputs": {{"y": {{"unit": "mV"}}}}}}"#
+        "equations": {{"y": "x"}}, "outputs": {{"y": {{"unit": "{unit}"}}}}}}"#
     );
     std::fs::write(folder.path().join("m.json"), text).unwrap();
     read_model(&folder.path().join("m.json"), &[])
+}
+
+/// The one error of a model whose result is in volts, of the quantity `v`.
+fn refused(quantities: &str, more: &str) -> String {
+    let errors = model(&certificate("3.2.1", quantities), &format!(r#""id": "v"{more}"#), "");
+    let errors = errors.unwrap_err();
+    assert_eq!(errors.0.len(), 1, "{errors}");
+    errors.to_string()
+}
+
+/// The model of the quantity `v`.
+fn accepted(quantities: &str, more: &str) -> ModelFile {
+    model(&certificate("3.2.1", quantities), &format!(r#""id": "v"{more}"#), "").unwrap()
+}
+
+fn quantity(inside: &str) -> String {
+    format!("<dcc:quantity id=\"v\">{inside}</dcc:quantity>")
+}
+
+fn real(value: &str, unit: &str, more: &str) -> String {
+    format!("<si:real><si:value>{value}</si:value><si:unit>{unit}</si:unit>{more}</si:real>")
+}
+
+/// An expanded uncertainty, of which an empty text is not stated.
+fn expanded([u, k, p, law]: [&str; 4]) -> String {
+    let element = |name: &str, text: &str| match text {
+        "" => String::new(),
+        _ => format!("<si:{name}>{text}</si:{name}>"),
+    };
+    format!(
+        "<si:expandedUnc>{}{}{}{}</si:expandedUnc>",
+        element("uncertainty", u),
+        element("coverageFactor", k),
+        element("coverageProbability", p),
+        element("distribution", law)
+    )
+}
+
+fn has_note(file: &ModelFile, code: &str) -> bool {
+    file.warnings.iter().any(|note| note.code == code)
 }
 
 fn certificate(version: &str, quantities: &str) -> String {

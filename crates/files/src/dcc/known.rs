@@ -1,0 +1,211 @@
+//! What a certificate's statements of uncertainty make known of one value: standard uncertainty, degrees
+//! of freedom and shape.
+
+use super::super::implied_dof::Factor;
+use super::super::named_shape::NamedShape;
+use super::document::{Measured, Stated, at};
+use super::{agreement, intervals};
+use gumption_engine::special::student::two_sided_factor;
+
+/// What is known of one value.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Known {
+    pub(super) standard: f64,
+    pub(super) dof: f64,
+    pub(super) shape: Option<NamedShape>,
+    /// What the expanded uncertainty was divided by.
+    pub(super) factor: f64,
+}
+
+impl Known {
+    /// Of a value without an uncertainty.
+    pub(super) const EXACT: Self =
+        Self { standard: 0.0, dof: f64::INFINITY, shape: None, factor: 1.0 };
+}
+
+/// What is known of a value.
+///
+/// # Errors
+/// What is wrong with it, as a sentence about the quantity.
+pub(super) fn known(of: &Measured, place: usize) -> Result<Known, String> {
+    let none = || "has no uncertainty".to_owned();
+    let stated = of.uncertainty.as_ref().ok_or_else(none)?;
+    let shape = stated.called(place).and_then(NamedShape::of);
+    let is_t = shape == Some(NamedShape::Student);
+    let probability = at(&stated.probabilities, place);
+    // a distribution with limits, or one of which nothing is known, may lie within U
+    let is_bounded = matches!(shape, Some(NamedShape::Unknown)) || limited(shape, 1.0).is_some();
+    if let Some(p) = probability
+        && !(p > 0.0 && (p < 1.0 || p == 1.0 && is_bounded))
+    {
+        let whole = if is_bounded { ", or 1" } else { "" };
+        return Err(format!(
+            "has a coverage probability of {p}, which must be between 0 and 1{whole}"
+        ));
+    }
+    let stated_factor = at(&stated.factors, place);
+    let digit = |all| at(all, place).unwrap_or(0.0);
+    let digits = &stated.last_digits;
+    let (of_expanded, of_factor) = (digit(&digits.expanded), digit(&digits.factors));
+    let of_probability = digit(&digits.probabilities);
+    let (expanded, standard) = (at(&stated.expanded, place), at(&stated.standard, place));
+    let factor = match (stated_factor, probability) {
+        (Some(k), Some(p)) if k > 0.0 => within_limits(k, of_factor, (shape, p))?,
+        (Some(k), None) if k > 0.0 => k,
+        (Some(k), _) => return Err(format!("has a coverage factor of {k}, which must be above 0")),
+        (None, Some(_)) if is_t && standard.is_none() => {
+            return Err(
+                "has an expanded uncertainty of a t distribution without a coverage factor, \
+                        which alone says its degrees of freedom"
+                    .to_owned(),
+            );
+        }
+        (None, Some(p)) => of_probability_alone(shape, p),
+        (None, None) => 1.0,
+    };
+    let (standard, factor) = match (standard, expanded) {
+        (Some(u), Some(expanded))
+            if stated_factor.is_some()
+                && (expanded / factor - u).abs() > agreement::ROUNDED * u =>
+        {
+            (intervals::agreeing(u, (expanded, factor), [of_expanded, of_factor])?, 1.0)
+        }
+        (Some(standard), _) => (standard, 1.0),
+        (None, Some(_)) if stated_factor.is_none() && probability.is_none() => {
+            let reason = "has an expanded uncertainty without a coverage factor or probability";
+            return Err(reason.to_owned());
+        }
+        (None, Some(expanded)) => match at(&stated.of_interval, place) {
+            Some(u) => (intervals::agreeing(u, (expanded, factor), [of_expanded, of_factor])?, 1.0),
+            None => (expanded / factor, factor),
+        },
+        (None, None) => return Err(none()),
+    };
+    if !(standard >= 0.0 && standard.is_finite()) {
+        return Err(format!("has a standard uncertainty of {standard}"));
+    }
+    // a standard uncertainty that is stated has not been divided by the factor
+    let divided = at(&stated.standard, place).is_none() && stated_factor == Some(factor);
+    let dof = match probability {
+        Some(p) if divided && (is_t || shape.is_none()) => {
+            let stated = Factor::new(factor, of_factor);
+            if is_t { stated.dof(p) } else { stated.dof_of_nothing_named(p, of_probability) }
+        }
+        Some(p) if at(&stated.standard, place).is_some() => {
+            of_limits(of, stated, place, (shape, p, of_probability))?
+        }
+        _ => f64::INFINITY,
+    };
+    Ok(Known { standard, dof, shape, factor })
+}
+
+/// The coverage factor of a distribution with limits at a coverage probability; `None` for others.
+///
+/// With half-width a it is P(|x| < U) = U/a of the rectangular, 1 - (1 - U/a)^2 of the triangular, and
+/// 2/pi asin(U/a) of the arcsine distribution, whose standard deviations are a over the roots of 3, 6 and 2.
+fn limited(shape: Option<NamedShape>, p: f64) -> Option<f64> {
+    match shape? {
+        NamedShape::Known("rectangular") => Some(3.0_f64.sqrt() * p),
+        NamedShape::Known("triangular") => Some(6.0_f64.sqrt() * (1.0 - (1.0 - p).sqrt())),
+        NamedShape::Known("arcsine") => {
+            Some(2.0_f64.sqrt() * (0.5 * std::f64::consts::PI * p).sin())
+        }
+        _ => None,
+    }
+}
+
+/// The coverage factor that belongs to a coverage probability.
+fn of_probability_alone(shape: Option<NamedShape>, p: f64) -> f64 {
+    limited(shape, p).unwrap_or_else(|| two_sided_factor(p, f64::INFINITY))
+}
+
+/// A stated factor, where all of a distribution with limits can lie within U if its probability is 1.
+fn within_limits(
+    k: f64,
+    of_factor: f64,
+    (shape, p): (Option<NamedShape>, f64),
+) -> Result<f64, String> {
+    match limited(shape, p).filter(|_| p == 1.0) {
+        Some(least) if k + 0.5 * of_factor < (1.0 - 1e-9) * least => Err(format!(
+            "has a coverage factor of {k} and a coverage probability of 1, while its distribution reaches \
+             {least:.4} standard uncertainties: ask which is right"
+        )),
+        _ => Ok(k),
+    }
+}
+
+/// The degrees of freedom that a coverage interval symmetric about its value shows: half of it over the
+/// standard uncertainty is a coverage factor.
+///
+/// # Errors
+/// The interval cannot have that standard uncertainty and that probability.
+fn of_limits(
+    of: &Measured,
+    stated: &Stated,
+    place: usize,
+    (shape, p, of_probability): (Option<NamedShape>, f64, f64),
+) -> Result<f64, String> {
+    let Some(interval) = Interval::of(of, place) else { return Ok(f64::INFINITY) };
+    let u = at(&stated.standard, place).unwrap_or(f64::NAN);
+    if interval.low > interval.high {
+        return Err(format!(
+            "has a coverage interval from {} to {}, whose ends are in reverse order",
+            interval.low, interval.high
+        ));
+    }
+    if interval.is_asymmetric() || shape == Some(NamedShape::Unknown) {
+        return Ok(f64::INFINITY);
+    }
+    let half = 0.5 * (interval.high - interval.low);
+    let of_u = 0.5 * at(&stated.last_digits.standard, place).unwrap_or(0.0);
+    let reach = 1.001 * interval.rounding + 1e-9 * half;
+    let ends = [p - 0.5 * of_probability, p + 0.5 * of_probability];
+    let most = if limited(shape, 1.0).is_some() { 1.0 } else { 1.0 - 1e-12 };
+    let [low, high] = ends.map(|p| of_probability_alone(shape, p.clamp(1e-6, most)));
+    let is_too_short = half + reach < low * (u - of_u);
+    let is_too_long = half - reach > high * (u + of_u);
+    let is_open = matches!(shape, None | Some(NamedShape::Student));
+    if is_too_short || is_too_long && (!is_open || u == 0.0) {
+        return Err(format!(
+            "has a standard uncertainty of {u} and a coverage interval of ±{half} with the probability \
+             {p}, which do not belong together: ask which is right"
+        ));
+    }
+    if !is_open || !is_too_long {
+        return Ok(f64::INFINITY);
+    }
+    let k = half / u;
+    let rounding = 2.0 * (reach + of_u * k) / u;
+    Ok(Factor::new(k, rounding).dof(p))
+}
+
+/// A coverage interval about a value.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Interval {
+    value: f64,
+    low: f64,
+    high: f64,
+    /// What rounding may have taken from half of its width.
+    rounding: f64,
+    of_value: f64,
+}
+
+impl Interval {
+    /// The coverage interval of a value, with its own uncertainty.
+    pub(super) fn of(of: &Measured, place: usize) -> Option<Self> {
+        let stated = of.uncertainty.as_ref()?;
+        let [low, high] = stated.ends.each_ref().map(|all| at(all, place));
+        let digits = stated.last_digits.ends.each_ref().map(|all| at(all, place).unwrap_or(0.0));
+        let of_value = 0.5 * of.last_digits.get(place).copied().unwrap_or(0.0);
+        let rounding = 0.25 * (digits[0] + digits[1]);
+        let value = *of.values.get(place)?;
+        Some(Self { value, low: low?, high: high?, rounding, of_value })
+    }
+
+    /// Whether the value is not in the middle, by more than the digits leave open.
+    pub(super) fn is_asymmetric(self) -> bool {
+        let middle = 0.5 * (self.low + self.high);
+        let reach = 1.001 * (self.rounding + self.of_value) + 1e-9 * (self.high - self.low).abs();
+        (middle - self.value).abs() > reach
+    }
+}
