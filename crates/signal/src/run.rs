@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::analysed::{Analysed, local};
-use super::analysis::{Group, Through};
+use super::analysis::Group;
 use super::asked;
 use super::beside::{amplitude, clear_degree};
 use super::coloured::Memory;
@@ -18,6 +18,7 @@ use super::search;
 use super::spurious::Spurious;
 use super::step::ChannelStep;
 use super::surroundings::{Finding, Surroundings};
+use super::through::{self, Through};
 use super::trace::RecordTrace;
 use super::track::ChannelRecording;
 use super::unexplained;
@@ -356,6 +357,7 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
                 format!("`{name}`: the residuals {are} (coefficient {lag:.2} at lag 1); {way}");
             notes.push((code, of.channel, text));
         }
+        notes.extend(through::note(name, of));
         if residuals.memory == Memory::Open && !expected {
             let text = format!(
                 "`{name}`: the record is too short to tell white noise from noise with a memory; the \
@@ -400,7 +402,10 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
             notes.push(("tones-too-near", of.channel, text));
         }
         notes.extend(unexplained::notes(settings, of));
-        if !expected && unexplained::level_wanders(of) {
+        let known = residuals.known.as_ref().map(|known| known.before);
+        let flickers = residuals.coloured.as_ref().is_some_and(|coloured| coloured.flickers);
+        let flickers = known.map_or(flickers, |before| before.flickers);
+        if known.map_or_else(|| unexplained::level_wanders(of), |before| before.wanders) {
             let text = format!(
                 "`{name}`: the level wanders and does not come back within the record; the \
                  uncertainty of the offset is that of the record's first value. A steady drift, which \
@@ -408,8 +413,7 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
                  step `remove-trend` takes a straight line out"
             );
             notes.push(("wandering-level", of.channel, text));
-        } else if !expected && residuals.coloured.as_ref().is_some_and(|coloured| coloured.flickers)
-        {
+        } else if flickers {
             let text = format!(
                 "`{name}`: the noise grows towards the lowest frequencies of the record, as 1/f noise \
                  does, which has no level of its own; the uncertainty of the offset is that against \
