@@ -8,7 +8,7 @@ use super::asked;
 use super::beside::{amplitude, clear_degree};
 use super::coloured::Memory;
 use super::common_noise::correlation;
-use super::effects::{Effects, StepEffect};
+use super::effects::StepEffect;
 use super::near_noise;
 use super::observation::{ChannelObservation, Observation};
 use super::passes::{InMemorySamples, SampleSource, gathered};
@@ -165,12 +165,16 @@ fn through_steps<P: SampleSource>(
     if steps.is_empty() {
         return Ok(None);
     }
+    let mut of_reference = None;
     let reference = match settings.reference {
         Some(reference)
             if steps.iter().any(ChannelStep::takes_reference) && reference != channel =>
         {
             match done.iter().find(|of| of.channel == reference) {
-                Some(of) => Some(signal(of.base, of.held.channels.first())),
+                Some(of) => {
+                    of_reference = of.through.as_ref();
+                    Some(signal(of.base, of.held.channels.first()))
+                }
                 None => held(tracks, reference)?
                     .map(|(_, base, held)| signal(base, held.channels.first())),
             }
@@ -182,11 +186,10 @@ fn through_steps<P: SampleSource>(
     let highest = settings.components.iter().copied().max().unwrap_or(1).max(settings.harmonics);
     let mut now = signal(base, held.channels.first());
     let (mut findings, mut notes) = (Vec::new(), Vec::new());
-    let mut effects: Vec<StepEffect> = Vec::new();
-    let mut before: Option<Analysed> = None;
+    let mut through: Option<Through> = None;
     for (step, of) in steps.iter().enumerate() {
         let refused = |reason| Refused::Step { channel, step, reason };
-        if of.has_effect() && before.is_none() {
+        if of.has_effect() && through.is_none() {
             base.start = now.start;
             let channels = [(channel, 0)];
             let group = Group {
@@ -200,23 +203,25 @@ fn through_steps<P: SampleSource>(
                 traced: false,
             };
             let mut held = InMemorySamples { channels: vec![now.values] };
-            before = group.analyse(&mut held.unfailing())?.pop();
+            let before = group.analyse(&mut held.unfailing())?.pop();
             now.values = held.channels.pop().unwrap_or_default();
             let first = before.as_ref().and_then(|of| of.fundamentals.first());
             frequency = first.map_or(frequency, |of| of.hertz.value);
+            through = before.map(|before| Through { effects: Rc::default(), before });
         }
         let surroundings = Surroundings {
             frequency,
             frequencies: frequencies.len(),
             multiples: highest,
             reference: reference.as_ref(),
-            resolution: if effects.is_empty() {
+            resolution: if through.as_ref().is_none_or(|of| of.effects.0.is_empty()) {
                 settings.channels[channel].resolution
             } else {
                 0.0
             },
         };
-        let after = of.apply(now, surroundings).map_err(refused)?;
+        let before = [of_reference, through.as_ref()];
+        let after = of.apply_after(now, surroundings, before).map_err(refused)?;
         now = after.signal;
         // what a step finds in the channel's own unit
         findings.extend(after.findings.into_iter().map(|mut finding| {
@@ -225,16 +230,16 @@ fn through_steps<P: SampleSource>(
             }
             finding
         }));
-        if let (Some(effect), Some(before)) = (after.effect, &before) {
-            let found = through_filter(settings, channel, of, &effect, before).map_err(refused)?;
+        if let (Some(effect), Some(through)) = (after.effect, &mut through) {
+            let found = through_filter(settings, channel, of, &effect, &through.before);
+            let found = found.map_err(refused)?;
             notes.extend(found.iter().map(|finding| not_corrected(settings, channel, finding)));
             findings.extend(found);
-            effects.push(effect);
+            Rc::make_mut(&mut through.effects).0.push(effect);
         }
     }
     base.start = now.start;
     let held = InMemorySamples { channels: vec![now.values] };
-    let through = before.map(|before| Through { effects: Rc::new(Effects(effects)), before });
     Ok(Some(Stepped { channel, clock, base, held, findings, through, notes }))
 }
 
