@@ -6,13 +6,14 @@ use std::rc::Rc;
 use super::Measured;
 use super::beside::{Besides, amplitude};
 use super::drift;
-use super::effects::{Effects, KnownNoise};
+use super::effects::Effects;
 use super::quantization::quantization_variance;
 use super::recipe::TimeBase;
 use super::residuals::Residuals;
 use super::rounding::{Rounding, noise_before};
 use super::sine_fit::{ToneCoefficients, ToneDesign};
 use super::spurious::Spurious;
+use super::through::KnownNoise;
 use super::trace::RecordTrace;
 use gumption_engine::number::elementary::{exp, hypot, sinh};
 
@@ -164,7 +165,7 @@ pub(super) fn speed(analysed: &Analysed, tone: usize) -> f64 {
 /// same variance gives, where the residuals are not white and the record tells; else 1.
 pub(super) fn local(residuals: &Residuals, tone: usize) -> [f64; 2] {
     if let Some(KnownNoise { factors: Some(factors), .. }) = &residuals.known {
-        return [factors.get(tone).copied().unwrap_or(1.0); 2];
+        return factors.get(tone).copied().unwrap_or([1.0; 2]);
     }
     match &residuals.local {
         Some(local) if residuals.correlated => local.get(tone).copied().unwrap_or([1.0; 2]),

@@ -3,17 +3,16 @@
 use std::rc::Rc;
 
 use super::Measured;
-use super::analysed::{Analysed, Fundamental, local, shares};
+use super::analysed::{Analysed, Fundamental, local};
 use super::beside::{Accompanying, Besides, is_flanked};
-use super::effects::{Effects, KnownNoise};
 use super::frequency::{self, NoFrequency};
 use super::passes::{InMemorySamples, SampleSource, Selected, gathered};
-use super::quantization::amplitude_error;
 use super::recipe::{Frequency, Method, RecipeSettings, TimeBase};
 use super::refused::{MOST_HELD, Refused};
 use super::residuals::{self, Residuals};
 use super::sine_fit::{NoFit, Tone, ToneCoefficients, ToneDesign};
 use super::spurious;
+use super::through::Through;
 use super::trace;
 use super::whole_periods::whole_periods;
 use gumption_engine::number::elementary;
@@ -24,14 +23,6 @@ const MOST_MOVES: u32 = 8;
 
 /// Turns over the record to which it is brought.
 const SETTLED: f64 = 1e-6;
-
-/// Steps that a channel went through.
-#[derive(Clone, Debug)]
-pub(super) struct Through {
-    pub(super) effects: Rc<Effects>,
-    /// The channel just before the first of them that has an effect.
-    pub(super) before: Analysed,
-}
 
 /// The channels of one time base.
 #[derive(Debug)]
@@ -391,55 +382,6 @@ impl Group<'_> {
         let start = self.base.start + part.first as f64 / self.base.rate.value;
         fundamentals.truncate(1);
         self.fitted(&mut held.unfailing(), TimeBase { start, ..self.base }, fundamentals)
-    }
-}
-
-impl Through {
-    /// The noise after the steps. Where it was white before them it is theirs; where it was not, it
-    /// is measured after them, or before them, or taken as even over what the steps let pass.
-    fn noise(&self, design: &ToneDesign, after: &Residuals, rate: f64) -> KnownNoise {
-        let before = &self.before.residuals;
-        let frequencies: Vec<f64> =
-            [0.0].into_iter().chain(design.tones.iter().map(|tone| tone.cycles * rate)).collect();
-        let coloured = self.effects.coloured(design.samples, rate, &frequencies);
-        let over = |variance: f64| {
-            let over =
-                if after.variance > 0.0 { variance / after.variance } else { 1.0 / coloured.power };
-            if over.is_finite() { over } else { 1.0 }
-        };
-        let (level, tones) = coloured.densities.split_first().unwrap_or((&1.0, &[]));
-        let white = over(before.variance);
-        let even = 1.0 / coloured.power.max(f64::MIN_POSITIVE);
-        let (factors, freedom, scale) = match (before.is_measured(), after.is_measured()) {
-            _ if !before.correlated => (Some(white), before.degrees_of_freedom, white),
-            (true, true) => (None, 0.0, white),
-            _ => (Some(even), (coloured.freedom - 3.0).max(1.0), even),
-        };
-        let shares = shares(&self.before);
-        let resolution = self.before.resolution;
-        let strongest = self.before.strongest().max(resolution);
-        let rounding = if resolution > 0.0 {
-            amplitude_error(resolution, strongest, self.before.noise_before_rounding())
-        } else {
-            0.0
-        };
-        // the record's own instants, where they fall on few phases
-        let own = |tone: usize| {
-            let of = self.before.rounding.as_ref().and_then(|of| of.tones.get(tone));
-            of.map_or(0.0, |[a, _, b]| f64::midpoint(*a, *b).sqrt())
-        };
-        KnownNoise {
-            factors: factors.map(|factor| tones.iter().map(|d| factor * d).collect()),
-            freedom,
-            level: scale * level,
-            of_residuals: (coloured.freedom - 1.0 - 2.0 * tones.len() as f64).max(1.0),
-            shares,
-            rounding: tones
-                .iter()
-                .enumerate()
-                .map(|(k, d)| rounding.max(own(k)) * d.sqrt())
-                .collect(),
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! What the steps of a channel did to its oscillations and to its noise: the gains that amplitudes
 //! and phases are divided by, the contributions to their uncertainty, and the spectral density of
-//! noise that was white before the steps.
+//! noise whose density before the steps is known.
 
 use std::f64::consts::PI;
 
@@ -65,7 +65,7 @@ pub enum StepEffect {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Effects(pub(super) Vec<StepEffect>);
 
-/// What is left of white noise of variance 1.
+/// What is left of noise after the steps.
 #[derive(Clone, Debug)]
 pub(super) struct Coloured {
     /// Its variance.
@@ -139,8 +139,22 @@ impl Effects {
         2f64.powi(squares.count() as i32)
     }
 
-    /// White noise of variance 1 after the steps, in a record of so many values at `rate` hertz.
-    pub(super) fn coloured(&self, samples: u64, rate: f64, frequencies: &[f64]) -> Coloured {
+    /// What white noise of variance 1, or a tone of amplitude 1, has of power after the steps at a
+    /// frequency in hertz.
+    pub(super) fn power_gain(&self, frequency: f64) -> f64 {
+        density(&self.0, &|_| 1.0, frequency)
+    }
+
+    /// Noise after the steps, in a record of so many values at `rate` hertz; `before` is the spectral
+    /// density before them at a frequency in hertz, as the variance of the white noise that has it
+    /// everywhere.
+    pub(super) fn coloured(
+        &self,
+        before: &dyn Fn(f64) -> f64,
+        samples: u64,
+        rate: f64,
+        frequencies: &[f64],
+    ) -> Coloured {
         let half = samples / 2;
         let n = samples as f64;
         let bin = rate / n;
@@ -157,7 +171,8 @@ impl Effects {
                 })
                 .collect()
         };
-        let densities: Vec<f64> = nodes.iter().map(|(j, _)| density(&self.0, j * bin)).collect();
+        let densities: Vec<f64> =
+            nodes.iter().map(|(j, _)| density(&self.0, before, j * bin)).collect();
         let all = || nodes.iter().zip(&densities);
         let power: f64 = all().map(|((_, many), d)| 2.0 * many * d / n).sum();
         let fourth: f64 = all().map(|((_, many), d)| 2.0 * many * d * d / n).sum();
@@ -172,7 +187,7 @@ impl Effects {
                     let size = n * phasor::at_turns(j / 2.0 / n).im;
                     many * d / (size * size)
                 });
-                return density(&self.0, 0.0) * 5.0 / 6.0 + sides.sum::<f64>();
+                return density(&self.0, before, 0.0) * 5.0 / 6.0 + sides.sum::<f64>();
             }
             let place = frequency / bin;
             let middle = place.round();
@@ -193,7 +208,9 @@ impl Effects {
                     }
                 })
                 .sum();
-            let near = |j: f64| density(&self.0, j * bin) * (kernel(j - place) + kernel(j + place));
+            let near = |j: f64| {
+                density(&self.0, before, j * bin) * (kernel(j - place) + kernel(j + place))
+            };
             let least = (middle - NEAR as f64).max(1.0) as u64;
             let most = (middle + NEAR as f64) as u64;
             far + if exact { 0.0 } else { (least..=most).map(|j| near(j as f64)).sum() }
@@ -206,43 +223,28 @@ impl Effects {
     }
 }
 
-/// The spectral density at a frequency in hertz after steps, of white noise of variance 1 before.
-fn density(effects: &[StepEffect], frequency: f64) -> f64 {
-    let Some((last, before)) = effects.split_last() else { return 1.0 };
-    let earlier = |f: f64| density(before, f);
+/// The spectral density at a frequency in hertz after steps, of noise with the density `source` before
+/// them. A gain of zero lets nothing pass, be it of a walk, whose density has no limit at zero.
+fn density(effects: &[StepEffect], source: &dyn Fn(f64) -> f64, frequency: f64) -> f64 {
+    let Some((last, before)) = effects.split_last() else { return source(frequency) };
+    let through = |gain: f64, f: f64| {
+        if gain > 0.0 { gain * density(before, source, f) } else { 0.0 }
+    };
     match last {
         StepEffect::Filtered { filter, .. } => {
-            filter.response(frequency).norm_sqr() * earlier(frequency)
+            through(filter.response(frequency).norm_sqr(), frequency)
         }
         StepEffect::Derived { derivative, factor, .. } => {
-            derivative.response(frequency).norm_sqr() * factor * factor * earlier(frequency)
+            through(derivative.response(frequency).norm_sqr() * factor * factor, frequency)
         }
         StepEffect::Squared { derivative, factor, speed, frequency: of_speed, .. } => {
             // 2 r w(t) n(t): the noise of both frequencies that differ from it by that of w
-            let side = |f: f64| derivative.response(f).norm_sqr() * earlier(f);
+            let side = |f: f64| through(derivative.response(f).norm_sqr(), f);
             let size = factor * speed;
             size * size * (side((frequency - of_speed).abs()) + side(frequency + of_speed))
         }
         StepEffect::Corrected { correction, .. } => {
-            correction.gain(frequency).norm_sqr() * earlier(frequency)
+            through(correction.gain(frequency).norm_sqr(), frequency)
         }
     }
-}
-
-/// What is known of the noise after the steps from the signal before them.
-#[derive(Clone, Debug)]
-pub(super) struct KnownNoise {
-    /// The noise power near each tone over that of white noise of the residuals' variance; none
-    /// where it is taken from the residuals after the steps.
-    pub(super) factors: Option<Vec<f64>>,
-    /// Degrees of freedom of these.
-    pub(super) freedom: f64,
-    /// The same factor at zero.
-    pub(super) level: f64,
-    /// Degrees of freedom of the variance of the residuals.
-    pub(super) of_residuals: f64,
-    /// Shares of quantization and jitter in the variance near the tones.
-    pub(super) shares: [f64; 2],
-    /// What rounding does to the amplitude of each tone.
-    pub(super) rounding: Vec<f64>,
 }

@@ -1,11 +1,11 @@
 //! What steps find in a signal beside what they hand on: root mean squares, delays, and how much
 //! nearer to the reference a correction brings it.
 
-use super::delay::of_one_recording;
+use super::delay::{of_harmonics, of_one_recording};
+use super::rms::improvement_in;
 use super::surroundings::{Finding, Surroundings};
-use super::{
-    CrossCorrelation, CrossSpectrum, Measured, Noise, RmsOf, Signal, Unsuitable, improvement,
-};
+use super::through::{Through, noise_of};
+use super::{CrossSpectrum, Measured, Noise, RmsOf, Signal, Unsuitable};
 
 /// A finding; without a unit it is in the channel's.
 fn finding(name: &str, unit: &str, value: Measured) -> Finding {
@@ -18,8 +18,14 @@ fn number(value: f64) -> Measured {
 }
 
 /// The root mean square about the mean, and that of the oscillation and its multiples.
-pub(super) fn rms(signal: &Signal, surroundings: Surroundings<'_>) -> Result<Vec<Finding>, String> {
-    let of = of(signal, surroundings).rms(signal).map_err(|error| error.to_string())?;
+pub(super) fn rms(
+    signal: &Signal,
+    surroundings: Surroundings<'_>,
+    through: Option<&Through>,
+) -> Result<Vec<Finding>, String> {
+    let noise = noise_of(signal, surroundings.harmonics(signal), through);
+    let of = of(signal, surroundings).rms_in(signal, noise.as_ref());
+    let of = of.map_err(|error| error.to_string())?;
     let mut findings = vec![finding("RMS", "", of.alternating)];
     findings.extend(of.periodic.map(|value| finding("RMS of the multiples", "", value)));
     Ok(findings)
@@ -45,7 +51,8 @@ pub(super) fn nearer(
     let found = match (common(before), common(after)) {
         (Ok([reference, before]), Ok([_, after])) => {
             let of = RmsOf { resolution: 0.0, ..of(&before, surroundings) };
-            improvement(&reference, &before, &after, of)
+            let noise = |left: &Signal| noise_of(left, surroundings.harmonics(left), None);
+            improvement_in(&reference, &before, &after, of, noise)
         }
         _ => return Vec::new(),
     };
@@ -64,12 +71,16 @@ pub(super) fn delay(
     signal: &Signal,
     surroundings: Surroundings<'_>,
     segments: Option<usize>,
+    through: [Option<&Through>; 2],
 ) -> Result<Vec<Finding>, String> {
     let said = |error: Unsuitable| error.to_string();
     let [reference, signal] = common(reference, signal).map_err(said)?;
     let frequency = surroundings.frequency;
     let harmonics = surroundings.harmonics(&signal);
-    let correlated = CrossCorrelation::Periodic(harmonics).of(&reference, &signal).map_err(said)?;
+    let [of_reference, of_signal] = [(&reference, through[0]), (&signal, through[1])]
+        .map(|(signal, through)| noise_of(signal, harmonics, through));
+    let noises = [of_reference.as_ref(), of_signal.as_ref()];
+    let correlated = of_harmonics(&reference, &signal, harmonics, noises).map_err(said)?;
     let periods = 0.99 * frequency * signal.duration();
     let segments = segments.unwrap_or((periods as usize).clamp(2, 32));
     let spectrum = CrossSpectrum { frequency, segments };

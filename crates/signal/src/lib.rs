@@ -14,7 +14,7 @@
 //! # Where things are
 //!
 //! [`observe`] (`run`) leads each channel through its steps (`step`, `effects`: what they did to
-//! oscillations and noise; `found`: what they find beside it; `search`: sampling rates), fits what
+//! oscillations and noise; `through`: what the noise is after them; `found`: what they find beside it; `search`: sampling rates), fits what
 //! comes out (`asked`: whether that can be; `analysis`, `sine_fit`, `frequency`, `residuals`, `spurious`; `trace`: what figures show of it), and makes values with
 //! budgets of it (`polar`, `trials`, `values`, `observation`). `butterworth`, `derivative`,
 //! `rotation`, `correction`, `delay`, `rms` and `sampling_rate` are steps as functions of signals.
@@ -46,6 +46,7 @@ mod signal;
 mod step;
 mod steps;
 mod surroundings;
+mod through;
 mod trace;
 mod track;
 mod trials;

@@ -51,6 +51,25 @@ impl SampleSource for InMemorySamples {
     }
 }
 
+/// The values of one channel in memory.
+#[derive(Debug)]
+pub(super) struct Values<'v>(pub(super) &'v [f64]);
+
+impl SampleSource for Values<'_> {
+    type Error = Infallible;
+
+    fn frames(&self) -> u64 {
+        self.0.len() as u64
+    }
+
+    fn pass(&mut self, each: &mut BlockVisitor<'_>) -> Result<(), Infallible> {
+        for (number, block) in self.0.chunks(BLOCK).enumerate() {
+            each((number * BLOCK) as u64, &[block]);
+        }
+        Ok(())
+    }
+}
+
 /// Goes through channels in memory in blocks.
 pub fn in_blocks(channels: &[Vec<f64>], each: &mut BlockVisitor<'_>) {
     let frames = longest(channels);

@@ -3,12 +3,12 @@
 use std::rc::Rc;
 
 use super::analysed::{Analysed, local};
-use super::analysis::{Group, Through};
+use super::analysis::Group;
 use super::asked;
 use super::beside::{amplitude, clear_degree};
 use super::coloured::Memory;
 use super::common_noise::correlation;
-use super::effects::{Effects, StepEffect};
+use super::effects::StepEffect;
 use super::near_noise;
 use super::observation::{ChannelObservation, Observation};
 use super::passes::{InMemorySamples, SampleSource, gathered};
@@ -18,6 +18,7 @@ use super::search;
 use super::spurious::Spurious;
 use super::step::ChannelStep;
 use super::surroundings::{Finding, Surroundings};
+use super::through::{self, Through};
 use super::trace::RecordTrace;
 use super::track::ChannelRecording;
 use super::unexplained;
@@ -164,12 +165,16 @@ fn through_steps<P: SampleSource>(
     if steps.is_empty() {
         return Ok(None);
     }
+    let mut of_reference = None;
     let reference = match settings.reference {
         Some(reference)
             if steps.iter().any(ChannelStep::takes_reference) && reference != channel =>
         {
             match done.iter().find(|of| of.channel == reference) {
-                Some(of) => Some(signal(of.base, of.held.channels.first())),
+                Some(of) => {
+                    of_reference = of.through.as_ref();
+                    Some(signal(of.base, of.held.channels.first()))
+                }
                 None => held(tracks, reference)?
                     .map(|(_, base, held)| signal(base, held.channels.first())),
             }
@@ -181,11 +186,10 @@ fn through_steps<P: SampleSource>(
     let highest = settings.components.iter().copied().max().unwrap_or(1).max(settings.harmonics);
     let mut now = signal(base, held.channels.first());
     let (mut findings, mut notes) = (Vec::new(), Vec::new());
-    let mut effects: Vec<StepEffect> = Vec::new();
-    let mut before: Option<Analysed> = None;
+    let mut through: Option<Through> = None;
     for (step, of) in steps.iter().enumerate() {
         let refused = |reason| Refused::Step { channel, step, reason };
-        if of.has_effect() && before.is_none() {
+        if of.has_effect() && through.is_none() {
             base.start = now.start;
             let channels = [(channel, 0)];
             let group = Group {
@@ -199,23 +203,25 @@ fn through_steps<P: SampleSource>(
                 traced: false,
             };
             let mut held = InMemorySamples { channels: vec![now.values] };
-            before = group.analyse(&mut held.unfailing())?.pop();
+            let before = group.analyse(&mut held.unfailing())?.pop();
             now.values = held.channels.pop().unwrap_or_default();
             let first = before.as_ref().and_then(|of| of.fundamentals.first());
             frequency = first.map_or(frequency, |of| of.hertz.value);
+            through = before.map(|before| Through { effects: Rc::default(), before });
         }
         let surroundings = Surroundings {
             frequency,
             frequencies: frequencies.len(),
             multiples: highest,
             reference: reference.as_ref(),
-            resolution: if effects.is_empty() {
+            resolution: if through.as_ref().is_none_or(|of| of.effects.0.is_empty()) {
                 settings.channels[channel].resolution
             } else {
                 0.0
             },
         };
-        let after = of.apply(now, surroundings).map_err(refused)?;
+        let before = [of_reference, through.as_ref()];
+        let after = of.apply_after(now, surroundings, before).map_err(refused)?;
         now = after.signal;
         // what a step finds in the channel's own unit
         findings.extend(after.findings.into_iter().map(|mut finding| {
@@ -224,16 +230,16 @@ fn through_steps<P: SampleSource>(
             }
             finding
         }));
-        if let (Some(effect), Some(before)) = (after.effect, &before) {
-            let found = through_filter(settings, channel, of, &effect, before).map_err(refused)?;
+        if let (Some(effect), Some(through)) = (after.effect, &mut through) {
+            let found = through_filter(settings, channel, of, &effect, &through.before);
+            let found = found.map_err(refused)?;
             notes.extend(found.iter().map(|finding| not_corrected(settings, channel, finding)));
             findings.extend(found);
-            effects.push(effect);
+            Rc::make_mut(&mut through.effects).0.push(effect);
         }
     }
     base.start = now.start;
     let held = InMemorySamples { channels: vec![now.values] };
-    let through = before.map(|before| Through { effects: Rc::new(Effects(effects)), before });
     Ok(Some(Stepped { channel, clock, base, held, findings, through, notes }))
 }
 
@@ -356,6 +362,7 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
                 format!("`{name}`: the residuals {are} (coefficient {lag:.2} at lag 1); {way}");
             notes.push((code, of.channel, text));
         }
+        notes.extend(through::note(name, of));
         if residuals.memory == Memory::Open && !expected {
             let text = format!(
                 "`{name}`: the record is too short to tell white noise from noise with a memory; the \
@@ -400,7 +407,10 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
             notes.push(("tones-too-near", of.channel, text));
         }
         notes.extend(unexplained::notes(settings, of));
-        if !expected && unexplained::level_wanders(of) {
+        let known = residuals.known.as_ref().map(|known| known.before);
+        let flickers = residuals.coloured.as_ref().is_some_and(|coloured| coloured.flickers);
+        let flickers = known.map_or(flickers, |before| before.flickers);
+        if known.map_or_else(|| unexplained::level_wanders(of), |before| before.wanders) {
             let text = format!(
                 "`{name}`: the level wanders and does not come back within the record; the \
                  uncertainty of the offset is that of the record's first value. A steady drift, which \
@@ -408,8 +418,7 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
                  step `remove-trend` takes a straight line out"
             );
             notes.push(("wandering-level", of.channel, text));
-        } else if !expected && residuals.coloured.as_ref().is_some_and(|coloured| coloured.flickers)
-        {
+        } else if flickers {
             let text = format!(
                 "`{name}`: the noise grows towards the lowest frequencies of the record, as 1/f noise \
                  does, which has no level of its own; the uncertainty of the offset is that against \

@@ -3,6 +3,7 @@
 use super::effects::StepEffect;
 use super::found;
 use super::surroundings::{Finding, Surroundings};
+use super::through::Through;
 use super::whole_periods::whole_periods;
 use super::{Butterworth, Correction, Derivative, Measured, Periodic, Response, Rotation, Signal};
 
@@ -129,6 +130,16 @@ impl ChannelStep {
     /// # Errors
     /// A sentence on why it cannot be done with this signal.
     pub fn apply(&self, signal: Signal, surroundings: Surroundings<'_>) -> Result<Stepped, String> {
+        self.apply_after(signal, surroundings, [None, None])
+    }
+
+    /// The same with the steps that the reference and the signal have already gone through.
+    pub(super) fn apply_after(
+        &self,
+        signal: Signal,
+        surroundings: Surroundings<'_>,
+        through: [Option<&Through>; 2],
+    ) -> Result<Stepped, String> {
         let only = |signal| Ok(Stepped { signal, findings: Vec::new(), effect: None });
         match self {
             Self::RemoveMean => only(without_mean(signal)),
@@ -226,11 +237,11 @@ impl ChannelStep {
             }
             Self::Delay { segments } => {
                 let reference = surroundings.reference.ok_or("there is no reference signal")?;
-                let findings = found::delay(reference, &signal, surroundings, *segments)?;
+                let findings = found::delay(reference, &signal, surroundings, *segments, through)?;
                 Ok(Stepped { signal, findings, effect: None })
             }
             Self::Rms => {
-                let findings = found::rms(&signal, surroundings)?;
+                let findings = found::rms(&signal, surroundings, through[1])?;
                 Ok(Stepped { signal, findings, effect: None })
             }
         }

@@ -249,10 +249,11 @@ fn delay(phase: &BudgetedValue, frequency: Measured) -> BudgetedValue {
 fn offset(settings: &RecipeSettings, analysed: &Analysed, noise_dof: f64) -> BudgetedValue {
     let residuals = &analysed.residuals;
     let scale = settings.channels.get(analysed.channel).map_or(0.0, |c| c.scale_uncertainty);
-    // at zero frequency noise is as strong as a model of it says, or as steps make it of white noise
+    // at zero frequency noise is as strong as a model of it says, or as steps make it of the noise
+    // before them
     let white = residuals.variance * analysed.design.even[(0, 0)];
     let (noise, noise_dof) = match (&residuals.known, &residuals.coloured) {
-        (Some(known), _) => (white * known.level, noise_dof),
+        (Some(known), _) => (known.level, known.of_level.unwrap_or(noise_dof)),
         // beside a tone that is not fitted nothing wanders
         (None, Some(coloured)) if coloured.walks && !level_wanders(analysed) => {
             (coloured.still, noise_dof)
@@ -286,8 +287,8 @@ fn offset(settings: &RecipeSettings, analysed: &Analysed, noise_dof: f64) -> Bud
     }
     // of an oscillation that is not fitted the mean over the record has a part, whatever its phase
     let samples = analysed.design.samples as f64;
-    let unfitted = analysed.spurious.iter().filter(|of| !of.fitted && of.cycles * samples > 3.0);
-    for of in unfitted.filter(|_| analysed.residuals.known.is_none()) {
+    let unfitted = residuals.known.as_ref().map_or(&analysed.spurious, |known| &known.unfitted);
+    for of in unfitted.iter().filter(|of| !of.fitted && of.cycles * samples > 3.0) {
         let mean = of.amplitude / (2.0 * samples * sin_cos_turn(of.cycles / 2.0).0);
         join(&mut parts, UncertaintySource::Leakage, mean);
     }

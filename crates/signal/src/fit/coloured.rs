@@ -142,6 +142,13 @@ impl Coloured {
         self.process.response(cycles)
     }
 
+    /// The spectral density at so many cycles in a sample interval, as the variance of the white noise
+    /// that has it everywhere; beyond what means of several samples show, that at their end.
+    pub(crate) fn density(&self, cycles: f64) -> f64 {
+        let every = self.every as f64;
+        every * self.process.density((cycles * every).min(0.5))
+    }
+
     /// The variances of the tones' factors over those that white noise of a variance gives.
     pub(crate) fn over_white(&self, design: &ToneDesign, variance: f64) -> Option<Vec<[f64; 2]>> {
         let of = |(tone, [cosine, sine]): (usize, &[f64; 2])| {

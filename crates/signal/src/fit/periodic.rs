@@ -8,7 +8,7 @@ use crate::dirichlet::sum_of_cosines;
 use crate::phasor;
 use crate::phasor::Phasor;
 use crate::quantization::{amplitude_error, quantization_variance};
-use crate::sine_fit::{Tone, ToneDesign};
+use crate::sine_fit::{NoFit, Tone, ToneDesign};
 use crate::unsuitable::within;
 use crate::{Measured, Signal, Unsuitable, measured};
 use gumption_engine::number::elementary;
@@ -20,6 +20,21 @@ pub struct Harmonics {
     pub frequency: f64,
     /// How many, at once, twice, ... the frequency; at least one, all below half the rate.
     pub count: usize,
+}
+
+impl Harmonics {
+    /// The design of their fit to a signal.
+    pub(crate) fn design(self, signal: &Signal) -> Result<ToneDesign, NoFit> {
+        let turns = self.frequency / signal.rate;
+        let tone = |multiple: u32| Tone {
+            cycles: turns * f64::from(multiple),
+            fundamental: 0,
+            multiple,
+            beside: false,
+        };
+        let tones = (1..=self.count.max(1) as u32).map(tone).collect();
+        ToneDesign::new(tones, signal.values.len() as u64)
+    }
 }
 
 /// One harmonic.
@@ -66,6 +81,18 @@ impl Harmonic {
     }
 }
 
+/// The noise near the harmonics of a signal, where it is not white.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct HarmonicNoise {
+    /// The variances of the cosine's and the sine's factor of each harmonic over those that white noise
+    /// of the residuals' variance gives.
+    pub(crate) factors: Vec<[f64; 2]>,
+    /// Degrees of freedom of these.
+    pub(crate) freedom: f64,
+    /// Degrees of freedom of the residuals' variance.
+    pub(crate) of_residuals: f64,
+}
+
 /// An offset and harmonics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Periodic {
@@ -103,14 +130,8 @@ impl Periodic {
         if samples < needed {
             return Err(Unsuitable::TooShort { samples, needed });
         }
-        let tone = |multiple: u32| Tone {
-            cycles: turns * f64::from(multiple),
-            fundamental: 0,
-            multiple,
-            beside: false,
-        };
-        let tones = (1..=count as u32).map(tone).collect();
-        let design = ToneDesign::new(tones, samples as u64)
+        let design = harmonics
+            .design(signal)
             .map_err(|_| Unsuitable::TooShort { samples, needed: samples + needed })?;
         let fit = design.fit_values(&signal.values);
         let freedom = (samples - 2 * count - 1) as f64;
@@ -144,6 +165,18 @@ impl Periodic {
             part.standard_uncertainty = u;
         }
         Ok(periodic)
+    }
+
+    /// The same in the noise that is known of the signal otherwise.
+    pub(crate) fn in_known(mut self, noise: Option<&HarmonicNoise>) -> Self {
+        let Some(noise) = noise else { return self };
+        for (part, factors) in self.parts.iter_mut().zip(&noise.factors) {
+            for (u, factor) in part.standard_uncertainty.iter_mut().zip(factors) {
+                *u *= factor.sqrt();
+            }
+            part.degrees_of_freedom = noise.freedom;
+        }
+        self
     }
 
     /// The values of the model, without the offset, each harmonic multiplied by a complex number:

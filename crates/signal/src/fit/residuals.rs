@@ -1,11 +1,11 @@
 //! What a fit leaves: its size, whether it is white, and how strong it is near each tone.
 
 use crate::coloured::{Coloured, Memory, Series};
-use crate::effects::KnownNoise;
 use crate::lattice;
 use crate::outlying::Farthest;
 use crate::passes::SampleSource;
 use crate::sine_fit::{Sums, ToneCoefficients, ToneDesign, Waves, dot};
+use crate::through::KnownNoise;
 
 /// Lags at which the autocorrelation of residuals is looked at.
 pub(crate) const LAGS: usize = 16;
@@ -127,7 +127,7 @@ fn gathered<E>(
 }
 
 /// Into how many parts a record is cut: each has a whole period of every fundamental at least.
-fn parts(design: &ToneDesign) -> Option<u64> {
+pub(crate) fn parts(design: &ToneDesign) -> Option<u64> {
     let named = design.tones.iter().filter(|tone| !tone.beside);
     let slowest = named.map(|tone| tone.cycles).fold(f64::INFINITY, f64::min);
     let periods = (slowest * design.samples as f64).floor();

@@ -1,7 +1,7 @@
 //! Root mean squares, and how much smaller the difference of two signals is after a correction.
 
 use crate::noise::{Noise, density};
-use crate::periodic::{Harmonics, Periodic};
+use crate::periodic::{HarmonicNoise, Harmonics, Periodic};
 use crate::{Measured, Signal, Unsuitable, measured};
 
 /// Frequencies from which the density of squares at zero is taken: 64 degrees of freedom.
@@ -43,11 +43,24 @@ impl RmsOf {
     /// # Errors
     /// Fewer than 4 values, values that are not finite, harmonics that cannot be fitted.
     pub fn rms(self, signal: &Signal) -> Result<Rms, Unsuitable> {
-        rms(signal, self)
+        self.rms_in(signal, None)
+    }
+
+    /// The same in the noise that is known of the signal otherwise.
+    pub(crate) fn rms_in(
+        self,
+        signal: &Signal,
+        known: Option<&HarmonicNoise>,
+    ) -> Result<Rms, Unsuitable> {
+        rms(signal, self, known)
     }
 }
 
-fn rms(signal: &Signal, RmsOf { harmonics, noise, resolution }: RmsOf) -> Result<Rms, Unsuitable> {
+fn rms(
+    signal: &Signal,
+    RmsOf { harmonics, noise, resolution }: RmsOf,
+    known: Option<&HarmonicNoise>,
+) -> Result<Rms, Unsuitable> {
     let n = signal.values.len();
     if n < 4 {
         return Err(Unsuitable::TooShort { samples: n, needed: 4 });
@@ -61,10 +74,15 @@ fn rms(signal: &Signal, RmsOf { harmonics, noise, resolution }: RmsOf) -> Result
         let square = mean_of_squares(&left, (n - 1) as f64, Noise::Near(NEAR_ZERO));
         return Ok(Rms { alternating: root(square), periodic: None, mean });
     };
-    let fitted = noise.of(Periodic::fit(signal, harmonics)?, signal).rounded_to(resolution);
+    let fitted = noise.of(Periodic::fit(signal, harmonics)?, signal).in_known(known);
+    let fitted = fitted.rounded_to(resolution);
     let left = fitted.without(signal);
     let freedom = (n - 1 - 2 * fitted.parts.len()) as f64;
-    let rest = mean_of_squares(&left, freedom, noise);
+    let mut rest = mean_of_squares(&left, freedom, noise);
+    if let Some(known) = known {
+        rest.standard_uncertainty = rest.value * (2.0 / known.of_residuals).sqrt();
+        rest.degrees_of_freedom = known.of_residuals;
+    }
     let mut square = 0.0;
     let mut parts = Vec::new();
     for part in &fitted.parts {
@@ -136,11 +154,23 @@ pub fn improvement(
     after: &Signal,
     of: RmsOf,
 ) -> Result<RmsReduction, Unsuitable> {
+    improvement_in(reference, before, after, of, |_| None)
+}
+
+/// The same in the noise that is known of the differences.
+pub(crate) fn improvement_in(
+    reference: &Signal,
+    before: &Signal,
+    after: &Signal,
+    of: RmsOf,
+    known: impl Fn(&Signal) -> Option<HarmonicNoise>,
+) -> Result<RmsReduction, Unsuitable> {
     let difference = |signal: &Signal| {
         together(reference, signal)?;
         let pairs = signal.values.iter().zip(&reference.values);
         let values = pairs.map(|(x, r)| x - r).collect();
-        Ok(of.rms(&Signal { values, ..*reference })?.alternating)
+        let left = Signal { values, ..*reference };
+        Ok(of.rms_in(&left, known(&left).as_ref())?.alternating)
     };
     let (before, after) = (difference(before)?, difference(after)?);
     if before.value == 0.0 {

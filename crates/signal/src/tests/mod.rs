@@ -5,3 +5,4 @@ mod observations;
 mod refusals;
 pub(crate) mod simulated;
 mod study;
+mod through_steps;

@@ -83,15 +83,21 @@ impl Default for Bench {
 
 impl Bench {
     pub(super) fn settings(&self) -> RecipeSettings {
-        let channel = |name: &str| Channel {
-            name: name.into(),
+        let channel = |number: usize| Channel {
+            name: ["a", "b", "c"][number].into(),
             unit: Unit::one(),
             scale_uncertainty: 0.0,
             resolution: if self.hidden { 0.0 } else { self.resolution },
-            steps: self.steps.clone(),
+            // the reference has none of its own
+            steps: self
+                .steps
+                .iter()
+                .filter(|step| number > 0 || !step.needs_reference())
+                .cloned()
+                .collect(),
         };
         RecipeSettings {
-            channels: (0..self.channels.len()).map(|n| channel(["a", "b", "c"][n])).collect(),
+            channels: (0..self.channels.len()).map(channel).collect(),
             reference: Some(0),
             components: vec![1, 2],
             harmonics: 3,

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::noise::density;
-use crate::periodic::{Harmonic, Harmonics, Periodic};
+use crate::periodic::{Harmonic, HarmonicNoise, Harmonics, Periodic};
 use crate::rms::together;
 use crate::unsuitable::within;
 use crate::{Measured, Phasor, Signal, Unsuitable, phasor, transform};
@@ -63,7 +63,9 @@ impl CrossCorrelation {
         together(reference, channel)?;
         let late = channel.start - reference.start;
         let mut found = match *self {
-            Self::Periodic(harmonics) => periodic(reference, channel, harmonics, late)?,
+            Self::Periodic(harmonics) => {
+                return of_harmonics(reference, channel, harmonics, [None, None]);
+            }
             Self::Band { longest, between } => {
                 let mut found = in_band(reference, channel, longest, between)?;
                 found.delay.value += late;
@@ -73,6 +75,24 @@ impl CrossCorrelation {
         found.correlation = found.correlation.clamp(-1.0, 1.0);
         Ok(found)
     }
+}
+
+/// The delay of one periodic signal against another in the noise that is known of the two: the law of
+/// propagation from the harmonics' phases.
+pub(crate) fn of_harmonics(
+    reference: &Signal,
+    channel: &Signal,
+    harmonics: Harmonics,
+    known: [Option<&HarmonicNoise>; 2],
+) -> Result<Delay, Unsuitable> {
+    together(reference, channel)?;
+    let late = channel.start - reference.start;
+    let [x, y] = [Periodic::fit(reference, harmonics)?, Periodic::fit(channel, harmonics)?];
+    let [of_x, of_y] = known;
+    let fits = [x.in_known(of_x), y.in_known(of_y)];
+    let mut found = periodic([reference, channel], fits, harmonics, late)?;
+    found.correlation = found.correlation.clamp(-1.0, 1.0);
+    Ok(found)
 }
 
 /// Value, first and second derivative of the sum of Re(`c` exp(2 pi i f t)) at a time.
@@ -112,13 +132,11 @@ fn maximum(terms: &[(f64, Phasor)], mut low: f64, mut high: f64) -> f64 {
 }
 
 fn periodic(
-    reference: &Signal,
-    channel: &Signal,
+    signals: [&Signal; 2],
+    [x, y]: [Periodic; 2],
     harmonics: Harmonics,
     late: f64,
 ) -> Result<Delay, Unsuitable> {
-    let x = Periodic::fit(reference, harmonics)?;
-    let y = Periodic::fit(channel, harmonics)?;
     let turned =
         |part: &Harmonic| (part.frequency, part.phasor * phasor::at_turns(-part.frequency * late));
     let terms: Vec<(f64, Phasor)> = x
@@ -163,7 +181,7 @@ fn periodic(
             standard_uncertainty: variance.sqrt() / -bend,
             degrees_of_freedom: freedom,
         },
-        correlation: with_noise([reference, channel], [&x, &y], value, time - late),
+        correlation: with_noise(signals, [&x, &y], value, time - late),
         period: Some(period),
     })
 }

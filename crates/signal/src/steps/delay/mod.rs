@@ -13,5 +13,6 @@ mod tests;
 
 pub(crate) use agreement::of_one_recording;
 pub use agreement::{DelayAgreement, agreement};
+pub(crate) use correlation::of_harmonics;
 pub use correlation::{CrossCorrelation, Delay};
 pub use cross_spectrum::{CrossPhase, CrossSpectrum};
