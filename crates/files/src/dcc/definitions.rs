@@ -37,13 +37,13 @@ pub(super) fn unit(element: Node<'_, '_>, written: &str) -> Result<Option<Unit>,
         if let Some((other, is)) = beside
             && !next.is(other)
         {
-            let size = |unit: &Unit| format!("{} ({})", unit.describe(), unit.factor());
+            let size = |unit: &Unit| format!("{} of {}", unit.describe(), unit.factor());
             return Err(fault(format!(
-                "the certificate says `{}`, and {is} {}, in SI units, while this is {}: `|{name}` can \
-                 be read in two ways, ask which is right",
+                "`{}` makes `{name}` {} in SI units, and {is} {}: `|{name}` can be read in two ways, ask \
+                 which is right",
                 text.trim(),
-                size(&other.unit),
-                size(&next.unit)
+                size(&next.unit),
+                size(&other.unit)
             )));
         }
         found.get_or_insert(next);

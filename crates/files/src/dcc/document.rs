@@ -472,6 +472,9 @@ fn distributions(holder: Node<'_, '_>, count: usize) -> Result<Vec<String>, Faul
         return Ok(vec![String::new(); count]);
     };
     let words = if is_list(element) { words } else { vec![words.join(" ")] };
+    if words.is_empty() {
+        return Ok(vec![String::new(); count]);
+    }
     let found = spread(words, Some(count));
     if found.len() != count {
         let name = element.tag_name().name();

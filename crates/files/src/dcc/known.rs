@@ -5,6 +5,7 @@ use super::super::implied_dof::Factor;
 use super::super::named_shape::NamedShape;
 use super::document::{Measured, Stated, at};
 use super::{agreement, intervals};
+use gumption_engine::number::elementary;
 use gumption_engine::special::student::two_sided_factor;
 
 /// What is known of one value.
@@ -108,7 +109,7 @@ fn limited(shape: Option<NamedShape>, p: f64) -> Option<f64> {
         NamedShape::Known("rectangular") => Some(3.0_f64.sqrt() * p),
         NamedShape::Known("triangular") => Some(6.0_f64.sqrt() * (1.0 - (1.0 - p).sqrt())),
         NamedShape::Known("arcsine") => {
-            Some(2.0_f64.sqrt() * (0.5 * std::f64::consts::PI * p).sin())
+            Some(2.0_f64.sqrt() * elementary::sin(0.5 * std::f64::consts::PI * p))
         }
         _ => None,
     }
@@ -158,6 +159,7 @@ fn of_limits(
     }
     let half = 0.5 * (interval.high - interval.low);
     let of_u = 0.5 * at(&stated.last_digits.standard, place).unwrap_or(0.0);
+    let of_u = of_u.min(interval.rounding);
     let reach = 1.001 * interval.rounding + 1e-9 * half;
     let ends = [p - 0.5 * of_probability, p + 0.5 * of_probability];
     let most = if limited(shape, 1.0).is_some() { 1.0 } else { 1.0 - 1e-12 };
@@ -185,9 +187,8 @@ pub(super) struct Interval {
     value: f64,
     low: f64,
     high: f64,
-    /// What rounding may have taken from half of its width.
+    /// What rounding may have taken from each of them.
     rounding: f64,
-    of_value: f64,
 }
 
 impl Interval {
@@ -195,17 +196,18 @@ impl Interval {
     pub(super) fn of(of: &Measured, place: usize) -> Option<Self> {
         let stated = of.uncertainty.as_ref()?;
         let [low, high] = stated.ends.each_ref().map(|all| at(all, place));
-        let digits = stated.last_digits.ends.each_ref().map(|all| at(all, place).unwrap_or(0.0));
-        let of_value = 0.5 * of.last_digits.get(place).copied().unwrap_or(0.0);
-        let rounding = 0.25 * (digits[0] + digits[1]);
+        let digits = stated.last_digits.ends.each_ref().map(|all| at(all, place));
+        let own = of.last_digits.get(place).copied();
+        // zeros at the end of some of them may not be written
+        let digit = digits.into_iter().chain([own]).flatten().fold(f64::INFINITY, f64::min);
         let value = *of.values.get(place)?;
-        Some(Self { value, low: low?, high: high?, rounding, of_value })
+        Some(Self { value, low: low?, high: high?, rounding: 0.5 * digit })
     }
 
     /// Whether the value is not in the middle, by more than the digits leave open.
     pub(super) fn is_asymmetric(self) -> bool {
         let middle = 0.5 * (self.low + self.high);
-        let reach = 1.001 * (self.rounding + self.of_value) + 1e-9 * (self.high - self.low).abs();
+        let reach = 2.002 * self.rounding + 1e-9 * (self.high - self.low).abs();
         (middle - self.value).abs() > reach
     }
 }

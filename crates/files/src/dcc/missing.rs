@@ -62,7 +62,7 @@ impl<'a, 'd> Rows<'a, 'd> {
         let stated = self.stated.get_or_insert_with(|| stated(all));
         let units = stated.get(&Row::of(node)?)?;
         let is_missed = units.contains(of.unit.text());
-        is_missed.then_some(Lacking::Beside("the same quantity of other rows"))
+        is_missed.then_some(Lacking::Beside("those of other rows"))
     }
 }
 

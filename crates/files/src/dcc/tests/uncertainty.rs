@@ -85,7 +85,7 @@ fn a_value_without_uncertainty_among_others_is_refused() {
     };
     let rows = [row("a", "0", &with), row("v", "10", ""), row("b", "20", &with)].concat();
     let error = refused(&rows, "");
-    assert!(error.contains("this value has no uncertainty, while the same quantity of other rows"));
+    assert!(error.contains("this value has no uncertainty, while those of other rows have one"));
     let conditions = r#", "conditions": {"t": {"unit": "K", "values": [5]}}"#;
     let at = r#""ref_type": "basic_measuredValue", "at": "t""#;
     let error = model(&certificate("3.2.1", &rows), at, conditions).unwrap_err().to_string();
@@ -221,6 +221,9 @@ fn coverage_intervals_agree_with_their_values() {
     let file = accepted(&of(["1", "9.5", "15", "0.95", ""]), "");
     near(known(&file, 0), [10.0, 1.0]);
     assert!(has_note(&file, "certificate-asymmetric"));
+    // a value that is written without zeros is no coarser than the ends
+    let text = quantity(&real("10", r"\volt", &interval(["0.1", "9.9", "10.5", "0.95", "normal"])));
+    assert!(has_note(&accepted(&text, ""), "certificate-asymmetric"));
     let lists = "<si:coverageIntervalXMLList><si:standardUncXMLList>0.1</si:standardUncXMLList>\
                  <si:intervalMinXMLList>0.80 1.5 2.80</si:intervalMinXMLList>\
                  <si:intervalMaxXMLList>1.20 2.1 3.20</si:intervalMaxXMLList>\
