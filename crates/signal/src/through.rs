@@ -72,9 +72,10 @@ pub(super) struct SeenBefore {
     pub(super) memory: Memory,
     /// The autocorrelation coefficient at lag 1.
     pub(super) coefficient: f64,
-    /// Whether the level wanders.
+    /// Whether the level wanders, and is not taken out.
     pub(super) wanders: bool,
-    /// Whether the noise grows towards the lowest frequencies as 1/f noise does.
+    /// Whether the noise grows towards the lowest frequencies as 1/f noise does, and these are not taken
+    /// out.
     pub(super) flickers: bool,
 }
 
@@ -106,6 +107,7 @@ impl Through {
         let (source, factors, freedom) = self.near_tones(design, after, (&white, process.as_ref()));
         let (level, of_level) = self.level(design, after, (&white, process.as_ref()));
         let (_, tones) = white.densities.split_first().unwrap_or((&1.0, &[]));
+        let passes = !self.squares() && self.effects.power_gain(0.0) > 0.0;
         KnownNoise {
             source,
             factors,
@@ -119,10 +121,17 @@ impl Through {
             before: SeenBefore {
                 memory: before.memory,
                 coefficient: before.autocorrelation.first().copied().unwrap_or(0.0),
-                wanders: level_wanders(&self.before),
-                flickers: before.coloured.as_ref().is_some_and(|coloured| coloured.flickers),
+                wanders: passes && level_wanders(&self.before),
+                flickers: passes
+                    && before.coloured.as_ref().is_some_and(|coloured| coloured.flickers),
             },
         }
+    }
+
+    /// Whether the noise at zero is that at another frequency before the steps.
+    fn squares(&self) -> bool {
+        let squares = |effect: &StepEffect| matches!(effect, StepEffect::Squared { .. });
+        self.effects.0.iter().any(squares)
     }
 
     /// The noise of the process that the residuals before the steps have, where one fits.
@@ -216,8 +225,7 @@ impl Through {
             let slow = if before.correlated { slow.max(0.1) } else { 1.0 };
             return (of_white(before.variance * slow), None);
         };
-        let squares = |effect: &StepEffect| matches!(effect, StepEffect::Squared { .. });
-        if self.effects.0.iter().any(squares) {
+        if self.squares() {
             // the noise at zero is that about the frequency of the velocity
             let level = process.and_then(|of| of.after.densities.first());
             return match level.filter(|level| level.is_finite()) {
@@ -282,7 +290,7 @@ impl Through {
 
     /// The oscillations before the steps that are not fitted, as these leave them.
     fn unfitted(&self, rate: f64) -> Vec<Spurious> {
-        let unfitted = self.before.spurious.iter().filter(|of| !of.fitted);
+        let unfitted = self.before.spurious.iter().filter(|of| !of.fitted && !self.squares());
         let after = unfitted.map(|of| Spurious {
             amplitude: of.amplitude * self.effects.power_gain(of.cycles * rate).sqrt(),
             ..*of
