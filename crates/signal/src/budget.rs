@@ -17,6 +17,8 @@ pub enum UncertaintySource {
     SamplingRate,
     /// Oscillations that are not fitted, and part periods.
     Leakage,
+    /// The drift of a level over the record, of which no level is the one.
+    Drift,
     /// The scale of the channel.
     Scale,
     /// The gain of a filter, by the frequency and the sampling rate.
@@ -39,6 +41,7 @@ impl UncertaintySource {
             Self::Frequency => "frequency",
             Self::SamplingRate => "sampling rate",
             Self::Leakage => "leakage",
+            Self::Drift => "drift",
             Self::Scale => "scale",
             Self::Filter => "filter",
             Self::Derivative => "derivative",

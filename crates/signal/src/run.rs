@@ -389,8 +389,9 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
             let unit = unit_text(settings, of);
             let text = format!(
                 "`{name}`: the level drifts by {}{unit} over the record; a polynomial of degree {} is \
-                 fitted together with the named frequencies, the offset is the mean over the record, \
-                 and the drift counts as noise in the signal-to-noise ratio",
+                 fitted together with the named frequencies, the offset is the mean over the record \
+                 with the drift's standard deviation in its uncertainty, and the drift counts as noise \
+                 in the signal-to-noise ratio",
                 short(of.drift_range(), 2),
                 of.design.drift
             );

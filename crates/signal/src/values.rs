@@ -285,6 +285,10 @@ fn offset(settings: &RecipeSettings, analysed: &Analysed, noise_dof: f64) -> Bud
         join(&mut parts, UncertaintySource::SamplingRate, slope * of.of_rate);
         join(&mut parts, UncertaintySource::Leakage, slope * of.of_cut);
     }
+    // a level that drifts is at none of its values for long
+    if analysed.design.drift > 0 {
+        join(&mut parts, UncertaintySource::Drift, analysed.drift_power().sqrt());
+    }
     // of an oscillation that is not fitted the mean over the record has a part, whatever its phase
     let samples = analysed.design.samples as f64;
     let unfitted = residuals.known.as_ref().map_or(&analysed.spurious, |known| &known.unfitted);

@@ -386,7 +386,10 @@ fn of_difference(
         return;
     }
     let percent = |from: f64| format!("{:.0} %", 100.0 * (from / linear - 1.0).abs());
-    let by_dof = drawn > (1.0 + NOTEWORTHY) * linear;
+    // what is not finite without such a distribution left the range of double precision
+    let has_t = output.drawn_dof.is_finite() || drawn.is_finite();
+    let by_dof = drawn > (1.0 + NOTEWORTHY) * linear && has_t;
+    let alone = || if drawn.is_finite() { percent(drawn) } else { "beyond all bounds".to_owned() };
     let side = if u > linear { "above" } else { "below" };
     let difference = if linear > 0.0 {
         format!("is {} {side} that of the GUM", percent(u))
@@ -400,7 +403,7 @@ fn of_difference(
                  uncertainties of inputs have few degrees of freedom{}: what is drawn for them has \
                  a larger standard deviation, which alone makes {}. {}",
                 fewest(output),
-                percent(drawn),
+                alone(),
                 if matches!(gum.dof, Dof::Undefined)
                     || matches!(task.settings.coverage, Coverage::Factor { fixed: true, .. })
                 {
@@ -428,7 +431,7 @@ fn of_difference(
         text += &format!(
             "; few degrees of freedom{} alone would bring it {} above",
             fewest(output),
-            if drawn.is_finite() { percent(drawn) } else { "beyond all bounds".to_owned() }
+            alone()
         );
     }
     if let Some(second) = &output.second_order {

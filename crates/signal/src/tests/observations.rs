@@ -365,6 +365,9 @@ fn a_drift_is_fitted() {
         }
         let second = &observation.frequencies[0][1].components[0];
         let first = &observation.frequencies[0][0].components[0];
+        // the level before the drift is within two of the drift's standard deviations from its mean
+        let level = observation.frequencies[0][0].offset.measured;
+        assert!((level.value - 0.7).abs() < 2.0 * level.standard_uncertainty, "{level:?}");
         // sqrt(2/1000) of the noise, and for the phase of both channels over their sizes; a tenth more
         // for what the drift costs and u is known to
         let found = [
