@@ -48,7 +48,7 @@ pub(super) fn jump(
         // p (1 - p) sizes squared; less than twice the standard uncertainty of the law of propagation is
         // not a jump
         let expected = (u * u + size * size * away * (1.0 - away)).sqrt();
-        let is_one = away * count > LEAST && away >= LEAST_SHARE && away < 1.0;
+        let is_one = away * count > LEAST && (LEAST_SHARE..1.0).contains(&away);
         is_one && expected >= 2.0 * u && (spread / expected - 1.0).abs() <= OFF
     };
     if let Some(turn) = turn(&output.quantity.unit) {
