@@ -260,7 +260,7 @@ impl Through {
         (white, process): (&Coloured, Option<&Passed>),
     ) -> f64 {
         let before = &self.before.residuals;
-        let fitted = 1.0 + 2.0 * design.tones.len() as f64;
+        let fitted = design.parameters() as f64;
         let every = before.coloured.as_ref().map_or(0, |coloured| coloured.every);
         let freedom = match process {
             _ if !before.correlated => white.freedom - fitted,
@@ -364,7 +364,7 @@ pub(super) fn noise_of(
 
 /// The degrees of freedom of the variance of correlated residuals of a plain signal.
 fn freedom_of_residuals(design: &ToneDesign, residuals: &Residuals) -> f64 {
-    let fitted = 1.0 + 2.0 * design.tones.len() as f64;
+    let fitted = design.parameters() as f64;
     let coloured = residuals.coloured.as_ref();
     let freedom = match coloured.filter(|process| process.fits && process.every == 1) {
         Some(process) => {

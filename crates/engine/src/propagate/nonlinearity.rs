@@ -46,10 +46,7 @@ pub(super) fn is_nonlinear(
     figures: &MonteCarlo,
     second: Option<&SecondOrder>,
 ) -> bool {
-    if !differs_from_linear(gum, figures) {
-        return false;
-    }
-    if problem.is_linear() {
+    if !differs_from_linear(gum, figures) || problem.is_linear() {
         return false;
     }
     let u = gum.standard_uncertainty;

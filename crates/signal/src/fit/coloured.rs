@@ -214,7 +214,7 @@ impl Series {
     /// What a short record tells of a memory of first order, by the restricted likelihood: the
     /// autocorrelation of what a fit of many parameters leaves is too low.
     pub(crate) fn memory(&self, design: &ToneDesign) -> Memory {
-        let parameters = 1 + 2 * design.tones.len() + design.drift;
+        let parameters = design.parameters();
         if self.values.len() >= parameters + TELLS {
             return Memory::None;
         }

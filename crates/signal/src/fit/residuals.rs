@@ -263,8 +263,7 @@ impl Gathered {
         for (value, rest) in fit.drift.iter_mut().zip(&rest.drift) {
             *value += rest;
         }
-        let parameters = 1 + 2 * design.tones.len() + design.drift;
-        let degrees_of_freedom = design.samples as f64 - parameters as f64;
+        let degrees_of_freedom = design.samples as f64 - design.parameters() as f64;
         let cycles = self.derivatives.iter().enumerate();
         let cycles = cycles.map(|(fundamental, (product, square))| {
             let (even, odd) = design.derivative_products(fit, fundamental);

@@ -205,6 +205,11 @@ impl ToneDesign {
         })
     }
 
+    /// How many coefficients a fit has: the constant, two for each tone, one for each degree of a drift.
+    pub(crate) fn parameters(&self) -> usize {
+        1 + 2 * self.tones.len() + self.drift
+    }
+
     /// Room for the waves of a block.
     pub(crate) fn waves(&self) -> Waves {
         Waves::new(self.steps.len(), self.drift)
