@@ -61,6 +61,8 @@ fn periods_times_angle_are_no_periods() {
         ("turns*f/[rev]", "Hz", 10.0),
         ("turns*f/(2*pi)", "Hz", 10.0),
         ("n/1[rev]", "Hz", 1.0),
+        ("turns*f/[Hz]", "deg", 3600.0),
+        ("-0.5*f*turns/(2 [Hz])", "rev", -2.5),
     ] {
         let (estimate, _) = found(folder.path(), &model(formula, unit), "y", &[]);
         assert!((estimate - expected).abs() < 1e-9, "{formula} {estimate}");

@@ -152,9 +152,10 @@ fn what_is_withheld_is_named_and_explains_once_it_is_listed() {
         let three = found.composed.iter().take(3);
         assert!(
             three.clone().any(|of| withheld.is_named_by(of).1),
-            "{} {}",
+            "{} {}: {:#?}",
             bench.name,
-            withheld.name
+            withheld.name,
+            found.composed.iter().map(said).collect::<Vec<_>>()
         );
         let mut case = case_of(bench, &simulated);
         case.candidates.push(pasted(first));

@@ -427,14 +427,17 @@ impl Checker<'_> {
                 Some(_) => {}
             }
         }
+        // as in `angle*f/[Hz]`
+        let leaves_angle = y.turn == Some(Turn::Periods) && self.is_angle_and_periods(left);
         // the number of `[rpm]` in what is in Hz would be 2 pi times off
-        if dimension == Some(Dimension::NONE) && self.is_written_out(right) {
+        if dimension == Some(Dimension::NONE) && self.is_written_out(right) && !leaves_angle {
             let span = self.tree.span(index);
             self.refuse_periods_and_angle("/", &span, [(left, x), (right, y)]);
         }
         let has_turns = x.has_turns || y.has_turns;
         let turn = match (x.turn, y.turn) {
             _ if has_turns => None,
+            _ if leaves_angle => x.turn,
             (turn, None) => turn,
             (Some(Turn::Angle), Some(Turn::Angle)) if self.is_unit(right, "rev") => {
                 Some(Turn::Periods)
@@ -529,6 +532,22 @@ impl Checker<'_> {
             Some(Turn::Periods) if is(turns) => Some(Turn::Angle),
             Some(Turn::Angle) if is(1.0 / turns) => Some(Turn::Periods),
             _ => None,
+        }
+    }
+
+    /// Whether a node is a product of an angle and of what counts periods, whatever else it has.
+    fn is_angle_and_periods(&self, index: usize) -> bool {
+        let has = |turn: Turn| self.has_factor(index, turn);
+        has(Turn::Angle) && has(Turn::Periods)
+    }
+
+    fn has_factor(&self, index: usize, turn: Turn) -> bool {
+        match self.tree.nodes.get(index).map(|node| &node.kind) {
+            Some(Kind::Infix { operator: Operator::Multiply, left, right, .. }) => {
+                self.has_factor(*left, turn) || self.has_factor(*right, turn)
+            }
+            Some(Kind::Negate(of)) => self.has_factor(*of, turn),
+            _ => self.typing(index).turn == Some(turn),
         }
     }
 
