@@ -271,7 +271,8 @@ pub mod command {
 }
 pub use templates::catalogue;
 
-pub use gumption_analysis::{assumptions, certificate, compare, diff, plan};
+pub use gumption_analysis::{certificate, compare, diff, plan};
+pub use gumption_assumptions as assumptions;
 pub use gumption_engine::{decimal, measurement};
 pub use gumption_files as file;
 pub use gumption_files::schema;

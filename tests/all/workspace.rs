@@ -5,12 +5,14 @@ use std::fs;
 use crate::support::root;
 
 /// The crates from low to high.
-const CRATES: [&str; 11] = [
+const CRATES: [&str; 13] = [
     "units",
     "engine",
     "measurements",
     "signal",
+    "columns",
     "gap",
+    "assumptions",
     "analysis",
     "files",
     "report",

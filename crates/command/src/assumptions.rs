@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use super::exit::say;
 use super::options::{Answer, CoverageOption, Interactive, Model, Seed, Threads};
 use super::{CommandLine, Exit, Failure, options, progress, run, signals};
-use gumption_analysis::assumptions::{Audit, Question, audit, trials_to_make};
+use gumption_assumptions::{Audit, Question, audit, trials_to_make};
 use gumption_engine::task::{Task, Trials, Warning};
 use gumption_files::ModelFile;
 use gumption_report as report;

@@ -3,10 +3,10 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::gravity;
 use super::keys::{self, SHAPES};
 use super::shapes;
 use super::value_text::with_point;
+use gumption_columns::{gravity, heading::OtherUnit};
 use gumption_engine::distribution::Invalid;
 use gumption_engine::model::formula::{FormulaError, ScaleMisfit};
 use gumption_engine::number::Shortest;
@@ -362,14 +362,7 @@ pub enum DiagnosticKind {
         found: String,
     },
     /// A column whose heading has another unit than its values are read in.
-    ColumnUnit {
-        /// The heading.
-        column: String,
-        /// Its unit.
-        heading: String,
-        /// The unit that the file declares.
-        declared: String,
-    },
+    ColumnUnit(OtherUnit),
     /// A table without rows, or a bad header.
     Table {
         /// Why, as a part of the sentence.
@@ -578,7 +571,7 @@ impl DiagnosticKind {
             Self::Cell { .. } => "bad-cell",
             Self::ShortRow { .. } => "short-row",
             Self::Sample { .. } => "bad-sample",
-            Self::ColumnUnit { .. } => "column-unit",
+            Self::ColumnUnit(_) => "column-unit",
             Self::Table { .. } => "bad-table",
             Self::Correlation { .. } => "bad-correlation",
             Self::Complex { .. } => "bad-complex",
@@ -897,12 +890,7 @@ impl fmt::Display for DiagnosticKind {
                      `#` before words"
                 )
             }
-            Self::ColumnUnit { column, heading, declared } => write!(
-                f,
-                "the heading of the column `{column}` says `{heading}`, but its values are read in \
-                 `{declared}`; state the unit that they have, or change the heading{}",
-                gravity::hint_of(heading, declared)
-            ),
+            Self::ColumnUnit(found) => found.fmt(f),
             Self::Table { reason }
             | Self::Cost { reason }
             | Self::Observation { reason }

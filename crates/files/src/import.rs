@@ -34,12 +34,12 @@ use std::path::Path;
 
 use super::diagnostics::{Collector, Diagnostics};
 use super::reader::read_text;
-use super::separator::DecimalMarks;
 use super::source::SourceText;
 use super::{DiagnosticKind, bytes, workbook};
 use columns::{Column, Header};
 use document::document;
 use equation::{Equation, Equations};
+use gumption_columns::separator::DecimalMarks;
 use gumption_engine::model::formula::{Formula, FormulaError, Scope, Typing};
 use gumption_units::Unit;
 use number::value;

@@ -31,7 +31,6 @@ mod either;
 mod fits;
 mod folder;
 mod formula_notes;
-mod gravity;
 mod implied_dof;
 mod import;
 mod input_set;
@@ -60,7 +59,6 @@ mod prior;
 mod reader;
 mod readings;
 mod recipe;
-mod recording;
 mod regions;
 mod result_consistency;
 mod result_file;
@@ -68,7 +66,6 @@ mod results;
 mod samples;
 pub mod schema;
 mod scopes;
-mod separator;
 mod settings;
 mod shapes;
 mod share;
@@ -100,6 +97,7 @@ pub use diagnostics::{Diagnostic, Diagnostics};
 pub use difference::difference;
 pub use either::ModelOrResult;
 pub use folder::FileSource;
+pub use gumption_columns::recording::Recording;
 pub use import::{ImportedBudget, import_budget, import_budget_bytes, import_budget_sheet};
 pub use loose_files::named_in;
 pub use model_file::ModelFile;
@@ -109,7 +107,6 @@ pub use reader::{
     read_recipe_text, read_result, read_text,
 };
 pub use recipe::{OpenedRow, RecipeCondition, RecipeFile, RecipeRow};
-pub use recording::Recording;
 pub use result_file::{ResultFile, SavedOutput};
 pub use shared_run::{
     SharedFileError, SharedFileHeader, SharedFileKind, SharedModelError, SharedRun, shared_file,

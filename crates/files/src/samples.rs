@@ -7,11 +7,11 @@ use std::ops::Range;
 use super::folder::Folder;
 use super::json::Json;
 use super::object::{Object, whole_number};
-use super::recording::npy_columns;
-use super::separator::{Separator, is_skipped};
 use super::source::{Place, SourceText};
 use super::value_text::{ValueOf, with_point};
 use super::{DiagnosticKind, bytes, column_heading, table};
+use gumption_columns::recording::npy_columns;
+use gumption_columns::separator::{Separator, is_skipped};
 use gumption_engine::distribution::Samples;
 use gumption_units::Unit;
 

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use super::diagnostics::Collector;
 use super::folder::Folder;
-use super::separator::{DecimalMarks, Separator, is_skipped};
 use super::source::{Place, SourceText};
 use super::value_text::power_of_last_digit;
 use super::{DiagnosticKind, bytes, column_heading};
+use gumption_columns::separator::{DecimalMarks, Separator, is_skipped};
 use gumption_units::nearest;
 
 /// At most so many columns and rows.

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
-use super::separator::{Separator, is_skipped};
 use super::source::{Place, SourceText};
 use super::table::place_of_cell;
+use gumption_columns::separator::{Separator, is_skipped};
 
 /// At most so many rows.
 const MOST_ROWS: usize = 10_000;

@@ -1,19 +1,9 @@
 //! Values as people write them: a number with a unit, `"100 ohm"`, `"20 degC"`.
 
 use super::width::number;
+pub(super) use gumption_columns::ValueOf;
 use gumption_engine::number::Shortest;
 use gumption_units::Unit;
-
-/// What a number with a unit is about, which decides whether zeros of scales are counted from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ValueOf {
-    /// A quantity: 20 degC is 293.15 K.
-    Quantity,
-    /// A difference or a width: 20 degC is 20 K.
-    Difference,
-    /// A quantity or a difference, which nothing here tells: of a limit of an output in degC.
-    Either,
-}
 
 /// The number and the unit of a text that is a value with a unit; `None` if it is something else,
 /// such as a formula.

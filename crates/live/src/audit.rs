@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use gumption_analysis::assumptions::{Question, audit};
+use gumption_assumptions::{Question, audit};
 use gumption_engine::propagate::Control;
 use gumption_files::{FileReader, TextKind};
 use gumption_report::Provenance;

@@ -7,9 +7,9 @@ use super::super::folder::Folder;
 use super::super::json::{Json, Member, Node};
 use super::super::keys;
 use super::super::object::Object;
-use super::super::recording::npy_matrix;
-use super::super::separator::{DecimalMarks, Separator, is_skipped};
 use super::super::{DiagnosticKind, bytes};
+use gumption_columns::recording::npy_matrix;
+use gumption_columns::separator::{DecimalMarks, Separator, is_skipped};
 use gumption_engine::regression::Cross;
 
 /// The largest file: 10,000 x 10,000 numbers as text.

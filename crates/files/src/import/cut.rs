@@ -5,7 +5,7 @@ use super::columns::identifier;
 use super::equation::{is_of_uncertainties, readable, with_points};
 use super::grid::Cells;
 use super::number::number_with_unit;
-use crate::separator::Separator;
+use gumption_columns::separator::Separator;
 use gumption_engine::model::formula::{Formula, check_name};
 use gumption_units::Unit;
 

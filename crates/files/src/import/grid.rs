@@ -5,11 +5,11 @@ use std::ops::Range;
 
 use super::columns::{Column, Header};
 use crate::open::no_table;
-use crate::separator::{DecimalMarks, Separator};
 use crate::source::SourceText;
 use crate::text_table::record;
 use crate::workbook::Layout;
 use crate::{DiagnosticKind, bytes};
+use gumption_columns::separator::{DecimalMarks, Separator};
 
 /// Lines and cells, at most.
 const MOST_LINES: usize = 10_000;

@@ -3,7 +3,7 @@
 
 use super::Budget;
 use super::columns::{Column, Header};
-use crate::separator::Separator;
+use gumption_columns::separator::Separator;
 
 /// What a number says of the decimal mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,10 +12,10 @@ use super::linear::{CONTRIBUTIONS_DIFFER, standard_uncertainty};
 use super::stated::{Stated, half_digit};
 use super::{Budget, equation, number};
 use crate::named_shape::NamedShape;
-use crate::separator::Separator;
 use crate::share::{self, Share};
 use crate::value_text::grouped_digits;
 use crate::width::Width;
+use gumption_columns::separator::Separator;
 
 /// A row of the budget.
 #[derive(Clone, Debug, Default)]

@@ -4,7 +4,7 @@ use super::super::DiagnosticKind;
 use super::super::diagnostics::Collector;
 use super::super::json::{Json, Member};
 use super::super::object::whole_number;
-use super::super::recording::ColumnName;
+use gumption_columns::recording::ColumnName;
 
 /// A column by its name, or by its number from 1.
 pub(super) fn column(log: &Collector, member: &Member) -> Option<ColumnName> {

@@ -16,10 +16,10 @@ use super::json::{Json, Node};
 use super::keys;
 use super::object::Object;
 use super::open::{FileKind, check_format, read_root, refuse_other_kind};
-use super::recording::{self, Recording};
 use super::source::SourceText;
 use crate::folder::Folder;
 use channels::ChannelFile;
+use gumption_columns::recording::{self, Recording};
 use gumption_engine::model::formula;
 use gumption_engine::task::Warning;
 use gumption_signal::{

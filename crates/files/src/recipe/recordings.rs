@@ -9,12 +9,12 @@ use super::super::column_heading;
 use super::super::json::{Json, Member};
 use super::super::keys;
 use super::super::object::Object;
-use super::super::recording::{Bytes, ColumnName, Conversion, Reading, Wanted};
 use super::super::value_text::ValueOf;
 use super::check_name;
 use super::column::column;
 use super::quantity::{positive, quantity, unit};
 use crate::folder::Folder;
+use gumption_columns::recording::{Bytes, ColumnName, Conversion, Reading, Wanted};
 use gumption_signal::Measured;
 use gumption_units::Unit;
 

@@ -2,7 +2,7 @@
 
 use super::AuditReport;
 use crate::csv::{number, of_records, text};
-use gumption_analysis::assumptions::{VariantChange, VariantFigures};
+use gumption_assumptions::{VariantChange, VariantFigures};
 
 const COLUMNS: [&str; 10] = [
     "output",

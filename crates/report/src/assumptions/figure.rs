@@ -5,7 +5,7 @@ use plotters::style::Color;
 
 use crate::html::Drawing;
 use crate::plot::{AFTER, Axis, INK, STRIP_AXIS, Strip, WEAK, faded, line, px, stroke, svg};
-use gumption_analysis::assumptions::{InputAudit, OutputAudit, VariantChange};
+use gumption_assumptions::{InputAudit, OutputAudit, VariantChange};
 
 /// Height of a row in pixels, and space for the names.
 const ROW: f64 = 24.0;

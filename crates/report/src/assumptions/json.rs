@@ -2,7 +2,7 @@
 
 use super::AuditReport;
 use crate::answer::{list, object, pretty};
-use gumption_analysis::assumptions::{
+use gumption_assumptions::{
     EvidenceOffset, EvidenceTest, InputAudit, OutputAudit, RowAudit, Sobol, VariantChange,
     VariantFigures,
 };

@@ -17,7 +17,7 @@ pub use json::json;
 pub use table::table;
 
 use crate::{Provenance, document as look};
-use gumption_analysis::assumptions::Audit;
+use gumption_assumptions::Audit;
 use gumption_engine::task::{Task, Warning};
 
 /// The audit in GitHub Flavored Markdown.

@@ -4,9 +4,7 @@ use super::AuditReport;
 use crate::number::{MISSING, justified, position, rounded, significant, to};
 use crate::plain;
 use crate::sheet::Sheet;
-use gumption_analysis::assumptions::{
-    EvidenceTest, InputAudit, Kept, OutputAudit, Sobol, VariantChange,
-};
+use gumption_assumptions::{EvidenceTest, InputAudit, Kept, OutputAudit, Sobol, VariantChange};
 
 /// Decimal places of a percentage.
 const TENTHS: i32 = -1;

@@ -2,7 +2,7 @@
 
 use super::{AuditReport, json, table};
 use crate::Provenance;
-use gumption_analysis::assumptions::{Question, audit};
+use gumption_assumptions::{Question, audit};
 use gumption_engine::propagate::Control;
 use gumption_files::read_text;
 

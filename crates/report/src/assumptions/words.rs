@@ -3,7 +3,7 @@
 use super::AuditReport;
 use crate::number::{coarser, position, rounded, significant, to};
 use crate::{conditions_text, grouped, plain};
-use gumption_analysis::assumptions::{
+use gumption_assumptions::{
     EvidenceOffset, EvidenceTest, EvidenceVerdict, InputAudit, OutputAudit,
 };
 use gumption_engine::number::largest_first;

@@ -4,15 +4,18 @@ use std::borrow::Cow;
 
 /// What separates the cells of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Separator {
+pub enum Separator {
+    /// `,`
     Comma,
+    /// `;`
     Semicolon,
+    /// A tab.
     Tab,
 }
 
 impl Separator {
     /// That of a header.
-    pub(super) fn of_header(header: &str) -> Self {
+    pub fn of_header(header: &str) -> Self {
         if header.contains(';') {
             Self::Semicolon
         } else if header.contains('\t') && !header.contains(',') {
@@ -23,7 +26,7 @@ impl Separator {
     }
 
     /// That of a line that may hold numbers, with decimal commas between tabs.
-    pub(super) fn of_line(line: &str) -> Self {
+    pub fn of_line(line: &str) -> Self {
         match (line.contains(';'), line.contains('\t')) {
             (true, _) => Self::Semicolon,
             (false, true) => Self::Tab,
@@ -31,7 +34,8 @@ impl Separator {
         }
     }
 
-    pub(super) const fn sign(self) -> char {
+    /// The sign itself.
+    pub const fn sign(self) -> char {
         match self {
             Self::Comma => ',',
             Self::Semicolon => ';',
@@ -39,14 +43,15 @@ impl Separator {
         }
     }
 
-    pub(super) const fn byte(self) -> u8 {
+    /// The sign as a byte of a text.
+    pub const fn byte(self) -> u8 {
         self.sign() as u8
     }
 }
 
 /// Whether a line is no record: empty, a comment, or the separator as spreadsheets announce it
 /// (`sep=;`).
-pub(super) fn is_skipped(line: &str) -> bool {
+pub fn is_skipped(line: &str) -> bool {
     let line = line.trim();
     let announced = line.get(..4).is_some_and(|begin| begin.eq_ignore_ascii_case("sep="));
     line.is_empty() || line.starts_with('#') || (announced && line.chars().count() <= 5)
@@ -55,14 +60,15 @@ pub(super) fn is_skipped(line: &str) -> bool {
 /// The decimal marks of the numbers of one text: a point everywhere, or a comma everywhere that does
 /// not separate cells. Of `1.234;1` and `2,5;2` the first may be 1234.
 #[derive(Clone, Debug)]
-pub(super) struct DecimalMarks {
+pub struct DecimalMarks {
     separator: Separator,
     point: Option<String>,
     comma: Option<String>,
 }
 
 impl DecimalMarks {
-    pub(super) const fn of(separator: Separator) -> Self {
+    /// Those of a text whose numbers were not seen yet.
+    pub const fn of(separator: Separator) -> Self {
         Self { separator, point: None, comma: None }
     }
 
@@ -70,7 +76,7 @@ impl DecimalMarks {
     ///
     /// # Errors
     /// Both marks stand in the numbers of the text.
-    pub(super) fn with_point<'c>(&mut self, cell: &'c str) -> Result<Cow<'c, str>, String> {
+    pub fn with_point<'c>(&mut self, cell: &'c str) -> Result<Cow<'c, str>, String> {
         if self.separator == Separator::Comma {
             return Ok(Cow::Borrowed(cell));
         }

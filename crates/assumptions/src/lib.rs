@@ -6,6 +6,9 @@
 //! are correlated keep their scores' dependence (a Gaussian copula) when one of them is given another
 //! shape.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
+#![deny(unsafe_code)]
+
 mod alternatives;
 mod anderson_darling;
 mod evidence;

@@ -28,7 +28,7 @@ const MOST_IN_MEMORY: u64 = 1 << 25;
 ///
 /// # Errors
 /// What is wrong with it, as a sentence without a capital.
-pub(super) fn npy_matrix(bytes: &[u8]) -> Result<(usize, usize, Vec<f64>), String> {
+pub fn npy_matrix(bytes: &[u8]) -> Result<(usize, usize, Vec<f64>), String> {
     npy_numbers(bytes, |shape| match *shape {
         [rows, columns] => Ok([rows, columns]),
         _ => Err(format!("it has {} dimensions; a matrix has two", shape.len())),
@@ -39,7 +39,7 @@ pub(super) fn npy_matrix(bytes: &[u8]) -> Result<(usize, usize, Vec<f64>), Strin
 ///
 /// # Errors
 /// What is wrong with it, as a sentence without a capital.
-pub(super) fn npy_columns(bytes: &[u8]) -> Result<(usize, Vec<f64>), String> {
+pub fn npy_columns(bytes: &[u8]) -> Result<(usize, Vec<f64>), String> {
     let found = npy_numbers(bytes, |shape| match *shape {
         [rows] => Ok([rows, 1]),
         [rows, columns] => Ok([rows, columns]),
@@ -81,7 +81,7 @@ fn npy_numbers(
 
 /// A column of a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum ColumnName {
+pub enum ColumnName {
     /// By its name in the header.
     Name(String),
     /// By its number, from 1.
@@ -90,13 +90,15 @@ pub(super) enum ColumnName {
 
 /// A column that is wanted, and the channel that it is for.
 #[derive(Clone, Debug)]
-pub(super) struct Wanted {
-    pub(super) column: ColumnName,
-    pub(super) channel: String,
+pub struct Wanted {
+    /// The column.
+    pub column: ColumnName,
+    /// The name of the channel, in messages.
+    pub channel: String,
     /// The unit that its values are read in, which its heading may not contradict; 1 of counts.
-    pub(super) unit: Unit,
+    pub unit: Unit,
     /// The unit of what becomes of them; the same of values that are not scaled.
-    pub(super) becomes: Unit,
+    pub becomes: Unit,
 }
 
 /// What stands in the place of a channel's name for the column of instants.
@@ -111,33 +113,36 @@ impl Wanted {
 
 /// What a channel's raw values become, and where they saturate.
 #[derive(Clone, Debug)]
-pub(super) struct Conversion {
+pub struct Conversion {
     /// The raw value that means zero.
-    pub(super) zero: f64,
+    pub zero: f64,
     /// Units of the channel for one raw unit.
-    pub(super) gain: f64,
+    pub gain: f64,
     /// The limits of raw values.
-    pub(super) range: Option<[f64; 2]>,
+    pub range: Option<[f64; 2]>,
 }
 
 /// How a recording is to be read.
 #[derive(Clone, Debug)]
-pub(super) struct Reading {
-    pub(super) bytes: Bytes,
+pub struct Reading {
+    /// Its bytes.
+    pub bytes: Bytes,
     /// The name in messages.
-    pub(super) name: String,
-    pub(super) channels: Vec<(Wanted, Conversion)>,
+    pub name: String,
+    /// The columns, and what their values become.
+    pub channels: Vec<(Wanted, Conversion)>,
     /// The column of instants, and its unit.
-    pub(super) time: Option<(ColumnName, Unit)>,
+    pub time: Option<(ColumnName, Unit)>,
     /// The sampling rate in hertz that the recipe states.
-    pub(super) rate: Option<Measured>,
+    pub rate: Option<Measured>,
     /// Whether that rate is one to begin a search with, and no statement.
-    pub(super) searched: bool,
-    /// The part that is used, in seconds.
-    pub(super) from: Option<f64>,
-    pub(super) to: Option<f64>,
+    pub searched: bool,
+    /// Where the part that is used begins, in seconds.
+    pub from: Option<f64>,
+    /// Where it ends, in seconds.
+    pub to: Option<f64>,
     /// The lowest frequency of the recipe, in hertz.
-    pub(super) slowest: Option<f64>,
+    pub slowest: Option<f64>,
 }
 
 /// A recording that was read through once and found right.
@@ -149,14 +154,15 @@ pub struct Recording {
     frames: u64,
     held: Option<InMemorySamples>,
     /// The sampling rate, in hertz.
-    pub(super) rate: Measured,
+    pub rate: Measured,
     /// The instant of the first frame that is used, in seconds.
-    pub(super) start: f64,
+    pub start: f64,
     /// SHA-256 of the file, in hexadecimal.
-    pub(super) digest: String,
+    pub digest: String,
     /// The step of whole numbers, where the file holds those.
-    pub(super) whole: bool,
-    pub(super) warnings: Vec<Warning>,
+    pub whole: bool,
+    /// What is to be told of it.
+    pub warnings: Vec<Warning>,
 }
 
 /// A source of frames: raw values of the wanted columns, the column of instants last if there is one.
@@ -179,7 +185,7 @@ trait Frames {
 ///
 /// # Errors
 /// A sentence with line or sample, and channel.
-pub(super) fn open(reading: Reading) -> Result<Recording, String> {
+pub fn open(reading: Reading) -> Result<Recording, String> {
     scan::scan(reading)
 }
 
@@ -277,7 +283,7 @@ impl Conversion {
 
 /// Where the bytes of a recording are.
 #[derive(Clone, Debug)]
-pub(super) enum Bytes {
+pub enum Bytes {
     /// On the disk.
     OnDisk(PathBuf),
     /// In memory.

@@ -8,11 +8,8 @@ use csv::{ByteRecord, Reader};
 
 use super::wide_text::NarrowText;
 use super::{BLOCK, ColumnName, Frames, Wanted, place};
-use crate::DiagnosticKind;
-use crate::column_heading;
-use crate::gravity;
 use crate::separator::{DecimalMarks, Separator};
-use crate::value_text::ValueOf;
+use crate::{ValueOf, gravity, heading};
 use gumption_units::{Unit, nearest};
 
 /// Longer cells are cut in messages.
@@ -114,7 +111,7 @@ impl<R: Read> CsvFrames<R> {
                     if names.iter().filter(|column| *column == name).count() > 1 {
                         return Err(format!("its header has the name `{name}` twice"));
                     }
-                    let Some(place) = column_heading::place_of(&names, name) else {
+                    let Some(place) = heading::place_of(&names, name) else {
                         let near = nearest(name, names.iter().map(String::as_str));
                         let hint = match near {
                             Some(near) => format!("did you mean `{near}`?"),
@@ -199,8 +196,8 @@ impl<R: Read> Frames for CsvFrames<R> {
 /// That the heading of a column has another unit than its values are read in, and what to write.
 fn contradiction(wanted: &Wanted, heading: &str) -> Option<String> {
     let of = (&wanted.unit, ValueOf::Quantity);
-    let found = column_heading::contradiction(|text| Unit::parse(text).ok(), heading, of)?;
-    let DiagnosticKind::ColumnUnit { heading: unit, .. } = &found else { return None };
+    let found = heading::contradiction(|text| Unit::parse(text).ok(), heading, of)?;
+    let unit = &found.heading;
     let key = if wanted.is_time() { "time_unit" } else { "raw_unit" };
     let of = Unit::parse(unit).ok()?;
     let gravity = || gravity::meant(unit, wanted.becomes.dimension());

@@ -5,7 +5,7 @@ use gumption_units::{Dimension, Unit};
 
 /// The unit that a text means if its `g` is no gram, `mV/g_n` of `mV/g`; none where that is not of the
 /// dimension `wanted`.
-pub(super) fn meant(text: &str, wanted: Dimension) -> Option<Unit> {
+pub fn meant(text: &str, wanted: Dimension) -> Option<Unit> {
     let mut written = String::new();
     let mut rest = text;
     while let Some(first) = rest.chars().next() {
@@ -26,14 +26,14 @@ pub(super) fn meant(text: &str, wanted: Dimension) -> Option<Unit> {
 
 /// What to say of a unit that is not of the dimension `wanted`, behind the sentence that tells it;
 /// empty where no `g` is to blame.
-pub(super) fn hint(text: &str, wanted: Dimension) -> String {
+pub fn hint(text: &str, wanted: Dimension) -> String {
     meant(text, wanted).map_or(String::new(), |unit| {
         format!("; `g` is the gram, and standard gravity is `g_n`: write `{unit}` if that is meant")
     })
 }
 
 /// The same of two units that should be of one dimension: either may be the one with the `g`.
-pub(super) fn hint_of(text: &str, other: &str) -> String {
+pub fn hint_of(text: &str, other: &str) -> String {
     let of = |text: &str, other: &str| {
         Unit::parse(other).map_or(String::new(), |other| hint(text, other.dimension()))
     };

@@ -1,0 +1,259 @@
+//! Headings of columns with a unit: `t [degC]`, `t (degC)`, `t / degC`, `t/degC`, `t in degC`.
+//!
+//! What stands in brackets, or behind a slash between spaces, is a unit. What stands behind a slash
+//! without spaces (ISO 80000-1, 7.1.4: quantity over unit) or behind `in` is one where it can be read
+//! as one: `x/g` is x in g, `U1/U2` a name.
+//!
+//! A file that names a column states the unit of its values as well. Where the heading has another
+//! one, the two contradict each other, and none is taken. A heading in `g` is that of `g_n` where the
+//! file reads its column in `g_n`.
+
+use std::fmt;
+
+use crate::{ValueOf, gravity};
+use gumption_units::Unit;
+
+/// A column whose heading has another unit than its values are read in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OtherUnit {
+    /// The heading.
+    pub column: String,
+    /// Its unit.
+    pub heading: String,
+    /// The unit that the file declares.
+    pub declared: String,
+}
+
+impl fmt::Display for OtherUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { column, heading, declared } = self;
+        write!(
+            f,
+            "the heading of the column `{column}` says `{heading}`, but its values are read in \
+             `{declared}`; state the unit that they have, or change the heading{}",
+            gravity::hint_of(heading, declared)
+        )
+    }
+}
+
+/// The name of a column and its unit; a plain number without. `None` where brackets have no unit, which
+/// a number other than 1 and a value are none: `s (2)`, `r (10 V)`.
+pub fn heading(unit: impl Fn(&str) -> Option<Unit>, text: &str) -> Option<(&str, Unit)> {
+    let bracketed = enclosed(text, '[', "]").or_else(|| enclosed(text, '(', ")"));
+    if bracketed.is_some_and(|(_, text)| begins_with_number(text)) {
+        return None;
+    }
+    if let Some((name, text)) = enclosed(text, '[', "]") {
+        return Some((name, unit(text)?));
+    }
+    let known = named_among(text, &unit);
+    let known = known.and_then(|(name, text)| Some((name, unit(text)?)));
+    Some(known.filter(|(name, _)| !name.is_empty()).unwrap_or((text.trim(), Unit::one())))
+}
+
+/// Whether what stands for a unit is a number other than 1 or a value. `10^-6/K`, `1e-3`, `0.5*mm` are
+/// units.
+fn begins_with_number(text: &str) -> bool {
+    let rest = text.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
+    let number = &text[..text.len() - rest.len()];
+    let is_power = || {
+        let exponent = rest.strip_prefix(['e', 'E']).is_some_and(|of| {
+            of.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit())
+        });
+        exponent || rest.starts_with(['^', '*', '/', '·', '×', '⁻', '¹', '²', '³'])
+    };
+    number.parse::<f64>().is_ok_and(|number| number != 1.0) && !is_power()
+}
+
+/// The name of a column whose heading has a unit behind it; of every other one the whole.
+pub fn bare(text: &str) -> &str {
+    named(text).map(|(name, _)| name).filter(|name| !name.is_empty()).unwrap_or(text)
+}
+
+/// The name and the unit of a heading that has one.
+pub fn named(text: &str) -> Option<(&str, &str)> {
+    named_among(text, |unit| Unit::parse(unit).ok())
+}
+
+/// The same with a reader of units.
+fn named_among(text: &str, unit: impl Fn(&str) -> Option<Unit>) -> Option<(&str, &str)> {
+    let named = enclosed(text, '[', "]").or_else(|| enclosed(text, '(', ")"));
+    named.or_else(|| after(text, " / ")).or_else(|| {
+        let is_one = |(_, text): &(&str, &str)| unit(text).is_some();
+        let worded = text.split_once(" in ").map(trimmed).filter(is_one);
+        worded.or_else(|| {
+            over(text).filter(is_one).filter(|(name, below)| !is_whole(name, below, &unit))
+        })
+    })
+}
+
+/// What stands before and behind a slash without spaces.
+fn over(text: &str) -> Option<(&str, &str)> {
+    after(text, "/").filter(|(name, _)| !name.is_empty())
+}
+
+/// Whether the last word before a slash is the upper part of a unit, `v m/s`: it says nothing then.
+fn is_whole(name: &str, below: &str, unit: impl Fn(&str) -> Option<Unit>) -> bool {
+    let last = name.rsplit_once(char::is_whitespace).map(|(_, last)| last);
+    last.is_some_and(|above| unit(&format!("{above}/{below}")).is_some())
+}
+
+/// The place of the column of that name: as it stands in the header, else the only one that has it with
+/// a unit behind it, `f [Hz]` for `f`.
+pub fn place_of(columns: &[String], name: &str) -> Option<usize> {
+    let exact = columns.iter().position(|column| column == name);
+    exact.or_else(|| {
+        let named = |(_, column): &(usize, &String)| bare(column) == name;
+        let mut places = columns.iter().enumerate().filter(named).map(|(place, _)| place);
+        places.next().filter(|_| places.next().is_none())
+    })
+}
+
+/// The name and the unit of a heading that ends in brackets.
+pub fn enclosed<'h>(text: &'h str, open: char, close: &str) -> Option<(&'h str, &'h str)> {
+    let (name, unit) = trimmed(text.trim_end().strip_suffix(close)?.rsplit_once(open)?);
+    // `x/(m/s^2)`
+    Some((name.strip_suffix('/').map_or(name, str::trim_end), unit))
+}
+
+fn after<'h>(text: &'h str, sign: &str) -> Option<(&'h str, &'h str)> {
+    text.split_once(sign).map(trimmed)
+}
+
+fn trimmed<'h>((name, unit): (&'h str, &'h str)) -> (&'h str, &'h str) {
+    (name.trim(), unit.trim())
+}
+
+/// The unit that a heading states, and its text, of a column whose values are `declared` in a file; `None`
+/// where it has none, or the declared one in the same letters.
+pub fn stated<'h>(
+    unit: impl Fn(&str) -> Option<Unit>,
+    column: &'h str,
+    declared: &Unit,
+) -> Option<(Unit, &'h str)> {
+    // a heading that is a unit of the same kind, `km/h` for `m/s`, is no name with a unit
+    let whole = unit(column.trim()).filter(|whole| whole.is_compatible(declared));
+    let (name, text) = match whole.filter(|_| over(column).is_some()) {
+        Some(_) => (column, column.trim()),
+        None => named_among(column, &unit)?,
+    };
+    if name.is_empty() || text.parse::<f64>().is_ok() || text == declared.text() {
+        return None;
+    }
+    // of `kHz, nominal` the part that is a unit
+    let whole = unit(text).map(|of| (of, text));
+    let parts = || text.split([',', ';', ' ']).map(str::trim).filter(|part| !part.is_empty());
+    let part = || parts().find_map(|part| Some((unit(part)?, part)));
+    whole.or_else(|| {
+        part().filter(|(of, _)| of.is_compatible(declared) && !of.dimension().is_none())
+    })
+}
+
+/// What stands in square brackets for a unit and cannot be the declared one: the number 1, and what is
+/// nearly a unit, `lbs`. Other words may be anything.
+fn unreadable<'h>(
+    unit: impl Fn(&str) -> Option<Unit>,
+    column: &'h str,
+    declared: &Unit,
+) -> Option<&'h str> {
+    let (name, text) = enclosed(column, '[', "]")?;
+    let is_nearly = || Unit::parse(text).is_err_and(|error| !error.suggestions().is_empty());
+    let is_wrong = text == "1" || unit(text).is_none() && text != declared.text() && is_nearly();
+    (declared.has_name() && !name.is_empty() && is_wrong).then_some(text)
+}
+
+/// That a heading has another unit than `declared`, which its values (quantities, or widths) are read in;
+/// `unit` reads the text of one. Nothing where the heading has no unit; a number alone counts something.
+pub fn contradiction(
+    unit: impl Fn(&str) -> Option<Unit>,
+    column: &str,
+    (declared, of): (&Unit, ValueOf),
+) -> Option<OtherUnit> {
+    let other_than = |heading: &str| OtherUnit {
+        column: column.to_owned(),
+        heading: heading.to_owned(),
+        declared: declared.text().to_owned(),
+    };
+    if let Some(text) = unreadable(&unit, column, declared) {
+        return Some(other_than(text));
+    }
+    let (unit, text) = stated(unit, column, declared)?;
+    let is_declared = |unit: &Unit| {
+        Unit::conversion_factor(unit, declared) == Ok(1.0)
+            && (of == ValueOf::Difference || unit.has_zero_of(declared))
+    };
+    let meant = || gravity::meant(text, declared.dimension());
+    let is_same = is_declared(&unit) || meant().as_ref().is_some_and(is_declared);
+    (!is_same).then(|| other_than(text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_behind_slashes_and_words() {
+        for (text, expected) in [
+            ("x/g", Some(("x", "g"))),
+            ("t/ms", Some(("t", "ms"))),
+            ("x / g", Some(("x", "g"))),
+            ("x [g]", Some(("x", "g"))),
+            ("x (g)", Some(("x", "g"))),
+            ("x/(m/s^2)", Some(("x", "m/s^2"))),
+            ("x / (m/s^2)", Some(("x", "m/s^2"))),
+            ("v/km/h", Some(("v", "km/h"))),
+            ("x in g", Some(("x", "g"))),
+            ("speed in m/s", Some(("speed", "m/s"))),
+            // names
+            ("U1/U2", None),
+            ("out/in2", None),
+            ("/m", None),
+            ("drift in run2", None),
+            ("x", None),
+            // a unit behind a space alone says nothing, and not a part of itself
+            ("v m/s", None),
+        ] {
+            assert_eq!(named(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn numbers_and_values_are_no_units() {
+        for text in ["2", "10 V", "23", "0.1 %"] {
+            assert!(begins_with_number(text), "{text}");
+        }
+        for text in ["1", "1 V", "10^-6/K", "1e-6/K", "2e3", "0.5*mm", "10⁻³", "V", ""] {
+            assert!(!begins_with_number(text), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_slash_without_spaces_contradicts() {
+        let unit = |text: &str| Unit::parse(text).expect("a unit");
+        let said = |heading: &str, declared: &str| {
+            let of = (&unit(declared), ValueOf::Quantity);
+            contradiction(|text| Unit::parse(text).ok(), heading, of).map(|found| found.heading)
+        };
+        assert_eq!(said("x/g", "m/s^2").as_deref(), Some("g"));
+        assert_eq!(said("t/ms", "s").as_deref(), Some("ms"));
+        assert_eq!(said("x in mV", "V").as_deref(), Some("mV"));
+        assert_eq!(said("x/mV", "mV"), None);
+        assert_eq!(said("U1/U2", "1"), None);
+        // a heading that is a unit itself
+        assert_eq!(said("km/h", "km/h"), None);
+        assert_eq!(said("km/h", "m/s").as_deref(), Some("km/h"));
+        // a voltage in mV, whose heading is a unit of another kind
+        assert_eq!(said("V/mV", "mV"), None);
+        assert_eq!(said("V/mV", "V").as_deref(), Some("mV"));
+        // a `g` that is no gram
+        assert_eq!(said("x [g]", "g_n"), None);
+        assert_eq!(said("x [mg]", "mg_n"), None);
+        assert_eq!(said("x [mg]", "g_n").as_deref(), Some("mg"));
+        assert_eq!(said("x [g]", "g"), None);
+        // a unit among other words
+        assert_eq!(said("f (kHz, nominal)", "Hz").as_deref(), Some("kHz"));
+        assert_eq!(said("f (nominal, kHz)", "Hz").as_deref(), Some("kHz"));
+        assert_eq!(said("f (kHz, nominal)", "kHz"), None);
+        assert_eq!(said("f (set m)", "Hz"), None);
+    }
+}
