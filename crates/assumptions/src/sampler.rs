@@ -195,7 +195,16 @@ impl Sampler {
 
     /// The values of all quantities in the first `blocks` blocks, column by column.
     pub(super) fn drawn(&self, path: CodePath, block: u64, buffers: &mut Buffers) -> Vec<Column> {
-        path.run(Drawn { path, sampler: self, block, buffers })
+        let Buffers { scores, values, .. } = buffers;
+        let places: Vec<usize> = (0..self.variables.len()).collect();
+        let mut draws = Draws::new(&self.varying, &self.keys, path, block);
+        let mut drawn = Vec::with_capacity(BLOCK / COLUMN * places.len());
+        for _ in 0..BLOCK / COLUMN {
+            draws.scores_on(path, scores, &places);
+            self.values(path, scores, values);
+            drawn.extend_from_slice(values);
+        }
+        drawn
     }
 
     /// What an output follows from where only the quantity at `place` changes; `None` where it does
@@ -206,11 +215,10 @@ impl Sampler {
         following.moves(0).then_some(Widening { sampler: self, place, output, following })
     }
 
-    #[inline(always)]
-    fn values(&self, scores: &[Column], values: &mut [Column]) {
+    fn values(&self, path: CodePath, scores: &[Column], values: &mut [Column]) {
         for (q, from_score) in self.from_score.iter().enumerate() {
             match from_score {
-                Some(from_score) => from_score.values(&scores[q], &mut values[q]),
+                Some(from_score) => from_score.values_on(path, &scores[q], &mut values[q]),
                 None => values[q].0 = scores[q].0,
             }
         }
@@ -284,7 +292,7 @@ impl<T: Taker> Kernel for Changed<'_, T> {
         let mut standard = Column::ZERO;
         for first in (0..count).step_by(COLUMN) {
             draws.scores_on(path, scores, &places);
-            sampler.values(scores, values);
+            sampler.values(path, scores, values);
             registers[..quantities].clone_from_slice(values);
             sampler.schedule.run_on(path, registers);
             for (number, prepared) in changes.iter().enumerate() {
@@ -296,7 +304,7 @@ impl<T: Taker> Kernel for Changed<'_, T> {
                         Change::None => {}
                         Change::Shape(place, from_score) => {
                             if !has_shape_before {
-                                from_score.standard(&scores[*place], &mut standard);
+                                from_score.standard_on(path, &scores[*place], &mut standard);
                             }
                             from_score.placed(&standard, changed);
                         }
@@ -339,9 +347,9 @@ impl<T: Taker> Kernel for Mixed<'_, T> {
         for first in (0..count).step_by(COLUMN) {
             let count = (count - first).min(COLUMN);
             draws.scores_on(path, scores, &places);
-            sampler.values(scores, values);
+            sampler.values(path, scores, values);
             others.scores_on(path, scores, &places);
-            sampler.values(scores, second);
+            sampler.values(path, scores, second);
             // the second sample last, as the sets are taken into it
             for (number, sample) in [&*values, &*second].into_iter().enumerate() {
                 registers[..quantities].clone_from_slice(sample);
@@ -358,32 +366,6 @@ impl<T: Taker> Kernel for Mixed<'_, T> {
                 taker.take(2 + number, found, count);
             }
         }
-    }
-}
-
-struct Drawn<'a> {
-    path: CodePath,
-    sampler: &'a Sampler,
-    block: u64,
-    buffers: &'a mut Buffers,
-}
-
-impl Kernel for Drawn<'_> {
-    type Output = Vec<Column>;
-
-    #[inline(always)]
-    fn run(self) -> Vec<Column> {
-        let Self { path, sampler, block, buffers } = self;
-        let Buffers { scores, values, .. } = buffers;
-        let places: Vec<usize> = (0..sampler.variables.len()).collect();
-        let mut draws = Draws::new(&sampler.varying, &sampler.keys, path, block);
-        let mut drawn = Vec::with_capacity(BLOCK / COLUMN * places.len());
-        for _ in 0..BLOCK / COLUMN {
-            draws.scores_on(path, scores, &places);
-            sampler.values(scores, values);
-            drawn.extend_from_slice(values);
-        }
-        drawn
     }
 }
 

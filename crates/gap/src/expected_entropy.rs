@@ -11,7 +11,7 @@ use super::logarithm::ln_sum;
 use super::mixture::standard_normals;
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::linalg::packed::{self, triangle};
-use gumption_engine::number::{Column, elementary};
+use gumption_engine::number::{CodePath, Column, Kernel, elementary};
 
 /// Measurements that are drawn, over all hypotheses.
 const SIMULATED: usize = 384;
@@ -61,12 +61,13 @@ pub(crate) enum Detail {
 
 /// The density of a measurement that a hypothesis predicts.
 struct Density {
-    /// Centres of the kernels, whitened by the root, one after the other.
+    /// Centres of the kernels, whitened by the root: those of each output one after the other.
     centres: Vec<f64>,
     /// Lower Cholesky root of a kernel's covariance.
     root: Vec<f64>,
     ln_constant: f64,
     outputs: usize,
+    kernels: usize,
 }
 
 impl Density {
@@ -92,7 +93,7 @@ impl Density {
         packed::cholesky_of_definite(&mut root);
         let shrink = (1.0 - share).max(0.0).sqrt();
         let kernels = if detail == Detail::Normal { 1 } else { count };
-        let mut centres = Vec::with_capacity(kernels * outputs);
+        let mut centres = vec![0.0; kernels * outputs];
         for kernel in 0..kernels {
             let mut centre: Vec<f64> = (0..outputs)
                 .map(|output| match detail {
@@ -103,23 +104,21 @@ impl Density {
                 })
                 .collect();
             packed::solve(&root, &mut centre);
-            centres.extend(centre);
+            for (output, value) in centre.into_iter().enumerate() {
+                centres[output * kernels + kernel] = value;
+            }
         }
         let ln_constant = -packed::ln_diagonal(&root) - elementary::ln(kernels as f64);
-        Self { centres, root, ln_constant, outputs }
-    }
-
-    fn kernels(&self) -> usize {
-        self.centres.len() / self.outputs.max(1)
+        Self { centres, root, ln_constant, outputs, kernels }
     }
 
     /// A measurement, the one of this number of so many.
     fn simulated(&self, number: usize, normals: &Normals) -> Vec<f64> {
         let outputs = self.outputs;
-        let kernel = number * SPREAD % self.kernels().max(1);
+        let kernel = number * SPREAD % self.kernels;
         let white: Vec<f64> = (0..outputs)
             .map(|output| {
-                self.centres[kernel * outputs + output] + normals.get(number, output, outputs)
+                self.centres[output * self.kernels + kernel] + normals.get(number, output, outputs)
             })
             .collect();
         (0..outputs).map(|i| (0..=i).map(|j| self.root[triangle(i) + j] * white[j]).sum()).collect()
@@ -129,11 +128,43 @@ impl Density {
     fn ln_density(&self, measured: &[f64]) -> f64 {
         let mut white = measured.to_vec();
         packed::solve(&self.root, &mut white);
-        let exponents = self.centres.chunks(self.outputs.max(1)).map(|centre| {
-            let squares = centre.iter().zip(&white).map(|(c, w)| (w - c) * (w - c));
-            -0.5 * squares.sum::<f64>()
-        });
-        self.ln_constant + ln_sum(exponents)
+        let mut terms = vec![0.0; self.kernels];
+        self.ln_constant
+            + CodePath::best().run(LnKernels { density: self, white: &white, terms: &mut terms })
+    }
+}
+
+/// The logarithm of the sum of the kernels at a whitened measurement; a quarter of a diagnosis is spent
+/// here.
+struct LnKernels<'a> {
+    density: &'a Density,
+    white: &'a [f64],
+    terms: &'a mut [f64],
+}
+
+impl Kernel for LnKernels<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let Self { density, white, terms } = self;
+        for (centres, white) in density.centres.chunks(density.kernels).zip(white) {
+            for (term, centre) in terms.iter_mut().zip(centres) {
+                *term += (white - centre) * (white - centre);
+            }
+        }
+        let mut most = f64::NEG_INFINITY;
+        for term in terms.iter_mut() {
+            *term *= -0.5;
+            most = most.max(*term);
+        }
+        if most == f64::NEG_INFINITY {
+            return most;
+        }
+        for term in terms.iter_mut() {
+            *term = elementary::exp(*term - most);
+        }
+        most + elementary::ln(terms.iter().sum())
     }
 }
 

@@ -61,10 +61,7 @@ pub(crate) struct Evaluator {
 /// What happens with the residuals of a row: lanes of whitened residuals for each output and, where
 /// noise is estimated, of the logarithm of their variance.
 pub(crate) trait Visitor {
-    /// Whether it computes with what it sees, so that it is compiled for every path.
-    const COMPUTES: bool = true;
-
-    fn row(&mut self, row: usize, residuals: &[Column], ln_variances: &[Column]);
+    fn row(&mut self, path: CodePath, row: usize, residuals: &[Column], ln_variances: &[Column]);
 }
 
 impl Evaluator {
@@ -252,10 +249,9 @@ impl<'c> Likelihood<'c> {
     }
 
     /// Goes through the rows of the data for up to a column of points.
-    pub(crate) fn visit<V: Visitor>(&self, scores: &[Column], lanes: usize, visitor: &mut V) {
+    pub(crate) fn visit(&self, scores: &[Column], lanes: usize, visitor: &mut dyn Visitor) {
         let path = CodePath::best();
-        let walk = Walk { path, likelihood: self, scores: self.mixed(scores), lanes, visitor };
-        if V::COMPUTES { path.run(walk) } else { walk.run() }
+        path.run(Walk { path, likelihood: self, scores: self.mixed(scores), lanes, visitor });
     }
 
     /// The logarithms of the likelihood of up to a column of points; minus infinity where the model is
@@ -288,15 +284,15 @@ pub(crate) fn fixed_at(rows: &[Row], roles: &[Role]) -> Vec<Option<Vec<f64>>> {
 }
 
 /// One pass over the data.
-struct Walk<'w, 'c, V> {
+struct Walk<'w, 'c> {
     path: CodePath,
     likelihood: &'w Likelihood<'c>,
     scores: Vec<Column>,
     lanes: usize,
-    visitor: &'w mut V,
+    visitor: &'w mut dyn Visitor,
 }
 
-impl<V: Visitor> Kernel for Walk<'_, '_, V> {
+impl Kernel for Walk<'_, '_> {
     type Output = ();
 
     #[inline(always)]
@@ -406,7 +402,7 @@ impl<V: Visitor> Kernel for Walk<'_, '_, V> {
                         }
                     }
                 }
-                visitor.row(row, &residuals, &ln_variances);
+                visitor.row(path, row, &residuals, &ln_variances);
             }
         }
     }
@@ -469,16 +465,32 @@ impl<'c> Sums<'c> {
 }
 
 impl Visitor for Sums<'_> {
+    fn row(&mut self, path: CodePath, row: usize, residuals: &[Column], ln_variances: &[Column]) {
+        path.run(RowOfSums { sums: self, row, residuals, ln_variances });
+    }
+}
+
+struct RowOfSums<'a, 'c> {
+    sums: &'a mut Sums<'c>,
+    row: usize,
+    residuals: &'a [Column],
+    ln_variances: &'a [Column],
+}
+
+impl Kernel for RowOfSums<'_, '_> {
+    type Output = ();
+
     #[inline(always)]
-    fn row(&mut self, row: usize, residuals: &[Column], ln_variances: &[Column]) {
+    fn run(self) {
+        let Self { sums, row, residuals, ln_variances } = self;
         let outputs = residuals.len();
         for (output, residual) in residuals.iter().enumerate() {
             for lane in 0..COLUMN {
-                self.squares.0[lane] += residual.0[lane] * residual.0[lane];
+                sums.squares.0[lane] += residual.0[lane] * residual.0[lane];
             }
             let place = row * outputs + output;
-            if !self.fitted {
-                for (product, column) in self.products.iter_mut().zip(self.basis) {
+            if !sums.fitted {
+                for (product, column) in sums.products.iter_mut().zip(sums.basis) {
                     let factor = column[place];
                     if factor != 0.0 {
                         for lane in 0..COLUMN {
@@ -489,27 +501,27 @@ impl Visitor for Sums<'_> {
                 continue;
             }
             for lane in 0..COLUMN {
-                self.half_ln_variances.0[lane] += 0.5 * ln_variances[output].0[lane];
+                sums.half_ln_variances.0[lane] += 0.5 * ln_variances[output].0[lane];
             }
-            if self.basis.is_empty() {
+            if sums.basis.is_empty() {
                 continue;
             }
             let mut root = Column::ZERO;
             for lane in 0..COLUMN {
                 root.0[lane] = elementary::exp(-0.5 * ln_variances[output].0[lane]);
             }
-            for (i, column) in self.basis.iter().enumerate() {
+            for (i, column) in sums.basis.iter().enumerate() {
                 let factor = column[place];
                 if factor == 0.0 {
                     continue;
                 }
                 for lane in 0..COLUMN {
-                    self.products[i].0[lane] += factor * root.0[lane] * residual.0[lane];
+                    sums.products[i].0[lane] += factor * root.0[lane] * residual.0[lane];
                 }
-                for (j, other) in self.basis.iter().enumerate().take(i + 1) {
+                for (j, other) in sums.basis.iter().enumerate().take(i + 1) {
                     let product = factor * other[place];
                     if product != 0.0 {
-                        let inner = &mut self.inner[triangle(i) + j];
+                        let inner = &mut sums.inner[triangle(i) + j];
                         for lane in 0..COLUMN {
                             inner.0[lane] += product * root.0[lane] * root.0[lane];
                         }

@@ -7,7 +7,7 @@ use super::latent::EDGE;
 use super::likelihood::{Likelihood, Visitor};
 use super::logarithm::HALF_LN_TWO_PI;
 use gumption_engine::linalg::packed::{self, triangle};
-use gumption_engine::number::{COLUMN, Column, elementary, smallest_first};
+use gumption_engine::number::{COLUMN, CodePath, Column, Kernel, elementary, smallest_first};
 
 /// The step of differences, in standard normal scores: the truncation error is of its order and the
 /// rounding error about 1e-11 over it.
@@ -537,9 +537,25 @@ impl Block {
 }
 
 impl Visitor for Moments<'_> {
+    fn row(&mut self, path: CodePath, row: usize, residuals: &[Column], ln_variances: &[Column]) {
+        path.run(RowOfMoments { moments: self, row, residuals, ln_variances });
+    }
+}
+
+struct RowOfMoments<'a, 'c> {
+    moments: &'a mut Moments<'c>,
+    row: usize,
+    residuals: &'a [Column],
+    ln_variances: &'a [Column],
+}
+
+impl Kernel for RowOfMoments<'_, '_> {
+    type Output = ();
+
     #[inline(always)]
-    fn row(&mut self, row: usize, residuals: &[Column], ln_variances: &[Column]) {
-        let Self { basis, fitted, points, moving, noise, blocks } = self;
+    fn run(self) {
+        let Self { moments, row, residuals, ln_variances } = self;
+        let Moments { basis, fitted, points, moving, noise, blocks } = moments;
         let outputs = residuals.len();
         let unknowns = moving.len() + noise.len();
         for (output, (residual, ln_variance)) in residuals.iter().zip(ln_variances).enumerate() {

@@ -2,7 +2,7 @@
 //! own: for what is computed from them outside of the lanes of a column.
 
 use super::likelihood::{Likelihood, Visitor};
-use gumption_engine::number::{COLUMN, Column};
+use gumption_engine::number::{COLUMN, CodePath, Column};
 
 /// Residuals at one point, row by row, outputs fastest.
 #[derive(Clone, Debug)]
@@ -84,10 +84,7 @@ fn by_lane(columns: &[Column], lanes: usize) -> Vec<Vec<f64>> {
 }
 
 impl Visitor for Kept {
-    const COMPUTES: bool = false;
-
-    #[inline(always)]
-    fn row(&mut self, row: usize, residuals: &[Column], ln_variances: &[Column]) {
+    fn row(&mut self, _: CodePath, row: usize, residuals: &[Column], ln_variances: &[Column]) {
         let own = row * residuals.len()..(row + 1) * residuals.len();
         self.residuals[own.clone()].clone_from_slice(residuals);
         if self.fitted {

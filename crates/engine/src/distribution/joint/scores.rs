@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::profile::{Profile, Table, at_normal};
 use super::standard::{Standard, plain};
 use crate::distribution::Distribution;
-use crate::number::{COLUMN, Column};
+use crate::number::{COLUMN, CodePath, Column, Kernel};
 
 /// How the values of a quantity follow from its scores.
 #[derive(Clone, Debug)]
@@ -54,18 +54,25 @@ impl FromScore {
     }
 
     /// The values at some scores.
-    #[inline(always)]
     pub fn values(&self, scores: &Column, out: &mut Column) {
-        self.standard(scores, out);
-        for i in 0..COLUMN {
-            out.0[i] = self.location + self.scale * out.0[i];
-        }
+        self.values_on(CodePath::BASELINE, scores, out);
+    }
+
+    /// The same on a path, for which it is compiled once.
+    #[inline(never)]
+    pub fn values_on(&self, path: CodePath, scores: &Column, out: &mut Column) {
+        path.run(ValuesKernel { of: self, scores, out });
     }
 
     /// The values of the shape in its standard place and width; [`Self::placed`] makes the
     /// quantity's values of them.
+    #[inline(never)]
+    pub fn standard_on(&self, path: CodePath, scores: &Column, out: &mut Column) {
+        path.run(StandardKernel { of: self, scores, out });
+    }
+
     #[inline(always)]
-    pub fn standard(&self, scores: &Column, out: &mut Column) {
+    fn standard(&self, scores: &Column, out: &mut Column) {
         match &self.function {
             Function::Score => out.0 = scores.0,
             Function::Tabulated(table) => table.values(&scores.0, &mut out.0),
@@ -79,6 +86,40 @@ impl FromScore {
         for i in 0..COLUMN {
             out.0[i] = self.location + self.scale * standard.0[i];
         }
+    }
+}
+
+struct ValuesKernel<'a> {
+    of: &'a FromScore,
+    scores: &'a Column,
+    out: &'a mut Column,
+}
+
+impl Kernel for ValuesKernel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { of, scores, out } = self;
+        of.standard(scores, out);
+        for value in &mut out.0 {
+            *value = of.location + of.scale * *value;
+        }
+    }
+}
+
+struct StandardKernel<'a> {
+    of: &'a FromScore,
+    scores: &'a Column,
+    out: &'a mut Column,
+}
+
+impl Kernel for StandardKernel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.of.standard(self.scores, self.out);
     }
 }
 
