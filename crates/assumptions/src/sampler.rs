@@ -3,7 +3,7 @@
 
 use gumption_engine::distribution::{BLOCK, Draws, FromScore, StreamKey, Varying};
 use gumption_engine::model::{Following, Schedule, ScheduledOutput};
-use gumption_engine::number::{COLUMN, CodePath, Column, Kernel};
+use gumption_engine::number::{COLUMN, CodePath, Column};
 use gumption_engine::propagate::monte_carlo::{onto_branch, stream_name};
 use gumption_engine::propagate::{EvaluationError, gum, joint};
 use gumption_engine::task::{Row, Task};
@@ -174,9 +174,44 @@ impl Sampler {
         (path, block, count): (CodePath, u64, usize),
         changes: &[Prepared<'_>],
         buffers: &mut Buffers,
-        taker: &mut impl Taker,
+        taker: &mut dyn Taker,
     ) {
-        path.run(Changed { path, sampler: self, block, count, changes, buffers, taker });
+        let Buffers { scores, values, registers, outputs: found, .. } = buffers;
+        let quantities = self.variables.len();
+        let places: Vec<usize> = (0..quantities).collect();
+        let followings = changes.iter().filter_map(|prepared| prepared.following.as_ref());
+        followings.for_each(|following| make_room(registers, following));
+        let mut draws = Draws::new(&self.varying, &self.keys, path, block);
+        let mut standard = Column::ZERO;
+        for first in (0..count).step_by(COLUMN) {
+            draws.scores_on(path, scores, &places);
+            self.values(path, scores, values);
+            registers[..quantities].clone_from_slice(values);
+            self.schedule.run_on(path, registers);
+            for (number, prepared) in changes.iter().enumerate() {
+                let Prepared { change, following, has_shape_before } = prepared;
+                let mut outputs = &self.schedule.outputs;
+                if let Some(following) = following {
+                    let changed = &mut registers[following.variables[0]];
+                    match change {
+                        Change::None => {}
+                        Change::Shape(place, from_score) => {
+                            if !has_shape_before {
+                                from_score.standard_on(path, &scores[*place], &mut standard);
+                            }
+                            from_score.placed(&standard, changed);
+                        }
+                        Change::Width { place, mean, factor } => {
+                            widen(&values[*place], *mean, *factor, changed);
+                        }
+                    }
+                    following.run_on(path, registers);
+                    outputs = &following.outputs;
+                }
+                self.all(outputs, registers, found);
+                taker.take(path, number, found, (count - first).min(COLUMN));
+            }
+        }
     }
 
     /// Hands over the outputs of the first `count` trials of block `block`: of the first sample (0)
@@ -188,9 +223,36 @@ impl Sampler {
         (path, block, count): (CodePath, u64, usize),
         sets: &[PreparedSet<'_>],
         buffers: &mut Buffers,
-        taker: &mut impl Taker,
+        taker: &mut dyn Taker,
     ) {
-        path.run(Mixed { path, sampler: self, block, count, sets, buffers, taker });
+        let Buffers { scores, values, second, registers, outputs: found } = buffers;
+        let quantities = self.variables.len();
+        let places: Vec<usize> = (0..quantities).collect();
+        sets.iter().for_each(|set| make_room(registers, &set.following));
+        let mut draws = Draws::new(&self.varying, &self.keys, path, block);
+        let mut others = Draws::new(&self.varying, &self.second, path, block);
+        for first in (0..count).step_by(COLUMN) {
+            let count = (count - first).min(COLUMN);
+            draws.scores_on(path, scores, &places);
+            self.values(path, scores, values);
+            others.scores_on(path, scores, &places);
+            self.values(path, scores, second);
+            // the second sample last, as the sets are taken into it
+            for (number, sample) in [&*values, &*second].into_iter().enumerate() {
+                registers[..quantities].clone_from_slice(sample);
+                self.schedule.run_on(path, registers);
+                self.all(&self.schedule.outputs, registers, found);
+                taker.take(path, number, found, count);
+            }
+            for (number, PreparedSet { places, following }) in sets.iter().enumerate() {
+                for (&place, &register) in places.iter().zip(&following.variables) {
+                    registers[register].0 = values[place].0;
+                }
+                following.run_on(path, registers);
+                self.all(&following.outputs, registers, found);
+                taker.take(path, 2 + number, found, count);
+            }
+        }
     }
 
     /// The values of all quantities in the first `blocks` blocks, column by column.
@@ -225,7 +287,6 @@ impl Sampler {
     }
 
     /// The columns of all outputs after the steps that end in `outputs` have run.
-    #[inline(always)]
     fn all(&self, outputs: &[ScheduledOutput], registers: &[Column], found: &mut [Column]) {
         for (output, (&at, found)) in outputs.iter().zip(found).enumerate() {
             self.found(at, registers, output, &mut found.0);
@@ -233,7 +294,6 @@ impl Sampler {
     }
 
     /// The column of an output that was found.
-    #[inline(always)]
     fn found(&self, found: ScheduledOutput, registers: &[Column], output: usize, out: &mut [f64]) {
         match found {
             ScheduledOutput::Register(register) => out.copy_from_slice(&registers[register].0),
@@ -253,7 +313,6 @@ fn make_room(registers: &mut Vec<Column>, following: &Following) {
 }
 
 /// Distances from the mean multiplied.
-#[inline(always)]
 fn widen(values: &Column, mean: f64, factor: f64, out: &mut Column) {
     for i in 0..COLUMN {
         out.0[i] = mean + factor * (values.0[i] - mean);
@@ -263,110 +322,8 @@ fn widen(values: &Column, mean: f64, factor: f64, out: &mut Column) {
 /// Takes the outputs of trials, column by column.
 pub(super) trait Taker {
     /// Takes the first `count` trials of a column of all outputs, under the change or in the sample of
-    /// this number. To be inlined, as it is compiled for the vectors of each path.
-    fn take(&mut self, number: usize, outputs: &mut [Column], count: usize);
-}
-
-struct Changed<'a, T> {
-    path: CodePath,
-    sampler: &'a Sampler,
-    block: u64,
-    count: usize,
-    changes: &'a [Prepared<'a>],
-    buffers: &'a mut Buffers,
-    taker: &'a mut T,
-}
-
-impl<T: Taker> Kernel for Changed<'_, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let Self { path, sampler, block, count, changes, buffers, taker } = self;
-        let Buffers { scores, values, registers, outputs: found, .. } = buffers;
-        let quantities = sampler.variables.len();
-        let places: Vec<usize> = (0..quantities).collect();
-        let followings = changes.iter().filter_map(|prepared| prepared.following.as_ref());
-        followings.for_each(|following| make_room(registers, following));
-        let mut draws = Draws::new(&sampler.varying, &sampler.keys, path, block);
-        let mut standard = Column::ZERO;
-        for first in (0..count).step_by(COLUMN) {
-            draws.scores_on(path, scores, &places);
-            sampler.values(path, scores, values);
-            registers[..quantities].clone_from_slice(values);
-            sampler.schedule.run_on(path, registers);
-            for (number, prepared) in changes.iter().enumerate() {
-                let Prepared { change, following, has_shape_before } = prepared;
-                let mut outputs = &sampler.schedule.outputs;
-                if let Some(following) = following {
-                    let changed = &mut registers[following.variables[0]];
-                    match change {
-                        Change::None => {}
-                        Change::Shape(place, from_score) => {
-                            if !has_shape_before {
-                                from_score.standard_on(path, &scores[*place], &mut standard);
-                            }
-                            from_score.placed(&standard, changed);
-                        }
-                        Change::Width { place, mean, factor } => {
-                            widen(&values[*place], *mean, *factor, changed);
-                        }
-                    }
-                    following.run_on(path, registers);
-                    outputs = &following.outputs;
-                }
-                sampler.all(outputs, registers, found);
-                taker.take(number, found, (count - first).min(COLUMN));
-            }
-        }
-    }
-}
-
-struct Mixed<'a, T> {
-    path: CodePath,
-    sampler: &'a Sampler,
-    block: u64,
-    count: usize,
-    sets: &'a [PreparedSet<'a>],
-    buffers: &'a mut Buffers,
-    taker: &'a mut T,
-}
-
-impl<T: Taker> Kernel for Mixed<'_, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let Self { path, sampler, block, count, sets, buffers, taker } = self;
-        let Buffers { scores, values, second, registers, outputs: found } = buffers;
-        let quantities = sampler.variables.len();
-        let places: Vec<usize> = (0..quantities).collect();
-        sets.iter().for_each(|set| make_room(registers, &set.following));
-        let mut draws = Draws::new(&sampler.varying, &sampler.keys, path, block);
-        let mut others = Draws::new(&sampler.varying, &sampler.second, path, block);
-        for first in (0..count).step_by(COLUMN) {
-            let count = (count - first).min(COLUMN);
-            draws.scores_on(path, scores, &places);
-            sampler.values(path, scores, values);
-            others.scores_on(path, scores, &places);
-            sampler.values(path, scores, second);
-            // the second sample last, as the sets are taken into it
-            for (number, sample) in [&*values, &*second].into_iter().enumerate() {
-                registers[..quantities].clone_from_slice(sample);
-                sampler.schedule.run_on(path, registers);
-                sampler.all(&sampler.schedule.outputs, registers, found);
-                taker.take(number, found, count);
-            }
-            for (number, PreparedSet { places, following }) in sets.iter().enumerate() {
-                for (&place, &register) in places.iter().zip(&following.variables) {
-                    registers[register].0 = values[place].0;
-                }
-                following.run_on(path, registers);
-                sampler.all(&following.outputs, registers, found);
-                taker.take(2 + number, found, count);
-            }
-        }
-    }
+    /// this number.
+    fn take(&mut self, path: CodePath, number: usize, outputs: &mut [Column], count: usize);
 }
 
 /// What an output follows from where only one quantity changes.
@@ -416,34 +373,14 @@ impl Widening<'_> {
         &self,
         path: CodePath,
         (values, before): (&[Column], &[Column]),
-        change: (f64, f64),
+        (mean, factor): (f64, f64),
         buffers: &mut Buffers,
         out: &mut [f64],
     ) {
         let registers = &mut buffers.registers;
         make_room(registers, &self.following);
-        path.run(Widened { path, widening: self, values, before, change, registers, out });
-    }
-}
-
-struct Widened<'a> {
-    path: CodePath,
-    widening: &'a Widening<'a>,
-    values: &'a [Column],
-    before: &'a [Column],
-    change: (f64, f64),
-    registers: &'a mut [Column],
-    out: &'a mut [f64],
-}
-
-impl Kernel for Widened<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let Self { path, widening, values, before, change: (mean, factor), registers, out } = self;
-        let Widening { sampler, place, output, following } = widening;
-        let computed = widening.computed();
+        let Widening { sampler, place, output, following } = self;
+        let computed = self.computed();
         if before.len() == computed.len() {
             let variables = &following.reads[..following.reads.len() - computed.len()];
             for &variable in variables {
@@ -453,7 +390,7 @@ impl Kernel for Widened<'_> {
                 registers[register].0 = column.0;
             }
         } else {
-            widening.run_before(path, values, registers);
+            self.run_before(path, values, registers);
         }
         widen(&values[*place], mean, factor, &mut registers[following.variables[0]]);
         following.run_on(path, registers);

@@ -12,7 +12,7 @@ use gumption_engine::parallel;
 use super::lanes::{LANES, in_lanes};
 use super::sampler::{PreparedSet, Sampler, Taker};
 use super::spread::{batches, standard_error, trials_in};
-use gumption_engine::number::Column;
+use gumption_engine::number::{CodePath, Column, Kernel};
 use gumption_engine::propagate::Control;
 
 /// The indices of one set of quantities for one output.
@@ -87,8 +87,7 @@ impl Lanes {
 struct First(Vec<f64>);
 
 impl Taker for First {
-    #[inline(always)]
-    fn take(&mut self, number: usize, outputs: &mut [Column], _count: usize) {
+    fn take(&mut self, _: CodePath, number: usize, outputs: &mut [Column], _count: usize) {
         if number == 0 {
             self.0 = outputs.iter().map(|column| column.0[0]).collect();
         }
@@ -104,9 +103,32 @@ struct Samples<'a> {
 }
 
 impl Taker for Samples<'_> {
+    fn take(&mut self, path: CodePath, number: usize, outputs: &mut [Column], count: usize) {
+        path.run(AddSample { samples: self, number, outputs, count });
+        if let Some(sample) = self.both.get_mut(number) {
+            sample.clone_from_slice(outputs);
+        }
+    }
+}
+
+/// Adds a column of a sample, or of the second one with a set of the first, to the sums.
+struct AddSample<'a, 's> {
+    samples: &'a mut Samples<'s>,
+    number: usize,
+    outputs: &'a [Column],
+    count: usize,
+}
+
+impl Kernel for AddSample<'_, '_> {
+    type Output = ();
+
+    // the model takes most of the time
+    const WIDEST: bool = false;
+
     #[inline(always)]
-    fn take(&mut self, number: usize, outputs: &mut [Column], count: usize) {
-        let Self { references, both: [b, a], lanes } = self;
+    fn run(self) {
+        let Self { samples, number, outputs, count } = self;
+        let Samples { references, both: [b, a], lanes } = samples;
         for (output, (column, lanes)) in outputs.iter().zip(lanes).enumerate() {
             let values: &[f64] = &column.0[..count];
             let [mut first, mut second] = match number.checked_sub(2) {
@@ -133,9 +155,6 @@ impl Taker for Samples<'_> {
                 None => lanes.samples = found,
                 Some(set) => lanes.differences[set] = found,
             }
-        }
-        if let Some(sample) = self.both.get_mut(number) {
-            sample.clone_from_slice(outputs);
         }
     }
 }

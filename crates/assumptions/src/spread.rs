@@ -9,7 +9,7 @@ use gumption_engine::parallel;
 use super::lanes::{LANES, in_lanes};
 use super::sampler::{Change, Prepared, Sampler, Taker};
 use gumption_engine::distribution::BLOCK;
-use gumption_engine::number::{COLUMN, Column};
+use gumption_engine::number::{COLUMN, CodePath, Column, Kernel};
 use gumption_engine::propagate::Control;
 use gumption_engine::propagate::monte_carlo::Ranks;
 
@@ -199,8 +199,7 @@ struct Pilot {
 }
 
 impl Taker for Pilot {
-    #[inline(always)]
-    fn take(&mut self, number: usize, outputs: &mut [Column], count: usize) {
+    fn take(&mut self, _: CodePath, number: usize, outputs: &mut [Column], count: usize) {
         for (values, column) in self.values[number].iter_mut().zip(outputs) {
             values.extend(column.0[..count].iter().filter(|value| value.is_finite()));
         }
@@ -268,12 +267,31 @@ struct Tallies<'a> {
 }
 
 impl Taker for Tallies<'_> {
+    fn take(&mut self, path: CodePath, number: usize, outputs: &mut [Column], count: usize) {
+        path.run(AddTallies { tallies: self, number, outputs, count });
+    }
+}
+
+struct AddTallies<'a, 't> {
+    tallies: &'a mut Tallies<'t>,
+    number: usize,
+    outputs: &'a mut [Column],
+    count: usize,
+}
+
+impl Kernel for AddTallies<'_, '_> {
+    type Output = ();
+
+    // the model takes most of the time
+    const WIDEST: bool = false;
+
     #[inline(always)]
-    fn take(&mut self, number: usize, outputs: &mut [Column], count: usize) {
-        let batch = &mut self.found[number];
+    fn run(self) {
+        let Self { tallies, number, outputs, count } = self;
+        let batch = &mut tallies.found[number];
         let defined = defined(outputs, count);
         batch.undefined += (count - defined) as u64;
-        let plan = &self.plans[number];
+        let plan = &tallies.plans[number];
         for ((tally, column), plan) in batch.outputs.iter_mut().zip(&*outputs).zip(plan) {
             if plan.is_taken {
                 tally.add(&column.0[..defined], plan);

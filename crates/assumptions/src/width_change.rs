@@ -3,7 +3,7 @@
 
 use super::sampler::{Buffers, Change, Sampler, Taker, Widening};
 use gumption_engine::distribution::BLOCK;
-use gumption_engine::number::{COLUMN, Column};
+use gumption_engine::number::{COLUMN, CodePath, Column};
 use gumption_engine::propagate::Control;
 use gumption_engine::propagate::monte_carlo::Ranks;
 
@@ -249,8 +249,7 @@ fn in_tails(values: &[f64], places: [usize; 2]) -> Option<[f64; 2]> {
 struct Collected(Vec<Vec<f64>>);
 
 impl Taker for Collected {
-    #[inline(always)]
-    fn take(&mut self, _number: usize, outputs: &mut [Column], count: usize) {
+    fn take(&mut self, _: CodePath, _number: usize, outputs: &mut [Column], count: usize) {
         for (values, column) in self.0.iter_mut().zip(outputs) {
             values.extend_from_slice(&column.0[..count]);
         }

@@ -295,6 +295,9 @@ struct Walk<'w, 'c> {
 impl Kernel for Walk<'_, '_> {
     type Output = ();
 
+    // programs take most of the time
+    const WIDEST: bool = false;
+
     #[inline(always)]
     fn run(self) {
         let Self { path, likelihood, scores, lanes, visitor } = self;
@@ -479,6 +482,9 @@ struct RowOfSums<'a, 'c> {
 
 impl Kernel for RowOfSums<'_, '_> {
     type Output = ();
+
+    // programs take most of the time
+    const WIDEST: bool = false;
 
     #[inline(always)]
     fn run(self) {

@@ -105,6 +105,9 @@ struct Walk<'w> {
 impl Kernel for Walk<'_> {
     type Output = Vec<Vec<Vec<f64>>>;
 
+    // programs take most of the time
+    const WIDEST: bool = false;
+
     #[inline(always)]
     fn run(self) -> Self::Output {
         let Self { path, evaluator, roles, scores, lanes, outputs } = self;

@@ -552,6 +552,9 @@ struct RowOfMoments<'a, 'c> {
 impl Kernel for RowOfMoments<'_, '_> {
     type Output = ();
 
+    // programs take most of the time
+    const WIDEST: bool = false;
+
     #[inline(always)]
     fn run(self) {
         let Self { moments, row, residuals, ln_variances } = self;

@@ -10,11 +10,10 @@
 //! directions are uncorrelated combinations of the outputs' normal scores, each in its own standard
 //! deviation, so that cells are thin where outputs nearly cancel.
 
-use rayon::prelude::*;
-
 use super::block::RowTrials;
 use super::quantiles::{are_held, of_all, quantiles};
 use super::repeat::collected;
+use crate::parallel;
 use crate::propagate::Control;
 use crate::special;
 
@@ -75,23 +74,20 @@ fn ranks_of(values: &[Vec<f64>], rows: usize) -> Vec<Vec<u32>> {
     let varying: Vec<&Vec<f64>> = values.iter().filter(|values| varies(values)).collect();
     let count = values.first().map_or(0, Vec::len);
     let of_rank = scores_of_ranks(count);
-    let scores = varying.par_iter().map(|values| scores(values, &of_rank)).collect();
+    let scores = parallel::map(varying, |values| scores(values, &of_rank));
     let mut chosen = chosen(&independent(scores), count, rows);
     chosen.sort_unstable();
-    values
-        .par_iter()
-        .map(|values| {
-            if !varies(values) {
-                return Vec::new();
-            }
-            let of_chosen: Vec<f64> = chosen.iter().map(|&index| values[index as usize]).collect();
-            let mut ranks = vec![0; of_chosen.len()];
-            for (rank, index) in (1..).zip(order(&of_chosen)) {
-                ranks[index as usize] = rank;
-            }
-            ranks
-        })
-        .collect()
+    parallel::map(values, |values| {
+        if !varies(values) {
+            return Vec::new();
+        }
+        let of_chosen: Vec<f64> = chosen.iter().map(|&index| values[index as usize]).collect();
+        let mut ranks = vec![0; of_chosen.len()];
+        for (rank, index) in (1..).zip(order(&of_chosen)) {
+            ranks[index as usize] = rank;
+        }
+        ranks
+    })
 }
 
 /// The indices of values in ascending order; of equal ones the first comes first.
@@ -155,10 +151,16 @@ fn sort_by_keys<K: Copy + Ord + Default + Into<u64>>(keys: &mut Vec<(K, u32)>) {
     }
 }
 
+/// Scores that one thread computes before it takes others.
+const SCORES_AT_A_TIME: usize = 4096;
+
 /// The standard normal score of each rank of so many values.
 fn scores_of_ranks(count: usize) -> Vec<f32> {
     let score = |rank: usize| special::normal::quantile((rank as f64 + 0.5) / count as f64) as f32;
-    (0..count).into_par_iter().map(score).collect()
+    let chunk = |first: usize| -> Vec<f32> {
+        (first..count.min(first + SCORES_AT_A_TIME)).map(score).collect()
+    };
+    parallel::map((0..count).step_by(SCORES_AT_A_TIME), chunk).concat()
 }
 
 /// Standard normal scores of the ranks, all different ones. They only say where trials are looked
@@ -246,7 +248,7 @@ where
 fn independent(mut scores: Vec<Vec<f32>>) -> Vec<Vec<f32>> {
     let mut found: Vec<Vec<f32>> = Vec::new();
     loop {
-        let variances: Vec<f64> = scores.par_iter().map(|s| mean_product(s, s)).collect();
+        let variances = parallel::map(&scores, |s| mean_product(s, s));
         let widest = variances.iter().enumerate().fold((0, 0.0), |best, (index, &variance)| {
             if variance > best.1 { (index, variance) } else { best }
         });
@@ -256,7 +258,7 @@ fn independent(mut scores: Vec<Vec<f32>>) -> Vec<Vec<f32>> {
         let mut next = scores.swap_remove(widest.0);
         let scale = 1.0 / widest.1.sqrt();
         next.iter_mut().for_each(|x| *x = (f64::from(*x) * scale) as f32);
-        scores.par_iter_mut().for_each(|other| {
+        parallel::map(&mut scores, |other| {
             let r = mean_product(other, &next) as f32;
             other.iter_mut().zip(&next).for_each(|(x, y)| *x -= r * y);
         });
