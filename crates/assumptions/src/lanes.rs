@@ -16,3 +16,18 @@ pub(super) fn in_lanes(count: usize, mut add: impl FnMut(usize, usize)) {
         add(place, lane);
     }
 }
+
+/// Sums of deviations from a reference and of their squares, with those of more values.
+#[inline(always)]
+pub(super) fn with_deviations(
+    [mut sums, mut squares]: [[f64; LANES]; 2],
+    values: &[f64],
+    reference: f64,
+) -> [[f64; LANES]; 2] {
+    in_lanes(values.len(), |place, lane| {
+        let d = values[place] - reference;
+        sums[lane] += d;
+        squares[lane] += d * d;
+    });
+    [sums, squares]
+}

@@ -9,7 +9,7 @@
 
 use gumption_engine::parallel;
 
-use super::lanes::{LANES, in_lanes};
+use super::lanes::{LANES, in_lanes, with_deviations};
 use super::sampler::{PreparedSet, Sampler, Taker};
 use super::spread::{batches, standard_error, trials_in};
 use gumption_engine::number::{CodePath, Column, Kernel};
@@ -136,12 +136,7 @@ impl Kernel for AddSample<'_, '_> {
                 Some(set) => lanes.differences[set],
             };
             if number < 2 {
-                let reference = references[output];
-                in_lanes(count, |trial, lane| {
-                    let d = values[trial] - reference;
-                    first[lane] += d;
-                    second[lane] += d * d;
-                });
+                [first, second] = with_deviations([first, second], values, references[output]);
             } else {
                 let (a, b) = (&a[output].0[..count], &b[output].0[..count]);
                 in_lanes(count, |trial, lane| {

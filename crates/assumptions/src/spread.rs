@@ -6,7 +6,7 @@
 
 use gumption_engine::parallel;
 
-use super::lanes::{LANES, in_lanes};
+use super::lanes::{LANES, with_deviations};
 use super::sampler::{Change, Prepared, Sampler, Taker};
 use gumption_engine::distribution::BLOCK;
 use gumption_engine::number::{COLUMN, CodePath, Column, Kernel};
@@ -305,13 +305,8 @@ impl Tally {
     #[inline(always)]
     fn add(&mut self, values: &[f64], plan: &OutputPlan) {
         self.trials += values.len() as u64;
-        let (mut sums, mut squares) = (self.sums, self.squares);
-        in_lanes(values.len(), |place, lane| {
-            let d = values[place] - plan.reference;
-            sums[lane] += d;
-            squares[lane] += d * d;
-        });
-        (self.sums, self.squares) = (sums, squares);
+        [self.sums, self.squares] =
+            with_deviations([self.sums, self.squares], values, plan.reference);
         match plan.limits {
             Limits::All => self.kept[0].extend_from_slice(values),
             Limits::About(about) => {

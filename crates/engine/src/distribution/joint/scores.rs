@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::profile::{Profile, Table, at_normal};
 use super::standard::{Standard, plain};
 use crate::distribution::Distribution;
-use crate::number::{COLUMN, CodePath, Column, Kernel};
+use crate::number::{CodePath, Column, Kernel};
 
 /// How the values of a quantity follow from its scores.
 #[derive(Clone, Debug)]
@@ -58,68 +58,49 @@ impl FromScore {
         self.values_on(CodePath::BASELINE, scores, out);
     }
 
-    /// The same on a path, for which it is compiled once.
-    #[inline(never)]
+    /// The same on a path.
     pub fn values_on(&self, path: CodePath, scores: &Column, out: &mut Column) {
-        path.run(ValuesKernel { of: self, scores, out });
+        self.standard_on(path, scores, out);
+        for value in &mut out.0 {
+            *value = self.at(*value);
+        }
     }
 
     /// The values of the shape in its standard place and width; [`Self::placed`] makes the
-    /// quantity's values of them.
+    /// quantity's values of them. Compiled once for each path.
     #[inline(never)]
     pub fn standard_on(&self, path: CodePath, scores: &Column, out: &mut Column) {
-        path.run(StandardKernel { of: self, scores, out });
-    }
-
-    #[inline(always)]
-    fn standard(&self, scores: &Column, out: &mut Column) {
         match &self.function {
             Function::Score => out.0 = scores.0,
-            Function::Tabulated(table) => table.values(&scores.0, &mut out.0),
+            Function::Tabulated(table) => path.run(Tabulated { table, scores, out }),
             Function::Quantiles(distribution) => quantiles(distribution, scores, out),
         }
     }
 
     /// The quantity's values from those of its standard shape.
-    #[inline(always)]
     pub fn placed(&self, standard: &Column, out: &mut Column) {
-        for i in 0..COLUMN {
-            out.0[i] = self.location + self.scale * standard.0[i];
+        for (value, &standard) in out.0.iter_mut().zip(&standard.0) {
+            *value = self.at(standard);
         }
+    }
+
+    fn at(&self, standard: f64) -> f64 {
+        self.location + self.scale * standard
     }
 }
 
-struct ValuesKernel<'a> {
-    of: &'a FromScore,
+struct Tabulated<'a> {
+    table: &'a Table,
     scores: &'a Column,
     out: &'a mut Column,
 }
 
-impl Kernel for ValuesKernel<'_> {
+impl Kernel for Tabulated<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let Self { of, scores, out } = self;
-        of.standard(scores, out);
-        for value in &mut out.0 {
-            *value = of.location + of.scale * *value;
-        }
-    }
-}
-
-struct StandardKernel<'a> {
-    of: &'a FromScore,
-    scores: &'a Column,
-    out: &'a mut Column,
-}
-
-impl Kernel for StandardKernel<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        self.of.standard(self.scores, self.out);
+        self.table.values(&self.scores.0, &mut self.out.0);
     }
 }
 
