@@ -13,7 +13,7 @@ use gumption_engine::model::formula::{Formula, LevelReference, Scope, Typing};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Warning;
-use gumption_units::{Turn, Unit};
+use gumption_units::{Dimension, Exponent, Turn, Unit};
 
 /// Notes on the formulas of a file whose units are checked, and on the units of its outputs.
 pub(super) fn of_formulas(
@@ -274,13 +274,30 @@ fn radians_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
     let is_rate = typing.dimension.is_some_and(|of| of.is_of_time() && !of.is_none());
     let counts_angle = typing.turn == Some(Turn::Angle) || typing.has_turns && is_rate;
     let counts_nothing = unit.turn() != Some(Turn::Angle) && unit.dimension().is_of_time();
-    (counts_angle && counts_nothing).then(|| {
-        let text = format!(
+    let text = if counts_angle && counts_nothing {
+        format!(
             "`{name}` counts angle and is reported in `{unit}` in radians, 2*pi for a revolution; if \
              revolutions are meant, write `.../[rev]`, or report it in rpm or rev"
-        );
-        Warning::new("radians-of-turns", name, text)
-    })
+        )
+    } else if is_per_turn(typing) && !unit.counts_angle() {
+        format!(
+            "`{name}` is divided by what counts revolutions and is reported in `{unit}` per radian; if it \
+             is meant per revolution, write `...*[rev]`"
+        )
+    } else {
+        return None;
+    };
+    Some(Warning::new("radians-of-turns", name, text))
+}
+
+/// Whether a quantity is per angle by an input in revolutions, and no torque, which is so by its
+/// definition: `v/n` may be a radius or the feed of a revolution, `P/n` is the torque of the power P.
+fn is_per_turn(typing: Typing) -> bool {
+    const TORQUE: Dimension = Dimension::of([1, 2, -2, 0, 0, 0, 0]);
+    let angle = typing.angle;
+    angle.of_revolutions
+        && angle.exponent == Exponent::integer(-1)
+        && typing.dimension.is_some_and(|of| of != TORQUE)
 }
 
 /// Outputs in K of what a coefficient's unit makes a number of degrees: a temperature or a

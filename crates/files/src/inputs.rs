@@ -538,6 +538,13 @@ impl<'a> Reader<'a, '_> {
             );
             self.inputs.warnings.push(Warning::new("certificate-distribution", &name, text));
         }
+        if of.is_some_and(|of| of.is_difference) {
+            let text = format!(
+                "`{name}`: `{file}` gives a difference of temperatures, such as an error or a correction, \
+                 which is taken in K; if it is a temperature, say `\"difference\": false`"
+            );
+            self.inputs.warnings.push(Warning::new("certificate-difference", &name, text));
+        }
         if of.is_some_and(|of| of.is_without) {
             let text = format!(
                 "`{name}`: `{file}` states no uncertainty for this value, which is taken as exact; one that \

@@ -88,7 +88,11 @@ pub(super) fn number_form(check_units: bool) -> NumberForm {
 fn shift(typing: Typing, unit: &Unit, of: ValueOf) -> Result<f64, ScaleMisfit> {
     let is_difference = of == ValueOf::Difference && typing.level == unit.level_exponent();
     match typing.given_in(unit) {
-        Err(misfit @ (ScaleMisfit::Revolutions | ScaleMisfit::Turns { .. })) => Err(misfit),
+        Err(
+            misfit @ (ScaleMisfit::Revolutions
+            | ScaleMisfit::PowerOfRevolutions { .. }
+            | ScaleMisfit::Turns { .. }),
+        ) => Err(misfit),
         _ if is_difference => Ok(0.0),
         _ => typing.shift_to(unit),
     }

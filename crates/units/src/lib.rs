@@ -408,6 +408,11 @@ impl Unit {
         })
     }
 
+    /// The exponent of angle in the unit: 1 for `rpm` and `rad/s`, -1 for `V/rpm`, 0 without any.
+    pub fn angle_exponent(&self) -> Exponent {
+        self.exponent_of(|symbol| is_angle(symbol.name()))
+    }
+
     /// Whether angle stands in the unit, in any power: `deg`, `V/rpm`, `1/rev`.
     pub fn counts_angle(&self) -> bool {
         Counted::of(self).angle

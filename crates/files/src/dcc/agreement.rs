@@ -43,6 +43,13 @@ pub(super) fn contradiction(one: &Measured, other: &Measured) -> Option<[String;
     None
 }
 
+/// Whether two statements in °C and in K that agree are of differences of temperatures.
+pub(super) fn is_difference([one, other]: [&Measured; 2]) -> bool {
+    let is_scaled = Unit::convert(0.0, &one.unit, &other.unit).is_ok_and(|zero| zero != 0.0);
+    let same = one.values.iter().zip(&other.values).all(|(a, b)| (a - b).abs() < 1.0);
+    is_scaled && same
+}
+
 /// The standard uncertainty of a value, and what its rounding may have taken: that of an expanded one is
 /// to the nearest or up. `None` where its factor is not stated.
 fn standard(stated: &Stated, place: usize) -> Option<(f64, f64)> {

@@ -19,7 +19,7 @@ pub(crate) type Fault = (Range<usize>, String);
 const DEEPEST: usize = 64;
 
 /// Blanks of XML; a space that does not break stands within a word.
-const BLANKS: [char; 4] = [' ', '\t', '\n', '\r'];
+pub(super) const BLANKS: [char; 4] = [' ', '\t', '\n', '\r'];
 
 /// A number for each value; none where nothing is stated of it, or of all behind the end.
 pub(super) type Column = Vec<Option<f64>>;
@@ -42,6 +42,8 @@ pub(super) struct Measured {
     /// What is stated of their uncertainty in a way that is not read; it matters where a value has no
     /// other one.
     pub(super) unread: Option<Fault>,
+    /// Whether it is a difference of temperatures by the parts of a hybrid: 0.1 °C and 0.1 K.
+    pub(super) is_difference: bool,
 }
 
 /// Uncertainties of the values, in their unit.
@@ -302,8 +304,12 @@ fn of_hybrid(
             );
             return Err((tag(part), reason));
         }
+        let is_difference = first.is_difference || agreement::is_difference([first, &next]);
         if first.uncertainty.is_none() && next.uncertainty.is_some() {
             found = Some(next);
+        }
+        if let Some(found) = &mut found {
+            found.is_difference = is_difference;
         }
     }
     match (found, unknown) {
@@ -331,6 +337,7 @@ fn join(all: &mut Measured, next: Measured) {
     all.values.extend(next.values);
     all.last_digits.extend(next.last_digits);
     all.unread = all.unread.take().or(next.unread);
+    all.is_difference |= next.is_difference;
     if all.uncertainty.is_some() || next.uncertainty.is_some() {
         let stated = all.uncertainty.get_or_insert_default();
         stated.join(next.uncertainty.unwrap_or_default(), counts);
@@ -403,6 +410,7 @@ pub(super) fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Meas
         values,
         uncertainty: is_uncertain.then_some(stated),
         unread: if is_uncertain { None } else { unread_in(uncertain) },
+        is_difference: false,
     })
 }
 

@@ -3,6 +3,7 @@
 
 mod agreement;
 mod definitions;
+mod difference;
 mod document;
 mod intervals;
 mod known;
@@ -22,6 +23,7 @@ use super::object::Object;
 use super::source::{Place, SourceText};
 use super::value_text::ValueOf;
 use super::{DiagnosticKind, bytes};
+use difference::TemperatureKind;
 use document::Measured;
 pub(super) use document::{Fault, parse, tag};
 use gumption_engine::distribution::{
@@ -101,6 +103,9 @@ pub(super) struct FromCertificate {
     pub(super) is_without: bool,
     /// Whether a coverage interval is not symmetric about its value.
     pub(super) is_asymmetric: bool,
+    /// Whether it is a difference of temperatures that the certificate gives in °C.
+    pub(super) is_difference: bool,
+    temperature: TemperatureKind,
 }
 
 #[derive(Clone, Debug)]
@@ -156,6 +161,9 @@ fn parsed(
         let reason = "this quantity has another unit than the first one of its kind".to_owned();
         return Err((other.span.clone(), reason));
     }
+    let temperature = temperature(object, &chosen, &measured)?;
+    let is_difference = temperature == TemperatureKind::Difference && unit.is_celsius();
+    let unit = temperature.unit(unit);
     if object.get("at").is_some() {
         for node in chosen.iter().filter(|_| measured.iter().all(|of| of.uncertainty.is_none())) {
             stated_elsewhere(own, source, &document, (*node, 0))?;
@@ -180,6 +188,8 @@ fn parsed(
             unknown_distribution,
             is_without,
             is_asymmetric,
+            is_difference,
+            temperature,
         }));
     }
     let count: usize = measured.iter().map(|of| of.values.len()).sum();
@@ -228,12 +238,38 @@ fn parsed(
                 unknown_distribution: of.unknown_distribution(Some(left)),
                 is_without,
                 is_asymmetric: Interval::of(&of, left).is_some_and(Interval::is_asymmetric),
+                is_difference,
+                temperature,
                 taken: Taken::One(Box::new(of), left),
             }));
         }
         left -= of.values.len();
     }
     Ok(None)
+}
+
+/// Whether the quantities are temperatures or differences of temperatures.
+///
+/// # Errors
+/// They are not the same, or not what the model file says.
+fn temperature(
+    object: &Object<'_>,
+    chosen: &[Node<'_, '_>],
+    measured: &[Measured],
+) -> Result<TemperatureKind, Fault> {
+    let stated = object.truth("difference");
+    let mut first: Option<TemperatureKind> = None;
+    for (node, of) in chosen.iter().zip(measured) {
+        let kind = difference::kind(*node, of, stated)?;
+        let known = first.get_or_insert_with(|| kind.clone());
+        if *known != kind {
+            let reason = "of this quantity and the first one of its kind one is a difference of \
+                          temperatures by its `refType` or its name: say by `difference` what they are"
+                .to_owned();
+            return Err((of.span.clone(), reason));
+        }
+    }
+    Ok(first.unwrap_or(TemperatureKind::Value))
 }
 
 /// The result of a certificate of our own that a value is.
@@ -488,6 +524,11 @@ impl FromCertificate {
                 return None;
             }
         };
+        if let Some(reason) = self.of_another_zero(unit) {
+            let place = object.get("unit").map_or(object.place(), |member| &member.value.span);
+            object.log.report(place, DiagnosticKind::Certificate { reason });
+            return None;
+        }
         let in_unit = |value: f64| Unit::convert(value, &self.unit, unit).unwrap_or(f64::NAN);
         let made = match &self.taken {
             Taken::One(of, place) => {
@@ -521,6 +562,27 @@ impl FromCertificate {
         match made {
             Ok(distribution) => Some(distribution),
             Err(error) => self.fault(object, format!("makes no distribution: {error}")),
+        }
+    }
+
+    /// Why values may not be given in a unit that counts from another zero: they are differences of
+    /// temperatures, or may be.
+    fn of_another_zero(&self, unit: &Unit) -> Option<String> {
+        if self.unit.zero() == unit.zero() {
+            return None;
+        }
+        match &self.temperature {
+            TemperatureKind::Value => None,
+            TemperatureKind::Difference => Some(format!(
+                "the quantity of the certificate is a difference of temperatures, and {unit} counts from a \
+                 zero: give it in K"
+            )),
+            TemperatureKind::Named(name) => Some(format!(
+                "the quantity `{name}` of the certificate can be a temperature, whose zero is at another \
+                 place in {unit} than in {}, or a difference of temperatures, which is the same in both: \
+                 say which by `\"difference\": true` or `\"difference\": false`",
+                self.unit
+            )),
         }
     }
 

@@ -4,6 +4,7 @@ use gumption_engine::model::formula::check_name;
 use roxmltree::{Document, Node};
 use serde_json::{Value, json};
 
+use super::difference;
 use super::document::{measured, names, quantities};
 use super::missing::Rows;
 
@@ -43,7 +44,11 @@ pub(crate) fn inputs(document: &Document<'_>, file: &str) -> Vec<(String, String
             if !called.is_empty() {
                 input["about"] = json!(called.join(" / "));
             }
-            found.push((name, of.unit.text().to_owned(), input));
+            let unit = match difference::kind(*node, &of, None) {
+                Ok(kind) => kind.unit(of.unit.clone()),
+                Err(_) => of.unit.clone(),
+            };
+            found.push((name, unit.text().to_owned(), input));
         }
     }
     found

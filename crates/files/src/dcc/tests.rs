@@ -1,5 +1,6 @@
 //! Certificates of the versions in use, as inputs.
 
+mod difference;
 mod reading;
 mod uncertainty;
 

@@ -180,7 +180,7 @@ pub(crate) static SHAPES: [Shape; 20] = [
         aliases: &[],
         about: "A quantity of a Digital Calibration Certificate (2.4 to 3.3): value, uncertainty, k, \
                 p, distribution and unit.",
-        fields: &["file", "id", "ref_type", "quantity", "index", "at"],
+        fields: &["file", "id", "ref_type", "quantity", "index", "at", "difference"],
         rule: Rule::All(&["file"]),
     },
     Shape {
@@ -298,6 +298,11 @@ fn field(shape: &str, key: &str) -> Value {
         (_, "index") => {
             described("integer", "Which of several values, counted from 0.").with("minimum", 0)
         }
+        (_, "difference") => described(
+            "boolean",
+            "Whether it is a difference of temperatures, such as an error or a correction, which is the \
+             same in degC and in K; where the `refType` or the name of the quantity does not say so.",
+        ),
         (_, "at") => text_of(
             "The condition over which the quantity is a table, interpolated by straight lines: the \
              quantity of that name beside it, or its reference or nominal value.",

@@ -44,6 +44,11 @@ pub enum ScaleMisfit {
     },
     /// A rate of revolutions where the unit does not say what it counts, or such a rate in revolutions.
     Revolutions,
+    /// A power of revolutions, such as 1 over so many rpm, in a unit that does not name them.
+    PowerOfRevolutions {
+        /// The exponent of angle in it.
+        exponent: Exponent,
+    },
     /// Periods where angle is counted, or angle where periods are.
     Turns {
         /// What the quantity counts.
@@ -119,6 +124,15 @@ impl fmt::Display for ScaleMisfit {
                 "can count revolutions or radians, of which one is in the unit and the other in the formula; \
                  give both in `rpm` or both in `1/min`",
             ),
+            Self::PowerOfRevolutions { exponent } => {
+                let [whole, radians] = ["rev", "rad"].map(|unit| taken_out(unit, *exponent));
+                let per = if exponent.to_f64() < 0.0 { "is divided by" } else { "is a power of" };
+                write!(
+                    f,
+                    "{per} what counts revolutions, and the unit does not say whether of radians or of \
+                     revolutions; write `...{whole}` for revolutions, `...{radians}` for radians"
+                )
+            }
             Self::Turns { found: Turn::Periods } => f.write_str(
                 "counts periods, and the unit counts angle; write `2*pi*...` or `...*[rev]`",
             ),
@@ -126,6 +140,18 @@ impl fmt::Display for ScaleMisfit {
                 "counts angle, and the unit counts periods; write `.../(2*pi)` or `.../[rev]`",
             ),
         }
+    }
+}
+
+/// What takes a power of a unit out of a formula: `*[rev]` of the exponent -1.
+fn taken_out(unit: &str, exponent: Exponent) -> String {
+    let negative = exponent.to_f64() < 0.0;
+    let operator = if negative { '*' } else { '/' };
+    let size = if negative { exponent.checked_neg().unwrap_or(exponent) } else { exponent };
+    match size {
+        Exponent::ONE => format!("{operator}[{unit}]"),
+        size if size.is_integer() => format!("{operator}[{unit}]^{size}"),
+        size => format!("{operator}[{unit}]^({size})"),
     }
 }
 
@@ -163,6 +189,10 @@ impl Typing {
                 return Err(ScaleMisfit::Turns { found });
             }
             _ => {}
+        }
+        let is_of_time = unit.dimension().is_of_time();
+        if is_of_time && self.angle.is_ambiguous() && !unit.counts_angle() {
+            return Err(ScaleMisfit::PowerOfRevolutions { exponent: self.angle.exponent });
         }
         let level = unit.level_exponent();
         if self.level != level {

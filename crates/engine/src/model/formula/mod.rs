@@ -46,6 +46,7 @@
 
 #![warn(clippy::indexing_slicing)]
 
+mod angle;
 mod brackets;
 mod complexity;
 mod constant;
@@ -76,6 +77,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
+pub use angle::AnglePower;
 pub use constant::{ExactConstant, constants};
 pub use error::{Arity, FormulaError, NumberFault, Operand};
 pub use function::functions;

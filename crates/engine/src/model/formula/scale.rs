@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use super::angle::AnglePower;
 use super::dimension::Checker;
 use super::error::FormulaError;
 use super::function::Function;
@@ -296,6 +297,7 @@ impl Checker<'_> {
             turn: x.turn.or(y.turn),
             rate: if x.rate == y.rate { x.rate } else { Rate::Unknown },
             has_turns: x.has_turns || y.has_turns,
+            angle: x.angle.plus(y.angle),
             ..x
         };
         let unlike = |of: Zero| {
@@ -355,9 +357,10 @@ impl Checker<'_> {
             let Some(factor) = self.constant(number) else { continue };
             let typing = self.typing(other);
             let turn = self.turned(typing.turn, number, factor);
+            let angle = self.angle_of(number).times(typing.angle);
             let reference = scaled(typing);
             return (
-                Typing { dimension, turn, reference, ..typing },
+                Typing { dimension, turn, angle, reference, ..typing },
                 self.tie(other).times(factor),
             );
         }
@@ -373,6 +376,7 @@ impl Checker<'_> {
             }
             _ => None,
         };
+        let angle = x.angle.times(y.angle);
         let level = x.level.checked_add(y.level).unwrap_or(Exponent::ZERO);
         let unit = x.celsius_exponent.checked_add(y.celsius_exponent).unwrap_or(Exponent::ZERO);
         let reference = match (x.level, y.level) {
@@ -380,8 +384,8 @@ impl Checker<'_> {
             (_, Exponent::ZERO) => x.reference.scaled(),
             _ => y.reference.scaled(),
         };
-        let typing =
-            Typing { level, turn, reference, has_turns, ..Typing { dimension, ..Typing::ANY } };
+        let plain = Typing { dimension, ..Typing::ANY };
+        let typing = Typing { level, turn, angle, reference, has_turns, ..plain };
         let powers = [self.tie(left).power(), self.tie(right).power()];
         self.tied(index, typing, unit, powers, [left, right])
     }
@@ -400,9 +404,10 @@ impl Checker<'_> {
                 Some(Turn::Angle) if x.turn == Some(Turn::Angle) => Some(Turn::Periods),
                 _ => None,
             };
+            let angle = x.angle.over(self.angle_of(right));
             let reference = scaled(x);
             return (
-                Typing { dimension, turn, reference, ..x },
+                Typing { dimension, turn, angle, reference, ..x },
                 self.tie(left).times(1.0 / divisor),
             );
         }
@@ -435,9 +440,12 @@ impl Checker<'_> {
             self.refuse_periods_and_angle("/", &span, [(left, x), (right, y)]);
         }
         let has_turns = x.has_turns || y.has_turns;
+        let angle = self.angle_of(left).over(y.angle);
         let turn = match (x.turn, y.turn) {
             _ if has_turns => None,
             _ if leaves_angle => x.turn,
+            // `n^2/n`
+            (None, _) if angle.is_angle() => Some(Turn::Angle),
             (turn, None) => turn,
             (Some(Turn::Angle), Some(Turn::Angle)) if self.is_unit(right, "rev") => {
                 Some(Turn::Periods)
@@ -456,8 +464,8 @@ impl Checker<'_> {
             (Exponent::ZERO, ..) => LevelReference::of_product(x, y),
             _ => x.reference.scaled(),
         };
-        let typing =
-            Typing { level, turn, reference, has_turns, ..Typing { dimension, ..Typing::ANY } };
+        let plain = Typing { dimension, ..Typing::ANY };
+        let typing = Typing { level, turn, angle, reference, has_turns, ..plain };
         let powers = [self.tie(left).power(), minus(self.tie(right).power())];
         self.tied(index, typing, unit.unwrap_or(Exponent::ZERO), powers, [left, right])
     }
@@ -473,7 +481,10 @@ impl Checker<'_> {
         let typing = self.typing(base);
         let times = |of: Exponent| of.checked_mul(exponent).unwrap_or(Exponent::ZERO);
         let (unit, power) = (times(typing.celsius_exponent), times(self.tie(base).power()));
-        let raised = Typing { level: times(typing.level), ..Typing { dimension, ..Typing::ANY } };
+        let angle = typing.angle.to_the(exponent);
+        let turn = angle.is_angle().then_some(Turn::Angle);
+        let plain = Typing { dimension, ..Typing::ANY };
+        let raised = Typing { level: times(typing.level), turn, angle, ..plain };
         self.tied(index, raised, unit, [power, Exponent::ZERO], [base, base])
     }
 
@@ -487,7 +498,9 @@ impl Checker<'_> {
         let times = |of: Exponent| of.checked_mul(power).unwrap_or(Exponent::ZERO);
         let celsius_exponent = borne(times(typing.celsius_exponent), dimension);
         let level = times(typing.level);
-        Typing { level, celsius_exponent, ..Typing { dimension, ..Typing::ANY } }
+        let angle = typing.angle.to_the(power);
+        let turn = angle.is_angle().then_some(Turn::Angle);
+        Typing { level, celsius_exponent, turn, angle, ..Typing { dimension, ..Typing::ANY } }
     }
 
     /// A product with powers of degrees Celsius in its factors, as far as the units of coefficients
@@ -532,6 +545,16 @@ impl Checker<'_> {
             Some(Turn::Periods) if is(turns) => Some(Turn::Angle),
             Some(Turn::Angle) if is(1.0 / turns) => Some(Turn::Periods),
             _ => None,
+        }
+    }
+
+    /// The power of angle in a factor. Numbers that are written out have none, and `2*pi` may be a
+    /// revolution.
+    fn angle_of(&self, factor: usize) -> AnglePower {
+        match self.constant(factor) {
+            Some(_) if self.is_rational(factor) => AnglePower::NUMBER,
+            Some(_) => AnglePower::NONE,
+            None => self.typing(factor).angle,
         }
     }
 

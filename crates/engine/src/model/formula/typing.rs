@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
+use super::angle::AnglePower;
 use super::syntax::TableCall;
 use crate::model::Interpolation;
 use gumption_units::{Dimension, Exponent, Turn, Unit, Zero};
@@ -33,6 +34,8 @@ pub struct Typing {
     /// Whether angle stands in its unit in another power than the first, as in `1/rev`: what a product with
     /// it counts is not known.
     pub has_turns: bool,
+    /// The power of angle in it.
+    pub angle: AnglePower,
 }
 
 /// What a rate is by its unit.
@@ -112,6 +115,7 @@ impl Typing {
             turn: None,
             rate: Rate::Unknown,
             has_turns: false,
+            angle: AnglePower::NONE,
         }
     }
 
@@ -131,6 +135,7 @@ impl Typing {
             turn: unit.turn(),
             rate: Rate::of(unit),
             has_turns: unit.turn().is_none() && unit.counts_angle(),
+            angle: AnglePower::of(unit),
             ..Self::of(unit.dimension())
         }
     }

@@ -206,6 +206,18 @@ fn results_that_their_unit_does_not_fit() {
     assert!(turns("f", "rpm"));
     assert!(turns("f*time", "deg"));
     assert!(turns("360*f*time", "deg"));
+    assert!(turns("sqrt(speed^2)", "Hz"));
+    assert!(turns("speed^2/speed", "Hz"));
+    assert!(turns("sqrt(speed^2 + (2*speed)^2)", "Hz"));
+    assert!(turns("1/(2/speed)", "Hz"));
+    // 1 over 60 rpm is 1 s for a revolution and 0.159 s for a radian
+    let ambiguous = |text: &str, unit: &str| {
+        matches!(misfit(text, unit), Some(ScaleMisfit::PowerOfRevolutions { .. }))
+    };
+    assert!(ambiguous("1/speed", "s"));
+    assert!(ambiguous("60/speed", "s"));
+    assert!(ambiguous("speed^2", "1/s^2"));
+    assert!(ambiguous("sqrt(1/speed)", "s^(1/2)"));
     for (text, unit) in [
         ("speed/(2*pi)", "Hz"),
         ("speed/[rev]", "Hz"),
@@ -217,6 +229,17 @@ fn results_that_their_unit_does_not_fit() {
         ("n/time", "rpm"),
         ("f*time", "1"),
         ("phi/(2*pi*f)", "s"),
+        ("1 [rev]/speed", "s"),
+        ("1 [rad]/speed", "s"),
+        ("2*pi/speed", "s"),
+        ("1/(speed/(2*pi))", "s"),
+        ("1/speed*2*pi", "s"),
+        ("1/speed", "s/rev"),
+        ("1/omega", "s"),
+        ("phi/speed", "s"),
+        ("phi*(1/speed)", "s"),
+        ("n/speed", "s"),
+        ("speed^2", "rad^2/s^2"),
     ] {
         assert_eq!(misfit(text, unit), None, "{text} in {unit}");
     }

@@ -1,0 +1,88 @@
+//! Temperatures of certificates that are differences: an error of indication of 0.05 °C is 0.05 K, and
+//! the temperature 0.05 °C is 273.2 K.
+
+use gumption_units::{Dimension, Unit};
+use roxmltree::Node;
+
+use super::Fault;
+use super::document::{self, BLANKS, Measured, names};
+
+/// What a temperature of a certificate is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum TemperatureKind {
+    /// A temperature, or no temperature at all.
+    Value,
+    /// A difference of temperatures.
+    Difference,
+    /// Nothing tells but a word of its name, by which it would be a difference.
+    Named(String),
+}
+
+impl TemperatureKind {
+    /// The unit of its values, which is K of a difference in °C.
+    pub(super) fn unit(&self, unit: Unit) -> Unit {
+        let is_scaled = unit.is_celsius() && unit.factor() == 1.0;
+        match self {
+            Self::Difference if is_scaled => Unit::parse("K").unwrap_or(unit),
+            _ => unit,
+        }
+    }
+}
+
+/// Parts of the reference types of differences (of `basic_measurementError` and its kind).
+const OF_TYPES: [&str; 6] =
+    ["error", "correction", "deviation", "difference", "drift", "hysteresis"];
+
+/// Words of names, in the languages of the certificates that are read.
+const OF_NAMES: [&str; 12] = [
+    "error",
+    "correction",
+    "deviation",
+    "difference",
+    "drift",
+    "hysteresis",
+    "abweichung",
+    "korrektion",
+    "korrektur",
+    "differenz",
+    "erreur",
+    "écart",
+];
+
+/// What a quantity is; `stated` is what the model file says of it.
+///
+/// # Errors
+/// What the model file says is not what the certificate does.
+pub(super) fn kind(
+    node: Node<'_, '_>,
+    measured: &Measured,
+    stated: Option<bool>,
+) -> Result<TemperatureKind, Fault> {
+    if !measures_temperature(&measured.unit) {
+        return Ok(TemperatureKind::Value);
+    }
+    if measured.is_difference && stated == Some(false) {
+        let reason = "this quantity is said once in °C and once in K, by which it is a difference of \
+                      temperatures: leave out `difference`"
+            .to_owned();
+        return Err((document::tag(node), reason));
+    }
+    let types = node.attribute("refType").unwrap_or_default();
+    let mut types = types.split(BLANKS).map(str::to_lowercase);
+    let is_typed = types.any(|of| OF_TYPES.iter().any(|word| of.contains(word)));
+    if measured.is_difference || stated.unwrap_or(is_typed) {
+        return Ok(TemperatureKind::Difference);
+    }
+    let names = names(node);
+    let is_named =
+        |name: &&String| OF_NAMES.iter().any(|word| name.to_lowercase().contains(word));
+    Ok(match names.iter().find(is_named) {
+        Some(name) if stated.is_none() => TemperatureKind::Named(name.clone()),
+        _ => TemperatureKind::Value,
+    })
+}
+
+/// Whether a unit is one of temperatures, and of their differences.
+fn measures_temperature(unit: &Unit) -> bool {
+    unit.dimension() == Dimension::TEMPERATURE
+}
