@@ -3,10 +3,11 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Duration;
 
 use gumption_engine::distribution::Input;
 use gumption_engine::propagate::{Control, Evaluation, evaluate};
-use gumption_engine::task::Task;
+use gumption_engine::task::{Settings, StoppingRule, Task, Trials};
 
 /// A standard normal quantity and its exponential, stopped once so many trials are reported; the
 /// trials that were reported in the end.
@@ -65,5 +66,52 @@ fn all_trials_that_were_counted_are_handed_back() {
             let (length, least) = (high - low, expected[5] - expected[4]);
             assert!((length - least).abs() <= 0.01 * least, "{length} {least}");
         }
+    }
+}
+
+/// A search for the number of trials answers with those that are at hand, not with all that it made
+/// once more.
+#[test]
+fn a_search_that_is_stopped_answers_at_once() {
+    for (rule, memory) in [
+        (StoppingRule::Clause79, 1 << 16),
+        (StoppingRule::Clause79, 1 << 26),
+        (StoppingRule::Stein, 1 << 16),
+    ] {
+        // five digits take some 10^12 trials, in blocks of 10^4
+        let mut settings = Settings::default();
+        settings.trials = Trials::Adaptive;
+        settings.rule = rule;
+        settings.digits = 5;
+        settings.max_trials = 1 << 50;
+        let task = Task::builder("stopped")
+            .input("x", Input::normal(0.0, 1.0, "1").unwrap())
+            .equation("y", "x^3")
+            .output("y", "1")
+            .settings(settings)
+            .build()
+            .unwrap();
+        let stop = AtomicBool::new(false);
+        let evaluation = std::thread::scope(|scope| {
+            scope.spawn(|| {
+                std::thread::sleep(Duration::from_millis(700));
+                stop.store(true, Ordering::Relaxed);
+            });
+            let control = Control::default().with_memory(memory).with_stop(&stop);
+            evaluate(&task, &control).unwrap()
+        });
+        assert!(evaluation.stopped);
+        let found = evaluation.rows[0].outputs[0].monte_carlo.as_ref().unwrap();
+        // of 64 MB some 10^7 trials are kept; Stein's number of trials is known soon, and its trials are
+        // then made as those of any run
+        if rule == StoppingRule::Clause79 {
+            assert!(found.trials <= if memory > 1 << 20 { 100_000_000 } else { 1_000_000 });
+        }
+        let adaptive = found.adaptive.unwrap();
+        assert!(!adaptive.converged);
+        assert_eq!(adaptive.blocks, found.trials / adaptive.block_trials);
+        // E(x^6) is 15, known from n trials to 5 % where n is above 10^5; as few as 3 10^4 are made
+        // on the slowest machine
+        assert!((found.standard_uncertainty.unwrap() - 15.0_f64.sqrt()).abs() < 0.5);
     }
 }

@@ -270,18 +270,19 @@ fn rate_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
 /// A result that counts angle, in a unit that counts nothing (`1/min`, `1`), of inputs in revolutions.
 fn radians_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
     let Quantity { name, unit, .. } = &output.quantity;
+    let shown = if unit.text().is_empty() { "1" } else { unit.text() };
     let typing = scope.get(name)?;
     let is_rate = typing.dimension.is_some_and(|of| of.is_of_time() && !of.is_none());
     let counts_angle = typing.turn == Some(Turn::Angle) || typing.has_turns && is_rate;
     let counts_nothing = unit.turn() != Some(Turn::Angle) && unit.dimension().is_of_time();
     let text = if counts_angle && counts_nothing {
         format!(
-            "`{name}` counts angle and is reported in `{unit}` in radians, 2*pi for a revolution; if \
+            "`{name}` counts angle and is reported in `{shown}` in radians, 2*pi for a revolution; if \
              revolutions are meant, write `.../[rev]`, or report it in rpm or rev"
         )
     } else if is_per_turn(typing) && !unit.counts_angle() {
         format!(
-            "`{name}` is divided by what counts revolutions and is reported in `{unit}` per radian; if it \
+            "`{name}` is divided by what counts revolutions and is reported in `{shown}` per radian; if it \
              is meant per revolution, write `...*[rev]`"
         )
     } else {

@@ -826,8 +826,10 @@ fn run(
     finished.stopped |= stopped;
     for (figures, end) in finished.outputs.iter_mut().zip(ends) {
         // figures that do not exist agree between blocks by chance at most
-        let converged = end.converged && !figures.heavy_tailed;
-        figures.adaptive = Some(monte_carlo::Adaptive { converged, ..end });
+        let converged = end.converged && !figures.heavy_tailed && !finished.stopped;
+        let made = figures.trials / end.block_trials;
+        let blocks = if finished.stopped { end.blocks.min(made) } else { end.blocks };
+        figures.adaptive = Some(monte_carlo::Adaptive { converged, blocks, ..end });
     }
     finished
 }

@@ -107,6 +107,11 @@ impl RowTrials {
         self.held.extend(made);
     }
 
+    /// Of so many of the first trials there is what the figures of a run need.
+    pub(super) fn condensed_trials(&self) -> u64 {
+        self.condensed.len() * BLOCK as u64
+    }
+
     pub(crate) fn workspace(&self) -> Workspace {
         Workspace {
             registers: vec![Column::ZERO; self.schedule.registers],

@@ -46,6 +46,9 @@ const WAVE: [u64; 2] = [4, 32];
 /// Blocks of the first stage of Stein's rule.
 pub const FIRST_STAGE: u64 = 10;
 
+/// So many trials are made within moments.
+const AT_ONCE: u64 = 1_000_000;
+
 /// The probability with which Stein's rule is to meet the tolerance.
 const CONFIDENCE: f64 = 0.95;
 
@@ -119,6 +122,10 @@ pub(crate) fn find_trials(
         StoppingRule::Clause79 => blocks.until_stable(),
         StoppingRule::Stein => blocks.two_stages(),
     };
+    // a search that was stopped answers at once: with the trials of which what matters is at hand
+    let at_once = blocks.trials.condensed_trials().max(AT_ONCE).min(search.most);
+    let stopped = control.is_stopped();
+    let blocks_wanted = if stopped { blocks_wanted.min(at_once / size) } else { blocks_wanted };
     let end = |(output, watch): (usize, &Watch)| Adaptive {
         rule: search.rule,
         block_trials: size,
@@ -127,7 +134,12 @@ pub(crate) fn find_trials(
         converged,
     };
     let ends = blocks.watches.iter().enumerate().map(end).collect();
-    (if blocks_wanted == 0 { search.most } else { blocks_wanted * size }, ends)
+    let trials = match blocks_wanted {
+        0 if stopped => at_once,
+        0 => search.most,
+        wanted => wanted * size,
+    };
+    (trials, ends)
 }
 
 /// The blocks made so far.
@@ -168,6 +180,9 @@ impl Blocks<'_> {
         let numbers = self.made..self.made + count;
         let Self { trials, search, control, size, plans, .. } = self;
         let found = blocks::figures(trials, numbers, *size, plans, *search, control);
+        if control.is_stopped() {
+            return false; // some of these blocks are not whole
+        }
         for figures in found {
             self.made += 1;
             for (watch, figures) in self.watches.iter_mut().zip(figures) {
