@@ -62,9 +62,10 @@ pub(super) fn kind(
         return Ok(TemperatureKind::Value);
     }
     if measured.is_difference && stated == Some(false) {
-        let reason = "this quantity is said once in °C and once in K, by which it is a difference of \
+        let reason =
+            "this quantity is said once in °C and once in K, by which it is a difference of \
                       temperatures: leave out `difference`"
-            .to_owned();
+                .to_owned();
         return Err((document::tag(node), reason));
     }
     let types = node.attribute("refType").unwrap_or_default();
@@ -74,8 +75,7 @@ pub(super) fn kind(
         return Ok(TemperatureKind::Difference);
     }
     let names = names(node);
-    let is_named =
-        |name: &&String| OF_NAMES.iter().any(|word| name.to_lowercase().contains(word));
+    let is_named = |name: &&String| OF_NAMES.iter().any(|word| name.to_lowercase().contains(word));
     Ok(match names.iter().find(is_named) {
         Some(name) if stated.is_none() => TemperatureKind::Named(name.clone()),
         _ => TemperatureKind::Value,

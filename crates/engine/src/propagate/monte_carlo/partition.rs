@@ -16,6 +16,9 @@ const MOST_CELLS: usize = 1 << 23;
 /// Grids within each other in a partition that is read, at most: each pass adds one.
 const DEEPEST: usize = 32;
 
+/// Values that are looked up together.
+const TOGETHER: usize = 256;
+
 /// What becomes of the values in a cell.
 #[derive(Clone, Debug)]
 enum Cell {
@@ -33,25 +36,53 @@ struct Grid {
     low: f64,
     inverse: f64,
     cells: Vec<Cell>,
-    /// The number of each cell among the leaves of the partition; of the first leaf below it if it
-    /// is split.
-    leaves: Vec<usize>,
 }
 
 /// The partition of one output's values.
 #[derive(Clone, Debug)]
 pub(super) struct Partition {
     root: Grid,
+    index: Index,
+}
+
+/// The cells as values are looked up: a pass does so for each of them, which is most of its time, so
+/// that what it touches has to be small.
+#[derive(Clone, Debug, Default)]
+struct Index {
+    /// The cells of all grids one behind the other, four bytes for each.
+    slots: Vec<Slot>,
+    /// The root first.
+    grids: Vec<GridIndex>,
     leaves: usize,
+}
+
+/// What becomes of the values in a cell, in the lowest two bits, and above them the number of the leaf,
+/// or of the finer grid.
+#[derive(Clone, Copy, Debug)]
+struct Slot(u32);
+
+/// A grid of the index.
+#[derive(Clone, Copy, Debug)]
+struct GridIndex {
+    low: f64,
+    inverse: f64,
+    /// The place of its first cell, and how many come behind that.
+    first: usize,
+    last: usize,
 }
 
 /// What one pass over the trials found.
 #[derive(Clone, Debug)]
 pub(super) struct Tally {
-    /// For each leaf the number of values, the least and the greatest.
-    counts: Vec<u64>,
-    extremes: Vec<[f64; 2]>,
+    leaves: Vec<Counted>,
     kept: Vec<f64>,
+}
+
+/// The number of values in a leaf, the least and the greatest.
+#[derive(Clone, Copy, Debug)]
+struct Counted {
+    count: u64,
+    extremes: [f64; 2],
 }
 
 /// A leaf of the partition after a pass.
@@ -73,25 +104,7 @@ impl Grid {
         let inverse = cells as f64 / (high - low);
         // cells narrower than the spacing of numbers would be all the same
         let inverse = if inverse.is_finite() { inverse } else { 0.0 };
-        Self { low, inverse, cells: vec![Cell::Count; cells], leaves: vec![0; cells] }
-    }
-
-    /// The cell of a value; a greater value never has a lower cell.
-    #[inline(always)]
-    fn cell(&self, value: f64) -> usize {
-        let position = (value - self.low) * self.inverse;
-        // the conversion takes what is below 0 to 0
-        (position as usize).min(self.cells.len() - 1)
-    }
-
-    fn number(&mut self, next: &mut usize) {
-        for (cell, leaf) in self.cells.iter_mut().zip(&mut self.leaves) {
-            *leaf = *next;
-            match cell {
-                Cell::Split(grid) => grid.number(next),
-                _ => *next += 1,
-            }
-        }
+        Self { low, inverse, cells: vec![Cell::Count; cells] }
     }
 
     fn visit<'g>(&'g mut self, out: &mut Vec<&'g mut Cell>) {
@@ -145,7 +158,7 @@ impl Grid {
                 same => cells.extend(std::iter::repeat_n(Cell::Count, same.div_ceil(2) as usize)),
             }
         }
-        Ok(Self { low, inverse, cells, leaves: vec![0; count] })
+        Ok(Self { low, inverse, cells })
     }
 }
 
@@ -159,22 +172,15 @@ impl Cell {
 impl Partition {
     /// Equal cells between two values that hold nearly all.
     pub(super) fn new(low: f64, high: f64) -> Self {
-        let mut partition = Self { root: Grid::new(low, high, FIRST_CELLS), leaves: 0 };
-        partition.number();
-        partition
+        Self::of(Grid::new(low, high, FIRST_CELLS))
     }
 
-    fn number(&mut self) {
-        self.leaves = 0;
-        self.root.number(&mut self.leaves);
+    fn of(root: Grid) -> Self {
+        Self { index: Index::of(&root), root }
     }
 
     pub(super) fn tally(&self) -> Tally {
-        Tally {
-            counts: vec![0; self.leaves],
-            extremes: vec![[f64::INFINITY, f64::NEG_INFINITY]; self.leaves],
-            kept: Vec::new(),
-        }
+        Tally { leaves: vec![Counted::NONE; self.index.leaves], kept: Vec::new() }
     }
 
     /// Keeps the values of the leaves for which `keep` says so, and splits those that `split` gives
@@ -185,7 +191,7 @@ impl Partition {
         keep: impl Fn(usize) -> bool,
         split: impl Fn(usize) -> usize,
     ) {
-        let mut cells = Vec::with_capacity(self.leaves);
+        let mut cells = Vec::with_capacity(self.index.leaves);
         self.root.visit(&mut cells);
         for (number, (cell, leaf)) in cells.into_iter().zip(leaves).enumerate() {
             *cell = match split(number) {
@@ -194,7 +200,7 @@ impl Partition {
                 parts => Cell::Split(Box::new(Grid::new(leaf.least, leaf.greatest, parts))),
             };
         }
-        self.number();
+        self.index = Index::of(&self.root);
     }
 
     /// The partition as bytes.
@@ -205,14 +211,12 @@ impl Partition {
     /// A partition from bytes.
     pub(super) fn read(from: &mut Reader<'_>) -> Result<Self, Damaged> {
         let mut room = MOST_CELLS;
-        let mut partition = Self { root: Grid::read(from, &mut room, 0)?, leaves: 0 };
-        partition.number();
-        Ok(partition)
+        Ok(Self::of(Grid::read(from, &mut room, 0)?))
     }
 
     /// For each leaf whether its values are kept.
     pub(super) fn kept_leaves(&self) -> Vec<bool> {
-        let mut kept = Vec::with_capacity(self.leaves);
+        let mut kept = Vec::with_capacity(self.index.leaves);
         self.root.kept(&mut kept);
         kept
     }
@@ -221,9 +225,9 @@ impl Partition {
     pub(super) fn leaves(&self, tally: &Tally) -> Vec<Leaf> {
         let kept = self.kept_leaves();
         let (mut below, mut index) = (0, 0);
-        let found = tally.counts.iter().zip(&tally.extremes).zip(kept);
+        let found = tally.counted().zip(kept);
         found
-            .map(|((&count, &[least, greatest]), is_kept)| {
+            .map(|((count, [least, greatest]), is_kept)| {
                 let leaf = Leaf { count, below, least, greatest, kept: is_kept.then_some(index) };
                 below += count;
                 index += if is_kept { count as usize } else { 0 };
@@ -233,43 +237,139 @@ impl Partition {
     }
 }
 
-impl Tally {
-    /// Counts a block's values.
-    pub(super) fn add(&mut self, partition: &Partition, values: &[f64]) {
-        for &value in values {
-            let mut grid = &partition.root;
-            let leaf = loop {
-                let cell = grid.cell(value);
-                match &grid.cells[cell] {
-                    Cell::Count => break grid.leaves[cell],
-                    Cell::Keep => {
-                        self.kept.push(value);
-                        break grid.leaves[cell];
-                    }
-                    Cell::Split(finer) => grid = finer,
-                }
+impl Index {
+    fn of(root: &Grid) -> Self {
+        let mut index = Self::default();
+        index.add(root);
+        index
+    }
+
+    /// Adds a grid and those within it; its leaves are numbered in the order of their values.
+    fn add(&mut self, grid: &Grid) -> usize {
+        let Grid { low, inverse, ref cells } = *grid;
+        let (number, first) = (self.grids.len(), self.slots.len());
+        self.grids.push(GridIndex { low, inverse, first, last: cells.len() - 1 });
+        self.slots.resize(first + cells.len(), Slot::counted(0));
+        for (place, cell) in cells.iter().enumerate() {
+            self.slots[first + place] = match cell {
+                Cell::Split(finer) => Slot::split(self.add(finer)),
+                Cell::Count => Slot::counted(self.next()),
+                Cell::Keep => Slot::kept(self.next()),
             };
-            self.counts[leaf] += 1;
-            let [least, greatest] = &mut self.extremes[leaf];
-            *least = if value < *least { value } else { *least };
-            *greatest = if value > *greatest { value } else { *greatest };
+        }
+        number
+    }
+
+    fn next(&mut self) -> usize {
+        self.leaves += 1;
+        self.leaves - 1
+    }
+}
+
+impl GridIndex {
+    /// The place of the cell of a value; a greater value never has a lower cell.
+    #[inline(always)]
+    fn place(self, value: f64) -> usize {
+        let position = (value - self.low) * self.inverse;
+        // the conversion takes what is below 0 to 0
+        self.first + (position as u32 as usize).min(self.last)
+    }
+}
+
+impl Slot {
+    const COUNTED: u32 = 0;
+    const KEPT: u32 = 1;
+    const SPLIT: u32 = 2;
+
+    /// Partitions have far fewer cells than 2^30.
+    fn new(number: usize, kind: u32) -> Self {
+        Self((number as u32) << 2 | kind)
+    }
+
+    fn counted(leaf: usize) -> Self {
+        Self::new(leaf, Self::COUNTED)
+    }
+
+    fn kept(leaf: usize) -> Self {
+        Self::new(leaf, Self::KEPT)
+    }
+
+    fn split(grid: usize) -> Self {
+        Self::new(grid, Self::SPLIT)
+    }
+
+    fn kind(self) -> u32 {
+        self.0 & 3
+    }
+
+    /// Of the leaf, or of the grid.
+    fn number(self) -> usize {
+        (self.0 >> 2) as usize
+    }
+}
+
+impl Counted {
+    const NONE: Self = Self { count: 0, extremes: [f64::INFINITY, f64::NEG_INFINITY] };
+
+    #[inline(always)]
+    fn add(&mut self, value: f64) {
+        self.count += 1;
+        let [least, greatest] = &mut self.extremes;
+        *least = if value < *least { value } else { *least };
+        *greatest = if value > *greatest { value } else { *greatest };
+    }
+
+    fn merge(&mut self, other: Self) {
+        let [[a, b], [least, greatest]] = [self.extremes, other.extremes];
+        *self = Self { count: self.count + other.count, extremes: [a.min(least), b.max(greatest)] };
+    }
+}
+
+impl Tally {
+    /// Counts a block's values. Whether a cell is split is nothing that a processor can guess, and it
+    /// waits for the memory where it guesses wrong: so all values are looked up before any is counted.
+    pub(super) fn add(&mut self, partition: &Partition, values: &[f64]) {
+        let Index { slots, grids, .. } = &partition.index;
+        let Some(root) = grids.first() else { return };
+        let (mut found, mut open) = ([Slot(0); TOGETHER], [0_u16; TOGETHER]);
+        for values in values.chunks(TOGETHER) {
+            let found = &mut found[..values.len()];
+            let mut count = 0;
+            for (place, (slot, &value)) in found.iter_mut().zip(values).enumerate() {
+                *slot = slots[root.place(value)];
+                open[count] = place as u16;
+                count += usize::from(slot.kind() == Slot::SPLIT);
+            }
+            while count > 0 {
+                let mut left = 0;
+                for next in 0..count {
+                    let place = usize::from(open[next]);
+                    let slot = slots[grids[found[place].number()].place(values[place])];
+                    found[place] = slot;
+                    open[left] = place as u16;
+                    left += usize::from(slot.kind() == Slot::SPLIT);
+                }
+                count = left;
+            }
+            for (slot, &value) in found.iter().zip(values) {
+                self.leaves[slot.number()].add(value);
+            }
+            let kept = found.iter().zip(values).filter(|(slot, _)| slot.kind() == Slot::KEPT);
+            self.kept.extend(kept.map(|(_, value)| *value));
         }
     }
 
     /// Adds what another thread found.
     pub(super) fn merge(&mut self, other: Self) {
-        for (count, more) in self.counts.iter_mut().zip(other.counts) {
-            *count += more;
-        }
-        for (extreme, [least, greatest]) in self.extremes.iter_mut().zip(other.extremes) {
-            *extreme = [extreme[0].min(least), extreme[1].max(greatest)];
+        for (leaf, more) in self.leaves.iter_mut().zip(other.leaves) {
+            leaf.merge(more);
         }
         self.kept.extend(other.kept);
     }
 
     /// For each leaf the number of its values, the least and the greatest.
     pub(super) fn counted(&self) -> impl Iterator<Item = (u64, [f64; 2])> + '_ {
-        self.counts.iter().copied().zip(self.extremes.iter().copied())
+        self.leaves.iter().map(|leaf| (leaf.count, leaf.extremes))
     }
 
     /// The kept values as they came.
@@ -279,8 +379,7 @@ impl Tally {
 
     /// Sets what was found in a leaf.
     pub(super) fn set(&mut self, leaf: usize, count: u64, extremes: [f64; 2]) {
-        self.counts[leaf] = count;
-        self.extremes[leaf] = extremes;
+        self.leaves[leaf] = Counted { count, extremes };
     }
 
     /// The same with these kept values.
