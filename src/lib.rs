@@ -170,7 +170,7 @@
 //!     seed: 1,
 //! };
 //! let frequency = Frequency { hertz: Some(5.0), standard_uncertainty: 0.0, estimate: false };
-//! let base = TimeBase { rate: exact(1000.0), start: 0.0, jitter: 0.0, beside_frequency: None };
+//! let base = TimeBase { rate: exact(1000.0), start: 0.0, jitter: 0.0, beside_frequency: None, of_middle: None };
 //! let passes = InMemorySamples { channels: vec![values] };
 //! let mut tracks = [ChannelRecording { passes, base, channels: vec![0], search: None }];
 //! let found = observe(&settings, &[frequency], &mut tracks)?;

@@ -267,6 +267,68 @@ fn a_decision_beyond_the_stated_digits_is_explained() {
     assert!(!page(1.21).contains("before rounding"));
 }
 
+/// 10.064 V with U = 0.06 V is stated as 10.06 V, which is not beyond 10.06 V: it was told as `10.06 V` to
+/// four digits. Likewise 10.055 V, stated as 10.06 V, is accepted up to 10.1 V - 0.041 V.
+#[test]
+fn the_value_of_a_decision_has_the_digits_that_decide() {
+    let pages = |mean: f64, u: f64, tolerance: Value, format: &str| {
+        let file = model(json!({"x": normal("V", mean, u)}), "x", Some(tolerance));
+        let more = json!({"monte_carlo": {"trials": 0}, "digits": 1, "rounding": "up",
+            "language": ["en", "de", "fr", "it"]});
+        let certificate = certificate(rows(&["y"]), more);
+        let folder = folder(&[("m.json", &file), ("c.json", &certificate)]);
+        output(folder.path(), &["certificate", "c.json", "--format", format, "--quiet"])
+    };
+    for format in ["table", "markdown", "html", "latex", "dcc"] {
+        let said = pages(10.064, 0.03, json!({"upper": 10.06}), format);
+        let said: String = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        // one decimal mark for all languages of a page; in a digital certificate that of each
+        for before in
+            ["before rounding, ", "vor der Rundung, ", "avant arrondi, ", "arrotondamento, "]
+        {
+            let mut rest = said.split(before).skip(1);
+            let told = |rest: &str| rest.starts_with("10.064") || rest.starts_with("10,064");
+            assert!(rest.any(told), "{format}, {before}");
+        }
+        let said = pages(10.055, 0.0205, json!({"upper": 10.1, "guard_band": 1}), format);
+        assert!(said.contains("10.055"), "{format}");
+    }
+    // U is 0.041 V, and stated as 0.05 V
+    let said = pages(10.055, 0.0205, json!({"upper": 10.1, "guard_band": 1}), "markdown");
+    assert!(said.contains("with U before rounding; guard band 0.0410 V, accepted up to"), "{said}");
+}
+
+/// Rows 1 and 3 are of one output, and the first alone has a nominal value, which was left out: rows with
+/// one and rows without are two lists of one result, and each value that is read back is its own row, with
+/// its coefficients (row 2 and row 3 share the input that varies).
+#[test]
+fn a_nominal_value_of_some_rows_is_in_the_digital_certificate() {
+    let file = json!({"inputs": {"x": normal("V", -1.23456, 0.0123), "n": normal("V", 0.0, 0.0123)},
+        "equations": {"y": "x + n", "z": "2*n"}, "outputs": {"y": {"unit": "V"}, "z": {"unit": "V"}},
+        "monte_carlo": {"trials": 0}});
+    let rows = json!([
+        {"model": "m.json", "output": "y", "set": {"x": "-1 V"}},
+        {"model": "m.json", "output": "y", "nominal": -1.25},
+        {"model": "m.json", "output": "z"}]);
+    let certificate = certificate(rows, json!({"shared_inputs": ["n"], "separate_inputs": ["x"]}));
+    let folder = folder(&[("m.json", &file), ("c.json", &certificate)]);
+    let xml = output(folder.path(), &["certificate", "c.json", "--format", "dcc", "--quiet"]);
+    assert_eq!(elements(&xml, "valueXMLList"), ["-1.000", "-1.25", "-1.235", "0.000"]);
+    assert!(elements(&xml, "content").iter().any(|of| of == "Row 2"), "{xml}");
+    fs::write(folder.path().join("d.xml"), xml).expect("a file");
+    let input = |index: u32| json!({"distribution": "dcc", "file": "d.xml", "ref_type": "basic_measuredValue", "index": index});
+    let back = json!({"inputs": {"a": input(0), "b": input(1), "c": input(2)},
+        "equations": {"ab": "a - b", "bc": "b - c"},
+        "outputs": {"ab": {"unit": "V"}, "bc": {"unit": "V"}}, "monte_carlo": {"trials": 0}});
+    fs::write(folder.path().join("b.json"), back.to_string()).expect("a file");
+    let found = &answer(folder.path(), &["run", "b.json"])["outputs"];
+    let u = |of: &str| number(&found[of]["gum"]["standard_uncertainty"]);
+    // x varies by itself in both, and n drops out: sqrt(2) 0.0123; x + n - 2n: the same; U has two digits
+    for of in ["ab", "bc"] {
+        assert!((u(of) / (0.0123 * 2f64.sqrt()) - 1.0).abs() < 0.03, "{of} {}", u(of));
+    }
+}
+
 /// Two rows that share an input, one of them a t and the other none: their coefficient is beyond what
 /// the two distributions can have, and the nearest is taken with a note; the interval's quantity of a
 /// row is that row.

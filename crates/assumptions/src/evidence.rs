@@ -152,7 +152,7 @@ pub fn agreement(
     let outside = outside(stated, readings);
     let mut sorted = readings.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
-    let probabilities: Vec<[f64; 2]> = sorted.iter().map(|x| probabilities(stated, *x)).collect();
+    let probabilities = of_rounded(stated, &sorted);
     let p_value =
         if outside > 0 { 0.0 } else { p_value(statistic(&probabilities), readings.len()) };
     let (parameter, width) = parameter(stated);
@@ -221,6 +221,44 @@ fn outside(stated: &Distribution, readings: &[f64]) -> usize {
     };
     let slack = if high.is_finite() { ROUNDING * (0.5 * high - 0.5 * low) } else { 0.0 };
     readings.iter().filter(|x| **x < low - slack || **x > high + slack).count()
+}
+
+/// The probabilities below and above readings in ascending order. A reading that is printed to a digit can
+/// have been anything within half of that: equal ones are spread evenly over the probability there, so
+/// that neither a reading at a limit nor a display of few steps is a contradiction by itself.
+fn of_rounded(stated: &Distribution, sorted: &[f64]) -> Vec<[f64; 2]> {
+    let half = 0.5 * last_digit(sorted);
+    let equal = sorted.chunk_by(|a, b| b - a < half);
+    let spread = equal.flat_map(|equal| {
+        let ends = [equal[0] - half, equal[equal.len() - 1] + half];
+        let [[below, not_below], [not_above, above]] = ends.map(|end| probabilities(stated, end));
+        let count = equal.len() as f64;
+        (0..equal.len()).map(move |i| {
+            let share = (i as f64 + 0.5) / count;
+            [below + share * (not_above - below), above + (1.0 - share) * (not_below - above)]
+        })
+    });
+    spread.collect()
+}
+
+/// So many readings are not all even by chance.
+const MANY: usize = 10;
+
+/// What one in the last decimal digit of readings is: the largest power of ten that all are multiples of,
+/// to the digits that sums of readings have. Of many also 2 or 5 of it, the steps of displays.
+fn last_digit(readings: &[f64]) -> f64 {
+    let is_multiple = |digit: f64| {
+        readings.iter().all(|x| {
+            let number = x / digit;
+            (number - number.round()).abs() <= 1e-9 * number.abs()
+        })
+    };
+    let largest = readings.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let first = if largest > 0.0 { libm::log10(largest).floor() } else { 0.0 };
+    let digits = (0..10).map(|place| libm::exp10(first - f64::from(place)));
+    let steps: &[f64] = if readings.len() < MANY { &[1.0] } else { &[5.0, 2.0, 1.0] };
+    let digits = digits.flat_map(|digit| steps.iter().map(move |step| step * digit));
+    digits.into_iter().find(|digit| is_multiple(*digit)).unwrap_or(0.0)
 }
 
 /// The probabilities below and above a value.

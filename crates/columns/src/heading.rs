@@ -149,17 +149,71 @@ pub fn stated<'h>(
     })
 }
 
+/// Prefixes that are written out.
+const PREFIXES: [&str; 7] = ["nano", "micro", "mikro", "milli", "kilo", "mega", "giga"];
+
+/// What the numbers of a converter are called.
+const COUNTS: [&str; 5] = ["counts", "count", "cts", "digits", "codes"];
+
 /// What stands in square brackets for a unit and cannot be the declared one: the number 1, and what is
-/// nearly a unit, `lbs`. Other words may be anything.
+/// nearly a unit or a count of a converter: `lbs`, `millivolt`, `counts`. Other words may be anything.
 fn unreadable<'h>(
     unit: impl Fn(&str) -> Option<Unit>,
     column: &'h str,
     declared: &Unit,
 ) -> Option<&'h str> {
     let (name, text) = enclosed(column, '[', "]")?;
-    let is_nearly = || Unit::parse(text).is_err_and(|error| !error.suggestions().is_empty());
+    let is_nearly = || {
+        let lower = text.to_lowercase();
+        let is_word = PREFIXES
+            .iter()
+            .any(|prefix| lower.strip_prefix(prefix).is_some_and(|of| !of.is_empty()));
+        is_word
+            || COUNTS.contains(&lower.as_str())
+            || Unit::parse(text).is_err_and(|error| !error.suggestions().is_empty())
+    };
     let is_wrong = text == "1" || unit(text).is_none() && text != declared.text() && is_nearly();
     (declared.has_name() && !name.is_empty() && is_wrong).then_some(text)
+}
+
+/// What follows a unit in the notation of instruments, `mVrms`.
+const OF_SIGNALS: [&str; 14] =
+    ["rms", "eff", "pp", "p-p", "pk", "pk-pk", "peak", "ptp", "dc", "ac", "olt", "olts", "ec", "s"];
+
+/// A unit of the declared kind that stands in a heading among other words: in brackets anywhere, behind a
+/// comma or ` in `, with another letter's size (`mv`) or with what an instrument adds (`mVrms`, `mVolt`).
+fn among<'h>(
+    unit: impl Fn(&str) -> Option<Unit>,
+    column: &'h str,
+    declared: &Unit,
+) -> Option<(Unit, &'h str)> {
+    if !declared.has_name() {
+        return None;
+    }
+    let bracketed =
+        column.split(['[', '(']).skip(1).filter_map(|rest| rest.split([']', ')']).next());
+    let behind = [column.rsplit_once(',').map(|(_, rest)| rest)];
+    let worded = column.split(" in ").skip(1);
+    let places = bracketed.chain(behind.into_iter().flatten()).chain(worded);
+    let words = places.filter_map(|place| place.split_whitespace().next());
+    let is_of_kind = |of: &Unit| of.is_compatible(declared);
+    let of_word = |word: &'h str| {
+        let whole = unit(word).filter(is_of_kind);
+        let begun = || {
+            let ends = word.char_indices().map(|(end, _)| end).filter(|end| *end > 0);
+            ends.rev().find_map(|end| {
+                let (begin, rest) = word.split_at(end);
+                let rest = rest.trim_start_matches(['_', '.', '-']).to_lowercase();
+                OF_SIGNALS.contains(&rest.as_str()).then(|| unit(begin))?.filter(is_of_kind)
+            })
+        };
+        let capital = || {
+            let (end, last) = word.char_indices().next_back().filter(|(end, _)| *end > 0)?;
+            unit(&format!("{}{}", &word[..end], last.to_uppercase())).filter(is_of_kind)
+        };
+        Some((whole.or_else(begun).or_else(capital)?, word))
+    };
+    words.into_iter().find_map(of_word)
 }
 
 /// That a heading has another unit than `declared`, which its values (quantities, or widths) are read in;
@@ -174,14 +228,18 @@ pub fn contradiction(
         heading: heading.to_owned(),
         declared: declared.text().to_owned(),
     };
-    if let Some(text) = unreadable(&unit, column, declared) {
-        return Some(other_than(text));
-    }
-    let (unit, text) = stated(unit, column, declared)?;
     let is_declared = |unit: &Unit| {
         Unit::conversion_factor(unit, declared) == Ok(1.0)
             && (of == ValueOf::Difference || unit.has_zero_of(declared))
     };
+    let other = among(&unit, column, declared);
+    let unreadable = unreadable(&unit, column, declared);
+    if let Some(text) =
+        unreadable.filter(|_| !other.as_ref().is_some_and(|(of, _)| is_declared(of)))
+    {
+        return Some(other_than(text));
+    }
+    let (unit, text) = stated(&unit, column, declared).or(other)?;
     let meant = || gravity::meant(text, declared.dimension());
     let is_same = is_declared(&unit) || meant().as_ref().is_some_and(is_declared);
     (!is_same).then(|| other_than(text))
@@ -255,5 +313,39 @@ mod tests {
         assert_eq!(said("f (nominal, kHz)", "Hz").as_deref(), Some("kHz"));
         assert_eq!(said("f (kHz, nominal)", "kHz"), None);
         assert_eq!(said("f (set m)", "Hz"), None);
+    }
+
+    #[test]
+    fn units_among_other_words() {
+        let unit = |text: &str| Unit::parse(text).expect("a unit");
+        let said = |heading: &str, declared: &str| {
+            let of = (&unit(declared), ValueOf::Quantity);
+            contradiction(|text| Unit::parse(text).ok(), heading, of).map(|found| found.heading)
+        };
+        for (heading, found) in [
+            ("x [mVrms]", "mVrms"),
+            ("x [mVpp]", "mVpp"),
+            ("x [mV pk]", "mV pk"),
+            ("x [mV_RMS]", "mV_RMS"),
+            ("x [mVolt]", "mVolt"),
+            ("x [millivolt]", "millivolt"),
+            ("x [milliV]", "milliV"),
+            ("x [mv]", "mv"),
+            ("x [counts]", "counts"),
+            ("[mV] x", "mV"),
+            ("(mV) x", "mV"),
+            ("x [mV]*", "mV"),
+            ("x, mV", "mV"),
+            ("x in mV rms", "mV"),
+            ("Channel 1 (mV) filtered", "mV"),
+            ("x [mV (gain 10)]", "mV (gain 10)"),
+        ] {
+            assert_eq!(said(heading, "V").as_deref(), Some(found), "{heading}");
+        }
+        for heading in ["x [Vrms]", "x [V pk]", "x (left)", "drift in run2", "x [mean]", "x, m"] {
+            assert_eq!(said(heading, "V"), None, "{heading}");
+        }
+        assert_eq!(said("x [mVrms]", "mV"), None);
+        assert_eq!(said("t [mins]", "s").as_deref(), Some("mins"));
     }
 }

@@ -205,7 +205,7 @@ pub enum DiagnosticKind {
         /// What is wrong with it.
         error: Invalid,
     },
-    /// Two keys that say the same thing in different ways.
+    /// Two keys of which one may be there.
     Exclusive {
         /// The first of the two.
         first: &'static str,
@@ -794,7 +794,7 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::Distribution { name, error } => write!(f, "`{name}`: {error}"),
             Self::Exclusive { first, second } => {
-                write!(f, "`{first}` and `{second}` say the same thing; take one of them out")
+                write!(f, "`{first}` and `{second}` cannot stand together; take one of them out")
             }
             Self::NoCoverage { name } => write!(
                 f,

@@ -349,8 +349,17 @@ impl<'a> Reader<'a, '_> {
             |member| matches!(&member.value.value, Json::Text(text) if !is_value(text)),
         );
         let replaces = self.moved.is_some() && !is_formula;
+        if let Some(moved) = self.moved.filter(|_| replaces && object.get("limits").is_some()) {
+            let (text, name) = (moved.text.clone(), self.name);
+            let reason = format!(
+                "`{name}` has `limits`, within which it would be cut anew about the value, or which would \
+                 move with it; write `{name}.mean=...` for the value before the limits cut, or change the \
+                 file"
+            );
+            object.log.report(object.place(), DiagnosticKind::Override { text, reason });
+            return;
+        }
         let fields = |estimate, row| Fields {
-            replaces,
             samples: samples.as_ref(),
             read: read.as_ref(),
             certificate: certificate.as_ref(),
@@ -368,9 +377,7 @@ impl<'a> Reader<'a, '_> {
             else {
                 return;
             };
-            if !["constant", "result", "dcc"].contains(&kind.name)
-                && distribution.constant().is_some()
-            {
+            if is_without_width(kind, &distribution) {
                 zero_width.push(row + 1);
             }
             if has_share && distribution.mean() == 0.0 {
@@ -381,28 +388,13 @@ impl<'a> Reader<'a, '_> {
         let shared = if differs { None } else { drawn.first() };
         self.note_of_readings(self.name, kind, shared, read.as_ref());
         let same_elsewhere = !differs && self.conditions.rows() > 1;
-        let rows = self.conditions.rows();
-        let place = |of: &[usize]| match of {
-            [first, more @ ..] if rows > 1 => {
-                let others = if !more.is_empty() || same_elsewhere { " and others" } else { "" };
-                format!(" in row {first}{others}")
-            }
-            _ => String::new(),
-        };
-        if !zero_width.is_empty() {
-            let text = format!(
-                "the width of `{}` follows its estimate and becomes 0{}; it is a constant there",
-                self.name,
-                place(&zero_width)
-            );
-            self.inputs.warnings.push(Warning::new("width-zero", self.name, text));
-        }
+        self.note_of_zero_width(self.name, &zero_width, same_elsewhere);
         if !zero_share.is_empty() {
             let text = format!(
                 "the share of reading in the width of `{}` is 0{}, as its estimate is; of another \
                  quantity's value it would be `20 ppm of 10 V`",
                 self.name,
-                place(&zero_share)
+                self.in_rows(&zero_share, same_elsewhere)
             );
             self.inputs.warnings.push(Warning::new("share-of-zero", self.name, text));
         }
@@ -412,6 +404,29 @@ impl<'a> Reader<'a, '_> {
                 drawn.extend(last);
                 self.inputs.known.in_rows(variable, drawn);
             }
+        }
+    }
+
+    /// Tells in which rows (from 1) a width becomes 0.
+    fn note_of_zero_width(&mut self, of: &str, rows: &[usize], same_elsewhere: bool) {
+        if rows.is_empty() {
+            return;
+        }
+        let text = format!(
+            "the width of `{of}` follows its estimate and becomes 0{}; it is a constant there",
+            self.in_rows(rows, same_elsewhere)
+        );
+        self.inputs.warnings.push(Warning::new("width-zero", self.name, text));
+    }
+
+    /// Words for some rows (from 1) of the conditions, if there are several.
+    fn in_rows(&self, rows: &[usize], same_elsewhere: bool) -> String {
+        match rows {
+            [first, more @ ..] if self.conditions.rows() > 1 => {
+                let others = if !more.is_empty() || same_elsewhere { " and others" } else { "" };
+                format!(" in row {first}{others}")
+            }
+            _ => String::new(),
         }
     }
 
@@ -674,6 +689,7 @@ impl<'a> Reader<'a, '_> {
             || parts.iter().any(|part| shapes::has_width_of_row(&part.object, part.kind, unit));
         let mut drawn: Vec<Vec<Distribution>> = vec![Vec::new(); 1 + parts.len()];
         let mut totals: Vec<f64> = Vec::new();
+        let mut zero_widths: Vec<Vec<usize>> = vec![Vec::new(); parts.len()];
         for row in 0..if differs { self.conditions.rows() } else { 1 } {
             let of_readings = match of_type_a.first() {
                 Some(part) if row > 0 && readings::are_of_rows(&part.object) => {
@@ -701,11 +717,20 @@ impl<'a> Reader<'a, '_> {
             let (Some(of_parts), Some(base)) = (of_parts, base) else {
                 return;
             };
+            for ((part, distribution), rows) in parts.iter().zip(&of_parts).zip(&mut zero_widths) {
+                if is_without_width(part.kind, distribution) {
+                    rows.push(row + 1);
+                }
+            }
             let row = std::iter::once(base.into()).chain(of_parts);
             drawn.iter_mut().zip(row).for_each(|(drawn, distribution)| drawn.push(distribution));
         }
         if let (Some(part), Some(&total)) = (of_type_a.first(), totals.first()) {
             self.note_of_mean(&part.full, [of_readings, scatter], total, unit);
+        }
+        let same_elsewhere = !differs && self.conditions.rows() > 1;
+        for (part, rows) in parts.iter().zip(&zero_widths) {
+            self.note_of_zero_width(&part.full, rows, same_elsewhere);
         }
         for (part, drawn) in parts.iter().zip(drawn.iter().skip(1)) {
             if part.kind.name != "readings"
@@ -713,6 +738,11 @@ impl<'a> Reader<'a, '_> {
             {
                 let own = [of_part.mean(), of_part.standard_uncertainty()];
                 self.note_of_estimate(&part.full, own, total, unit);
+            }
+            if part.kind.name == "result"
+                && let Some(saved) = part.saved(unit, self.results)
+            {
+                self.note_of_saved_estimate(&part.full, saved, unit);
             }
             let shared = if differs { None } else { drawn.first() };
             self.note_of_readings(&part.full, part.kind, shared, part.read.0.as_ref());
@@ -766,6 +796,19 @@ impl<'a> Reader<'a, '_> {
             shown(own + total)
         );
         self.inputs.warnings.push(Warning::new("component-estimate", self.name, text));
+    }
+
+    /// Tells of a component that is a saved result with an estimate: only how it varies counts.
+    fn note_of_saved_estimate(&mut self, part: &str, saved: f64, unit: &Unit) {
+        if saved == 0.0 {
+            return;
+        }
+        let text = format!(
+            "the component `{part}` is a saved result of {}, of which only the deviation from it counts; a \
+             correction is to be an input of its own that an equation adds",
+            in_unit(saved, unit)
+        );
+        self.inputs.warnings.push(Warning::new("component-result", self.name, text));
     }
 
     /// The components as written, each with a variable of its own; `None` if one is faulty.
@@ -868,6 +911,16 @@ impl Part<'_> {
         }
         .distribution(self.kind)
     }
+
+    /// The estimate of the saved result that it is.
+    fn saved(&self, unit: &Unit, results: &Results<'_>) -> Option<f64> {
+        results.distribution(&self.object, &self.full, unit, true).map(|saved| saved.mean())
+    }
+}
+
+/// Whether a distribution has lost the width that its shape has.
+fn is_without_width(kind: &Shape, distribution: &Distribution) -> bool {
+    !["constant", "result", "dcc"].contains(&kind.name) && distribution.constant().is_some()
 }
 
 /// A value as notes show it.

@@ -26,6 +26,14 @@ pub(super) fn apply(log: &Collector, inputs: &mut InputSet, trials: Trials) {
         }
     }
     for (length, members) in &ensembles {
+        if *length == 0 {
+            for place in members.iter().filter_map(|member| inputs.places.get(*member)) {
+                let reason =
+                    "paired readings are drawn together and can have no `limits`".to_owned();
+                log.report(place, DiagnosticKind::Correlation { reason });
+            }
+            continue;
+        }
         if let Some((variable, diagnostic)) = mistake(inputs, *length, members, trials) {
             if let Some(place) = inputs.places.get(variable) {
                 log.report(place, diagnostic);

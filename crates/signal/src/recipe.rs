@@ -112,6 +112,9 @@ pub struct TimeBase {
     /// The part of the rate's standard uncertainty that is not the recipe's own frequency's, where
     /// the rate was found from an oscillation of that frequency: both go together then.
     pub beside_frequency: Option<f64>,
+    /// The standard uncertainty of the instant in the middle of the record, in seconds, where instants of
+    /// the samples tell it; none where the first instant is given and the others follow by the rate.
+    pub of_middle: Option<f64>,
 }
 
 /// The search for a recording's sampling rate: that at which an oscillation of known frequency is

@@ -246,7 +246,8 @@ mod tests {
             standard_uncertainty: 0.0,
             degrees_of_freedom: f64::INFINITY,
         };
-        let base = TimeBase { rate, start: 2.0, jitter: 0.0, beside_frequency: None };
+        let base =
+            TimeBase { rate, start: 2.0, jitter: 0.0, beside_frequency: None, of_middle: None };
         let mut ranges = SampleRanges::new(base, 1000);
         (0..1000_u64).for_each(|i| ranges.take(i, if i == 777 { 9.0 } else { -(i as f64) }));
         assert_eq!((ranges.samples, ranges.step, ranges.ranges.len()), (4, 0.04, 250));
@@ -291,8 +292,13 @@ mod tests {
             seed: 1,
         };
         let frequency = Frequency { hertz: Some(10.0), standard_uncertainty: 0.0, estimate: false };
-        let base =
-            TimeBase { rate: exact(1000.0), start: 1.5, jitter: 0.0, beside_frequency: None };
+        let base = TimeBase {
+            rate: exact(1000.0),
+            start: 1.5,
+            jitter: 0.0,
+            beside_frequency: None,
+            of_middle: None,
+        };
         let tracks = || {
             let passes = InMemorySamples { channels: vec![values.clone()] };
             [ChannelRecording { passes, base, channels: vec![0], search: None }]

@@ -179,11 +179,9 @@ fn phase(
     let of = polar.of;
     let mut value = polar.phase;
     // what one unit of each error does: cycles from the estimate, hertz as stated, relative rate
-    let (mut estimated, mut stated, mut clock) = (
-        (polar.slope * of.of_estimate, 0.0),
-        polar.slope * of.of_stated,
-        (polar.slope * of.of_rate, 0.0),
-    );
+    let (mut estimated, mut stated, mut clock) =
+        ((polar.slope * of.of_estimate, 0.0), polar.slope * of.of_stated, (polar.of_rate, 0.0));
+    let mut instants = (polar.of_instants, 0.0);
     // the part of this channel's own noise that is no noise of the difference
     let mut common = 0.0;
     if let Some((reference, root)) = root {
@@ -221,11 +219,20 @@ fn phase(
         }
         // a stated frequency is one and the same for all recordings
         stated -= slope * of.of_stated;
-        let c = slope * of.of_rate;
-        if reference.clock == analysed.clock { clock.0 -= c } else { clock.1 = c }
+        let c = times * root.of_rate;
+        if reference.clock == analysed.clock {
+            clock.0 -= c
+        } else {
+            clock.1 = c
+        }
+        let i = times * root.of_instants;
+        if together { instants.0 -= i } else { instants.1 = i }
     }
     join(&mut parts, UncertaintySource::Frequency, hypot(hypot(estimated.0, estimated.1), stated));
     join(&mut parts, UncertaintySource::SamplingRate, hypot(clock.0, clock.1));
+    if analysed.base.of_middle.is_some() {
+        join(&mut parts, UncertaintySource::Jitter, hypot(instants.0, instants.1));
+    }
     let total = BudgetedValue::new(wrapped(value), parts, noise_dof);
     match trials {
         Some((drawn, count)) => {

@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use super::consensus::{self, ConsensusValue, Estimator};
 use super::pair::StatedResult;
 use super::subset::{self, Found, SubsetSearch, Ties};
-use super::{FACTOR, definite, probability};
+use super::{FACTOR, agree, definite, probability};
 use gumption_engine::special;
 
 /// The result of a laboratory.
@@ -76,13 +76,15 @@ pub struct DegreeOfEquivalence {
     pub probability: f64,
     /// Whether the reference value is made from it.
     pub member: bool,
+    compatible: Option<bool>,
 }
 
 impl DegreeOfEquivalence {
-    /// Whether the result is compatible with the reference value: the normalized error is at most 1.
-    /// `None` of a laboratory whose result is the reference value, where nothing is compared.
+    /// Whether the result is compatible with the reference value: the normalized error is at most 1,
+    /// but for the rounding of binary fractions. `None` of a laboratory whose result is the reference
+    /// value, where nothing is compared.
     pub fn is_compatible(&self) -> Option<bool> {
-        (!self.normalized_error.is_nan()).then_some(self.normalized_error <= 1.0)
+        self.compatible
     }
 }
 
@@ -389,17 +391,22 @@ pub fn compare_by(
             [only] if only == number => 0.0,
             _ => results.of_difference(number, &reference.members)?,
         };
+        let expanded = FACTOR * u;
+        let normalized_error = difference.abs() / expanded;
+        let is_compared = !normalized_error.is_nan();
+        let values = [laboratory.result.value, reference.value];
         Some(DegreeOfEquivalence {
             label: laboratory.label.clone(),
             value: laboratory.result.value,
             expanded_stated: laboratory.result.expanded,
             factor_stated: laboratory.result.factor,
             difference,
-            expanded: FACTOR * u,
-            normalized_error: difference.abs() / (FACTOR * u),
+            expanded,
+            normalized_error,
             zeta: difference.abs() / u,
             probability: probability(difference, u),
             member: reference.members.contains(&number),
+            compatible: is_compared.then(|| agree(values, expanded)),
         })
     });
     let rows = rows.collect::<Option<Vec<DegreeOfEquivalence>>>().ok_or(Impossible::NotDefinite)?;

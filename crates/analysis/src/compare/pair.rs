@@ -1,7 +1,7 @@
 //! Two results of one quantity: normalized error and zeta score (ISO 13528:2022, 9.5 and 9.7;
 //! ISO/IEC 17043), and the range of the normalized error that printed digits allow.
 
-use super::{FACTOR, probability};
+use super::{FACTOR, agree, probability};
 
 /// A result as it is stated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,12 +79,14 @@ pub struct ComparedPair {
     pub range: [f64; 2],
     /// Probability that two results of one value differ by as much or more.
     pub probability: f64,
+    compatible: bool,
 }
 
 impl ComparedPair {
-    /// Whether the results are compatible: the normalized error is at most 1.
+    /// Whether the results are compatible: the normalized error is at most 1, but for the rounding of
+    /// binary fractions.
     pub fn is_compatible(&self) -> bool {
-        self.normalized_error <= 1.0
+        self.compatible
     }
 }
 
@@ -109,6 +111,7 @@ impl ResultPair {
             zeta: difference.abs() / u,
             range: self.range(),
             probability: probability(difference, u),
+            compatible: agree([a.value, b.value], FACTOR * u),
         })
     }
 
@@ -214,6 +217,23 @@ mod tests {
         assert!((from - 0.03 / (0.045 * 2f64.sqrt())).abs() < 1e-12, "{from}");
         assert!((to - 0.05 / (0.035 * 2f64.sqrt())).abs() < 1e-12, "{to}");
         assert!((found.normalized_error - 0.0433 / 0.0396f64.hypot(0.0433)).abs() < 1e-12);
+    }
+
+    /// By hand: 0.03 and 0.04 are U = 0.05, and values that are 0.05 apart have En = 1 wherever they lie,
+    /// also where the binary difference is above 0.05 or, of large values, off by more than 1e-12 of it;
+    /// 0.0500001 is too much. A difference of five U among frequencies with fifteen digits stays one.
+    #[test]
+    fn a_normalized_error_of_one_is_compatible() {
+        let is = |x1: f64, x2: f64, [u1, u2]: [f64; 2]| {
+            let results = [stated(x1, u1, 2.0), stated(x2, u2, 2.0)];
+            let pair = ResultPair { label: "a".into(), results, correlation: 0.0 };
+            pair.compare().unwrap().is_compatible()
+        };
+        for (x1, x2) in [(1.0, 1.05), (1.05, 1.0), (1.37, 1.42), (-1.0, -1.05), (1e4, 10000.05)] {
+            assert!(is(x1, x2, [0.03, 0.04]), "{x1} {x2}");
+        }
+        assert!(!is(1.0, 1.050_000_1, [0.03, 0.04]));
+        assert!(!is(5_000_000.0, 5_000_000.000_000_5, [6e-8, 8e-8]));
     }
 
     #[test]

@@ -23,6 +23,8 @@ pub(super) struct CsvFrames<R> {
     record: ByteRecord,
     /// Whether `record` holds a frame that was not given yet.
     waiting: bool,
+    /// The record behind it, where it had to be looked at.
+    ahead: Option<ByteRecord>,
     marks: DecimalMarks,
     cells: usize,
     /// The place of each wanted column.
@@ -71,6 +73,7 @@ impl<R: Read> CsvFrames<R> {
             reader,
             record: ByteRecord::new(),
             waiting: false,
+            ahead: None,
             marks: DecimalMarks::of(separator),
             cells: 0,
             places: Vec::new(),
@@ -86,8 +89,7 @@ impl<R: Read> CsvFrames<R> {
     fn begin(&mut self) -> Result<(), String> {
         self.next()?;
         self.cells = self.record.len();
-        let number = |cell| number(cell, &mut self.marks.clone());
-        let header = self.record.iter().any(|cell| number(cell).is_ok_and(|cell| cell.is_none()));
+        let header = self.has_header()?;
         let names: Vec<String> = self
             .record
             .iter()
@@ -132,8 +134,81 @@ impl<R: Read> CsvFrames<R> {
         Ok(())
     }
 
+    /// Whether the first record is a header: where columns are wanted by their names, and where those that
+    /// are wanted by their numbers have no numbers in it. Text in other columns may be a state or a date
+    /// that every line has.
+    fn has_header(&mut self) -> Result<bool, String> {
+        let marks = &self.marks;
+        let is_text = |cell: &[u8]| number(cell, &mut marks.clone()).is_ok_and(|of| of.is_none());
+        let texts: Vec<bool> = self.record.iter().map(is_text).collect();
+        let wanted = self.wanted.iter().filter_map(|wanted| match &wanted.column {
+            ColumnName::Number(number) => Some(number - 1),
+            ColumnName::Name(_) => None,
+        });
+        let wanted: Vec<usize> = wanted.filter(|place| *place < texts.len()).collect();
+        let has_names = wanted.len() < self.wanted.len();
+        if has_names || !texts.contains(&true) {
+            return Ok(texts.contains(&true));
+        }
+        let cell = |place: usize| {
+            let cell = self.record.get(place).unwrap_or(b"").trim_ascii();
+            String::from_utf8_lossy(cell).chars().take(LONGEST).collect::<String>()
+        };
+        let is_number = |place: &&usize| !texts[**place];
+        let value = wanted.iter().find(is_number);
+        let word = wanted.iter().find(|place| !is_number(place));
+        // a value with a unit, and what stands for a missing one
+        let is_sample = |place: usize| {
+            let text = cell(place);
+            text.is_empty()
+                || text.trim_start_matches(['-', '+', '\u{2212}', '.']).starts_with(digit)
+        };
+        match (value, word) {
+            (None, Some(word)) if texts.contains(&false) && is_sample(*word) => {}
+            (None, Some(word)) if !cell(*word).is_empty() && is_sample(*word) => {}
+            (None, _) => return Ok(true),
+            (Some(_), None) => return self.is_above_numbers(&texts),
+            (Some(_), Some(_)) => {}
+        }
+        let word = word.copied().unwrap_or_default();
+        Err(format!(
+            "line {}: `{}` in column {} is no number, and other cells of the line are values: it is neither \
+             a header nor a sample",
+            self.line(),
+            cell(word),
+            word + 1
+        ))
+    }
+
+    /// Whether a first line with numbers where columns are wanted, and texts elsewhere, is a header: not
+    /// where the second one has texts there too.
+    fn is_above_numbers(&mut self, texts: &[bool]) -> Result<bool, String> {
+        let mut ahead = ByteRecord::new();
+        if !self.reader.read_byte_record(&mut ahead).map_err(|error| error.to_string())? {
+            return Ok(false);
+        }
+        let marks = &self.marks;
+        let is_number = |cell: &[u8]| number(cell, &mut marks.clone()).is_ok_and(|of| of.is_some());
+        let of_texts = ahead.iter().zip(texts).filter(|(_, text)| **text);
+        let is_unlike = of_texts.into_iter().any(|(cell, _)| is_number(cell));
+        self.ahead = Some(ahead);
+        if is_unlike {
+            return Err(format!(
+                "line {} has numbers in the columns that are read, and in others text where the next line has \
+                 numbers: it can be a header or the first sample; name the columns as the header does, or \
+                 leave the line out",
+                self.line()
+            ));
+        }
+        Ok(false)
+    }
+
     /// The next record; false at the end.
     fn next(&mut self) -> Result<bool, String> {
+        if let Some(ahead) = self.ahead.take() {
+            self.record = ahead;
+            return Ok(true);
+        }
         self.reader.read_byte_record(&mut self.record).map_err(|error| error.to_string())
     }
 
@@ -199,7 +274,7 @@ fn contradiction(wanted: &Wanted, heading: &str) -> Option<String> {
     let found = heading::contradiction(|text| Unit::parse(text).ok(), heading, of)?;
     let unit = &found.heading;
     let key = if wanted.is_time() { "time_unit" } else { "raw_unit" };
-    let of = Unit::parse(unit).ok()?;
+    let Ok(of) = Unit::parse(unit) else { return Some(found.to_string()) };
     let gravity = || gravity::meant(unit, wanted.becomes.dimension());
     let advice = if of.is_compatible(&wanted.unit) {
         format!("; in the recipe this is `\"{key}\": \"{unit}\"`")
@@ -216,6 +291,10 @@ fn contradiction(wanted: &Wanted, heading: &str) -> Option<String> {
         )
     };
     Some(format!("{found}{advice}"))
+}
+
+fn digit(c: char) -> bool {
+    c.is_ascii_digit()
 }
 
 /// The number in a cell, if it is one.

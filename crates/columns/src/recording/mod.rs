@@ -157,6 +157,9 @@ pub struct Recording {
     pub rate: Measured,
     /// The instant of the first frame that is used, in seconds.
     pub start: f64,
+    /// The standard uncertainty of the instant in the middle of the record, in seconds, where the file has
+    /// a column of instants.
+    pub of_middle: Option<f64>,
     /// SHA-256 of the file, in hexadecimal.
     pub digest: String,
     /// The step of whole numbers, where the file holds those.

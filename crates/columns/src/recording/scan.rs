@@ -79,14 +79,15 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
     }
     warnings.extend(scanned.contradicted(stated));
     let start = match &scanned.clock {
-        Some(clock) => clock.first,
+        Some(clock) => clock.start(rate.value),
         None => scanned.first as f64 / rate.value,
     };
+    let of_middle = scanned.clock.as_ref().map(Clock::of_middle);
     let held = scanned.held.take().map(|channels| InMemorySamples { channels });
     let (first, frames) = (scanned.first, scanned.kept);
     let digest = digest.borrow().clone().finalize();
     let digest = digest.iter().map(|byte| format!("{byte:02x}")).collect();
-    Ok(Recording { first, frames, held, rate, start, digest, whole, warnings, reading })
+    Ok(Recording { first, frames, held, rate, start, of_middle, digest, whole, warnings, reading })
 }
 
 /// What was seen so far.
@@ -451,6 +452,21 @@ impl Clock {
         (slope, scatter)
     }
 
+    /// The instant of the first sample: by the middle of the record, where the line of all instants is
+    /// known best, and the sampling rate.
+    fn start(&self, rate: f64) -> f64 {
+        let n = self.count as f64;
+        let middle = (n - 1.0) / 2.0;
+        let deviation = self.sum / n + middle * (self.interval - 1.0 / rate);
+        // the rounding of sums
+        if deviation.abs() <= 1e-9 * self.interval { self.first } else { self.first + deviation }
+    }
+
+    /// The standard uncertainty of the instant in the middle.
+    fn of_middle(&self) -> f64 {
+        self.scatter() / (self.count as f64).sqrt()
+    }
+
     fn scatter(&self) -> f64 {
         self.line().1
     }
@@ -504,5 +520,29 @@ mod tests {
         assert!(repeated.contains("sample 6: the time repeats, 0.4 s stands twice"), "{repeated}");
         assert!(repeated.contains("leave out `time` and state `sampling_rate`"), "{repeated}");
         assert!(after(0.42).unwrap_err().contains("jumps"));
+    }
+
+    /// The line of all instants tells when the first sample was taken, and not its own stamp; the middle
+    /// of the record is known by the scatter over the root of their number.
+    #[test]
+    fn one_late_stamp_moves_no_start() {
+        let of = |late: f64| {
+            let mut clock = Clock::new(5.0 + late);
+            for i in 1..1000u32 {
+                clock.see(5.0 + f64::from(i) / 1000.0, u64::from(i)).unwrap();
+            }
+            clock
+        };
+        let exact = of(0.0);
+        assert_eq!(exact.start(exact.rate().value), 5.0);
+        assert!(exact.of_middle() < 1e-12);
+        let late = of(3e-4);
+        // the least-squares intercept takes 4/n of it at the end of the line, and 1/n in the middle
+        let moved = late.start(late.rate().value) - 5.0;
+        assert!((moved - 3e-4 * 4.0 / 1000.0).abs() < 1e-8, "{moved}");
+        // s = d/sqrt(n), so d/n
+        assert!((late.of_middle() - 3e-7).abs() < 2e-9, "{}", late.of_middle());
+        // with a stated rate the middle alone decides
+        assert!((late.start(1000.0) - 5.0 - 3e-7).abs() < 1e-9);
     }
 }

@@ -7,6 +7,7 @@ mod global;
 mod turns;
 
 pub(super) use error_law::ErrorLaw;
+use error_law::StudentLaw;
 pub use global::GlobalRisks;
 use global::Inspection;
 pub(super) use turns::on_branch;
@@ -71,31 +72,37 @@ impl Conformity {
     /// The decision about an output from its trials; `None` without a tolerance. It is made with the
     /// value that is stated of the output, which no seed moves where the law of propagation or figures
     /// without noise have it. The posterior
-    /// probability, global risks and guard bands with a prior take the measured value to be normally
-    /// distributed about the true one, with `u` as standard uncertainty. `linear` is the law of
-    /// propagation where that may be trusted; the guard band without a prior is then that of its
-    /// normal or t distribution, and otherwise the one of the trials.
+    /// probability, global risks and guard bands with a prior take the measured value to be distributed
+    /// about the true one as the law of propagation says where that may be trusted (`linear`): normal,
+    /// or t with its effective degrees of freedom; and otherwise normal, with `u` as standard
+    /// uncertainty. The guard band without a prior is that of the same distribution, and otherwise the
+    /// one of the trials.
     fn of(
         output: &Output,
         figures: &MonteCarlo,
         (u, stated): (Option<f64>, Option<Stated>),
         linear: Option<&Gum>,
-        of_trials: Option<f64>,
+        of_trials: Option<Option<f64>>,
     ) -> Option<Self> {
         let tolerance = output.tolerance?;
         let share = figures.inside;
         let u = figures.standard_uncertainty.or(u).filter(|u| u.is_finite() && *u > 0.0);
         let limits = limits_of(output, tolerance);
         let on_branch = |value| turns::at_limits(value, limits, output.period);
-        let inspection = output.prior.as_deref().zip(u);
-        let inspection = inspection.map(|(prior, u)| Inspection::new(prior, u, limits));
+        let law = match (linear.filter(|gum| gum.standard_uncertainty > 0.0), u) {
+            (Some(gum), _) => Some(StudentLaw::of(gum)),
+            (None, Some(u)) => Some(StudentLaw::normal(u)),
+            (None, None) => None,
+        };
+        let inspection = output.prior.as_deref().zip(law);
+        let inspection = inspection.map(|(prior, law)| Inspection::new(prior, law, limits));
         let guard_band = match (output.risk, u, &inspection) {
             (None, ..) => multiple(output, stated.map(|stated| stated.expanded_uncertainty)),
             (Some(_), None, _) => None,
             (Some(risk), Some(_), Some(inspection)) => inspection.guard_band(risk),
             (Some(risk), Some(u), None) => match linear {
                 Some(gum) => ErrorLaw::of(gum).guard_band(risk, limits),
-                None => of_trials.or_else(|| ErrorLaw::normal(u).guard_band(risk, limits)),
+                None => of_trials.unwrap_or_else(|| ErrorLaw::normal(u).guard_band(risk, limits)),
             },
         };
         let [acceptance, accepted] = [tolerance, Tolerance::between(limits)]
@@ -104,10 +111,12 @@ impl Conformity {
         let estimate = stated.map_or(located, |stated| on_branch(stated.value));
         let global = inspection.as_ref().zip(accepted).map(|(of, to)| of.risks(to.ends()));
         let posterior = output.prior.as_deref().zip(u).map(|(prior, spread)| {
-            let at = |y: f64, u: f64| Inspection::new(prior, u, limits).conformance(y);
-            if let Some(gum) = linear.filter(|gum| gum.standard_uncertainty > 0.0) {
-                return (at(on_branch(gum.estimate), gum.standard_uncertainty), 0.0);
+            if let Some((gum, of)) = linear.zip(inspection.as_ref()) {
+                return (of.conformance(on_branch(gum.estimate)), 0.0);
             }
+            let at = |y: f64, u: f64| {
+                Inspection::new(prior, StudentLaw::normal(u), limits).conformance(y)
+            };
             // the trials know both to their numerical standard errors
             let of_y = figures.errors.estimate.unwrap_or(figures.errors.median);
             let of_u = figures.errors.standard_uncertainty.unwrap_or(0.0).min(0.5 * spread);
@@ -201,7 +210,9 @@ impl Conformity {
         if !(u > 0.0 && u.is_finite()) {
             return None;
         }
-        let inspection = output.prior.as_deref().map(|prior| Inspection::new(prior, u, limits));
+        let of_errors = law.student().unwrap_or(StudentLaw::normal(u));
+        let inspection = output.prior.as_deref();
+        let inspection = inspection.map(|prior| Inspection::new(prior, of_errors, limits));
         let guard_band = match (output.risk, &inspection) {
             (None, _) => multiple(output, expanded),
             (Some(risk), Some(inspection)) => inspection.guard_band(risk),
@@ -239,6 +250,21 @@ fn multiple(output: &Output, expanded: Option<f64>) -> Option<f64> {
 fn limits_of(output: &Output, tolerance: Tolerance) -> [f64; 2] {
     let prior = output.prior.as_deref().map(Distribution::mean);
     turns::at_prior(tolerance.ends(), prior, output.period)
+}
+
+/// Doublings of a guard band that are tried where one limit alone is given.
+const DOUBLINGS: usize = 200;
+
+/// The smallest guard band at which something holds, which it goes on to do: at most half of the
+/// tolerance, and of one limit alone so many scales of the errors. `None` if there is none.
+fn smallest_band(tolerance: f64, scale: f64, holds: impl Fn(f64) -> bool) -> Option<f64> {
+    let most = if tolerance.is_finite() {
+        0.5 * tolerance
+    } else {
+        let widths = std::iter::successors(Some(scale), |width| Some(2.0 * width));
+        widths.take(DOUBLINGS).find(|width| holds(*width))?
+    };
+    holds(most).then(|| smallest(0.0, most, holds))
 }
 
 /// The smallest width between two at which something holds, which it does at the larger one and

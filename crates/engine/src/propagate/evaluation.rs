@@ -108,8 +108,9 @@ pub struct OutputEvaluation {
     pub conformity: Option<Box<Conformity>>,
     /// The fewest degrees of freedom among the t distributions that the output depends on.
     pub drawn_dof: f64,
-    /// The guard band for the wanted specific risk, by the distribution of the trials.
-    pub(super) guard_band_of_trials: Option<f64>,
+    /// The guard band for the wanted specific risk, by the distribution of the trials, where it was
+    /// looked for; `None` inside where no value has so small a risk.
+    pub(super) guard_band_of_trials: Option<Option<f64>>,
 }
 
 impl OutputEvaluation {
@@ -608,7 +609,8 @@ fn evaluate_row(
                     monte_carlo::collected(&trials, count, control)
                 });
                 let values = values.as_ref()?.get(number)?.clone();
-                ErrorLaw::of_trials(values, figures.location()).guard_band(risk, limits)
+                let law = ErrorLaw::of_trials(values, figures.location());
+                Some(law.guard_band(risk, limits))
             });
         found.capability =
             CapabilityStatement::beside(&output, &found, &task.settings).map(Box::new);

@@ -93,9 +93,18 @@ const SYMBOLS: [&str; 16] = [
     "Mittelwert",
 ];
 
-/// Whether the label of a row is that of a reference value; `Reference laboratory` is a laboratory.
+/// Whether the label of a row is that of a reference value or of a mean of results; `Reference
+/// laboratory` is a laboratory.
 pub(super) fn is_reference(label: &str) -> bool {
-    const REFERENCES: [&str; 14] = [
+    const REFERENCES: [&str; 22] = [
+        "consensus",
+        "consensus value",
+        "konsenswert",
+        "valeur de consensus",
+        "valeur assignée",
+        "zugewiesener wert",
+        "crv",
+        "scrv",
         "reference",
         "ref",
         "reference value",
@@ -111,7 +120,47 @@ pub(super) fn is_reference(label: &str) -> bool {
         "référence",
         "valeur de référence",
     ];
-    REFERENCES.contains(&columns::plain(label).as_str())
+    let words = columns::plain(label);
+    REFERENCES.contains(&words.as_str()) || is_mean(&words)
+}
+
+/// Whether plain words name a mean of results: `mean`, `weighted mean`, `pilot mean`, `mean of all`,
+/// `moyenne pondérée`. A name that begins with such a word may be that of a laboratory.
+fn is_mean(words: &str) -> bool {
+    const MEANS: [&str; 13] = [
+        "mean",
+        "average",
+        "median",
+        "mittelwert",
+        "mittel",
+        "mittelwerte",
+        "moyenne",
+        "médiane",
+        "mediane",
+        "mediana",
+        "kcrv",
+        "crv",
+        "consensus",
+    ];
+    // the noun comes first, with what it is of behind it
+    const BEGINNINGS: [&str; 10] = [
+        "mean value",
+        "mean of ",
+        "mean all",
+        "average value",
+        "average of ",
+        "average all",
+        "median of ",
+        "mittelwert ",
+        "moyenne ",
+        "valeur moyenne",
+    ];
+    const WHOLE: [&str; 6] =
+        ["media", "media ponderata", "media pesata", "valore medio", "x_mean", "xmean"];
+    let last = words.rsplit([' ', '-', '_']).next().unwrap_or_default();
+    MEANS.contains(&last)
+        || WHOLE.contains(&words)
+        || BEGINNINGS.iter().any(|beginning| words.starts_with(beginning))
 }
 
 /// What a heading says.
@@ -352,6 +401,37 @@ mod tests {
         for heading in ["u_c", "s", "std. of readings", "kp", "correlation", "lable", "U_ref [mV]"]
         {
             assert!(is_like_uncertainty(heading, &["label"]), "{heading}");
+        }
+    }
+
+    #[test]
+    fn means_are_no_laboratories() {
+        for label in [
+            "Mean",
+            "Average",
+            "Weighted mean",
+            "Consensus value",
+            "CRV",
+            "Mittelwert",
+            "Moyenne",
+            "Median",
+            "Pilot mean",
+            "Mean value",
+            "mean (n = 8)",
+            "Mean of all",
+            "Robust mean",
+            "Gewichteter Mittelwert",
+            "Moyenne pondérée",
+            "Media",
+            "KCRV (median)",
+            "Consensus",
+        ] {
+            assert!(is_reference(label), "{label}");
+        }
+        for label in
+            ["NPL", "MEAN WELL", "Media Lab", "Meaney", "Reference laboratory", "Pilot", "Lab 1"]
+        {
+            assert!(!is_reference(label), "{label}");
         }
     }
 

@@ -1,5 +1,6 @@
 //! Tables of results to be compared: two results a row, or one result a laboratory.
 
+mod branches;
 mod check;
 mod columns;
 mod conditions;
@@ -128,10 +129,11 @@ fn read(
         let conditions: Vec<&str> = answer.iter().flat_map(|answer| answer.conditions()).collect();
         let columns = Columns::of(&numbers, &conditions, &mut warnings)?;
         let is_of_pairs = columns.has(Role::Value(1));
-        let (shares, units) = (BTreeSet::new(), Vec::new());
-        let mut reader = Reader { numbers, columns, shares, units, options };
+        let (shares, units, moved) = (BTreeSet::new(), Vec::new(), Vec::new());
+        let mut reader = Reader { numbers, columns, shares, units, moved, options };
         let table = if is_of_pairs { reader.pairs(answer.as_ref()) } else { reader.laboratories() };
         warnings.extend(reader.relative());
+        warnings.extend(reader.turned());
         Some((table?, reader.units))
     });
     log.finish(table.map(|(table, units)| ReadComparison { table, units, warnings }))
@@ -144,10 +146,12 @@ struct Reader<'a> {
     shares: BTreeSet<String>,
     /// The unit of each row that was read.
     units: Vec<String>,
+    /// Angles that are compared on another branch, in words.
+    moved: Vec<String>,
     options: ComparisonOptions<'a>,
 }
 
-/// Why a row of a reference value is refused in a table of laboratories: it would be averaged with them.
+/// Why a row of a reference value or a mean is refused in a table of laboratories: it would be averaged with them.
 fn reference_or_laboratory(name: &str) -> String {
     format!(
         "`{name}` can be the value that the laboratories are compared with, or one of them: write the former \
@@ -240,7 +244,12 @@ impl Reader<'_> {
             let column = first.column;
             let of_run = second.of_run.clone();
             let both = [first, second].map(|result| self.converted(row, result, unit.as_ref()));
-            let [Some(first), Some(second)] = both else { continue };
+            let [Some(mut first), Some(mut second)] = both else { continue };
+            let mut named = [(name.clone(), &mut first), (format!("{name}, second"), &mut second)];
+            if let Err(reason) = self.on_one_branch(&mut named, unit.as_ref()) {
+                self.fail_at(self.numbers.table.place(row, label), reason);
+                continue;
+            }
             let pair = ResultPair { label: name, results: [first, second], correlation };
             if pair.compare().is_none() {
                 let reason = "the difference has no uncertainty, so nothing can be compared";
@@ -297,6 +306,12 @@ impl Reader<'_> {
             }
             self.units.push(unit.map(|unit| unit.to_string()).unwrap_or_default());
             laboratories.push(Laboratory { label: name, result });
+        }
+        let unit = wanted.flatten();
+        let named = laboratories.iter_mut().map(|of| (of.label.clone(), &mut of.result));
+        let mut named: Vec<branches::Named<'_>> = named.collect();
+        if let Err(reason) = self.on_one_branch(&mut named, unit.as_ref()) {
+            self.fail(reason);
         }
         if count < 2 {
             self.fail("a comparison needs at least two laboratories".to_owned());
@@ -365,6 +380,23 @@ impl Reader<'_> {
                 gumption_units::listed(&units, " and ")
             );
             Warning::new("relative-uncertainties", "", text)
+        })
+    }
+
+    /// That angles are compared on another branch than the one they are written on.
+    fn turned(&self) -> Option<Warning> {
+        const MOST: usize = 5;
+        let count = self.moved.len();
+        let mut said: Vec<String> = self.moved.iter().take(MOST).cloned().collect();
+        if count > MOST {
+            said.push(format!("{} more", count - MOST));
+        }
+        (count > 0).then(|| {
+            let text = format!(
+                "angles are compared within half a turn of each other: {}",
+                gumption_units::listed(&said, " and ")
+            );
+            Warning::new("angle-branch", "", text)
         })
     }
 

@@ -106,6 +106,7 @@ fn mistakes_have_places() {
             "t.csv:2:1: `Reference` can be the value",
         ),
         ("Lab,Value,U\nB,1,1\nRef.,10,0.02\nC,1,1\n", "t.csv:3:1: `Ref.` can be the value"),
+        ("Lab,Value,U\nB,1,1\nC,1,1\nWeighted mean,1,1\n", "t.csv:4:1: `Weighted mean` can be"),
         ("label,x1,U1,x2,U2,Value\na,1,1,2,1,2\n", "take it out, or write `#` before its words"),
         ("label,x,U\na,1\n", "t.csv:2:1:"),
         ("", "the table is empty"),
@@ -470,4 +471,42 @@ fn nominal_values_and_reference_laboratories() {
     }
     let found = laboratories("label,x,U\nPilot,10,1\nReference laboratory,10,1\n");
     assert_eq!(found.len(), 2);
+}
+
+/// By hand: 359.95 deg and 0.02 deg are 0.07 deg apart, half of U(d) = 0.1 sqrt(2) deg; they were 359.93 deg
+/// and En = 2545. Of three laboratories the mean of 359.95, 0.02 and 0.03 is 0 deg.
+#[test]
+fn angles_are_compared_on_one_branch() {
+    let heading = "label,x1 [deg],U1 [deg],x2 [deg],U2 [deg]\n";
+    let found = noted(&format!("{heading}a,359.95,0.1,0.02,0.1\nb,10,0.1,10.1,0.1\n")).unwrap();
+    let ComparisonTable::Pairs(pairs) = &found.table else { panic!() };
+    let compared = pairs[0].compare().unwrap();
+    assert!((compared.difference + 0.07).abs() < 1e-12, "{compared:?}");
+    assert!((compared.normalized_error - 0.07 / 0.02f64.sqrt()).abs() < 1e-9);
+    assert_eq!(pairs[1].results[1].value, 10.1);
+    let codes: Vec<&str> = found.warnings.iter().map(|of| of.code).collect();
+    assert_eq!(codes, ["angle-branch"]);
+    assert!(found.warnings[0].text.ends_with("0.02 deg of `a, second` as 360.02 deg"));
+    let text = "Lab,x [deg],U [arcmin]\nA,0.02,6\nB,359.95,6\nC,0.03,6\n";
+    let values: Vec<f64> = laboratories(text).iter().map(|of| of.result.value).collect();
+    assert_eq!(values, [0.02, -0.05, 0.03]);
+    // the printed digits go with the value
+    assert_eq!(laboratories(text)[1].result.printed[0], -0.05);
+    for (text, expected) in [
+        (
+            format!("{heading}a,5,0.1,725,0.1\n"),
+            "`a`, 5 deg, and `a, second`, 725 deg, are more than",
+        ),
+        (
+            "Lab,x [deg],U [deg]\nA,0,1\nB,120,1\nC,240,1\n".to_owned(),
+            "`A`, 0 deg, and `C`, 240 deg",
+        ),
+    ] {
+        let error = read(&text).unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+    for unit in ["rev", "mm"] {
+        let text = format!("Lab,x [{unit}],U [{unit}]\nA,0,1\nB,359,1\n");
+        assert_eq!(laboratories(&text)[1].result.value, 359.0);
+    }
 }

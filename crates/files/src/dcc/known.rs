@@ -3,10 +3,9 @@
 
 use super::super::implied_dof::Factor;
 use super::super::named_shape::NamedShape;
+use super::coverage::{self, Written, limited, of_probability_alone};
 use super::document::{Measured, Stated, at};
 use super::{agreement, intervals};
-use gumption_engine::number::elementary;
-use gumption_engine::special::student::two_sided_factor;
 
 /// What is known of one value.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +50,10 @@ pub(super) fn known(of: &Measured, place: usize) -> Result<Known, String> {
     let of_probability = digit(&digits.probabilities);
     let (expanded, standard) = (at(&stated.expanded, place), at(&stated.standard, place));
     let factor = match (stated_factor, probability) {
-        (Some(k), Some(p)) if k > 0.0 => within_limits(k, of_factor, (shape, p))?,
+        (Some(k), Some(p)) if k > 0.0 => {
+            let (k, p) = (Written::new(k, of_factor), Written::new(p, of_probability));
+            coverage::factor(k, p, shape)?
+        }
         (Some(k), None) if k > 0.0 => k,
         (Some(k), _) => return Err(format!("has a coverage factor of {k}, which must be above 0")),
         (None, Some(_)) if is_t && standard.is_none() => {
@@ -98,41 +100,6 @@ pub(super) fn known(of: &Measured, place: usize) -> Result<Known, String> {
         _ => f64::INFINITY,
     };
     Ok(Known { standard, dof, shape, factor })
-}
-
-/// The coverage factor of a distribution with limits at a coverage probability; `None` for others.
-///
-/// With half-width a it is P(|x| < U) = U/a of the rectangular, 1 - (1 - U/a)^2 of the triangular, and
-/// 2/pi asin(U/a) of the arcsine distribution, whose standard deviations are a over the roots of 3, 6 and 2.
-fn limited(shape: Option<NamedShape>, p: f64) -> Option<f64> {
-    match shape? {
-        NamedShape::Known("rectangular") => Some(3.0_f64.sqrt() * p),
-        NamedShape::Known("triangular") => Some(6.0_f64.sqrt() * (1.0 - (1.0 - p).sqrt())),
-        NamedShape::Known("arcsine") => {
-            Some(2.0_f64.sqrt() * elementary::sin(0.5 * std::f64::consts::PI * p))
-        }
-        _ => None,
-    }
-}
-
-/// The coverage factor that belongs to a coverage probability.
-fn of_probability_alone(shape: Option<NamedShape>, p: f64) -> f64 {
-    limited(shape, p).unwrap_or_else(|| two_sided_factor(p, f64::INFINITY))
-}
-
-/// A stated factor, where all of a distribution with limits can lie within U if its probability is 1.
-fn within_limits(
-    k: f64,
-    of_factor: f64,
-    (shape, p): (Option<NamedShape>, f64),
-) -> Result<f64, String> {
-    match limited(shape, p).filter(|_| p == 1.0) {
-        Some(least) if k + 0.5 * of_factor < (1.0 - 1e-9) * least => Err(format!(
-            "has a coverage factor of {k} and a coverage probability of 1, while its distribution reaches \
-             {least:.4} standard uncertainties: ask which is right"
-        )),
-        _ => Ok(k),
-    }
 }
 
 /// The degrees of freedom that a coverage interval symmetric about its value shows: half of it over the

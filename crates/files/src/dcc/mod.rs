@@ -2,6 +2,7 @@
 //! quantity, or a table of it interpolated over a condition.
 
 mod agreement;
+mod coverage;
 mod definitions;
 mod difference;
 mod document;

@@ -20,12 +20,30 @@ pub(super) struct OwnCertificate {
     functions: Vec<Vec<Vec<f64>>>,
 }
 
-/// The rows of a `dcc:result`.
+/// The rows of a `dcc:result`, in order.
 #[derive(Debug, Default)]
 struct Group {
-    rows: Vec<usize>,
-    /// Those whose coverage intervals stand in a quantity of their own.
-    with_interval: Vec<usize>,
+    rows: Vec<Row>,
+}
+
+/// A row of the certificate.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    number: usize,
+    /// Whether its coverage interval stands in a quantity of its own.
+    has_interval: bool,
+    /// Whether it has a nominal value. Rows with one and rows without are in two lists, that of the
+    /// first row before the other.
+    has_nominal: bool,
+}
+
+impl Group {
+    /// The rows of a list of the result, of which there are so many.
+    fn list(&self, place: usize, count: usize) -> Vec<Row> {
+        let first = self.rows.first().is_some_and(|row| row.has_nominal);
+        let is_in = |row: &&Row| count < 2 || (row.has_nominal == first) == (place == 0);
+        self.rows.iter().filter(is_in).copied().collect()
+    }
 }
 
 /// What an input is of such a certificate.
@@ -79,10 +97,9 @@ impl OwnCertificate {
                 groups.len() - 1
             });
             let Some((_, group)) = groups.get_mut(place) else { continue };
-            group.rows.push(number);
-            if row.pointer("/stated/interval").is_some_and(Value::is_array) {
-                group.with_interval.push(number);
-            }
+            let has_interval = row.pointer("/stated/interval").is_some_and(Value::is_array);
+            let has_nominal = row.get("nominal").is_some_and(Value::is_number);
+            group.rows.push(Row { number, has_interval, has_nominal });
         }
         let matrix = |value: &Value| -> Option<Vec<Vec<Option<f64>>>> {
             let row = |row: &Value| Some(row.as_array()?.iter().map(Value::as_f64).collect());
@@ -107,17 +124,19 @@ impl OwnCertificate {
         let before = result.prev_siblings().filter(|of| is(of, "result") && *of != result).count();
         let part = match self.groups.get(before) {
             Some(group) => {
-                let rows = match intervals::is_interval(node) {
-                    true => &group.with_interval,
-                    false => &group.rows,
-                };
+                let is_interval = intervals::is_interval(node);
+                let list = node.parent().filter(|of| is(of, "list"))?;
                 // conditions and nominal values have other values
-                let quantities = result.descendants().filter(|of| is(of, "quantity"));
+                let quantities = list.children().filter(|of| is(of, "quantity"));
                 let mut measured = quantities
                     .filter(|of| super::document::has_ref_type(*of, "basic_measuredValue"));
-                let is_row = measured.next() == Some(node) || intervals::is_interval(node);
+                let is_row = measured.next() == Some(node) || is_interval;
                 is_row.then_some(())?;
-                Part::Row(*rows.get(place)?)
+                let lists: Vec<_> = result.descendants().filter(|of| is(of, "list")).collect();
+                let own = lists.iter().position(|of| *of == list)?;
+                let rows = group.list(own, lists.len()).into_iter();
+                let mut rows = rows.filter(|row| !is_interval || row.has_interval);
+                Part::Row(rows.nth(place)?.number)
             }
             None => {
                 let function = before - self.groups.len();

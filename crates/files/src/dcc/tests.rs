@@ -123,18 +123,21 @@ fn values_of_all_versions() {
     let file = model(&certificate("3.2.1", &student), r#""id": "v""#, "").unwrap();
     let [_, u, dof] = known(&file, 0);
     assert!((dof - 4.0).abs() < 0.02 && (u - 0.0046 / 2.869).abs() < 1e-9, "{dof}");
-    let rectangular = REAL.replace("normal<", "uniform<");
+    // 0.95 sqrt(3)
+    let rectangular = REAL.replace("normal<", "uniform<").replace("Factor>2<", "Factor>1.65<");
     let file = model(&certificate("3.2.1", &rectangular), r#""id": "v""#, "").unwrap();
     assert_eq!(file.task.rows[0].distributions[0].name(), "rectangular");
     assert!(file.warnings.iter().all(|note| note.code != "certificate-distribution"));
-    for (called, name, is_noted) in [
-        ("Gaussian", "normal", false),
-        ("U-shaped", "arcsine", false),
-        ("of two humps", "normal", true),
+    // sqrt(2) sin(0.475 pi) of the arcsine distribution is 1.41
+    for (called, k, name, is_noted) in [
+        ("Gaussian", 2.0, "normal", false),
+        ("U-shaped", 1.41, "arcsine", false),
+        ("of two humps", 2.0, "normal", true),
     ] {
         let text = REAL.replace("normal<", &format!("{called}<"));
+        let text = text.replace("Factor>2<", &format!("Factor>{k}<"));
         let file = model(&certificate("3.2.1", &text), r#""id": "v""#, "").unwrap();
-        near(known(&file, 0), [5.0112, 0.0023]);
+        near(known(&file, 0), [5.0112, 0.0046 / k]);
         assert_eq!(file.task.rows[0].distributions[0].name(), name, "{called}");
         let noted = file.warnings.iter().any(|note| note.code == "certificate-distribution");
         assert_eq!(noted, is_noted, "{called}");

@@ -4,13 +4,18 @@
 //! Coefficients are in the unit of the result per unit of the quantity. Budgets state that in a column
 //! of its own, or leave it to the reader; where one row can be read in two ways, both are named.
 
+mod open;
+mod whole;
+
 use super::Budget;
 use super::columns::{Column, Header};
-use super::number::number_with_unit;
 use super::rows::{Row, divisor_of};
 use gumption_engine::decimal::{significant, to_15_digits};
 use gumption_engine::number::{Shortest, elementary};
 use gumption_units::Unit;
+use open::{Factor, per, share_of_result};
+use whole::Whole;
+pub(super) use whole::are_all;
 
 /// The model of a budget without an equation.
 pub(super) struct Linear {
@@ -54,16 +59,11 @@ impl Budget<'_> {
                 ));
             }
         }
-        let unit = self.unit_of_result(rows, result, measurand);
-        // where a sheet states units of coefficients, one without is a plain number
-        let states_units = rows.iter().any(|row| !row.unit_of_sensitivity.is_empty());
-        let factors: Vec<Option<f64>> =
-            rows.iter().map(|row| self.coefficient(header, row, &unit, states_units)).collect();
-        let factors: Vec<f64> = factors.into_iter().collect::<Option<_>>()?;
-        for (row, factor) in rows.iter().zip(&factors) {
-            self.compare_contribution(header, row, *factor, &unit);
-        }
-        self.contradicting_contributions(header, rows, &factors, &unit)?;
+        let unit = self.unit_of_result(header, rows, result, measurand);
+        let mut whole = Whole::of(&unit, rows, result)?;
+        whole.has_variances = self.are_variances(header, rows);
+        let factors = self.factors(header, rows, result, &whole)?;
+        self.contributions(header, rows, &factors, &whole)?;
         let written = |x: f64| Shortest(x).to_string();
         let sum: f64 =
             rows.iter().zip(&factors).map(|(row, c)| c * row.estimate.unwrap_or(0.0)).sum();
@@ -125,25 +125,116 @@ impl Budget<'_> {
         }
     }
 
-    /// The unit of the result: that of its row, else that of the first row whose coefficient says it.
-    fn unit_of_result(&mut self, rows: &[Row], result: Option<&Row>, measurand: &str) -> String {
-        if let Some(result) = result.filter(|result| !result.unit.is_empty()) {
-            return result.unit.clone();
+    /// What the numbers of each row are multiplied by; `None` after a mistake.
+    fn factors(
+        &mut self,
+        header: &Header,
+        rows: &[Row],
+        result: Option<&Row>,
+        whole: &Whole,
+    ) -> Option<Vec<f64>> {
+        // where a sheet states units of coefficients, one without is a plain number
+        let states_units = rows.iter().any(|row| !row.unit_of_sensitivity.is_empty());
+        let factors: Vec<Option<Factor>> = rows
+            .iter()
+            .map(|row| self.coefficient(header, (row, rows), whole, states_units))
+            .collect();
+        self.settled(rows, factors.into_iter().collect::<Option<_>>()?, result, whole)
+    }
+
+    /// Compares the contributions that the sheet states with those of the model.
+    fn contributions(
+        &mut self,
+        header: &Header,
+        rows: &[Row],
+        factors: &[f64],
+        whole: &Whole,
+    ) -> Option<()> {
+        if whole.has_variances {
+            self.compare_variances(header, rows, factors);
+            return Some(());
         }
+        self.relative_budget(header, rows, factors, whole)?;
+        for (row, factor) in rows.iter().zip(factors) {
+            self.compare_contribution(header, row, *factor, whole);
+        }
+        self.contradicting_contributions(header, rows, factors, whole)
+    }
+
+    /// The unit of the result: that of its row, else that of the first row whose coefficient says it, where
+    /// quantities in per cent or ppm are shares of others.
+    fn unit_of_result(
+        &mut self,
+        header: &Header,
+        rows: &[Row],
+        result: Option<&Row>,
+        measurand: &str,
+    ) -> String {
+        let is_share = |unit: &str| Unit::parse(unit).is_ok_and(|unit| unit.is_relative());
+        let is_one = |row: &Row| row.sensitivity.is_none_or(|c| c.abs() == 1.0);
         let of = |row: &Row| {
             if !row.unit_of_sensitivity.is_empty() {
                 return of_coefficient(&row.unit_of_sensitivity, &row.unit);
             }
-            let is_one = row.sensitivity.is_none_or(|c| c.abs() == 1.0);
-            (is_one && !row.unit.is_empty()).then(|| row.unit.clone())
+            (is_one(row) && !row.unit.is_empty()).then(|| row.unit.clone())
         };
-        let Some((unit, row)) = rows.iter().find_map(|row| Some((of(row)?, row))) else {
+        let found: Vec<(String, &Row)> =
+            rows.iter().filter_map(|row| Some((of(row)?, row))).collect();
+        let whole = found.iter().find(|(unit, row)| {
+            let is_of_shares = Unit::parse(unit).is_ok_and(|of| of.dimension().is_none());
+            !is_of_shares && row.estimate.is_some_and(|x| x != 0.0)
+        });
+        if let Some(result) = result.filter(|result| !result.unit.is_empty()) {
+            // the unit of its uncertainty alone
+            let is_figure = result.is_summary && is_share(&result.unit) && whole.is_some();
+            if !is_figure {
+                return result.unit.clone();
+            }
+        }
+        let (unit, row) = match (whole, found.first()) {
+            (Some(whole), Some((first, _))) if is_share(first) => whole,
+            (_, Some(first)) => first,
+            (_, None) => return self.unit_of_product(rows, measurand),
+        };
+        let is_number = |row: &&Row| {
+            let text = header.cell(self.cells, row.line, Column::Unit).trim();
+            let is_known = text == "1" || row.estimate.is_some_and(|x| x != 0.0);
+            let is_plain = row.sensitivity.is_some() && row.unit_of_sensitivity.is_empty();
+            row.unit.is_empty() && is_plain && is_one(row) && is_known
+        };
+        if let Some(number) = rows.iter().find(is_number).filter(|_| is_share(unit)) {
+            self.guessed.push(format!(
+                "the unit of {measurand} is not given: it is taken for a plain number, as `{}` in line {}",
+                number.name,
+                number.line + 1
+            ));
             return String::new();
-        };
+        }
         self.guessed.push(format!(
             "the unit of {measurand} is not given: `{unit}` is taken, as of `{}` in line {}",
             row.name,
             row.line + 1
+        ));
+        unit.clone()
+    }
+
+    /// The usual unit of what the first coefficient with a unit makes of its quantity; empty for a plain
+    /// number, or where there is none.
+    fn unit_of_product<'r>(&mut self, rows: &'r [Row], measurand: &str) -> String {
+        let of = |row: &'r Row| {
+            let per = Unit::parse(&row.unit_of_sensitivity).ok()?;
+            let own = Unit::parse(&row.unit).ok()?;
+            let product = per.dimension().checked_mul(own.dimension())?;
+            (!row.unit_of_sensitivity.is_empty() && !product.is_none()).then_some((product, row))
+        };
+        let Some((product, row)) = rows.iter().find_map(of) else { return String::new() };
+        let unit = product.usual_unit();
+        self.guessed.push(format!(
+            "the unit of {measurand} is not given: `{unit}` is taken, as the coefficient of `{}` in line {} \
+             is in `{}`",
+            row.name,
+            row.line + 1,
+            row.unit_of_sensitivity
         ));
         unit
     }
@@ -152,64 +243,22 @@ impl Budget<'_> {
     fn coefficient(
         &mut self,
         header: &Header,
-        row: &Row,
-        unit: &str,
+        (row, rows): (&Row, &[Row]),
+        result: &Whole,
         states_units: bool,
-    ) -> Option<f64> {
-        let line = row.line + 1;
-        let (of_row, of_result) = (Unit::parse(&row.unit).ok(), Unit::parse(unit).ok());
-        let (own, whole) = of_row.zip(of_result)?;
+    ) -> Option<Factor> {
+        let (unit, whole) = (result.text, &result.unit);
+        let own = Unit::parse(&row.unit).ok()?;
         if let Some(c) = row.sensitivity.filter(|_| states_units) {
-            let stated = match row.unit_of_sensitivity.as_str() {
-                "" => "1",
-                stated => stated,
-            };
-            let Ok(per) = Unit::parse(stated) else {
-                self.fail(row.line, format!("the unit `{stated}` of the coefficient is not known"));
-                return None;
-            };
-            if unit.is_empty() {
-                return Some(c);
-            }
-            let product = per.dimension().checked_mul(own.dimension());
-            if product != Some(whole.dimension()) {
-                let found = product.map_or_else(String::new, |found| {
-                    format!(", {}, where the result is in `{unit}`", found.describe())
-                });
-                let is_plain = row.unit_of_sensitivity.is_empty();
-                if is_plain && self.contribution(header, row, c, &whole).is_some_and(is_same) {
-                    let of = if row.unit.is_empty() { "unit one" } else { &row.unit };
-                    self.guessed.push(format!(
-                        "line {line}: the coefficient {} of `{}` is taken in `{unit}` per {of}, as its \
-                         contribution has it",
-                        Shortest(c),
-                        row.name
-                    ));
-                    return Some(c);
-                }
-                let coefficient = if is_plain {
-                    "a coefficient without a unit".to_owned()
-                } else {
-                    format!("a coefficient in `{stated}`")
-                };
-                let times = match row.unit.as_str() {
-                    "" => "a quantity without one".to_owned(),
-                    own => format!("`{own}`"),
-                };
-                self.fail(row.line, format!("{coefficient} times {times}{found}"));
-                return None;
-            }
-            let scale = per.factor() * own.factor() / whole.factor();
-            let is_one = (scale - 1.0).abs() < 1e-12;
-            // each step rounded once
-            return Some(if is_one { c } else { whole.from_si(own.to_si(per.to_si(c))) });
+            return self.with_unit_of_coefficient(header, row, c, result).map(Factor::Known);
         }
-        let scale = Unit::conversion_factor(&own, &whole).ok();
+        let line = row.line + 1;
+        let scale = Unit::conversion_factor(&own, whole).ok();
         let shifted = own.offset() != whole.offset();
         let c = row.sensitivity.unwrap_or(1.0);
         // a coefficient multiplies differences, whose zeros do not matter
-        match scale.filter(|_| !shifted || row.sensitivity.is_some()) {
-            Some(1.0) => Some(c),
+        let known = match scale.filter(|_| !shifted || row.sensitivity.is_some()) {
+            Some(1.0) => c,
             Some(scale) if row.sensitivity.is_none() => {
                 let of = match row.unit.as_str() {
                     "" => "without a unit".to_owned(),
@@ -217,27 +266,14 @@ impl Budget<'_> {
                 };
                 self.guessed
                     .push(format!("line {line}: `{}` {of} is converted to {unit}", row.name));
-                Some(scale)
+                scale
             }
-            Some(scale) if (c.abs() / scale - 1.0).abs() < 1e-6 => Some(c),
+            Some(scale) if (c.abs() / scale - 1.0).abs() < 1e-6 => c,
             // nearer to a plain factor than to the ratio of the two units
             Some(scale) if far_from_one(c) < far_from_one(c / scale) => {
-                let fits = |c: f64| self.contribution(header, row, c, &whole).is_some_and(is_same);
-                match (fits(c), fits(c * scale)) {
-                    (true, false) => return Some(c),
-                    (false, true) => return Some(c * scale),
-                    _ => {}
-                }
-                let (c, converted) = (Shortest(c), Shortest(c * scale));
-                let reason = format!(
-                    "the coefficient {c} of `{}` in {own} can be {c} {unit}/{own} or {c} {unit}/{unit}, \
-                     which is {converted} {unit}/{own}; write that with a column `Unit of c_i`, or the \
-                     quantity in {unit}",
-                    row.name
-                );
-                self.fail(row.line, reason);
-                None
+                self.of_one_dimension(header, row, scale, result)?
             }
+            Some(_) => c,
             None if row.sensitivity.is_none() && row.unit != unit => {
                 let of = |unit: &str| match unit {
                     "" => "without a unit".to_owned(),
@@ -250,54 +286,103 @@ impl Budget<'_> {
                     of(unit)
                 );
                 self.fail(row.line, reason);
-                None
+                return None;
             }
-            Some(_) | None => {
-                if scale.is_none()
-                    && let Some((found, of)) = self.by_contribution(header, row, c, &whole)
-                {
-                    self.guessed.push(format!(
-                        "line {line}: the coefficient {} of `{}` is taken in `{of}` per {}, as its \
-                         contribution has it",
-                        Shortest(c),
-                        row.name,
-                        row.unit
-                    ));
-                    return Some(found);
-                }
-                if c.abs() == 1.0 && row.unit != unit && !unit.is_empty() {
-                    self.guessed.push(format!(
-                        "line {line}: the coefficient {} of `{}` is taken in `{unit}` per {}",
-                        Shortest(c),
-                        row.name,
-                        if row.unit.is_empty() { "unit one" } else { row.unit.as_str() },
-                    ));
-                }
-                Some(c)
-            }
-        }
+            None => return Some(self.across(header, (row, rows), c, result)),
+        };
+        Some(Factor::Known(known))
     }
 
-    /// The contribution of a row to the result as the sheet states it, perhaps with a unit, and that of
-    /// the model, both without a sign and in the unit of the result.
-    fn contribution(
+    /// The factor of a coefficient in a sheet that states units of coefficients; one without is a plain
+    /// number.
+    fn with_unit_of_coefficient(
+        &mut self,
+        header: &Header,
+        row: &Row,
+        c: f64,
+        result: &Whole,
+    ) -> Option<f64> {
+        let (unit, whole) = (result.text, &result.unit);
+        let own = Unit::parse(&row.unit).ok()?;
+        let stated = match row.unit_of_sensitivity.as_str() {
+            "" => "1",
+            stated => stated,
+        };
+        let Ok(per) = Unit::parse(stated) else {
+            self.fail(row.line, format!("the unit `{stated}` of the coefficient is not known"));
+            return None;
+        };
+        let product = per.dimension().checked_mul(own.dimension());
+        if product == Some(whole.dimension()) {
+            let scale = per.factor() * own.factor() / whole.factor();
+            let is_one = (scale - 1.0).abs() < 1e-12;
+            // each step rounded once
+            return Some(if is_one { c } else { whole.from_si(own.to_si(per.to_si(c))) });
+        }
+        let found = product.map_or_else(String::new, |found| {
+            let of_result = match unit {
+                "" => "a plain number".to_owned(),
+                unit => format!("in `{unit}`"),
+            };
+            format!(", {}, where the result is {of_result}", found.describe())
+        });
+        let is_plain = row.unit_of_sensitivity.is_empty();
+        if let Some(factor) =
+            self.by_stated_contribution(header, row, c, result).filter(|_| is_plain)
+        {
+            return Some(factor);
+        }
+        let coefficient = if is_plain {
+            "a coefficient without a unit".to_owned()
+        } else {
+            format!("a coefficient in `{stated}`")
+        };
+        let times = match row.unit.as_str() {
+            "" => "a quantity without one".to_owned(),
+            own => format!("`{own}`"),
+        };
+        self.fail(row.line, format!("{coefficient} times {times}{found}"));
+        None
+    }
+
+    /// The factor of a coefficient without a unit of a quantity in another unit of the dimension of the
+    /// result, by its contribution; `None` after a mistake.
+    fn of_one_dimension(
         &self,
         header: &Header,
         row: &Row,
-        factor: f64,
-        of_result: &Unit,
-    ) -> Option<[f64; 2]> {
-        let text = header.cell(self.cells, row.line, Column::Contribution).trim();
-        let (stated, unit) = number_with_unit(text, self.cells.decimal_comma())?;
-        let scale = match unit.trim() {
-            "" => match header.unit(Column::Contribution) {
-                None => 1.0,
-                Some(unit) => Unit::conversion_factor(&Unit::parse(unit).ok()?, of_result).ok()?,
-            },
-            unit => Unit::conversion_factor(&Unit::parse(unit).ok()?, of_result).ok()?,
-        };
-        let u = standard_uncertainty(row).unwrap_or(0.0);
-        (!text.ends_with('%')).then(|| [(stated * scale).abs(), (factor * u).abs()])
+        scale: f64,
+        result: &Whole,
+    ) -> Option<f64> {
+        let c = row.sensitivity.unwrap_or(1.0);
+        let fits = |c: &f64| self.contribution(header, row, *c, result).is_some_and(is_same);
+        let of_result = share_of_result(row, c, result).map(|share| share.factor);
+        // a plain number of 1 has one reading less
+        let of_result = of_result.filter(|of| !result.unit.is_relative() && *of != c * scale);
+        let readings = [Some(c), Some(c * scale), of_result];
+        let mut fitting = readings.into_iter().flatten().filter(fits);
+        if let (Some(only), None) = (fitting.next(), fitting.next()) {
+            return Some(only);
+        }
+        let (own, unit) = (row.unit.as_str(), result.text);
+        let alike = if unit.is_empty() { own } else { unit };
+        let third = of_result.map_or(String::new(), |of| {
+            let of = per(of, unit, own);
+            format!(", or {} {own} of the result per {own}, which is {of}", Shortest(c))
+        });
+        let reason = format!(
+            "the coefficient {} of `{}` in {} can be {} or {}, which is {}{third}; write that with a column \
+             `Unit of c_i`, or the quantity {}",
+            Shortest(c),
+            row.name,
+            if own.is_empty() { "plain numbers" } else { own },
+            per(c, unit, own),
+            per(c, alike, alike),
+            per(c * scale, unit, own),
+            if unit.is_empty() { "as a plain number".to_owned() } else { format!("in {unit}") },
+        );
+        self.fail(row.line, reason);
+        None
     }
 
     /// A coefficient that is stated in the unit of the contributions and not in that of the result, where
@@ -307,11 +392,11 @@ impl Budget<'_> {
         header: &'h Header,
         row: &Row,
         c: f64,
-        of_result: &Unit,
+        whole: &Whole,
     ) -> Option<(f64, &'h str)> {
         let unit = header.unit(Column::Contribution)?;
-        let scale = Unit::conversion_factor(&Unit::parse(unit).ok()?, of_result).ok()?;
-        let fits = |c: f64| self.contribution(header, row, c, of_result).is_some_and(is_same);
+        let scale = Unit::conversion_factor(&Unit::parse(unit).ok()?, &whole.unit).ok()?;
+        let fits = |c: f64| self.contribution(header, row, c, whole).is_some_and(is_same);
         (scale != 1.0 && !fits(c) && fits(c * scale)).then_some((c * scale, unit))
     }
 
@@ -322,11 +407,11 @@ impl Budget<'_> {
         header: &Header,
         rows: &[Row],
         factors: &[f64],
-        unit: &str,
+        whole: &Whole,
     ) -> Option<()> {
-        let of_result = Unit::parse(unit).ok()?;
+        let unit = whole.text;
         let ratio = |(row, factor): (&Row, &f64)| {
-            let [stated, own] = self.contribution(header, row, *factor, &of_result)?;
+            let [stated, own] = self.contribution(header, row, *factor, whole)?;
             (stated > 0.0 && own > 0.0).then(|| (row.line, row.name.clone(), stated / own))
         };
         let ratios: Vec<(usize, String, f64)> =
@@ -351,16 +436,15 @@ impl Budget<'_> {
     }
 
     /// Tells where the sheet's contribution of a row is not that of the model.
-    fn compare_contribution(&mut self, header: &Header, row: &Row, factor: f64, unit: &str) {
-        let Ok(of_result) = Unit::parse(unit) else { return };
-        let both = self.contribution(header, row, factor, &of_result);
+    fn compare_contribution(&mut self, header: &Header, row: &Row, factor: f64, whole: &Whole) {
+        let both = self.contribution(header, row, factor, whole);
         if let Some([_, own]) = both.filter(|both| !is_same(*both)) {
             self.guessed.push(format!(
                 "line {}: the sheet says that `{}` contributes {}, this model {}",
                 row.line + 1,
                 row.name,
                 header.cell(self.cells, row.line, Column::Contribution).trim(),
-                of_result.after(&Shortest(own).to_string())
+                self.in_unit_of_contribution(header, row, own, whole)
             ));
         }
     }

@@ -41,6 +41,8 @@ pub(super) struct Row {
     pub(super) is_type_a: bool,
     /// Whether it is a figure of the result: `U`, `k`.
     pub(super) is_summary: bool,
+    /// Of the result: what the sheet says of it.
+    pub(super) figures: Vec<Stated>,
 }
 
 /// What a sheet holds below its header.
@@ -220,10 +222,11 @@ impl Budget<'_> {
         self.blank_estimates(header, &table.rows);
         self.blank_uncertainties(header, &table.rows);
         self.stated_twice(header, &table.rows);
-        if let Some(result) = &mut table.result
-            && (columns::is_result(&result.about) || result.is_summary)
-        {
-            result.name = String::new();
+        if let Some(result) = &mut table.result {
+            result.figures.clone_from(&table.stated);
+            if columns::is_result(&result.about) || result.is_summary {
+                result.name = String::new();
+            }
         }
         table
     }

@@ -3,11 +3,14 @@
 //! A budget that was misread mostly gives another result than its sheet: comparing the two finds what
 //! no look at a single cell would.
 
+mod numbers;
+
 use std::path::Path;
 
 use super::Budget;
 use super::columns::{self, Column, Header};
 use super::coverage::HeaderCoverage;
+use super::linear::are_all;
 use super::number::{constant, number_with_unit};
 use super::rows::{Row, without_factor};
 use crate::reader::read_text;
@@ -37,6 +40,15 @@ pub(super) struct Stated {
     half_digit: f64,
     /// Empty where the sheet states none.
     unit: String,
+    /// Whether it is a share of the estimate by its heading.
+    is_share: bool,
+}
+
+/// What shares of an estimate are of; `None` of 0, of levels and of temperatures in °C, which count from no
+/// zero.
+pub(super) fn share_of(unit: &Unit, estimate: f64) -> Option<f64> {
+    let counts = unit.zero().is_none() && unit.level_exponent().is_zero();
+    Some(estimate.abs()).filter(|whole| counts && *whole > 0.0 && whole.is_finite())
 }
 
 /// Figures differ from this share on where digits do not tell: parts of a budget are rounded too.
@@ -72,6 +84,35 @@ impl Stated {
         let counts_alike = unit.has_zero_of(of_result) || self.figure != Figure::Estimate;
         Unit::conversion_factor(&unit, of_result).ok().filter(|_| counts_alike)
     }
+
+    /// What its number is multiplied by for one in the unit of a result of this estimate: to convert it, and
+    /// for an uncertainty in per cent or ppm as a share of the estimate.
+    fn scales(&self, of_result: &Unit, estimate: f64) -> Vec<f64> {
+        let size = Unit::parse(&self.unit).ok();
+        let size =
+            size.filter(|unit| unit.is_relative() || self.is_share).map(|unit| unit.factor());
+        let share = size.filter(|_| self.figure != Figure::Estimate);
+        let share = share.and_then(|size| Some(size * share_of(of_result, estimate)?));
+        self.scale(of_result).filter(|_| !self.is_share).into_iter().chain(share).collect()
+    }
+
+    /// Whether the number times this factor is one of the model, but for rounding and for a slack.
+    fn is_near(&self, own: f64, scale: f64, slack: f64) -> bool {
+        (self.value * scale - own).abs() <= 1.2 * self.half_digit * scale.abs() + slack
+    }
+
+    /// Whether an uncertainty is that of a result with this estimate and standard uncertainty; `None` of an
+    /// estimate, and of what cannot be compared.
+    pub(super) fn is_of(&self, [estimate, u]: [f64; 2], of_result: &Unit) -> Option<bool> {
+        let own = match self.figure {
+            Figure::Estimate => return None,
+            Figure::StandardUncertainty => u,
+            Figure::ExpandedUncertainty(coverage, dof) => u * coverage.factor(dof).unwrap_or(2.0),
+        };
+        let scales = self.scales(of_result, estimate);
+        let is_it = |scale: &f64| self.is_near(own, *scale, ROUNDED_PARTS * own);
+        (!scales.is_empty()).then(|| scales.iter().any(is_it))
+    }
 }
 
 impl Budget<'_> {
@@ -100,7 +141,8 @@ impl Budget<'_> {
             }
             stated => stated,
         };
-        let columns = [Column::Estimate, Column::Width, Column::Std, Column::Contribution];
+        let columns =
+            [Column::Estimate, Column::Width, Column::Std, Column::Relative, Column::Contribution];
         let mut found = Vec::new();
         for column in columns {
             let text = header.cell(self.cells, line, column).trim();
@@ -120,11 +162,21 @@ impl Budget<'_> {
                 _ if is_expanded => expanded,
                 _ => Figure::StandardUncertainty,
             };
-            if text.ends_with('%') || (value == 0.0 && figure != Figure::Estimate) {
+            // the number of a cell in per cent is a share already
+            let is_percent = unit.is_empty() && digits.ends_with('%');
+            let value = if is_percent { 100.0 * value } else { value };
+            let of_header = header.unit(column);
+            let is_in_percent =
+                is_percent || unit == "%" || unit.is_empty() && of_header == Some("%");
+            // all of the variance
+            let is_whole = column == Column::Contribution && is_in_percent && are_all(value);
+            if is_whole || value == 0.0 && figure != Figure::Estimate {
                 continue;
             }
-            let unit = match (unit, header.unit(column)) {
+            let unit = match (unit, of_header) {
+                ("", _) if is_percent => "%",
                 ("", Some(of_header)) => of_header,
+                ("", None) if column == Column::Relative => "",
                 ("", None) => row.unit.as_str(),
                 (unit, _) => unit,
             };
@@ -135,6 +187,7 @@ impl Budget<'_> {
                 value,
                 half_digit: half_digit(digits),
                 unit: unit.to_owned(),
+                is_share: column == Column::Relative,
             });
         }
         found
@@ -154,6 +207,14 @@ impl Budget<'_> {
             Some(result.0.estimate / stated.scale(&result.1)?)
         };
         let Some(checked) = result_of(&made) else { return made };
+        let decides = |stated: &Stated| !stated.scales(&checked.1, checked.0.estimate).is_empty();
+        if !stated.iter().any(decides) {
+            let without = model(false);
+            if without != made {
+                self.converted_twice(&made, &without);
+            }
+            return made;
+        }
         let is_scaled = |stated: &Stated| {
             let own = of(&checked, stated)?;
             let ratio = elementary::log10(own / stated.value);
@@ -203,10 +264,12 @@ impl Budget<'_> {
         let is_correlated = (0..self.cells.lines())
             .any(|line| self.cells.row(line).iter().any(|cell| columns::is_of_correlation(cell)));
         for stated in stated {
-            let Some(scale) = stated.scale(&of_result) else { continue };
-            let (value, half) = (stated.value * scale, stated.half_digit * scale.abs());
+            let scales = stated.scales(&of_result, gum.estimate);
+            let Some(scale) = scales.first().copied() else { continue };
             let u = gum.standard_uncertainty;
-            let near = |own: f64, slack: f64| (value - own).abs() <= 1.2 * half + slack;
+            let near = |own: f64, slack: f64| {
+                scales.iter().any(|scale| stated.is_near(own, *scale, slack))
+            };
             let (own, is_same, what) = match stated.figure {
                 Figure::Estimate => (gum.estimate, near(gum.estimate, MATTERS * u), "the estimate"),
                 Figure::StandardUncertainty => {
@@ -228,7 +291,10 @@ impl Budget<'_> {
                 continue;
             }
             // both in the unit of the sheet
-            let unit = if stated.unit.is_empty() { of_result.text() } else { stated.unit.as_str() };
+            let unit = match stated.unit.as_str() {
+                "" if !stated.is_share => of_result.text(),
+                unit => unit,
+            };
             let with_unit = |number: String| match unit {
                 unit if !number.ends_with(unit) => format!("{number} {unit}").trim_end().to_owned(),
                 _ => number,
@@ -238,15 +304,26 @@ impl Budget<'_> {
             let text = with_unit(stated.text.clone());
             let said =
                 format!("the sheet says that {what} of the result is {text}, this model {written}");
-            let far = (value - own).abs() - 1.2 * half;
-            let is_far = match stated.figure {
-                // an estimate near 0 has no share
-                Figure::Estimate => far > LARGE * own.abs() && far > 2.0 * u,
-                _ => far > 0.0 && (value / own).max(own / value) > FAR,
-            };
+            let is_far = scales.iter().all(|scale| {
+                let value = stated.value * scale;
+                let far = (value - own).abs() - 1.2 * stated.half_digit * scale.abs();
+                match stated.figure {
+                    // an estimate near 0 has no share
+                    Figure::Estimate => far > LARGE * own.abs() && far > 2.0 * u,
+                    _ => far > 0.0 && (value / own).max(own / value) > FAR,
+                }
+            });
             if is_far && !is_correlated {
+                // of a result of another dimension
+                let is_relative = stated.scale(&of_result).is_none() || stated.is_share;
+                let hint = match is_relative {
+                    true => {
+                        " (of a relative budget, whose result is a product of powers, write the equation)"
+                    }
+                    false => "",
+                };
                 let reason = format!(
-                    "{said}: correct the row or the equation that is misread, or take this figure away"
+                    "{said}: correct the row or the equation that is misread{hint}, or take this figure away"
                 );
                 self.fail(stated.line, reason);
             } else {

@@ -2,6 +2,8 @@
 
 use super::*;
 
+mod relative;
+
 fn import(name: &str, content: &[u8]) -> Result<ImportedBudget, Diagnostics> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);

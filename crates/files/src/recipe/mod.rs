@@ -326,6 +326,7 @@ impl RecipeFile {
                         start: recording.start,
                         jitter: file.jitter,
                         beside_frequency: None,
+                        of_middle: recording.of_middle,
                     };
                     let search = self.searches.get(number).copied().flatten();
                     opened.tracks.push(ChannelRecording {

@@ -107,14 +107,19 @@ fn unrounded(row: &Stated<'_>, found: &Conformity, of: Said) -> Option<String> {
     }
     let limits = [Some(&found.tolerance), found.acceptance.as_ref()].into_iter().flatten();
     let limits: Vec<&Tolerance> = limits.collect();
-    // as many digits as show on which side it lies
-    let tells = |value: f64| {
-        limits.iter().all(|limits| limits.holds(value) == limits.holds(found.estimate))
-    };
-    let digits = (2..=15).find(|digits| tells(to_digits(found.estimate, *digits)));
-    let value = to_digits(found.estimate, digits.unwrap_or(15) + 1);
-    let value = in_unit(&exact(value), &printed(&row.quantity.unit));
+    let value = in_unit(&exact(telling(found.estimate, &limits)), &printed(&row.quantity.unit));
     Some(of.words().unrounded.replace("{value}", &of.in_marks(&value)))
+}
+
+/// A value with one digit more than those that show on which side of limits it lies, whether a reader
+/// takes as many or more of them.
+fn telling(value: f64, limits: &[&Tolerance]) -> f64 {
+    let tells = |digits: u32| {
+        let shown = to_digits(value, digits);
+        limits.iter().all(|limits| limits.holds(shown) == limits.holds(value))
+    };
+    let digits = (2..=15).rev().take_while(|digits| tells(*digits)).last();
+    to_digits(value, digits.unwrap_or(15) + 1)
 }
 
 /// What is decided. A value that a guarded rule rejects although it lies within the tolerance is not
@@ -173,4 +178,29 @@ fn limits(row: &Stated<'_>, of: &Tolerance, place: Option<i32>, words: &Words) -
     form.replace("{low}", &low.unwrap_or_default())
         .replace("{high}", &high.unwrap_or_default())
         .replace("{unit}", &unit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 10.064 to two digits is beyond 10.06 by chance and to four it is not: it takes the five. So it
+    /// does where the limit lies between 10.055 and the 10.06 of four digits.
+    #[test]
+    fn a_value_is_told_with_the_digits_that_decide() {
+        let below = |upper: f64| Tolerance { lower: None, upper: Some(upper) };
+        for (value, upper, expected) in [
+            (10.064, 10.06, 10.064),
+            (10.055, 10.059, 10.055),
+            (10.004, 10.0, 10.004),
+            (1.1004, 1.1, 1.1004),
+            (1.100_412_3, 1.1, 1.100_41),
+            (104.0, 100.0, 104.0),
+            (95.1, 95.100_000_000_01, 95.1),
+        ] {
+            assert_eq!(telling(value, &[&below(upper)]), expected, "{value} {upper}");
+        }
+        let both = [&below(10.1), &below(10.059)];
+        assert_eq!(telling(10.0553, &both), 10.0553);
+    }
 }

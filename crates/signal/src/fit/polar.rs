@@ -29,6 +29,10 @@ pub(crate) struct Polar {
     pub(crate) shared: Vec<(UncertaintySource, f64)>,
     /// How phi moves with the cycles in a sample interval that the fit took, radians.
     pub(crate) slope: f64,
+    /// The standard uncertainty of phi from the sampling rate, radians, with its sign.
+    pub(crate) of_rate: f64,
+    /// That from the instant of the record's middle, where instants of the samples tell it.
+    pub(crate) of_instants: f64,
     /// Standard deviations of the fitted phasor along its own direction and across it, divided by the
     /// gain, from noise of all kinds.
     pub(crate) scatter: [f64; 2],
@@ -160,6 +164,17 @@ pub(crate) fn polar(
     for (_, along, _) in &mut own {
         *along /= gain * kept;
     }
+    let phi_slope = phase_slope - 2.0 * PI * times * to_middle;
+    let (of_rate, of_instants) = match base.of_middle {
+        None => (phi_slope * of.of_rate, 0.0),
+        // from the middle to instant 0 it is a number of seconds that the rate has no part in, times the
+        // frequency, which is known by the rate where it is not stated
+        Some(u) => {
+            let of_frequency = -2.0 * PI * of.cycles * times * to_middle * relative;
+            let of_rate = if of.is_stated { phase_slope * of.of_rate } else { of_frequency };
+            (of_rate, 2.0 * PI * of.hertz.value * times * u)
+        }
+    };
     Some(Polar {
         tone,
         steps,
@@ -168,7 +183,9 @@ pub(crate) fn polar(
         phase: atan2(-b, a) - angle(left) - 2.0 * PI * (cycles * to_middle).fract(),
         own,
         shared: shared.into_iter().map(|(source, u)| (source, u / (gain * kept))).collect(),
-        slope: phase_slope - 2.0 * PI * times * to_middle,
+        slope: phi_slope,
+        of_rate,
+        of_instants,
         scatter: scatter.map(|square| square.sqrt() / gain),
         blur: kept,
         of,

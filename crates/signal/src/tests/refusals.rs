@@ -26,7 +26,13 @@ impl Asked {
         Self {
             settings: bench.settings(),
             frequencies: vec![frequency(10.3)],
-            base: TimeBase { rate, start: 0.0, jitter: 0.0, beside_frequency: None },
+            base: TimeBase {
+                rate,
+                start: 0.0,
+                jitter: 0.0,
+                beside_frequency: None,
+                of_middle: None,
+            },
             values: bench.values(1),
             places: vec![0, 1],
         }

@@ -161,7 +161,13 @@ impl Bench {
             standard_uncertainty: self.rate_uncertainty,
             degrees_of_freedom: f64::INFINITY,
         };
-        let base = TimeBase { rate, start: 0.0, jitter: self.jitter, beside_frequency: None };
+        let base = TimeBase {
+            rate,
+            start: 0.0,
+            jitter: self.jitter,
+            beside_frequency: None,
+            of_middle: None,
+        };
         let channels = (0..held.channels.len()).collect();
         let frequency = Frequency {
             hertz: Some(self.hertz),

@@ -232,3 +232,19 @@ fn ties_of_the_largest_subset_are_told() {
     let compatible: Vec<_> = found.rows.iter().map(DegreeOfEquivalence::is_compatible).collect();
     assert_eq!(compatible, [None, Some(false), Some(false)]);
 }
+
+/// By hand: two laboratories with u = 0.05 have a mean in their middle and u(d)^2 = 0.05^2/2, so that
+/// values 2 sqrt(2) 0.05 apart are U(d) = sqrt(2) 0.05 from it, and En is 1 of both, wherever they lie.
+#[test]
+fn a_normalized_error_of_one_is_compatible() {
+    let apart = 0.1 * 2.0f64.sqrt();
+    for start in [0.0, 0.3, 1.37, 10.1, 1e3 / 7.0] {
+        let of = |apart: f64| {
+            let all = [laboratory("a", start, 0.05), laboratory("b", start + apart, 0.05)];
+            let rows = compare_by(&all, &[], Some(Estimator::WeightedMean)).unwrap().rows;
+            rows.iter().map(DegreeOfEquivalence::is_compatible).collect::<Vec<_>>()
+        };
+        assert_eq!(of(apart), [Some(true); 2], "{start}");
+        assert_eq!(of(apart + 1e-7), [Some(false); 2], "{start}");
+    }
+}

@@ -1,25 +1,20 @@
 //! How a value is distributed about its estimate, whatever the estimate: what guard bands for a specific
 //! risk are made of (JCGM 106, 8.3.2).
 
-use super::smallest;
+use super::smallest_band;
 use crate::propagate::gum::{Dof, Gum};
 use crate::special::student;
 
-/// The distribution of a value's distance from its estimate.
-#[derive(Debug)]
-pub(in crate::propagate) enum ErrorLaw {
-    /// A t distribution, scaled: with infinitely many degrees of freedom a normal one.
-    Student { scale: f64, dof: f64 },
-    /// That of trials: their distances from the estimate, in order.
-    Trials(Vec<f64>),
+/// A t distribution about an estimate, scaled: with infinitely many degrees of freedom a normal one.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::propagate) struct StudentLaw {
+    pub(super) scale: f64,
+    pub(super) dof: f64,
 }
 
-/// Doublings of a guard band that are tried where one limit alone is given.
-const DOUBLINGS: usize = 200;
-
-impl ErrorLaw {
+impl StudentLaw {
     pub(super) fn normal(u: f64) -> Self {
-        Self::Student { scale: u, dof: f64::INFINITY }
+        Self { scale: u, dof: f64::INFINITY }
     }
 
     /// That of the law of propagation: normal, or t with the effective degrees of freedom (JCGM 100,
@@ -29,7 +24,53 @@ impl ErrorLaw {
             Dof::Finite(dof) => dof,
             Dof::Infinite | Dof::Undefined => f64::INFINITY,
         };
-        Self::Student { scale: gum.standard_uncertainty, dof }
+        Self { scale: gum.standard_uncertainty, dof }
+    }
+
+    /// The probability of a distance below this one.
+    pub(super) fn below(self, distance: f64) -> f64 {
+        student::cdf(distance / self.scale, self.dof)
+    }
+
+    /// The probability of a distance above this one, from the near tail, so that small probabilities
+    /// keep their digits.
+    pub(super) fn above(self, distance: f64) -> f64 {
+        self.below(-distance)
+    }
+
+    /// -2 times the logarithm of the density over the greatest one, at so many scales.
+    pub(super) fn form(self, distance: f64) -> f64 {
+        let square = distance * distance;
+        match self.dof.is_finite() {
+            true => (self.dof + 1.0) * libm::log1p(square / self.dof),
+            false => square,
+        }
+    }
+}
+
+/// The distribution of a value's distance from its estimate.
+#[derive(Debug)]
+pub(in crate::propagate) enum ErrorLaw {
+    Student(StudentLaw),
+    /// That of trials: their distances from the estimate, in order.
+    Trials(Vec<f64>),
+}
+
+impl ErrorLaw {
+    pub(super) fn normal(u: f64) -> Self {
+        Self::Student(StudentLaw::normal(u))
+    }
+
+    pub(super) fn of(gum: &Gum) -> Self {
+        Self::Student(StudentLaw::of(gum))
+    }
+
+    /// Where it is none of trials.
+    pub(super) fn student(&self) -> Option<StudentLaw> {
+        match self {
+            Self::Student(law) => Some(*law),
+            Self::Trials(_) => None,
+        }
     }
 
     pub(in crate::propagate) fn of_trials(mut values: Vec<f64>, estimate: f64) -> Self {
@@ -41,7 +82,7 @@ impl ErrorLaw {
     /// The scale of a t distribution; of trials the largest distance.
     pub(super) fn scale(&self) -> f64 {
         match self {
-            Self::Student { scale, .. } => *scale,
+            Self::Student(law) => law.scale,
             Self::Trials(distances) => {
                 let ends = [distances.first(), distances.last()];
                 ends.into_iter().flatten().fold(0.0, |most: f64, end| most.max(end.abs()))
@@ -52,7 +93,7 @@ impl ErrorLaw {
     /// The probability of a distance below this one.
     fn below(&self, distance: f64) -> f64 {
         match self {
-            Self::Student { scale, dof } => student::cdf(distance / scale, *dof),
+            Self::Student(law) => law.below(distance),
             Self::Trials(distances) => {
                 let count = distances.partition_point(|known| *known < distance);
                 count as f64 / distances.len().max(1) as f64
@@ -63,8 +104,7 @@ impl ErrorLaw {
     /// The probability of a distance above this one.
     fn above(&self, distance: f64) -> f64 {
         match self {
-            // from the near tail, so that small probabilities keep their digits
-            Self::Student { .. } => self.below(-distance),
+            Self::Student(law) => law.above(distance),
             Self::Trials(distances) => {
                 let count = distances.partition_point(|known| *known <= distance);
                 (distances.len() - count) as f64 / distances.len().max(1) as f64
@@ -91,13 +131,7 @@ impl ErrorLaw {
             (lower.is_infinite() || at_lower(width) <= risk)
                 && (upper.is_infinite() || at_upper(width) <= risk)
         };
-        let most = if (upper - lower).is_finite() {
-            0.5 * (upper - lower)
-        } else {
-            let widths = std::iter::successors(Some(self.scale()), |width| Some(2.0 * width));
-            widths.take(DOUBLINGS).find(|width| holds(*width))?
-        };
-        holds(most).then(|| smallest(0.0, most, holds))
+        smallest_band(upper - lower, self.scale(), holds)
     }
 }
 
@@ -111,7 +145,7 @@ mod tests {
     fn guard_bands_of_t() {
         let cases = [(4.0, 0.001, 7.173), (2.0, 0.05, 2.920), (f64::INFINITY, 0.05, 1.645)];
         for (dof, risk, expected) in cases.into_iter().chain([(f64::INFINITY, 0.01, 2.326)]) {
-            let law = ErrorLaw::Student { scale: 0.002, dof };
+            let law = ErrorLaw::Student(StudentLaw { scale: 0.002, dof });
             for limits in [[f64::NEG_INFINITY, 10.0], [10.0, f64::INFINITY], [0.0, 1e9]] {
                 let width = law.guard_band(risk, limits).unwrap();
                 assert!(

@@ -6,10 +6,10 @@
 //! of g a outside the tolerance, that of false rejection the integral of g (1 - a) inside. The
 //! integrals run over the standard normal scores of the prior, so that any shape will do.
 
-use super::smallest;
+use super::error_law::StudentLaw;
+use super::smallest_band;
 use crate::distribution::Distribution;
 use crate::propagate::golden_section;
-use crate::special;
 
 /// Risks over all items that are inspected.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,31 +26,32 @@ const FARTHEST: f64 = 8.5;
 /// The absolute error of an integral, at most.
 const TOLERANCE: f64 = 1e-10;
 
-/// Items of a prior, measured with a standard uncertainty.
+/// Items of a prior, and how measured values are distributed about theirs.
 #[derive(Debug)]
 pub(super) struct Inspection<'a> {
     prior: &'a Distribution,
-    u: f64,
+    errors: StudentLaw,
     limits: [f64; 2],
 }
 
 impl<'a> Inspection<'a> {
-    pub(super) fn new(prior: &'a Distribution, u: f64, limits: [f64; 2]) -> Self {
-        Self { prior, u, limits }
+    pub(super) fn new(prior: &'a Distribution, errors: StudentLaw, limits: [f64; 2]) -> Self {
+        Self { prior, errors, limits }
     }
 
     /// The risks with acceptance limits.
     pub(super) fn risks(&self, acceptance: [f64; 2]) -> GlobalRisks {
         let [lower, upper] = self.limits.map(|limit| self.score(limit));
         let accepted = |value: f64| {
-            let [low, high] = acceptance.map(|limit| (limit - value) / self.u);
+            let [low, high] = acceptance.map(|limit| limit - value);
+            let errors = self.errors;
             // from the near tail, so that small probabilities keep their digits
             if low > 0.0 {
-                special::normal::sf(low) - special::normal::sf(high)
+                errors.above(low) - errors.above(high)
             } else if high < 0.0 {
-                special::normal::cdf(high) - special::normal::cdf(low)
+                errors.below(high) - errors.below(low)
             } else {
-                1.0 - special::normal::cdf(low) - special::normal::sf(high)
+                1.0 - errors.below(low) - errors.above(high)
             }
         };
         let density = |z: f64| libm::exp(-0.5 * z * z) / (2.0 * std::f64::consts::PI).sqrt();
@@ -66,24 +67,32 @@ impl<'a> Inspection<'a> {
 
     /// The conformance probability of an item that was measured as `value`: the share of the posterior
     /// distribution that lies within the tolerance (JCGM 106, 6.3 and 7.1), by Bayes' theorem from the
-    /// prior and a normally distributed error of the measurement.
+    /// prior and the distribution of the errors.
     pub(super) fn conformance(&self, value: f64) -> f64 {
         let [lower, upper] = self.limits.map(|limit| self.score(limit));
-        let distance = |z: f64| (value - self.prior.at_score(z)) / self.u;
-        // a quadratic form, so that a value far from all of the prior does not underflow
-        let form = |z: f64| z * z + distance(z).powi(2);
+        let distance = |z: f64| (value - self.prior.at_score(z)) / self.errors.scale;
+        // logarithms, so that a value far from all of the prior does not underflow
+        let form = |z: f64| z * z + self.errors.form(distance(z));
         let mut cuts = self.cuts([value, f64::INFINITY]);
         let least = self.least(&form, &cuts);
         // about the peak, which may be narrow
         let peak = 1.0 / (1.0 + self.slope(least).powi(2)).sqrt();
         cuts.extend([-8.0, -4.0, -2.0, 0.0, 2.0, 4.0, 8.0].map(|step| least + step * peak));
+        if self.errors.dof.is_finite() {
+            let far = [16.0, 64.0, 256.0, 1024.0, 4096.0];
+            cuts.extend(
+                far.into_iter().flat_map(|step| [least - step * peak, least + step * peak]),
+            );
+        }
         cuts.extend([lower, upper]);
         cuts.sort_unstable_by(f64::total_cmp);
         let lowest = form(least);
         let posterior = |z: f64| libm::exp(-0.5 * (form(z) - lowest));
-        let inside = integral(&posterior, lower, upper, &cuts);
-        let outside = integral(&posterior, -FARTHEST, lower, &cuts)
-            + integral(&posterior, upper, FARTHEST, &cuts);
+        let within = |from: f64, to: f64| {
+            integral_within(&posterior, [from, to], &cuts, TOLERANCE * peak.min(1.0))
+        };
+        let inside = within(lower, upper);
+        let outside = within(-FARTHEST, lower) + within(upper, FARTHEST);
         inside / (inside + outside)
     }
 
@@ -102,16 +111,16 @@ impl<'a> Inspection<'a> {
     /// How many standard uncertainties the prior's value moves for each unit of the score.
     fn slope(&self, z: f64) -> f64 {
         let step = 1e-4;
-        (self.prior.at_score(z + step) - self.prior.at_score(z - step)) / (2.0 * step * self.u)
+        (self.prior.at_score(z + step) - self.prior.at_score(z - step))
+            / (2.0 * step * self.errors.scale)
     }
 
     /// The guard band with which the risk of false acceptance is at most this; `None` if no band
     /// gives that.
     pub(super) fn guard_band(&self, risk: f64) -> Option<f64> {
         let [lower, upper] = self.limits;
-        let most = if (upper - lower).is_finite() { 0.5 * (upper - lower) } else { 40.0 * self.u };
         let at = |width: f64| self.risks([lower + width, upper - width]).false_acceptance;
-        (at(most) <= risk).then(|| smallest(0.0, most, |width| at(width) <= risk))
+        smallest_band(upper - lower, self.errors.scale, |width| at(width) <= risk)
     }
 
     /// The score of a value, within those that are integrated over.
@@ -127,7 +136,7 @@ impl<'a> Inspection<'a> {
     fn cuts(&self, acceptance: [f64; 2]) -> Vec<f64> {
         let steps = [-8.0, -4.0, -2.0, 0.0, 2.0, 4.0, 8.0];
         let finite = acceptance.into_iter().filter(|limit| limit.is_finite());
-        let values = finite.flat_map(|limit| steps.map(|step| limit + step * self.u));
+        let values = finite.flat_map(|limit| steps.map(|step| limit + step * self.errors.scale));
         let mut cuts: Vec<f64> = values.map(|value| self.score(value)).collect();
         cuts.extend([-4.0, -2.0, 0.0, 2.0, 4.0]);
         cuts.sort_unstable_by(f64::total_cmp);
@@ -137,6 +146,16 @@ impl<'a> Inspection<'a> {
 
 /// The integral between two scores, cut at those between them.
 fn integral(f: &impl Fn(f64) -> f64, from: f64, to: f64, cuts: &[f64]) -> f64 {
+    integral_within(f, [from, to], cuts, TOLERANCE)
+}
+
+/// The same with this absolute error for each piece.
+fn integral_within(
+    f: &impl Fn(f64) -> f64,
+    [from, to]: [f64; 2],
+    cuts: &[f64],
+    tolerance: f64,
+) -> f64 {
     let mut sum = 0.0;
     let mut start = from;
     let between = cuts.iter().copied().filter(|cut| *cut > from && *cut < to);
@@ -144,7 +163,7 @@ fn integral(f: &impl Fn(f64) -> f64, from: f64, to: f64, cuts: &[f64]) -> f64 {
         if end > start {
             let (a, b) = (f(start), f(end));
             let (middle, whole) = simpson(f, (start, a), (end, b));
-            sum += refined(f, [(start, a), middle, (end, b)], whole, TOLERANCE, 40);
+            sum += refined(f, [(start, a), middle, (end, b)], whole, tolerance, 40);
             start = end;
         }
     }

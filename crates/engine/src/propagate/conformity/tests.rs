@@ -1,5 +1,5 @@
 use super::*;
-use crate::distribution::{Distribution, Gamma, Input, Normal, Rectangular};
+use crate::distribution::{Distribution, Exponential, Gamma, Input, Normal, Rectangular};
 use crate::propagate::{Control, evaluate};
 use crate::special;
 
@@ -41,7 +41,7 @@ fn check(
 ) {
     for width in [0.0, 0.7 * u] {
         let acceptance = [limits[0] + width, limits[1] - width];
-        let found = Inspection::new(prior, u, limits).risks(acceptance);
+        let found = Inspection::new(prior, StudentLaw::normal(u), limits).risks(acceptance);
         let expected = by_values(&density, support, u, limits, acceptance);
         assert!((found.false_acceptance - expected[0]).abs() < 1e-6, "{found:?} {expected:?}");
         assert!((found.false_rejection - expected[1]).abs() < 1e-6, "{found:?} {expected:?}");
@@ -75,11 +75,11 @@ fn ball_bearings() {
     let prior: Distribution = Gamma::new(4.0, 4.0).unwrap().into();
     let out = special::normal::sf(prior.score_of(2.0));
     assert!((out - 0.042_380_111_99).abs() < 1e-10, "{out}");
-    let of = Inspection::new(&prior, 0.25, [0.0, 2.0]);
+    let of = Inspection::new(&prior, StudentLaw::normal(0.25), [0.0, 2.0]);
     let risks = of.risks([0.0, 2.0]);
     assert!((risks.false_acceptance - 0.008_019_111_884).abs() < 1e-8, "{risks:?}");
     // at most 0.1 % false acceptance: an upper acceptance limit of 1.67 um
-    let of = Inspection::new(&prior, 0.25, [f64::NEG_INFINITY, 2.0]);
+    let of = Inspection::new(&prior, StudentLaw::normal(0.25), [f64::NEG_INFINITY, 2.0]);
     let width = of.guard_band(0.001).unwrap();
     let guarded = of.risks([f64::NEG_INFINITY, 2.0 - width]);
     assert!((guarded.false_acceptance - 0.001).abs() < 1e-9 && (2.0 - width - 1.67).abs() < 0.005);
@@ -115,7 +115,7 @@ fn the_posterior_of_a_normal_prior() {
         let mean = (x0 * weights[0] + y * weights[1]) * variance;
         let limits = [mean - 0.7 * variance.sqrt(), mean + 1.1 * variance.sqrt()];
         let expected = special::normal::cdf(1.1) - special::normal::cdf(-0.7);
-        let found = Inspection::new(&prior, u, limits).conformance(y);
+        let found = Inspection::new(&prior, StudentLaw::normal(u), limits).conformance(y);
         // beyond the scores that are integrated over there is nothing of the prior
         let limit = if y > 20.0 { 1.0 } else { 1e-8 };
         assert!((found - expected).abs() < limit, "{y}, {u}: {found} {expected}");
@@ -129,7 +129,7 @@ fn the_posterior_of_a_normal_prior() {
 #[test]
 fn the_posterior_of_a_ball_bearing() {
     let prior: Distribution = Gamma::new(4.0, 4.0).unwrap().into();
-    let of = Inspection::new(&prior, 0.25, [f64::NEG_INFINITY, 2.0]);
+    let of = Inspection::new(&prior, StudentLaw::normal(0.25), [f64::NEG_INFINITY, 2.0]);
     let found = of.conformance(1.9);
     assert!((found - 0.8401).abs() < 5e-5, "{found}");
     let density =
@@ -203,4 +203,59 @@ fn no_seed_decides() {
     for seed in 1..8 {
         assert_eq!(decided(seed), Some((true, 10.0)), "{seed}");
     }
+}
+
+/// Errors of few degrees of freedom have the t distribution of the law of propagation: with a prior that
+/// says nothing the posterior is the measurement's own (of t with 3 degrees of freedom F(3.2) is
+/// known in closed form), and otherwise that of Bayes' theorem by the midpoint rule.
+#[test]
+fn the_posterior_of_few_degrees_of_freedom() {
+    let t3 = StudentLaw { scale: 0.1, dof: 3.0 };
+    let flat: Distribution = Normal::new(1.0, 1e5).unwrap().into();
+    let found = Inspection::new(&flat, t3, [f64::NEG_INFINITY, 1.32]).conformance(1.0);
+    // F(x) = 1/2 + (atan s + s/(1 + s^2))/pi with s = x/sqrt(3)
+    let s = 3.2 / 3.0_f64.sqrt();
+    let expected = 0.5 + (s.atan() + s / (1.0 + s * s)) / std::f64::consts::PI;
+    assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+
+    let prior: Distribution = Normal::new(1.0, 0.3).unwrap().into();
+    let found = Inspection::new(&prior, t3, [f64::NEG_INFINITY, 1.5]).conformance(1.0);
+    let density = |x: f64| {
+        (-0.5 * ((x - 1.0) / 0.3f64).powi(2)).exp()
+            / (1.0 + ((1.0 - x) / 0.1).powi(2) / 3.0).powi(2)
+    };
+    let sum = |from: f64, to: f64| {
+        let n = 200_000;
+        let h = (to - from) / f64::from(n);
+        (0..n).map(|i| h * density(from + h * (f64::from(i) + 0.5))).sum::<f64>()
+    };
+    let expected = sum(-1.5, 1.5) / (sum(-1.5, 1.5) + sum(1.5, 3.5));
+    assert!((found - expected).abs() < 1e-8, "{found} {expected}");
+    assert!((1.0 - found) > 1e-4, "a normal law would have 6.8e-8");
+}
+
+/// An exponential quantity of mean 1 lies beyond 4 with e^-4 = 0.018: no value within three of its
+/// standard uncertainties of both limits has a specific risk of 0.01, whatever a normal law would say.
+#[test]
+fn no_guard_band_is_small_enough_for_the_trials() {
+    let of_task = |risk: f64| {
+        let task = crate::task::Task::builder("one-sided")
+            .input("a", Input::new(Exponential::new(1.0).unwrap(), "1").unwrap())
+            .equation("y", "a")
+            .output("y", "1")
+            .tolerance("y", Tolerance { lower: Some(-2.0), upper: Some(4.0) })
+            .risk("y", risk)
+            .trials(100_000)
+            .build()
+            .unwrap();
+        let evaluation = evaluate(&task, &Control::default()).unwrap();
+        let figures = &evaluation.rows[0].outputs[0];
+        Conformity::evaluated(&task.model.outputs[0], figures, &task.settings).unwrap()
+    };
+    let found = of_task(0.01);
+    assert_eq!((found.guard_band, found.acceptance, found.conforms), (None, None, false));
+    // at 4 - w the risk is P(a - 1 > w) = exp(-1 - w): of 0.05 w is 1.996, with 1e5 trials to 0.014 (se
+    // sqrt(0.05 0.95/1e5)/0.05); five of them are exceeded once in two million seeds
+    let found = of_task(0.05).guard_band.unwrap();
+    assert!((found - 1.996).abs() < 0.07, "{found}");
 }

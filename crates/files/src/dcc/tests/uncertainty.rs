@@ -166,11 +166,12 @@ fn points_of_a_table_are_their_own() {
     assert_eq!(dof, [f64::INFINITY, 4.0, 4.0, 4.0, f64::INFINITY]);
     near(known(&file, 4), [3.0, 0.1]);
     let law = "rectangular normal rectangular";
-    let values = list("1 2 3", &expanded_list(["0.2", "1.65", "0.95", law]));
+    let values = list("1 2 3", &expanded_list(["0.2", "1.65 1.96 1.65", "0.95", law]));
     let file = tabulated(&values, "0, 5, 10, 20").unwrap();
     let names = [0, 1, 2, 3].map(|row| file.task.rows[row].distributions[0].name());
     assert_eq!(names, ["rectangular", "normal", "normal", "rectangular"]);
-    let values = list("1 2 3", &expanded_list(["0.2", "1.65", "0.95", "uniform uniform normal"]));
+    let values =
+        list("1 2 3", &expanded_list(["0.2", "1.65 1.65 1.96", "0.95", "uniform uniform normal"]));
     let file = tabulated(&values, "5, 15").unwrap();
     let names = [0, 1].map(|row| file.task.rows[row].distributions[0].name());
     assert_eq!(names, ["rectangular", "normal"]);
@@ -262,6 +263,59 @@ fn probabilities_without_a_factor() {
     }
     let error = refused(&of("t"), "");
     assert!(error.contains("t distribution without a coverage factor"), "{error}");
+}
+
+/// Factors of a normal distribution: 1.96 at 95 %, 2 at 95.45 %, 3 at 99.73 %; of a rectangular one 0.95
+/// sqrt(3) = 1.645, and all of it lies within sqrt(3) = 1.73. No t distribution has less than a normal one.
+#[test]
+fn factors_and_probabilities_belong_together() {
+    let of = |k: &str, p: &str, law: &str| {
+        quantity(&real("10", r"\volt", &expanded(["0.1", k, p, law])))
+    };
+    for (k, p, law) in [
+        ("1", "0.95", "normal"),
+        ("3", "0.95", "normal"),
+        ("2.5", "0.95", "normal"),
+        ("2", "0.99", "normal"),
+        ("2", "0.9973", ""),
+        ("1", "0.95", ""),
+        ("2", "0.95", "uniform"),
+        ("3", "0.95", "uniform"),
+        ("1.73", "0.95", "rectangular"),
+        ("2", "0.95", "U-shaped"),
+        ("1.5", "0.95", "t"),
+    ] {
+        let error = refused(&of(k, p, law), "");
+        let said =
+            format!("coverage factor of {k} and a coverage probability of {p}, which do not");
+        assert!(error.contains(&said), "{law}: {error}");
+    }
+    let error = refused(&of("1.5", "0.95", "t"), "");
+    assert!(error.contains("a t distribution is at least 1.96"), "{error}");
+    let error = refused(&of("2", "0.95", "uniform"), "");
+    assert!(error.contains("a rectangular distribution is 1.65"), "{error}");
+    for (k, p, law) in [
+        ("2", "0.95", "normal"),
+        ("2.0", "0.950", "normal"),
+        ("2.00", "0.9545", "normal"),
+        ("2", "0.954", ""),
+        ("1.96", "0.95", "normal"),
+        ("1", "0.68", "normal"),
+        ("2.58", "0.99", "normal"),
+        ("3", "0.99", "normal"),
+        ("3", "0.997", ""),
+        ("3", "0.9973", "normal"),
+        ("1.65", "0.95", ""),
+        ("1.65", "0.95", "uniform"),
+        ("1.9", "0.95", "triangular"),
+        ("2", "0.95", "t"),
+        ("1.2", "0.95", "other"),
+    ] {
+        let [_, u, _] = known(&accepted(&of(k, p, law), ""), 0);
+        assert!((u * k.parse::<f64>().unwrap() / 0.1 - 1.0).abs() < 1e-12, "{k} {p} {law}");
+    }
+    // table G.2 of JCGM 100: 2.57 is of 5 degrees of freedom
+    assert_eq!(known(&accepted(&of("2.57", "0.95", ""), ""), 0)[2], 5.0);
 }
 
 /// All of a distribution with limits may lie within U, and of no other one.

@@ -74,13 +74,19 @@ fn result(
     languages: &[Language],
 ) {
     let Some(first) = rows.first() else { return };
+    let lists = lists(rows);
+    let is_in_lists = |row: &Stated<'_>| {
+        let mut lists = lists.iter();
+        let own = lists.find(|list| list.iter().any(|other| other.number == row.number));
+        own.is_some_and(|list| are_in_lists(list))
+    };
     xml.text("dcc:name", &Localized::plain(first.quantity.name.clone()), languages);
     let described = |language: &Language| {
         let mut lines: Vec<String> = Vec::new();
         if !first.quantity.about.trim().is_empty() {
             lines.push(first.quantity.about.trim().to_owned());
         }
-        lines.extend(rows.iter().map(|row| match are_in_lists(rows) {
+        lines.extend(rows.iter().map(|row| match is_in_lists(row) {
             true => named(report, row, *language),
             false => named(report, row, *language) + &without_probability(report, row, *language),
         }));
@@ -89,13 +95,37 @@ fn result(
     let about = Localized { texts: languages.iter().map(described).collect() };
     xml.text("dcc:description", &about, languages);
     xml.element("dcc:data", |xml| {
-        xml.element("dcc:list", |xml| {
-            conditions(xml, report, rows, languages);
-            nominal(xml, rows, languages);
-            measured(xml, rows, languages);
-            intervals(xml, report, rows, languages);
-        });
+        for rows in &lists {
+            xml.element("dcc:list", |xml| {
+                if lists.len() > 1 {
+                    xml.text("dcc:name", &rows_of(rows, languages), languages);
+                }
+                conditions(xml, report, rows, languages);
+                nominal(xml, rows, languages);
+                measured(xml, rows, languages);
+                intervals(xml, report, rows, languages);
+            });
+        }
     });
+}
+
+/// The rows of each list of a result. A list of D-SI has a number for every row, so that rows with a
+/// nominal value and rows without one are in two lists; that of the first row comes first.
+fn lists<'a>(rows: &[Stated<'a>]) -> Vec<Vec<Stated<'a>>> {
+    let first = rows.first().map(|row| row.line.nominal.is_some());
+    let is_as_first = |row: &Stated<'_>| Some(row.line.nominal.is_some()) == first;
+    let (as_first, others): (Vec<_>, Vec<_>) = rows.iter().copied().partition(is_as_first);
+    [as_first, others].into_iter().filter(|rows| !rows.is_empty()).collect()
+}
+
+/// Which rows of the certificate these are.
+fn rows_of(rows: &[Stated<'_>], languages: &[Language]) -> Localized {
+    let numbers: Vec<usize> = rows.iter().map(|row| row.number).collect();
+    let said = |language: &Language| {
+        let said = sentences::about(&numbers, words::of(*language));
+        (Some(*language), said.trim_end_matches([':', ' ']).to_owned())
+    };
+    Localized { texts: languages.iter().map(said).collect() }
 }
 
 /// `row 3: a_x, tilt = 35 deg`
@@ -247,16 +277,11 @@ fn intervals(
         .filter_map(|row| Some((row, row.interval(report)?.map(|end| end.text))))
         .collect();
     let Some((first, _)) = rows.first() else { return };
-    let numbers: Vec<usize> = rows.iter().map(|(row, _)| row.number).collect();
     xml.within("dcc:quantity", &[("refType", INTERVAL)], |xml| {
-        let rows_of = |language: &Language| {
-            let said = sentences::about(&numbers, words::of(*language));
-            (Some(*language), said.trim_end_matches([':', ' ']).to_owned())
-        };
         let name = localized(languages, |w| w.coverage_interval);
         xml.text("dcc:name", &name, languages);
-        let about = Localized { texts: languages.iter().map(rows_of).collect() };
-        xml.text("dcc:description", &about, languages);
+        let own: Vec<Stated<'_>> = rows.iter().map(|(row, _)| **row).collect();
+        xml.text("dcc:description", &rows_of(&own, languages), languages);
         let texts = |of: &dyn Fn(&Stated<'_>, &[String; 2]) -> String| -> String {
             let texts: Vec<String> = rows.iter().map(|(row, ends)| of(row, ends)).collect();
             texts.join(" ")

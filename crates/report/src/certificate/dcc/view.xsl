@@ -224,6 +224,7 @@
 
   <!-- quantities over rows: a column for each, with its uncertainty -->
   <xsl:template match="dcc:list" mode="data">
+    <xsl:if test="dcc:name"><p><xsl:apply-templates select="dcc:name"/></p></xsl:if>
     <xsl:call-template name="lists">
       <xsl:with-param name="lists" select="dcc:quantity[si:realListXMLList or si:hybrid/si:realListXMLList]"/>
     </xsl:call-template>

@@ -141,9 +141,9 @@ pub(super) const WORDS: Words = Words {
     percent: ["{p} %", "more than {p} %", "less than {p} %"],
     simple: "Decision rule: simple acceptance (JCGM 106:2012, 8.2).",
     multiple: "Decision rule: guarded acceptance with a guard band of {factor} U \
-        (ILAC-G8:09/2019, 4.2.2); guard band {guard}, accepted {limits}.",
+        (ILAC-G8:09/2019, 4.2.2), with U before rounding; guard band {guard}, accepted {limits}.",
     too_wide: "Decision rule: guarded acceptance with a guard band of {factor} U \
-        (ILAC-G8:09/2019, 4.2.2); guard band {guard}, more than half of the tolerance: no value is accepted.",
+        (ILAC-G8:09/2019, 4.2.2), with U before rounding; guard band {guard}, more than half of the tolerance: no value is accepted.",
     rule_agreed: "The decision rule was agreed with the customer.",
     specification: "Specification: {name}.",
     guarded: "Decision rule: guarded acceptance (JCGM 106:2012, 8.3) for {kind} of at most {risk} %; \

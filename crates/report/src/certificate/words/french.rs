@@ -144,9 +144,9 @@ pub(super) const WORDS: Words = Words {
     percent: ["{p} %", "plus de {p} %", "moins de {p} %"],
     simple: "Règle de décision : acceptation simple (JCGM 106:2012, 8.2).",
     multiple: "Règle de décision : acceptation avec une bande de garde de {factor} U \
-        (ILAC-G8:09/2019, 4.2.2) ; bande de garde {guard}, accepté {limits}.",
+        (ILAC-G8:09/2019, 4.2.2), avec U avant arrondi ; bande de garde {guard}, accepté {limits}.",
     too_wide: "Règle de décision : acceptation avec une bande de garde de {factor} U \
-        (ILAC-G8:09/2019, 4.2.2) ; bande de garde {guard}, plus que la moitié de la tolérance : aucune \
+        (ILAC-G8:09/2019, 4.2.2), avec U avant arrondi ; bande de garde {guard}, plus que la moitié de la tolérance : aucune \
         valeur n'est acceptée.",
     rule_agreed: "La règle de décision a été convenue avec le client.",
     specification: "Spécification : {name}.",

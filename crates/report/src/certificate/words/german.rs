@@ -150,9 +150,9 @@ pub(super) const WORDS: Words = Words {
     percent: ["{p} %", "mehr als {p} %", "weniger als {p} %"],
     simple: "Entscheidungsregel: einfache Annahme (JCGM 106:2012, 8.2).",
     multiple: "Entscheidungsregel: Annahme mit einem Sicherheitsband von {factor} U \
-        (ILAC-G8:09/2019, 4.2.2); Sicherheitsband {guard}, angenommen {limits}.",
+        (ILAC-G8:09/2019, 4.2.2), mit U vor der Rundung; Sicherheitsband {guard}, angenommen {limits}.",
     too_wide: "Entscheidungsregel: Annahme mit einem Sicherheitsband von {factor} U \
-        (ILAC-G8:09/2019, 4.2.2); Sicherheitsband {guard}, mehr als die halbe Toleranz: kein Wert wird \
+        (ILAC-G8:09/2019, 4.2.2), mit U vor der Rundung; Sicherheitsband {guard}, mehr als die halbe Toleranz: kein Wert wird \
         angenommen.",
     rule_agreed: "Die Entscheidungsregel ist mit dem Kunden vereinbart.",
     specification: "Spezifikation: {name}.",

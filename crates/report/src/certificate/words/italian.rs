@@ -142,9 +142,9 @@ pub(super) const WORDS: Words = Words {
     percent: ["{p} %", "oltre {p} %", "meno di {p} %"],
     simple: "Regola decisionale: accettazione semplice (JCGM 106:2012, 8.2).",
     multiple: "Regola decisionale: accettazione con una banda di guardia di {factor} U \
-        (ILAC-G8:09/2019, 4.2.2); banda di guardia {guard}, accettato {limits}.",
+        (ILAC-G8:09/2019, 4.2.2), con U prima dell'arrotondamento; banda di guardia {guard}, accettato {limits}.",
     too_wide: "Regola decisionale: accettazione con una banda di guardia di {factor} U \
-        (ILAC-G8:09/2019, 4.2.2); banda di guardia {guard}, più della metà della tolleranza: nessun \
+        (ILAC-G8:09/2019, 4.2.2), con U prima dell'arrotondamento; banda di guardia {guard}, più della metà della tolleranza: nessun \
         valore è accettato.",
     rule_agreed: "La regola decisionale è stata concordata con il cliente.",
     specification: "Specifica: {name}.",
