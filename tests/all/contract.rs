@@ -107,6 +107,8 @@ fn limits_move_with_a_replaced_estimate() {
     let (_, before) = found(folder.path(), &model(""), "y", &[]);
     let (estimate, u) = found(folder.path(), &model(""), "y", &["--set", "x=10"]);
     assert!((estimate - 10.0).abs() < 1e-12 && (u - before).abs() < 1e-12, "{estimate} {u}");
+    let (_, err, code) = told(folder.path(), &model(""), &["--set", "x=10"]);
+    assert!(code == Some(0) && err.contains("`limits` of `x` move along"), "{err}");
     // an agreed factor needs the factor
     let fixed = model(r#", "coverage_factor_fixed": true, "coverage_probability": 0.95"#);
     let (_, err, code) = told(folder.path(), &fixed, &[]);

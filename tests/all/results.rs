@@ -145,3 +145,23 @@ fn what_cannot_be_written_is_refused() {
     refused(&["s.json", "--save", "r.json"], "conditions");
     assert!(!folder.join("r.json").exists());
 }
+
+/// A saved result that is a component counts with its deviation alone, which is told.
+#[test]
+fn a_result_as_a_component() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("m.json"), MODEL).unwrap();
+    answer(folder, &["m.json", "--save", "r.json"]);
+    let model = r#"{"inputs": {"a": {"unit": "m/s", "mean": 1, "components": [
+        {"name": "x", "distribution": "result", "file": "r.json", "output": "v"}]}},
+        "equations": {"y": "a"}, "outputs": {"y": {"unit": "m/s"}}}"#;
+    fs::write(folder.join("n.json"), model).unwrap();
+    let mut command = command();
+    let said = command.current_dir(folder).args(["check", "n.json"]).output().unwrap();
+    let said = String::from_utf8_lossy(&[said.stdout, said.stderr].concat()).into_owned();
+    assert!(said.contains("of which only the deviation from it counts"), "{said}");
+    let found = json(folder, &["n.json"]);
+    let estimate = found["outputs"]["y"]["gum"]["estimate"].as_f64().unwrap();
+    assert!((estimate - 1.0).abs() < 1e-9, "{estimate}");
+}

@@ -222,6 +222,18 @@ fn components_with_the_estimate_of_their_input() {
     }
 }
 
+/// The width of a component that follows an estimate of 0 is no width, which is told as of an input.
+#[test]
+fn components_without_a_width() {
+    for (mean, wanted) in [(0.0, vec!["width-zero"]), (2.0, vec![])] {
+        let component = json!({"name": "q", "distribution": "normal", "std": "1 %"});
+        let file = json!({
+            "inputs": {"a": {"unit": "V", "mean": mean, "components": [component]}},
+            "equations": {"y": "a"}, "outputs": {"y": {"unit": "V"}}});
+        assert_eq!(codes(&file), wanted, "{mean}");
+    }
+}
+
 /// A share of reading beside a value is lost without a trace where the estimate is 0, as that of a
 /// correction is.
 #[test]

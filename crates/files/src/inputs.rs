@@ -349,17 +349,8 @@ impl<'a> Reader<'a, '_> {
             |member| matches!(&member.value.value, Json::Text(text) if !is_value(text)),
         );
         let replaces = self.moved.is_some() && !is_formula;
-        if let Some(moved) = self.moved.filter(|_| replaces && object.get("limits").is_some()) {
-            let (text, name) = (moved.text.clone(), self.name);
-            let reason = format!(
-                "`{name}` has `limits`, within which it would be cut anew about the value, or which would \
-                 move with it; write `{name}.mean=...` for the value before the limits cut, or change the \
-                 file"
-            );
-            object.log.report(object.place(), DiagnosticKind::Override { text, reason });
-            return;
-        }
         let fields = |estimate, row| Fields {
+            replaces,
             samples: samples.as_ref(),
             read: read.as_ref(),
             certificate: certificate.as_ref(),
@@ -385,6 +376,9 @@ impl<'a> Reader<'a, '_> {
             }
             drawn.push(distribution);
         }
+        if replaces && object.get("limits").is_some() {
+            self.note_of_moved_limits();
+        }
         let shared = if differs { None } else { drawn.first() };
         self.note_of_readings(self.name, kind, shared, read.as_ref());
         let same_elsewhere = !differs && self.conditions.rows() > 1;
@@ -405,6 +399,16 @@ impl<'a> Reader<'a, '_> {
                 self.inputs.known.in_rows(variable, drawn);
             }
         }
+    }
+
+    /// Tells that limits move along with an estimate that replaces another one.
+    fn note_of_moved_limits(&mut self) {
+        let name = self.name;
+        let text = format!(
+            "the `limits` of `{name}` move along with its new estimate; where they stay, as those of a \
+             concentration that cannot be negative, write `{name}.mean=...` for the value before they cut"
+        );
+        self.inputs.warnings.push(Warning::new("limits-moved", name, text));
     }
 
     /// Tells in which rows (from 1) a width becomes 0.
@@ -920,7 +924,8 @@ impl Part<'_> {
 
 /// Whether a distribution has lost the width that its shape has.
 fn is_without_width(kind: &Shape, distribution: &Distribution) -> bool {
-    !["constant", "result", "dcc"].contains(&kind.name) && distribution.constant().is_some()
+    let has_none = ["constant", "result", "dcc", "readings"].contains(&kind.name);
+    !has_none && distribution.constant().is_some()
 }
 
 /// A value as notes show it.

@@ -108,6 +108,8 @@ pub(super) struct Fields<'a> {
     pub(super) name: &'a str,
     pub(super) unit: &'a Unit,
     pub(super) estimate: Estimate,
+    /// Whether the estimate replaces the own one, so that limits of the values move along.
+    pub(super) replaces: bool,
     /// What a relative width is a share of, if not of the own estimate.
     pub(super) share_of: Option<f64>,
     /// The samples, where the shape has any: read once for all rows.
@@ -188,6 +190,7 @@ impl<'a> Fields<'a> {
             name,
             unit,
             estimate,
+            replaces: false,
             share_of: None,
             samples: None,
             read: None,
@@ -200,6 +203,13 @@ impl<'a> Fields<'a> {
 
     /// The distribution, with what cannot be reported.
     pub(super) fn distribution(&self, kind: &Shape) -> Option<Distribution> {
+        if let (true, Estimate::Given(_), Some(_)) =
+            (self.replaces, self.estimate, self.object.get("limits"))
+        {
+            let share_of = self.share_of.or(self.given());
+            let own = Self { estimate: Estimate::Own, replaces: false, share_of, ..*self };
+            return self.moved(Ok(own.distribution(kind)?));
+        }
         let shape = self.whole(kind)?;
         let Some(list) = self.object.get("limits").and(self.object.list("limits")) else {
             return self.object.get("limits").is_none().then_some(shape);

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::composed::Compositions;
+use super::composed::{ComposedForm, Compositions};
 use super::departure;
 use super::departure_prediction;
 use super::diagnosis::{
@@ -16,6 +16,7 @@ use super::latent::Role;
 use super::noise_model::NoiseModel;
 use super::notes::notes;
 use super::parameters::{equal_tails, parameters, present};
+use super::periodic_residuals::{self, PeriodicResiduals};
 use super::posterior::{Effort, Posterior};
 use super::prior_widths::{self, OtherPriors};
 use super::setup::Setup;
@@ -24,6 +25,7 @@ use super::weighed::{Weighed, names, rival};
 use super::weighed_noise::WeighedNoise;
 use super::{next, predict, prior_conflict, replication, scan, shrink, strength};
 use crate::{Candidate, Case, OverrideError};
+use gumption_engine::decimal::significant;
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::Formula;
 use gumption_engine::number::{elementary, largest_first};
@@ -135,6 +137,11 @@ fn diagnosed(
         (seed, stop),
     );
     progress(0.85);
+    let periodic = periodic_residuals::found(&rows, case.model.conditions.len());
+    // a wave that was composed says it already
+    let is_composed = composed
+        .first()
+        .is_some_and(|effect| effect.terms.iter().any(|term| term.form == ComposedForm::Wave));
     let rivals = if explained {
         rival(&posterior, best, &group).map(|rival| [Some(best), Some(rival)])
     } else {
@@ -169,6 +176,10 @@ fn diagnosed(
         gap(&Setup::new(case), verdict.kind)
     };
     let mut notes = notes(&setup, &posterior, &verdict, &shrinkage, &gap, &noise, best);
+    notes.extend(periodic.filter(|_| !is_composed).map(|of| DiagnosisNote {
+        code: "periodic-residuals",
+        text: periodic_text(case, &setup, of),
+    }));
     // where nothing is left to explain, an effect of another size has only noise to fit
     let is_explained =
         verdict.kind == HypothesisKind::None && gap.p_value.is_some_and(|p| p > UNLIKELY);
@@ -268,6 +279,34 @@ fn extrapolated(
             at.len()
         ),
     })
+}
+
+/// What is to be said of a sine in what the verdict leaves.
+fn periodic_text(case: &Case, setup: &Setup<'_>, found: PeriodicResiduals) -> String {
+    let PeriodicResiduals { output, condition, line } = found;
+    let quantity = &case.model.outputs[setup.data.outputs[output]].quantity;
+    let amplitude = quantity.unit.after(&significant(line.amplitude, 2));
+    let period = significant(1.0 / line.frequency, 3);
+    let (along, advice) = match condition.and_then(|of| case.model.conditions.get(of)) {
+        Some(of) => {
+            let (name, unit) = (&of.name, &of.unit);
+            let per = if unit.text().is_empty() { String::new() } else { format!(" [{unit}]") };
+            let along = format!("`{name}` with a period of {}", unit.after(&period));
+            (along, format!("sin(2*pi*{name}/({period}{per}) + phi)"))
+        }
+        None => (
+            format!("the rows, in their order, with a period of {period} rows"),
+            "sin(2*pi*row/... + phi) of a condition that says when or where they were taken"
+                .to_owned(),
+        ),
+    };
+    format!(
+        "What is left of `{name}` follows a sine along {along} and of the amplitude {amplitude}, which is \
+         {:.0} % of its variance (as much by chance in one of a million tables): a disturbance that comes \
+         round, and no larger noise. Give it as an effect, such as `{name} + k*{advice}`.",
+        100.0 * line.share,
+        name = quantity.name
+    )
 }
 
 /// The note of a diagnosis that was interrupted.

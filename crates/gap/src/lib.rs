@@ -39,6 +39,7 @@ mod noise_model;
 mod notes;
 mod over_noises;
 mod parameters;
+mod periodic_residuals;
 mod posterior;
 mod predict;
 mod prior_conflict;

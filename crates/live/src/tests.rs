@@ -331,7 +331,7 @@ fn there_is_something_starting_points() {
 
 #[test]
 fn a_budget_of_a_spreadsheet() {
-    let csv = "Quantity,Estimate,Unit,Standard uncertainty,Sensitivity\nU,5.0,V,0.01,1\nI,0.1,A,0.001,-2\n";
+    let csv = "Quantity,Estimate,Unit,Standard uncertainty,Sensitivity\nU,5.0,V,0.01,1\nI,0.1,A,0.001,-2.5\n";
     let base64 = base64::Engine::encode(&base64::engine::general_purpose::STANDARD, csv);
     let made = call("import", &json!({"name": "../x/budget.csv", "base64": base64}));
     assert!(made["text"].as_str().unwrap().contains("\"U\""), "{made}");

@@ -12,6 +12,11 @@ use crate::separator::{DecimalMarks, Separator};
 use crate::{ValueOf, gravity, heading};
 use gumption_units::{Unit, nearest};
 
+/// What instruments and programs write where they have no value.
+const OF_NO_VALUE: [&str; 12] = [
+    "ovld", "ol", "overload", "over", "n/a", "na", "null", "none", "err", "error", "invalid", "--",
+];
+
 /// Longer cells are cut in messages.
 const LONGEST: usize = 40;
 
@@ -161,6 +166,7 @@ impl<R: Read> CsvFrames<R> {
         let is_sample = |place: usize| {
             let text = cell(place);
             text.is_empty()
+                || OF_NO_VALUE.contains(&text.to_lowercase().as_str())
                 || text.trim_start_matches(['-', '+', '\u{2212}', '.']).starts_with(digit)
         };
         match (value, word) {
@@ -301,4 +307,46 @@ fn digit(c: char) -> bool {
 fn number(cell: &[u8], marks: &mut DecimalMarks) -> Result<Option<f64>, String> {
     let Ok(text) = std::str::from_utf8(cell) else { return Ok(None) };
     Ok(marks.with_point(text.trim())?.parse().ok())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The values of the first column, by its number.
+    fn read(text: &str) -> Result<Vec<f64>, String> {
+        let volt = Unit::parse("V").expect("a unit");
+        let wanted = Wanted {
+            column: ColumnName::Number(1),
+            channel: "a".to_owned(),
+            unit: volt.clone(),
+            becomes: volt,
+        };
+        let mut frames = CsvFrames::new(text.as_bytes(), vec![wanted])?;
+        let mut columns = vec![Vec::new()];
+        frames.read(&mut columns)?;
+        Ok(columns.remove(0))
+    }
+
+    /// What else stands in a line of numbers makes no header of it.
+    #[test]
+    fn a_first_sample_is_no_header() {
+        for text in ["1,OK\n2,OK\n", "1,\n2,\n", "1;;\n2;;\n", "1,\n2,3\n", "1\n2\n"] {
+            let found = read(text);
+            match text {
+                // a heading above numbers, or a cell that is missing
+                "1,\n2,3\n" => assert!(found.unwrap_err().contains("a header or the first sample")),
+                _ => assert_eq!(found, Ok(vec![1.0, 2.0]), "{text}"),
+            }
+        }
+        for text in ["a,b\n1,OK\n2,OK\n", "a,state\n1,OK\n2,\n", "a\n1\n2\n", "a,1\n1,5\n2,5\n"] {
+            assert_eq!(read(text), Ok(vec![1.0, 2.0]), "{text}");
+        }
+        for (text, cell) in
+            [("OVLD,1\n2,1\n", "`OVLD`"), ("1.42 V,x\n2,x\n", "`1.42 V`"), (",1\n2,1\n", "``")]
+        {
+            let reason = read(text).unwrap_err();
+            assert!(reason.contains(cell) && reason.contains("neither a header nor"), "{reason}");
+        }
+    }
 }

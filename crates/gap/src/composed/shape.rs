@@ -301,7 +301,7 @@ impl Shape {
             }
             Function::Wave => {
                 // frequencies are uniform, to a period of four levels
-                let most = (0.25 * (levels - 1) as f64).clamp(1.0, 12.0);
+                let most = (0.25 * (levels - 1) as f64).clamp(1.0, 48.0);
                 let grid = (8.0 * most) as usize + 4;
                 vec![range_of("n", RangeOf::Number, [0.4 / range, most / range], false, grid)]
             }
