@@ -227,6 +227,7 @@ fn trials_on_both_sides_of_a_cut() {
             "x": {{"distribution": "normal", "mean": -1, "std": 0.05}},
             "y": {{"distribution": "normal", "mean": 0.001, "std": 0.05}},
             "a": {{"unit": "deg", "distribution": "normal", "mean": 359.99, "std": 0.05}},
+            "b": {{"unit": "mm", "distribution": "normal", "mean": 10.2, "std": 0.5}},
             "f": "10 Hz"}},
             "equations": {{"p": "{formula}"}}, "outputs": {{"p": {{"unit": "{unit}"}}}}}}"#
         )
@@ -238,6 +239,8 @@ fn trials_on_both_sides_of_a_cut() {
         ("2*atan2(y, x)", "rad", "13 rad away"),
         ("atan2(y, x)/2", "rad", "3.1 rad away"),
         ("mod(a, 360 [deg])", "deg", "a turn away"),
+        // a third of the trials beyond the cut
+        ("mod(b, 10 [mm])", "mm", " mm away"),
     ] {
         let (evaluation, notes) = run(&text(formula, unit), 100_000);
         let note = notes.iter().find(|note| note.0 == "phase-jumps");

@@ -81,10 +81,18 @@ pub(crate) fn notes(
     }
     if let Some(slip) = unit_slip::found(setup).filter(|_| verdict.kind != HypothesisKind::None) {
         let quantity = quantity(slip.output);
+        let which = slip.rows.as_deref().map_or("in all rows".to_owned(), |rows| {
+            let ends = [rows.first(), rows.last()].map(|row| row.map_or(0, |row| row + 1));
+            let [first, last] = ends;
+            let count = rows.len();
+            let some =
+                if last + 1 - first == count { String::new() } else { format!("{count} of ") };
+            format!("in {some}the rows {first} to {last}, and agree with it in the others")
+        });
         note(
             "unit-slip",
             format!(
-                "The values of {} are about {} times what the sim says, all of them: {} makes such a \
+                "The values of {} are about {} times what the sim says {which}: {} makes such a \
                  factor; look at the unit of the data and of the sim before an effect is believed.",
                 quantity.name,
                 significant(slip.ratio, 3),

@@ -13,6 +13,12 @@ const NEAR: f64 = 0.02;
 /// Half of the ratios are nearer to their median than this share of it.
 const TOGETHER: f64 = 0.05;
 
+/// Single ratios are those of a power of ten within this share of it.
+const ALIKE: f64 = 0.3;
+
+/// Rows of either kind where some rows have a factor and others have none.
+const LEAST_ROWS: usize = 3;
+
 /// Ratios that there must be.
 const LEAST_RATIOS: usize = 4;
 
@@ -30,6 +36,8 @@ pub(crate) struct UnitSlip {
     pub(crate) ratio: f64,
     /// What makes such a factor.
     pub(crate) cause: &'static str,
+    /// The rows that have it, counted from 0, where others agree with the sim; none: all have it.
+    pub(crate) rows: Option<Vec<usize>>,
 }
 
 /// The first output whose values are the sim times a factor that slips of units have.
@@ -39,20 +47,43 @@ pub(crate) fn found(setup: &Setup<'_>) -> Option<UnitSlip> {
         let sims: Vec<f64> =
             data.point_of.iter().map(|&point| data.points[point].nominal[output]).collect();
         let largest = sims.iter().fold(0.0_f64, |most, sim| most.max(sim.abs()));
-        let pairs = data.values[output].iter().zip(&sims);
-        let ratios: Vec<f64> = pairs
-            .filter(|(_, sim)| sim.abs() > LEAST_SIM * largest)
-            .map(|(value, sim)| value / sim)
-            .filter(|ratio| ratio.is_finite())
+        let pairs = data.values[output].iter().zip(&sims).enumerate();
+        let by_row: Vec<(usize, f64)> = pairs
+            .filter(|(_, (_, sim))| sim.abs() > LEAST_SIM * largest)
+            .map(|(row, (value, sim))| (row, value / sim))
+            .filter(|(_, ratio)| ratio.is_finite())
             .collect();
-        if ratios.len() < LEAST_RATIOS {
+        if by_row.len() < LEAST_RATIOS {
             return None;
         }
+        if let Some((rows, ratio)) = of_some_rows(&by_row) {
+            let cause = "a prefix, or per cent";
+            return Some(UnitSlip { output, ratio, cause, rows: Some(rows) });
+        }
+        let ratios: Vec<f64> = by_row.into_iter().map(|(_, ratio)| ratio).collect();
         let ratio = median(ratios.clone())?;
         let apart = median(ratios.iter().map(|of| (of - ratio).abs()).collect())?;
         let cause = cause(ratio).filter(|_| apart < TOGETHER * ratio.abs())?;
-        Some(UnitSlip { output, ratio, cause })
+        Some(UnitSlip { output, ratio, cause, rows: None })
     })
+}
+
+/// The rows (from 0) whose values are one power of ten times the sim, and that power, where all others
+/// agree with the sim: as where two files are joined of which one is in mV.
+fn of_some_rows(ratios: &[(usize, f64)]) -> Option<(Vec<usize>, f64)> {
+    let power = |ratio: f64| {
+        let power = elementary::log10(ratio).round();
+        let is_near = (ratio / elementary::pow(10.0, power) - 1.0).abs() < ALIKE;
+        (ratio > 0.0 && is_near).then_some(power)
+    };
+    let powers: Option<Vec<f64>> = ratios.iter().map(|(_, ratio)| power(*ratio)).collect();
+    let powers = powers?;
+    let other = powers.iter().copied().find(|power| *power != 0.0)?;
+    let count = powers.iter().filter(|power| **power == other).count();
+    let agree = powers.iter().filter(|power| **power == 0.0).count();
+    let is_it = count >= LEAST_ROWS && agree >= LEAST_ROWS && count + agree == powers.len();
+    let rows = ratios.iter().zip(&powers).filter(|(_, power)| **power == other);
+    is_it.then(|| (rows.map(|((row, _), _)| *row).collect(), elementary::pow(10.0, other)))
 }
 
 /// What makes a factor of this size.
@@ -87,7 +118,23 @@ fn cause(ratio: f64) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::cause;
+    use super::{cause, of_some_rows};
+
+    #[test]
+    fn some_rows_in_another_unit() {
+        let of = |ratios: &[f64]| {
+            let ratios: Vec<(usize, f64)> = ratios.iter().copied().enumerate().collect();
+            of_some_rows(&ratios)
+        };
+        let found = of(&[1.0, 0.98, 1.02, 1003.0, 990.0, 1010.0]).unwrap();
+        assert_eq!(found.0, [3, 4, 5]);
+        assert!((found.1 / 1000.0 - 1.0).abs() < 1e-12);
+        // two mistakes, two powers, a gain, and what is far from any power
+        assert_eq!(of(&[1.0, 1.0, 1.0, 1.0, 1000.0, 1000.0]), None);
+        assert_eq!(of(&[1.0, 1.0, 1.0, 10.0, 100.0, 1000.0, 1000.0]), None);
+        assert_eq!(of(&[1.0, 1.0, 1.0, 2.0, 2.0, 2.0]), None);
+        assert_eq!(of(&[0.9, 1.1, 1.0, 1.05]), None);
+    }
 
     #[test]
     fn factors_of_slips() {

@@ -470,8 +470,9 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
                 fundamental.of_cut,
             );
             let noise = (variance * residuals.variance * local(residuals, 0)[0].max(1.0)).sqrt();
-            if fundamental.of_estimate == 0.0 && step.abs() > 5.0 * elementary::hypot(stated, noise)
-            {
+            // of a recording without noise the rounding of its values is left
+            let least = (5.0 * elementary::hypot(stated, noise)).max(1e-10 * fundamental.cycles);
+            if fundamental.of_estimate == 0.0 && step.abs() > least {
                 let hertz = |cycles: f64| cycles * of.base.rate.value;
                 let text = format!(
                     "`{name}`: the recording fits a frequency that differs by {:.2e} Hz from {} Hz, \

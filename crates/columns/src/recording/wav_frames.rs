@@ -18,8 +18,10 @@ pub(super) struct WavFrames<R> {
 const LONGEST_HEADER: u64 = 1 << 16;
 
 /// Checks what a header says before the samples, and fills in their length where the program that
-/// wrote them to a pipe could not: it leaves 0 or the largest number there.
-fn header(start: &mut [u8], size: Option<u64>) -> Result<(), String> {
+/// wrote them to a pipe could not: it leaves 0 or the largest number there. Chunks that say nothing about
+/// the samples (`LIST`, `bext`) are taken out: of odd ones the byte that fills them up is not read over
+/// otherwise.
+fn header(start: &mut Vec<u8>, size: Option<u64>) -> Result<(), String> {
     let number = |bytes: &[u8], at: usize| -> Option<u32> {
         Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
     };
@@ -31,7 +33,7 @@ fn header(start: &mut [u8], size: Option<u64>) -> Result<(), String> {
             "it is not a WAV file: it does not begin with `RIFF`, a length and `WAVE`".into()
         );
     }
-    let (mut at, mut frame) = (12, 0);
+    let (mut at, mut frame, mut left_out) = (12, 0, 0);
     while let Some(length) = number(start, at + 4) {
         let inside = at + 8;
         match start.get(at..at + 4) {
@@ -56,7 +58,8 @@ fn header(start: &mut [u8], size: Option<u64>) -> Result<(), String> {
             Some(b"data") => {
                 let unknown = length == 0 || length >= u32::MAX - 64;
                 if let Some(size) = size.filter(|_| unknown && frame > 0) {
-                    let left = size.saturating_sub(inside as u64).min(u64::from(u32::MAX));
+                    let before = (inside + left_out) as u64;
+                    let left = size.saturating_sub(before).min(u64::from(u32::MAX));
                     let left = (left / frame * frame) as u32;
                     if let Some(place) = start.get_mut(at + 4..inside) {
                         place.copy_from_slice(&left.to_le_bytes());
@@ -67,7 +70,13 @@ fn header(start: &mut [u8], size: Option<u64>) -> Result<(), String> {
             _ => {}
         }
         // chunks begin at even places
-        at = inside + length as usize + (length % 2) as usize;
+        let next = inside + length as usize + (length % 2) as usize;
+        if start.get(at..at + 4) != Some(b"fmt ") && next <= start.len() {
+            start.drain(at..next);
+            left_out += next - at;
+        } else {
+            at = next;
+        }
     }
     Ok(())
 }
@@ -152,4 +161,57 @@ fn of_frames(
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gumption_units::Unit;
+
+    fn chunk(name: &[u8; 4], content: &[u8]) -> Vec<u8> {
+        let mut bytes = [&name[..], &(content.len() as u32).to_le_bytes(), content].concat();
+        bytes.resize(bytes.len().next_multiple_of(2), 0);
+        bytes
+    }
+
+    /// A WAV file of one channel of 16 bits at 1 kHz with these chunks before its samples.
+    fn file(before: &[u8], stated: Option<u32>) -> Vec<u8> {
+        let format: Vec<u8> = [1u16, 1].iter().flat_map(|x| x.to_le_bytes()).collect();
+        let rates: Vec<u8> = [1000u32, 2000].iter().flat_map(|x| x.to_le_bytes()).collect();
+        let sizes: Vec<u8> = [2u16, 16].iter().flat_map(|x| x.to_le_bytes()).collect();
+        let samples: Vec<u8> = [1i16, -2, 300].iter().flat_map(|x| x.to_le_bytes()).collect();
+        let mut data = chunk(b"data", &samples);
+        if let Some(stated) = stated {
+            data[4..8].copy_from_slice(&stated.to_le_bytes());
+        }
+        let format = chunk(b"fmt ", &[format, rates, sizes].concat());
+        let all = [b"WAVE".as_slice(), &format, before, &data].concat();
+        [b"RIFF".as_slice(), &(all.len() as u32).to_le_bytes(), &all].concat()
+    }
+
+    fn read(bytes: &[u8]) -> Result<Vec<f64>, String> {
+        let wanted = Wanted {
+            column: ColumnName::Number(1),
+            channel: "a".to_owned(),
+            unit: Unit::one(),
+            becomes: Unit::one(),
+        };
+        let mut frames = WavFrames::new(bytes, Some(bytes.len() as u64), vec![wanted])?;
+        let mut columns = vec![Vec::new()];
+        frames.read(&mut columns)?;
+        Ok(columns.remove(0))
+    }
+
+    /// Chunks of odd length are filled up by a byte, which is no part of what follows; nor is what they
+    /// take counted as samples where the length of those is not stated.
+    #[test]
+    fn other_chunks_are_passed_over() {
+        let odd = [chunk(b"LIST", b"abcde"), chunk(b"JUNK", b"x")].concat();
+        for before in [Vec::new(), chunk(b"LIST", b"abcd"), odd] {
+            for stated in [None, Some(0), Some(u32::MAX)] {
+                let found = read(&file(&before, stated));
+                assert_eq!(found, Ok(vec![1.0, -2.0, 300.0]), "{} {stated:?}", before.len());
+            }
+        }
+    }
 }

@@ -19,6 +19,9 @@ const LEAST_SHARE: f64 = 1e-5;
 /// relative to the standard deviation.
 const OFF: f64 = 0.1;
 
+/// How far their fourth moment may be: lumps that are cut are no whole distributions.
+const FOURTH_OFF: f64 = 0.2;
+
 /// Trials in two lumps, of which one lies beyond a cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Jump {
@@ -67,7 +70,7 @@ pub(super) fn jump(
         + 6.0 * away * other * size * size * u * u
         + 3.0 * u.powi(4);
     let found = (trials.excess_kurtosis? + 3.0) * spread.powi(4);
-    let is_two = (found / fourth - 1.0).abs() <= OFF;
+    let is_two = (found / fourth - 1.0).abs() <= FOURTH_OFF;
     // lumps that are cut have their means nearer to each other than what is the same lies apart
     let [low, high] = trials.symmetric_interval;
     let apart = size.abs().max(high - low);

@@ -178,9 +178,11 @@ impl fmt::Display for FormulaError {
                             other.text
                         );
                     }
-                    let unit = match other.is_celsius {
-                        true => "degC".to_owned(),
-                        false => other.dimension.usual_unit(),
+                    let unit = match (other.is_celsius, *operator) {
+                        // two Celsius temperatures have no sum
+                        (true, "+") => "K".to_owned(),
+                        (true, _) => "degC".to_owned(),
+                        (false, _) => other.dimension.usual_unit(),
                     };
                     write!(
                         f,
