@@ -259,18 +259,22 @@ fn temperature(
     measured: &[Measured],
 ) -> Result<TemperatureKind, Fault> {
     let stated = object.truth("difference");
-    let mut first: Option<TemperatureKind> = None;
+    let mut found: Option<TemperatureKind> = None;
     for (node, of) in chosen.iter().zip(measured) {
         let kind = difference::kind(*node, of, stated)?;
-        let known = first.get_or_insert_with(|| kind.clone());
-        if *known != kind {
+        let known = found.get_or_insert_with(|| kind.clone());
+        let is_difference = |of: &TemperatureKind| *of == TemperatureKind::Difference;
+        if is_difference(known) != is_difference(&kind) {
             let reason = "of this quantity and the first one of its kind one is a difference of \
                           temperatures by its `refType` or its name: say by `difference` what they are"
                 .to_owned();
             return Err((of.span.clone(), reason));
         }
+        if *known == TemperatureKind::Value {
+            *known = kind;
+        }
     }
-    Ok(first.unwrap_or(TemperatureKind::Value))
+    Ok(found.unwrap_or(TemperatureKind::Value))
 }
 
 /// The result of a certificate of our own that a value is.

@@ -64,3 +64,20 @@ fn hybrids_tell() {
     let errors = of(&parts("0.10", "0.10"), r#", "difference": false"#, "degC").unwrap_err();
     assert!(errors.to_string().contains("leave out `difference`"), "{errors}");
 }
+
+/// Names of several quantities need not be the same; a difference among temperatures is asked.
+#[test]
+fn several_quantities() {
+    let of = |kind: &str, name: &str| {
+        of_5_hundredths(kind, name, r"\degreecelsius").replace(" id=\"v\"", " refType=\"x\"")
+    };
+    let read = |quantities: [String; 2]| {
+        let certificate = certificate("3.2.1", &quantities.concat());
+        model_in("degC", &certificate, r#""ref_type": "x", "index": 1"#, "")
+    };
+    let named = ["Correction at 10 °C", "Correction at 20 °C"].map(|name| of("", name));
+    near(known(&read(named).unwrap(), 0), [0.05, 0.01]);
+    let error = of("", "e").replace("\"x\"", "\"x basic_measurementError\"");
+    let errors = read([of("", "t"), error]).unwrap_err().to_string();
+    assert!(errors.contains("say by `difference`"), "{errors}");
+}
