@@ -58,6 +58,10 @@ pub(crate) fn found(rows: &[RowGap], conditions: usize) -> Option<PeriodicResidu
     let outputs = rows.first()?.outputs.len();
     let looks = outputs * (conditions + 1);
     let along = (0..conditions).map(Some).chain([None]);
+    let left = |output: usize| -> Option<Vec<f64>> {
+        rows.iter().map(|row| row.outputs.get(output).map(|value| value.left)).collect()
+    };
+    let left: Vec<Option<Vec<f64>>> = (0..outputs).map(left).collect();
     let mut all: Vec<PeriodicResiduals> = Vec::new();
     for condition in along {
         let at = |(number, row): (usize, &RowGap)| match condition {
@@ -65,10 +69,8 @@ pub(crate) fn found(rows: &[RowGap], conditions: usize) -> Option<PeriodicResidu
             None => number as f64,
         };
         let abscissas: Vec<f64> = rows.iter().enumerate().map(at).collect();
-        for output in 0..outputs {
-            let left: Option<Vec<f64>> =
-                rows.iter().map(|row| row.outputs.get(output).map(|value| value.left)).collect();
-            let line = left.and_then(|left| line(&abscissas, &left, looks));
+        for (output, left) in left.iter().enumerate() {
+            let line = left.as_ref().and_then(|left| line(&abscissas, left, looks));
             all.extend(line.map(|line| PeriodicResiduals { output, condition, line }));
         }
     }

@@ -25,6 +25,9 @@ const LEAST_RATIOS: usize = 4;
 /// Values of the sim below this share of the largest one give no ratios.
 const LEAST_SIM: f64 = 1e-3;
 
+/// What makes a power of ten.
+const OF_TEN: &str = "a prefix, or per cent";
+
 /// Powers of ten of prefixes, at most.
 const MOST_POWER: i32 = 12;
 
@@ -57,8 +60,7 @@ pub(crate) fn found(setup: &Setup<'_>) -> Option<UnitSlip> {
             return None;
         }
         if let Some((rows, ratio)) = of_some_rows(&by_row) {
-            let cause = "a prefix, or per cent";
-            return Some(UnitSlip { output, ratio, cause, rows: Some(rows) });
+            return Some(UnitSlip { output, ratio, cause: OF_TEN, rows: Some(rows) });
         }
         let ratios: Vec<f64> = by_row.into_iter().map(|(_, ratio)| ratio).collect();
         let ratio = median(ratios.clone())?;
@@ -71,11 +73,7 @@ pub(crate) fn found(setup: &Setup<'_>) -> Option<UnitSlip> {
 /// The rows (from 0) whose values are one power of ten times the sim, and that power, where all others
 /// agree with the sim: as where two files are joined of which one is in mV.
 fn of_some_rows(ratios: &[(usize, f64)]) -> Option<(Vec<usize>, f64)> {
-    let power = |ratio: f64| {
-        let power = elementary::log10(ratio).round();
-        let is_near = (ratio / elementary::pow(10.0, power) - 1.0).abs() < ALIKE;
-        (ratio > 0.0 && is_near).then_some(power)
-    };
+    let power = |ratio: f64| power_of_ten(ratio, ALIKE).filter(|_| ratio > 0.0);
     let powers: Option<Vec<f64>> = ratios.iter().map(|(_, ratio)| power(*ratio)).collect();
     let powers = powers?;
     let other = powers.iter().copied().find(|power| *power != 0.0)?;
@@ -84,6 +82,13 @@ fn of_some_rows(ratios: &[(usize, f64)]) -> Option<(Vec<usize>, f64)> {
     let is_it = count >= LEAST_ROWS && agree >= LEAST_ROWS && count + agree == powers.len();
     let rows = ratios.iter().zip(&powers).filter(|(_, power)| **power == other);
     is_it.then(|| (rows.map(|((row, _), _)| *row).collect(), elementary::pow(10.0, other)))
+}
+
+/// The exponent of the power of ten that a ratio is within this share of, whatever its sign.
+fn power_of_ten(ratio: f64, near: f64) -> Option<f64> {
+    let power = elementary::log10(ratio.abs()).round();
+    let is_near = (ratio.abs() / elementary::pow(10.0, power) - 1.0).abs() < near;
+    is_near.then_some(power)
 }
 
 /// What makes a factor of this size.
@@ -99,12 +104,9 @@ fn cause(ratio: f64) -> Option<&'static str> {
         (std::f64::consts::SQRT_2, "an effective value for a peak value"),
     ];
     let is_near = |of: f64| (ratio.abs() / of - 1.0).abs() < NEAR;
-    let power = elementary::log10(ratio.abs()).round();
-    let is_power = power != 0.0
-        && power.abs() <= f64::from(MOST_POWER)
-        && is_near(elementary::pow(10.0, power));
-    if is_power {
-        return Some("a prefix, or per cent");
+    let is_prefix = |power: f64| power != 0.0 && power.abs() <= f64::from(MOST_POWER);
+    if power_of_ten(ratio, NEAR).is_some_and(is_prefix) {
+        return Some(OF_TEN);
     }
     KNOWN.into_iter().find_map(|(factor, cause)| {
         let is_it = if factor == 1.0 {

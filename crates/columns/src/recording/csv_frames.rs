@@ -169,10 +169,13 @@ impl<R: Read> CsvFrames<R> {
                 || OF_NO_VALUE.contains(&text.to_lowercase().as_str())
                 || text.trim_start_matches(['-', '+', '\u{2212}', '.']).starts_with(digit)
         };
+        // an empty cell among names is a column without one
+        let is_name = |place: &usize| {
+            !is_sample(*place) || cell(*place).is_empty() && !texts.contains(&false)
+        };
         match (value, word) {
-            (None, Some(word)) if texts.contains(&false) && is_sample(*word) => {}
-            (None, Some(word)) if !cell(*word).is_empty() && is_sample(*word) => {}
-            (None, _) => return Ok(true),
+            (None, word) if word.is_none_or(is_name) => return Ok(true),
+            (None, _) => {}
             (Some(_), None) => return self.is_above_numbers(&texts),
             (Some(_), Some(_)) => {}
         }

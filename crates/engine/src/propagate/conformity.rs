@@ -148,7 +148,7 @@ impl Conformity {
     /// normally distributed with it (JCGM 106, 7.2). `None` without a tolerance or an uncertainty above
     /// zero.
     pub fn with_stated(output: &Output, estimate: f64, u: f64, expanded: f64) -> Option<Self> {
-        let found = Self::about(output, estimate, &ErrorLaw::normal(u), Some(expanded))?;
+        let found = Self::about(output, estimate, StudentLaw::normal(u), Some(expanded))?;
         Some(Self { stated_uncertainty: Some(u), ..found })
     }
 
@@ -192,7 +192,7 @@ impl Conformity {
     /// output is normally distributed (JCGM 106, 7.2), or as t with its effective degrees of freedom
     /// (JCGM 100, G.3). `None` without a tolerance or an uncertainty above zero.
     pub fn by_propagation(output: &Output, gum: &Gum) -> Option<Self> {
-        Self::about(output, gum.estimate, &ErrorLaw::of(gum), gum.expanded_uncertainty())
+        Self::about(output, gum.estimate, StudentLaw::of(gum), gum.expanded_uncertainty())
     }
 
     /// The decision about an estimate about which the output is distributed by a law, with the expanded
@@ -200,19 +200,18 @@ impl Conformity {
     fn about(
         output: &Output,
         estimate: f64,
-        law: &ErrorLaw,
+        errors: StudentLaw,
         expanded: Option<f64>,
     ) -> Option<Self> {
         let tolerance = output.tolerance?;
         let limits = limits_of(output, tolerance);
         let estimate = turns::at_limits(estimate, limits, output.period);
-        let u = law.scale();
-        if !(u > 0.0 && u.is_finite()) {
+        if !(errors.scale > 0.0 && errors.scale.is_finite()) {
             return None;
         }
-        let of_errors = law.student().unwrap_or(StudentLaw::normal(u));
+        let law = ErrorLaw::Student(errors);
         let inspection = output.prior.as_deref();
-        let inspection = inspection.map(|prior| Inspection::new(prior, of_errors, limits));
+        let inspection = inspection.map(|prior| Inspection::new(prior, errors, limits));
         let guard_band = match (output.risk, &inspection) {
             (None, _) => multiple(output, expanded),
             (Some(risk), Some(inspection)) => inspection.guard_band(risk),
@@ -220,7 +219,7 @@ impl Conformity {
         };
         let [acceptance, accepted] = [tolerance, Tolerance::between(limits)]
             .map(|limits| guard_band.and_then(|width| limits.narrowed(width)));
-        let share = turns::share(law, estimate, limits, output.period);
+        let share = turns::share(&law, estimate, limits, output.period);
         let global = inspection.as_ref().zip(accepted).map(|(of, to)| of.risks(to.ends()));
         Some(Self {
             tolerance,

@@ -65,14 +65,6 @@ impl ErrorLaw {
         Self::Student(StudentLaw::of(gum))
     }
 
-    /// Where it is none of trials.
-    pub(super) fn student(&self) -> Option<StudentLaw> {
-        match self {
-            Self::Student(law) => Some(*law),
-            Self::Trials(_) => None,
-        }
-    }
-
     pub(in crate::propagate) fn of_trials(mut values: Vec<f64>, estimate: f64) -> Self {
         values.iter_mut().for_each(|value| *value -= estimate);
         values.sort_unstable_by(f64::total_cmp);
