@@ -50,6 +50,18 @@ impl Covariance {
                 blocks[at(row, output, output)] += u * u;
             }
         }
+        if let Some(common) = &data.noise.common {
+            for row in 0..rows {
+                for i in 0..outputs {
+                    for j in 0..i {
+                        let u = |output: usize| {
+                            data.uncertainties[output].as_ref().map_or(0.0, |u| u[row])
+                        };
+                        blocks[at(row, i, j)] += common.between(i, j) * u(i) * u(j);
+                    }
+                }
+            }
+        }
         let mut basis: Vec<Vec<f64>> = Vec::new();
         // first, as they have nothing to do with each other: the root of the inner products is zero there
         if let Some(shared) = &data.noise.shared {

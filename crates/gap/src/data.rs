@@ -98,12 +98,13 @@ impl Data {
         for (output, stated) in uncertainties.iter_mut().enumerate() {
             for (row, &id) in ids.iter().enumerate() {
                 let stretch = noise.stretch(id, output);
+                let factor = noise.common.as_ref().map_or(1.0, |common| common.factor(output));
                 let ln_scale = &mut ln_scales[row * outputs.len() + output];
                 match stated {
                     Some(u) if noise.factor.is_some() => {
                         *ln_scale = elementary::ln(u[row] * stretch)
                     }
-                    Some(u) => u[row] *= stretch,
+                    Some(u) => u[row] *= stretch * factor,
                     None => *ln_scale = elementary::ln(stretch),
                 }
             }

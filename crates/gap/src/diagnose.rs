@@ -7,8 +7,8 @@ use super::departure;
 use super::departure_prediction;
 use super::diagnosis::{
     DescribedEffect, Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, HypothesisKind,
-    MostProbable, NamedQuantity, NextMeasurements, NoiseEstimate, Predicted, RowGap,
-    SerialCorrelation, SettingError, SuspectValue, UncertaintyFactor,
+    MostProbable, NamedQuantity, NextMeasurements, NoiseEstimate, OutputCorrelation, Predicted,
+    RowGap, SerialCorrelation, SettingError, SuspectValue,
 };
 use super::discrepancy::Discrepancy;
 use super::goodness_of_fit::{gap, plus_rows};
@@ -472,10 +472,15 @@ fn noise(
         .map(|output| {
             let estimated = (!stated(output))
                 .then(|| estimated_noise(setup, variances, posterior, best, output));
-            let factor = weighed.factor(output, coverage).map(|(estimate, interval)| {
-                let probability = weighed.factor_probability;
-                UncertaintyFactor { estimate, interval, probability }
+            let factor = weighed.factor(output, coverage);
+            let with_output = weighed.correlations.iter().filter(|of| of.outputs.contains(&output));
+            let correlations = with_output.map(|of| OutputCorrelation {
+                other: if of.outputs[0] == output { of.outputs[1] } else { of.outputs[0] },
+                estimate: of.draws.iter().map(|(r, weight)| r * weight).sum(),
+                interval: equal_tails(&of.draws, coverage),
+                probability: of.probability,
             });
+            let correlations = correlations.collect();
             let own = weighed.suspects.iter().filter(|(suspect, _)| suspect.output == output);
             let mut suspects: Vec<SuspectValue> = own
                 .filter_map(|&(suspect, probability)| {
@@ -507,7 +512,7 @@ fn noise(
                     probability: of.probability,
                 }
             });
-            NoiseEstimate { output, estimated, factor, suspects, serial, settings }
+            NoiseEstimate { output, estimated, factor, correlations, suspects, serial, settings }
         })
         .collect()
 }

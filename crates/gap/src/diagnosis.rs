@@ -447,6 +447,8 @@ pub struct NoiseEstimate {
     pub estimated: Option<EstimatedNoise>,
     /// What stated uncertainties are to be multiplied by.
     pub factor: Option<UncertaintyFactor>,
+    /// Correlations with the noise of other outputs of the same row.
+    pub correlations: Vec<OutputCorrelation>,
     /// Values that may be off, most probable first.
     pub suspects: Vec<SuspectValue>,
     /// Noise that neighbouring rows share.
@@ -462,6 +464,7 @@ impl NoiseEstimate {
             output,
             estimated: None,
             factor: None,
+            correlations: Vec::new(),
             suspects: Vec::new(),
             serial: None,
             settings: None,
@@ -500,6 +503,19 @@ impl UncertaintyFactor {
         let [least, most] = Self::LIMITS;
         self.estimate < least * NEAR || self.estimate * NEAR > most
     }
+}
+
+/// The coefficient of correlation of the noise of two outputs of a row.
+#[derive(Clone, Copy, Debug)]
+pub struct OutputCorrelation {
+    /// Index of the other output.
+    pub other: usize,
+    /// Posterior expectation, given that there is one.
+    pub estimate: f64,
+    /// Coverage interval with equal tails, given that there is one.
+    pub interval: [f64; 2],
+    /// Probability that there is one.
+    pub probability: f64,
 }
 
 /// The coefficient of correlation of the noise of neighbouring rows, in the order of the data.

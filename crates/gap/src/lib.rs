@@ -8,6 +8,7 @@ mod beside_departure;
 mod case;
 mod case_check;
 pub mod check;
+mod common_noise;
 mod composed;
 mod copies;
 mod correlated;
@@ -72,10 +73,10 @@ pub use diagnose::{DiagnosisOptions, diagnose, diagnose_until};
 pub use diagnosis::{
     DepartureForm, DepartureKind, DepartureOver, DepartureShape, DescribedEffect, Diagnosis,
     DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapStrength, GapTest, Hypothesis,
-    HypothesisKind, MostProbable, NamedQuantity, NextMeasurements, NoiseEstimate, Predicted,
-    PresentEffect, PriorConflict, ProposalKind, ProposedMeasurement, ReplicatedEffect,
-    ReplicatedEffects, RowGap, SerialCorrelation, SettingError, Shrinkage, Shrunk, StrengthPart,
-    SuspectValue, UncertaintyFactor, UnlistedEffect, ValueGap,
+    HypothesisKind, MostProbable, NamedQuantity, NextMeasurements, NoiseEstimate,
+    OutputCorrelation, Predicted, PresentEffect, PriorConflict, ProposalKind, ProposedMeasurement,
+    ReplicatedEffect, ReplicatedEffects, RowGap, SerialCorrelation, SettingError, Shrinkage,
+    Shrunk, StrengthPart, SuspectValue, UncertaintyFactor, UnlistedEffect, ValueGap,
 };
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use replication::{MOST_GROUPS, OwnSizes, Replication};

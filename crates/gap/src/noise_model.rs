@@ -4,14 +4,15 @@
 //! small, and a row that is wrong. A diagnosis that takes the stated noise for certain explains them
 //! by whatever effect or discrepancy comes nearest. What the noise is therefore belongs to every
 //! hypothesis: as stated, or with the uncertainties of each output multiplied by an unknown factor
-//! (Birge 1932, Physical Review 40, 207), or with noise that neighbouring rows or those of one setting
-//! share, or with single values off by many standard uncertainties.
+//! (Birge 1932, Physical Review 40, 207), or with noise that the outputs of a row, neighbouring rows or
+//! those of one setting share, or with single values off by many standard uncertainties.
 //! Probabilities of effects are summed over it.
 
 use std::sync::Arc;
 
 use gumption_engine::parallel;
 
+use super::common_noise::{self, CommonNoise};
 use super::discrepancy::Discrepancy;
 use super::latent::{AT_BOUND, EDGE, Map, Role};
 use super::logarithm::ln_add;
@@ -28,7 +29,7 @@ use gumption_engine::number::elementary;
 
 /// The factor on stated uncertainties is log-uniform between these, and where the data speak for more
 /// than that, between the others: a unit that was mistaken.
-const FACTORS: [f64; 2] = [0.25, 10.0];
+pub(crate) const FACTORS: [f64; 2] = [0.25, 10.0];
 const FAR_FACTORS: [f64; 2] = UncertaintyFactor::LIMITS;
 
 /// Prior probability that the noise and the priors are as they are stated. It and those of all else
@@ -52,6 +53,9 @@ const PRIOR_SERIAL: f64 = 0.25;
 
 /// Prior probability that the rows of a setting share an error.
 const PRIOR_SHARED: f64 = 0.1;
+
+/// Prior probability that the outputs of a row share noise.
+const PRIOR_COMMON: f64 = 0.1;
 
 /// The prior odds of no gap are multiplied by this where the noise is not as stated. A diagnosis is
 /// asked for where data depart; noise that is not as stated is a reason for that, after which there
@@ -114,6 +118,8 @@ pub(crate) struct NoiseModel {
     pub(crate) serial: Option<f64>,
     /// The error that the rows of each setting share.
     pub(crate) shared: Option<SharedNoise>,
+    /// The noise that the outputs of a row share.
+    pub(crate) common: Option<CommonNoise>,
 }
 
 /// An unknown factor on stated uncertainties.
@@ -182,6 +188,11 @@ impl NoiseModel {
     /// With an error that the rows of each setting share.
     pub(crate) fn with_shared(noise: SharedNoise) -> Self {
         Self { shared: Some(noise), ..Self::default() }
+    }
+
+    /// With noise that the outputs of a row share.
+    pub(crate) fn with_common(noise: CommonNoise) -> Self {
+        Self { common: Some(noise), ..Self::default() }
     }
 
     /// What a value's standard uncertainty is multiplied by: a suspect is off by a normal quantity of
@@ -263,6 +274,9 @@ impl NoiseModel {
         }
         if let Some(shared) = &self.shared {
             return PRIOR_SHARED * shared.prior();
+        }
+        if let Some(common) = &self.common {
+            return PRIOR_COMMON * common.share;
         }
         let mut prior = match self.suspects.len() {
             0 => return PRIOR_AS_STATED,
@@ -367,6 +381,12 @@ pub(crate) fn weighings<'c>(
                 own.posterior.none_is_unexplained();
             }
             weighings.push(own);
+        }
+    }
+    if few && !effort.is_stopped() {
+        for noise in common_noise::worth_trying(&weighings) {
+            let noise = NoiseModel::with_common(noise);
+            weighings.push(noisy(noise, &weighings, [0.7, 0.7]));
         }
     }
     for widths in [PriorWidths::Wider, PriorWidths::Widest, PriorWidths::Narrower] {

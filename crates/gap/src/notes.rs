@@ -157,6 +157,7 @@ pub(crate) fn notes(
     }
     let of_noise = noise.iter().any(|of| {
         of.factor.is_some_and(|factor| factor.probability > LIKELY)
+            || of.correlations.iter().any(|of| of.probability > LIKELY)
             || of.serial.is_some_and(|serial| serial.probability > LIKELY)
             || of.settings.as_ref().is_some_and(|settings| settings.probability > LIKELY)
             || of.suspects.iter().any(|suspect| suspect.probability > LIKELY)

@@ -50,6 +50,7 @@ pub(crate) fn more_suspects(
         noise.factor.is_none()
             && noise.serial.is_none()
             && noise.shared.is_none()
+            && noise.common.is_none()
             && w.widths == PriorWidths::AsStated
     };
     let last = weighings.iter().rfind(is_known)?;

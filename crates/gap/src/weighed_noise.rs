@@ -7,6 +7,7 @@ use super::parameters::equal_tails;
 use super::remainder::Remainder;
 use super::setup::Setup;
 use super::shared_noise::{Groups, RATIOS, Setting};
+use crate::UncertaintyFactor;
 use gumption_engine::number::{COLUMN, elementary, smallest_first};
 
 /// Hypotheses below this probability do not contribute to the factor.
@@ -15,11 +16,10 @@ const LEAST: f64 = 1e-3;
 /// What is known of the noise of the data.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WeighedNoise {
-    /// Probability that stated uncertainties are off by a factor.
-    pub(crate) factor_probability: f64,
-    /// For each observed output with stated uncertainties what they are to be multiplied by, if they
-    /// are off: draws with weights that sum to one.
-    pub(crate) factors: Vec<(usize, Vec<(f64, f64)>)>,
+    /// What the stated uncertainties of outputs are to be multiplied by.
+    pub(crate) factors: Vec<WeighedFactor>,
+    /// Which outputs of a row share noise.
+    pub(crate) correlations: Vec<WeighedCorrelation>,
     /// Values that may be off, with their probabilities.
     pub(crate) suspects: Vec<(Suspect, f64)>,
     /// Probability that neighbouring rows share noise, and draws of their coefficient of correlation,
@@ -27,6 +27,26 @@ pub(crate) struct WeighedNoise {
     pub(crate) serial: Option<(f64, Vec<(f64, f64)>)>,
     /// For each output the error that the rows of each setting share, where it may have one.
     pub(crate) settings: Vec<Option<WeighedSettings>>,
+}
+
+/// What is known of a factor on the stated uncertainties of an observed output.
+#[derive(Clone, Debug)]
+pub(crate) struct WeighedFactor {
+    pub(crate) output: usize,
+    /// Probability that they are off by a factor.
+    pub(crate) probability: f64,
+    /// Draws of it, if they are, with weights that sum to one, smallest first.
+    pub(crate) draws: Vec<(f64, f64)>,
+}
+
+/// What is known of the correlation of the noise of two observed outputs of a row.
+#[derive(Clone, Debug)]
+pub(crate) struct WeighedCorrelation {
+    pub(crate) outputs: [usize; 2],
+    /// Probability that they are correlated.
+    pub(crate) probability: f64,
+    /// Draws of the coefficient, if they are, with weights that sum to one, smallest first.
+    pub(crate) draws: Vec<(f64, f64)>,
 }
 
 /// What is known of an error that the rows of each setting share.
@@ -46,21 +66,18 @@ pub(crate) struct WeighedSettings {
 impl WeighedNoise {
     pub(crate) fn of(weighings: &[Weighing<'_>]) -> Self {
         let mut of = Self::default();
-        let with_factor = || weighings.iter().filter(|w| w.setup.data.noise.factor.is_some());
-        of.factor_probability = with_factor().map(|w| w.probability).sum::<f64>().min(1.0);
-        let all = with_factor().map(Weighing::ln_weight).fold(f64::NEG_INFINITY, ln_add);
-        for weighing in with_factor() {
-            let share = elementary::exp(weighing.ln_weight() - all);
-            for (output, draws) in factors(weighing) {
-                let draws = draws.into_iter().map(|(factor, weight)| (factor, share * weight));
-                match of.factors.iter_mut().find(|(known, _)| *known == output) {
-                    Some((_, known)) => known.extend(draws),
-                    None => of.factors.push((output, draws.collect())),
+        let outputs = weighings.first().map_or(0, |w| w.setup.data.outputs.len());
+        for output in 0..outputs {
+            if let Some((probability, draws)) = joined(weighings, |w| factor(w, output)) {
+                of.factors.push(WeighedFactor { output, probability, draws });
+            }
+            for other in output + 1..outputs {
+                let found = joined(weighings, |w| correlation(w, [output, other]));
+                if let Some((probability, draws)) = found {
+                    let outputs = [output, other];
+                    of.correlations.push(WeighedCorrelation { outputs, probability, draws });
                 }
             }
-        }
-        for (_, draws) in &mut of.factors {
-            smallest_first(draws, |a| a.0);
         }
         of.serial = serial(weighings);
         of.settings = settings(weighings);
@@ -94,13 +111,58 @@ impl WeighedNoise {
     }
 
     /// The factor of an output's stated uncertainties, given that they are off: its geometric mean and
-    /// an interval with equal tails.
-    pub(crate) fn factor(&self, output: usize, coverage: f64) -> Option<(f64, [f64; 2])> {
-        let (_, draws) = self.factors.iter().find(|(of, _)| *of == output)?;
+    /// an interval with equal tails; and the probability that they are.
+    pub(crate) fn factor(&self, output: usize, coverage: f64) -> Option<UncertaintyFactor> {
+        let WeighedFactor { probability, draws, .. } =
+            self.factors.iter().find(|of| of.output == output)?;
         let ln: f64 = draws.iter().map(|(factor, w)| w * elementary::ln(*factor)).sum();
-        Some((elementary::exp(ln), equal_tails(draws, coverage)))
+        let interval = equal_tails(draws, coverage);
+        Some(UncertaintyFactor {
+            estimate: elementary::exp(ln),
+            interval,
+            probability: *probability,
+        })
     }
 }
+
+/// The probability of the weighings that have something, and draws of it in all of them, with weights that
+/// sum to one.
+fn joined(
+    weighings: &[Weighing<'_>],
+    of: impl Fn(&Weighing<'_>) -> Option<Vec<(f64, f64)>>,
+) -> Option<(f64, Vec<(f64, f64)>)> {
+    let with: Vec<(&Weighing<'_>, Vec<(f64, f64)>)> =
+        weighings.iter().filter_map(|weighing| Some((weighing, of(weighing)?))).collect();
+    let all = with.iter().map(|(w, _)| w.ln_weight()).fold(f64::NEG_INFINITY, ln_add);
+    let probability = with.iter().map(|(w, _)| w.probability).sum::<f64>().min(1.0);
+    let mut draws = Vec::new();
+    for (weighing, own) in &with {
+        let share = elementary::exp(weighing.ln_weight() - all);
+        draws.extend(own.iter().map(|(value, weight)| (*value, share * weight)));
+    }
+    smallest_first(&mut draws, |a| a.0);
+    (!draws.is_empty()).then_some((probability, draws))
+}
+
+/// Draws of the coefficient of correlation of the noise of two outputs of a row.
+fn correlation(weighing: &Weighing<'_>, [one, other]: [usize; 2]) -> Option<Vec<(f64, f64)>> {
+    let common = weighing.setup.data.noise.common.as_ref()?;
+    let between = common.between(one, other);
+    let of = |shift: f64| elementary::tanh(elementary::atanh(between) + shift);
+    (between != 0.0).then(|| normal_draws(common.spread, of))
+}
+
+/// Draws of a function of a normal quantity with mean 0 and this standard deviation, with weights that sum to
+/// one.
+fn normal_draws(deviation: f64, of: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+    let score = |n: usize| FARTHEST * ((2 * n + 1) as f64 / GRID as f64 - 1.0);
+    let scores: Vec<f64> = (0..GRID).map(score).collect();
+    let ln: Vec<f64> = scores.iter().map(|score| -0.5 * score * score).collect();
+    normalized(scores.into_iter().map(|score| of(deviation * score)).collect(), &ln)
+}
+
+/// Scores of a normal quantity that are drawn.
+const FARTHEST: f64 = 5.0;
 
 impl WeighedSettings {
     /// The expected variance of the error in a setting.
@@ -170,30 +232,36 @@ fn serial(weighings: &[Weighing<'_>]) -> Option<(f64, Vec<(f64, f64)>)> {
 /// Points of a grid of coefficients of correlation, or of standard deviations.
 const GRID: usize = 200;
 
-/// Draws of the factors, over all hypotheses.
-fn factors(weighing: &Weighing<'_>) -> Vec<(usize, Vec<(f64, f64)>)> {
+/// Draws of the factor on an output's stated uncertainties, over all hypotheses.
+fn factor(weighing: &Weighing<'_>, output: usize) -> Option<Vec<(f64, f64)>> {
+    if let Some(common) = &weighing.setup.data.noise.common {
+        let (factor, deviation) = common.factors.get(output).copied().flatten()?;
+        return Some(normal_draws(deviation, |shift| factor * elementary::exp(shift)));
+    }
+    // of an output that states uncertainties
+    if !weighing.setup.has_factor(output) {
+        return None;
+    }
     let roles = weighing.setup.roles.iter().enumerate();
-    roles
+    let (place, map) = roles
         .filter_map(|(place, role)| match role {
-            // of an output that states uncertainties
-            Role::Noise { output, map } if weighing.setup.has_factor(*output) => {
-                let mut draws: Vec<(f64, f64)> = Vec::new();
-                for hypothesis in &weighing.posterior.hypotheses {
-                    if hypothesis.probability < LEAST {
-                        continue;
-                    }
-                    let evidence = &hypothesis.evidence;
-                    let weighted = evidence.weights.iter().enumerate().filter(|(_, w)| **w > 0.0);
-                    draws.extend(weighted.map(|(n, w)| {
-                        let score = evidence.columns[n / COLUMN][place].0[n % COLUMN];
-                        (elementary::exp(map.value(score)), w * hypothesis.probability)
-                    }));
-                }
-                let total: f64 = draws.iter().map(|(_, w)| w).sum();
-                draws.iter_mut().for_each(|(_, w)| *w /= total);
-                (!draws.is_empty()).then_some((*output, draws))
-            }
+            Role::Noise { output: of, map } if *of == output => Some((place, map)),
             _ => None,
         })
-        .collect()
+        .next()?;
+    let mut draws: Vec<(f64, f64)> = Vec::new();
+    for hypothesis in &weighing.posterior.hypotheses {
+        if hypothesis.probability < LEAST {
+            continue;
+        }
+        let evidence = &hypothesis.evidence;
+        let weighted = evidence.weights.iter().enumerate().filter(|(_, w)| **w > 0.0);
+        draws.extend(weighted.map(|(n, w)| {
+            let score = evidence.columns[n / COLUMN][place].0[n % COLUMN];
+            (elementary::exp(map.value(score)), w * hypothesis.probability)
+        }));
+    }
+    let total: f64 = draws.iter().map(|(_, w)| w).sum();
+    draws.iter_mut().for_each(|(_, w)| *w /= total);
+    (!draws.is_empty()).then_some(draws)
 }

@@ -859,3 +859,61 @@ fn equal_readings_are_known_to_half_a_step() {
         assert_eq!(read(0.2, stated).most_probable.effects, ["offset"], "{stated}");
     }
 }
+
+/// Two lines of 40 rows whose noise has these standard deviations and this coefficient of correlation, and
+/// an offset of both; uncertainties of 0.1 are stated for both.
+fn with_common(offset: f64, deviations: [f64; 2], correlation: f64) -> Case {
+    let numbers = normals(80, 22);
+    let own = (1.0 - correlation * correlation).sqrt();
+    let noise = |row: usize| {
+        let second = correlation * numbers[row] + own * numbers[40 + row];
+        [deviations[0] * numbers[row], deviations[1] * second]
+    };
+    let y: Vec<f64> = (0..40).map(|row| 1.0 + 0.5 * row as f64 + offset + noise(row)[0]).collect();
+    let z: Vec<f64> = (0..40).map(|row| 1.0 - 0.2 * row as f64 + offset + noise(row)[1]).collect();
+    let u = vec![0.1; 40];
+    case(
+        normal(1.0, 0.001),
+        Sharing::All,
+        &[("y", "a + 0.5*x"), ("z", "a - 0.2*x")],
+        vec![observed(&y, Some(&u)), observed(&z, Some(&u))],
+        vec![
+            candidate("offset", "o", normal(0.0, 0.3), &[("y", "y + o"), ("z", "z + o")]),
+            candidate("slope", "s", normal(0.0, 0.05), &[("y", "y + s*x")]),
+        ],
+    )
+}
+
+/// Noise that two outputs of a row share is no departure; it is told, with what the stated uncertainties
+/// are off by, and an offset beside it is as uncertain as it is.
+#[test]
+fn noise_that_outputs_share_is_told() {
+    for (deviations, correlation) in [([0.1, 0.1], 0.9), ([0.1, 0.1], -0.9), ([0.2, 0.1], 0.9)] {
+        let found = diagnosed(&with_common(0.0, deviations, correlation), 1);
+        assert_eq!(found.most_probable.kind, HypothesisKind::None, "{deviations:?} {correlation}");
+        let [of, same] = [0, 1].map(|output| found.noise[output].correlations[0]);
+        assert_eq!([of.other, same.other], [1, 0]);
+        assert!(of.probability > 0.99 && of.probability == same.probability, "{of:?}");
+        let [low, high] = of.interval;
+        assert!(low < correlation && correlation < high, "{of:?}");
+        // the standard error of the coefficient is (1 - 0.81)/sqrt(40) = 0.03: five of them
+        assert!((of.estimate - correlation).abs() < 0.15, "{of:?}");
+    }
+    let found = diagnosed(&with_common(0.0, [0.2, 0.1], 0.9), 1);
+    let factor = found.noise[0].factor.unwrap();
+    // 2 with a relative standard error of 1/sqrt(80): four of them
+    assert!(factor.probability > 0.95 && (factor.estimate / 2.0 - 1.0).abs() < 0.45, "{factor:?}");
+
+    let found = diagnosed(&with_common(0.2, [0.1, 0.1], 0.9), 1);
+    assert_eq!(found.most_probable.effects, ["offset"]);
+    let offset = &found.present.iter().find(|of| of.effect == "offset").unwrap().parameters[0];
+    // the mean of both outputs over 40 rows: 0.1 sqrt((1 + 0.9)/2/40); for independent ones 0.011
+    let u = 0.1 * (1.9f64 / 80.0).sqrt();
+    assert!((offset.standard_uncertainty / u - 1.0).abs() < 0.15, "{offset:?} {u}");
+
+    let found = diagnosed(&with_common(0.0, [0.1, 0.1], 0.0), 1);
+    assert_eq!(found.most_probable.kind, HypothesisKind::None);
+    let probability = found.noise[0].correlations.first().map_or(0.0, |of| of.probability);
+    // of 24 tables of 12 and 40 rows the largest was 0.15
+    assert!(probability < 0.3, "{probability}");
+}

@@ -290,6 +290,15 @@ fn noise(diagnosis: &Diagnosis) -> Value {
         });
         entries.push(("factor", json!(factor)));
         entries.push(("serial_correlation", json!(serial)));
+        let correlations = noise.correlations.iter().filter_map(|of| {
+            let other = diagnosis.outputs.get(of.other)?;
+            let mut entry = json!({"output": other.name});
+            entry["estimate"] = json!(of.estimate);
+            entry["interval"] = json!(of.interval);
+            entry["probability"] = json!(of.probability);
+            Some(entry)
+        });
+        entries.push(("output_correlations", list(correlations)));
         let settings = noise.settings.as_ref().map(|of| {
             let mut settings = figures(of.estimate, of.interval, of.probability);
             settings["condition"] = json!(of.condition);

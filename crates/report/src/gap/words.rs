@@ -143,9 +143,11 @@ fn noise_is_off(diagnosis: &Diagnosis) -> f64 {
     let of = |noise: &NoiseEstimate| {
         let factor = noise.factor.map(|factor| factor.probability);
         let serial = noise.serial.map(|serial| serial.probability);
+        let correlations = noise.correlations.iter().map(|of| of.probability);
         let settings = noise.settings.as_ref().map(|settings| settings.probability);
         let suspects = noise.suspects.iter().map(|suspect| suspect.probability);
-        suspects.chain(factor).chain(serial).chain(settings).fold(0.0, f64::max)
+        let several = suspects.chain(correlations);
+        several.chain(factor).chain(serial).chain(settings).fold(0.0, f64::max)
     };
     diagnosis.noise.iter().map(of).fold(0.0, f64::max)
 }
@@ -231,6 +233,20 @@ pub(super) fn noise_verdict(diagnosis: &Diagnosis) -> Vec<String> {
                      that it may be more: look at how they were stated."
                 ));
             }
+        }
+        let likely = noise.correlations.iter().filter(|of| of.probability > LIKELY);
+        // each pair once
+        for correlation in likely.filter(|of| of.other > noise.output) {
+            let Some(other) = diagnosis.outputs.get(correlation.other) else { continue };
+            let [low, high] = correlation.interval.map(|end| rounded(end, -2));
+            said.push(format!(
+                "The noise of {name} and {} is correlated within a row: coefficient {} ({low} to {high}); \
+                 that it is has the probability {}. What both are read against may be off in both; an \
+                 input with `\"per\": \"row\"` in the equations of both says so.",
+                plain(&other.name),
+                rounded(correlation.estimate, -2),
+                probability(correlation.probability)
+            ));
         }
         if let Some(serial) = noise.serial.filter(|serial| serial.probability > LIKELY) {
             let [low, high] = serial.interval.map(|end| rounded(end, -2));
