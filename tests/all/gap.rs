@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::gumption;
+use crate::support::{gumption, numbers};
 
 /// A scale whose gain error grows with the load, and two effects that it may have.
 const CASE: &str = r#"{
@@ -492,4 +492,51 @@ fn errors_of_settings_are_said_on_the_page() {
     let said = "Readings of R at one setting of t share an error with a standard deviation of 0.00";
     assert!(page.contains(said), "{page}");
     assert!(page.contains(r#"an input with `"per": "t"` says it."#), "{page}");
+}
+
+/// A standard uncertainty for all rows, or as a share of the measured values, says what a column does.
+#[test]
+fn uncertainties_may_be_stated_for_all_rows() {
+    let text = |stated: &str| {
+        format!(
+            r#"{{"inputs": {{"s": {{"unit": "mV/N", "distribution": "normal", "mean": 2, "std": 0.001}}}},
+      "conditions": {{"F": {{"unit": "N"}}}}, "equations": {{"v": "s*F"}}, "outputs": {{"v": {{"unit": "mV"}}}},
+      "observations": {{"file": "data.csv",
+        "columns": {{"v": {{"value": "v", "standard_uncertainty": {stated}}}}}}},
+      "effects": {{"gain": {{"parameters": {{"g": {{"unit": "%", "distribution": "normal", "mean": 0,
+          "std": 2}}}}, "overrides": {{"v": "v*(1 + g)"}}}}}}}}"#
+        )
+    };
+    let mut data = "F,v,same,share\n".to_owned();
+    for row in 0..=12_u32 {
+        let value = 20.0 * f64::from(row) + 0.05 * (f64::from(row * 5 % 13) - 6.0);
+        let share = 0.001 * value.abs() + 0.01;
+        writeln!(data, "{},{value},0.03125,{share}", 10 * row).unwrap();
+    }
+    for (column, stated) in [
+        ("same", vec!["0.03125", r#""0.03125 mV""#, r#""31.25 uV""#]),
+        ("share", vec![r#""0.1 % + 0.01 mV""#, r#""0.1 % of reading + 10 uV""#]),
+    ] {
+        let by_column = answered(&text(&format!(r#""{column}""#)), &data);
+        let wanted = &by_column["hypotheses"];
+        for stated in stated {
+            let found = &answered(&text(stated), &data)["hypotheses"];
+            let pairs = numbers(wanted).into_iter().zip(numbers(found));
+            for (a, b) in pairs {
+                // what 31.25 uV and shares are in mV is rounded
+                assert!((a - b).abs() <= 1e-6 * a.abs().max(1e-6), "{stated}: {a} {b}");
+            }
+        }
+    }
+    let text = text(r#""0.1 %""#);
+    let data = "F,v\n0,0\n10,20.1\n20,39.9\n";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("data.csv"), data).unwrap();
+    let path = folder.path().join("case.json");
+    std::fs::write(&path, text).unwrap();
+    let said = refused(&path, &[]);
+    assert!(
+        said.contains("the standard uncertainty in row 1 is 0, as a share of the value 0"),
+        "{said}"
+    );
 }

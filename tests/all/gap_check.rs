@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::gumption;
+use crate::support::{gumption, numbers};
 
 /// An oscillating table with one output, and two effects that it may have.
 const CASE: &str = r#"{
@@ -77,16 +77,6 @@ fn names(folder: &Path) -> Vec<String> {
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
     names
-}
-
-/// All numbers in a JSON value.
-fn numbers(value: &Value) -> Vec<f64> {
-    match value {
-        Value::Number(number) => vec![number.as_f64().unwrap()],
-        Value::Array(values) => values.iter().flat_map(numbers).collect(),
-        Value::Object(members) => members.values().flat_map(numbers).collect(),
-        _ => Vec::new(),
-    }
 }
 
 #[test]

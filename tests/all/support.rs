@@ -1,5 +1,6 @@
 //! What several tests need.
 
+use serde_json::Value;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -48,4 +49,14 @@ pub(crate) fn gumption() -> assert_cmd::Command {
 pub(crate) fn output(arguments: &[&str]) -> String {
     let assert = gumption().args(arguments).assert().success();
     String::from_utf8(assert.get_output().stdout.clone()).expect("UTF-8")
+}
+
+/// All numbers in a JSON value.
+pub(crate) fn numbers(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Number(number) => vec![number.as_f64().unwrap()],
+        Value::Array(values) => values.iter().flat_map(numbers).collect(),
+        Value::Object(members) => members.values().flat_map(numbers).collect(),
+        _ => Vec::new(),
+    }
 }

@@ -430,11 +430,15 @@ impl<'a> ModelReader<'a> {
                 });
             }
         }
-        let of = |output: &Output| {
+        let mut all = Vec::with_capacity(sim.outputs.len());
+        for output in &sim.outputs {
             let named = |column: &&observations::Column| column.output == output.quantity.name;
-            observations.columns.iter().find(named).map(|column| column.observed.clone())
-        };
-        clean.then(|| sim.outputs.iter().map(of).collect())
+            let column = observations.columns.iter().find(named);
+            let observed = column.map(|of| of.in_unit(self.root.log, &output.quantity.unit));
+            clean &= !matches!(observed, Some(None));
+            all.push(observed.flatten());
+        }
+        clean.then_some(all)
     }
 
     /// What computes the outputs; `simulated` are outputs with the column that holds them.

@@ -5,14 +5,16 @@ use std::ops::Range;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::folder::Folder;
-use super::json::{Json, Member};
+use super::json::{Json, Member, Node};
 use super::keys;
 use super::object::Object;
 use super::source::Place;
 use super::table::{self, Table};
-use super::value_text::ValueOf;
+use super::value_text::{ValueOf, with_plus_minus};
+use super::width::{self, Width};
 use gumption_engine::linalg::packed;
 use gumption_gap::{MOST_GROUPS, ObservedOutput};
+use gumption_units::Unit;
 
 /// The data's table with the columns of the observed outputs.
 #[derive(Debug)]
@@ -35,7 +37,49 @@ pub(super) struct Column {
     pub(super) observed: ObservedOutput,
     /// The column with somebody else's simulation of the output.
     pub(super) simulated: Option<String>,
+    /// Standard uncertainties that are no columns: for all rows, or as they follow from the values.
+    stated: Vec<Stated>,
 }
+
+/// A standard uncertainty in place of a column, in the output's unit or in one of its own.
+#[derive(Clone, Debug)]
+struct Stated {
+    key: &'static str,
+    value: Node,
+    /// What shares of it are of.
+    of: Vec<f64>,
+}
+
+impl Column {
+    /// What was measured of the output, whose unit is this; `None` after a mistake.
+    pub(super) fn in_unit(&self, log: &Collector, unit: &Unit) -> Option<ObservedOutput> {
+        let mut observed = self.observed.clone();
+        for Stated { key, value, of } in &self.stated {
+            let width = Width::read(log, value, (&self.output, *key), unit)
+                .map_err(|mistake| log.report(&value.span, mistake))
+                .ok()?;
+            let uncertainties: Vec<f64> = of.iter().map(|value| width.at(*value)).collect();
+            if let Some(row) = uncertainties.iter().position(|u| *u <= 0.0) {
+                let reason = format!(
+                    "the standard uncertainty in row {} is 0, as a share of the value 0 there; add what it \
+                     is at 0, such as `+ 0.001 {unit}`",
+                    row + 1
+                );
+                log.report(&value.span, DiagnosticKind::Observation { reason });
+                return None;
+            }
+            let place = match *key {
+                UNCERTAINTY => &mut observed.standard_uncertainties,
+                _ => &mut observed.simulation_uncertainties,
+            };
+            *place = Some(uncertainties);
+        }
+        Some(observed)
+    }
+}
+
+const UNCERTAINTY: &str = "standard_uncertainty";
+const OF_THE_SIMULATION: &str = "sim_standard_uncertainty";
 
 /// Reads `observations`; paths are relative to `folder`. Of the columns of the data these are `wanted`.
 pub(super) fn read(
@@ -60,7 +104,7 @@ pub(super) fn read(
         return None;
     }
     let read = read.into_iter().collect::<Option<Vec<_>>>()?;
-    once_each(log, columns.members());
+    once_each(log, columns.members(), &table);
     let replication = match object.get("replication") {
         Some(member) => Some((replication(&object, &table)?, member.value.span.clone())),
         None => None,
@@ -96,12 +140,15 @@ fn replication(object: &Object<'_>, table: &Table) -> Option<String> {
 
 /// A column of the data says one thing: it holds measured values, uncertainties or a simulation of
 /// one output.
-fn once_each(log: &Collector, outputs: &[Member]) {
+fn once_each(log: &Collector, outputs: &[Member], table: &Table) {
     let mut known: Vec<(&str, &str, &str)> = Vec::new();
     for output in outputs {
         let Json::Object(fields) = &output.value.value else { continue };
         for field in fields.iter().filter(|field| field.key != "sim_covariance") {
             let Json::Text(column) = &field.value.value else { continue };
+            if is_stated(&field.value, table) {
+                continue;
+            }
             let earlier = known.iter().find(|(name, ..)| name == column);
             // a standard uncertainty may be common to several outputs
             let shared = |key: &str| key.ends_with("standard_uncertainty") && key == field.key;
@@ -117,6 +164,14 @@ fn once_each(log: &Collector, outputs: &[Member]) {
     }
 }
 
+/// Whether a standard uncertainty is stated in place of a column that has it.
+fn is_stated(node: &Node, table: &Table) -> bool {
+    let Json::Text(text) = &node.value else { return true };
+    let text = with_plus_minus(text);
+    let width = text.trim().trim_start_matches('±').trim_start();
+    table.column(&text).is_none() && width::number(width).is_ok()
+}
+
 struct Reader<'a> {
     log: &'a Collector,
     folder: Folder<'a>,
@@ -129,12 +184,13 @@ impl Reader<'_> {
         object.check_keys(keys::OBSERVED);
         object.required("value")?;
         let values = self.values(&object, "value");
-        let uncertainties = self.uncertainties(&object, "standard_uncertainty");
+        let uncertainties = self.uncertainties(&object, UNCERTAINTY);
         let simulated = object.text("sim");
-        if simulated.is_some() {
-            self.values(&object, "sim")?;
-        }
-        let simulation = self.uncertainties(&object, "sim_standard_uncertainty");
+        let sims = match simulated {
+            Some(_) => Some(self.values(&object, "sim")?),
+            None => None,
+        };
+        let simulation = self.uncertainties(&object, OF_THE_SIMULATION);
         let covariance = self.covariance(&object, files);
         for key in ["sim_standard_uncertainty", "sim_covariance"] {
             if let (None, Some(member)) = (object.get("sim"), object.get(key)) {
@@ -150,21 +206,32 @@ impl Reader<'_> {
         }
         let headings = [
             ("value", ValueOf::Quantity),
-            ("standard_uncertainty", ValueOf::Difference),
+            (UNCERTAINTY, ValueOf::Difference),
             ("sim", ValueOf::Quantity),
-            ("sim_standard_uncertainty", ValueOf::Difference),
+            (OF_THE_SIMULATION, ValueOf::Difference),
         ];
+        let is_column =
+            |key: &str| object.get(key).is_some_and(|member| !is_stated(&member.value, self.table));
         let headings = headings.into_iter().filter_map(|(key, of)| {
+            is_column(key).then_some(())?;
             let named = object.text(key)?;
             let heading = self.table.column(named).map(|place| self.table.columns[place].as_str());
             Some((heading.unwrap_or(named).to_owned(), object.get(key)?.value.span.clone(), of))
         });
+        let values = values?;
+        let of = [(UNCERTAINTY, Some(&values)), (OF_THE_SIMULATION, sims.as_ref())];
+        let stated = of.into_iter().filter_map(|(key, of)| {
+            let value = object.get(key).filter(|_| !is_column(key))?.value.clone();
+            Some(Stated { key, value, of: of?.clone() })
+        });
+        let stated = stated.collect();
         Some(Column {
+            stated,
             headings: headings.collect(),
             output: member.key.clone(),
             place: member.key_span.clone(),
             observed: ObservedOutput {
-                values: values?,
+                values,
                 last_digit: object
                     .text("value")
                     .and_then(|name| self.table.column(name))
@@ -193,7 +260,8 @@ impl Reader<'_> {
 
     /// A column of standard uncertainties, all above zero; none if the key is not there.
     fn uncertainties(&self, object: &Object<'_>, key: &str) -> Option<Option<Vec<f64>>> {
-        if object.get(key).is_none() {
+        // what is stated in place of a column is in the output's unit, which is not known yet
+        if object.get(key).is_none_or(|member| is_stated(&member.value, self.table)) {
             return Some(None);
         }
         let values = self.values(object, key)?;

@@ -50,7 +50,7 @@ impl CaseFile {
             for ((output, _), values) in observed.zip(values) {
                 let column = member(&columns.value, &output.quantity.name)
                     .and_then(|member| text_of(&member.value, "value"))
-                    .and_then(|name| table.columns.iter().position(|column| *column == name))
+                    .and_then(|name| table.column(&name))
                     .ok_or_else(|| whole("a column"))?;
                 for (row, value) in rows.iter_mut().zip(values) {
                     if let Some(cell) = row.get_mut(column) {

@@ -26,6 +26,7 @@ mod evidence;
 mod evidence_error;
 mod expected_entropy;
 mod exploration;
+mod far_input;
 mod goodness_of_fit;
 mod influence;
 mod latent;

@@ -5,6 +5,7 @@ use super::diagnosis::{
     DiagnosisNote, GapTest, HypothesisKind, MostProbable, NoiseEstimate, Shrinkage,
 };
 use super::evidence::DISAGREE;
+use super::far_input;
 use super::goodness_of_fit::misfit;
 use super::posterior::Posterior;
 use super::resolution::Rounding;
@@ -97,6 +98,26 @@ pub(crate) fn notes(
                 quantity.name,
                 significant(slip.ratio, 3),
                 slip.cause
+            ),
+        );
+    }
+    let is_named = verdict.kind == HypothesisKind::Explained && verdict.probability > SURE;
+    if !is_named && let [nearest, others @ ..] = &far_input::found(setup)[..] {
+        let name = |variable: usize| format!("`{}`", setup.case.task.variables[variable].name);
+        let also: Vec<String> = others.iter().map(|of| name(of.variable)).collect();
+        let also = match also.is_empty() {
+            true => String::new(),
+            false => format!(" So would {}, further from their estimates.", also.join(", ")),
+        };
+        note(
+            "far-input",
+            format!(
+                "The input {} alone would explain the data if it were {} standard uncertainties {} its \
+                 estimate.{also} That is no hypothesis, as inputs are what they are stated to be: look at \
+                 where the value comes from and how its uncertainty was found.",
+                name(nearest.variable),
+                significant(nearest.distance.abs(), 2),
+                if nearest.distance > 0.0 { "above" } else { "below" },
             ),
         );
     }
@@ -236,6 +257,9 @@ pub(crate) fn notes(
 /// The integral of a hypothesis with less than this probability changes the others by less than they
 /// are known.
 const WORTH_A_NOTE: f64 = 0.01;
+
+/// With an effect that is more probable than this it is not asked whether an input would explain the data.
+const SURE: f64 = 0.9;
 
 /// A departure of the noise from what is stated is said in the verdict from this probability on.
 const LIKELY: f64 = 0.5;

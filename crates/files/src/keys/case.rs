@@ -60,21 +60,29 @@ fn observations() -> Value {
 /// Keys of an observed output.
 pub(crate) const OBSERVED: &[Key] = keys![
     "value" => text_of("The column of the measured values."),
-    "standard_uncertainty" => text_of(
-                "The column of their standard uncertainties; without it the noise is estimated from \
-                 the data.",
+    "standard_uncertainty" => column_or_width(
+                "The column of their standard uncertainties, or one for all rows: a number in the \
+                 output's unit, or a text such as `0.02 N` or `0.1 % + 0.02 N` (of the measured value). \
+                 Without it the noise is estimated from the data.",
             ),
     "sim" => text_of(
                 "The column of somebody else's simulation of the output, in place of an equation; \
                  effects can then override outputs only.",
             ),
-    "sim_standard_uncertainty" => text_of("The column of the simulation's standard uncertainties."),
+    "sim_standard_uncertainty" => column_or_width(
+                "The column of the simulation's standard uncertainties, or one for all rows.",
+            ),
     "sim_covariance" => referenced(
                 "file",
                 "The covariance matrix of the simulation's values: a CSV file with a header, and a \
                  row and a column for each row of the data.",
             ),
 ];
+
+fn column_or_width(about: &str) -> Value {
+    let kinds = vec![object([("type", Value::from("string"))]), reference("width")];
+    object([("description", Value::from(about)), ("anyOf", Value::from(kinds))])
+}
 
 fn observed() -> Value {
     let of_the_simulation = ["sim_standard_uncertainty", "sim_covariance"];

@@ -917,3 +917,33 @@ fn noise_that_outputs_share_is_told() {
     // of 24 tables of 12 and 40 rows the largest was 0.15
     assert!(probability < 0.3, "{probability}");
 }
+
+/// An input that is six standard uncertainties off is named; of a departure that no input makes none is.
+#[test]
+fn an_input_that_is_off_is_named() {
+    let numbers = normals(30, 23);
+    let of = |slope: f64, bend: f64| {
+        let y = |n: usize| {
+            let x = n as f64;
+            (1.0 + slope) * x + bend * x * x + 0.1 * numbers[n]
+        };
+        let y: Vec<f64> = (0..30).map(y).collect();
+        let case = case(
+            normal(1.0, 0.002),
+            Sharing::All,
+            &[("y", "a*x")],
+            vec![observed(&y, Some(&[0.1; 30]))],
+            vec![candidate("offset", "o", normal(0.0, 0.3), &[("y", "y + o")])],
+        );
+        let found = diagnosed(&case, 1);
+        assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained);
+        found.notes.into_iter().find(|note| note.code == "far-input").map(|note| note.text)
+    };
+    // the noise of 30 rows moves it by 0.1/sqrt(8555)/0.002 = 0.5 standard uncertainties
+    let said = of(0.012, 0.0).unwrap();
+    let found = (0..=30).map(|n| 4.5 + 0.1 * f64::from(n));
+    let said_of =
+        |distance: f64| said.contains(&format!("were {distance:.1} standard uncertainties above"));
+    assert!(said.contains("`a` alone") && found.into_iter().any(said_of), "{said}");
+    assert_eq!(of(0.0, 0.01), None);
+}
