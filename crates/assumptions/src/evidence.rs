@@ -6,7 +6,7 @@
 use super::alternatives::limits;
 use super::anderson_darling::{p_value, statistic};
 use gumption_engine::distribution::{BLOCK, Distribution, FromScore, Normal, StreamKey};
-use gumption_engine::number::{COLUMN, Column};
+use gumption_engine::number::{COLUMN, Column, ascending};
 use gumption_engine::special;
 use std::sync::Arc;
 
@@ -151,7 +151,7 @@ pub fn agreement(
     }
     let outside = outside(stated, readings);
     let mut sorted = readings.to_vec();
-    sorted.sort_unstable_by(f64::total_cmp);
+    ascending(&mut sorted);
     let probabilities = of_rounded(stated, &sorted);
     let p_value =
         if outside > 0 { 0.0 } else { p_value(statistic(&probabilities), readings.len()) };
@@ -321,7 +321,7 @@ fn mean_deviation(stated: &Arc<Distribution>, readings: &[f64]) -> Factors {
     let found = readings.iter().map(|x| (x - mean).abs()).sum::<f64>() / n as f64;
     let sets = (DRAWS / n.max(1)).clamp(200, SETS);
     let mut simulated = simulated_deviations(stated, n, sets);
-    simulated.sort_unstable_by(f64::total_cmp);
+    ascending(&mut simulated);
     let at = |q: f64| {
         let place = ((q * sets as f64) as usize).min(sets - 1);
         found / simulated.get(place).copied().unwrap_or(f64::NAN)

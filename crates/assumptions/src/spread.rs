@@ -9,7 +9,7 @@ use gumption_engine::parallel;
 use super::lanes::{LANES, with_deviations};
 use super::sampler::{Change, Prepared, Sampler, Taker};
 use gumption_engine::distribution::BLOCK;
-use gumption_engine::number::{COLUMN, CodePath, Column, Kernel};
+use gumption_engine::number::{COLUMN, CodePath, Column, Kernel, ascending, at_rank};
 use gumption_engine::propagate::Control;
 use gumption_engine::propagate::monte_carlo::Ranks;
 
@@ -164,7 +164,7 @@ fn plans(
     }
     let batch = trials as f64 / batches(trials).len().max(1) as f64;
     let plan = |values: &mut Vec<f64>, is_taken: bool| {
-        values.sort_unstable_by(f64::total_cmp);
+        ascending(values);
         let n = values.len() as f64;
         let at = |share: f64| {
             let place = share * n;
@@ -353,7 +353,7 @@ impl Tally {
             let place = rank.checked_sub(self.below[side] + 1)? as usize;
             let kept = &mut self.kept[side];
             let is_kept = place < kept.len();
-            is_kept.then(|| *kept.select_nth_unstable_by(place, f64::total_cmp).1)
+            is_kept.then(|| at_rank(kept, place))
         };
         Some([at(0, ranks.r)?, at(1, (ranks.r + ranks.q).min(self.trials))?])
     }

@@ -3,7 +3,7 @@
 
 use super::sampler::{Buffers, Change, Sampler, Taker, Widening};
 use gumption_engine::distribution::BLOCK;
-use gumption_engine::number::{COLUMN, CodePath, Column};
+use gumption_engine::number::{COLUMN, CodePath, Column, ascending, at_rank};
 use gumption_engine::propagate::Control;
 use gumption_engine::propagate::monte_carlo::Ranks;
 
@@ -194,10 +194,10 @@ fn half_length(values: &mut [f64], probability: f64) -> f64 {
     let place = |rank: u64| (rank as usize).clamp(1, values.len()) - 1;
     let places = [place(ranks.r), place(ranks.r + ranks.q)];
     let [low, high] = in_tails(values, places).unwrap_or_else(|| {
-        let (_, &mut low, above) = values.select_nth_unstable_by(places[0], f64::total_cmp);
+        let low = at_rank(values, places[0]);
         // the upper end is among those above the lower one
         let high = match places[1].checked_sub(places[0] + 1) {
-            Some(place) => *above.select_nth_unstable_by(place, f64::total_cmp).1,
+            Some(place) => at_rank(&mut values[places[0] + 1..], place),
             None => low,
         };
         [low, high]
@@ -215,7 +215,7 @@ const MARGIN: f64 = 6.0;
 /// for sure.
 fn in_tails(values: &[f64], places: [usize; 2]) -> Option<[f64; 2]> {
     let mut pilot = values.get(..PILOT).filter(|pilot| values.len() >= 8 * pilot.len())?.to_vec();
-    pilot.sort_unstable_by(f64::total_cmp);
+    ascending(&mut pilot);
     let count = values.len() as f64;
     let limit = |place: usize, way: f64| {
         let share = place as f64 / count;
@@ -240,8 +240,8 @@ fn in_tails(values: &[f64], places: [usize; 2]) -> Option<[f64; 2]> {
     if places[0] >= low.len() {
         return None;
     }
-    let low = *low.select_nth_unstable_by(places[0], f64::total_cmp).1;
-    let high = *high.select_nth_unstable_by(high_place, f64::total_cmp).1;
+    let low = at_rank(&mut low, places[0]);
+    let high = at_rank(&mut high, high_place);
     Some([low, high])
 }
 

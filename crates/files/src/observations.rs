@@ -1,5 +1,6 @@
 //! The observations of a case: the table of the data, and which column holds what.
 
+use gumption_engine::number::ascending;
 use std::ops::Range;
 
 use super::DiagnosticKind;
@@ -125,7 +126,7 @@ fn replication(object: &Object<'_>, table: &Table) -> Option<String> {
     };
     let mut groups: Vec<f64> =
         table.rows.iter().filter_map(|row| row.get(place).copied()).collect();
-    groups.sort_unstable_by(f64::total_cmp);
+    ascending(&mut groups);
     groups.dedup();
     if !(2..=MOST_GROUPS).contains(&groups.len()) {
         report(format!(

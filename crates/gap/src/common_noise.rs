@@ -11,10 +11,10 @@
 //! probable beside what the leading hypothesis leaves, and the width of that peak counts in the prior
 //! probability (Laplace's method, as in MacKay 1992, Neural Computation 4, 415).
 
+use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::parallel;
-use nalgebra::{DMatrix, DVector};
 
 use super::logarithm::{HALF_LN_TWO_PI, ln_add};
 use super::noise_model::{
@@ -118,8 +118,8 @@ struct Group {
     rows: f64,
     /// Lower triangle of that covariance, in stated standard uncertainties.
     known: Vec<f64>,
-    /// The sum of the outer products of what is left.
-    squares: DMatrix<f64>,
+    /// That of the sum of the outer products of what is left.
+    squares: Vec<f64>,
 }
 
 /// The most probable correlation and factors for outputs that take part.
@@ -148,24 +148,24 @@ impl Moments {
             // the root of the block itself, in stated uncertainties
             let mut root = root.to_vec();
             packed::invert(&mut root);
-            let root = DMatrix::from_fn(outputs, outputs, |i, j| {
-                if j <= i { root[triangle(i) + j] / u[i] } else { 0.0 }
-            });
-            let residuals = &root * DVector::from_column_slice(whitened);
-            let block = &root * root.transpose();
-            let mut known = Vec::with_capacity(triangle(outputs));
-            for i in 0..outputs {
-                for j in 0..=i {
-                    let beside = block[(i, j)] - f64::from(u8::from(i == j));
+            for (i, u) in u.iter().enumerate() {
+                root[triangle(i)..triangle(i + 1)].iter_mut().for_each(|entry| *entry /= u);
+            }
+            let residuals: Vec<f64> = packed::rows(&root).map(|row| dot(row, whitened)).collect();
+            let (mut known, mut squares) = (Vec::new(), Vec::new());
+            for (i, row) in packed::rows(&root).enumerate() {
+                for (j, other) in packed::rows(&root).enumerate().take(i + 1) {
+                    let beside = dot(row, other) - f64::from(u8::from(i == j));
                     // of nothing but noise there remains rounding
                     known.push(if beside.abs() < 1e-9 { 0.0 } else { beside });
+                    squares.push(residuals[i] * residuals[j]);
                 }
             }
-            let squares = &residuals * residuals.transpose();
             match groups.iter_mut().find(|group| group.known == known) {
                 Some(group) => {
                     group.rows += 1.0;
-                    group.squares += squares;
+                    let sums = group.squares.iter_mut().zip(squares);
+                    sums.for_each(|(sum, square)| *sum += square);
                 }
                 None => groups.push(Group { rows: 1.0, known, squares }),
             }
@@ -194,8 +194,12 @@ impl Moments {
             }
             let half_ln_det = packed::ln_diagonal(&block);
             packed::invert(&mut block);
-            let whitened = packed::to_matrix(&block);
-            let square = (&whitened * &group.squares * whitened.transpose()).trace();
+            let of_row = |row: &[f64]| {
+                let entry = |i: usize, j: usize| group.squares[place(i, j)];
+                let of = |i: usize| (0..row.len()).map(|j| row[j] * entry(i, j)).sum::<f64>();
+                (0..row.len()).map(|i| row[i] * of(i)).sum::<f64>()
+            };
+            let square = packed::rows(&block).map(of_row).sum::<f64>();
             -0.5 * square - group.rows * half_ln_det
         };
         self.groups.iter().map(of).sum()
@@ -211,33 +215,32 @@ impl Moments {
         self.ln_at(&vec![0.0; self.outputs], &vec![0.0; self.outputs + 1])
     }
 
-    /// The coefficients of correlation of what is left, not about its means.
-    fn correlations(&self) -> DMatrix<f64> {
-        let zeros = DMatrix::zeros(self.outputs, self.outputs);
-        let sum = self.groups.iter().fold(zeros, |sum, group| sum + &group.squares);
-        let of = |i: usize, j: usize| {
-            let product = sum[(i, j)] / (sum[(i, i)] * sum[(j, j)]).sqrt();
-            if product.is_finite() { product } else { 0.0 }
-        };
-        DMatrix::from_fn(self.outputs, self.outputs, of)
+    /// The sums of the products of what is left of two outputs.
+    fn products(&self, i: usize, j: usize) -> f64 {
+        self.groups.iter().map(|group| group.squares[place(i, j)]).sum()
+    }
+
+    /// The coefficient of correlation of what is left of two outputs, not about its means.
+    fn correlation(&self, i: usize, j: usize) -> f64 {
+        let found = self.products(i, j) / (self.products(i, i) * self.products(j, j)).sqrt();
+        if found.is_finite() { found } else { 0.0 }
     }
 
     /// Which outputs take part, and with which signs: the pair that is correlated most, and with one more at
     /// a time of those that are correlated most with these.
     fn patterns(&self) -> Vec<Vec<f64>> {
-        let found = self.correlations();
         let pairs = (0..self.outputs).flat_map(|i| (0..i).map(move |j| (i, j)));
-        let size = |&(i, j): &(usize, usize)| found[(i, j)].abs();
+        let size = |&(i, j): &(usize, usize)| self.correlation(i, j).abs();
         let Some((one, other)) = pairs.max_by(|a, b| size(a).total_cmp(&size(b))) else {
             return Vec::new();
         };
         let mut signs = vec![0.0; self.outputs];
         signs[one] = 1.0;
-        signs[other] = if found[(one, other)] < 0.0 { -1.0 } else { 1.0 };
+        signs[other] = if self.correlation(one, other) < 0.0 { -1.0 } else { 1.0 };
         let mut all = vec![signs.clone()];
         loop {
             let with = |output: usize| -> f64 {
-                (0..self.outputs).map(|known| signs[known] * found[(known, output)]).sum()
+                (0..self.outputs).map(|known| signs[known] * self.correlation(known, output)).sum()
             };
             let others = (0..self.outputs).filter(|output| signs[*output] == 0.0);
             let next = others.max_by(|a, b| with(*a).abs().total_cmp(&with(*b).abs()));
@@ -271,21 +274,17 @@ impl Moments {
     /// The peak for outputs that take part, and those whose factors are free; `None` where the data know
     /// nothing of some of them.
     fn peak(&self, signs: &[f64], is_free: &[bool]) -> Option<Peak> {
-        let found = self.correlations();
         let pairs = (0..self.outputs).flat_map(|i| (0..i).map(move |j| (i, j)));
         let own: Vec<f64> = pairs
             .filter(|&(i, j)| signs[i] * signs[j] != 0.0)
-            .map(|(i, j)| signs[i] * signs[j] * found[(i, j)])
+            .map(|(i, j)| signs[i] * signs[j] * self.correlation(i, j))
             .collect();
         let mean = own.iter().sum::<f64>() / own.len().max(1) as f64;
         let limits: Vec<[f64; 2]> = std::iter::repeat_n(FACTORS.map(elementary::ln), self.outputs)
             .chain([CORRELATIONS.map(elementary::atanh)])
             .collect();
         let rows: f64 = self.groups.iter().map(|group| group.rows).sum();
-        let size = |output: usize| {
-            let squares: f64 = self.groups.iter().map(|of| of.squares[(output, output)]).sum();
-            0.5 * elementary::ln(squares / rows)
-        };
+        let size = |output: usize| 0.5 * elementary::ln(self.products(output, output) / rows);
         let start =
             (0..self.outputs).map(|output| if is_free[output] { size(output) } else { 0.0 });
         let mut at: Vec<f64> = start.chain([elementary::atanh(mean.clamp(0.1, 0.9))]).collect();
@@ -325,11 +324,13 @@ impl Moments {
             }
         }
         let (_, curvature) = self.slopes(signs, &at, &free);
-        let mut root = packed::of_matrix(&curvature);
+        let mut root = curvature;
         packed::cholesky(&mut root, 0.0).ok()?;
         let half_ln_det = packed::ln_diagonal(&root);
-        let inverse = curvature.try_inverse()?;
-        let deviations: Vec<f64> = (0..free.len()).map(|i| inverse[(i, i)].sqrt()).collect();
+        packed::invert(&mut root);
+        let variance =
+            |i: usize| packed::rows(&root).skip(i).map(|row| row[i] * row[i]).sum::<f64>();
+        let deviations: Vec<f64> = (0..free.len()).map(|i| variance(i).sqrt()).collect();
         let correlation = elementary::tanh(at[self.outputs]);
         let [least, most] = FACTORS;
         let factors = (free.len() - 1) as f64;
@@ -344,30 +345,33 @@ impl Moments {
         ln.is_finite().then(|| Peak { signs: signs.to_vec(), at, free, deviations, ln_share, ln })
     }
 
-    /// The gradient of the logarithm of the density, and the matrix of its second derivatives with the sign
-    /// reversed.
-    fn slopes(&self, signs: &[f64], at: &[f64], free: &[usize]) -> (DVector<f64>, DMatrix<f64>) {
+    /// The gradient of the logarithm of the density, and the lower triangle of the matrix of its second
+    /// derivatives with the sign reversed.
+    fn slopes(&self, signs: &[f64], at: &[f64], free: &[usize]) -> (Vec<f64>, Vec<f64>) {
         let shifted = |shifts: &[(usize, f64)]| {
             let mut there = at.to_vec();
             shifts.iter().for_each(|&(place, shift)| there[place] += shift);
             self.ln_at(signs, &there)
         };
         let here = shifted(&[]);
-        let gradient = DVector::from_fn(free.len(), |i, _| {
-            (shifted(&[(free[i], STEP)]) - shifted(&[(free[i], -STEP)])) / (2.0 * STEP)
-        });
-        let curvature = DMatrix::from_fn(free.len(), free.len(), |i, j| {
-            let (i, j) = (free[i], free[j]);
-            let second = if i == j {
-                shifted(&[(i, STEP)]) + shifted(&[(i, -STEP)]) - 2.0 * here
-            } else {
+        let (mut gradient, mut curvature) = (Vec::new(), Vec::new());
+        for (n, &i) in free.iter().enumerate() {
+            let [above, below] = [STEP, -STEP].map(|step| shifted(&[(i, step)]));
+            gradient.push((above - below) / (2.0 * STEP));
+            for &j in &free[..n] {
                 let both = |a: f64, b: f64| shifted(&[(i, a * STEP), (j, b * STEP)]);
-                (both(1.0, 1.0) - both(1.0, -1.0) - both(-1.0, 1.0) + both(-1.0, -1.0)) / 4.0
-            };
-            -second / (STEP * STEP)
-        });
+                let second = both(1.0, 1.0) - both(1.0, -1.0) - both(-1.0, 1.0) + both(-1.0, -1.0);
+                curvature.push(-second / (4.0 * STEP * STEP));
+            }
+            curvature.push((2.0 * here - above - below) / (STEP * STEP));
+        }
         (gradient, curvature)
     }
+}
+
+/// The place of an entry of a symmetric matrix in its lower triangle.
+fn place(i: usize, j: usize) -> usize {
+    triangle(i.max(j)) + i.min(j)
 }
 
 /// Steps of differences: small against the width of a peak (a share of 1/sqrt(2 n)), and large against the
@@ -383,11 +387,16 @@ const LEAST_SHARE: f64 = 1e-3;
 const ENOUGH: f64 = 1e-6;
 
 /// A step uphill: that of Newton where the density is curved like a peak, else along the gradient.
-fn newton(gradient: &DVector<f64>, curvature: &DMatrix<f64>) -> DVector<f64> {
-    match curvature.clone().cholesky() {
-        Some(root) => root.solve(gradient),
-        None => gradient / gradient.norm().max(f64::MIN_POSITIVE),
+fn newton(gradient: &[f64], curvature: &[f64]) -> Vec<f64> {
+    let (mut root, mut step) = (curvature.to_vec(), gradient.to_vec());
+    if packed::cholesky(&mut root, 0.0).is_ok() {
+        packed::solve(&root, &mut step);
+        packed::solve_transposed(&root, &mut step);
+    } else {
+        let length = dot(gradient, gradient).sqrt().max(f64::MIN_POSITIVE);
+        step.iter_mut().for_each(|entry| *entry /= length);
     }
+    step
 }
 
 /// How many outputs may take part, and with which signs: two or more of them, where all signs together mean
@@ -420,13 +429,14 @@ impl Peak {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::DMatrix;
 
     /// 40 rows of two outputs: half of the squares that stated uncertainties of 1 let expect, or twice
     /// those, correlated by 0.6; the same with inputs of each row.
     fn moments(known: &[f64]) -> Moments {
         let (a, b) = (2.0f64, 0.5f64);
         let between = 0.6 * (a * b).sqrt();
-        let squares = 40.0 * DMatrix::from_row_slice(2, 2, &[a, between, between, b]);
+        let squares = [a, between, b].map(|of| 40.0 * of).to_vec();
         Moments { outputs: 2, groups: vec![Group { rows: 40.0, known: known.to_vec(), squares }] }
     }
 
@@ -443,7 +453,7 @@ mod tests {
             &[one * one + 0.3, between, between, other * other + 0.2],
         );
         let inverse = block.clone().try_inverse().unwrap();
-        let square = (inverse * &moments.groups[0].squares).trace();
+        let square = (inverse * packed::to_symmetric(&moments.groups[0].squares)).trace();
         let wanted = -0.5 * square - 20.0 * block.determinant().ln();
         assert!((moments.ln_at(&signs, &at) - wanted).abs() < 1e-10);
     }
@@ -485,8 +495,7 @@ mod tests {
     /// The outputs that take part are found with their signs, and all ways of taking part are counted.
     #[test]
     fn outputs_that_take_part() {
-        let entries = [1.0, -0.8, 0.1, -0.8, 1.0, 0.05, 0.1, 0.05, 1.0];
-        let squares = 30.0 * DMatrix::from_row_slice(3, 3, &entries);
+        let squares = [1.0, -0.8, 1.0, 0.1, 0.05, 1.0].map(|of| 30.0 * of).to_vec();
         let group = Group { rows: 30.0, known: vec![0.0; 6], squares };
         let found = Moments { outputs: 3, groups: vec![group] }.patterns();
         assert_eq!(found[0], [-1.0, 1.0, 0.0]);

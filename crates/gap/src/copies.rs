@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 
 use crate::Case;
 use gumption_engine::decimal::Decimal;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{ascending, elementary};
 
 /// Repeated rows count once where chance makes so many of them with less than this probability.
 const NO_CHANCE: f64 = 1e-6;
@@ -216,7 +216,7 @@ impl Digits {
             .iter()
             .map(|of| {
                 let mut values: Vec<f64> = rows.iter().map(|&row| of.values[row]).collect();
-                values.sort_unstable_by(f64::total_cmp);
+                ascending(&mut values);
                 let apart = values.windows(2).map(|pair| pair[1] - pair[0]);
                 let least = apart.filter(|apart| *apart > 0.0).fold(f64::INFINITY, f64::min);
                 if least.is_finite() { least } else { 0.0 }

@@ -7,7 +7,7 @@
 //! departures and half of the mean sampling rate.
 
 use super::diagnosis::RowGap;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{ascending, elementary};
 
 /// A sine in some values.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +88,7 @@ pub(crate) fn line(abscissas: &[f64], values: &[f64], looks: usize) -> Option<Li
         return None;
     }
     let mut sorted = abscissas.to_vec();
-    sorted.sort_unstable_by(f64::total_cmp);
+    ascending(&mut sorted);
     sorted.dedup();
     let range = sorted.last()? - sorted.first()?;
     if sorted.len() < FEWEST || !(range > 0.0 && range.is_finite()) {

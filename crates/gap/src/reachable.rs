@@ -2,7 +2,7 @@
 //! case says that they can be reached.
 
 use super::setup::Setup;
-use gumption_engine::number::{elementary, smallest_first};
+use gumption_engine::number::{ascending, elementary, smallest_first};
 use gumption_engine::task::Row;
 
 /// Places that are tried, at most.
@@ -50,7 +50,7 @@ pub(crate) fn places(setup: &Setup<'_>) -> Vec<Place> {
         .map(|condition| {
             let mut values: Vec<f64> =
                 measured.iter().map(|row| row.conditions[condition]).collect();
-            values.sort_unstable_by(f64::total_cmp);
+            ascending(&mut values);
             values.dedup();
             values
         })
@@ -108,7 +108,7 @@ fn axes(
             let middles: Vec<f64> = axis.windows(2).map(middle).collect();
             axis.extend(middles);
         }
-        axis.sort_unstable_by(f64::total_cmp);
+        ascending(axis);
         axis.dedup();
     }
     axes

@@ -14,7 +14,7 @@ use crate::{Candidate, Case, Effect};
 use gumption_engine::distribution::{Distribution, LogUniform, Normal};
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::Formula;
-use gumption_engine::number::{COLUMN, elementary, largest_first};
+use gumption_engine::number::{COLUMN, ascending, elementary, largest_first};
 use gumption_units::Unit;
 
 /// The standard deviation between groups is log-uniform between these shares of that of the
@@ -58,7 +58,7 @@ impl Case {
     pub fn replicated(mut self, condition: usize) -> Self {
         let value = |row: &gumption_engine::task::Row| row.conditions.get(condition).copied();
         let mut groups: Vec<f64> = self.task.rows.iter().filter_map(value).collect();
-        groups.sort_unstable_by(f64::total_cmp);
+        ascending(&mut groups);
         groups.dedup();
         let Some(name) = self.model.conditions.get(condition).map(|of| of.name.clone()) else {
             return self;

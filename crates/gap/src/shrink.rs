@@ -16,7 +16,7 @@ use super::predict::{self, Normals, Values};
 use super::setup::Setup;
 use super::shared_noise::SharedNoise;
 use gumption_engine::distribution::StreamKey;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{ascending, elementary};
 use gumption_engine::task::Row;
 
 /// Blocks of conditions that are left out in turn.
@@ -453,7 +453,7 @@ pub(crate) fn blocks(setup: &Setup<'_>) -> Vec<Vec<usize>> {
     let value = |row: usize, condition: usize| setup.row(row).conditions[condition];
     let levels = |condition: usize| {
         let mut values: Vec<f64> = (0..rows).map(|row| value(row, condition)).collect();
-        values.sort_unstable_by(f64::total_cmp);
+        ascending(&mut values);
         values.dedup();
         values
     };
@@ -499,7 +499,7 @@ fn interval(squares: &[f64], probability: f64, seed: u64) -> [f64; 2] {
             (sum / count as f64).sqrt()
         })
         .collect();
-    roots.sort_unstable_by(f64::total_cmp);
+    ascending(&mut roots);
     let tail = 0.5 * (1.0 - probability);
     let at = |p: f64| roots[((p * resamples as f64) as usize).min(resamples - 1)];
     [at(tail), at(1.0 - tail)]

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::shape::{Invalid, Shape, finite};
 use super::stream::Stream;
-use crate::number::{COLUMN, Column};
+use crate::number::{COLUMN, Column, ascending};
 
 /// Samples of a quantity, each as likely as any other and drawn with replacement. The standard
 /// uncertainty is their standard deviation with the divisor n.
@@ -31,7 +31,7 @@ impl Samples {
         for &value in &values {
             finite("values", value)?;
         }
-        values.sort_unstable_by(f64::total_cmp);
+        ascending(&mut values);
         let n = count as f64;
         // about the median, so that a common large part does not cost digits
         let origin = values[count / 2];

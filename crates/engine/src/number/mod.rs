@@ -29,7 +29,7 @@ pub use dual::Dual;
 pub use operation::{Binary, Unary};
 pub(crate) use path::Instructions;
 pub use path::{CodePath, Kernel, UnavailablePath};
-pub use ranking::{largest_first, median, smallest_first};
+pub use ranking::{ascending, at_rank, largest_first, median, smallest_first};
 pub use routine::Routine;
 pub use shortest::Shortest;
 

@@ -49,6 +49,35 @@ fn arrange<T>(items: &mut [T], mut from: Vec<usize>) {
     }
 }
 
+/// Sorts numbers from the smallest to the largest, as [`f64::total_cmp`] does. One function for all, as each
+/// crate that sorts numbers would have a copy of its own.
+///
+/// ```
+/// let mut values = [2.0, -1.0, 0.5];
+/// gumption_engine::number::ascending(&mut values);
+/// assert_eq!(values, [-1.0, 0.5, 2.0]);
+/// ```
+#[inline(never)]
+pub fn ascending(values: &mut [f64]) {
+    values.sort_unstable_by(f64::total_cmp);
+}
+
+/// The number that stands at a place (from 0) once they are sorted; those below it are before it, those
+/// above it behind.
+///
+/// ```
+/// let mut values = [2.0, -1.0, 0.5];
+/// assert_eq!(gumption_engine::number::at_rank(&mut values, 1), 0.5);
+/// assert_eq!(values, [-1.0, 0.5, 2.0]);
+/// ```
+///
+/// # Panics
+/// There is no such place.
+#[inline(never)]
+pub fn at_rank(values: &mut [f64], place: usize) -> f64 {
+    *values.select_nth_unstable_by(place, f64::total_cmp).1
+}
+
 /// The number in the middle of the sorted ones, of an even number of them the upper one of the two;
 /// `None` of no numbers.
 ///
@@ -59,7 +88,7 @@ fn arrange<T>(items: &mut [T], mut from: Vec<usize>) {
 /// assert_eq!(median(vec![3.0, 1.0, 2.0, 4.0]), Some(3.0));
 /// ```
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_unstable_by(f64::total_cmp);
+    ascending(&mut values);
     values.get(values.len() / 2).copied()
 }
 

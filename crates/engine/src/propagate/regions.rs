@@ -7,6 +7,7 @@
 //! (7.7.2, 7.7.3), and the smallest region is made of the fullest cells of a mesh (7.7.4), whose axes
 //! here are those of the covariance matrix, so that narrow regions need no finer one.
 
+use crate::number::ascending;
 use std::collections::HashMap;
 
 use nalgebra::DMatrix;
@@ -272,7 +273,7 @@ fn from_trials(
 /// The p-quantile of values by the rank of JCGM 101, 7.7, and its numerical standard error from the
 /// values a standard deviation of the rank below and above.
 fn quantile(values: &mut [f64], probability: f64) -> (f64, f64) {
-    values.sort_unstable_by(f64::total_cmp);
+    ascending(values);
     let count = values.len();
     let rank = (Ranks::new(count as u64, probability).q as usize).clamp(1, count);
     let spread = (count as f64 * probability * (1.0 - probability)).sqrt().ceil() as usize;

@@ -1,5 +1,6 @@
 //! A fitted calibration function.
 
+use crate::number::ascending;
 use std::sync::Arc;
 
 use super::chebyshev::Chebyshev;
@@ -91,7 +92,7 @@ impl Regression {
             return Err(RegressionError::OrdinatesUnknown);
         }
         let mut different = points.x.clone();
-        different.sort_unstable_by(f64::total_cmp);
+        ascending(&mut different);
         different.dedup();
         if different.len() < count {
             let different = different.len();

@@ -6,7 +6,7 @@ use super::truth::{Truth, TruthKind};
 use crate::Case;
 use crate::ModelSelection;
 use crate::diagnosis::HypothesisKind;
-use gumption_engine::number::{elementary, median};
+use gumption_engine::number::{ascending, elementary, median};
 
 /// A correction is within the uncertainties if its errors are, in the root mean square.
 const WITHIN: f64 = 1.0;
@@ -345,7 +345,7 @@ fn perfect(verdicts: &[(f64, bool)], seed: u64) -> f64 {
             calibration_error(&reliability(&drawn), drawn.len())
         })
         .collect();
-    errors.sort_unstable_by(f64::total_cmp);
+    ascending(&mut errors);
     errors.get(REPEATS / 2).copied().unwrap_or(0.0)
 }
 

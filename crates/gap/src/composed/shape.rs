@@ -3,7 +3,7 @@
 //! Each is written twice: as numbers, which the search needs a hundred thousand times, and as the text
 //! of a formula, which the answer hands over. A test holds the two together.
 
-use gumption_engine::number::elementary;
+use gumption_engine::number::{ascending, elementary};
 
 /// The form of a composed departure, by the words that answers have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -183,7 +183,7 @@ impl Values {
     /// `None` where they are all the same or not finite.
     pub(super) fn new(at: Vec<f64>) -> Option<Self> {
         let mut levels = at.clone();
-        levels.sort_unstable_by(f64::total_cmp);
+        ascending(&mut levels);
         let (low, high) = (*levels.first()?, *levels.last()?);
         let size = low.abs().max(high.abs());
         if !low.is_finite() || !high.is_finite() || high - low <= 1e-9 * size {

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::grammar::{Of, Term};
 use crate::Case;
 use crate::data::Data;
-use gumption_engine::number::{elementary, median};
+use gumption_engine::number::{ascending, elementary, median};
 
 /// Distinct coordinates beyond which the covariance is taken from nodes (Nystroem).
 const MOST_COORDINATES: usize = 160;
@@ -57,7 +57,7 @@ impl Axis {
     }
 
     fn spaced(mut values: Vec<f64>) -> Self {
-        values.sort_unstable_by(f64::total_cmp);
+        ascending(&mut values);
         values.dedup();
         let spread = |values: &[f64]| {
             let gaps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();

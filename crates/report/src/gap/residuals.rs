@@ -1,6 +1,7 @@
 //! The residuals of one output over one condition, as figures show them.
 
 use super::words;
+use gumption_engine::number::ascending;
 use gumption_gap::{Diagnosis, RowGap, ValueGap};
 
 /// One residual before and after the correction, each with its standard uncertainty.
@@ -55,7 +56,7 @@ pub(super) fn levels(diagnosis: &Diagnosis, condition: usize) -> Vec<f64> {
     let rows = diagnosis.rows.iter();
     let mut levels: Vec<f64> =
         rows.filter_map(|row| row.conditions.get(condition).copied()).collect();
-    levels.sort_unstable_by(f64::total_cmp);
+    ascending(&mut levels);
     levels.dedup();
     levels
 }

@@ -2,6 +2,7 @@
 
 use crate::number::{exact, rounded};
 use gumption_engine::decimal::Decimal;
+use gumption_engine::number::ascending;
 use gumption_engine::number::elementary::{ln, log10, pow};
 
 /// Positive values that span more than this factor may be spaced geometrically.
@@ -30,7 +31,7 @@ impl Axis {
     /// An axis over all values, logarithmic where the distinct ones are spaced geometrically.
     pub(crate) fn over(values: impl IntoIterator<Item = f64>) -> Self {
         let mut levels: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
-        levels.sort_unstable_by(f64::total_cmp);
+        ascending(&mut levels);
         levels.dedup();
         let log = is_geometric(&levels);
         let position = |value: f64| if log { log10(value) } else { value };

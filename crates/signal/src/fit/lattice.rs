@@ -1,6 +1,6 @@
 //! Whether values are multiples of a step, as those of a converter or of a file with few decimals are.
 
-use gumption_engine::number::elementary;
+use gumption_engine::number::{ascending, elementary};
 
 /// Values that are looked at.
 pub(crate) const LOOKED_AT: usize = 4096;
@@ -59,7 +59,7 @@ const COMPARED: usize = 48;
 /// converter's coarser one stands behind it, it is the latter.
 pub(crate) fn step(values: &[f64], left: f64) -> Option<f64> {
     let mut sorted = values.get(..LOOKED_AT.min(values.len()))?.to_vec();
-    sorted.sort_unstable_by(f64::total_cmp);
+    ascending(&mut sorted);
     let largest = sorted.first()?.abs().max(sorted.last()?.abs());
     let regular =
         ROUNDED.into_iter().find_map(|share| step_of(sorted.clone(), share * largest, left));
@@ -171,7 +171,7 @@ fn coarser(sorted: &[f64], fine: f64) -> Option<f64> {
     let pairs =
         compared.iter().enumerate().flat_map(|(n, a)| compared[..n].iter().map(move |b| a - b));
     let mut differences: Vec<f64> = pairs.collect();
-    differences.sort_unstable_by(f64::total_cmp);
+    ascending(&mut differences);
     let smallest = *differences.first()?;
     differences.extend(sorted.iter().skip(COMPARED).map(|value| value - first));
     // both values of a difference are off by up to half of the finer step

@@ -2,6 +2,7 @@
 //! risk are made of (JCGM 106, 8.3.2).
 
 use super::smallest_band;
+use crate::number::ascending;
 use crate::propagate::gum::{Dof, Gum};
 use crate::special::student;
 
@@ -67,7 +68,7 @@ impl ErrorLaw {
 
     pub(in crate::propagate) fn of_trials(mut values: Vec<f64>, estimate: f64) -> Self {
         values.iter_mut().for_each(|value| *value -= estimate);
-        values.sort_unstable_by(f64::total_cmp);
+        ascending(&mut values);
         Self::Trials(values)
     }
 

@@ -9,6 +9,7 @@
 use super::error_law::StudentLaw;
 use super::smallest_band;
 use crate::distribution::Distribution;
+use crate::number::ascending;
 use crate::propagate::golden_section;
 
 /// Risks over all items that are inspected.
@@ -85,7 +86,7 @@ impl<'a> Inspection<'a> {
             );
         }
         cuts.extend([lower, upper]);
-        cuts.sort_unstable_by(f64::total_cmp);
+        ascending(&mut cuts);
         let lowest = form(least);
         let posterior = |z: f64| libm::exp(-0.5 * (form(z) - lowest));
         let within = |from: f64, to: f64| {
@@ -101,7 +102,7 @@ impl<'a> Inspection<'a> {
         let steps = 400;
         let even = (0..=steps).map(|i| FARTHEST * (2.0 * f64::from(i) / f64::from(steps) - 1.0));
         let mut all: Vec<f64> = even.chain(cuts.iter().copied()).collect();
-        all.sort_unstable_by(f64::total_cmp);
+        ascending(&mut all);
         let best = (0..all.len()).min_by(|&a, &b| form(all[a]).total_cmp(&form(all[b])));
         let best = best.unwrap_or(0);
         let beside = [all[best.saturating_sub(1)], all[(best + 1).min(all.len() - 1)]];
@@ -139,7 +140,7 @@ impl<'a> Inspection<'a> {
         let values = finite.flat_map(|limit| steps.map(|step| limit + step * self.errors.scale));
         let mut cuts: Vec<f64> = values.map(|value| self.score(value)).collect();
         cuts.extend([-4.0, -2.0, 0.0, 2.0, 4.0]);
-        cuts.sort_unstable_by(f64::total_cmp);
+        ascending(&mut cuts);
         cuts
     }
 }

@@ -10,7 +10,7 @@ use crate::distribution::characteristic::{Characteristic, Complex, Reach};
 use crate::distribution::{Dependence, Distribution, Linked};
 use crate::linalg::packed;
 use crate::model::{Node, Program, RoutineCall};
-use crate::number::elementary;
+use crate::number::{ascending, elementary};
 use crate::special::{self, legendre};
 
 /// A summand: a constant and a quantity whose characteristic function is known.
@@ -269,7 +269,7 @@ fn edges(distribution: &Distribution) -> Vec<f64> {
     let mut edges = vec![0.0, 0.5, 1.0];
     edges.extend(kinks(distribution));
     edges.retain(|p| (0.0..=1.0).contains(p));
-    edges.sort_unstable_by(f64::total_cmp);
+    ascending(&mut edges);
     edges.dedup();
     edges
 }

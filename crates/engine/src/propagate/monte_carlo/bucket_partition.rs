@@ -15,7 +15,7 @@ use super::sorting;
 use super::windows::Windows;
 #[cfg(target_arch = "x86_64")]
 use crate::number::Instructions;
-use crate::number::{CodePath, Kernel};
+use crate::number::{CodePath, Kernel, ascending};
 
 /// Values to a bucket, on average.
 const PER_BUCKET: usize = 24;
@@ -169,7 +169,7 @@ const COUNTED: usize = 64;
 /// that belong before it: as many comparisons as there are pairs, but side by side and without a branch.
 fn sort_bucket(path: CodePath, values: &mut [f64]) {
     if values.len() > COUNTED {
-        values.sort_unstable_by(f64::total_cmp);
+        ascending(values);
     } else if values.len() > 1 {
         path.run(CountingSort { values });
     }

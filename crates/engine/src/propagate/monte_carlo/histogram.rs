@@ -2,6 +2,7 @@
 //! counted, so that a run without a picture costs nothing and the figures of a run with one are the
 //! same bits.
 
+use crate::number::ascending;
 use rayon::prelude::*;
 
 use super::accumulate::drop_undefined;
@@ -143,7 +144,7 @@ pub(crate) fn histograms(
 fn ranges(trials: &RowTrials, count: u64, control: &Control<'_>) -> Option<Vec<Option<[f64; 2]>>> {
     let pilot = collected(trials, count.min(PILOT_BLOCKS * BLOCK as u64), control)?;
     let range = |mut values: Vec<f64>| {
-        values.sort_unstable_by(f64::total_cmp);
+        ascending(&mut values);
         let last = values.len().checked_sub(1)?;
         let tail = (TAIL * last as f64) as usize;
         let (low, high) = (values[tail], values[last - tail]);

@@ -12,6 +12,7 @@
 
 use super::order::Order;
 use crate::distribution::{BLOCK, StreamKey};
+use crate::number::ascending;
 use crate::number::elementary::{exp, ln};
 
 /// Values next to the limit that are taken from each batch, and that are used of all batches
@@ -81,7 +82,7 @@ fn together(near: &[&[f64]], sampled: u64) -> Option<Vec<f64>> {
     let common = near.iter().filter_map(|values| values.last()).copied().fold(f64::NAN, f64::min);
     let mut values: Vec<f64> =
         near.iter().flat_map(|values| values.iter().copied()).filter(|v| *v <= common).collect();
-    values.sort_unstable_by(f64::total_cmp);
+    ascending(&mut values);
     values.truncate(OF_ALL.min((sampled / NEAR) as usize));
     (values.len() >= FEWEST).then_some(values)
 }

@@ -1,5 +1,6 @@
 //! A sweep: estimates with expanded uncertainties over a condition, and the uncertainties alone.
 
+use gumption_engine::number::ascending;
 use plotters::element::PathElement;
 
 use crate::html::Drawing;
@@ -38,7 +39,7 @@ pub(in crate::evaluation) fn sweep(
     let levels = |place: usize| -> Vec<f64> {
         let mut values: Vec<f64> =
             rows.iter().filter_map(|row| row.conditions.get(place).copied()).collect();
-        values.sort_unstable_by(f64::total_cmp);
+        ascending(&mut values);
         values.dedup();
         values
     };

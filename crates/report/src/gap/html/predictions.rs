@@ -1,5 +1,6 @@
 //! Corrected predictions with their uncertainties, beside the data and the sim as it was.
 
+use gumption_engine::number::ascending;
 use plotters::element::PathElement;
 
 use super::super::groups;
@@ -33,7 +34,7 @@ pub(in crate::gap) fn draw(
     let values = |condition: usize| {
         let mut values: Vec<f64> =
             rows.iter().filter_map(|row| row.conditions.get(condition).copied()).collect();
-        values.sort_unstable_by(f64::total_cmp);
+        ascending(&mut values);
         values.dedup();
         values
     };

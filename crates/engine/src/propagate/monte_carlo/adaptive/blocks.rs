@@ -6,7 +6,7 @@ use crate::parallel;
 
 use super::{FIGURES, Search};
 use crate::distribution::BLOCK;
-use crate::number::{CodePath, Kernel};
+use crate::number::{CodePath, Kernel, at_rank};
 use crate::propagate::Control;
 use crate::propagate::monte_carlo::accumulate::drop_undefined;
 use crate::propagate::monte_carlo::block::{RowTrials, Workspace};
@@ -253,8 +253,8 @@ impl Fenced {
             return None;
         }
         let high = kept.len() - 1 - from_top;
-        let high_end = *kept.select_nth_unstable_by(high, f64::total_cmp).1;
-        let low_end = *kept.select_nth_unstable_by(from_bottom, f64::total_cmp).1;
+        let high_end = at_rank(kept, high);
+        let low_end = at_rank(kept, from_bottom);
         let moments = Moments::new(*count, *reference, sums);
         Some([moments.mean, moments.std, low_end, high_end])
     }
@@ -272,7 +272,7 @@ impl Tails {
         for ((kept, wanted), value) in [(&mut self.low, value), (&mut self.high, -value)] {
             kept.push(value);
             if kept.len() >= *wanted + FRESH {
-                kept.select_nth_unstable_by(*wanted, f64::total_cmp);
+                at_rank(kept, *wanted);
                 kept.truncate(*wanted);
             }
         }
@@ -290,7 +290,7 @@ impl Tails {
         let from_top = count - (r + q).min(count);
         let end = |kept: &mut Vec<f64>, rank: usize| {
             let found = rank < kept.len();
-            found.then(|| *kept.select_nth_unstable_by(rank, f64::total_cmp).1)
+            found.then(|| at_rank(kept, rank))
         };
         let low = end(&mut self.low.0, r as usize - 1)?;
         let high = -end(&mut self.high.0, from_top as usize)?;
