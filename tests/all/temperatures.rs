@@ -440,3 +440,72 @@ fn units_of_a_files_own() {
         assert!(errors.contains(said), "{errors}");
     }
 }
+
+/// Limits of a deviation in degC or degF that are formulas in K are differences, those of a temperature are
+/// temperatures, and what may be both or is the other is refused.
+#[test]
+fn limits_of_deviations_and_of_temperatures() {
+    let limits = |unit: &str, equation: &str, lower: &str| {
+        let text = json!({
+            "conditions": {"t": {"unit": unit, "values": [50, 150]}},
+            "inputs": {"x": {"unit": unit, "distribution": "normal", "mean": "t - 5 [K]", "std": 0.1}},
+            "equations": {"e": equation},
+            "outputs": {"e": {"unit": unit, "tolerance": {"lower": lower}}}
+        });
+        let file = read_text("m.json", &text.to_string(), Path::new(""), &[]);
+        let output = file.map_err(|e| format!("{e:?}"))?.task.model.outputs[0].clone();
+        let lower = output.following.as_ref().and_then(|of| of.lower.clone()).expect("a formula");
+        assert_eq!(output.tolerance.unwrap().lower, Some(lower.at(&[50.0])));
+        Ok::<[f64; 2], String>([50.0, 150.0].map(|t| lower.at(&[t])))
+    };
+    let deviation = "-(0.3 + 0.005*t/[degC])*1 [K]";
+    assert_eq!(limits("degC", "x - t", deviation), Ok([-0.55, -1.05]));
+    assert_eq!(limits("degC", "x - t", "0.5*(t - 150 [degC])"), Ok([-50.0, 0.0]));
+    // a difference of one degree Fahrenheit for each of them
+    assert_eq!(limits("degF", "x - t", "0.01*(t - 20 [degF])"), Ok([0.3, 1.3]));
+    assert_eq!(limits("degF", "x - t", "-1 [K]*(t/[degF])/50"), Ok([-1.8, -5.4]));
+    assert_eq!(limits("degC", "x", "t - 2 [K]"), Ok([48.0, 148.0]));
+    assert_eq!(limits("degF", "x", "t - 5 [K]"), Ok([41.0, 141.0]));
+    let refused = |equation: &str, lower: &str, said: &str| {
+        let found = limits("degC", equation, lower).unwrap_err();
+        assert!(found.contains(said), "{found}");
+    };
+    refused("x - t", "t - 2 [K]", "it is a temperature, and `e` is a difference of temperatures");
+    refused("x", "t - 2 [degC]", "it is a difference of temperatures, and `e` is a temperature");
+    refused(
+        "x",
+        "(2 + t/[degC])*1 [K]",
+        "it is in K, and may be a difference, and `e` is a temperature",
+    );
+}
+
+/// What is as large as a thermodynamic temperature is no correction of a Celsius temperature.
+#[test]
+fn reference_temperatures_in_kelvin_are_no_corrections() {
+    let length = |reference: (&str, f64), formula: &str| {
+        let (unit, value) = reference;
+        let text = json!({
+            "inputs": {
+                "L": {"unit": "mm", "distribution": "normal", "mean": 100, "std": 0.001},
+                "al": {"unit": "ppm/degC", "distribution": "normal", "mean": 11.5, "std": 0.1},
+                "t": {"unit": "degC", "distribution": "normal", "mean": 25, "std": 0.1},
+                "t0": {"unit": unit, "distribution": "constant", "value": value}
+            },
+            "equations": {"L0": formula}, "outputs": {"L0": {"unit": "mm"}}
+        });
+        let file = read_text("m.json", &text.to_string(), Path::new(""), &[]);
+        let mut task = file.map_err(|e| format!("{e:?}"))?.task;
+        task.settings.trials = Trials::Fixed(0);
+        let evaluation = evaluate(&task, &Control::default()).unwrap();
+        Ok::<f64, String>(evaluation.rows[0].outputs[0].gum.as_ref().unwrap().estimate)
+    };
+    let right = 100.0 * (1.0 - 11.5e-6 * 5.0);
+    let found = length(("degC", 20.0), "L*(1 - al*(t - t0))").unwrap();
+    assert!((found - right).abs() < 1e-9, "{found}");
+    let found = length(("K", 293.15), "L*(1 - al*(kelvin(t) - t0))").unwrap();
+    assert!((found - right).abs() < 1e-9, "{found}");
+    let found = length(("K", 293.15), "L*(1 - al*(t - t0))").unwrap_err();
+    assert!(found.contains("cannot take together"), "{found}");
+    // a correction of 20 K is one
+    assert!(length(("K", 20.0), "L*(1 - al*(t - t0))").is_ok());
+}

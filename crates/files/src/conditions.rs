@@ -31,6 +31,8 @@ pub(super) struct Conditions {
     pub(super) files: Vec<(String, Vec<u8>)>,
     /// Names of those whose unit could not be read.
     pub(super) without_unit: Vec<String>,
+    /// Names of those of which no unit is said, so that they are plain numbers.
+    pub(super) unstated: Vec<String>,
     /// Whether the rows could not be read, so that nothing is known of the conditions.
     pub(super) unreadable: bool,
 }
@@ -66,6 +68,9 @@ impl Conditions {
     /// A condition with its unit, without values.
     fn add(&mut self, member: &Member, condition: &Object<'_>) {
         self.places.push(member.key_span.clone());
+        if condition.get("unit").is_none() {
+            self.unstated.push(member.key.clone());
+        }
         let unit = unit(condition, "unit").unwrap_or_else(|| {
             self.without_unit.push(member.key.clone());
             Unit::one()
@@ -261,7 +266,7 @@ fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<
         Some(member) => only(object, member, table)?,
         None => table,
     };
-    let mut without_unit = Vec::new();
+    let (mut without_unit, mut unstated) = (Vec::new(), Vec::new());
     let quantities: Vec<Quantity> = table
         .columns
         .iter()
@@ -276,7 +281,12 @@ fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<
                     (bare, unit)
                 }
                 None => match column_heading::heading(log, column) {
-                    Some((name, unit)) => (name, Some(unit)),
+                    Some((name, unit)) => {
+                        if name == column.trim() {
+                            unstated.push(name.to_owned());
+                        }
+                        (name, Some(unit))
+                    }
                     None => {
                         let reason = format!(
                             "the heading `{column}` names no unit that is known; a number other than 1 \
@@ -306,7 +316,17 @@ fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<
     let places = vec![file.value.span.clone(); table.columns.len()];
     let (rows, files) = (table.rows, vec![(name.to_owned(), bytes)]);
     let reachable = vec![None; places.len()];
-    Some(Conditions { quantities, places, rows, reachable, files, without_unit, unreadable: false })
+    let unreadable = false;
+    Some(Conditions {
+        quantities,
+        places,
+        rows,
+        reachable,
+        files,
+        without_unit,
+        unstated,
+        unreadable,
+    })
 }
 
 /// The table with only those columns that are wanted, in their order.

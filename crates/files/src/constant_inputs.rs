@@ -17,6 +17,8 @@ use gumption_units::Unit;
 pub(super) struct ConstantInputs {
     /// Those with a constant for a distribution, each with its value in its unit.
     pub(super) known: Vec<(Quantity, f64)>,
+    /// The names of those of which no unit is said, so that they are plain numbers.
+    pub(super) unstated: Vec<String>,
     /// The names of constants whose value is a formula of conditions, or one with a mistake.
     pub(super) computed: Vec<String>,
     /// The names of the others.
@@ -49,6 +51,13 @@ impl ConstantInputs {
         };
         let mut formulas = Vec::new();
         for member in members {
+            let has_unit = |json: &Json| match json {
+                Json::Object(entries) => entries.iter().any(|entry| entry.key == "unit"),
+                _ => true,
+            };
+            if !has_unit(&member.value.value) {
+                found.unstated.push(member.key.clone());
+            }
             match constant(&unsaid, member, overrides) {
                 Some(Said::Value(unit, value)) => {
                     found.known.push((quantity(&member.key, unit), value));

@@ -16,7 +16,7 @@ use super::outputs::Outputs;
 use super::scopes::{coherent, condition_scope, report_formula};
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{
-    Formula, Scope, TableCall, TableData, Typing, check_name, looks_of,
+    Formula, KelvinKind, Scope, TableCall, TableData, Typing, check_name, looks_of,
 };
 use gumption_engine::model::typed::CatalogueEntry;
 use gumption_engine::task::Warning;
@@ -211,7 +211,8 @@ pub(super) fn check_equations(
     for input in &inputs.quantities {
         let Quantity { name, unit, .. } = &input.quantity;
         let known = !unknown_units.contains(name.as_str());
-        scope.define(name, if known { Typing::in_unit(unit) } else { Typing::ANY });
+        let typing = if known { Typing::in_unit(unit) } else { Typing::ANY };
+        scope.define(name, if is_thermodynamic(inputs, name) { kelvin(typing) } else { typing });
         if known && !check_units {
             scope.declare(name, unit.clone());
         }
@@ -242,6 +243,25 @@ pub(super) fn check_equations(
         scope.define(name, typing);
     }
     scope
+}
+
+/// Inputs in K that are larger than this are thermodynamic temperatures, and no corrections of others.
+const THERMODYNAMIC: f64 = 200.0;
+
+/// Whether an input in K is a thermodynamic temperature, by its estimates: what is so large corrects no
+/// Celsius temperature, so that `t - T0` would be one of -270 degC.
+fn is_thermodynamic(inputs: &InputSet, name: &str) -> bool {
+    let place = inputs.variables.iter().position(|variable| variable.name == name);
+    place.is_some_and(|place| {
+        let is_in_kelvin = *inputs.variables[place].unit.text() == *"K";
+        let first = inputs.known.get(place, 0);
+        is_in_kelvin && first.is_some_and(|known| known.mean() > THERMODYNAMIC)
+    })
+}
+
+fn kelvin(mut typing: Typing) -> Typing {
+    typing.kelvin = KelvinKind::Thermodynamic;
+    typing
 }
 
 /// Complex quantities that are pairs of inputs, and in models that have some the imaginary unit.

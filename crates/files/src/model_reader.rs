@@ -42,6 +42,7 @@ use super::model_file::ModelFile;
 use super::object::Object;
 use super::observations::{self, Observations};
 use super::open::{FileKind, check_format, read_changed_root, refuse_other_kind};
+use super::output_limits;
 use super::outputs::{self, Outputs};
 use super::overrides::{self, Override};
 use super::reader::FileReader;
@@ -374,6 +375,7 @@ impl<'a> ModelReader<'a> {
                 check_typed(log, entry, place, of);
                 refuse_one_limit(log, &of.outputs);
                 let scope = typed_scope(entry, &of.inputs, &of.conditions);
+                output_limits::of_temperatures(log, &scope, of);
                 (scope, ModelForm::Typed(entry.typed))
             }
             ModelBody::Equations(equations) => {
@@ -382,6 +384,7 @@ impl<'a> ModelReader<'a> {
                 warnings.extend(tables.notes);
                 let scope = check_equations(log, &equations, of, tables.tables);
                 check_formula_outputs(log, &scope, of);
+                output_limits::of_temperatures(log, &scope, of);
                 refuse_one_limit(log, &of.outputs);
                 if !of.check_units {
                     warnings.push(units_not_checked(&self.root, of));

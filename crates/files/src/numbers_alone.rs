@@ -1,5 +1,6 @@
 //! Formulas of numbers alone, `60/2`: of a quantity in degrees they can be 30 degrees, as the quantity
-//! is given, or 30 radians, as formulas count. None of the two is taken.
+//! is given, or 30 radians, as formulas count. None of the two is taken. Nor is it of names that have no
+//! unit, as those of a column without one in its heading.
 
 use std::collections::HashMap;
 
@@ -19,6 +20,38 @@ pub(super) fn mistake(formula: &Formula, unit: &Unit, of: ValueOf) -> Option<Dia
     Some(DiagnosticKind::Value { key, found, reason })
 }
 
+/// The mistake of an estimate or a limit in per cent, degrees or the like that is computed from names of which
+/// no unit is said: their numbers can be in that unit or plain.
+pub(super) fn without_unit(
+    formula: &Formula,
+    unit: &Unit,
+    is_unstated: impl Fn(&str) -> bool,
+) -> Option<DiagnosticKind> {
+    let text = formula.text().trim();
+    let first = formula.names().next().map(|(name, _)| name)?;
+    let are_plain = formula.names().all(|(name, _)| is_unstated(name));
+    let is_share = unit.dimension().is_none() && unit.level_exponent().is_zero();
+    let is_in_radians = unit.turn() == Some(Turn::Angle) && names_pi(text);
+    if !are_plain || is_in_radians || !is_share || unit.factor() == 1.0 || text.contains(['[', '"'])
+    {
+        return None;
+    }
+    let (plain, own) = match unit.turn() {
+        Some(Turn::Angle) => ("in radians".to_owned(), "rad"),
+        _ => (format!("plain, of which 1 is {} {unit}", Shortest(unit.from_si(1.0))), "1"),
+    };
+    let reason = format!(
+        "`{first}` has no unit, so that its number can be in `{unit}`, as the quantity is given, or {plain}: \
+         give `{first}` a unit, `{unit}` or `{own}`"
+    );
+    Some(DiagnosticKind::Value { key: "mean".to_owned(), found: text.to_owned(), reason })
+}
+
+/// Whether a formula computes with pi, as one in radians.
+fn names_pi(text: &str) -> bool {
+    text.contains("pi") || text.contains('π')
+}
+
 /// Why a formula of conditions that has none, nor a unit in brackets, is no value in `unit`; `None` of
 /// every other formula, and where both readings are the same plain number. Angles may be computed with
 /// pi, as in radians.
@@ -27,7 +60,7 @@ fn refused(formula: &Formula, unit: &Unit, of: ValueOf) -> Option<String> {
     let is_plain =
         unit.dimension().is_none() && unit.factor() == 1.0 && unit.level_exponent().is_zero();
     let is_angle = unit.turn() == Some(Turn::Angle);
-    let is_in_radians = is_angle && (text.contains("pi") || text.contains('π'));
+    let is_in_radians = is_angle && names_pi(text);
     if is_plain || is_in_radians || formula.names().next().is_some() || text.contains(['[', '"']) {
         return None;
     }
@@ -93,6 +126,44 @@ mod tests {
             for part in parts {
                 assert!(said.contains(part), "{text} {unit}: {said}");
             }
+        }
+    }
+
+    /// Names without a unit in per cent or degrees, in an estimate, a width, a limit, of a condition, a column or
+    /// a constant; with a unit, and beside one, they are what they say.
+    #[test]
+    fn names_without_a_unit_are_refused_with_both_readings() {
+        let read = |condition: &str, mean: &str, unit: &str| {
+            let text = format!(
+                r#"{{"conditions": {{"c": {{{condition}"values": [0.5, 1]}}}},
+                "inputs": {{"k": {{"distribution": "constant", "value": 45}},
+                "s": {{"unit": "%", "distribution": "constant", "value": 2}},
+                "x": {{"unit": "{unit}", "distribution": "normal", "mean": "{mean}", "std": 0.1}}}},
+                "equations": {{"y": "x*s"}},
+                "outputs": {{"y": {{"unit": "%", "tolerance": {{"upper": "s*0 + 3*c*1 [%]"}}}}}}}}"#
+            );
+            let text = text.replace("s*0 + ", "");
+            crate::read_text("m", &text, std::path::Path::new(""), &[])
+                .map_err(|e| format!("{e:?}"))
+        };
+        for (mean, unit, said) in [
+            ("c", "%", "`c` has no unit, so that its number can be in `%`"),
+            ("2*c", "%", "of which 1 is 100 %"),
+            ("k", "deg", "in radians: give `k` a unit, `deg` or `rad`"),
+            ("k + c", "ppm", "of which 1 is 1000000 ppm"),
+        ] {
+            let found = read("", mean, unit).unwrap_err();
+            assert!(found.contains(said), "{mean} {unit}: {found}");
+        }
+        for (condition, mean, unit) in [
+            (r#""unit": "%", "#, "c", "%"),
+            (r#""unit": "1", "#, "c", "%"),
+            ("", "c", "1"),
+            ("", "c*s", "%"),
+            ("", "c*1 [%]", "%"),
+            ("", "pi*c/180", "deg"),
+        ] {
+            read(condition, mean, unit).unwrap();
         }
     }
 

@@ -1,16 +1,21 @@
 //! Tolerance limits and capabilities of outputs: numbers, specifications, or formulas of the conditions,
 //! which every row of a sweep has others of.
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::conditions::Conditions;
 use super::constant_inputs::ConstantInputs;
+use super::diagnostics::Collector;
 use super::json::{Json, Member};
+use super::model_checks::Quantities;
 use super::object::Object;
 use super::scopes::ConditionSet;
 use super::value_text::ValueOf;
 use super::width::{self, Width};
-use gumption_engine::model::formula::Formula;
+use gumption_engine::model::formula::{Formula, KelvinKind, Scope, Typing};
 use gumption_engine::model::{Capability, OfConditions, Quantity};
 use gumption_engine::number::Shortest;
 use gumption_units::Unit;
@@ -41,14 +46,103 @@ pub(super) fn following(
         }
         return None;
     }
+    Some(figure(formula, of, unit, set))
+}
+
+/// What a formula of conditions gives in a unit.
+fn figure(formula: Formula, of: ValueOf, unit: &Unit, set: &ConditionSet<'_>) -> OfConditions {
     let (known, unit) = (names_of(set), unit.clone());
     let check_units = set.check_units;
     let constants = ConstantInputs::default();
-    Some(OfConditions::new(move |values| {
+    OfConditions::new(move |values| {
         let conditions = Conditions { rows: vec![values.to_vec()], ..known.clone() };
         ConditionSet { conditions: &conditions, check_units, constants: &constants }
             .value(&formula, 0, &unit, of)
-    }))
+    })
+}
+
+/// A limit of an output in degC or degF that is a formula of conditions: a temperature, or a difference of
+/// temperatures, as the output is, which only its equation tells.
+#[derive(Debug)]
+pub(super) struct LimitFormula {
+    key: &'static str,
+    place: Range<usize>,
+    formula: String,
+    /// What the formula itself is: a temperature or a difference of two; none where it may be both.
+    is_difference: Option<bool>,
+    /// The limit as a difference, in the output's unit.
+    difference: OfConditions,
+}
+
+impl LimitFormula {
+    /// Of an output that counts from a zero and whose units are checked.
+    pub(super) fn of(
+        (key, member): (&'static str, &Member),
+        formula: &Formula,
+        unit: &Unit,
+        set: &ConditionSet<'_>,
+    ) -> Option<Self> {
+        let is_temperature = unit.zero().is_some() && unit.level_exponent().is_zero();
+        if !(is_temperature && set.check_units) {
+            return None;
+        }
+        let typing = set.typing(formula)?;
+        Some(Self {
+            key,
+            place: member.value.span.clone(),
+            formula: formula.text().to_owned(),
+            is_difference: is_difference(typing),
+            difference: figure(formula.clone(), ValueOf::Difference, unit, set),
+        })
+    }
+}
+
+/// Whether a quantity in K is a difference of temperatures, or a temperature; none where it may be both.
+fn is_difference(typing: Typing) -> Option<bool> {
+    match typing.kelvin {
+        _ if typing.zero.is_some() => Some(false),
+        KelvinKind::Difference => Some(true),
+        KelvinKind::Thermodynamic => Some(false),
+        KelvinKind::Either => None,
+    }
+}
+
+/// Takes the limits of temperatures as what their outputs are, from what is known of the equations: those of
+/// a difference are differences, those of a temperature are temperatures. One of the other kind is refused.
+pub(super) fn of_temperatures(log: &Collector, scope: &Scope, of: &mut Quantities) {
+    let first = of.conditions.rows.first().map_or(&[][..], Vec::as_slice);
+    for (place, limit) in &of.outputs.limits {
+        let Some(output) = of.outputs.outputs.get_mut(*place) else { continue };
+        let name = &output.quantity.name;
+        let Some(typing) = scope.get(name) else { continue };
+        let own = is_difference(typing);
+        let refused = match (own, limit.is_difference) {
+            (Some(false), Some(true)) => Some("a difference of temperatures"),
+            // as of a number in K
+            (Some(false), None) if typing.zero.is_some() => Some("in K, and may be a difference"),
+            (Some(true), Some(false)) => Some("a temperature"),
+            _ => None,
+        };
+        if let Some(what) = refused {
+            let unit = &output.quantity.unit;
+            let its =
+                if own == Some(true) { "a difference of temperatures" } else { "a temperature" };
+            let reason = format!("it is {what}, and `{name}` is {its} in `{unit}`");
+            let (key, found) = (limit.key.to_owned(), limit.formula.clone());
+            log.report(&limit.place, DiagnosticKind::Value { key, found, reason });
+        } else if own != Some(false) && limit.is_difference != Some(false) {
+            let figure = limit.difference.at(first);
+            let mut following = output.following.as_deref().cloned().unwrap_or_default();
+            let is_lower = limit.key == "lower";
+            let end = if is_lower { &mut following.lower } else { &mut following.upper };
+            *end = Some(limit.difference.clone());
+            output.following = Some(Arc::new(following));
+            if let Some(tolerance) = &mut output.tolerance {
+                let end = if is_lower { &mut tolerance.lower } else { &mut tolerance.upper };
+                *end = Some(figure);
+            }
+        }
+    }
 }
 
 /// The conditions without their rows.

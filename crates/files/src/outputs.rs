@@ -9,7 +9,7 @@ use super::diagnostics::Collector;
 use super::json::{Json, Member};
 use super::keys;
 use super::object::Object;
-use super::output_limits;
+use super::output_limits::{self, LimitFormula};
 use super::results::Results;
 use super::scopes::ConditionSet;
 use super::shapes::{self, Estimate, Fields};
@@ -29,6 +29,8 @@ pub(super) struct Outputs {
     pub(super) without_unit: Vec<String>,
     /// Names of complex ones.
     pub(super) complex: Vec<String>,
+    /// Limits of temperatures that are formulas, each with the place of its output.
+    pub(super) limits: Vec<(usize, LimitFormula)>,
 }
 
 impl Outputs {
@@ -142,8 +144,19 @@ pub(super) fn read(
             about: object.text("about").unwrap_or("").to_owned(),
         };
         let unit_place = object.get("unit").map_or(&member.key_span, |m| &m.value.span);
-        let Decision { guard_factor, specification, agreed, tolerance, prior, risk, lower, upper } =
-            decision;
+        let Decision {
+            guard_factor,
+            specification,
+            agreed,
+            tolerance,
+            prior,
+            risk,
+            lower,
+            upper,
+            limits,
+        } = decision;
+        let place = outputs.outputs.len();
+        outputs.limits.extend(limits.into_iter().map(|limit| (place, limit)));
         let mut output = Output::new(quantity);
         let (capability, of_rows) = capability.unzip();
         let following = FollowingConditions { lower, upper, capability: of_rows.flatten() };
@@ -172,6 +185,8 @@ struct Decision {
     agreed: bool,
     lower: Option<OfConditions>,
     upper: Option<OfConditions>,
+    /// Of a temperature the formulas of these.
+    limits: Vec<LimitFormula>,
 }
 
 /// Shapes that a prior cannot have: it is about many items.
@@ -204,9 +219,11 @@ impl Decision {
         let specification = object.text("specification").map(Arc::from);
         let agreed = object.truth("agreed").unwrap_or(false);
         let prior = prior(&object, unit, results).map(Arc::new);
+        let mut limits = Vec::new();
         let ends = ["lower", "upper"].map(|key| {
             let member = object.get(key)?;
             let formula = output_limits::formula(&object, member)?;
+            limits.extend(LimitFormula::of((key, member), &formula, unit, set));
             let of = (formula, ValueOf::Quantity);
             Some(output_limits::following(&object, (key, member), of, unit, set))
         });
@@ -218,7 +235,7 @@ impl Decision {
         let ends = [lower.flatten(), upper.flatten()];
         let tolerance = tolerance(&object, unit, &ends, set);
         let [lower, upper] = ends;
-        Self { tolerance, prior, risk, guard_factor, specification, agreed, lower, upper }
+        Self { tolerance, prior, risk, guard_factor, specification, agreed, lower, upper, limits }
     }
 }
 

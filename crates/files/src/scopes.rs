@@ -121,6 +121,13 @@ impl ConditionSet<'_> {
     }
 }
 
+impl ConditionSet<'_> {
+    /// What a formula is; `None` where it cannot be told.
+    pub(super) fn typing(&self, formula: &Formula) -> Option<Typing> {
+        formula.check_names(&self.scope()).ok()
+    }
+}
+
 impl ConditionValues for ConditionSet<'_> {
     fn rows(&self) -> usize {
         self.conditions.rows.len()
@@ -154,6 +161,14 @@ impl ConditionValues for ConditionSet<'_> {
         let kinds = |errors: Vec<FormulaError>| errors.into_iter().map(kind).collect::<Vec<_>>();
         let typing = result.map_err(kinds)?;
         if let Some(kind) = numbers_alone::mistake(formula, unit, of).filter(|_| self.check_units) {
+            return Err(vec![kind]);
+        }
+        let is_unstated = |name: &str| {
+            let lists = [&self.conditions.unstated, &self.constants.unstated];
+            lists.into_iter().flatten().any(|unstated| unstated == name)
+        };
+        let unstated = numbers_alone::without_unit(formula, unit, is_unstated);
+        if let Some(kind) = unstated.filter(|_| self.check_units) {
             return Err(vec![kind]);
         }
         match typing.dimension.filter(|_| self.check_units) {

@@ -202,7 +202,7 @@ mod tests {
             ("1,5", "such as `1.5`"),
             ("1,000 d", "can be 1.000 or 1000"),
             ("1 000 d", "without blanks"),
-            ("1 1/2 yr", "no unit of time"),
+            ("1 1/2 yr", "write a decimal fraction"),
             ("1 d (2)", "no unit of time"),
         ] {
             let error = read_drift(&format!("x={time}"), DriftLaw::Linear, &task()).unwrap_err();

@@ -128,9 +128,18 @@ pub(super) fn power_of_ten(text: &str) -> Option<(i32, &str)> {
 }
 
 /// What is wrong with a unit that begins with digits, as in `1 234 V`, where the number may have been
-/// written in groups; a unit may begin with 1/.
+/// written in groups; a unit may begin with 1/. Or in `1 1/2 in`, which is one and a half.
 pub(super) fn grouped_digits(unit: &str) -> Option<String> {
-    let per = unit.strip_prefix('1').is_some_and(|rest| rest.trim_start().starts_with('/'));
+    let digits = unit.len() - unit.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    let below = unit.get(digits..)?.trim_start().strip_prefix('/').map(str::trim_start);
+    let is_digit = |below: &str| below.starts_with(|c: char| c.is_ascii_digit());
+    if digits > 0 && below.is_some_and(is_digit) {
+        return Some(format!(
+            "`{unit}` behind a number is a fraction that is added to it, or one that it is multiplied by: \
+             write a decimal fraction, such as `1.5 in` for one inch and a half"
+        ));
+    }
+    let per = unit.starts_with('1') && digits == 1 && below.is_some();
     (unit.starts_with(|c: char| c.is_ascii_digit()) && !per).then(|| {
         format!(
             "behind the blank stands another number (`{unit}`): digits are written without blanks, \
@@ -255,6 +264,12 @@ mod tests {
         assert!(read("2 degC", "K", ValueOf::Either).unwrap_err().contains("difference"));
         assert!(read("0.36 degF", "degC", ValueOf::Either).unwrap_err().contains("difference"));
         assert!(read("60 rpm", "Hz", ValueOf::Quantity).unwrap_err().contains("periods"));
+        for text in ["1 1/2 in", "5 1/4 in", "3 1 / 8 in", "2 10/16 in"] {
+            assert!(
+                read(text, "mm", ValueOf::Quantity).unwrap_err().contains("a fraction"),
+                "{text}"
+            );
+        }
         assert!(read("5,01 V", "V", ValueOf::Quantity).unwrap_err().contains("point"));
         assert!(read("5 furlong", "m", ValueOf::Quantity).unwrap_err().contains("furlong"));
     }
