@@ -106,6 +106,90 @@ fn formulas() {
         ("rad/s", "2 [m/s]/x", "m", None),
         ("rad", "x", "1", None),
         ("1/min", "x", "1/min", None),
+        // what is moved in a revolution, and the way of a circumference
+        ("rpm", "10 [cm^3]*x", "L/min", Some("radians-of-turns")),
+        ("rpm", "0.9*x*2 [g]", "kg/min", Some("radians-of-turns")),
+        ("rpm", "2 [mol]*x", "mol/s", Some("radians-of-turns")),
+        ("rpm", "2 [A*s]*x", "A", Some("radians-of-turns")),
+        ("rpm", "800 [kg/m^3]*10 [cm^3]*x", "kg/s", Some("radians-of-turns")),
+        ("rpm", "10 [cm^3]*x + 1 [L/min]", "L/min", Some("radians-of-turns")),
+        ("rev/s", "pi*20 [mm]*x", "m/s", Some("radians-of-turns")),
+        ("rpm", "pi*20 [m]*x/1000", "m/s", Some("radians-of-turns")),
+        ("rpm", "10 [cm^3]*x/[rev]", "L/min", None),
+        ("rpm", "10 [cm^3/rev]*x", "L/min", None),
+        ("rpm", "10 [cm^3]*x/(2*pi)", "L/min", None),
+        ("rpm", "pi*20 [mm]*x/[rev]", "m/s", None),
+        ("rad/s", "10 [cm^3]*x", "L/min", None),
+        ("1/min", "10 [cm^3]*x", "L/min", None),
+        ("rpm", "10 [mm]*x", "m/s", None),
+        ("rpm", "0.1 [mm/rev]*x", "mm/min", None),
+        ("rpm", "2 [mm]*3 [mm^2]*x", "L/min", None),
+        ("rpm", "2 [kg]*x", "N*s/m", None),
+        ("rpm", "2*x*20 [mm]/pi", "m/s", None),
+        ("rpm", "9550*2 [W]/x", "N*m", Some("rate-converted-twice")),
+        ("rpm", "2 [N*m]*x/9550", "W", Some("rate-converted-twice")),
+        ("rpm", "6*x", "deg/s", Some("result-converted-twice")),
+        ("rpm", "2*x", "deg/s", None),
+        ("deg", "3600*x", "arcsec", Some("result-converted-twice")),
+        ("deg", "x*60", "arcmin", Some("result-converted-twice")),
+        ("deg", "x*10", "arcmin", None),
+        ("%", "1e4*x", "ppm", Some("result-converted-twice")),
+        // the terms of a sum, and what a function takes
+        ("1", "(x - 2)/2*1e6 + x", "ppm", Some("result-converted-twice")),
+        ("1", "100*x/x - 100", "%", Some("result-converted-twice")),
+        ("1", "100*x/x - 100", "1", None),
+        ("V", "(x - 2 [V])/(2 [V])*1e4", "ppm", Some("result-converted-twice")),
+        ("V", "(x - (2 [V]))/x*1e4", "ppm", Some("result-converted-twice")),
+        ("1", "-max(100*(x - 1)/x, 0)", "%", Some("result-converted-twice")),
+        ("1", "if(x > 2, 100*(x - 1)/x, 0)", "%", Some("result-converted-twice")),
+        ("1", "mean(100*(x - 1)/x, x)", "%", Some("result-converted-twice")),
+        ("1", "2*(100*(x - 1)/x)", "%", Some("result-converted-twice")),
+        ("1", "2*(atan(x)*180/pi)", "deg", Some("result-converted-twice")),
+        ("1", "atan(x)*180/pi + 2*x", "deg", Some("result-converted-twice")),
+        ("1", "sin(atan(x)*180/pi)", "1", Some("angle-converted-twice")),
+        ("1", "sin(atan(x)*180/pi*pi/180)", "1", None),
+        ("1", "100*x + 0.02*x^2", "%", None),
+        ("1", "0.01*100*(x - 1)/x", "1", None),
+        // functions that give angles, and functions of what is in a unit
+        ("1", "90 - atan(x)", "deg", Some("bare-number")),
+        ("1", "cos(90 - atan(x))", "1", Some("bare-number")),
+        ("1", "atan(x) + 0.5", "deg", Some("bare-number")),
+        ("1", "atan(x) + 0.5", "rad", None),
+        ("1", "atan(x) + pi", "deg", None),
+        ("1", "sin(atan(x) + 0.5)", "1", None),
+        ("1", "90 - atan(x)*180/pi", "1", None),
+        ("1", "90 - atan(x)/[deg]", "1", None),
+        ("deg", "90 - x*180/pi", "1", None),
+        ("%", "100*x + 5", "1", None),
+        ("deg", "abs(x) + 10", "deg", Some("bare-number")),
+        ("deg", "max(x, 2*x) + 10", "deg", Some("bare-number")),
+        ("deg", "if(x > 0, x, 10)", "deg", Some("bare-number")),
+        ("%", "(1 + x) + 2", "1", None),
+        ("%", "min(1 + x, 5)", "1", None),
+        ("deg", "mod(x, 360)", "deg", Some("bare-number")),
+        ("deg", "mod(x, 2*pi)", "deg", None),
+        ("deg", "mod(x, 6.28319)", "deg", None),
+        ("deg", "mod(x, 360 [deg])", "deg", None),
+        ("1", "mod(x, 360)", "1", None),
+        ("deg", "round(x)", "deg", Some("rounded-as-number")),
+        ("deg", "floor(10*x)/10", "deg", Some("rounded-as-number")),
+        ("%", "ceil(x)", "%", Some("rounded-as-number")),
+        ("1", "round(atan(x))", "deg", Some("rounded-as-number")),
+        ("deg", "round(x/[deg])*[deg]", "deg", None),
+        ("deg", "round(x*180/pi)", "1", None),
+        ("%", "floor(1000*x)/1000", "%", None),
+        ("1", "round(x)", "1", None),
+        ("rad", "round(x)", "rad", None),
+        // periods are no radians
+        ("Hz", "sin(x*2 [s])", "1", Some("periods-as-radians")),
+        ("Hz", "cos(3*x*2 [s])", "1", Some("periods-as-radians")),
+        ("Hz", "sin(2*pi*x*2 [s])", "1", None),
+        ("Hz", "sin(6.2832*x*2 [s])", "1", None),
+        ("Hz", "sin(x*[rev]*2 [s])", "1", None),
+        ("Hz", "sin(x/(3 [Hz]))", "1", None),
+        ("Hz", "exp(-x*2 [s])", "1", None),
+        ("rad/s", "sin(x*2 [s])", "1", None),
+        ("1/s", "sin(x*2 [s])", "1", None),
         ("pH", "x", "pH", Some("picohenry")),
         ("nH", "x", "nH", None),
     ] {
@@ -127,6 +211,78 @@ fn formulas() {
     let mut unchecked = of("deg", "sin((x + 90)*pi/180)", "1");
     unchecked["check_units"] = json!(false);
     assert_eq!(codes(&unchecked), ["units-not-checked-changed"]);
+}
+
+/// What an equation computes has the unit of what it is computed from, and is converted by the unit of
+/// an output that it is a term of.
+#[test]
+fn formulas_of_several_equations() {
+    for (unit, equations, result, wanted) in [
+        ("deg", [("b", "2*x"), ("y", "b + 10")], "deg", Some(("bare-number", "y"))),
+        ("1", [("b", "atan(x)"), ("y", "90 - b")], "deg", Some(("bare-number", "y"))),
+        ("1", [("b", "atan(x)*180/pi"), ("y", "90 - b")], "1", None),
+        (
+            "1",
+            [("b", "atan(x)*180/pi"), ("y", "sin(b)")],
+            "1",
+            Some(("angle-converted-twice", "y")),
+        ),
+        ("1", [("b", "atan(x)*180/pi"), ("y", "sin(b*pi/180)")], "1", None),
+        ("%", [("b", "1 + x"), ("y", "b + 2")], "1", None),
+        ("%", [("b", "100*x"), ("y", "b + 2")], "1", None),
+        (
+            "1",
+            [("b", "(x - 2)/2*1e6"), ("y", "b - x")],
+            "ppm",
+            Some(("result-converted-twice", "b")),
+        ),
+        (
+            "1",
+            [("b", "(x - 2)/2*1e6"), ("y", "mean(b, b)")],
+            "ppm",
+            Some(("result-converted-twice", "b")),
+        ),
+        ("1", [("b", "(x - 2)/2*1e6"), ("y", "b/1e6")], "ppm", None),
+        ("1", [("b", "(x - 2)/2*1e6"), ("y", "b - x")], "1", None),
+        ("1", [("b", "(x - 2)/2*1e6"), ("y", "b [ppm]")], "ppm", None),
+        ("rpm", [("b", "10 [cm^3]*x"), ("y", "0.9*b")], "L/min", Some(("radians-of-turns", "b"))),
+        ("rpm", [("b", "10 [cm^3]*x"), ("y", "b/[rev]")], "L/min", None),
+        (
+            "rpm",
+            [("b", "pi*(20 [mm])^2*5 [mm]"), ("y", "b*x")],
+            "L/min",
+            Some(("radians-of-turns", "y")),
+        ),
+        ("rpm", [("r", "0.5*20 [mm]"), ("y", "2 [N*m]*r/(2*pi*x*r^3*3 [mm])")], "mPa*s", None),
+        (
+            "rpm",
+            [("r", "0.5*20 [mm]"), ("y", "2 [N]*r*2*pi*x")],
+            "W",
+            Some(("rate-converted-twice", "y")),
+        ),
+        ("Hz", [("k", "2*pi*2 [s]"), ("y", "sin(k*x)")], "1", None),
+    ] {
+        let file = json!({"inputs": {"x": normal(unit, 5.0)},
+            "equations": serde_json::Map::from_iter(
+                equations.map(|(name, formula)| (name.to_owned(), json!(formula)))),
+            "outputs": {"y": {"unit": result}}});
+        let notes = check_text("m.json", &file.to_string(), Path::new(""));
+        let notes = notes.unwrap_or_else(|faults| panic!("{file}\n{faults}"));
+        let found: Vec<_> = notes.iter().map(|note| (note.code, note.place.as_str())).collect();
+        assert_eq!(found, Vec::from_iter(wanted), "{file}");
+    }
+}
+
+/// A rotational viscometer, whose 2 pi is that of its cylinder.
+#[test]
+fn area_of_a_cylinder() {
+    for formula in ["T*a/(2*pi*R^3*L*n)", "T*a/(2*pi*n*R^3*L)", "T/(2*pi*n*R*R*L)*(a/R)"] {
+        let file = json!({
+            "inputs": {"T": normal("uN*m", 15.0), "n": normal("rpm", 60.0), "R": normal("mm", 12.5),
+                "a": normal("mm", 0.5), "L": normal("mm", 37.5)},
+            "equations": {"eta": formula}, "outputs": {"eta": {"unit": "mPa*s"}}});
+        assert_eq!(codes(&file), Vec::<&str>::new(), "{formula}");
+    }
 }
 
 /// A level that its formula puts above 1 uV is none above 1 V.

@@ -9,7 +9,7 @@ use super::model_reader::Equation;
 use super::object::Object;
 use super::shapes;
 use super::value_text::is_value;
-use gumption_engine::model::formula::{Formula, LevelReference, Scope, Typing};
+use gumption_engine::model::formula::{Formula, LevelReference, Numbers, Scope, Typing, Use};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Warning;
@@ -24,12 +24,20 @@ pub(super) fn of_formulas(
     let inputs = of.inputs.quantities.iter().map(|input| &input.quantity);
     let given = units_by_name(inputs.chain(&of.conditions.quantities));
     let results = units_by_name(of.outputs.outputs.iter().map(|output| &output.quantity));
-    let unit_of = |name: &str| given.get(name).copied().filter(|_| of.check_units);
+    let mut numbers = if of.check_units { numbers_of(&given) } else { HashMap::new() };
     let mut found = Vec::new();
     for (name, _, formula) in equations {
+        let Some(formula) = formula else { continue };
         let result = results.get(name.as_str()).copied().filter(|_| of.check_units);
-        let notes = formula.iter().flat_map(|formula| formula.notes(unit_of, result));
-        found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
+        let known = |name: &str| numbers.get(name).copied();
+        let notes = formula.notes(known, result.map_or(Use::Quantity, Use::Output));
+        let is_length = scope.get(name).is_some_and(|of| of.dimension == Some(Dimension::LENGTH));
+        let computed = formula.numbers(known).or(is_length.then_some(Numbers::Length));
+        let computed = computed.filter(|_| of.check_units);
+        found.extend(notes.into_iter().map(|note| Warning::new(note.code, name, note.text)));
+        if let Some(computed) = computed {
+            numbers.insert(name, computed);
+        }
     }
     found.extend(angles_of_turns(equations, of));
     found.extend(picohenries(of));
@@ -41,11 +49,89 @@ pub(super) fn of_formulas(
         if given.values().any(in_nepers) {
             found.extend(of.outputs.outputs.iter().filter_map(|output| decibels(scope, output)));
         }
+        for (name, _, formula) in equations {
+            let notes = formula.iter();
+            let notes = notes.flat_map(|formula| {
+                formula.periods_as_radians(scope, |name| given.get(name).copied())
+            });
+            found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
+        }
+        let by_name: ByName<'_> = equations
+            .iter()
+            .filter_map(|(name, _, formula)| Some((name.as_str(), formula.as_ref()?)))
+            .collect();
         let counts_turns = given.values().any(|unit| unit.counts_revolutions());
-        let radians = |output| radians_of_turns(scope, output).filter(|_| counts_turns);
-        found.extend(of.outputs.outputs.iter().filter_map(radians));
+        for output in &of.outputs.outputs {
+            let terms = terms(&by_name, &output.quantity.name);
+            found.extend(converted_terms(&terms, &numbers, &output.quantity));
+            if counts_turns {
+                let radians = radians_of_turns(scope, output);
+                found.extend(radians.or_else(|| displaced(scope, &terms, &output.quantity.unit)));
+            }
+        }
+        drop_repeated(&mut found);
     }
     found
+}
+
+/// What the numbers of names that are given in these units are in.
+fn numbers_of<'q>(given: &HashMap<&'q str, &'q Unit>) -> HashMap<&'q str, Numbers<'q>> {
+    given.iter().map(|(name, unit)| (*name, Numbers::Given(unit))).collect()
+}
+
+/// Equations by their names.
+type ByName<'e> = HashMap<&'e str, &'e Formula>;
+
+/// The equations that a quantity is a sum, a small multiple or a choice of, its own first.
+fn terms<'e>(by_name: &ByName<'e>, of: &'e str) -> Vec<(&'e str, &'e Formula)> {
+    let mut known = HashSet::new();
+    let mut found = Vec::new();
+    let mut rest = vec![of];
+    while let Some(name) = rest.pop() {
+        if let Some(formula) = by_name.get(name).filter(|_| known.insert(name)) {
+            found.push((name, *formula));
+            rest.extend(formula.terms());
+        }
+    }
+    found
+}
+
+/// Equations that convert to the unit of an output which they are terms of.
+fn converted_terms(
+    terms: &[(&str, &Formula)],
+    numbers: &HashMap<&str, Numbers<'_>>,
+    output: &Quantity,
+) -> Vec<Warning> {
+    let what = format!("the output `{}`", output.name);
+    let known = |name: &str| numbers.get(name).copied();
+    let intermediate = terms.iter().filter(|(name, _)| *name != output.name);
+    let notes = intermediate.filter_map(|(name, formula)| {
+        let note = formula.converted_to(known, &output.unit, &what)?;
+        Some(Warning::new(note.code, *name, note.text))
+    });
+    notes.collect()
+}
+
+/// What an output or a term of it multiplies by revolutions in radians: `Vg*n`, `pi*d*n`.
+fn displaced(scope: &Scope, terms: &[(&str, &Formula)], unit: &Unit) -> Option<Warning> {
+    // an impedance in N s/m is of an angular frequency
+    let has_newton = unit.factors().iter().any(|factor| factor.base.to_string().ends_with('N'));
+    if unit.counts_angle() || has_newton {
+        return None;
+    }
+    terms.iter().find_map(|(name, formula)| {
+        let note = formula.of_revolutions(scope)?;
+        Some(Warning::new(note.code, *name, note.text))
+    })
+}
+
+/// Leaves one note of a kind about each quantity where several outputs have the same term.
+fn drop_repeated(notes: &mut Vec<Warning>) {
+    let mut told = HashSet::new();
+    notes.retain(|note| {
+        let is_of_result = matches!(note.code, "result-converted-twice" | "radians-of-turns");
+        !is_of_result || told.insert((note.code, note.place.clone()))
+    });
 }
 
 /// Numbers of more than a turn that an angle is taken from: `cos(a)` of 30, which is in radians as it
@@ -150,34 +236,66 @@ pub(super) fn of_conditions(root: &Object<'_>, of: &Quantities) -> Vec<Warning> 
     }
     let inputs = of.inputs.quantities.iter().map(|input| &input.quantity);
     let given = units_by_name(inputs.chain(&of.conditions.quantities));
+    let numbers = numbers_of(&given);
     let mut found = Vec::new();
-    let mut note = |name: &str, fields: &[Member], keys: &[&str]| {
-        for field in fields.iter().filter(|field| keys.contains(&field.key.as_str())) {
-            let Json::Text(text) = &field.value.value else { continue };
-            let formula = Some(text).filter(|text| !is_value(text));
-            let formula = formula.and_then(|text| root.log.formula(text).ok());
-            let notes = formula.map(|formula| formula.notes(|name| given.get(name).copied(), None));
-            let notes = notes.into_iter().flatten();
-            found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
-        }
+    let mut note = |name: &str, text: &str, of: Use<'_>| {
+        let formula = Some(text).filter(|text| !is_value(text));
+        let formula = formula.and_then(|text| root.log.formula(text).ok());
+        let notes = formula.map(|formula| formula.notes(|name| numbers.get(name).copied(), of));
+        let notes = notes.into_iter().flatten();
+        found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
     };
-    let estimates = ["mean", "value"];
-    let keys: Vec<&str> = estimates.into_iter().chain(shapes::WIDTHS).collect();
     for input in members(root.get("inputs")) {
-        note(&input.key, members(Some(input)), &keys);
+        let unit = given.get(input.key.as_str()).copied();
+        for (text, key) in condition_formulas(members(Some(input))) {
+            note(&input.key, text, use_of(key, unit));
+        }
         let parts = members(Some(input)).iter().find(|field| field.key == "components");
         let Some(Json::List(parts)) = parts.map(|parts| &parts.value.value) else { continue };
         for part in parts {
-            if let Json::Object(fields) = &part.value {
-                note(&input.key, fields, &keys);
+            let Json::Object(fields) = &part.value else { continue };
+            for (text, key) in condition_formulas(fields) {
+                note(&input.key, text, use_of(key, unit));
             }
         }
     }
     for output in members(root.get("outputs")) {
         let tolerance = members(Some(output)).iter().find(|field| field.key == "tolerance");
-        note(&output.key, members(tolerance), &["lower", "upper"]);
+        for limit in members(tolerance) {
+            if let ("lower" | "upper", Json::Text(text)) = (limit.key.as_str(), &limit.value.value)
+            {
+                note(&output.key, text, Use::Quantity);
+            }
+        }
     }
     found
+}
+
+/// The texts of the fields of an input or a component that may be formulas of conditions, each with its
+/// key.
+fn condition_formulas(fields: &[Member]) -> impl Iterator<Item = (&str, &str)> {
+    let keys = || ["mean", "value", "values"].into_iter().chain(shapes::WIDTHS);
+    let fields = fields.iter().filter(move |field| keys().any(|key| key == field.key));
+    fields.flat_map(|field| {
+        let values = match &field.value.value {
+            Json::List(values) => values.iter().map(|value| &value.value).collect(),
+            value => vec![value],
+        };
+        let texts = values.into_iter().filter_map(|value| match value {
+            Json::Text(text) => Some(text.as_str()),
+            _ => None,
+        });
+        texts.map(|text| (text, field.key.as_str())).collect::<Vec<_>>()
+    })
+}
+
+/// What a formula of conditions at a key of an input in that unit is for.
+fn use_of<'u>(key: &str, unit: Option<&'u Unit>) -> Use<'u> {
+    match unit {
+        _ if shapes::WIDTHS.contains(&key) => Use::Width,
+        Some(unit) => Use::Estimate(unit),
+        None => Use::Quantity,
+    }
 }
 
 /// The members of an object at a key; none of anything else.
@@ -291,14 +409,19 @@ fn radians_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
     Some(Warning::new("radians-of-turns", name, text))
 }
 
-/// Whether a quantity is per angle by an input in revolutions, and no torque, which is so by its
-/// definition: `v/n` may be a radius or the feed of a revolution, `P/n` is the torque of the power P.
+/// Whether a quantity is per angle by an input in revolutions, and no torque, viscosity or damping, which
+/// are so by their definitions: `v/n` may be a radius or the feed of a revolution, `P/n` is the torque of
+/// the power P, and a rotational viscometer's `T*a/(2*pi*R^3*L*n)` is per rad/s.
 fn is_per_turn(typing: Typing) -> bool {
-    const TORQUE: Dimension = Dimension::of([1, 2, -2, 0, 0, 0, 0]);
+    const BY_RADIANS: [Dimension; 3] = [
+        Dimension::of([1, 2, -2, 0, 0, 0, 0]),
+        Dimension::of([1, -1, -1, 0, 0, 0, 0]),
+        Dimension::of([1, 2, -1, 0, 0, 0, 0]),
+    ];
     let angle = typing.angle;
     angle.of_revolutions
         && angle.exponent == Exponent::integer(-1)
-        && typing.dimension.is_some_and(|of| of != TORQUE)
+        && typing.dimension.is_some_and(|of| !BY_RADIANS.contains(&of))
 }
 
 /// Outputs in K of what a coefficient's unit makes a number of degrees: a temperature or a
@@ -351,6 +474,39 @@ mod tests {
         assert_eq!(all, [("bare-number", "phi"), ("bare-number", "phi"), ("bare-number", "p")]);
         assert!(found[0].2.contains("0.1 [deg]"), "{}", found[0].2);
         assert_eq!(of("phi_nom + 0.1 [deg]", "0.001*phi_nom + 0.05 [deg]", "30 deg"), []);
+    }
+
+    /// Readings, limits of a choice and the whole beside a share are numbers too; a hundredth of a
+    /// condition is a width.
+    #[test]
+    fn numbers_in_estimates_and_widths() {
+        let codes = |unit: &str, fields: &str| {
+            let found = notes(&format!(
+                r#"{{"conditions": {{"p": {{"unit": "{unit}", "values": [10, 20]}}}},
+                "inputs": {{"x": {{"unit": "{unit}", {fields}}}}}, "equations": {{"y": "x"}},
+                "outputs": {{"y": {{"unit": "{unit}"}}}}}}"#
+            ));
+            found.into_iter().map(|(code, ..)| code).collect::<Vec<_>>()
+        };
+        let normal = |mean: &str, std: &str| {
+            format!(r#""distribution": "normal", "mean": "{mean}", "std": "{std}""#)
+        };
+        let readings = r#""distribution": "readings", "values": ["p", "p + 0.1", "p - 0.1 [deg]"]"#;
+        assert_eq!(codes("deg", readings), ["bare-number"]);
+        for (unit, mean, std, wanted) in [
+            ("deg", "p", "max(0.5, 0.01*p)", Some("bare-number")),
+            ("deg", "p", "max(0.5 [deg], 0.01*p)", None),
+            ("deg", "p", "max(1e-6, 0.01*p)", None),
+            ("deg", "min(p, 1.5708)", "0.01*p", None),
+            ("%", "p + 1", "0.01*p", Some("bare-number")),
+            ("%", "1 - p", "0.01*p", None),
+            ("%", "p", "0.01*p + 0.1 [%]", None),
+            ("%", "p", "p/100", None),
+            ("%", "p/100", "0.01*p", Some("share-converted-twice")),
+        ] {
+            let found = codes(unit, &normal(mean, std));
+            assert_eq!(found, Vec::from_iter(wanted), "{mean}, {std} in {unit}");
+        }
     }
 
     /// A phase is in radians unless it says its unit.

@@ -62,6 +62,10 @@ mod message;
 mod misfit;
 mod name;
 mod note;
+mod note_bare;
+mod note_result;
+mod note_turns;
+mod numbers;
 mod parser;
 mod scale;
 mod scale_fault;
@@ -85,6 +89,7 @@ pub use layout::Layout;
 pub use misfit::ScaleMisfit;
 pub use name::{NameError, check_name, is_name, looks_of};
 pub use note::FormulaNote;
+pub use numbers::{Numbers, Use};
 pub use scale_fault::{ScaleFault, ScaledPlace};
 pub use syntax::TableCall;
 pub use typing::{KelvinKind, LevelReference, Rate, Scope, TableData, Typing};
@@ -181,15 +186,57 @@ impl Formula {
     }
 
     /// What is right by the rules and seldom meant: `sin(30)`, which is of 30 rad, `phi + 90` of an
-    /// angle in degrees. `unit_of` gives the unit that a name's values are given in where formulas have
-    /// them in coherent SI, else `None`; `result` is the unit that the formula's value is reported in,
-    /// if it is converted to that.
+    /// angle in degrees. `numbers_of` tells what the numbers of a name are in where formulas have them
+    /// in coherent SI, else `None`; `of` is what the formula's value is for.
     pub fn notes<'u>(
         &self,
-        unit_of: impl Fn(&str) -> Option<&'u Unit>,
-        result: Option<&Unit>,
+        numbers_of: impl Fn(&str) -> Option<Numbers<'u>>,
+        of: Use<'u>,
     ) -> Vec<FormulaNote> {
-        note::notes(&self.text, &self.tree, unit_of, result)
+        note::notes(&self.text, &self.tree, numbers_of, of)
+    }
+
+    /// What the numbers of the formula's value are in, by those of its names.
+    pub fn numbers<'u>(
+        &self,
+        numbers_of: impl Fn(&str) -> Option<Numbers<'u>>,
+    ) -> Option<Numbers<'u>> {
+        note::Walk::new(&self.text, &self.tree, numbers_of, Use::Quantity).whole()?.numbers()
+    }
+
+    /// A factor of the value, or of a term of it, that converts to a unit in which `what` is reported,
+    /// which converts it once more: `(a - b)/b*1e6 + c` in ppm.
+    pub fn converted_to<'u>(
+        &self,
+        numbers_of: impl Fn(&str) -> Option<Numbers<'u>>,
+        unit: &'u Unit,
+        what: &str,
+    ) -> Option<FormulaNote> {
+        note::Walk::new(&self.text, &self.tree, numbers_of, Use::Quantity).result(unit, what)
+    }
+
+    /// The names that the value is a sum, a small multiple or a choice of.
+    pub fn terms(&self) -> Vec<&str> {
+        let terms = note_result::terms(&self.tree, &evaluate::constants(&self.tree)).into_iter();
+        let names = terms.filter_map(|term| self.tree.nodes.get(term.index));
+        let names = names.filter(|node| node.kind == Kind::Name);
+        names.filter_map(|node| self.text.get(node.span.clone())).collect()
+    }
+
+    /// A term of the value that multiplies what is per revolution by a rate that was given in
+    /// revolutions and counts radians: `Vg*n`, `pi*d*n`.
+    pub fn of_revolutions(&self, scope: &Scope) -> Option<FormulaNote> {
+        note_turns::of_revolutions(&self.text, &self.tree, scope)
+    }
+
+    /// Functions of angles that take what counts periods: `sin(f*t)` of an `f` in Hz. `unit_of` gives
+    /// the units of names that are given in one.
+    pub fn periods_as_radians<'u>(
+        &self,
+        scope: &Scope,
+        unit_of: impl Fn(&str) -> Option<&'u Unit>,
+    ) -> Vec<FormulaNote> {
+        note_turns::periods(&self.text, &self.tree, scope, unit_of)
     }
 
     /// The names that `sin`, `cos` and `tan` take as they are, with the name of the function.

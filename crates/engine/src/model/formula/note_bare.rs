@@ -1,0 +1,272 @@
+//! Numbers without a unit beside what formulas have in radians or as a share: `phi + 90`, `mod(a, 360)`,
+//! and functions that round to whole radians.
+
+use std::f64::consts::{FRAC_PI_4, TAU};
+
+use super::function::Function;
+use super::note::{ANGLE_TWICE, FormulaNote, Walk};
+use super::numbers::{Scaled, Use};
+use super::syntax::{Kind, Node, Operator};
+use crate::number::{Binary, Shortest, Unary};
+use gumption_units::{Turn, Unit};
+
+/// The code of numbers without a unit beside a quantity in one.
+const BARE: &str = "bare-number";
+
+/// Beside an angle in degrees, smaller numbers are hardly degrees.
+const SMALLEST_ANGLE: f64 = 0.01;
+
+/// What a plain number stands beside.
+#[derive(Clone, Copy)]
+enum Beside<'u> {
+    /// What is given in a unit.
+    Unit(&'u Unit),
+    /// An angle that a function gives.
+    Angle,
+}
+
+impl<'u> Beside<'u> {
+    fn of(scaled: Scaled<'u>) -> Option<Self> {
+        let angle = || scaled.is_in_radians().then_some(Self::Angle);
+        scaled.bare_unit().map(Self::Unit).or_else(angle)
+    }
+
+    fn unit(self) -> Option<&'u Unit> {
+        match self {
+            Self::Unit(unit) => Some(unit),
+            Self::Angle => None,
+        }
+    }
+
+    fn is_angle(self) -> bool {
+        self.unit().is_none_or(|unit| unit.turn().is_some())
+    }
+}
+
+impl<'u> Walk<'_, 'u> {
+    /// The notes on a node about numbers without units.
+    pub(super) fn of_node(&self, node: &Node) -> Option<FormulaNote> {
+        match &node.kind {
+            Kind::Infix { operator, left, right, .. } => {
+                let is_factor =
+                    matches!(operator, Operator::Multiply | Operator::Divide | Operator::Power);
+                if is_factor { None } else { self.in_sum(node, *operator, [*left, *right]) }
+            }
+            Kind::Call { function: Some(function), arguments, .. } => {
+                self.in_call(node, *function, arguments)
+            }
+            _ => None,
+        }
+    }
+
+    fn in_call(&self, node: &Node, function: Function, arguments: &[usize]) -> Option<FormulaNote> {
+        match (function, arguments) {
+            (Function::Fold(Binary::Min | Binary::Max | Binary::Hypot), _) => {
+                self.among(node, function, arguments)
+            }
+            (Function::If, [_, branches @ ..]) => self.among(node, function, branches),
+            (Function::Two(Binary::Modulo), [of, period]) => self.period(node, *of, *period),
+            (Function::One(Unary::Round | Unary::Floor | Unary::Ceil), [of]) => {
+                self.rounded(node, function, *of)
+            }
+            (_, [angle]) if function.takes_angle() => {
+                self.turns(node, function, *angle).or_else(|| self.degrees(node, function, *angle))
+            }
+            _ => None,
+        }
+    }
+
+    /// `sin(30)`, which is of 30 rad.
+    fn turns(&self, node: &Node, function: Function, argument: usize) -> Option<FormulaNote> {
+        let angle = self.constant(argument).filter(|angle| angle.abs() > TAU)?;
+        let text = self.slice(argument);
+        let note = format!(
+            "`{}` takes radians, and {text} rad are more than a turn; an angle in degrees is written \
+             `{text} [deg]`",
+            function.name()
+        );
+        let is_told = angle.is_finite() && !self.has_pi(argument);
+        is_told.then(|| note_at(node, "angle-of-turns", note))
+    }
+
+    /// `sin(t)` of a number of degrees, `t = atan(x)*180/pi`.
+    fn degrees(&self, node: &Node, function: Function, argument: usize) -> Option<FormulaNote> {
+        self.scaled(argument).counts_degrees().then(|| {
+            let text = format!(
+                "`{}` takes radians, and `{}` is a number of degrees, by its factor of 180/pi; leave \
+                 that factor out, as formulas have angles in radians",
+                function.name(),
+                self.quoted(&self.tree.span(argument))
+            );
+            note_at(node, ANGLE_TWICE, text)
+        })
+    }
+
+    /// `phi + 90` of an angle in degrees, `p < 5` of per cent.
+    fn in_sum(
+        &self,
+        node: &Node,
+        operator: Operator,
+        [left, right]: [usize; 2],
+    ) -> Option<FormulaNote> {
+        let (at, name) = match (self.constant(left), self.constant(right)) {
+            (Some(_), None) => (left, right),
+            (None, Some(_)) => (right, left),
+            _ => return None,
+        };
+        let of = self.scaled(name);
+        let square = of.square.filter(|_| operator == Operator::Add);
+        let square = square.map(|(name, unit)| (name, Beside::Unit(unit)));
+        let is_square = square.is_some();
+        let (name, beside) = square.or_else(|| Some((name, Beside::of(of)?)))?;
+        // `3^2`, or 9, beside the square of a quantity
+        let number = match is_square {
+            true => self.constant(at).filter(|square| *square >= 0.0)?.sqrt(),
+            false => self.constant(at)?,
+        };
+        // an estimate of per cent that begins with its condition is no whole beside a share
+        let is_estimate = matches!(self.of, Use::Estimate(unit) if unit.is_relative());
+        let is_first = at == left;
+        let is_whole =
+            Self::is_whole(number, beside.unit(), is_first) && (is_first || !is_estimate);
+        // what a function gives is in radians for whoever reads only this
+        let is_small = beside.unit().is_none() && number.abs() <= TAU && !self.is_result(node);
+        if number == 0.0 || is_whole || is_small || self.has_pi(at) {
+            return None;
+        }
+        Some(self.number_beside(node, number, (name, beside)))
+    }
+
+    /// Whether a node is the whole of an angle that is reported in degrees or the like.
+    fn is_result(&self, node: &Node) -> bool {
+        let is_whole = self.tree.nodes.last().is_some_and(|last| last.span == node.span);
+        is_whole && self.unit_of_result().is_some()
+    }
+
+    /// The unit of angle, not the radian, that the value is reported or given in.
+    fn unit_of_result(&self) -> Option<&'u Unit> {
+        let unit = match self.of {
+            Use::Output(unit) | Use::Estimate(unit) => Some(unit),
+            Use::Quantity | Use::Width => None,
+        };
+        unit.filter(|unit| {
+            unit.turn() == Some(Turn::Angle) && unit.dimension().is_none() && unit.factor() != 1.0
+        })
+    }
+
+    /// `min(p, 100)` of per cent: a number that is far from every share and angle.
+    fn among(&self, node: &Node, function: Function, parts: &[usize]) -> Option<FormulaNote> {
+        let beside = |index: &usize| Some((*index, Beside::of(self.scaled(*index))?));
+        let (name, beside) = parts.iter().find_map(beside)?;
+        let is_width = matches!(self.of, Use::Width | Use::Estimate(_));
+        // the legs of a triangle are added, of which every number is wrong
+        let most = match (function, beside.is_angle()) {
+            (Function::Fold(Binary::Hypot), _) if beside.unit().is_some() => 0.0,
+            // an estimate and its width are in the unit that is declared beside them
+            (_, true) if is_width && beside.unit().is_some() => SMALLEST_ANGLE,
+            (_, true) => TAU,
+            (_, false) => 1.0,
+        };
+        let is_far = |number: &f64| {
+            number.abs() > most
+                && number.abs() != 1.0
+                && !(beside.is_angle() && is_of_turn(*number))
+        };
+        let numbers = parts.iter().filter(|index| !self.has_pi(**index));
+        let number = numbers.filter_map(|index| self.constant(*index)).find(is_far)?;
+        Some(self.number_beside(node, number, (name, beside)))
+    }
+
+    /// `mod(a, 360)` of an angle in degrees, which is modulo 360 rad.
+    fn period(&self, node: &Node, of: usize, period: usize) -> Option<FormulaNote> {
+        let number = self.constant(period).filter(|number| *number != 0.0)?;
+        let beside = Beside::of(self.scaled(of))?;
+        let is_share_of_whole = number.abs() == 1.0 && !beside.is_angle();
+        let is_of_radians = beside.is_angle() && (self.has_pi(period) || is_of_turn(number));
+        let is_small = beside.unit().is_none() && number.abs() <= TAU;
+        let is_told = !is_share_of_whole && !is_of_radians && !is_small;
+        is_told.then(|| self.number_beside(node, number, (of, beside)))
+    }
+
+    /// `round(a)` of an angle in degrees, which is to whole radians.
+    fn rounded(&self, node: &Node, function: Function, of: usize) -> Option<FormulaNote> {
+        let scaled = self.scaled(of);
+        let beside = Beside::of(scaled)?;
+        let unit = beside.unit().or_else(|| self.unit_of_result())?;
+        // `floor(1000*p)/1000` is of plain numbers, and right
+        let is_plain = match beside.is_angle() {
+            true => is_decimal(scaled.factor) && !self.has_pi(of),
+            false => scaled.factor.abs() == 1.0,
+        };
+        let (name, quoted) = (function.name(), self.quoted(&self.tree.span(of)));
+        let to = if beside.is_angle() { "whole radians" } else { "whole plain numbers" };
+        is_plain.then(|| {
+            let text = format!(
+                "`{}` is computed to {to}, as formulas compute, and not to whole {unit}; those are \
+                 `{name}({quoted}/[{unit}])*[{unit}]`",
+                self.quoted(&node.span)
+            );
+            note_at(node, "rounded-as-number", text)
+        })
+    }
+
+    /// Says of a number what it is beside a quantity of that unit.
+    fn number_beside(
+        &self,
+        node: &Node,
+        number: f64,
+        (name, beside): (usize, Beside<'_>),
+    ) -> FormulaNote {
+        let written = Shortest(number);
+        let (whole, quoted) = (self.quoted(&node.span), self.quoted(&self.tree.span(name)));
+        let text = match beside {
+            Beside::Unit(unit) => {
+                let is = match unit.turn() {
+                    Some(_) => format!("{written} rad"),
+                    None => {
+                        let converted = Shortest(unit.from_si(number));
+                        format!("the number {written}, that is {converted} {unit}")
+                    }
+                };
+                format!(
+                    "in `{whole}`, {written} is {is}, as `{quoted}` is {} in {unit}; {written} {unit} are \
+                     written `{written} [{unit}]`",
+                    self.is_given(name)
+                )
+            }
+            Beside::Angle => {
+                let unit = self.unit_of_result().map_or("deg", Unit::text);
+                format!(
+                    "in `{whole}`, {written} is {written} rad, as `{quoted}` is an angle in radians; \
+                     {written} {unit} are written `{written} [{unit}]`"
+                )
+            }
+        };
+        note_at(node, BARE, text)
+    }
+
+    /// How a quantity comes to its unit.
+    fn is_given(&self, name: usize) -> &'static str {
+        match self.scaled(name).is_computed {
+            true => "computed from what is given",
+            false => "given",
+        }
+    }
+}
+
+fn note_at(node: &Node, code: &'static str, text: String) -> FormulaNote {
+    FormulaNote { code, text, span: node.span.clone() }
+}
+
+/// Whether a number is a multiple of pi/4 but for the digits that somebody wrote.
+fn is_of_turn(number: f64) -> bool {
+    let eighths = number / FRAC_PI_4;
+    let whole = eighths.round();
+    (1.0..=8.0).contains(&whole.abs()) && (eighths - whole).abs() < 2e-3 * whole.abs()
+}
+
+/// Whether a factor is a whole number or one over a whole number.
+fn is_decimal(factor: f64) -> bool {
+    let is_whole = |x: f64| (x - x.round()).abs() < 1e-9 * x && (1.0..=1e6).contains(&x.round());
+    is_whole(factor.abs()) || is_whole(1.0 / factor.abs())
+}
