@@ -54,6 +54,7 @@ mod recordings;
 mod reports;
 mod reproducible;
 mod results;
+mod same_inputs;
 mod schema;
 mod seeds;
 mod seldom_meant;

@@ -24,6 +24,8 @@ pub(super) struct InputSet {
     pub(super) without_unit: Vec<String>,
     /// The files of samples that were read: name and content.
     pub(super) files: Vec<(String, Vec<u8>)>,
+    /// Variables with the name of a file that what is known of them was read from.
+    pub(super) read_from: Vec<(usize, String)>,
     /// The variables whose readings are said to be paired.
     pub(super) paired: Vec<usize>,
     /// The first variable of the parts of a complex quantity, with the correlation coefficient of the

@@ -615,6 +615,9 @@ impl<'a> Reader<'a, '_> {
         variable.group = group.map(str::to_owned);
         variable.about = about.to_owned();
         variable.sharing = sharing;
+        if let Some(Json::Text(file)) = object.get("file").map(|member| &member.value.value) {
+            self.inputs.read_from.push((self.inputs.variables.len(), file.clone()));
+        }
         self.inputs.variables.push(variable);
         self.inputs.places.push(object.place().clone());
     }

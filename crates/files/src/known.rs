@@ -46,6 +46,11 @@ impl Known {
         }
     }
 
+    /// Whether what is known of a variable is stated for each row.
+    pub(super) fn is_of_rows(&self, variable: usize) -> bool {
+        matches!(self.variables.get(variable), Some(Some(OfVariable::InRow(_))))
+    }
+
     /// Whether a variable is not a constant in every row.
     pub(super) fn varies(&self, variable: usize) -> bool {
         let varies = |distribution: &Arc<Distribution>| distribution.constant().is_none();

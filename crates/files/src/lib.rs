@@ -50,6 +50,7 @@ mod number_format;
 mod numbers_alone;
 mod object;
 mod observations;
+mod occasions;
 mod open;
 mod output_limits;
 mod outputs;

@@ -1,7 +1,9 @@
 //! The dependence of inputs that come from saved results.
 
+use std::collections::HashMap;
+
 use super::input_set::InputSet;
-use gumption_engine::distribution::{Correlation, SavedResult};
+use gumption_engine::distribution::{Correlation, Root, SavedResult};
 use gumption_engine::task::Warning;
 
 /// How many pairs a note names.
@@ -16,6 +18,7 @@ pub(super) fn links(inputs: &InputSet) -> (Vec<Correlation>, Vec<Warning>) {
     let name = |q: usize| inputs.variables.get(q).map_or("", |variable| variable.name.as_str());
     let mut kept = Vec::new();
     let mut old = Vec::new();
+    let mut apart = Vec::new();
     for (place, &(second, b)) in saved.iter().enumerate() {
         for &(first, a) in saved.iter().take(place) {
             let (of_a, of_b) = (a.origin(), b.origin());
@@ -43,11 +46,25 @@ pub(super) fn links(inputs: &InputSet) -> (Vec<Correlation>, Vec<Warning>) {
                 );
                 warnings.push(Warning::new("result-dependence-unknown", name(second), text));
             }
+            if of_a.file != of_b.file {
+                apart.extend(namesakes(a, b).into_iter().map(|(input, reason)| {
+                    format!("`{input}` of `{}` and `{}` ({reason})", name(first), name(second))
+                }));
+            }
         }
     }
     if !kept.is_empty() {
         let text = format!("the correlation of saved results is kept: {}", some(&kept));
         warnings.push(Warning::new("result-correlation", "", text));
+    }
+    if !apart.is_empty() {
+        let text = format!(
+            "results of one model file that took an input for different quantities are independent in \
+             it: {}; if it is one quantity, evaluate the results in one model, or state their \
+             correlation",
+            some(&apart)
+        );
+        warnings.push(Warning::new("result-inputs-differ", "", text));
     }
     if !old.is_empty() {
         let text = format!(
@@ -58,6 +75,45 @@ pub(super) fn links(inputs: &InputSet) -> (Vec<Correlation>, Vec<Warning>) {
         warnings.push(Warning::new("result-without-ranks", "", text));
     }
     (found, warnings)
+}
+
+/// The inputs of the same name in the same model file that both results go back to and that are not the
+/// same quantity, and why not.
+fn namesakes(a: &SavedResult, b: &SavedResult) -> Vec<(String, &'static str)> {
+    let (of_a, of_b) = (&a.origin().roots, &b.origin().roots);
+    let mut places: HashMap<(&str, &str), Vec<&Root>> = HashMap::new();
+    for (root, _) in of_b {
+        places.entry((&*root.name.model, &*root.name.name)).or_default().push(root);
+    }
+    let mut found = Vec::new();
+    for (root, _) in of_a {
+        let others = places.get(&(&*root.name.model, &*root.name.name));
+        let others = others.map_or(&[][..], Vec::as_slice);
+        // of several the one that it shares is what it has in common
+        if let Some(other) = others.first()
+            && others.iter().all(|other| other.name != root.name)
+        {
+            found.push((root.name.name.to_string(), reason(root, other)));
+        }
+    }
+    found
+}
+
+/// Why two inputs of one name are not the same quantity.
+fn reason(a: &Root, b: &Root) -> &'static str {
+    let (of_a, of_b) = (&a.occasion, &b.occasion);
+    let stated = |root: &Root| [&root.occasion.data, &root.occasion.row].map(Option::is_some);
+    if stated(a) != stated(b) || of_a.follows.is_some() != of_b.follows.is_some() {
+        "one was saved by an older version, which did not tell its data and its row"
+    } else if of_a.row != of_b.row {
+        "of different rows"
+    } else if of_a.follows != of_b.follows {
+        "with other values set"
+    } else if a.figures() != b.figures() {
+        "with another estimate or standard uncertainty"
+    } else {
+        "with the same figures, but from files of different content"
+    }
 }
 
 /// The first of some pairs, and how many more there are.

@@ -41,6 +41,7 @@ use super::model_checks::{
 use super::model_file::ModelFile;
 use super::object::Object;
 use super::observations::{self, Observations};
+use super::occasions;
 use super::open::{FileKind, check_format, read_changed_root, refuse_other_kind};
 use super::output_limits;
 use super::outputs::{self, Outputs};
@@ -211,6 +212,8 @@ impl<'a> ModelReader<'a> {
             return None;
         }
         let observed = self.observed(observations.as_ref(), &sim)?;
+        let are_swept = !of.conditions.quantities.is_empty();
+        occasions::tell(&mut of.inputs, &files, self.options.overrides, are_swept);
 
         let reachable = std::mem::take(&mut of.conditions.reachable);
         let swept = root.get("conditions").is_some() || observations.is_some();

@@ -16,7 +16,8 @@ use super::result_consistency::{self, Stated};
 use super::source::SourceText;
 use gumption_analysis::integrity;
 use gumption_engine::distribution::{
-    Constant, Distribution, Origin, Root, RootCorrelation, RootName, Saved, SavedResult, Scores,
+    Constant, Distribution, Occasion, Origin, Root, RootCorrelation, RootFigures, RootName, Saved,
+    SavedResult, Scores,
 };
 use gumption_engine::task::Warning;
 use gumption_units::Unit;
@@ -102,6 +103,8 @@ struct Reader<'a> {
 struct Common {
     scores: Scores,
     roots: Vec<Root>,
+    /// The same, for the origins of all outputs.
+    known: Arc<[Root]>,
     correlations: Arc<[RootCorrelation]>,
     siblings: Vec<(String, String, f64)>,
     model: Arc<str>,
@@ -130,7 +133,7 @@ impl<'a> Reader<'a> {
         let common = self.common()?;
         let object = Object::new(self.log, "`outputs`", &member.value, &member.key_span)?;
         self.check_ranks(&object);
-        let found: Vec<SavedOutput> = object
+        let mut found: Vec<SavedOutput> = object
             .members()
             .iter()
             .filter_map(|member| {
@@ -139,6 +142,7 @@ impl<'a> Reader<'a> {
                 self.output(&member.key, &object, &common, intact)
             })
             .collect();
+        tell_each_other(&mut found);
         self.log.is_clean().then(|| ResultFile {
             title,
             coverage_probability,
@@ -300,6 +304,7 @@ impl<'a> Reader<'a> {
             scores: Scores { from, step, count: count as usize },
             correlations: self.root_correlations(&roots).into(),
             siblings: self.siblings(),
+            known: roots.clone().into(),
             roots,
             model,
         })
@@ -314,18 +319,22 @@ impl<'a> Reader<'a> {
             for key in ["model_sha256", "name", "estimate", "standard_uncertainty"] {
                 object.needed(key);
             }
-            let name = RootName {
-                model: object.text("model_sha256")?.into(),
-                name: object.text("name")?.into(),
-            };
-            roots.push(Root {
-                name,
-                unit: object.text("unit").unwrap_or("").to_owned(),
-                distribution: object.text("distribution").unwrap_or("").to_owned(),
+            let named = (object.text("model_sha256")?.into(), object.text("name")?.into());
+            let figures = RootFigures {
                 estimate: object.number("estimate")?,
                 standard_uncertainty: positive(&object, "standard_uncertainty")?,
-                standard_deviation: or_infinite(&object, "standard_deviation"),
                 dof: or_infinite(&object, "dof"),
+            };
+            let occasion = occasion(&object);
+            roots.push(Root {
+                name: RootName::new(named, &occasion, &figures),
+                unit: object.text("unit").unwrap_or("").to_owned(),
+                distribution: object.text("distribution").unwrap_or("").to_owned(),
+                estimate: figures.estimate,
+                standard_uncertainty: figures.standard_uncertainty,
+                standard_deviation: or_infinite(&object, "standard_deviation"),
+                dof: figures.dof,
+                occasion,
             });
         }
         Some(roots)
@@ -524,14 +533,22 @@ impl<'a> Reader<'a> {
                 weights.map(|(root, &c)| (root.clone(), weight(root, c))).collect()
             }
             None => {
+                let figures = RootFigures {
+                    estimate: saved.estimate,
+                    standard_uncertainty: saved.standard_uncertainty,
+                    dof: saved.dof,
+                };
+                let occasion = Occasion::default();
+                let named = (self.hash.into(), name.into());
                 let root = Root {
-                    name: RootName { model: self.hash.into(), name: name.into() },
+                    name: RootName::new(named, &occasion, &figures),
                     unit: unit.to_owned(),
                     distribution: "result".to_owned(),
                     estimate: saved.estimate,
                     standard_uncertainty: saved.standard_uncertainty,
                     standard_deviation: saved.standard_deviation,
                     dof: saved.dof,
+                    occasion,
                 };
                 vec![(root, 1.0)]
             }
@@ -547,11 +564,59 @@ impl<'a> Reader<'a> {
             roots,
             linear,
             correlations: common.correlations.clone(),
+            known: common.known.clone(),
             siblings: common.siblings.iter().filter_map(sibling).collect(),
             model: common.model.clone(),
             ranks: None,
         }
     }
+}
+
+/// Tells outputs that are their own only roots, for want of sensitivity coefficients, of each other and
+/// of the coefficients between their trials: results that take one each know what they have in common
+/// by that alone.
+fn tell_each_other(outputs: &mut [SavedOutput]) {
+    let alone: Vec<SavedResult> = outputs
+        .iter()
+        .filter_map(|output| output.distribution.saved())
+        .filter(|saved| !saved.origin().linear)
+        .cloned()
+        .collect();
+    if alone.len() < 2 {
+        return;
+    }
+    let own = |saved: &SavedResult| saved.origin().roots.first().map(|(root, _)| root.clone());
+    let known: Arc<[Root]> = alone.iter().filter_map(own).collect();
+    let name = |wanted: &str| known.iter().find(|root| *root.name.name == *wanted);
+    let mut correlations: Vec<RootCorrelation> = Vec::new();
+    for saved in &alone {
+        let origin = saved.origin();
+        let Some(first) = name(&origin.output) else { continue };
+        for (other, coefficient) in &origin.siblings {
+            let Some(second) = name(other).filter(|second| first.name < second.name) else {
+                continue;
+            };
+            let (first, second) = (first.name.clone(), second.name.clone());
+            correlations.push(RootCorrelation { first, second, coefficient: *coefficient });
+        }
+    }
+    let correlations: Arc<[RootCorrelation]> = correlations.into();
+    for output in outputs {
+        if let Distribution::SavedResult(saved) = &mut output.distribution
+            && !saved.origin().linear
+        {
+            let (known, correlations) = (known.clone(), correlations.clone());
+            *saved = saved.with_origin(Origin { known, correlations, ..saved.origin().clone() });
+        }
+    }
+}
+
+/// What tells an input of the file from its namesakes; nothing in those of older versions.
+fn occasion(object: &Object<'_>) -> Occasion {
+    let text = |key: &str| object.text(key).map(Arc::from);
+    let replaced = text("replaced").unwrap_or_default();
+    let follows = object.truth("follows_conditions") == Some(true);
+    Occasion { data: text("data_sha256"), row: text("row"), follows: follows.then_some(replaced) }
 }
 
 /// A number above zero.

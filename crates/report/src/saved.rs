@@ -193,6 +193,14 @@ struct Input<'a> {
     /// Standard deviation of the drawn values.
     standard_deviation: Option<f64>,
     dof: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    data_sha256: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    row: Option<&'a str>,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    follows_conditions: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    replaced: Option<&'a str>,
 }
 
 #[derive(Serialize)]
@@ -256,6 +264,10 @@ impl<'a> File<'a> {
                     standard_uncertainty: root.standard_uncertainty,
                     standard_deviation: finite(root.standard_deviation),
                     dof: finite(root.dof),
+                    data_sha256: root.occasion.data.as_deref(),
+                    row: root.occasion.row.as_deref(),
+                    follows_conditions: root.occasion.follows.is_some(),
+                    replaced: root.occasion.follows.as_deref().filter(|text| !text.is_empty()),
                 })
                 .collect(),
             input_correlations: coefficients.collect(),

@@ -6,13 +6,13 @@
 //! shared only where the value is the same unknown one. The covariance of two rows is then
 //! the sum over the shared inputs of c_i u_i in both (JCGM 100, F.1.2.3).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::certificate::contents::{Asked, Certificate};
 use gumption_engine::distribution::RootName;
 use gumption_engine::propagate::gum::Gum;
-use gumption_engine::propagate::{Evaluation, Origins, linear, origins};
+use gumption_engine::propagate::{Evaluation, Origins, linear, origins, own_roots};
 use gumption_engine::task::{Row, Sharing};
 
 /// An unknown value: model file, input, and what tells values of the same input apart.
@@ -26,7 +26,9 @@ pub(super) fn between(
     evaluations: &[Evaluation],
     (digests, raised): (&[Arc<str>], &[Option<f64>]),
 ) -> (Vec<Vec<Option<f64>>>, Vec<Option<f64>>) {
-    let mut unknowns = Unknowns { certificate, places: BTreeMap::new(), links: BTreeMap::new() };
+    let own = own_roots_of(certificate, digests);
+    let (places, links) = Default::default();
+    let mut unknowns = Unknowns { certificate, own, places, links };
     let mut found: BTreeMap<(usize, usize), Vec<Option<Parts>>> = BTreeMap::new();
     let parts: Vec<Option<Parts>> = certificate
         .lines
@@ -64,6 +66,8 @@ type Parts = BTreeMap<usize, f64>;
 /// The unknown values behind all rows.
 struct Unknowns<'a> {
     certificate: &'a Certificate,
+    /// The inputs of the certificate's own evaluations, as saved results name them.
+    own: BTreeSet<RootName>,
     places: BTreeMap<Key, usize>,
     /// Declared correlation coefficients, in both orders.
     links: BTreeMap<usize, BTreeMap<usize, f64>>,
@@ -85,7 +89,8 @@ impl Unknowns<'_> {
         let Origins { roots, sensitivities, correlations } =
             origins(&asked.task, conditions, &gums, digest);
         let mut place = |name: &RootName| {
-            let key = key(self.certificate, (number, asked, conditions), name, digest);
+            let known = (self.certificate, &self.own);
+            let key = key(known, (number, asked, conditions), name, digest);
             let next = self.places.len();
             *self.places.entry(key).or_insert(next)
         };
@@ -118,9 +123,23 @@ impl Unknowns<'_> {
     }
 }
 
+/// The inputs of the certificate's evaluations that are shared by all rows of their model file.
+fn own_roots_of(certificate: &Certificate, digests: &[Arc<str>]) -> BTreeSet<RootName> {
+    let mut own = BTreeSet::new();
+    let rows: BTreeSet<(usize, usize)> =
+        certificate.lines.iter().map(|line| (line.evaluation, line.row)).collect();
+    for (number, row) in rows {
+        let Some(asked) = certificate.evaluations.get(number) else { continue };
+        if let (Some(digest), Some(row)) = (digests.get(asked.file), asked.task.rows.get(row)) {
+            own.extend(own_roots(&asked.task, row, digest));
+        }
+    }
+    own
+}
+
 /// What an input's value is called: the same for the same unknown value.
 fn key(
-    certificate: &Certificate,
+    (certificate, own): (&Certificate, &BTreeSet<RootName>),
     (number, asked, row): (usize, &Asked, &Row),
     name: &RootName,
     digest: &Arc<str>,
@@ -132,8 +151,11 @@ fn key(
         })
     };
     if name.model != *digest {
-        // an input of another model file, behind a saved result
-        return (name.model.clone(), name.name.clone(), String::new());
+        // an input of another model file, behind a saved result; where the certificate evaluates that
+        // file itself, for the same figures and data, it is the one that its rows share
+        let is_own = own.contains(name);
+        let told = if is_own { String::new() } else { format!("result {}", name.instance) };
+        return (name.model.clone(), name.name.clone(), told);
     }
     let variable = asked.task.variables.iter().find(|v| *v.name == *name.name);
     let own = match variable.map(|variable| &variable.sharing) {

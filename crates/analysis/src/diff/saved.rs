@@ -54,7 +54,10 @@ pub fn compare_linear(first: &LinearResult, second: &LinearResult) -> Difference
 /// The coefficients of one side by the indices in the common list, in order.
 fn indexed(side: &LinearResult, inputs: &[Matched], which: usize) -> Vec<(usize, usize, f64)> {
     let index = |own: usize| inputs.iter().position(|input| input.indices[which] == Some(own));
-    let indexed = side.correlations.iter().filter(|(.., r)| *r != 0.0).filter_map(|&(i, j, r)| {
+    // one that no output goes back to stands there for other results, and changes nothing here
+    let counts = |own: usize| side.outputs.iter().any(|output| output.sensitivity(own) != 0.0);
+    let known = side.correlations.iter().filter(|(i, j, r)| *r != 0.0 && counts(*i) && counts(*j));
+    let indexed = known.filter_map(|&(i, j, r)| {
         let (i, j) = (index(i)?, index(j)?);
         Some((i.min(j), i.max(j), r))
     });

@@ -58,7 +58,9 @@ pub use poisson_count::PoissonCount;
 pub use quantiles::Quantiles;
 pub use readings::Readings;
 pub use rectangular::Rectangular;
-pub use result::{Origin, Root, RootCorrelation, RootName, Saved, SavedResult, Scores};
+pub use result::{
+    Occasion, Origin, Root, RootCorrelation, RootFigures, RootName, Saved, SavedResult, Scores,
+};
 pub use samples::Samples;
 pub use shape::Invalid;
 use shape::Shape;

@@ -40,13 +40,75 @@ impl Scores {
     }
 }
 
-/// A named input of a model file; files are told apart by their content.
+/// A named input of a model file; files are told apart by their content, and evaluations of one file
+/// by what they took the input for.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct RootName {
     /// SHA-256 of the model file, in hexadecimal.
     pub model: Arc<str>,
     /// The input, or `input/component`.
     pub name: Arc<str>,
+    /// What the evaluation took it for: its figures and its [`Occasion`], as text.
+    pub instance: Arc<str>,
+}
+
+/// What beside its figures tells an input from that of the same name in another evaluation of the same
+/// model file, whose text does not show that its data, its row or a value on the command line was
+/// another one.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Occasion {
+    /// SHA-256 of what the files hold that it was read from; `None` if the model file says it all.
+    pub data: Option<Arc<str>>,
+    /// The conditions that it has a value of its own for; `None` where all rows share one.
+    pub row: Option<Arc<str>>,
+    /// Where its figures follow the conditions, so that others are no other quantity: what was put in
+    /// place of the file's values, which may be nothing.
+    pub follows: Option<Arc<str>>,
+}
+
+/// Digits of a standard uncertainty, and the share of it to which estimates are told apart: far below
+/// what two readings differ by, and far above the rounding of two machines.
+const TOLD_APART: f64 = 1e-6;
+
+impl RootName {
+    /// The name of an input with these figures.
+    pub fn new(
+        (model, name): (Arc<str>, Arc<str>),
+        occasion: &Occasion,
+        figures: &RootFigures,
+    ) -> Self {
+        let mut instance = match &occasion.follows {
+            Some(replaced) => format!("follows the conditions, {replaced}"),
+            None => figures.text(),
+        };
+        for (what, of) in [("data", &occasion.data), ("row", &occasion.row)] {
+            if let Some(of) = of {
+                instance += &format!("; {what} {of}");
+            }
+        }
+        Self { model, name, instance: instance.into() }
+    }
+}
+
+/// What an evaluation knows of an input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RootFigures {
+    /// Its estimate in its unit.
+    pub estimate: f64,
+    /// Its standard uncertainty in its unit.
+    pub standard_uncertainty: f64,
+    /// Degrees of freedom of its standard uncertainty.
+    pub dof: f64,
+}
+
+impl RootFigures {
+    fn text(&self) -> String {
+        let (u, dof) = (self.standard_uncertainty, self.dof);
+        let steps = (self.estimate / (TOLD_APART * u)).round();
+        // 0 has one sign
+        let steps = if steps.is_finite() { steps + 0.0 } else { self.estimate };
+        format!("{steps:e} steps, u {u:.6e}, dof {dof:.6e}")
+    }
 }
 
 /// An input that a result goes back to, as it was when the result was saved.
@@ -66,6 +128,16 @@ pub struct Root {
     pub standard_deviation: f64,
     /// Degrees of freedom of its standard uncertainty.
     pub dof: f64,
+    /// What tells it from its namesakes.
+    pub occasion: Occasion,
+}
+
+impl Root {
+    /// What was known of it.
+    pub fn figures(&self) -> RootFigures {
+        let Self { estimate, standard_uncertainty, dof, .. } = *self;
+        RootFigures { estimate, standard_uncertainty, dof }
+    }
 }
 
 /// Two roots with their correlation coefficient.
@@ -93,6 +165,9 @@ pub struct Origin {
     pub linear: bool,
     /// Coefficients between roots of the file.
     pub correlations: Arc<[RootCorrelation]>,
+    /// All roots of the file, also those that only other outputs go back to: what goes back to them
+    /// elsewhere may be correlated with this result.
+    pub known: Arc<[Root]>,
     /// Coefficients with the other outputs of the file, from its trials.
     pub siblings: Vec<(String, f64)>,
     /// SHA-256 of the model file that was saved.
@@ -103,6 +178,19 @@ pub struct Origin {
 }
 
 impl Origin {
+    /// Whether the coefficient with another result that is its own only root stands among the
+    /// correlations.
+    pub(crate) fn names(&self, other: &Self) -> bool {
+        let pair = |of: &RootCorrelation, [a, b]: [&RootName; 2]| of.first == *a && of.second == *b;
+        match (self.roots.as_slice(), other.roots.as_slice()) {
+            ([(a, _)], [(b, _)]) if !self.linear && !other.linear => {
+                let (a, b) = (&a.name, &b.name);
+                self.correlations.iter().any(|of| pair(of, [a, b]) || pair(of, [b, a]))
+            }
+            _ => false,
+        }
+    }
+
     /// Whether a root has finite degrees of freedom.
     pub(crate) fn has_finite_dof(&self) -> bool {
         self.roots.iter().any(|(root, _)| root.dof.is_finite())
@@ -211,6 +299,12 @@ impl SavedResult {
             finite("quantiles", cell[0])?;
         }
         Ok(self)
+    }
+
+    /// The same result with another origin.
+    #[must_use]
+    pub fn with_origin(&self, origin: Origin) -> Self {
+        Self { origin: Arc::new(origin), ..self.clone() }
     }
 
     /// Where it comes from.

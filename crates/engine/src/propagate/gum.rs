@@ -68,9 +68,34 @@ impl Gum {
     /// standard deviations of what is drawn. It is above u where an input has few degrees of freedom,
     /// and infinite where one has two or fewer.
     pub fn drawn_uncertainty(&self) -> f64 {
+        self.with_widths(|known| known.standard_deviation())
+    }
+
+    /// The same as far as degrees of freedom make it. The trials of a saved result without them are wider
+    /// or narrower than its standard uncertainty because its model is not linear.
+    pub(super) fn drawn_by_dof(&self) -> f64 {
+        self.with_widths(|known| {
+            if is_bent_result(known) {
+                known.standard_uncertainty()
+            } else {
+                known.standard_deviation()
+            }
+        })
+    }
+
+    /// The saved results whose trials have another standard deviation than their standard uncertainty,
+    /// though no degrees of freedom are behind them, in the order of the task.
+    pub(super) fn bent_results(&self) -> impl Iterator<Item = usize> {
+        let known = self.inputs.iter().zip(&self.sensitivities).enumerate();
+        let bent = known.filter(|(_, (known, c))| **c != 0.0 && is_bent_result(known));
+        bent.map(|(variable, _)| variable)
+    }
+
+    /// The uncertainty of a linear model whose inputs have these widths.
+    fn with_widths(&self, width: impl Fn(&Distribution) -> f64) -> f64 {
         let signed = |v: usize| {
             let known = self.inputs.get(v).zip(self.sensitivities.get(v));
-            known.filter(|(_, c)| **c != 0.0).map_or(0.0, |(d, c)| c * d.standard_deviation())
+            known.filter(|(_, c)| **c != 0.0).map_or(0.0, |(d, c)| c * width(d))
         };
         let own: f64 = (0..self.inputs.len()).map(|v| signed(v).powi(2)).sum();
         let joint =
@@ -83,6 +108,13 @@ impl Gum {
         let expanded = self.expanded_uncertainty()?;
         Some([self.estimate - expanded, self.estimate + expanded])
     }
+}
+
+/// Whether no degrees of freedom are behind a saved result, so that only its model can have made its
+/// trials wider than its standard uncertainty.
+fn is_bent_result(known: &Distribution) -> bool {
+    let has_dof = known.dof().is_finite() || known.drawn_dof().is_finite();
+    known.saved().is_some_and(|saved| !has_dof && !saved.origin().has_finite_dof())
 }
 
 /// All outputs of one row by the law of propagation.

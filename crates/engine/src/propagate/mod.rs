@@ -38,7 +38,7 @@ pub use evaluation::{
 pub use exact::{Accuracy, Noiseless, Scatter};
 pub use input_figures::InputFigures;
 pub use naming::naming;
-pub use origins::{Origins, linear, origins};
+pub use origins::{Origins, linear, origins, own_roots};
 pub use regions::{
     JointRegion, Region, RegionEvaluation, RegionValidation, SampledRegion, SmallestRegion,
 };

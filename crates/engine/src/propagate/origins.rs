@@ -1,19 +1,22 @@
 //! The inputs that outputs go back to, through saved results as well: what a result needs to know
 //! for its dependence on others to be kept.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
 use super::OutputEvaluation;
 use super::gum::Gum;
-use crate::distribution::{Root, RootCorrelation, RootName, SavedResult};
-use crate::task::{Row, Task};
+use crate::distribution::{
+    Distribution, Occasion, Root, RootCorrelation, RootFigures, RootName, SavedResult,
+};
+use crate::task::{Row, Task, Variable};
 
 /// The roots of the outputs of a row.
 #[derive(Clone, Debug, Default)]
 pub struct Origins {
     /// The inputs, in order of appearance: those of the model file, and in place of a saved result
-    /// its own.
+    /// its own. Behind them those that no output goes back to, but which are correlated with one that
+    /// a saved result goes back to.
     pub roots: Vec<Root>,
     /// For each output its sensitivity coefficients to the roots, in output unit per input unit;
     /// `None` where they are not finite.
@@ -53,19 +56,14 @@ pub fn origins(task: &Task, row: &Row, outputs: &[Option<&Gum>], model: &str) ->
                 weights.map(|(root, weight)| (index(root.clone(), &mut origins.roots), *weight));
             parts.push(weights.collect());
         } else {
-            let root = Root {
-                name: RootName { model: model.clone(), name: variable.name.as_str().into() },
-                unit: variable.unit.text().to_owned(),
-                distribution: distribution.name().to_owned(),
-                estimate: distribution.mean(),
-                standard_uncertainty: distribution.standard_uncertainty(),
-                standard_deviation: distribution.standard_deviation(),
-                dof: distribution.dof(),
-            };
+            let root = root(task, row, (variable, distribution), &model);
             parts.push(vec![(index(root, &mut origins.roots), 1.0)]);
         }
     }
-    let find = |name: &RootName| origins.roots.iter().position(|root| root.name == *name);
+    for partner in partners(row, &origins.roots) {
+        index(partner, &mut origins.roots);
+    }
+    let find = |name: &RootName| indices.get(name).copied();
     for saved in row.distributions.iter().filter_map(|d| d.saved()) {
         for c in saved.origin().correlations.iter() {
             if let (Some(a), Some(b)) = (find(&c.first), find(&c.second)) {
@@ -76,7 +74,9 @@ pub fn origins(task: &Task, row: &Row, outputs: &[Option<&Gum>], model: &str) ->
     for c in outputs.iter().flatten().next().into_iter().flat_map(|gum| gum.correlations()) {
         let [first, second] = c.variables;
         let saved = |q: usize| row.distributions.get(q).and_then(|d| d.saved());
-        let told = |(a, b): (&SavedResult, &SavedResult)| a.linear_coefficient(b).is_some();
+        let told = |(a, b): (&SavedResult, &SavedResult)| {
+            a.linear_coefficient(b).is_some() || a.origin().names(b.origin())
+        };
         if saved(first).zip(saved(second)).is_some_and(told) {
             continue;
         }
@@ -108,6 +108,63 @@ pub fn origins(task: &Task, row: &Row, outputs: &[Option<&Gum>], model: &str) ->
         .map(|gum| gum.map(|gum| sensitivities(gum, &parts, &origins.roots)))
         .collect();
     origins
+}
+
+/// What is known of an input that is no saved result.
+fn root(
+    task: &Task,
+    row: &Row,
+    (variable, distribution): (&Variable, &Distribution),
+    model: &Arc<str>,
+) -> Root {
+    let figures = RootFigures {
+        estimate: distribution.mean(),
+        standard_uncertainty: distribution.standard_uncertainty(),
+        dof: distribution.dof(),
+    };
+    let own_row = variable.sharing.conditions_of(&task.model.conditions, &row.conditions);
+    let occasion = Occasion { row: own_row.map(Arc::from), ..variable.occasion.clone() };
+    let named = (model.clone(), variable.name.as_str().into());
+    Root {
+        name: RootName::new(named, &occasion, &figures),
+        unit: variable.unit.text().to_owned(),
+        distribution: distribution.name().to_owned(),
+        estimate: figures.estimate,
+        standard_uncertainty: figures.standard_uncertainty,
+        standard_deviation: distribution.standard_deviation(),
+        dof: figures.dof,
+        occasion,
+    }
+}
+
+/// The names of a row's inputs that vary and are no saved results; `model` as for [`origins`].
+pub fn own_roots(task: &Task, row: &Row, model: &str) -> Vec<RootName> {
+    let model: Arc<str> = model.into();
+    let known = task.variables.iter().zip(row.distributions.iter());
+    let own = known.filter(|(_, of)| of.constant().is_none() && of.saved().is_none());
+    own.map(|(variable, of)| root(task, row, (variable, of), &model).name).collect()
+}
+
+/// The inputs behind the files of saved results that are correlated with these roots and not among
+/// them: only where they are named as well is the coefficient known to whoever meets both.
+fn partners(row: &Row, roots: &[Root]) -> Vec<Root> {
+    let known: HashSet<&RootName> = roots.iter().map(|root| &root.name).collect();
+    let mut found: Vec<Root> = Vec::new();
+    let mut files: HashSet<&str> = HashSet::new();
+    let mut listed: HashSet<RootName> = HashSet::new();
+    for origin in row.distributions.iter().filter_map(|d| d.saved()).map(SavedResult::origin) {
+        let is_new = files.insert(&origin.file) || !origin.linear;
+        for pair in origin.correlations.iter().filter(|_| is_new) {
+            let wanted = match [&pair.first, &pair.second].map(|name| known.contains(name)) {
+                [true, false] => &pair.second,
+                [false, true] => &pair.first,
+                _ => continue,
+            };
+            let root = origin.known.iter().find(|root| root.name == *wanted);
+            found.extend(root.filter(|root| listed.insert(root.name.clone())).cloned());
+        }
+    }
+    found
 }
 
 fn sensitivities(gum: &Gum, parts: &[Vec<(usize, f64)>], roots: &[Root]) -> Vec<f64> {

@@ -376,7 +376,7 @@ fn of_difference(
     let Some(u) = monte_carlo.spread() else {
         return;
     };
-    let (linear, drawn) = (gum.standard_uncertainty, gum.drawn_uncertainty());
+    let (linear, drawn) = (gum.standard_uncertainty, gum.drawn_by_dof());
     let own = monte_carlo.errors.standard_uncertainty.unwrap_or(0.0);
     let error = own.max(scatter_of_few(linear, monte_carlo.trials));
     // contributions that cancel leave rounding alone
@@ -416,6 +416,9 @@ fn of_difference(
                 }
             );
             push(found, Warning::new("few-dof", name, text));
+        } else if (gum.drawn_uncertainty() / linear - 1.0).abs() > NOTEWORTHY {
+            let text = of_bent_results(task, (name, at), &difference, gum);
+            push(found, Warning::new("non-linear", name, text));
         }
         return;
     }
@@ -439,6 +442,18 @@ fn of_difference(
         text += &second_order_text(task, gum, second);
     }
     push(found, Warning::new("non-linear", name, text + ". Take the Monte Carlo figures"));
+}
+
+/// That saved results come from models that are not linear.
+fn of_bent_results(task: &Task, (name, at): (&str, &str), difference: &str, gum: &Gum) -> String {
+    let of = |v: usize| task.variables.get(v).map(|variable| format!("`{}`", variable.name));
+    let results: Vec<String> = gum.bent_results().filter_map(of).collect();
+    format!(
+        "`{name}`{at}: the Monte Carlo standard uncertainty {difference} because of saved results \
+         whose trials have another standard deviation than their standard uncertainty ({}), as their \
+         models are not linear. Take the Monte Carlo figures",
+        results.join(", ")
+    )
 }
 
 /// The fewest degrees of freedom of what is drawn as a t, in brackets.

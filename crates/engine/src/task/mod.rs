@@ -27,7 +27,7 @@ pub use warning::Warning;
 
 use std::sync::Arc;
 
-use crate::distribution::{Correlation, Distribution, EvaluationType, Fits, Input};
+use crate::distribution::{Correlation, Distribution, EvaluationType, Fits, Input, Occasion};
 use crate::model::Model;
 use crate::model::typed::Measurement;
 use crate::propagate::Region;
@@ -52,6 +52,9 @@ pub struct Variable {
     pub sharing: Sharing,
     /// Whether it has a line in the budget. The constant that components are added to has none.
     pub shown: bool,
+    /// What tells it from itself in another evaluation of the same file; its row follows from
+    /// [`Variable::sharing`].
+    pub occasion: Occasion,
 }
 
 /// One row of conditions with what is known about the variables there.
@@ -115,6 +118,7 @@ impl Variable {
             about: String::new(),
             sharing: Sharing::All,
             shown: true,
+            occasion: Occasion::default(),
         }
     }
 }

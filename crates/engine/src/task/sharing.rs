@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use crate::model::Quantity;
+
 /// In which rows of a sweep a variable has the same unknown value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Sharing {
@@ -14,6 +16,19 @@ pub enum Sharing {
 }
 
 impl Sharing {
+    /// The conditions that a variable has a value of its own for, with their values, in words; `None`
+    /// where all rows share one.
+    pub(crate) fn conditions_of(&self, names: &[Quantity], values: &[f64]) -> Option<String> {
+        let of = names.iter().zip(values).enumerate().filter(|(place, _)| match self {
+            Self::All => false,
+            Self::Row => true,
+            Self::Condition(own) => place == own,
+        });
+        let words: Vec<String> =
+            of.map(|(_, (of, value))| format!("{} = {value}", of.name)).collect();
+        (!words.is_empty()).then(|| words.join(", "))
+    }
+
     /// Which of the rows have a value in common: equal keys.
     fn keys<R: AsRef<[f64]>>(&self, rows: &[R]) -> Vec<Vec<u64>> {
         let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect();

@@ -52,6 +52,8 @@ pub(super) struct FitSet {
     pub(super) places: Vec<Range<usize>>,
     /// What each is, and its group.
     words: Vec<(String, Option<String>)>,
+    /// The texts of each, the names of its files among them.
+    texts: Vec<Vec<String>>,
     /// The content of the tables that were read, by name.
     pub(super) files: Vec<(String, Vec<u8>)>,
     pub(super) warnings: Vec<Warning>,
@@ -88,6 +90,7 @@ pub(super) fn read(
             set.places.push(member.key_span.clone());
             let about = object.text("about").unwrap_or("").to_owned();
             set.words.push((about, object.text("group").map(str::to_owned)));
+            set.texts.push(member.value.texts().into_iter().map(str::to_owned).collect());
         }
     }
     (set.curves.len() == found).then_some(set)
@@ -96,8 +99,9 @@ pub(super) fn read(
 impl FitSet {
     /// Adds the parameters to the inputs: drawn together, with the coefficients of their fit.
     pub(super) fn add_to(&self, log: &Collector, inputs: &mut InputSet) {
-        for ((curve, place), (about, group)) in
-            self.curves.iter().zip(&self.places).zip(&self.words)
+        let words = self.words.iter().zip(&self.texts);
+        for ((curve, place), ((about, group), texts)) in
+            self.curves.iter().zip(&self.places).zip(words)
         {
             for (number, (name, unit)) in curve.parameters.iter().enumerate() {
                 let variable = inputs.variables.len();
@@ -113,6 +117,8 @@ impl FitSet {
                 let mut of = Variable::new(name, unit.clone());
                 of.evaluation = EvaluationType::of(&known);
                 (of.about, of.group) = (about, group.clone());
+                let files = self.files.iter().filter(|(name, _)| texts.contains(name));
+                inputs.read_from.extend(files.map(|(name, _)| (variable, name.clone())));
                 inputs.variables.push(of);
                 inputs.places.push(place.clone());
                 inputs.known.always(variable, known);

@@ -96,8 +96,9 @@ fn root() -> Value {
             described(
                 "array",
                 "The inputs that the outputs go back to: those of the model file, and in place of \
-                 a saved result that it took, that result's own. What is known exactly is not \
-                 among them.",
+                 a saved result that it took, that result's own. Those of a saved result that are \
+                 correlated with one of them stand there as well, with sensitivity coefficients of \
+                 0. What is known exactly is not among them.",
             )
             .with("items", reference("result-input")),
         ),
@@ -222,6 +223,23 @@ fn input() -> Value {
             or_null("Standard deviation of the drawn values; null where there is none.", Some(0)),
         ),
         ("dof", or_null("Degrees of freedom; null for infinite.", Some(0))),
+        (
+            "data_sha256",
+            text_of(
+                "SHA-256 of the file that it was read from, or of those of several; with others it is \
+                 another quantity.",
+            ),
+        ),
+        ("row", text_of("The conditions that it has a value of its own for.")),
+        (
+            "follows_conditions",
+            described(
+                "boolean",
+                "Whether its figures follow the conditions: it is then the same quantity also with \
+                 others, which elsewhere tell another one.",
+            ),
+        ),
+        ("replaced", text_of("What was put in place of values of the file for it then.")),
     ];
     let required = ["model_sha256", "name", "estimate", "standard_uncertainty"];
     open("An input of a model file, as it was when the result was saved.", properties, &required)

@@ -1,0 +1,83 @@
+//! What tells an input from that of the same name in another evaluation of the same model file: the
+//! content of the files that it is read from, and where its figures follow the conditions, what stands
+//! in place of the file's values.
+//!
+//! A saved result keeps it, so that two evaluations of one file with other data are not taken for two
+//! results of the same inputs.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::input_set::InputSet;
+use super::overrides::Override;
+use gumption_analysis::integrity::sha256;
+use gumption_engine::distribution::Occasion;
+
+/// Tells all variables; `files` are the files that were read, by name, and `are_swept` is whether there
+/// are conditions.
+pub(super) fn tell(
+    inputs: &mut InputSet,
+    files: &[(String, Vec<u8>)],
+    overrides: &[Override],
+    are_swept: bool,
+) {
+    for (variable, data) in data(&inputs.read_from, files) {
+        if let Some(variable) = inputs.variables.get_mut(variable) {
+            variable.occasion.data = Some(data);
+        }
+    }
+    if !are_swept {
+        return;
+    }
+    let constants: Vec<String> = inputs
+        .variables
+        .iter()
+        .enumerate()
+        .filter(|(place, _)| !inputs.known.varies(*place))
+        .map(|(_, variable)| variable.name.clone())
+        .collect();
+    let known = &inputs.known;
+    for (place, variable) in inputs.variables.iter_mut().enumerate() {
+        if known.is_of_rows(place) {
+            let follows = Some(replaced(&variable.name, &constants, overrides).into());
+            variable.occasion = Occasion { follows, ..variable.occasion.clone() };
+        }
+    }
+}
+
+/// The digest of what each variable was read from; each file's is taken once.
+fn data(read_from: &[(usize, String)], files: &[(String, Vec<u8>)]) -> Vec<(usize, Arc<str>)> {
+    let mut digests: HashMap<&str, String> = HashMap::new();
+    let mut found: Vec<(usize, Vec<String>)> = Vec::new();
+    for (variable, name) in read_from {
+        let Some((_, bytes)) = files.iter().find(|(known, _)| known == name) else { continue };
+        let digest = digests.entry(name).or_insert_with(|| sha256(bytes)).clone();
+        match found.iter_mut().find(|(known, _)| known == variable) {
+            Some((_, list)) => list.push(digest),
+            None => found.push((*variable, vec![digest])),
+        }
+    }
+    let of_several = |list: Vec<String>| match list.as_slice() {
+        [one] => Arc::from(one.as_str()),
+        several => Arc::from(sha256(several.concat().as_bytes())),
+    };
+    found.into_iter().map(|(variable, list)| (variable, of_several(list))).collect()
+}
+
+/// What stands in place of the file's values of this variable and of the constants, which formulas of
+/// its figures may name.
+fn replaced(variable: &str, constants: &[String], overrides: &[Override]) -> String {
+    let quantity = |name: &str| name.split(['/', '.']).next().unwrap_or(name).to_owned();
+    let own = quantity(variable);
+    let counts = |of: &&Override| of.input == own || constants.contains(&of.input);
+    let mut texts: Vec<String> = overrides
+        .iter()
+        .filter(counts)
+        .map(|of| match &of.field {
+            Some(field) => format!("{}.{field}={}", of.input, of.value),
+            None => format!("{}={}", of.input, of.value),
+        })
+        .collect();
+    texts.sort();
+    texts.join("; ")
+}
