@@ -213,3 +213,45 @@ fn an_offer_that_helps_nothing_is_named() {
     assert_eq!(page.matches("is no better than what there is, 3 mm").count(), 1, "{page}");
     assert!(page.contains("The offer of 1500 mm for a (cost 15)"), "{page}");
 }
+
+/// The coefficients of a calibration line stay as they are, with their correlation: at the reading y0
+/// the line through points of scatter s has u^2 = s^2/b^2 (1/6 + (x0 - mean x)^2/Sxx), and the reading's
+/// (u/b)^2 is what is left of u(force) = 0.18 kN. Halving a width costs 1. The tolerance is that of the
+/// bisection and of the fit.
+#[test]
+fn parameters_of_a_fit_are_kept() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let model = r#"{"fits": {"line": {"x": {"unit": "kN", "values": [1, 2, 3, 4, 5, 6]},
+            "y": {"unit": "mV/V", "values": [3.3, 5.6, 7.1, 9.3, 10.7, 12.1]}}},
+        "inputs": {"reading": {"unit": "mV/V", "distribution": "rectangular", "mean": 10.5,
+            "half_width": 0.5}},
+        "equations": {"force": "inverse(line, reading)"}, "outputs": {"force": {"unit": "kN"}}}"#;
+    fs::write(folder.path().join("force.json"), model).expect("a file");
+    let target = "u(force) <= 0.18 kN";
+    let arguments = ["plan", "force.json", "--target", target, "--format", "json", "--trials", "0"];
+    let found = answer(folder.path(), &arguments);
+    let points = [3.3, 5.6, 7.1, 9.3, 10.7, 12.1];
+    let mean: f64 = points.iter().sum::<f64>() / 6.0;
+    let about = |of: f64| of - 3.5;
+    let products = points.iter().zip(1..).map(|(y, x)| about(f64::from(x)) * y);
+    let slope = products.sum::<f64>() / 17.5;
+    let off = |(y, x): (&f64, i32)| (y - mean - slope * about(f64::from(x))).powi(2);
+    let scatter = points.iter().zip(1..).map(off).sum::<f64>() / 4.0;
+    let beside = (10.5 - mean) / slope;
+    let of_fit = scatter / slope.powi(2) * (1.0 / 6.0 + beside.powi(2) / 17.5);
+    let needed = slope * (0.18_f64.powi(2) - of_fit).sqrt();
+    let inputs = found["inputs"].as_array().expect("a list");
+    for input in inputs {
+        if input["input"] == "reading" {
+            let found = number(&input["needed"]);
+            assert!((found / needed - 1.0).abs() < 1e-9, "{found} {needed}");
+        } else {
+            assert!(input["why"].as_str().expect("a reason").contains("calibration function"));
+            assert!(input["needed"].is_null(), "{input}");
+        }
+    }
+    let cheapest = found["cheapest"].as_array().expect("a list");
+    assert_eq!(cheapest.len(), 1);
+    let by_hand = 0.5 / 3.0_f64.sqrt() / needed - 1.0;
+    assert!((number(&found["cost"]) / by_hand - 1.0).abs() < 1e-8, "{} {by_hand}", found["cost"]);
+}

@@ -73,6 +73,10 @@ impl<'a> TrialBudget<'a> {
             Distribution::SavedResult(_) => {
                 Plannable::Not("a saved result: plan the evaluation that it comes from")
             }
+            // one of them alone, at a coefficient that all points decide, cannot be bought
+            Distribution::Fitted(_) => {
+                Plannable::Not("a parameter of a calibration function: plan the points of its fit")
+            }
             Distribution::Readings(readings) if readings.together() > 1 => {
                 Plannable::Not("paired readings: their number is that of all of them")
             }
