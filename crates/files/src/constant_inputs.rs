@@ -51,11 +51,8 @@ impl ConstantInputs {
         };
         let mut formulas = Vec::new();
         for member in members {
-            let has_unit = |json: &Json| match json {
-                Json::Object(entries) => entries.iter().any(|entry| entry.key == "unit"),
-                _ => true,
-            };
-            if !has_unit(&member.value.value) {
+            let object = Object::new(&unsaid, "an input", &member.value, &member.key_span);
+            if object.is_some_and(|object| object.get("unit").is_none()) {
                 found.unstated.push(member.key.clone());
             }
             match constant(&unsaid, member, overrides) {

@@ -242,13 +242,11 @@ fn factor(weighing: &Weighing<'_>, output: usize) -> Option<Vec<(f64, f64)>> {
     if !weighing.setup.has_factor(output) {
         return None;
     }
-    let roles = weighing.setup.roles.iter().enumerate();
-    let (place, map) = roles
-        .filter_map(|(place, role)| match role {
-            Role::Noise { output: of, map } if *of == output => Some((place, map)),
-            _ => None,
-        })
-        .next()?;
+    let mut roles = weighing.setup.roles.iter().enumerate();
+    let (place, map) = roles.find_map(|(place, role)| match role {
+        Role::Noise { output: of, map } if *of == output => Some((place, map)),
+        _ => None,
+    })?;
     let mut draws: Vec<(f64, f64)> = Vec::new();
     for hypothesis in &weighing.posterior.hypotheses {
         if hypothesis.probability < LEAST {
