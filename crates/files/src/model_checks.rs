@@ -208,11 +208,15 @@ pub(super) fn check_equations(
     for (call, data) in tables {
         scope.define_table(call, data);
     }
+    let thermodynamic = thermodynamic(inputs);
     for input in &inputs.quantities {
         let Quantity { name, unit, .. } = &input.quantity;
         let known = !unknown_units.contains(name.as_str());
         let typing = if known { Typing::in_unit(unit) } else { Typing::ANY };
-        scope.define(name, if is_thermodynamic(inputs, name) { kelvin(typing) } else { typing });
+        scope.define(
+            name,
+            if thermodynamic.contains(name.as_str()) { kelvin(typing) } else { typing },
+        );
         if known && !check_units {
             scope.declare(name, unit.clone());
         }
@@ -248,15 +252,13 @@ pub(super) fn check_equations(
 /// Inputs in K that are larger than this are thermodynamic temperatures, and no corrections of others.
 const THERMODYNAMIC: f64 = 200.0;
 
-/// Whether an input in K is a thermodynamic temperature, by its estimates: what is so large corrects no
+/// The inputs in K that are thermodynamic temperatures, by their estimates: what is so large corrects no
 /// Celsius temperature, so that `t - T0` would be one of -270 degC.
-fn is_thermodynamic(inputs: &InputSet, name: &str) -> bool {
-    let place = inputs.variables.iter().position(|variable| variable.name == name);
-    place.is_some_and(|place| {
-        let is_in_kelvin = *inputs.variables[place].unit.text() == *"K";
-        let first = inputs.known.get(place, 0);
-        is_in_kelvin && first.is_some_and(|known| known.mean() > THERMODYNAMIC)
-    })
+fn thermodynamic(inputs: &InputSet) -> HashSet<&str> {
+    let is_so =
+        |place: usize| inputs.known.get(place, 0).is_some_and(|known| known.mean() > THERMODYNAMIC);
+    let in_kelvin = inputs.variables.iter().enumerate().filter(|(_, of)| *of.unit.text() == *"K");
+    in_kelvin.filter(|(place, _)| is_so(*place)).map(|(_, of)| of.name.as_str()).collect()
 }
 
 fn kelvin(mut typing: Typing) -> Typing {
