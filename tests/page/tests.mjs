@@ -193,9 +193,14 @@ await test("new from a published example and from a template", async page => {
 });
 
 await test("import of a spreadsheet", async page => {
-  const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("#import")]);
-  const csv = "Quantity,Estimate,Unit,Standard uncertainty,Sensitivity\nU,5.0,V,0.01,1\nI,0.1,A,0.001,-2\n";
-  await chooser.setFiles({ name: "budget.csv", mimeType: "text/csv", buffer: Buffer.from(csv) });
+  const imported = async csv => {
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("#import")]);
+    await chooser.setFiles({ name: "budget.csv", mimeType: "text/csv", buffer: Buffer.from(csv) });
+  };
+  // a coefficient of A that is no ratio of volts to amperes, by the table, can be an exponent
+  await imported("Quantity,Estimate,Unit,Standard uncertainty,Sensitivity\nU,5.0,V,0.01,1\nI,0.1,A,0.001,-2\n");
+  await until(page, () => /^budget.csv:3:1: the coefficient -2 of `I`/m.test(document.body.innerText));
+  await imported("Quantity,Estimate,Unit,Standard uncertainty,Sensitivity,Unit of c_i\nU,5.0,V,0.01,1,1\nI,0.1,A,0.001,-2,V/A\n");
   await until(page, () => document.getElementById("dialog").open);
   assert.match(await text(page, "#dialog-body"), /Understood/);
   await page.locator("#dialog-actions button").first().click();
