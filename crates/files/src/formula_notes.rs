@@ -3,20 +3,26 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::diagnostics::Collector;
 use super::json::{Json, Member};
 use super::model_checks::Quantities;
 use super::model_reader::Equation;
 use super::object::Object;
+use super::scopes::report_formula;
 use super::shapes;
 use super::value_text::is_value;
-use gumption_engine::model::formula::{Formula, LevelReference, Numbers, Scope, Typing, Use};
+use gumption_engine::model::formula::{
+    Formula, LevelReference, Numbers, Scope, TableCall, TableData, Typing, Use, ValueSource,
+};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Warning;
 use gumption_units::{Dimension, Exponent, Turn, Unit};
 
-/// Notes on the formulas of a file whose units are checked, and on the units of its outputs.
+/// Notes on the formulas of a file whose units are checked, and on the units of its outputs. Arguments
+/// that can be in two units are reported.
 pub(super) fn of_formulas(
+    log: &Collector,
     equations: &[Equation<'_>],
     scope: &Scope,
     of: &Quantities,
@@ -24,19 +30,22 @@ pub(super) fn of_formulas(
     let inputs = of.inputs.quantities.iter().map(|input| &input.quantity);
     let given = units_by_name(inputs.chain(&of.conditions.quantities));
     let results = units_by_name(of.outputs.outputs.iter().map(|output| &output.quantity));
-    let mut numbers = if of.check_units { numbers_of(&given) } else { HashMap::new() };
+    let mut numbers = KnownNumbers::new(&given, of, Some(scope));
     let mut found = Vec::new();
-    for (name, _, formula) in equations {
+    for (name, member, formula) in equations {
         let Some(formula) = formula else { continue };
         let result = results.get(name.as_str()).copied().filter(|_| of.check_units);
-        let known = |name: &str| numbers.get(name).copied();
+        let known = |source: ValueSource<'_>| numbers.of(source);
+        for error in formula.unstated_arguments(known) {
+            member.iter().for_each(|member| report_formula(log, member, error.clone()));
+        }
         let notes = formula.notes(known, result.map_or(Use::Quantity, Use::Output));
         let is_length = scope.get(name).is_some_and(|of| of.dimension == Some(Dimension::LENGTH));
         let computed = formula.numbers(known).or(is_length.then_some(Numbers::Length));
         let computed = computed.filter(|_| of.check_units);
         found.extend(notes.into_iter().map(|note| Warning::new(note.code, name, note.text)));
         if let Some(computed) = computed {
-            numbers.insert(name, computed);
+            numbers.names.insert(name, computed);
         }
     }
     found.extend(angles_of_turns(equations, of));
@@ -74,9 +83,54 @@ pub(super) fn of_formulas(
     found
 }
 
-/// What the numbers of names that are given in these units are in.
-fn numbers_of<'q>(given: &HashMap<&'q str, &'q Unit>) -> HashMap<&'q str, Numbers<'q>> {
-    given.iter().map(|(name, unit)| (*name, Numbers::Given(unit))).collect()
+/// What the numbers of quantities, tables and calibration functions are in; nothing in a file whose
+/// units are not checked.
+struct KnownNumbers<'q> {
+    names: HashMap<&'q str, Numbers<'q>>,
+    /// Where the tables are.
+    scope: Option<&'q Scope>,
+    is_checked: bool,
+}
+
+impl<'q> KnownNumbers<'q> {
+    /// Of quantities that are given in these units.
+    fn new(
+        given: &HashMap<&'q str, &'q Unit>,
+        of: &'q Quantities,
+        scope: Option<&'q Scope>,
+    ) -> Self {
+        let is_checked = of.check_units;
+        let mut names = HashMap::new();
+        if is_checked {
+            names.extend(given.iter().map(|(name, unit)| (*name, Numbers::Given(unit))));
+            // formulas of conditions that have no unit are refused where it matters
+            if scope.is_some() {
+                let unstated = of.inputs.unstated.iter().chain(&of.conditions.unstated);
+                names.extend(unstated.map(|name| (name.as_str(), Numbers::Unstated)));
+            }
+        }
+        Self { names, scope, is_checked }
+    }
+
+    fn of(&self, source: ValueSource<'_>) -> Option<Numbers<'q>> {
+        let unstated =
+            |is_stated: bool| (self.is_checked && !is_stated).then_some(Numbers::Unstated);
+        match source {
+            ValueSource::Name(name) => self.names.get(name).copied(),
+            ValueSource::CurveX(curve) => unstated(curve.is_stated[0]),
+            ValueSource::CurveY(curve) => unstated(curve.is_stated[1]),
+            ValueSource::TableArgument(call) => unstated(self.table(call)?.is_stated[0]),
+            ValueSource::TableValue(call) => {
+                let table = self.table(call)?;
+                let given = Numbers::Given(&table.units[1]);
+                unstated(table.is_stated[1]).or(self.is_checked.then_some(given))
+            }
+        }
+    }
+
+    fn table(&self, call: &TableCall) -> Option<&'q TableData> {
+        self.scope.and_then(|scope| scope.table(call)).flatten()
+    }
 }
 
 /// Equations by their names.
@@ -99,11 +153,11 @@ fn terms<'e>(by_name: &ByName<'e>, of: &'e str) -> Vec<(&'e str, &'e Formula)> {
 /// Equations that convert to the unit of an output which they are terms of.
 fn converted_terms(
     terms: &[(&str, &Formula)],
-    numbers: &HashMap<&str, Numbers<'_>>,
+    numbers: &KnownNumbers<'_>,
     output: &Quantity,
 ) -> Vec<Warning> {
     let what = format!("the output `{}`", output.name);
-    let known = |name: &str| numbers.get(name).copied();
+    let known = |source: ValueSource<'_>| numbers.of(source);
     let intermediate = terms.iter().filter(|(name, _)| *name != output.name);
     let notes = intermediate.filter_map(|(name, formula)| {
         let note = formula.converted_to(known, &output.unit, &what)?;
@@ -236,12 +290,12 @@ pub(super) fn of_conditions(root: &Object<'_>, of: &Quantities) -> Vec<Warning> 
     }
     let inputs = of.inputs.quantities.iter().map(|input| &input.quantity);
     let given = units_by_name(inputs.chain(&of.conditions.quantities));
-    let numbers = numbers_of(&given);
+    let numbers = KnownNumbers::new(&given, of, None);
     let mut found = Vec::new();
     let mut note = |name: &str, text: &str, of: Use<'_>| {
         let formula = Some(text).filter(|text| !is_value(text));
         let formula = formula.and_then(|text| root.log.formula(text).ok());
-        let notes = formula.map(|formula| formula.notes(|name| numbers.get(name).copied(), of));
+        let notes = formula.map(|formula| formula.notes(|source| numbers.of(source), of));
         let notes = notes.into_iter().flatten();
         found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
     };
@@ -506,6 +560,122 @@ mod tests {
         ] {
             let found = codes(unit, &normal(mean, std));
             assert_eq!(found, Vec::from_iter(wanted), "{mean}, {std} in {unit}");
+        }
+    }
+
+    /// Inputs, columns and calibration functions without a unit beside a quantity in degrees or per cent, or
+    /// reported in them; not what says that it is plain, is converted, or is a factor.
+    #[test]
+    fn numbers_without_a_unit() {
+        let folder = tempfile::tempdir().unwrap();
+        let table = |heading: &str| format!("{heading}\n0,0.1\n2,0.3\n");
+        std::fs::write(folder.path().join("t.csv"), table("t,c")).unwrap();
+        std::fs::write(folder.path().join("u.csv"), table("t,c [deg]")).unwrap();
+        let of = |equation: &str, unit: &str| {
+            let text = format!(
+                r#"{{"fits": {{"f": {{"x": {{"values": [0, 1, 2]}}, "y": {{"values": [0, 1, 2.1]}}}},
+                "g": {{"x": {{"values": [0, 1, 2]}}, "y": {{"unit": "deg", "values": [0, 1, 2.1]}}}}}},
+                "inputs": {{"a": {{"unit": "deg", "distribution": "normal", "mean": 3, "std": 0.1}},
+                "p": {{"unit": "%", "distribution": "normal", "mean": 3, "std": 0.1}},
+                "c": {{"distribution": "normal", "mean": 0.5, "std": 0.1}},
+                "d": {{"distribution": "normal", "mean": 0.4, "std": 0.1}},
+                "e": {{"unit": "1", "distribution": "normal", "mean": 0.5, "std": 0.1}}}},
+                "equations": {{"b": "2*c", "y": "{equation}"}}, "outputs": {{"y": {{"unit": "{unit}"}}}}}}"#
+            );
+            let file = read_text("m", &text, folder.path(), &[]).unwrap();
+            let notes = file.warnings.into_iter().filter(|note| note.code == "unit-left-out");
+            notes.map(|note| note.text).collect::<Vec<_>>()
+        };
+        for (equation, unit, said) in [
+            ("a + c", "deg", "`c` has no unit"),
+            ("a - 2*c/3", "deg", "of which 1 is 57.2957795131 deg, beside `a` in deg"),
+            ("a + b", "deg", "`b` has no unit"),
+            (
+                "p + (c - d)",
+                "%",
+                "of which 1 is 100 %, beside `p` in %; state its unit, `%` or `1`",
+            ),
+            ("max(p, c)", "%", "`c` has no unit"),
+            ("if(a > c, 1, 2)", "1", "`c` has no unit"),
+            ("c", "deg", "in which the output is reported; state its unit, `deg` or `rad`"),
+            ("c - d", "ppm", "`c - d` has no unit"),
+            ("a + f(c)", "deg", "`f(c)` has no unit"),
+            ("a + inverse(g, a)", "deg", "`inverse(g, a)` has no unit"),
+            ("a + table(c, 't.csv')", "deg", "`table(c, 't.csv')` has no unit"),
+        ] {
+            let found = of(equation, unit);
+            assert!(found.len() == 1 && found[0].contains(said), "{equation}: {found:?}");
+        }
+        for (equation, unit) in [
+            ("a + e", "deg"),
+            ("e", "%"),
+            ("a*c", "deg"),
+            ("p*c + a*d", "%"),
+            ("c/d", "%"),
+            ("c - d", "1"),
+            ("a + c*pi/180", "deg"),
+            ("p + c/100", "%"),
+            ("p + 1e-6*c", "%"),
+            ("a + g(c)", "deg"),
+            ("a + table(c, 'u.csv')", "deg"),
+            ("1 - c", "%"),
+        ] {
+            assert_eq!(of(equation, unit), Vec::<String>::new(), "{equation}");
+        }
+    }
+
+    /// An angle or a share that is looked up where no unit is said can be one of two numbers.
+    #[test]
+    fn arguments_without_a_unit_are_refused_with_both_readings() {
+        let folder = tempfile::tempdir().unwrap();
+        let rows = "0,0\n90,1\n";
+        for (name, heading) in
+            [("n", "t,c"), ("d", "t [deg],c"), ("r", "t [rad],c"), ("o", "t [1],c")]
+        {
+            std::fs::write(folder.path().join(format!("{name}.csv")), format!("{heading}\n{rows}"))
+                .unwrap();
+        }
+        let of = |equation: &str, keys: &str| {
+            let text = format!(
+                r#"{{{keys}"fits": {{"f": {{"x": {{"values": [0, 1, 9]}}, "y": {{"values": [0, 1, 9.1]}}}},
+                "g": {{"x": {{"unit": "deg", "values": [0, 1, 9]}},
+                "y": {{"unit": "%", "values": [0, 1, 9.1]}}}}}},
+                "inputs": {{"a": {{"unit": "deg", "distribution": "normal", "mean": 3, "std": 0.1}},
+                "p": {{"unit": "%", "distribution": "normal", "mean": 3, "std": 0.1}},
+                "c": {{"distribution": "normal", "mean": 0.5, "std": 0.1}}}},
+                "equations": {{"h": "a/2", "y": "{equation}"}}, "outputs": {{"y": {{"unit": "1"}}}}}}"#
+            );
+            let read = read_text("m", &text, folder.path(), &[]);
+            read.map(|_| ()).map_err(|mistakes| mistakes.to_string())
+        };
+        for (equation, said) in [
+            ("table(a, 'n.csv')", "the first column of `n.csv` has no unit"),
+            ("table(a, 'n.csv', 't', 'c')", "`t [deg]` or `t [rad]`"),
+            ("table(h, 'n.csv', 't', 'c')", "`h` is in deg, but `t` of `n.csv` has no unit"),
+            ("table(atan(c), 'n.csv')", "`atan(c)` is in rad"),
+            ("f(a)", "x of `f` has no unit: its numbers can be in `deg`, or in `rad`"),
+            (
+                "f(p)",
+                "in `%`, or plain ones; state it there, `\"unit\": \"%\"` or `\"unit\": \"1\"`",
+            ),
+            ("inverse(f, p)", "y of `f` has no unit"),
+        ] {
+            let found = of(equation, "").unwrap_err();
+            assert!(found.contains(said), "{equation}: {found}");
+            // the numbers that are declared are taken
+            of(equation, r#""check_units": false, "format": 2, "#).unwrap();
+        }
+        for equation in [
+            "table(a, 'd.csv')",
+            "table(a, 'r.csv')",
+            "table(p, 'o.csv')",
+            "table(a/1 [deg], 'n.csv')",
+            "table(c, 'n.csv')",
+            "f(c)",
+            "g(a)",
+            "inverse(g, p)",
+        ] {
+            of(equation, "").unwrap();
         }
     }
 

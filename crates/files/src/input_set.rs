@@ -22,6 +22,8 @@ pub(super) struct InputSet {
     pub(super) warnings: Vec<Warning>,
     /// Quantities whose unit could not be read: they fit every dimension.
     pub(super) without_unit: Vec<String>,
+    /// Quantities of which no unit is said.
+    pub(super) unstated: Vec<String>,
     /// The files of samples that were read: name and content.
     pub(super) files: Vec<(String, Vec<u8>)>,
     /// Variables with the name of a file that what is known of them was read from.

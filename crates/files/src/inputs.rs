@@ -241,7 +241,7 @@ impl<'a> Reader<'a, '_> {
 
     /// The unit as given; without one that of a saved result, or 1. Nothing where the text that the
     /// whole input is could not be read.
-    fn unit(&self) -> Option<Unit> {
+    fn unit(&mut self) -> Option<Unit> {
         let object = &self.object;
         let is_unread = object
             .get("distribution")
@@ -257,7 +257,11 @@ impl<'a> Reader<'a, '_> {
             None if is_result => self.results.unit(object),
             None if self.whole.is_some() => self.whole.clone(),
             None if is_certificate => Some(self.certificate.as_ref()?.unit.clone()),
-            _ => unit(object, "unit"),
+            None => {
+                self.inputs.unstated.push(self.name.to_owned());
+                Some(Unit::one())
+            }
+            Some(_) => unit(object, "unit"),
         }
     }
 

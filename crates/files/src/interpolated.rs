@@ -119,6 +119,10 @@ fn of_columns(
         unit
     };
     let units = [unit(columns[0])?, unit(columns[1])?];
+    let is_stated = columns.map(|column| {
+        let whole = table.columns.get(column).map(|text| text.trim());
+        headers.get(column).and_then(Option::as_ref).map(|(name, _)| *name) != whole
+    });
     let points: Vec<[f64; 2]> = table
         .rows
         .iter()
@@ -132,7 +136,7 @@ fn of_columns(
         .collect();
     let label = format!("table of `{}`", call.file);
     match Interpolation::new(label, &points, call.method) {
-        Ok(interpolation) => Some(TableData { table: Arc::new(interpolation), units }),
+        Ok(interpolation) => Some(TableData { table: Arc::new(interpolation), units, is_stated }),
         Err(error) => {
             let reason = format!("`{}`: {error}", call.file);
             match error {

@@ -393,7 +393,7 @@ impl<'a> ModelReader<'a> {
                     warnings.push(units_not_checked(&self.root, of));
                 }
                 warnings.extend(imaginary_unit_hidden(of, &equations));
-                warnings.extend(formula_notes::of_formulas(&equations, &scope, of));
+                warnings.extend(formula_notes::of_formulas(log, &equations, &scope, of));
                 let outputs = &of.outputs.outputs;
                 warnings.extend(formula_notes::unused_inputs(&self.root, &equations, outputs));
                 warnings.extend(formula_notes::placeholders(of));

@@ -22,6 +22,8 @@ pub struct CurveFunction {
     pub parameters: Vec<(String, Unit)>,
     /// The numbers that formulas compute with.
     pub form: NumberForm,
+    /// Whether units are said of x and of y; those of which none is said are taken as plain numbers.
+    pub is_stated: [bool; 2],
 }
 
 impl PartialEq for CurveFunction {
@@ -38,7 +40,13 @@ impl CurveFunction {
         parameters: Vec<(String, Unit)>,
         form: NumberForm,
     ) -> Self {
-        Self { fit, x, y, parameters, form }
+        Self { fit, x, y, parameters, form, is_stated: [true; 2] }
+    }
+
+    /// The same where it is said for x and for y whether they are in a unit.
+    #[must_use]
+    pub fn stating(self, is_stated: [bool; 2]) -> Self {
+        Self { is_stated, ..self }
     }
 
     /// The curve's value, or with `inverse` the x that belongs to a value, as the number of formulas;

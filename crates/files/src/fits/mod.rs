@@ -154,7 +154,7 @@ impl Reader<'_, '_> {
                 return None;
             }
         };
-        let (form, (points, x, y)) = (form?, points?);
+        let (form, (points, (x, y), is_stated)) = (form?, points?);
         let points = Arc::new(if estimated { points.estimated() } else { points });
         let made = form.curve((&object, self.name), (&x, &y), points.range(), numbers)?;
         let origin = match object.get("origin") {
@@ -174,13 +174,15 @@ impl Reader<'_, '_> {
                 );
                 let fitted = Regression::of(self.name, &curve, &points, &made.start);
                 let fitted = fitted.map_err(|error| self.report(&error)).ok()?;
-                return self.function(fitted, (x, y), made.parameters, numbers);
+                let curve = self.function(fitted, (x, y), made.parameters, numbers)?;
+                return Some(curve.stating(is_stated));
             }
             (Form::Formula(..), None) => return None,
         };
         let fitted = fitted.map_err(|error| self.report(&error)).ok()?;
         let parameters = coefficients(&object.log.own_units(), self.name, fitted.count(), (&x, &y));
-        self.function(fitted, (x, y), parameters, numbers)
+        let curve = self.function(fitted, (x, y), parameters, numbers)?;
+        Some(curve.stating(is_stated))
     }
 
     fn function(
@@ -229,7 +231,8 @@ impl Reader<'_, '_> {
     }
 
     /// The points with their units.
-    fn points(&mut self) -> Option<(Points, Unit, Unit)> {
+    /// The points, their units, and whether the file says these.
+    fn points(&mut self) -> Option<(Points, (Unit, Unit), [bool; 2])> {
         let (x, y) = (self.object.required("x"), self.object.required("y"));
         let (x, y) = (x?, y?);
         let (mut tables, folder, files) = (Tables::default(), self.folder, &mut self.set.files);
@@ -254,7 +257,7 @@ impl Reader<'_, '_> {
         };
         let points =
             Points::new(x.values, y.values).with_x(x.spread).with_y(y.spread).with_cross(cross);
-        Some((points, x.unit, y.unit))
+        Some((points, (x.unit, y.unit), [x.is_stated, y.is_stated]))
     }
 
     fn fault(&self, reason: String, place: &Range<usize>) {

@@ -21,6 +21,8 @@ use gumption_units::Unit;
 pub(super) struct Side {
     pub(super) values: Vec<f64>,
     pub(super) unit: Unit,
+    /// Whether the file says the unit.
+    pub(super) is_stated: bool,
     pub(super) spread: Spread,
 }
 
@@ -98,7 +100,8 @@ pub(super) fn read(
         return None;
     }
     let spread = spread(&object, name, &values, &unit, table.as_deref(), (folder, files))?;
-    Some(Side { values, unit, spread })
+    let is_stated = object.get("unit").is_some();
+    Some(Side { values, unit, is_stated, spread })
 }
 
 /// A column of a table, for the coordinate `name`; `of` is what its values are, and their unit.

@@ -274,6 +274,13 @@ pub enum FormulaError {
         /// What the table's column is, in words.
         expected: String,
     },
+    /// An argument in a unit, where no unit is said of what it is looked up among.
+    UnstatedUnit {
+        /// What the two readings are, as a sentence without a capital.
+        reason: String,
+        /// The argument.
+        span: Range<usize>,
+    },
     /// Equations to solve inside of equations to solve.
     TooManySolves {
         /// The first one too many.
@@ -357,6 +364,7 @@ impl FormulaError {
             | Self::ExponentNotConstant { span, .. }
             | Self::BadUnit { span, .. }
             | Self::TwoReadings { span, .. }
+            | Self::UnstatedUnit { span, .. }
             | Self::NumberWithUnit { span, .. }
             | Self::Scale { span, .. }
             | Self::TableColumns { span }
@@ -428,6 +436,7 @@ impl FormulaError {
             self,
             Self::MixedDimensions { .. }
                 | Self::ArgumentNotPlain { .. }
+                | Self::UnstatedUnit { .. }
                 | Self::NotATemperature { .. }
                 | Self::ExponentNotPlain { .. }
                 | Self::ExponentNotConstant { .. }

@@ -141,7 +141,9 @@ impl fmt::Display for FormulaError {
                  quantities above it",
                 short(name)
             ),
-            Self::Curve { reason, .. } | Self::Complex { reason, .. } => f.write_str(reason),
+            Self::Curve { reason, .. }
+            | Self::Complex { reason, .. }
+            | Self::UnstatedUnit { reason, .. } => f.write_str(reason),
             Self::UnknownFunction { name, nearest, .. } => {
                 write!(f, "there is no function `{}`", short(name))?;
                 if nearest.is_empty() {

@@ -65,6 +65,7 @@ mod note;
 mod note_bare;
 mod note_result;
 mod note_turns;
+mod note_unstated;
 mod numbers;
 mod parser;
 mod scale;
@@ -89,7 +90,7 @@ pub use layout::Layout;
 pub use misfit::ScaleMisfit;
 pub use name::{NameError, check_name, is_name, looks_of};
 pub use note::FormulaNote;
-pub use numbers::{Numbers, Use};
+pub use numbers::{Numbers, Use, ValueSource};
 pub use scale_fault::{ScaleFault, ScaledPlace};
 pub use syntax::TableCall;
 pub use typing::{KelvinKind, LevelReference, Rate, Scope, TableData, Typing};
@@ -186,20 +187,31 @@ impl Formula {
     }
 
     /// What is right by the rules and seldom meant: `sin(30)`, which is of 30 rad, `phi + 90` of an
-    /// angle in degrees. `numbers_of` tells what the numbers of a name are in where formulas have them
-    /// in coherent SI, else `None`; `of` is what the formula's value is for.
+    /// angle in degrees. `numbers_of` tells what the numbers of a name, a column or a coordinate are in
+    /// where formulas have them in coherent SI, else `None`; `of` is what the formula's value is for.
     pub fn notes<'u>(
         &self,
-        numbers_of: impl Fn(&str) -> Option<Numbers<'u>>,
+        numbers_of: impl Fn(ValueSource<'_>) -> Option<Numbers<'u>>,
         of: Use<'u>,
     ) -> Vec<FormulaNote> {
         note::notes(&self.text, &self.tree, numbers_of, of)
     }
 
+    /// Arguments of tables and calibration functions that are in a unit, where no unit is said of the
+    /// numbers that they are looked up among: `table(a, 'c.csv')` of an angle in degrees, whose column
+    /// can be of degrees or radians.
+    pub fn unstated_arguments<'u>(
+        &self,
+        numbers_of: impl Fn(ValueSource<'_>) -> Option<Numbers<'u>>,
+    ) -> Vec<FormulaError> {
+        let walk = note::Walk::new(&self.text, &self.tree, &numbers_of, Use::Quantity);
+        walk.unstated_arguments(numbers_of)
+    }
+
     /// What the numbers of the formula's value are in, by those of its names.
     pub fn numbers<'u>(
         &self,
-        numbers_of: impl Fn(&str) -> Option<Numbers<'u>>,
+        numbers_of: impl Fn(ValueSource<'_>) -> Option<Numbers<'u>>,
     ) -> Option<Numbers<'u>> {
         note::Walk::new(&self.text, &self.tree, numbers_of, Use::Quantity).whole()?.numbers()
     }
@@ -208,7 +220,7 @@ impl Formula {
     /// which converts it once more: `(a - b)/b*1e6 + c` in ppm.
     pub fn converted_to<'u>(
         &self,
-        numbers_of: impl Fn(&str) -> Option<Numbers<'u>>,
+        numbers_of: impl Fn(ValueSource<'_>) -> Option<Numbers<'u>>,
         unit: &'u Unit,
         what: &str,
     ) -> Option<FormulaNote> {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::evaluate::constants;
 use super::function::{Function, Part};
 use super::message::excerpt;
-use super::numbers::{Numbers, Scaled, Use};
+use super::numbers::{Numbers, Scaled, Use, ValueSource};
 use super::syntax::{Kind, Node, Operator, Tree};
 use crate::number::{Binary, Unary};
 use gumption_units::{Dimension, Unit};
@@ -27,17 +27,19 @@ pub struct FormulaNote {
     pub span: Range<usize>,
 }
 
-/// The notes on a formula. `numbers_of` gives what the numbers of a name are in, which formulas compute
-/// with in coherent SI; `None` if they are not, or if it is not known.
+/// The notes on a formula. `numbers_of` gives what the numbers of a name, a column or a coordinate are in,
+/// which formulas compute with in coherent SI; `None` if they are not, or if it is not known.
 pub(super) fn notes<'u>(
     text: &str,
     tree: &Tree,
-    numbers_of: impl Fn(&str) -> Option<Numbers<'u>>,
+    numbers_of: impl Fn(ValueSource<'_>) -> Option<Numbers<'u>>,
     of: Use<'u>,
 ) -> Vec<FormulaNote> {
     let walk = Walk::new(text, tree, numbers_of, of);
     let mut found: Vec<FormulaNote> =
         tree.nodes.iter().flat_map(|node| walk.of_node(node)).collect();
+    found.extend(tree.nodes.iter().filter_map(|node| walk.unstated_beside(node)));
+    found.extend(walk.unstated_result());
     // of a width, `0.01*p` is a hundredth of p
     let is_told = |note: &FormulaNote| of != Use::Width || note.code != SHARE_TWICE;
     found.extend(walk.conversions().filter(is_told));
@@ -67,7 +69,7 @@ impl<'t, 'u> Walk<'t, 'u> {
     pub(super) fn new(
         text: &'t str,
         tree: &'t Tree,
-        numbers_of: impl Fn(&str) -> Option<Numbers<'u>>,
+        numbers_of: impl Fn(ValueSource<'_>) -> Option<Numbers<'u>>,
         of: Use<'u>,
     ) -> Self {
         let scaled = Vec::with_capacity(tree.nodes.len());
@@ -201,12 +203,22 @@ impl<'t, 'u> Walk<'t, 'u> {
     fn computed(
         &self,
         node: &Node,
-        numbers_of: &impl Fn(&str) -> Option<Numbers<'u>>,
+        numbers_of: &impl Fn(ValueSource<'_>) -> Option<Numbers<'u>>,
     ) -> Scaled<'u> {
+        let taken_from = |source: Option<ValueSource<'_>>| {
+            source.and_then(numbers_of).map_or(Scaled::UNKNOWN, Scaled::of)
+        };
         match &node.kind {
             Kind::Name => {
-                let numbers = self.text.get(node.span.clone()).and_then(numbers_of);
-                numbers.map_or(Scaled::UNKNOWN, Scaled::of)
+                let name = self.text.get(node.span.clone());
+                taken_from(name.map(ValueSource::Name))
+            }
+            Kind::Table { call, .. } => taken_from(Some(ValueSource::TableValue(call))),
+            Kind::Curve { curve, inverse: false, .. } => {
+                taken_from(Some(ValueSource::CurveY(curve)))
+            }
+            Kind::Curve { curve, inverse: true, .. } => {
+                taken_from(Some(ValueSource::CurveX(curve)))
             }
             Kind::Negate(x) => self.scaled(*x),
             Kind::Unit(unit) => Scaled { factor: plain_factor(unit), ..Scaled::UNKNOWN },
@@ -230,12 +242,11 @@ impl<'t, 'u> Walk<'t, 'u> {
     fn of_operands(&self, operator: Operator, left: usize, right: usize) -> Scaled<'u> {
         let (x, y) = (self.scaled(left), self.scaled(right));
         let is_number = |index: usize| self.constant(index).is_some();
+        let is_multiple = |of: &Scaled<'u>, by: usize| of.is_alone_or_unstated() && is_number(by);
         match operator {
             Operator::Add | Operator::Subtract => self.of_sum(operator, [left, right]),
-            Operator::Multiply => {
-                x.times(y, (x.is_alone() && is_number(right)) || (y.is_alone() && is_number(left)))
-            }
-            Operator::Divide => x.times(y.inverse(), x.is_alone() && is_number(right)),
+            Operator::Multiply => x.times(y, is_multiple(&x, right) || is_multiple(&y, left)),
+            Operator::Divide => x.times(y.inverse(), is_multiple(&x, right)),
             Operator::Power => {
                 let power = self.constant(right);
                 let square = x.bare_unit().filter(|_| power == Some(2.0)).map(|unit| (left, unit));
@@ -261,8 +272,9 @@ impl<'t, 'u> Walk<'t, 'u> {
         let square = square.filter(|_| operator == Operator::Add);
         let is_length = sides.iter().all(|side| side.lengths == 1.0);
         let lengths = if is_length { 1.0 } else { 0.0 };
+        let is_unstated = sides.iter().all(|side| side.is_unstated);
         let sum = sides.into_iter().find(Scaled::is_alone);
-        sum.unwrap_or(Scaled { square, lengths, ..Scaled::UNKNOWN })
+        sum.unwrap_or(Scaled { square, lengths, is_unstated, ..Scaled::UNKNOWN })
     }
 
     fn of_call(&self, function: Function, arguments: &[usize]) -> Scaled<'u> {
@@ -275,8 +287,10 @@ impl<'t, 'u> Walk<'t, 'u> {
             Function::If => arguments.get(1..).unwrap_or_default(),
             _ => &[],
         };
-        let alike = alike.iter().map(|argument| self.scaled(*argument));
-        alike.into_iter().find(Scaled::is_alone).unwrap_or(Scaled::UNKNOWN)
+        let alike: Vec<_> = alike.iter().map(|argument| self.scaled(*argument)).collect();
+        let is_unstated = !alike.is_empty() && alike.iter().all(|part| part.is_unstated);
+        let found = alike.into_iter().find(Scaled::is_alone);
+        found.unwrap_or(Scaled { is_unstated, ..Scaled::UNKNOWN })
     }
 }
 

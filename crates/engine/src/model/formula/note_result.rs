@@ -73,7 +73,7 @@ fn has_pi(tree: &Tree, number: usize) -> bool {
 }
 
 /// The arguments that a function's value is one of, or a sum as of hypot.
-fn taken_up(function: Function, arguments: &[usize]) -> &[usize] {
+pub(super) fn taken_up(function: Function, arguments: &[usize]) -> &[usize] {
     match function {
         Function::Fold(Binary::Min | Binary::Max | Binary::Hypot) | Function::One(Unary::Abs) => {
             arguments

@@ -1,5 +1,7 @@
 //! What the numbers of a name or of a part of a formula are in, as far as notes ask for it.
 
+use super::syntax::TableCall;
+use crate::regression::CurveFunction;
 use gumption_units::{Dimension, Turn, Unit};
 
 /// Two factors are the same but for the digits that somebody wrote of pi.
@@ -13,7 +15,22 @@ pub(super) fn is_same_factor(a: f64, b: f64) -> bool {
     (a.abs() / b.abs() - 1.0).abs() < SAME_FACTOR
 }
 
-/// What is known of the numbers of a name.
+/// What a value in a formula is taken from.
+#[derive(Clone, Copy, Debug)]
+pub enum ValueSource<'f> {
+    /// A quantity, by its name.
+    Name(&'f str),
+    /// The column of a table that its argument is looked up in.
+    TableArgument(&'f TableCall),
+    /// The column of a table that its values are from.
+    TableValue(&'f TableCall),
+    /// x of a calibration function.
+    CurveX(&'f CurveFunction),
+    /// y of a calibration function.
+    CurveY(&'f CurveFunction),
+}
+
+/// What is known of the numbers of a name, a column or a coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Numbers<'u> {
     /// They are given in this unit, and formulas have them in coherent ones.
@@ -26,6 +43,8 @@ pub enum Numbers<'u> {
     Degrees,
     /// They are a length, by an equation.
     Length,
+    /// No unit is said of them, so that they are taken as plain numbers.
+    Unstated,
 }
 
 /// What a formula's value is for.
@@ -58,6 +77,8 @@ pub(super) struct Scaled<'u> {
     pub(super) of_function: bool,
     /// Whether an equation computes it.
     pub(super) is_computed: bool,
+    /// Whether its numbers, but for a small factor, are those of which no unit is said.
+    pub(super) is_unstated: bool,
     /// How many factors of it are lengths.
     pub(super) lengths: f64,
 }
@@ -71,6 +92,7 @@ impl<'u> Scaled<'u> {
         square: None,
         of_function: false,
         is_computed: false,
+        is_unstated: false,
         lengths: 0.0,
     };
 
@@ -85,6 +107,7 @@ impl<'u> Scaled<'u> {
             Numbers::Radians => Self::RADIANS,
             Numbers::Degrees => Self { factor: DEGREES, ..Self::RADIANS },
             Numbers::Length => Self { lengths: 1.0, ..Self::UNKNOWN },
+            Numbers::Unstated => Self { is_unstated: true, ..Self::UNKNOWN },
         }
     }
 
@@ -107,11 +130,24 @@ impl<'u> Scaled<'u> {
         if self.counts_degrees() {
             return Some(Numbers::Degrees);
         }
-        let is_small = (0.02..50.0).contains(&self.factor.abs());
+        if self.takes_unstated() {
+            return Some(Numbers::Unstated);
+        }
+        let is_small = self.has_small_factor();
         match self.unit.filter(|_| self.is_bare && !self.converts()) {
             Some(unit) => is_small.then_some(Numbers::Computed(unit)),
             None => (self.of_function && is_small).then_some(Numbers::Radians),
         }
+    }
+
+    /// Whether no unit is said of its numbers, nor converts a factor them.
+    pub(super) fn takes_unstated(&self) -> bool {
+        self.is_unstated && self.has_small_factor()
+    }
+
+    /// Whether its plain numbers are no conversion, but for those with pi.
+    fn has_small_factor(&self) -> bool {
+        (0.02..50.0).contains(&self.factor.abs())
     }
 
     /// The unit, of a share or an angle and not of a rate, where its numbers would be in it. Those of
@@ -171,6 +207,7 @@ impl<'u> Scaled<'u> {
             is_divisor,
             of_function: is_bare && (self.of_function || other.of_function),
             is_computed: self.is_computed || other.is_computed,
+            is_unstated: is_bare && (self.is_unstated || other.is_unstated),
             lengths,
             square: None,
         }
@@ -183,6 +220,7 @@ impl<'u> Scaled<'u> {
             factor: 1.0 / self.factor,
             is_divisor,
             of_function: false,
+            is_unstated: false,
             lengths: -self.lengths,
             ..self
         }
@@ -191,5 +229,10 @@ impl<'u> Scaled<'u> {
     /// Whether it is of a share, an angle or the like, and has no factors but plain numbers.
     pub(super) fn is_alone(&self) -> bool {
         self.is_bare || self.of_function
+    }
+
+    /// Whether it has no factors but plain numbers, or is of what no unit is said.
+    pub(super) fn is_alone_or_unstated(&self) -> bool {
+        self.is_alone() || self.is_unstated
     }
 }

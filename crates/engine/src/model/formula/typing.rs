@@ -179,6 +179,8 @@ pub struct TableData {
     pub table: Arc<Interpolation>,
     /// What its abscissas and its values are.
     pub units: [Unit; 2],
+    /// Whether that is said of each of them; what it is not said of is taken as plain numbers.
+    pub is_stated: [bool; 2],
 }
 
 /// The names that a formula may use.
