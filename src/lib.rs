@@ -309,7 +309,7 @@ pub mod number {
 pub mod propagate {
     pub use gumption_engine::propagate::{
         Accuracy, CapabilityStatement, Conformity, Control, Evaluation, EvaluationError,
-        GlobalRisks, JointRegion, Noiseless, OutputEvaluation, Region, RegionEvaluation,
+        GlobalRisks, Inherited, JointRegion, Noiseless, OutputEvaluation, Region, RegionEvaluation,
         RegionValidation, RowEvaluation, SampledRegion, Scatter, SecondOrder, SmallestRegion,
         convergence, evaluate, for_each_block, histograms, quantiles, trial_hash, warnings,
     };

@@ -53,6 +53,7 @@ mod published;
 mod recordings;
 mod reports;
 mod reproducible;
+mod result_trials;
 mod results;
 mod same_inputs;
 mod schema;

@@ -260,3 +260,166 @@ fn a_result_of_a_model_that_is_not_linear_has_no_few_degrees_of_freedom() {
     // 10000 trials of the result: 5 standard errors of a width, 0.0225 each for a kurtosis near 3.8
     assert!((by_trials / (2.0 * 0.0018_f64.sqrt()) - 1.0).abs() < 0.06, "{by_trials}");
 }
+
+/// A result of three readings, with 2 degrees of freedom, and one of twice their mean: of the difference
+/// the mean itself is left, u = 0.152 753 V/3^(1/2) = 0.088 192 V (s of 1.0, 1.1 and 1.3 V) with 2 degrees
+/// of freedom. The law of propagation does it; trials have no correlation coefficient to draw with, and
+/// say so. Coefficients that contradict each other stay a mistake.
+#[test]
+fn results_without_a_variance_are_correlated_by_propagation() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let model = r#"{"inputs": {"r": {"unit": "V", "distribution": "readings", "values": [1.0, 1.1, 1.3]}},
+        "equations": {"a": "r", "b": "2*r"}, "outputs": {"a": {"unit": "V"}, "b": {"unit": "V"}}}"#;
+    fs::write(folder.join("m.json"), model).unwrap();
+    run(folder, &["m.json", "--save", "r1.json"]);
+    run(folder, &["m.json", "--save", "r2.json", "--seed", "2"]);
+    let input = |file: &str, output: &str| {
+        format!(r#"{{"distribution": "result", "file": "{file}", "output": "{output}"}}"#)
+    };
+    let evaluated = |text: &str, trials: &str| {
+        fs::write(folder.join("n.json"), text).unwrap();
+        let mut command: Command = command();
+        let all = ["run", "n.json", "--trials", trials, "--quiet", "--format", "json"];
+        command.current_dir(folder).args(all).output().unwrap()
+    };
+    let text = format!(
+        r#"{{"inputs": {{"x": {}, "z": {}}}, "equations": {{"d": "z - x"}},
+            "outputs": {{"d": {{"unit": "V"}}}}}}"#,
+        input("r1.json", "a"),
+        input("r2.json", "b")
+    );
+    let output = evaluated(&text, "0");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!((u(&found) / 0.088_191_710_368_819 - 1.0).abs() < 1e-9, "{found}");
+    let dof = found["outputs"]["d"]["gum"]["dof"].as_f64().unwrap();
+    assert!((dof - 2.0).abs() < 1e-9, "{found}");
+    let output = evaluated(&text, "10000");
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("--trials 0") && said.contains("in one model"), "{said}");
+    let readings = r#"{"unit": "V", "distribution": "readings", "values": [1.0, 1.1, 1.3]}"#;
+    for (c, code) in [(0.9, 0), (-0.9, 2)] {
+        let text = format!(
+            r#"{{"inputs": {{"p": {readings}, "q": {readings}, "r": {readings}}},
+                "correlations": [["p", "q", 0.9], ["q", "r", 0.9], ["p", "r", {c}]],
+                "equations": {{"d": "p + q + r"}}, "outputs": {{"d": {{"unit": "V"}}}}}}"#
+        );
+        assert_eq!(evaluated(&text, "0").status.code(), Some(code), "{c}");
+        assert_eq!(evaluated(&text, "1000").status.code(), Some(2), "{c}");
+    }
+}
+
+/// One value of a certificate, 5 V with u = 0.01 V, through two models that call it otherwise, take it in
+/// other units and add 0.001 V each: what is left of the difference is 0.001 V sqrt(2), of independent
+/// values 0.01 V sqrt(2). Another value of the certificate, another certificate and a value that was
+/// replaced are others.
+#[test]
+fn a_value_of_a_certificate_is_one_quantity_in_all_models() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let value = |id: &str, more: &str| {
+        format!(
+            r#"<dcc:quantity id="{id}"><si:real><si:value>5</si:value><si:unit>\volt</si:unit>
+<si:expandedUnc><si:uncertainty>0.02</si:uncertainty><si:coverageFactor>2</si:coverageFactor>
+<si:coverageProbability>0.9545</si:coverageProbability></si:expandedUnc></si:real>{more}</dcc:quantity>"#
+        )
+    };
+    let certificate = |name: &str, more: &str| {
+        let text = format!(
+            r#"<?xml version="1.0"?>
+<dcc:digitalCalibrationCertificate xmlns:dcc="https://ptb.de/dcc" xmlns:si="https://ptb.de/si"
+  schemaVersion="3.2.1"><dcc:measurementResults><dcc:measurementResult><dcc:results><dcc:result>
+<dcc:data><dcc:list>{}{}</dcc:list></dcc:data></dcc:result></dcc:results>
+</dcc:measurementResult></dcc:measurementResults>{more}</dcc:digitalCalibrationCertificate>"#,
+            value("v", ""),
+            value("w", "")
+        );
+        fs::write(folder.join(name), text).unwrap();
+    };
+    certificate("ref.xml", "");
+    certificate("other.xml", "<!-- of another day -->");
+    let save = |result: &str, (name, file, id, unit): (&str, &str, &str, &str), more: &[&str]| {
+        let model = format!(
+            r#"{{"inputs": {{"{name}": {{"distribution": "dcc", "file": "{file}", "id": "{id}", "unit": "{unit}"}},
+                "n": {{"unit": "V", "distribution": "normal", "mean": 0, "std": 0.001}}}},
+                "equations": {{"y": "{name} + n"}}, "outputs": {{"y": {{"unit": "V"}}}}}}"#
+        );
+        fs::write(folder.join("m.json"), model).unwrap();
+        let mut all = vec!["m.json", "--save", result];
+        all.extend(more);
+        run(folder, &all);
+    };
+    save("r1.json", ("v", "ref.xml", "v", "V"), &[]);
+    save("r2.json", ("reference", "ref.xml", "v", "mV"), &[]);
+    let difference = || difference(folder, [("r1.json", "y"), ("r2.json", "y")]);
+    let found = difference();
+    assert!((u(&found) / 2e-6_f64.sqrt() - 1.0).abs() < 1e-6, "{found}");
+    assert!(has_note(&found, "result-correlation", "`x` and `z` (0.990)"), "{found}");
+    let apart = 2.02e-4_f64.sqrt();
+    for (of, more) in [
+        (("w", "ref.xml", "w", "V"), &[][..]),
+        (("v", "other.xml", "v", "V"), &[]),
+        (("reference", "ref.xml", "v", "mV"), &["--set", "reference=5001"]),
+    ] {
+        save("r2.json", of, more);
+        let found = difference();
+        assert!((u(&found) / apart - 1.0).abs() < 1e-9, "{of:?}: {found}");
+    }
+    // beside a result that it went into, it counts as another one, and is told by its place
+    let model = r#"{"inputs": {"x": {"distribution": "result", "file": "r1.json", "output": "y"},
+        "again": {"distribution": "dcc", "file": "ref.xml", "id": "v"}},
+        "equations": {"d": "x - again"}, "outputs": {"d": {"unit": "V"}}}"#;
+    fs::write(folder.join("n.json"), model).unwrap();
+    let found = run(folder, &["n.json", "--save", "r3.json"]);
+    assert!((u(&found) / 2.01e-4_f64.sqrt() - 1.0).abs() < 1e-9, "{found}");
+    assert!(has_note(&found, "counted-twice", "`again` is a value of a certificate"), "{found}");
+    // as it was evaluated, so it is saved
+    let text = fs::read_to_string(folder.join("r3.json")).unwrap();
+    let saved: Value = serde_json::from_str(&text).unwrap();
+    let inputs = saved["inputs"].as_array().unwrap();
+    assert_eq!(inputs.len(), 3, "{inputs:?}");
+    let contribution = |(input, c): (&Value, &Value)| {
+        (input["standard_uncertainty"].as_f64().unwrap() * c.as_f64().unwrap()).powi(2)
+    };
+    let coefficients = saved["outputs"]["d"]["sensitivities"].as_array().unwrap();
+    let variance: f64 = inputs.iter().zip(coefficients).map(contribution).sum();
+    assert!((variance / 2.01e-4 - 1.0).abs() < 1e-9, "{variance}");
+}
+
+/// p = a + b and q = a^3 at 0 with u = 0.1 V of both have a covariance of 3 u^4 = 3e-4 V^2, and q has no
+/// sensitivity coefficients; its variance is 15 u^6 = 1.5e-5 V^2. Through a model each, with 1e-4 V of
+/// noise: u^2(p - 20 q) = 0.02 + 400 15e-6 - 40 3e-4 = 0.014 V^2 and 4e-6 V^2 of noise; of independent
+/// ones 0.026 V^2. The coefficient is that of 10000 trials of heavy products: 2 % in u, five times.
+#[test]
+fn a_result_without_sensitivities_stays_correlated_with_its_siblings() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let normal = |std: &str| {
+        format!(r#"{{"unit": "V", "distribution": "normal", "mean": 0, "std": {std}}}"#)
+    };
+    let model = format!(
+        r#"{{"inputs": {{"a": {0}, "b": {0}}}, "equations": {{"p": "a + b", "q": "a^3/(1 [V^2])"}},
+            "outputs": {{"p": {{"unit": "V"}}, "q": {{"unit": "V"}}}}}}"#,
+        normal("0.1")
+    );
+    fs::write(folder.join("cal.json"), model).unwrap();
+    run(folder, &["cal.json", "--save", "cal.result.json"]);
+    for (name, output) in [("m1", "p"), ("m2", "20*q")] {
+        let own = output.trim_start_matches("20*");
+        let model = format!(
+            r#"{{"inputs": {{"{own}": {{"distribution": "result", "file": "cal.result.json", "output": "{own}"}},
+                "n": {}}}, "equations": {{"m": "{output} + n"}}, "outputs": {{"m": {{"unit": "V"}}}}}}"#,
+            normal("0.0001")
+        );
+        fs::write(folder.join(format!("{name}.json")), model).unwrap();
+        run(folder, &[&format!("{name}.json"), "--save", &format!("{name}.result.json")]);
+    }
+    let found = difference(folder, [("m1.result.json", "m"), ("m2.result.json", "m")]);
+    assert!((u(&found) / 0.014_f64.sqrt() - 1.0).abs() < 0.1, "{found}");
+    assert!(has_note(&found, "result-correlation", "`x` and `z`"), "{found}");
+    // one of them directly
+    let found = difference(folder, [("cal.result.json", "p"), ("m2.result.json", "m")]);
+    assert!((u(&found) / 0.014_f64.sqrt() - 1.0).abs() < 0.1, "{found}");
+}

@@ -15,19 +15,20 @@ use super::object::Object;
 use super::{sharing, table};
 use gumption_engine::decimal;
 use gumption_engine::distribution::{Correlation, CorrelationError, Distribution, Fits};
-use gumption_engine::task::Warning;
+use gumption_engine::task::{Trials, Warning};
 use gumption_units::nearest;
 
 /// Reads `correlations` and `correlation_matrix` of the root object and checks that the quantities
-/// can have them in each of the rows; the joint draws are kept in `fits`. Those of saved results come
-/// with them, with notes. Tables that were read are added to `files`.
+/// can have them in each of the rows; the joint draws are kept in `fits`, and what is in the way of
+/// trials alone is no mistake where there are none. Those of saved results come with them, with notes.
+/// Tables that were read are added to `files`.
 pub(super) fn read(
     root: &Object<'_>,
     inputs: &InputSet,
     rows: &Rows<'_>,
     folder: Folder<'_>,
     files: &mut Vec<(String, Vec<u8>)>,
-    fits: &Fits,
+    (fits, trials): (&Fits, Trials),
 ) -> (Vec<Correlation>, Vec<Warning>) {
     let (found, mut warnings) = links::links(inputs);
     let place = |c: &Correlation| inputs.places.get(c.second).unwrap_or(root.place()).clone();
@@ -58,7 +59,7 @@ pub(super) fn read(
     reader.from_certificates = reader.found.len();
     warnings.extend(reader.certified());
     if reader.are_shared_alike(root) {
-        warnings.extend(reader.check(root, fits));
+        warnings.extend(reader.check(root, (fits, trials)));
     }
     warnings.extend(reader.with_constants());
     (reader.found, warnings)
@@ -309,7 +310,7 @@ impl Reader<'_> {
 
     /// Whether the quantities can have these coefficients. Those of certificates, which the file does not
     /// state, become the nearest that they can have, with a note.
-    fn check(&mut self, root: &Object<'_>, fits: &Fits) -> Option<Warning> {
+    fn check(&mut self, root: &Object<'_>, draws: (&Fits, Trials)) -> Option<Warning> {
         if !self.inputs.known.is_complete(self.inputs.variables.len()) {
             return None;
         }
@@ -317,7 +318,7 @@ impl Reader<'_> {
         // each turn moves a coefficient, none often
         let mut turns = 2 * self.found.len();
         loop {
-            let errors = self.contradictions(fits);
+            let errors = self.contradictions(draws);
             if turns == 0 || errors.is_empty() || !errors.iter().all(|error| self.moves(error)) {
                 errors.into_iter().for_each(|error| self.report(root, &error));
                 break;
@@ -344,14 +345,17 @@ impl Reader<'_> {
     }
 
     /// What contradicts the coefficients in some row.
-    fn contradictions(&self, fits: &Fits) -> Vec<CorrelationError> {
+    fn contradictions(&self, (fits, trials): (&Fits, Trials)) -> Vec<CorrelationError> {
         let mut seen: Vec<CorrelationError> = Vec::new();
         let mut before: Option<Arc<[Arc<Distribution>]>> = None;
         for row in self.inputs.known.rows(self.rows.rows.len()) {
             if before.as_ref().is_some_and(|before| Arc::ptr_eq(before, &row)) {
                 continue;
             }
-            let joint = fits.joint(&row, &self.found);
+            let joint = match trials {
+                Trials::Fixed(0) => fits.of_propagation(&row, &self.found),
+                _ => fits.joint(&row, &self.found),
+            };
             before = Some(row);
             if let Err(error) = joint
                 && !seen.contains(&error)
@@ -391,6 +395,11 @@ impl Reader<'_> {
         any
     }
 
+    /// Whether the coefficient is that of two saved results.
+    fn is_of_results(&self, c: &Correlation) -> bool {
+        links::is_linked(self.inputs, c.first, c.second)
+    }
+
     fn name(&self, variable: usize) -> String {
         format!("`{}`", self.inputs.variables.get(variable).map_or("", |v| v.name.as_str()))
     }
@@ -402,6 +411,13 @@ impl Reader<'_> {
         if concerned.is_some_and(|place| place >= self.from_certificates) {
             reason +=
                 "; the coefficient is the certificate's: state one in `correlations`, such as 0";
+        }
+        if error.is_of_trials() {
+            reason += "; the law of propagation needs none of that: without trials (`\"monte_carlo\": \
+                       {\"trials\": 0}`, or --trials 0) it takes the coefficient (JCGM 100, 5.2.2)";
+        }
+        if concerned.and_then(|p| self.found.get(p)).is_some_and(|c| self.is_of_results(c)) {
+            reason += "; or evaluate what these saved results come from in one model";
         }
         self.log.report(place, DiagnosticKind::Correlation { reason });
     }

@@ -1,8 +1,10 @@
-//! Notes on inputs that a saved result beside them goes back to.
+//! Notes on inputs that a saved result beside them goes back to, as far as nothing says how they depend
+//! on each other.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
-use gumption_engine::distribution::Root;
+use gumption_engine::distribution::{Root, RootFigures, RootName};
 use gumption_engine::task::{Task, Warning};
 
 /// Digits to which the figures of one quantity agree, whichever file they were read from.
@@ -29,6 +31,24 @@ pub(super) fn notes(task: &Task) -> Vec<Warning> {
             && own.standard_uncertainty() > 0.0
             && figures.into_iter().zip([root.estimate, root.standard_uncertainty]).all(near)
     };
+    // a value of a certificate goes by any name
+    let certified: HashMap<RootName, usize> = task
+        .variables
+        .iter()
+        .zip(row.distributions.iter())
+        .enumerate()
+        .filter(|(_, (_, own))| own.standard_uncertainty() > 0.0)
+        .map(|(place, (variable, own))| {
+            let figures = RootFigures {
+                estimate: own.mean(),
+                standard_uncertainty: own.standard_uncertainty(),
+                dof: own.dof(),
+            };
+            let named = (Arc::from(""), variable.name.as_str().into());
+            (RootName::new(named, &variable.occasion, &figures), place)
+        })
+        .filter(|(name, _)| name.certified.is_some())
+        .collect();
     let are_correlated = |a: usize, b: usize| {
         let pair = |of: [usize; 2]| of == [a, b] || of == [b, a];
         task.correlations.iter().any(|of| pair([of.first, of.second]))
@@ -38,8 +58,21 @@ pub(super) fn notes(task: &Task) -> Vec<Warning> {
     for (result, (variable, saved)) in results {
         let roots = saved.saved().map(|saved| saved.origin().roots.as_slice()).unwrap_or_default();
         for (root, _) in roots {
+            let certified = certified.get(&root.name).copied();
+            if let Some(place) = certified.filter(|place| !are_correlated(*place, result)) {
+                let name = task.variables.get(place).map_or("", |variable| variable.name.as_str());
+                let text = format!(
+                    "`{name}` is a value of a certificate that the result `{}` was evaluated from as \
+                     well, and counts as independent of it; evaluate both in one model, or state their \
+                     correlation",
+                    variable.name
+                );
+                found.push(Warning::new("counted-twice", name, text));
+                continue;
+            }
             let place = places.get(&*root.name.name).copied();
-            let place = place.filter(|place| is_same(root, *place));
+            // a result without sensitivity coefficients is its own root
+            let place = place.filter(|place| *place != result && is_same(root, *place));
             if place.is_some_and(|place| !are_correlated(place, result)) {
                 let name = &*root.name.name;
                 let text = format!(

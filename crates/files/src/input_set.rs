@@ -36,6 +36,8 @@ pub(super) struct InputSet {
     /// Variables, by name, that are results of a certificate which says how its results vary together,
     /// with the name of its file.
     pub(super) certified: Vec<(String, Certified, String)>,
+    /// Variables, by name, that are values of a certificate, with their place in it.
+    pub(super) from_certificates: Vec<(String, String)>,
     /// Readings that distributions are to be tested against.
     pub(super) evidence: Vec<Evidence>,
 }

@@ -582,6 +582,8 @@ impl<'a> Reader<'a, '_> {
             );
             self.inputs.warnings.push(Warning::new("certificate-asymmetric", &name, text));
         }
+        let place = of.map(|of| (name.clone(), of.place.clone()));
+        self.inputs.from_certificates.extend(place);
         let certified = of.and_then(|of| of.certified.clone());
         self.inputs.certified.extend(certified.map(|of| (name, of, file)));
     }

@@ -63,6 +63,7 @@ mod recipe;
 mod regions;
 mod result_consistency;
 mod result_file;
+mod result_outputs;
 mod results;
 mod samples;
 pub mod schema;

@@ -111,6 +111,8 @@ fn reason(a: &Root, b: &Root) -> &'static str {
         "with other values set"
     } else if a.figures() != b.figures() {
         "with another estimate or standard uncertainty"
+    } else if of_a.certified.is_some() != of_b.certified.is_some() {
+        "one was saved by an older version, which did not tell its place in its certificate"
     } else {
         "with the same figures, but from files of different content"
     }

@@ -199,7 +199,7 @@ impl<'a> ModelReader<'a> {
         files.append(&mut results.certificates.borrow_mut().files);
         files.extend(fits.files);
         let joint = Fits::default();
-        let (correlations, notes) = self.correlations(&of, &mut files, &joint);
+        let (correlations, notes) = self.correlations(&of, &mut files, (&joint, trials));
         let mut warnings = of.inputs.warnings.clone();
         warnings.extend(fits.warnings);
         warnings.extend(notes);
@@ -349,13 +349,13 @@ impl<'a> ModelReader<'a> {
         &self,
         of: &Quantities,
         files: &mut Vec<(String, Vec<u8>)>,
-        fits: &Fits,
+        draws: (&Fits, Trials),
     ) -> (Vec<Correlation>, Vec<Warning>) {
         let rows = correlations::Rows {
             conditions: of.conditions.quantities.iter().map(|c| c.name.clone()).collect(),
             rows: &of.conditions.rows,
         };
-        correlations::read(&self.root, &of.inputs, &rows, self.folder, files, fits)
+        correlations::read(&self.root, &of.inputs, &rows, self.folder, files, draws)
     }
 
     /// The model, checked against the quantities, which it takes over.

@@ -1,6 +1,7 @@
 //! What tells an input from that of the same name in another evaluation of the same model file: the
 //! content of the files that it is read from, and where its figures follow the conditions, what stands
-//! in place of the file's values.
+//! in place of the file's values. And what tells that inputs of two model files are the same: their place
+//! in one certificate.
 //!
 //! A saved result keeps it, so that two evaluations of one file with other data are not taken for two
 //! results of the same inputs.
@@ -24,6 +25,13 @@ pub(super) fn tell(
     for (variable, data) in data(&inputs.read_from, files) {
         if let Some(variable) = inputs.variables.get_mut(variable) {
             variable.occasion.data = Some(data);
+        }
+    }
+    for (name, place) in &inputs.from_certificates {
+        let is_replaced = overrides.iter().any(|of| of.input == quantity(name));
+        let variable = inputs.variables.iter_mut().find(|variable| variable.name == *name);
+        if let Some(variable) = variable.filter(|_| !is_replaced) {
+            variable.occasion.certified = Some(place.as_str().into());
         }
     }
     if !are_swept {
@@ -64,10 +72,14 @@ fn data(read_from: &[(usize, String)], files: &[(String, Vec<u8>)]) -> Vec<(usiz
     found.into_iter().map(|(variable, list)| (variable, of_several(list))).collect()
 }
 
+/// The quantity that a variable belongs to.
+fn quantity(name: &str) -> &str {
+    name.split(['/', '.']).next().unwrap_or(name)
+}
+
 /// What stands in place of the file's values of this variable and of the constants, which formulas of
 /// its figures may name.
 fn replaced(variable: &str, constants: &[String], overrides: &[Override]) -> String {
-    let quantity = |name: &str| name.split(['/', '.']).next().unwrap_or(name).to_owned();
     let own = quantity(variable);
     let counts = |of: &&Override| of.input == own || constants.contains(&of.input);
     let mut texts: Vec<String> = overrides

@@ -13,6 +13,7 @@ use super::object::Object;
 use super::open::{check_format, read_root};
 use super::reader::FileReader;
 use super::result_consistency::{self, Stated};
+use super::result_outputs;
 use super::source::SourceText;
 use gumption_analysis::integrity;
 use gumption_engine::distribution::{
@@ -108,6 +109,9 @@ struct Common {
     correlations: Arc<[RootCorrelation]>,
     siblings: Vec<(String, String, f64)>,
     model: Arc<str>,
+    /// Infinite where the file does not say.
+    trials: f64,
+    seed: Option<u64>,
 }
 
 impl<'a> Reader<'a> {
@@ -142,7 +146,7 @@ impl<'a> Reader<'a> {
                 self.output(&member.key, &object, &common, intact)
             })
             .collect();
-        tell_each_other(&mut found);
+        result_outputs::tell_each_other(&mut found, &common.roots, &common.correlations);
         self.log.is_clean().then(|| ResultFile {
             title,
             coverage_probability,
@@ -278,8 +282,9 @@ impl<'a> Reader<'a> {
         let origin = Object::new(self.log, "`provenance`", &origin.value, &origin.key_span)?;
         origin.needed("model_sha256")?;
         let model: Arc<str> = origin.text("model_sha256")?.into();
-        origin.whole("seed", 0, u64::MAX);
-        origin.whole("trials", 0, MOST_TRIALS);
+        let seed = origin.get("seed").and_then(|_| origin.whole("seed", 0, u64::MAX));
+        let trials = origin.get("trials").and_then(|_| origin.whole("trials", 0, MOST_TRIALS));
+        let trials = trials.filter(|trials| *trials > 0).map_or(f64::INFINITY, |of| of as f64);
         if let Some(files) = origin.get("files") {
             let files = Object::new(self.log, "`files`", &files.value, &files.key_span)?;
             for member in files.members() {
@@ -307,6 +312,8 @@ impl<'a> Reader<'a> {
             known: roots.clone().into(),
             roots,
             model,
+            trials,
+            seed,
         })
     }
 
@@ -456,7 +463,10 @@ impl<'a> Reader<'a> {
             Constant::new(estimate).map(Distribution::from)
         } else {
             let origin = self.origin(name, unit.text(), &saved, sensitivities.as_deref(), common);
-            let origin = Origin { ranks, ..origin };
+            let worth = object.get("effective_trials");
+            let worth = worth.and_then(|_| positive(object, "effective_trials"));
+            let trials = worth.unwrap_or(f64::INFINITY).min(common.trials);
+            let origin = Origin { ranks, trials, ..origin };
             SavedResult::new(saved, common.scores, &quantiles, origin).map(Distribution::from)
         };
         let made = made.map_err(|error| {
@@ -567,46 +577,9 @@ impl<'a> Reader<'a> {
             known: common.known.clone(),
             siblings: common.siblings.iter().filter_map(sibling).collect(),
             model: common.model.clone(),
+            trials: common.trials,
+            seed: common.seed,
             ranks: None,
-        }
-    }
-}
-
-/// Tells outputs that are their own only roots, for want of sensitivity coefficients, of each other and
-/// of the coefficients between their trials: results that take one each know what they have in common
-/// by that alone.
-fn tell_each_other(outputs: &mut [SavedOutput]) {
-    let alone: Vec<SavedResult> = outputs
-        .iter()
-        .filter_map(|output| output.distribution.saved())
-        .filter(|saved| !saved.origin().linear)
-        .cloned()
-        .collect();
-    if alone.len() < 2 {
-        return;
-    }
-    let own = |saved: &SavedResult| saved.origin().roots.first().map(|(root, _)| root.clone());
-    let known: Arc<[Root]> = alone.iter().filter_map(own).collect();
-    let name = |wanted: &str| known.iter().find(|root| *root.name.name == *wanted);
-    let mut correlations: Vec<RootCorrelation> = Vec::new();
-    for saved in &alone {
-        let origin = saved.origin();
-        let Some(first) = name(&origin.output) else { continue };
-        for (other, coefficient) in &origin.siblings {
-            let Some(second) = name(other).filter(|second| first.name < second.name) else {
-                continue;
-            };
-            let (first, second) = (first.name.clone(), second.name.clone());
-            correlations.push(RootCorrelation { first, second, coefficient: *coefficient });
-        }
-    }
-    let correlations: Arc<[RootCorrelation]> = correlations.into();
-    for output in outputs {
-        if let Distribution::SavedResult(saved) = &mut output.distribution
-            && !saved.origin().linear
-        {
-            let (known, correlations) = (known.clone(), correlations.clone());
-            *saved = saved.with_origin(Origin { known, correlations, ..saved.origin().clone() });
         }
     }
 }
@@ -616,7 +589,12 @@ fn occasion(object: &Object<'_>) -> Occasion {
     let text = |key: &str| object.text(key).map(Arc::from);
     let replaced = text("replaced").unwrap_or_default();
     let follows = object.truth("follows_conditions") == Some(true);
-    Occasion { data: text("data_sha256"), row: text("row"), follows: follows.then_some(replaced) }
+    Occasion {
+        data: text("data_sha256"),
+        row: text("row"),
+        follows: follows.then_some(replaced),
+        certified: text("certified"),
+    }
 }
 
 /// A number above zero.

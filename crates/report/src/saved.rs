@@ -173,6 +173,9 @@ struct Output<'a> {
     standard_deviation: Option<f64>,
     /// The fewest degrees of freedom of a t distribution that the trials depend on.
     drawn_dof: Option<f64>,
+    /// Trials that the figures are worth, where saved results of limited ones went in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    effective_trials: Option<f64>,
     symmetric_interval: [f64; 2],
     shortest_interval: [f64; 2],
     sensitivities: Option<&'a [f64]>,
@@ -195,6 +198,8 @@ struct Input<'a> {
     dof: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     data_sha256: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certified: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     row: Option<&'a str>,
     #[serde(skip_serializing_if = "std::ops::Not::not")]
@@ -265,6 +270,7 @@ impl<'a> File<'a> {
                     standard_deviation: finite(root.standard_deviation),
                     dof: finite(root.dof),
                     data_sha256: root.occasion.data.as_deref(),
+                    certified: root.occasion.certified.as_deref(),
                     row: root.occasion.row.as_deref(),
                     follows_conditions: root.occasion.follows.is_some(),
                     replaced: root.occasion.follows.as_deref().filter(|text| !text.is_empty()),
@@ -312,6 +318,10 @@ impl<'a> Output<'a> {
             interval: gum.and_then(|gum| gum.interval()),
             standard_deviation: spread,
             drawn_dof: finite(output.drawn_dof),
+            effective_trials: output
+                .inherited
+                .as_ref()
+                .map(|inherited| inherited.effective_trials(figures.trials).round().max(1.0)),
             symmetric_interval: figures.symmetric_interval,
             shortest_interval: figures.shortest_interval,
             sensitivities,

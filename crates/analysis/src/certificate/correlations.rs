@@ -150,12 +150,17 @@ fn key(
             rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
         })
     };
+    // a value of another certificate is the same in all model files
+    let (of, called) = match &name.certified {
+        Some(certified) => (certified.clone(), Arc::from("")),
+        None => (name.model.clone(), name.name.clone()),
+    };
     if name.model != *digest {
         // an input of another model file, behind a saved result; where the certificate evaluates that
         // file itself, for the same figures and data, it is the one that its rows share
-        let is_own = own.contains(name);
-        let told = if is_own { String::new() } else { format!("result {}", name.instance) };
-        return (name.model.clone(), name.name.clone(), told);
+        let is_told = own.contains(name) || name.certified.is_some();
+        let told = if is_told { String::new() } else { format!("result {}", name.instance) };
+        return (of, called, told);
     }
     let variable = asked.task.variables.iter().find(|v| *v.name == *name.name);
     let own = match variable.map(|variable| &variable.sharing) {
@@ -164,6 +169,8 @@ fn key(
         Some(Sharing::Condition(place)) => format!("{place}{:?}", row.conditions.get(*place)),
         Some(Sharing::All) | None => String::new(),
     };
-    let model = if listed(&certificate.shared) { Arc::from("") } else { name.model.clone() };
-    (model, name.name.clone(), own)
+    if listed(&certificate.shared) {
+        return (Arc::from(""), name.name.clone(), own);
+    }
+    (of, called, own)
 }

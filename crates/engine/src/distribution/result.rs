@@ -9,7 +9,9 @@
 //! To first order a result is a weighted sum of the inputs that its model file names ([`Root`]). Two
 //! results with a common root depend on each other, and by how much follows from the weights.
 
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, HashMap};
+use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use super::normal;
@@ -41,8 +43,9 @@ impl Scores {
 }
 
 /// A named input of a model file; files are told apart by their content, and evaluations of one file
-/// by what they took the input for.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+/// by what they took the input for. A value of a certificate is the same in all model files that take it
+/// from there, whatever they call it and in whichever unit.
+#[derive(Clone, Debug)]
 pub struct RootName {
     /// SHA-256 of the model file, in hexadecimal.
     pub model: Arc<str>,
@@ -50,6 +53,9 @@ pub struct RootName {
     pub name: Arc<str>,
     /// What the evaluation took it for: its figures and its [`Occasion`], as text.
     pub instance: Arc<str>,
+    /// Of a value of a certificate the certificate's content, the value's place in it and the row, as
+    /// text: it alone tells whether two are the same.
+    pub certified: Option<Arc<str>>,
 }
 
 /// What beside its figures tells an input from that of the same name in another evaluation of the same
@@ -64,6 +70,9 @@ pub struct Occasion {
     /// Where its figures follow the conditions, so that others are no other quantity: what was put in
     /// place of the file's values, which may be nothing.
     pub follows: Option<Arc<str>>,
+    /// Of a value of a certificate, which is what `data` is of, its place there; `None` of others, and
+    /// where something was put in its place.
+    pub certified: Option<Arc<str>>,
 }
 
 /// Digits of a standard uncertainty, and the share of it to which estimates are told apart: far below
@@ -86,7 +95,46 @@ impl RootName {
                 instance += &format!("; {what} {of}");
             }
         }
-        Self { model, name, instance: instance.into() }
+        let certified = occasion.certified.as_ref().zip(occasion.data.as_ref());
+        let certified = certified.map(|(place, data)| {
+            let row = occasion.row.as_ref().map_or(String::new(), |row| format!("; row {row}"));
+            format!("{place} of {data}{row}").into()
+        });
+        Self { model, name, instance: instance.into(), certified }
+    }
+
+    /// What is equal of two that are the same.
+    fn identity(&self) -> [&str; 3] {
+        match &self.certified {
+            Some(certified) => ["", "", certified],
+            None => [&self.model, &self.name, &self.instance],
+        }
+    }
+}
+
+impl PartialEq for RootName {
+    fn eq(&self, other: &Self) -> bool {
+        self.identity() == other.identity()
+    }
+}
+
+impl Eq for RootName {}
+
+impl Hash for RootName {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.identity().hash(state);
+    }
+}
+
+impl PartialOrd for RootName {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for RootName {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.identity().cmp(&other.identity())
     }
 }
 
@@ -172,25 +220,17 @@ pub struct Origin {
     pub siblings: Vec<(String, f64)>,
     /// SHA-256 of the model file that was saved.
     pub model: Arc<str>,
+    /// The number of trials that its figures are worth: those of its run, or fewer where that took saved
+    /// results of few trials. Infinite if the file does not say.
+    pub trials: f64,
+    /// The seed of its random streams.
+    pub seed: Option<u64>,
     /// Its ranks, from 0, in some of the trials; entry i of all outputs of the file is of the same
     /// trial. `None` if the file has none.
     pub ranks: Option<Arc<[u32]>>,
 }
 
 impl Origin {
-    /// Whether the coefficient with another result that is its own only root stands among the
-    /// correlations.
-    pub(crate) fn names(&self, other: &Self) -> bool {
-        let pair = |of: &RootCorrelation, [a, b]: [&RootName; 2]| of.first == *a && of.second == *b;
-        match (self.roots.as_slice(), other.roots.as_slice()) {
-            ([(a, _)], [(b, _)]) if !self.linear && !other.linear => {
-                let (a, b) = (&a.name, &b.name);
-                self.correlations.iter().any(|of| pair(of, [a, b]) || pair(of, [b, a]))
-            }
-            _ => false,
-        }
-    }
-
     /// Whether a root has finite degrees of freedom.
     pub(crate) fn has_finite_dof(&self) -> bool {
         self.roots.iter().any(|(root, _)| root.dof.is_finite())
@@ -350,6 +390,11 @@ impl SavedResult {
     pub fn is_linked(&self, other: &Self) -> bool {
         let (a, b) = (&self.origin, &other.origin);
         a.file == b.file || !shared(a, b).is_empty()
+    }
+
+    /// Whether coefficients between the roots of the two results tell how they depend on each other.
+    pub(crate) fn is_told_by_roots(&self, other: &Self) -> bool {
+        !shared(&self.origin, &other.origin).is_empty()
     }
 
     /// The correlation coefficient of two linked results by the law of propagation; `None` if they

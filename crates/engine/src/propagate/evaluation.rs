@@ -13,6 +13,7 @@ use super::branch::{self, Jump};
 use super::conformity::{Conformity, ErrorLaw};
 use super::exact::{self, Noiseless};
 use super::gum::{self, Gum, GumRow};
+use super::inherited::Inherited;
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
 use super::nonlinearity;
 use super::regions::{RegionEvaluation, regions};
@@ -91,6 +92,9 @@ pub struct OutputEvaluation {
     /// The law of propagation with its terms of second order, where they tell why the two differ, or
     /// what the law leaves out.
     pub second_order: Option<Box<SecondOrder>>,
+    /// What the limited trials of saved results among the inputs do to the figures; `None` without such
+    /// results. The numerical standard errors of the trials have it in them.
+    pub inherited: Option<Box<Inherited>>,
     /// Whether the trials tell that the model is not linear over the uncertainties of its inputs; `None`
     /// without trials or without a law of propagation.
     pub(super) nonlinear: Option<bool>,
@@ -496,7 +500,7 @@ fn evaluate_row(
     control: &Control<'_>,
     (known, notes): (Known<'_>, &Mutex<Notes>),
 ) -> Result<RowEvaluation, EvaluationError> {
-    let joint = joint(task, row)?;
+    let joint = task.joint(row).map_err(|error| EvaluationError::correlation(task, error))?;
     let mut gums = std::mem::take(&mut linear.outputs);
     let drawn_dof = drawn_dof(reaches, row);
     let mut result = RowEvaluation {
@@ -537,6 +541,7 @@ fn evaluate_row(
             result.correlation_errors = finished.correlation_errors;
         }
     }
+    let inherited = inherited(task, row, reaches, (&gums, &mut figures));
     if !result.correlations.is_empty() {
         correlations_by_law(task, (&gums, &figures), &linear, &mut result);
     }
@@ -559,9 +564,10 @@ fn evaluate_row(
         gums = std::mem::take(&mut linear.outputs);
     }
     let evaluated = gums.into_iter().zip(figures).zip(drawn_dof).zip(&task.model.outputs);
-    let evaluated = evaluated.zip(second).enumerate();
+    let evaluated = evaluated.zip(second).zip(inherited).enumerate();
     let again = OnceCell::new();
-    for (number, ((((gum, monte_carlo), drawn_dof), output), second_order)) in evaluated {
+    for (number, (of_output, inherited)) in evaluated {
+        let ((((gum, monte_carlo), drawn_dof), output), second_order) = of_output;
         let problem = exact::Problem { task, row, joint: &joint, output: number, drawn_dof };
         let nonlinear = gum.as_ref().zip(monte_carlo.as_ref()).map(|(gum, figures)| {
             nonlinearity::is_nonlinear(&problem, gum, figures, second_order.as_ref())
@@ -591,6 +597,7 @@ fn evaluate_row(
             monte_carlo,
             second_order: second_order.map(Box::new),
             noiseless,
+            inherited: inherited.map(Box::new),
             nonlinear,
             jump,
             validation,
@@ -622,6 +629,27 @@ fn evaluate_row(
         result.regions = regions(task, &result, &of_law, &trials, control)?;
     }
     Ok(result)
+}
+
+/// What each output inherits from saved results of limited trials, which is added to the numerical
+/// standard errors of its own.
+fn inherited(
+    task: &Task,
+    row: &Row,
+    reaches: &[Vec<bool>],
+    (gums, figures): (&[Option<Gum>], &mut [Option<MonteCarlo>]),
+) -> Vec<Option<Inherited>> {
+    let probability = task.settings.coverage.probability();
+    let outputs = gums.iter().zip(figures).zip(reaches);
+    let of_output =
+        |((gum, figures), reached): ((&Option<Gum>, &mut Option<MonteCarlo>), &Vec<bool>)| {
+            let found = Inherited::of(row, gum.as_ref(), figures.as_ref(), (reached, probability));
+            if let (Some(found), Some(figures)) = (&found, figures) {
+                found.add_to(&mut figures.errors, figures.trials);
+            }
+            found
+        };
+    outputs.map(of_output).collect()
 }
 
 /// Refuses trials of paired readings whose joint distribution has no covariance.
@@ -707,6 +735,11 @@ fn noiseless(problem: &exact::Problem<'_>, needed: bool) -> Option<Result<Box<No
     }
     if task.function.is_some() {
         return Some(Err("the model's function is not recorded".to_owned()));
+    }
+    if problem.joint.undrawn {
+        let reason = "correlation coefficients of inputs that have no variance do not say how they vary \
+                      together";
+        return Some(Err(reason.to_owned()));
     }
     // a t distribution may have none
     let is_large =

@@ -12,6 +12,8 @@ mod evaluation;
 mod exact;
 mod golden_section;
 pub mod gum;
+mod inherited;
+mod inherited_note;
 mod input_figures;
 pub mod monte_carlo;
 mod naming;
@@ -36,6 +38,7 @@ pub use evaluation::{
     RowEvaluation, evaluate, trial_hash,
 };
 pub use exact::{Accuracy, Noiseless, Scatter};
+pub use inherited::Inherited;
 pub use input_figures::InputFigures;
 pub use naming::naming;
 pub use origins::{Origins, linear, origins, own_roots};

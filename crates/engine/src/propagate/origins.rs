@@ -47,17 +47,16 @@ pub fn origins(task: &Task, row: &Row, outputs: &[Option<&Gum>], model: &str) ->
             roots.len() - 1
         })
     };
-    for (variable, distribution) in task.variables.iter().zip(row.distributions.iter()) {
-        if distribution.constant().is_some() {
-            parts.push(Vec::new());
-        } else if let Some(saved) = distribution.saved() {
+    let own = own(task, row, &model);
+    for (own, distribution) in own.into_iter().zip(row.distributions.iter()) {
+        if let Some(saved) = distribution.saved() {
             let weights = saved.origin().roots.iter();
             let weights =
                 weights.map(|(root, weight)| (index(root.clone(), &mut origins.roots), *weight));
             parts.push(weights.collect());
         } else {
-            let root = root(task, row, (variable, distribution), &model);
-            parts.push(vec![(index(root, &mut origins.roots), 1.0)]);
+            let root = own.map(|root| (index(root, &mut origins.roots), 1.0));
+            parts.push(root.into_iter().collect());
         }
     }
     for partner in partners(row, &origins.roots) {
@@ -75,7 +74,7 @@ pub fn origins(task: &Task, row: &Row, outputs: &[Option<&Gum>], model: &str) ->
         let [first, second] = c.variables;
         let saved = |q: usize| row.distributions.get(q).and_then(|d| d.saved());
         let told = |(a, b): (&SavedResult, &SavedResult)| {
-            a.linear_coefficient(b).is_some() || a.origin().names(b.origin())
+            a.linear_coefficient(b).is_some() || a.is_told_by_roots(b)
         };
         if saved(first).zip(saved(second)).is_some_and(told) {
             continue;
@@ -110,12 +109,36 @@ pub fn origins(task: &Task, row: &Row, outputs: &[Option<&Gum>], model: &str) ->
     origins
 }
 
+/// What is known of the variables of a row; `None` of constants and of saved results. A value of a
+/// certificate that the row has twice, or that one of its saved results goes back to, counts as
+/// independent there and is told from that.
+fn own(task: &Task, row: &Row, model: &Arc<str>) -> Vec<Option<Root>> {
+    let saved = row.distributions.iter().filter_map(|d| d.saved()).map(SavedResult::origin);
+    let of_results = saved.flat_map(|origin| origin.known.iter().map(|root| &root.name));
+    let mut taken: HashSet<RootName> =
+        of_results.filter(|name| name.certified.is_some()).cloned().collect();
+    let all = task.variables.iter().zip(row.distributions.iter());
+    all.map(|(variable, distribution)| {
+        if distribution.constant().is_some() || distribution.saved().is_some() {
+            return None;
+        }
+        let occasion = variable.occasion.clone();
+        let found = root(task, row, (variable, distribution), (model, occasion));
+        if found.name.certified.is_none() || taken.insert(found.name.clone()) {
+            return Some(found);
+        }
+        let occasion = Occasion { certified: None, ..variable.occasion.clone() };
+        Some(root(task, row, (variable, distribution), (model, occasion)))
+    })
+    .collect()
+}
+
 /// What is known of an input that is no saved result.
 fn root(
     task: &Task,
     row: &Row,
     (variable, distribution): (&Variable, &Distribution),
-    model: &Arc<str>,
+    (model, occasion): (&Arc<str>, Occasion),
 ) -> Root {
     let figures = RootFigures {
         estimate: distribution.mean(),
@@ -123,7 +146,7 @@ fn root(
         dof: distribution.dof(),
     };
     let own_row = variable.sharing.conditions_of(&task.model.conditions, &row.conditions);
-    let occasion = Occasion { row: own_row.map(Arc::from), ..variable.occasion.clone() };
+    let occasion = Occasion { row: own_row.map(Arc::from), ..occasion };
     let named = (model.clone(), variable.name.as_str().into());
     Root {
         name: RootName::new(named, &occasion, &figures),
@@ -140,9 +163,7 @@ fn root(
 /// The names of a row's inputs that vary and are no saved results; `model` as for [`origins`].
 pub fn own_roots(task: &Task, row: &Row, model: &str) -> Vec<RootName> {
     let model: Arc<str> = model.into();
-    let known = task.variables.iter().zip(row.distributions.iter());
-    let own = known.filter(|(_, of)| of.constant().is_none() && of.saved().is_none());
-    own.map(|(variable, of)| root(task, row, (variable, of), &model).name).collect()
+    own(task, row, &model).into_iter().flatten().map(|root| root.name).collect()
 }
 
 /// The inputs behind the files of saved results that are correlated with these roots and not among
@@ -153,7 +174,7 @@ fn partners(row: &Row, roots: &[Root]) -> Vec<Root> {
     let mut files: HashSet<&str> = HashSet::new();
     let mut listed: HashSet<RootName> = HashSet::new();
     for origin in row.distributions.iter().filter_map(|d| d.saved()).map(SavedResult::origin) {
-        let is_new = files.insert(&origin.file) || !origin.linear;
+        let is_new = files.insert(&origin.file);
         for pair in origin.correlations.iter().filter(|_| is_new) {
             let wanted = match [&pair.first, &pair.second].map(|name| known.contains(name)) {
                 [true, false] => &pair.second,

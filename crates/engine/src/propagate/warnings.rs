@@ -7,6 +7,7 @@ use super::evaluation::{
     scatter_of_few,
 };
 use super::gum::{BudgetLine, Dof, Gum};
+use super::inherited_note;
 use super::monte_carlo::{Adaptive, MonteCarlo};
 use super::rounding;
 use super::second_order::SecondOrder;
@@ -71,6 +72,11 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
             rounded.into_iter().for_each(|note| push(&mut found, note));
             of_output((task, &named), (name, is_told), row, evaluated, &mut found);
             of_noiseless(&output.quantity.name, evaluated, &mut found);
+            if evaluated.inherited.is_some() {
+                let place_of_row = at(task, &named, row);
+                let inherited = inherited_note::note(task, (output, &place_of_row), evaluated);
+                inherited.into_iter().for_each(|note| push(&mut found, note));
+            }
             if place == 0 {
                 of_capability((output, number), &evaluation.rows, task, &mut found);
             }
@@ -274,14 +280,9 @@ fn of_capability(
     push(found, Warning::new(code, name.as_str(), text));
 }
 
-fn of_output(
-    (task, named): (&Task, &[usize]),
-    (name, is_told): (&str, bool),
-    row: &RowEvaluation,
-    output: &OutputEvaluation,
-    found: &mut Vec<Warning>,
-) {
-    let at = if row.conditions.is_empty() {
+/// Where a row is, in words.
+fn at(task: &Task, named: &[usize], row: &RowEvaluation) -> String {
+    if row.conditions.is_empty() {
         String::new()
     } else {
         let values: Vec<String> = task
@@ -297,7 +298,17 @@ fn of_output(
             })
             .collect();
         format!(" at {}", values.join(", "))
-    };
+    }
+}
+
+fn of_output(
+    (task, named): (&Task, &[usize]),
+    (name, is_told): (&str, bool),
+    row: &RowEvaluation,
+    output: &OutputEvaluation,
+    found: &mut Vec<Warning>,
+) {
+    let at = at(task, named, row);
     let Some(gum) = &output.gum else {
         let text = format!(
             "`{name}`{at}: the estimate or a sensitivity coefficient is not finite at the inputs' \

@@ -382,8 +382,7 @@ impl TaskBuilder {
         };
         task.check()?;
         for row in &task.rows {
-            let joint = task.fits.joint(&row.distributions, &task.correlations);
-            joint.map_err(|error| {
+            task.joint(row).map_err(|error| {
                 let name = |v: usize| task.variables.get(v).map_or("", |v| v.name.as_str());
                 let message = error.describe(&|v| format!("`{}`", name(v)));
                 TaskError::Correlation { error, message }

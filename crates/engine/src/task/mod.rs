@@ -27,7 +27,9 @@ pub use warning::Warning;
 
 use std::sync::Arc;
 
-use crate::distribution::{Correlation, Distribution, EvaluationType, Fits, Input, Occasion};
+use crate::distribution::{
+    Correlation, CorrelationError, Distribution, EvaluationType, Fits, Input, Joint, Occasion,
+};
 use crate::model::Model;
 use crate::model::typed::Measurement;
 use crate::propagate::Region;
@@ -141,6 +143,14 @@ impl Task {
             curves: Vec::new(),
             regions: Vec::new(),
             function: None,
+        }
+    }
+
+    /// How the quantities of a row are drawn together, if there are trials.
+    pub(crate) fn joint(&self, row: &Row) -> Result<Arc<Joint>, CorrelationError> {
+        match self.settings.trials {
+            Trials::Fixed(0) => self.fits.of_propagation(&row.distributions, &self.correlations),
+            _ => self.fits.joint(&row.distributions, &self.correlations),
         }
     }
 

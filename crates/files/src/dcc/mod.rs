@@ -94,6 +94,8 @@ pub(super) struct FromCertificate {
     taken: Taken,
     source: Arc<SourceText>,
     span: Range<usize>,
+    /// Its place in the certificate, as text.
+    pub(super) place: String,
     /// Which result of a certificate of our own it is.
     pub(super) certified: Option<Certified>,
     /// Whether a standard uncertainty is that of a coverage interval, in place of U over k.
@@ -179,11 +181,13 @@ fn parsed(
         let is_exact = measured.iter().all(|of| of.uncertainty.is_none());
         let is_without = is_exact && !chosen.iter().all(|node| missing::is_nominal(*node));
         let unknown_distribution = measured.iter().find_map(|of| of.unknown_distribution(None));
+        let numbers: Vec<String> = chosen.iter().map(|node| number(&all, *node)).collect();
         return Ok(Some(FromCertificate {
             unit,
             taken: table,
             source,
             span,
+            place: format!("table of quantity {}", numbers.join(", ")),
             certified: None,
             of_interval,
             unknown_distribution,
@@ -234,6 +238,7 @@ fn parsed(
                 unit,
                 source: Arc::clone(source),
                 span: of.span.clone(),
+                place: format!("quantity {}, value {left}", number(&all, *node)),
                 certified,
                 of_interval: of.interval_taken(Some(left)).is_some(),
                 unknown_distribution: of.unknown_distribution(Some(left)),
@@ -247,6 +252,11 @@ fn parsed(
         left -= of.values.len();
     }
     Ok(None)
+}
+
+/// The place of a quantity among all of the certificate, counted from 0.
+fn number(all: &[Node<'_, '_>], node: Node<'_, '_>) -> String {
+    all.iter().position(|of| *of == node).map_or(String::new(), |place| place.to_string())
 }
 
 /// Whether the quantities are temperatures or differences of temperatures.

@@ -191,6 +191,14 @@ fn output() -> Value {
                 Some(0),
             ),
         ),
+        (
+            "effective_trials",
+            referenced(
+                "positive",
+                "Number of trials that the figures are worth, where that is below the number of \
+                 trials: where saved results of limited trials went in.",
+            ),
+        ),
         ("symmetric_interval", interval("Symmetric coverage interval of the trials.", false)),
         ("shortest_interval", interval("Shortest coverage interval of the trials.", false)),
         ("sensitivities", sensitivities),
@@ -228,6 +236,13 @@ fn input() -> Value {
             text_of(
                 "SHA-256 of the file that it was read from, or of those of several; with others it is \
                  another quantity.",
+            ),
+        ),
+        (
+            "certified",
+            text_of(
+                "Of a value of a digital calibration certificate, whose SHA-256 is `data_sha256`, its \
+                 place there: it is then the same quantity in every model that takes it from there.",
             ),
         ),
         ("row", text_of("The conditions that it has a value of its own for.")),

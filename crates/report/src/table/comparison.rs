@@ -603,9 +603,21 @@ pub(crate) fn verdict(
         ),
         None => format!(
             "JCGM 101, clause 8: undecided whether the GUM interval is valid here: {ends}, too near \
-             to {limit} for {} trials to tell.",
-            text::grouped(monte_carlo.trials)
+             to {limit} for {} trials{} to tell.",
+            text::grouped(monte_carlo.trials),
+            of_results(figures, monte_carlo)
         ),
+    }
+}
+
+/// How few the trials of saved results among the inputs are, where there are fewer than here.
+fn of_results(figures: &OutputEvaluation, monte_carlo: &MonteCarlo) -> String {
+    let results = figures.inherited.iter().flat_map(|inherited| &inherited.results);
+    let fewest = results.map(|(_, trials)| *trials).fold(f64::INFINITY, f64::min);
+    if fewest < monte_carlo.trials as f64 {
+        format!(" and a saved result of {}", text::grouped(fewest as u64))
+    } else {
+        String::new()
     }
 }
 

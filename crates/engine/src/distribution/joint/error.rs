@@ -88,6 +88,12 @@ pub enum CorrelationError {
 }
 
 impl CorrelationError {
+    /// Whether it is in the way of trials alone: the law of propagation needs no more than the standard
+    /// uncertainties of the quantities and the coefficient (JCGM 100, 5.2.2).
+    pub fn is_of_trials(&self) -> bool {
+        matches!(self, Self::NoVariance { .. } | Self::NoQuantiles { .. })
+    }
+
     /// Whether a declared coefficient is one of those at fault.
     pub fn concerns(&self, c: &Correlation) -> bool {
         let of = |member: usize| c.first == member || c.second == member;

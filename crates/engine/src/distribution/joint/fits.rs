@@ -53,6 +53,21 @@ impl Fits {
         entry.get_or_init(fit).clone()
     }
 
+    /// As [`joint`](Self::joint), for an evaluation without trials: what is in the way of trials alone
+    /// is no error.
+    pub fn of_propagation(
+        &self,
+        distributions: &[Arc<Distribution>],
+        correlations: &[Correlation],
+    ) -> Shared {
+        match self.joint(distributions, correlations) {
+            Err(error) if error.is_of_trials() => {
+                Joint::of_propagation(distributions, correlations).map(Arc::new)
+            }
+            found => found,
+        }
+    }
+
     /// Where the joint draw is kept, or will be.
     fn entry(
         &self,

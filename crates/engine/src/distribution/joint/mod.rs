@@ -127,6 +127,9 @@ pub struct Joint {
     pub(crate) adjusted: f64,
     /// The coefficients that a copula does not give as they are: wanted, and drawn.
     pub(crate) changes: Arc<Vec<(Correlation, f64)>>,
+    /// Whether nothing is drawn: it is that of an evaluation without trials, of quantities that the law
+    /// of propagation alone can correlate.
+    pub(crate) undrawn: bool,
 }
 
 impl Joint {
@@ -147,12 +150,7 @@ impl Joint {
         distributions: &[Arc<Distribution>],
         correlations: &[Correlation],
     ) -> Result<Self, CorrelationError> {
-        let varies = |q: usize| distributions.get(q).is_some_and(|d| d.constant().is_none());
-        let active: Vec<Correlation> = correlations
-            .iter()
-            .copied()
-            .filter(|c| c.coefficient != 0.0 && varies(c.first) && varies(c.second))
-            .collect();
+        let active = active(distributions, correlations);
         let mut joint = Self::default();
         for ensemble in paired::ensembles(distributions) {
             ensemble.check(distributions)?;
@@ -218,21 +216,8 @@ impl Joint {
                 return Err(CorrelationError::NoQuantiles { member });
             }
         }
-        let count = members.len();
-        if count > MOST_LINKED {
-            return Err(CorrelationError::TooMany { count, most: MOST_LINKED });
-        }
-        let declared = coefficients(members, active);
         let decimals = decimals::decimals(members, active, distributions);
-        let mut wanted = declared;
-        if !wanted.is_semidefinite() {
-            let nearest = wanted.nearest();
-            if !contradiction::is_rounding(&wanted, &nearest, decimals) {
-                return Err(contradiction::contradiction(members, &wanted, &nearest, decimals));
-            }
-            wanted = nearest;
-            self.rounded = true;
-        }
+        let mut wanted = self.possible(members, active, decimals)?;
         let mut shaped: Vec<Option<Arc<Profiled>>> = vec![None; members.len()];
         let mut drawn: Vec<Member> = members.iter().map(|&m| Member::plain(m)).collect();
         if members.iter().any(|&m| !distributions[m].is_drawn_normal()) {
@@ -256,10 +241,58 @@ impl Joint {
         Ok(())
     }
 
+    /// The joint draw of an evaluation without trials, of quantities that cannot be drawn with these
+    /// coefficients: the law of propagation needs their standard uncertainties alone (JCGM 100, 5.2.2).
+    ///
+    /// # Errors
+    /// Coefficients that no quantities can have, or too many of them.
+    fn of_propagation(
+        distributions: &[Arc<Distribution>],
+        correlations: &[Correlation],
+    ) -> Result<Self, CorrelationError> {
+        let active = active(distributions, correlations);
+        let mut joint = Self { undrawn: true, ..Self::default() };
+        for members in links::connected(&active) {
+            let decimals = decimals::decimals(&members, &active, distributions);
+            joint.possible(&members, &active, decimals)?;
+        }
+        Ok(joint)
+    }
+
+    /// The coefficients of a group, or the nearest possible ones within their rounding, which is noted.
+    fn possible(
+        &mut self,
+        members: &[usize],
+        active: &[Correlation],
+        decimals: usize,
+    ) -> Result<CorrelationMatrix, CorrelationError> {
+        let count = members.len();
+        if count > MOST_LINKED {
+            return Err(CorrelationError::TooMany { count, most: MOST_LINKED });
+        }
+        let declared = coefficients(members, active);
+        if declared.is_semidefinite() {
+            return Ok(declared);
+        }
+        let nearest = declared.nearest();
+        if !contradiction::is_rounding(&declared, &nearest, decimals) {
+            return Err(contradiction::contradiction(members, &declared, &nearest, decimals));
+        }
+        self.rounded = true;
+        Ok(nearest)
+    }
+
     /// The sets of outputs of saved results that are drawn together.
     pub(crate) fn rank_samples(&self) -> &[RankSample] {
         &self.rank_samples
     }
+}
+
+/// The coefficients that say something: not 0, and of quantities that vary.
+fn active(distributions: &[Arc<Distribution>], correlations: &[Correlation]) -> Vec<Correlation> {
+    let varies = |q: usize| distributions.get(q).is_some_and(|d| d.constant().is_none());
+    let says = |c: &Correlation| c.coefficient != 0.0 && varies(c.first) && varies(c.second);
+    correlations.iter().copied().filter(says).collect()
 }
 
 /// The matrix of the coefficients among `members`, which are in order.
