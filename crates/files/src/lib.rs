@@ -69,6 +69,7 @@ mod samples;
 pub mod schema;
 mod scopes;
 mod settings;
+mod sexagesimal;
 mod shapes;
 mod share;
 mod shared_run;

@@ -217,6 +217,7 @@ pub(super) fn check_equations(
             name,
             if thermodynamic.contains(name.as_str()) { kelvin(typing) } else { typing },
         );
+        scope.give(name, unit.clone());
         if known && !check_units {
             scope.declare(name, unit.clone());
         }

@@ -10,6 +10,7 @@ use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::implied_dof;
 use super::json::{Json, Member, Node};
+use super::sexagesimal;
 use super::value_text::{
     grouped_digits, is_comma, number_in_parentheses, with_exponents, with_plus_minus,
 };
@@ -260,6 +261,10 @@ pub(super) fn states_uncertainty(text: &str) -> bool {
 fn stated(text: &str) -> Result<(String, Stated), String> {
     let text = with_plus_minus(&text.trim().replace('−', "-"));
     let text = with_exponents(&text);
+    let text = match sexagesimal::degrees(&text) {
+        Some((value, rest)) => format!("{} deg{rest}", Shortest(value)),
+        None => text,
+    };
     // (5.0112 ± 0.0046) V (k=2)
     let (inner, outer) = match text.strip_prefix('(').and_then(|rest| rest.split_once(')')) {
         Some((inner, outer)) if inner.contains('±') => (inner.trim().to_owned(), Some(outer)),

@@ -72,6 +72,7 @@ pub(super) fn condition_scope(conditions: &Conditions, check_units: bool) -> Sco
         let known = !conditions.without_unit.contains(&condition.name);
         let typing = if known { Typing::in_unit(&condition.unit) } else { Typing::ANY };
         scope.define(&condition.name, typing);
+        scope.give(&condition.name, condition.unit.clone());
         if known && !check_units {
             scope.declare(&condition.name, condition.unit.clone());
         }

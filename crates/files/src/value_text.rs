@@ -1,5 +1,6 @@
 //! Values as people write them: a number with a unit, `"100 ohm"`, `"20 degC"`.
 
+use super::sexagesimal;
 use super::width::number;
 pub(super) use gumption_columns::ValueOf;
 use gumption_engine::number::Shortest;
@@ -8,6 +9,9 @@ use gumption_units::Unit;
 /// The number and the unit of a text that is a value with a unit; `None` if it is something else,
 /// such as a formula.
 pub(super) fn with_unit(text: &str) -> Option<(f64, &str)> {
+    if let Some((value, "")) = sexagesimal::degrees(text.trim()) {
+        return Some((value, "deg"));
+    }
     let (value, rest) = number(text.trim()).ok()?;
     let begins_unit = rest.chars().next().is_some_and(|c| {
         c.is_alphanumeric()
@@ -154,6 +158,18 @@ pub(super) fn number_in_parentheses(text: &str) -> Option<&str> {
     inside.trim().parse::<f64>().is_ok().then_some(inside)
 }
 
+/// Whether a unit is followed by another number with a unit, with a plus or without: `ft 3 in`,
+/// `deg + 30 arcmin`. What stands behind a sign of multiplication or division is part of the unit.
+fn is_sum_of_units(text: &str) -> bool {
+    let mut words = text.split_whitespace();
+    let is_name =
+        |word: &str| word.starts_with(char::is_alphabetic) && !word.ends_with(['*', '/', '^']);
+    let first = words.next().is_some_and(is_name);
+    let mut rest = words.skip_while(|word| *word == "+").peekable();
+    let is_number = rest.next().is_some_and(|word| word.parse::<f64>().is_ok());
+    first && is_number && rest.next().is_some_and(is_name)
+}
+
 /// The unit that stands behind a number; it may be one of the file's own.
 ///
 /// # Errors
@@ -171,8 +187,17 @@ pub(super) fn unit_behind_number(text: &str, own: &[Unit]) -> Result<Unit, Strin
              `expanded`, or stands in a whole input, `\"5.0112 V ± 0.0046 V (k=2)\"`"
         ));
     }
+    if sexagesimal::has_minutes(text) {
+        return Err("an angle in degrees, minutes and seconds is written `12°30'15.2\"` or \
+                    `12 deg 30 arcmin 15.2 arcsec`, with minutes and seconds below 60"
+            .to_owned());
+    }
     match grouped_digits(text) {
         Some(reason) => Err(reason),
+        None if is_sum_of_units(text) => Err(format!(
+            "`{text}` is more than one unit: values that are added are a formula, with each unit in \
+             brackets, such as `5 [ft] + 3 [in]`"
+        )),
         None => Unit::parse_among(text, own).map_err(|error| {
             let error = error.in_whole(text);
             // `28.35*g` of an ounce would follow a number here
@@ -269,6 +294,16 @@ mod tests {
                 read(text, "mm", ValueOf::Quantity).unwrap_err().contains("a fraction"),
                 "{text}"
             );
+        }
+        for text in ["5 ft 3 in", "5 ft + 3 in", "3 h + 20 min"] {
+            let said = read(text, "m", ValueOf::Quantity).unwrap_err();
+            assert!(said.contains("`5 [ft] + 3 [in]`"), "{text}: {said}");
+        }
+        assert_eq!(read("12°30'", "deg", ValueOf::Quantity), Ok(12.5));
+        assert_eq!(read("1°30'", "arcmin", ValueOf::Quantity), Ok(90.0));
+        for text in ["12 deg 30 min 15 s", "12°60'", "12° 30"] {
+            let said = read(text, "deg", ValueOf::Quantity).unwrap_err();
+            assert!(said.contains("12 deg 30 arcmin"), "{text}: {said}");
         }
         assert!(read("5,01 V", "V", ValueOf::Quantity).unwrap_err().contains("point"));
         assert!(read("5 furlong", "m", ValueOf::Quantity).unwrap_err().contains("furlong"));

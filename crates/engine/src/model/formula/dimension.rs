@@ -524,7 +524,31 @@ impl<'c> Checker<'c> {
         let is_number = self.fractions.get(index).is_some_and(Option::is_some);
         let celsius = matches!(self.tie(index), Tie::Sum { zero: Zero::Celsius, .. });
         let is_celsius = celsius || self.typing(index).is_celsius();
-        Box::new(Operand { text, span, dimension, is_number, is_celsius })
+        let unit = self.given_unit(index).filter(|unit| unit.dimension() == dimension);
+        let unit = unit.map(|unit| unit.text().to_owned());
+        Box::new(Operand { text, span, dimension, is_number, is_celsius, unit })
+    }
+
+    /// The unit of the quantity that a part of the formula is a multiple or a sum of.
+    fn given_unit(&self, mut index: usize) -> Option<&'c Unit> {
+        let is_number = |index: usize| self.fractions.get(index).is_some_and(Option::is_some);
+        loop {
+            index = match &self.tree.nodes.get(index)?.kind {
+                Kind::Name => return self.scope.given(self.slice(&self.tree.span(index))),
+                Kind::Negate(x) => *x,
+                Kind::Infix { operator: Operator::Multiply, left, right, .. }
+                    if is_number(*left) =>
+                {
+                    *right
+                }
+                Kind::Infix { operator, left, right, .. } => match operator {
+                    Operator::Add | Operator::Subtract => *left,
+                    Operator::Multiply | Operator::Divide if is_number(*right) => *left,
+                    _ => return None,
+                },
+                _ => return None,
+            };
+        }
     }
 
     pub(super) fn typing(&self, index: usize) -> Typing {

@@ -324,6 +324,8 @@ pub struct Operand {
     pub is_number: bool,
     /// Whether it counts degrees Celsius from their zero.
     pub is_celsius: bool,
+    /// The unit that its quantity is given in, where it is one alone.
+    pub unit: Option<String>,
 }
 
 /// What is wrong with a number.

@@ -184,7 +184,9 @@ impl fmt::Display for FormulaError {
                         // two Celsius temperatures have no sum
                         (true, "+") => "K".to_owned(),
                         (true, _) => "degC".to_owned(),
-                        (false, _) => other.dimension.usual_unit(),
+                        (false, _) => {
+                            other.unit.clone().unwrap_or_else(|| other.dimension.usual_unit())
+                        }
                     };
                     write!(
                         f,

@@ -192,6 +192,7 @@ pub struct Scope {
     later: HashSet<String>,
     complex: HashSet<String>,
     declared: HashMap<String, Unit>,
+    given: HashMap<String, Unit>,
 }
 
 impl Scope {
@@ -218,6 +219,16 @@ impl Scope {
     /// quantities of a formula whose units are not checked.
     pub fn declare(&mut self, name: impl Into<String>, unit: Unit) {
         self.declared.insert(name.into(), unit);
+    }
+
+    /// Says in which unit a quantity is given, which messages propose for numbers beside it.
+    pub fn give(&mut self, name: impl Into<String>, unit: Unit) {
+        self.given.insert(name.into(), unit);
+    }
+
+    /// The unit that a quantity is given in.
+    pub(super) fn given(&self, name: &str) -> Option<&Unit> {
+        self.given.get(name)
     }
 
     /// The unit that a name's value is the number in, where that need not be the coherent one.

@@ -437,6 +437,26 @@ fn every_mistake_has_its_place_and_sentence() {
     }
 }
 
+/// A number without a unit is proposed in that of the quantity beside it.
+#[test]
+fn units_of_quantities_are_proposed() {
+    let mut scope = Scope::new();
+    let bar = Unit::parse("bar").expect("a unit");
+    scope.define("p", Typing::in_unit(&bar));
+    scope.give("p", bar);
+    for (text, proposed) in [
+        ("p + 0.01", "`0.01 [bar]`"),
+        ("3 - 2*p/5", "`3 [bar]`"),
+        ("-(p - p) > 1", "`1 [bar]`"),
+        ("p*p + 2", "`2 [kg^2 m^-2 s^-4]`"),
+        ("abs(p) + 2", "`2 [Pa]`"),
+    ] {
+        let formula = Formula::parse(text).expect(text);
+        let mistakes = formula.check(&scope).expect_err(text);
+        assert!(mistakes[0].to_string().contains(proposed), "{text}: {}", mistakes[0]);
+    }
+}
+
 #[test]
 fn ends_lie_behind_the_last_token() {
     assert_eq!(mistake("n +  ").span(), 3..3);
