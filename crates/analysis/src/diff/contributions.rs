@@ -105,21 +105,30 @@ pub(super) fn parts(sides: [&Known; 2]) -> Vec<(Cause, [f64; 2])> {
     if from != to {
         causes.push(Cause::Coverage);
     }
+    // where each cause stands, found once for all evaluations
+    let place = |wanted: Cause| causes.iter().position(|cause| *cause == wanted);
+    let (of_correlations, of_coverage) = (place(Cause::Correlations), place(Cause::Coverage));
+    let mut of_input = vec![None; first.contributions.len()];
+    for (place, cause) in causes.iter().enumerate() {
+        if let Cause::Input(index) = cause {
+            of_input[*index] = Some(place);
+        }
+    }
     let figures = |marks: &[bool]| {
-        let is = |cause: Cause| {
-            causes.iter().zip(marks).any(|(known, marked)| *known == cause && *marked)
-        };
-        let side = |cause: Cause| sides[usize::from(is(cause))];
-        let rule = if is(Cause::Coverage) { to } else { from };
-        let indices = 0..first.contributions.len();
-        let contributions: Vec<f64> = indices
-            .clone()
-            .map(|q| side(Cause::Input(q)).contributions.get(q).copied().unwrap_or(0.0))
+        let is = |place: Option<usize>| place.is_some_and(|place| marks[place]);
+        let side = |place: Option<usize>| sides[usize::from(is(place))];
+        let rule = if is(of_coverage) { to } else { from };
+        let contributions: Vec<f64> = of_input
+            .iter()
+            .enumerate()
+            .map(|(q, place)| side(*place).contributions.get(q).copied().unwrap_or(0.0))
             .collect();
-        let dof: Vec<f64> = indices
-            .map(|q| side(Cause::Input(q)).input_dof.get(q).copied().unwrap_or(f64::INFINITY))
+        let dof: Vec<f64> = of_input
+            .iter()
+            .enumerate()
+            .map(|(q, place)| side(*place).input_dof.get(q).copied().unwrap_or(f64::INFINITY))
             .collect();
-        let combined = combined(&contributions, &dof, &side(Cause::Correlations).correlations);
+        let combined = combined(&contributions, &dof, &side(of_correlations).correlations);
         vec![combined.variance, rule.factor(combined.dof).unwrap_or(f64::NAN)]
     };
     let stated = |side: &Known| vec![side.standard_uncertainty.powi(2), side.coverage_factor];
@@ -190,15 +199,15 @@ fn combined(contributions: &[f64], dof: &[f64], correlations: &[(usize, usize, f
             of_term[*a] += 2.0 * r * at(contributions, i) * at(contributions, j);
         }
     }
+    let mut fewest = vec![f64::INFINITY; contributions.len()];
+    for (&of, &dof) in term.iter().zip(dof) {
+        fewest[of] = f64::min(fewest[of], dof);
+    }
     let sum: f64 = of_term
         .iter()
-        .enumerate()
-        .filter(|(_, part)| **part != 0.0)
-        .map(|(t, part)| {
-            let members = term.iter().zip(dof).filter(|(of, _)| **of == t);
-            let fewest = members.map(|(_, dof)| *dof).fold(f64::INFINITY, f64::min);
-            (part / variance).powi(2) / fewest
-        })
+        .zip(&fewest)
+        .filter(|(part, _)| **part != 0.0)
+        .map(|(part, fewest)| (part / variance).powi(2) / fewest)
         .sum();
     Combined { variance, dof: if sum > 0.0 { 1.0 / sum } else { f64::INFINITY } }
 }

@@ -1,5 +1,6 @@
 //! Evaluations in which a part of what is known comes from one task and the rest from the other.
 
+use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -28,8 +29,11 @@ pub(super) enum Cause {
 pub(super) struct Mixture<'a> {
     tasks: [&'a Task; 2],
     rows: [&'a Row; 2],
-    /// The tasks without their rows, to be filled.
+    /// The tasks without their rows.
     empty: &'a [Task; 2],
+    /// By the sides of the model, of the correlations and of the coverage: a task takes longer to
+    /// copy than to evaluate, and there are thousands of evaluations.
+    made: [[[OnceCell<Task>; 2]; 2]; 2],
     indices: [HashMap<&'a str, usize>; 2],
     /// Places of the outputs to be compared.
     outputs: Vec<[usize; 2]>,
@@ -52,6 +56,7 @@ impl<'a> Mixture<'a> {
             tasks,
             rows,
             empty,
+            made: Default::default(),
             indices,
             outputs: outputs.iter().map(|output| output.indices).collect(),
             factors: outputs.iter().map(|output| output.factor).collect(),
@@ -111,38 +116,34 @@ impl<'a> Mixture<'a> {
         let own = model.index();
         let is = |cause: &Cause| in_effect.contains(&cause);
         let from = |cause: &Cause| if is(cause) { 1 } else { 0 };
-        let moved: std::collections::HashSet<&str> = in_effect
-            .iter()
-            .filter_map(|cause| match cause {
-                Cause::Moved(name) | Cause::Removed(name) | Cause::Added(name) => {
-                    Some(name.as_str())
-                }
-                Cause::Correlations | Cause::Coverage => None,
-            })
-            .collect();
-        let distributions =
-            self.tasks[own].variables.iter().enumerate().map(|(index, variable)| {
-                let name = variable.name.as_str();
+        let mut moved = vec![false; self.tasks[own].variables.len()];
+        for cause in in_effect {
+            if let Cause::Moved(name) | Cause::Removed(name) | Cause::Added(name) = cause
+                && let Some(&index) = self.indices[own].get(name.as_str())
+            {
+                moved[index] = true;
+            }
+        }
+        let distributions = self.tasks[own].variables.iter().zip(&moved).enumerate().map(
+            |(index, (variable, moved))| {
                 let distribution = self.rows[own].distributions.get(index);
-                let side = usize::from(moved.contains(name));
-                match self.indices[1 - own].get(name) {
-                    // the state that this side has not: known exactly
-                    None if side != own => distribution.map(|d| Arc::new(known(d))),
-                    Some(&other) if side != own => self.taken(1 - own, other, &variable.unit),
-                    _ => distribution.cloned(),
+                if usize::from(*moved) == own {
+                    return distribution.cloned();
                 }
-            });
+                match self.indices[1 - own].get(variable.name.as_str()) {
+                    // the state that this side has not: known exactly
+                    None => distribution.map(|d| Arc::new(known(d))),
+                    Some(&other) => self.taken(1 - own, other, &variable.unit),
+                }
+            },
+        );
         let distributions: Option<Arc<[Arc<Distribution>]>> = distributions.collect();
         let Some(distributions) = distributions else {
             return vec![f64::NAN; 2 * self.outputs.len()];
         };
-        let mut task = self.empty[own].clone();
-        task.correlations = self.correlations(from(&Cause::Correlations), own);
-        let coverage = self.tasks[from(&Cause::Coverage)].settings;
-        task.settings.coverage = coverage.coverage;
-        task.settings.real_dof = coverage.real_dof;
+        let task = self.task(own, from(&Cause::Correlations), from(&Cause::Coverage));
         let row = Row { conditions: self.rows[own].conditions.clone(), distributions };
-        let outputs = gum::evaluate(&task, &row).outputs;
+        let outputs = gum::evaluate(task, &row).outputs;
         let figures = self.outputs.iter().zip(&self.factors).flat_map(|(indices, factor)| {
             let gum = outputs.get(indices[own]).and_then(Option::as_ref);
             let factor = if own == 0 { 1.0 } else { *factor };
@@ -151,6 +152,18 @@ impl<'a> Mixture<'a> {
             [u * u, k]
         });
         figures.collect()
+    }
+
+    /// The task of one side with the correlations and the coverage of others.
+    fn task(&self, own: usize, correlations: usize, coverage: usize) -> &Task {
+        self.made[own][correlations][coverage].get_or_init(|| {
+            let mut task = self.empty[own].clone();
+            task.correlations = self.correlations(correlations, own);
+            let settings = self.tasks[coverage].settings;
+            task.settings.coverage = settings.coverage;
+            task.settings.real_dof = settings.real_dof;
+            task
+        })
     }
 
     /// A variable of one side in the unit of the other.

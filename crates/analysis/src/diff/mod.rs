@@ -39,7 +39,7 @@ mod saved;
 pub use linear::{LinearOutput, LinearResult, SeveralRows};
 pub use saved::compare_linear;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use attribution::shapley;
 use gumption_engine::propagate::gum;
@@ -328,8 +328,12 @@ fn list(
     let u = [0, 1].map(|i| gums[i].map_or(f64::NAN, |gum| gum.standard_uncertainty * scale[i]));
     let k = gums.map(|gum| gum.and_then(|gum| gum.coverage_factor).unwrap_or(f64::NAN));
     let change = |cause: Option<&Cause>| change_of_expanded(u, k, attributed.of(cause));
+    let places = tasks.map(|task| {
+        let names = task.variables.iter().enumerate();
+        names.map(|(place, v)| (v.name.as_str(), place)).collect::<HashMap<_, _>>()
+    });
     let state = |side: usize, name: &str| {
-        let index = tasks[side].variables.iter().position(|v| v.name == name)?;
+        let index = *places[side].get(name)?;
         let distribution = rows[side].distributions.get(index)?;
         Some(InputState {
             estimate: distribution.mean(),
@@ -340,22 +344,28 @@ fn list(
             sensitivity: None,
         })
     };
+    let named = attributed.causes.iter().filter_map(|cause| match cause {
+        Cause::Moved(known) | Cause::Removed(known) | Cause::Added(known) => {
+            Some((known.as_str(), cause))
+        }
+        Cause::Correlations | Cause::Coverage => None,
+    });
+    let causes: HashMap<&str, &Cause> = named.collect();
     let mut parts: Vec<ChangePart> = Vec::new();
+    let mut listed = HashSet::new();
     for variable in tasks.iter().flat_map(|task| &task.variables) {
         let name = &variable.name;
-        if parts.iter().any(|part| part.due == ChangeCause::Input(name.clone())) {
+        if listed.contains(name.as_str()) {
             continue;
         }
         let states = [state(0, name), state(1, name)];
-        let cause = attributed.causes.iter().find(|cause| match cause {
-            Cause::Moved(known) | Cause::Removed(known) | Cause::Added(known) => known == name,
-            Cause::Correlations | Cause::Coverage => false,
-        });
+        let cause = causes.get(name.as_str()).copied();
         // the estimate that components are added to has a line only where it moved
         if !variable.shown && cause.is_none() {
             continue;
         }
         let change = if cause.is_some() { change(cause) } else { Some(0.0) };
+        listed.insert(name.as_str());
         parts.push(ChangePart {
             due: ChangeCause::Input(name.clone()),
             states,
