@@ -213,8 +213,9 @@ pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Resu
     if met && interval.is_none() {
         return Err(unplanned(task, budget, figure, control)?);
     }
-    let inputs = now.budget().map(|line| need(budget, line.variable, met)).collect();
+    // before the needs of the inputs, which take longer and are of no use where there is no plan
     let cheapest = if met { None } else { Some(optimum::cheapest(budget, &question.costs)?) };
+    let inputs = now.budget().map(|line| need(budget, line.variable, met)).collect();
     let changes = cheapest.as_ref().map(CheapestPlan::changes).unwrap_or_default();
     let missed_rows = budgets
         .iter()
