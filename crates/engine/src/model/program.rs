@@ -4,6 +4,7 @@
 //! sensitivity coefficients, trials) is the same for both. Operations stand in an order in which
 //! each comes after its operands; equal operations on equal operands stand only once.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::number::{Binary, Dual, Number, Routine, Shortest, Unary, derivative};
@@ -274,6 +275,27 @@ impl Program {
             }
         }
         needed
+    }
+
+    /// The nodes that these come from, and they themselves, in order. It takes as long as there are such
+    /// nodes, however long the program is.
+    pub(crate) fn nodes_behind(
+        &self,
+        folded: &[Option<f64>],
+        nodes: impl IntoIterator<Item = usize>,
+    ) -> Vec<usize> {
+        let mut open: Vec<usize> = nodes.into_iter().collect();
+        let mut found: BTreeSet<usize> = open.iter().copied().collect();
+        while let Some(node) = open.pop() {
+            if folded.get(node).is_none_or(Option::is_none) {
+                self.for_each_operand(node, |operand| {
+                    if found.insert(operand) {
+                        open.push(operand);
+                    }
+                });
+            }
+        }
+        found.into_iter().collect()
     }
 
     /// For each node whether an output comes from it at these values: not where only a branch of a

@@ -1,6 +1,7 @@
 //! The distribution of one group's summand: in closed form, or as weighted points of a quadrature
 //! over the independent quantities behind the group.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::invert::Decay;
@@ -399,35 +400,32 @@ impl Part {
     }
 
     pub(super) fn new(inputs: &Inputs<'_>, group: &Group) -> Self {
-        let last = group.leaves.iter().map(|leaf| leaf.node).max().unwrap_or(0);
         let leaves = group.leaves.iter().map(|leaf| leaf.node);
-        let needed = inputs.program.needed_by(inputs.folded, leaves);
-        let mut place = vec![0; last + 1];
+        // of a sum of many groups each needs few nodes of the program
+        let needed = inputs.program.nodes_behind(inputs.folded, leaves);
+        let place: HashMap<usize, usize> =
+            needed.iter().enumerate().map(|(place, &node)| (node, place)).collect();
         let (mut nodes, mut routines) = (Vec::new(), Vec::new());
-        for index in 0..=last {
-            if !needed[index] {
-                continue;
-            }
-            place[index] = nodes.len();
+        for &index in &needed {
             nodes.push(match (inputs.folded[index], inputs.program.nodes[index]) {
                 (Some(value), _) => Node::Constant(value),
                 (None, Node::Variable(v)) => {
                     Node::Variable(group.variables.binary_search(&v).unwrap_or(0))
                 }
-                (None, Node::Unary(operation, x)) => Node::Unary(operation, place[x]),
+                (None, Node::Unary(operation, x)) => Node::Unary(operation, place[&x]),
                 (None, Node::Binary(operation, x, y)) => {
-                    Node::Binary(operation, place[x], place[y])
+                    Node::Binary(operation, place[&x], place[&y])
                 }
                 (None, Node::Routine(call)) => {
                     let call = &inputs.program.routines[call];
-                    let operands = call.operands.iter().map(|&x| place[x]).collect();
+                    let operands = call.operands.iter().map(|x| place[x]).collect();
                     routines.push(RoutineCall { routine: Arc::clone(&call.routine), operands });
                     Node::Routine(routines.len() - 1)
                 }
                 (None, constant) => constant,
             });
         }
-        let outputs = group.leaves.iter().map(|leaf| place[leaf.node]).collect();
+        let outputs = group.leaves.iter().map(|leaf| place[&leaf.node]).collect();
         let program = Program { nodes, variables: group.variables.len(), outputs, routines };
         Self { program, leaves: group.leaves.clone() }
     }
