@@ -1,5 +1,7 @@
 //! Inputs that are constants, as estimates' formulas see them: `"mean": "2*k"`.
 
+use std::collections::HashSet;
+
 use super::condition_values::ConditionValues;
 use super::conditions::{Conditions, unit};
 use super::diagnostics::Collector;
@@ -65,15 +67,18 @@ impl ConstantInputs {
         }
         // of other constants, whose formulas may stand behind
         let conditions = Conditions::none();
+        let mut known: HashSet<String> =
+            found.known.iter().map(|(quantity, _)| quantity.name.clone()).collect();
         loop {
             let set = ConditionSet { conditions: &conditions, check_units, constants: &found };
             let of = ValueOf::Quantity;
             let next = formulas.iter().position(|(_, unit, formula)| {
-                let is_known = |(name, _)| found.known.iter().any(|(known, _)| known.name == name);
-                formula.names().all(is_known) && set.check(formula, unit, of).is_ok()
+                formula.names().all(|(name, _)| known.contains(name))
+                    && set.check(formula, unit, of).is_ok()
             });
             let Some((name, unit, formula)) = next.map(|next| formulas.remove(next)) else { break };
             let value = set.value(&formula, 0, &unit, of);
+            known.insert(name.clone());
             found.known.push((quantity(name, unit), value));
         }
         found.computed.extend(formulas.into_iter().map(|(name, ..)| name.clone()));

@@ -111,8 +111,23 @@ pub(super) struct ConditionSet<'c> {
 impl ConditionSet<'_> {
     /// What is known of the names that formulas may use.
     fn scope(&self) -> Scope {
+        self.scope_with(self.constants.known.iter())
+    }
+
+    /// The same without the constants whose names a formula does not have in its text. A file may have
+    /// thousands of both.
+    fn scope_of(&self, formula: &Formula) -> Scope {
+        self.scope_with(self.constants_of(formula))
+    }
+
+    fn constants_of(&self, formula: &Formula) -> impl Iterator<Item = &(Quantity, f64)> {
+        let text = formula.text();
+        self.constants.known.iter().filter(move |(of, _)| text.contains(of.name.as_str()))
+    }
+
+    fn scope_with<'a>(&self, constants: impl Iterator<Item = &'a (Quantity, f64)>) -> Scope {
         let mut scope = condition_scope(self.conditions, self.check_units);
-        for (Quantity { name, unit, .. }, _) in &self.constants.known {
+        for (Quantity { name, unit, .. }, _) in constants {
             scope.define(name, Typing::in_unit(unit));
             if !self.check_units {
                 scope.declare(name, unit.clone());
@@ -125,7 +140,7 @@ impl ConditionSet<'_> {
 impl ConditionSet<'_> {
     /// What a formula is; `None` where it cannot be told.
     pub(super) fn typing(&self, formula: &Formula) -> Option<Typing> {
-        formula.check_names(&self.scope()).ok()
+        formula.check_names(&self.scope_of(formula)).ok()
     }
 }
 
@@ -147,9 +162,12 @@ impl ConditionValues for ConditionSet<'_> {
         if self.conditions.unreadable {
             return Ok(());
         }
-        let scope = self.scope();
-        let result =
-            if self.check_units { formula.check(&scope) } else { formula.check_names(&scope) };
+        let check = |scope: &Scope| match self.check_units {
+            true => formula.check(scope),
+            false => formula.check_names(scope),
+        };
+        // messages propose names that the formula does not have
+        let result = check(&self.scope_of(formula)).or_else(|_| check(&self.scope()));
         let kind = |error: FormulaError| match error {
             FormulaError::UnknownName { name, .. } if self.constants.uncertain.contains(&name) => {
                 DiagnosticKind::EstimateOfInput { name }
@@ -205,10 +223,10 @@ impl ConditionValues for ConditionSet<'_> {
             .iter()
             .zip(row)
             .map(|(quantity, &value)| (quantity, value))
-            .chain(self.constants.known.iter().map(|(quantity, value)| (quantity, *value)))
+            .chain(self.constants_of(formula).map(|(quantity, value)| (quantity, *value)))
             .map(|(quantity, value)| (quantity.name.clone(), form.number(value, &quantity.unit)))
             .collect();
-        let scope = self.scope();
+        let scope = self.scope_of(formula);
         let value = formula.evaluate(&scope, &values).unwrap_or(f64::NAN);
         match (form, of) {
             (NumberForm::Declared, _) => value,
