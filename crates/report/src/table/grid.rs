@@ -159,9 +159,19 @@ impl Grid {
             return self.folded(width);
         }
         let rows = self.rows();
+        let words = self.squeezed_words(width);
         let pages = (0..rows.max(1)).step_by(PAGE).map(|first| first..(first + PAGE).min(rows));
-        let pages: Vec<String> = pages.map(|page| self.page(width, page)).collect();
+        let pages: Vec<String> =
+            pages.map(|page| self.page(width, page, words.as_deref())).collect();
         pages.join("\n")
+    }
+
+    /// The least width of each column, where columns are squeezed and words are kept together. It
+    /// takes all rows, so it is found once for all pages.
+    fn squeezed_words(&self, width: usize) -> Option<Vec<u16>> {
+        let squeezed = width < USUAL && self.natural_width() > width;
+        let word = |column: &Column| u16::try_from(column.word_width()).unwrap_or(u16::MAX) + GAP;
+        squeezed.then(|| self.columns.iter().map(word).collect())
     }
 
     /// The width below which words would break.
@@ -193,9 +203,9 @@ impl Grid {
     }
 
     /// Some rows with the header above them.
-    fn page(&self, width: usize, rows: Range<usize>) -> String {
+    fn page(&self, width: usize, rows: Range<usize>, words: Option<&[u16]>) -> String {
         let ends = rows.end == self.rows();
-        let lines = self.lines(width, true, rows);
+        let lines = self.lines(width, true, rows, words);
         let header = self.columns.iter().map(|column| column.header.lines().count()).max();
         // the line below the header, over the whole table
         let rule = lines.get(header.unwrap_or(0).max(1)).cloned().unwrap_or_default();
@@ -214,11 +224,19 @@ impl Grid {
     pub(crate) fn bare(&self, width: usize) -> String {
         let rows = self.rows();
         let pages = (0..rows).step_by(PAGE).map(|first| first..(first + PAGE).min(rows));
-        let lines = pages.flat_map(|page| self.lines(width, false, page));
+        let words = self.squeezed_words(width);
+        let lines = pages.flat_map(|page| self.lines(width, false, page, words.as_deref()));
         lines.map(|line| line + "\n").collect()
     }
 
-    fn lines(&self, width: usize, header: bool, rows: Range<usize>) -> Vec<String> {
+    /// `words` are the least widths of squeezed columns.
+    fn lines(
+        &self,
+        width: usize,
+        header: bool,
+        rows: Range<usize>,
+        words: Option<&[u16]>,
+    ) -> Vec<String> {
         let mut table = Table::new();
         let mut style = TableStyle::new()
             .header_lines(ContentLineStyle::none())
@@ -249,21 +267,19 @@ impl Grid {
         let last = self.columns.len().saturating_sub(1);
         for (place, (column, wanted)) in table.column_iter_mut().zip(&self.columns).enumerate() {
             column.set_padding((0, if place == last { 0 } else { GAP }));
-            // words are kept together where columns are squeezed
-            let squeezed = usize::from(width) < USUAL && self.natural_width() > usize::from(width);
-            let word = u16::try_from(wanted.word_width()).unwrap_or(u16::MAX) + GAP;
-            match wanted.constraint {
-                Some(ColumnConstraint::ContentWidth) => {
+            let word = words.and_then(|words| words.get(place));
+            match (wanted.constraint, word) {
+                (Some(ColumnConstraint::ContentWidth), _) => {
                     column.set_constraint(ColumnConstraint::ContentWidth);
                 }
-                _ if squeezed => {
+                (_, Some(&word)) => {
                     let least = Width::Fixed(word);
                     column.set_constraint(ColumnConstraint::LowerBoundary(least));
                 }
-                Some(constraint) => {
+                (Some(constraint), None) => {
                     column.set_constraint(constraint);
                 }
-                None => {}
+                (None, None) => {}
             }
         }
         table.lines().map(|line| line.trim_end().to_owned()).collect()
