@@ -319,6 +319,44 @@ fn many_rows_are_served_or_refused() {
     folder.refused(&two, &[], "there are 1200000 results");
 }
 
+/// Each equation uses the one before twice: 2^60 paths lead from the last one to the inputs.
+#[test]
+fn shared_sums_are_taken_apart() {
+    let equation = |i: usize| match i {
+        0 => r#""e0": "x0 + x1""#.to_owned(),
+        _ => format!(r#""e{i}": "0.5*e{0} + 0.25*e{0} + 0.25*e{0}""#, i - 1),
+    };
+    let equations: Vec<String> = (0..=60).map(equation).collect();
+    let text = model(&inputs(2), &format!(r#"{}, "y": "e60""#, equations.join(", ")), FEW);
+    let options = ["--method", "exact", "--format", "json"];
+    let answer: serde_json::Value =
+        serde_json::from_str(&Folder::new().answered(&text, &options)).expect("JSON");
+    let u = answer["outputs"]["y"]["exact"]["standard_uncertainty"].as_f64();
+    assert!(u.is_some_and(|u| (u - 0.02_f64.sqrt()).abs() < 1e-9), "{u:?}");
+}
+
+/// Every input's standard uncertainty is doubled, so that each has the same share of the change.
+#[test]
+fn saved_results_of_a_thousand_inputs_are_compared() {
+    let folder = Folder::new();
+    let first = model(&inputs(1000), &sums(1000), FEW);
+    let second = first.replace(r#""std": 0.1"#, r#""std": 0.2"#);
+    for (text, name) in [(first, "a.json"), (second, "b.json")] {
+        let path = folder.0.path().join(name);
+        folder.answered(&text, &["--save", path.to_str().unwrap()]);
+    }
+    let output = command()
+        .current_dir(folder.0.path())
+        .args(["diff", "a.json", "b.json", "--format", "json"])
+        .output()
+        .unwrap();
+    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let inputs = answer["outputs"]["y"]["inputs"].as_array().expect("inputs");
+    let share = |input: &serde_json::Value| input["share_of_change"].as_f64().unwrap();
+    assert_eq!(inputs.len(), 1000);
+    assert!(inputs.iter().all(|input| (share(input) - 1e-3).abs() < 1e-9));
+}
+
 #[test]
 fn mistakes_without_end_are_cut_off() {
     let folder = Folder::new();
