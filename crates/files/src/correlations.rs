@@ -161,25 +161,28 @@ impl Reader<'_> {
     }
 
     fn variable(&self, name: &str, span: &Range<usize>) -> Option<usize> {
+        // before the search of all names, which takes long where there are many coefficients
+        if let Some(&place) = self.by_name.get(name) {
+            return Some(place);
+        }
         let shown = |place: &usize| self.inputs.variables.get(*place).is_some_and(|v| v.shown);
-        let place = self.by_name.get(name).copied();
         let begins = format!("{name}/");
         let parts = self.inputs.variables.iter().filter(|v| v.name.starts_with(&begins));
         let parts: Vec<String> = parts.map(|v| format!("`{}`", v.name)).collect();
-        if place.is_none() && !parts.is_empty() {
+        if !parts.is_empty() {
             let reason = format!(
                 "`{name}` has components, and a coefficient is one of them: {}",
                 gumption_units::listed(&parts, " or ")
             );
             self.log.report(span, DiagnosticKind::Correlation { reason });
-        } else if place.is_none() {
+        } else {
             let names = (0..self.inputs.variables.len())
                 .filter(shown)
                 .filter_map(|v| self.inputs.variables.get(v).map(|v| v.name.as_str()));
             let nearest = nearest(name, names).map(str::to_owned);
             self.log.report(span, DiagnosticKind::NoSuchInput { name: name.to_owned(), nearest });
         }
-        place
+        None
     }
 
     fn add(&mut self, a: usize, b: usize, r: f64, span: &Range<usize>) {
