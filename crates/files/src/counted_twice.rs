@@ -39,11 +39,7 @@ pub(super) fn notes(task: &Task) -> Vec<Warning> {
         .enumerate()
         .filter(|(_, (_, own))| own.standard_uncertainty() > 0.0)
         .map(|(place, (variable, own))| {
-            let figures = RootFigures {
-                estimate: own.mean(),
-                standard_uncertainty: own.standard_uncertainty(),
-                dof: own.dof(),
-            };
+            let figures = RootFigures::of(own);
             let named = (Arc::from(""), variable.name.as_str().into());
             (RootName::new(named, &variable.occasion, &figures), place)
         })

@@ -13,7 +13,7 @@ use super::json::{Json, Member, Node};
 use super::model_reader::{Equation, ModelBody};
 use super::object::Object;
 use super::outputs::Outputs;
-use super::scopes::{coherent, condition_scope, report_formula};
+use super::scopes::{coherent, condition_scope, give_units, report_formula};
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{
     Formula, KelvinKind, Scope, TableCall, TableData, Typing, check_name, looks_of,
@@ -205,6 +205,7 @@ pub(super) fn check_equations(
     let Quantities { inputs, conditions, check_units, .. } = of;
     let unknown_units = of.unknown_units();
     let mut scope = condition_scope(conditions, *check_units);
+    give_units(&mut scope, conditions);
     for (call, data) in tables {
         scope.define_table(call, data);
     }

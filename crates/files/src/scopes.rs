@@ -72,12 +72,18 @@ pub(super) fn condition_scope(conditions: &Conditions, check_units: bool) -> Sco
         let known = !conditions.without_unit.contains(&condition.name);
         let typing = if known { Typing::in_unit(&condition.unit) } else { Typing::ANY };
         scope.define(&condition.name, typing);
-        scope.give(&condition.name, condition.unit.clone());
         if known && !check_units {
             scope.declare(&condition.name, condition.unit.clone());
         }
     }
     scope
+}
+
+/// Tells in which units conditions are given, for messages.
+pub(super) fn give_units(scope: &mut Scope, conditions: &Conditions) {
+    for condition in &conditions.quantities {
+        scope.give(&condition.name, condition.unit.clone());
+    }
 }
 
 /// What formulas compute with, where units are checked and where they are not.
@@ -109,9 +115,11 @@ pub(super) struct ConditionSet<'c> {
 }
 
 impl ConditionSet<'_> {
-    /// What is known of the names that formulas may use.
+    /// What is known of the names that formulas may use, with what messages propose.
     fn scope(&self) -> Scope {
-        self.scope_with(self.constants.known.iter())
+        let mut scope = self.scope_with(self.constants.known.iter());
+        give_units(&mut scope, self.conditions);
+        scope
     }
 
     /// The same without the constants whose names a formula does not have in its text. A file may have

@@ -14,9 +14,9 @@ use std::collections::{BTreeMap, HashMap};
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
-use super::normal;
 use super::shape::{Invalid, Shape, finite, positive};
 use super::stream::Stream;
+use super::{Distribution, normal};
 use crate::number::Column;
 use crate::special;
 
@@ -150,6 +150,15 @@ pub struct RootFigures {
 }
 
 impl RootFigures {
+    /// Of an input that is known by a distribution.
+    pub fn of(known: &Distribution) -> Self {
+        Self {
+            estimate: known.mean(),
+            standard_uncertainty: known.standard_uncertainty(),
+            dof: known.dof(),
+        }
+    }
+
     fn text(&self) -> String {
         let (u, dof) = (self.standard_uncertainty, self.dof);
         let steps = (self.estimate / (TOLD_APART * u)).round();

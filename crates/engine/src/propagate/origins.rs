@@ -140,11 +140,7 @@ fn root(
     (variable, distribution): (&Variable, &Distribution),
     (model, occasion): (&Arc<str>, Occasion),
 ) -> Root {
-    let figures = RootFigures {
-        estimate: distribution.mean(),
-        standard_uncertainty: distribution.standard_uncertainty(),
-        dof: distribution.dof(),
-    };
+    let figures = RootFigures::of(distribution);
     let own_row = variable.sharing.conditions_of(&task.model.conditions, &row.conditions);
     let occasion = Occasion { row: own_row.map(Arc::from), ..occasion };
     let named = (model.clone(), variable.name.as_str().into());

@@ -161,11 +161,11 @@ impl Reader<'_, '_> {
             None => 0.0,
             Some(_) => object.value("origin", &x, ValueOf::Quantity)?,
         };
-        let fitted = match (&form, made) {
-            (Form::Automatic, _) => choose_degree(self.name, origin, &points, MOST_TRIED),
+        let (fitted, named) = match (&form, made) {
+            (Form::Automatic, _) => (choose_degree(self.name, origin, &points, MOST_TRIED), None),
             (Form::Degree(degree), _) => {
                 let curve = Curve::Polynomial { degree: *degree, origin };
-                Regression::of(self.name, &curve, &points, &[])
+                (Regression::of(self.name, &curve, &points, &[]), None)
             }
             (Form::Formula(..), Some(made)) => {
                 let curve = Curve::Program(made.program);
@@ -173,14 +173,14 @@ impl Reader<'_, '_> {
                     made.note.map(|text| Warning::new("fit-units-not-checked", self.name, text)),
                 );
                 let fitted = Regression::of(self.name, &curve, &points, &made.start);
-                let fitted = fitted.map_err(|error| self.report(&error)).ok()?;
-                let curve = self.function(fitted, (x, y), made.parameters, numbers)?;
-                return Some(curve.stating(is_stated));
+                (fitted, Some(made.parameters))
             }
             (Form::Formula(..), None) => return None,
         };
         let fitted = fitted.map_err(|error| self.report(&error)).ok()?;
-        let parameters = coefficients(&object.log.own_units(), self.name, fitted.count(), (&x, &y));
+        let parameters = named.unwrap_or_else(|| {
+            coefficients(&object.log.own_units(), self.name, fitted.count(), (&x, &y))
+        });
         let curve = self.function(fitted, (x, y), parameters, numbers)?;
         Some(curve.stating(is_stated))
     }
@@ -230,7 +230,6 @@ impl Reader<'_, '_> {
         Some(CurveFunction::new(fit, units, parameters, numbers))
     }
 
-    /// The points with their units.
     /// The points, their units, and whether the file says these.
     fn points(&mut self) -> Option<(Points, (Unit, Unit), [bool; 2])> {
         let (x, y) = (self.object.required("x"), self.object.required("y"));

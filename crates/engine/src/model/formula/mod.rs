@@ -204,6 +204,10 @@ impl Formula {
         &self,
         numbers_of: impl Fn(ValueSource<'_>) -> Option<Numbers<'u>>,
     ) -> Vec<FormulaError> {
+        let looks_up = |kind: &Kind| matches!(kind, Kind::Table { .. } | Kind::Curve { .. });
+        if !self.tree.nodes.iter().any(|node| looks_up(&node.kind)) {
+            return Vec::new();
+        }
         let walk = note::Walk::new(&self.text, &self.tree, &numbers_of, Use::Quantity);
         walk.unstated_arguments(numbers_of)
     }

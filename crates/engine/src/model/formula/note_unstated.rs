@@ -38,8 +38,7 @@ impl<'u> Walk<'_, 'u> {
         };
         let in_unit = |side: &usize| Some((*side, self.scaled(*side).bare_unit()?));
         let (beside, unit) = sides.iter().find_map(in_unit)?;
-        let is_unstated = |side: &usize| self.scaled(*side).takes_unstated() && !self.has_pi(*side);
-        let unstated = sides.iter().find(|side| is_unstated(side))?;
+        let unstated = sides.iter().find(|side| self.is_unstated(**side))?;
         let text = format!(
             "`{}` has no unit, so that formulas take its numbers as plain ones, of which 1 is {} {unit}, \
              beside `{}` in {unit}; state its unit, `{unit}` or `{}`",
@@ -51,13 +50,18 @@ impl<'u> Walk<'_, 'u> {
         Some(FormulaNote { code: LEFT_OUT, text, span: node.span.clone() })
     }
 
+    /// Whether no unit is said of the numbers of a node, nor converts it them.
+    fn is_unstated(&self, index: usize) -> bool {
+        self.scaled(index).takes_unstated() && !self.has_pi(index)
+    }
+
     /// An output that is reported in a unit and has none by its formula.
     pub(super) fn unstated_result(&self) -> Option<FormulaNote> {
         let Use::Output(unit) = self.of else { return None };
         let is_scaled =
             unit.dimension().is_none() && unit.level_exponent().is_zero() && unit.factor() != 1.0;
         let whole = self.tree.nodes.len().checked_sub(1)?;
-        let is_told = is_scaled && self.scaled(whole).takes_unstated() && !self.has_pi(whole);
+        let is_told = is_scaled && self.is_unstated(whole);
         let last = self.tree.nodes.last().filter(|_| is_told)?;
         let text = format!(
             "`{}` has no unit, so that formulas take its numbers as plain ones, of which 1 is {} {unit}, in \
