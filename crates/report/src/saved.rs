@@ -1,5 +1,6 @@
 //! Result files: what a later evaluation needs to take an output for an input.
 
+use std::collections::HashMap;
 use std::fmt;
 use std::io;
 
@@ -18,10 +19,12 @@ use gumption_engine::propagate::{
     origins, quantiles_and_ranks,
 };
 use gumption_engine::task::Task;
+use gumption_files::bytes::MOST;
 
 /// The result file of an evaluation's first row. `quantiles` are those of each output's trials over
-/// [`Scores::WRITTEN`], `ranks` those of each output in trials that stand for all of them. Numbers are in the shortest text that reads back as the same number, `null`
-/// is for what is infinite or not defined.
+/// [`Scores::WRITTEN`], `ranks` those of each output in trials that stand for all of them. Numbers are
+/// in the shortest text that reads back as the same number, `null` is for what is infinite or not
+/// defined.
 ///
 /// The same evaluation gives the same bytes always.
 pub fn saved(
@@ -61,6 +64,13 @@ pub enum SaveError {
         /// Its name.
         output: String,
     },
+    /// The result file would be larger than result files that are read.
+    TooLarge {
+        /// Outputs of the model.
+        outputs: usize,
+        /// Bytes that are read at most.
+        most: u64,
+    },
     /// The trials cannot be made again.
     Evaluation(EvaluationError),
 }
@@ -77,6 +87,15 @@ impl fmt::Display for SaveError {
             }
             Self::NoUncertainty { output } => {
                 write!(f, "`{output}` has no standard uncertainty by either method")
+            }
+            Self::TooLarge { outputs, most } => {
+                let most = most / 1_000_000;
+                write!(
+                    f,
+                    "the result of {outputs} outputs, with what they have in common, would be larger \
+                     than the {most} MB of a saved result that is read again; keep fewer of them in \
+                     the model's `outputs`"
+                )
             }
             Self::Evaluation(error) => error.fmt(f),
         }
@@ -125,7 +144,16 @@ pub fn saved_result(
     let Some((quantiles, ranks)) = found else { return Ok(None) };
     let gums: Vec<_> = evaluated.outputs.iter().map(linear).collect();
     let origins = origins(task, row, &gums, &provenance.model_sha256);
-    Ok(Some(saved(report, &origins, &quantiles, &ranks)))
+    let too_large = SaveError::TooLarge { outputs: evaluated.outputs.len(), most: MOST };
+    let numbers = quantiles.iter().map(Vec::len).chain(ranks.iter().map(Vec::len));
+    let numbers = numbers.chain(origins.sensitivities.iter().flatten().map(Vec::len));
+    let numbers = numbers.sum::<usize>() + evaluated.correlations.len();
+    // before it is made, as it may be many times as large; a number and its comma have two bytes at least
+    if 2 * numbers as u64 > MOST {
+        return Err(too_large);
+    }
+    let text = saved(report, &origins, &quantiles, &ranks);
+    if text.len() as u64 > MOST { Err(too_large) } else { Ok(Some(text)) }
 }
 
 #[derive(Serialize)]
@@ -239,7 +267,9 @@ impl<'a> File<'a> {
             let side = Output::of(task, place, output, sensitivities, tables)?;
             Some((*names.get(place)?, side))
         });
-        let place = |name: &RootName| origins.roots.iter().position(|root| root.name == *name);
+        let roots = origins.roots.iter().enumerate();
+        let places: HashMap<&RootName, usize> = roots.map(|(at, root)| (&root.name, at)).collect();
+        let place = |name: &RootName| places.get(name).copied();
         let coefficients = origins.correlations.iter();
         let coefficients =
             coefficients.filter_map(|c| Some((place(&c.first)?, place(&c.second)?, c.coefficient)));
