@@ -298,6 +298,35 @@ fn the_value_of_a_decision_has_the_digits_that_decide() {
     assert!(said.contains("with U before rounding; guard band 0.0410 V, accepted up to"), "{said}");
 }
 
+/// An error of 0.022 K at 25 degC has no nominal value of 298.15 K; the temperature is a condition.
+#[test]
+fn a_nominal_value_with_another_zero_is_refused() {
+    let model = json!({"inputs": {"x": normal("K", 0.022, 0.005)},
+        "conditions": {"t": {"unit": "degC", "values": [25]}},
+        "equations": {"err": "x", "out": "x + t"},
+        "outputs": {"err": {"unit": "K"}, "out": {"unit": "degC"}}, "monte_carlo": {"trials": 0}});
+    let refused = |output: &str, nominal: &str| {
+        let rows = json!([{"model": "m.json", "output": output, "nominal": nominal}]);
+        let file = certificate(rows, json!({"conditions": ["t"]}));
+        let folder = folder(&[("m.json", &model), ("c.json", &file)]);
+        let (success, _, error) = said(folder.path(), &["certificate", "c.json"]);
+        let refused = error.contains("a difference of temperatures");
+        assert_eq!(success, !refused, "{error}");
+        refused
+    };
+    for (output, nominal, expected) in [
+        ("err", "25 degC", true),
+        ("err", "t", true),
+        ("out", "298.15 K", true),
+        ("err", "20 mK", false),
+        ("err", "x", false),
+        ("out", "25 degC", false),
+        ("out", "t", false),
+    ] {
+        assert_eq!(refused(output, nominal), expected, "{output}, {nominal}");
+    }
+}
+
 /// Rows 1 and 3 are of one output, and the first alone has a nominal value, which was left out: rows with
 /// one and rows without are two lists of one result, and each value that is read back is its own row, with
 /// its coefficients (row 2 and row 3 share the input that varies).

@@ -176,6 +176,46 @@ fn unreadable<'h>(
     (declared.has_name() && !name.is_empty() && is_wrong).then_some(text)
 }
 
+/// Words for parts of a hundred and of a thousand, for multiples and for parts of a range or a screen.
+const OF_SHARES: [&str; 13] = [
+    "percent",
+    "percentage",
+    "pct",
+    "prozent",
+    "pourcent",
+    "permille",
+    "promille",
+    "thousand",
+    "thousands",
+    "million",
+    "millions",
+    "per",
+    "fs",
+];
+
+/// What stands in brackets and says that the numbers are multiples or shares of the declared unit:
+/// `x1000 V`, `V x1000`, `1e-3`, `percent`, `% FS`, `V per div`. A small whole number alone counts something.
+fn multiple(column: &str) -> Option<&str> {
+    let (name, text) = enclosed(column, '[', "]").or_else(|| enclosed(column, '(', ")"))?;
+    let power = |word: &str| {
+        let word = word.strip_prefix("10^").map_or(word.to_owned(), |of| format!("1e{of}"));
+        word.parse::<f64>().ok().filter(|number| *number != 1.0)
+    };
+    let is_multiple = |word: &str| {
+        let factor = word.strip_prefix(['x', 'X', '×', '*']).and_then(power);
+        let factor = factor.or_else(|| word.strip_suffix(['x', 'X', '×']).and_then(power));
+        let lower = word.to_lowercase();
+        let share = lower.strip_prefix(['%', '‰']).unwrap_or(&lower);
+        factor.is_some() || OF_SHARES.contains(&share)
+    };
+    let is_scale = |number: f64| number >= 1e3 || number.fract() != 0.0;
+    let times = text.strip_prefix(['x', '×', '*']).map_or("", str::trim_start);
+    let is_scaled = power(text).is_some_and(is_scale)
+        || times.split_whitespace().next().and_then(power).is_some()
+        || text.split_whitespace().any(is_multiple);
+    (!name.is_empty() && is_scaled).then_some(text)
+}
+
 /// What follows a unit in the notation of instruments, `mVrms`.
 const OF_SIGNALS: [&str; 14] =
     ["rms", "eff", "pp", "p-p", "pk", "pk-pk", "peak", "ptp", "dc", "ac", "olt", "olts", "ec", "s"];
@@ -232,6 +272,11 @@ pub fn contradiction(
         Unit::conversion_factor(unit, declared) == Ok(1.0)
             && (of == ValueOf::Difference || unit.has_zero_of(declared))
     };
+    let is_its =
+        |text: &str| text == declared.text() || unit(text).is_some_and(|of| is_declared(&of));
+    if let Some(text) = multiple(column).filter(|text| !is_its(text)) {
+        return Some(other_than(text));
+    }
     let other = among(&unit, column, declared);
     let unreadable = unreadable(&unit, column, declared);
     if let Some(text) =
@@ -342,6 +387,29 @@ mod tests {
         ] {
             assert_eq!(said(heading, "V").as_deref(), Some(found), "{heading}");
         }
+        for heading in [
+            "x [x1000 V]",
+            "x [×1000 V]",
+            "x [V x1000]",
+            "x [thousands V]",
+            "x [% FS]",
+            "x [%FS]",
+            "x [V per div]",
+            "x [percent]",
+            "x [1e-3]",
+            "x [1000]",
+            "x (x 10^-3)",
+            "x (10x)",
+        ] {
+            for declared in ["V", "1"] {
+                assert!(said(heading, declared).is_some(), "{heading} in {declared}");
+            }
+        }
+        for heading in ["x (2)", "x [2]", "x [1]", "run (x)"] {
+            assert_eq!(said(heading, "1"), None, "{heading}");
+        }
+        assert_eq!(said("a [10^-6/K]", "10^-6/K"), None);
+        assert_eq!(said("x [1e-3]", "0.001"), None);
         for heading in ["x [Vrms]", "x [V pk]", "x (left)", "drift in run2", "x [mean]", "x, m"] {
             assert_eq!(said(heading, "V"), None, "{heading}");
         }

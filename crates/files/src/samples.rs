@@ -154,7 +154,19 @@ fn of_text(
         let names: Vec<&str> = heading.split(separator.sign()).map(unquoted).collect();
         match names.as_slice() {
             [only] => {
-                column_heading::check(object.log, place(object), only, unit).then_some(())?;
+                // a unit stands on a line of its own, where it is no name in a table
+                let own = format!("first line [{only}]");
+                let is_unit = object.log.unit(only).is_ok_and(|of| of.is_compatible(unit.0));
+                let column = if is_unit && !unit.0.dimension().is_none() { &own } else { *only };
+                column_heading::check(object.log, place(object), column, unit).then_some(())?;
+                let is_fraction = |word: &str| word.contains('.') && word.parse::<f64>().is_ok();
+                if only.split_whitespace().any(is_fraction) {
+                    unreadable(format!(
+                        "its first line, `{only}`, holds a number and is no number: a line that is no \
+                         reading begins with `#`"
+                    ));
+                    return None;
+                }
             }
             // it may be anything, and is not shown
             _ if !has_numbers(&source.text.replace(separator.sign(), "\n")) => {}
@@ -280,6 +292,31 @@ mod tests {
         let distributions = &file.task.rows[0].distributions;
         let means: Vec<f64> = distributions.iter().map(|d| d.mean()).collect();
         assert_eq!(means, vec![2.0, 0.0, 2.0]);
+    }
+
+    /// A unit on the first line is that of the numbers below; what is derived from them is none of them.
+    #[test]
+    fn the_first_line_is_not_passed_by() {
+        let read = |first: &str| {
+            let folder = tempfile::tempdir().unwrap();
+            let text = r#"{"inputs": {"a": {"unit": "V", "distribution": "readings", "file": "s.txt"}},
+                "equations": {"y": "a"}, "outputs": {"y": {"unit": "V"}}}"#;
+            std::fs::write(folder.path().join("m.json"), text).unwrap();
+            let content = format!("{first}\n1.01\n1.02\n1.03\n");
+            std::fs::write(folder.path().join("s.txt"), content).unwrap();
+            read_model(&folder.path().join("m.json"), &[]).map_err(|found| found.to_string())
+        };
+        for first in ["V", "U", "DMM 34401", "voltage [V]", "mass"] {
+            assert!(read(first).is_ok(), "{first}");
+        }
+        for (first, expected) in [
+            ("mV", "says `mV`, but its values are read in `V`"),
+            ("U [x1000 V]", "says `x1000 V`"),
+            ("mean 1.02", "begins with `#`"),
+        ] {
+            let message = read(first).unwrap_err();
+            assert!(message.contains(expected), "{first}: {message}");
+        }
     }
 
     #[test]

@@ -231,8 +231,7 @@ pub(super) fn converted(
         return Ok(value);
     }
     let given = unit_behind_number(text, own)?;
-    let is_absolute = given.has_reference() && unit.has_reference();
-    if of == ValueOf::Either && !given.has_zero_of(unit) && !is_absolute {
+    if of == ValueOf::Either && !converts_alike(&given, unit) {
         return Err(either_temperature(unit));
     }
     let found = match of {
@@ -244,6 +243,12 @@ pub(super) fn converted(
         Ok(found) => Err(format!("it is {found} in `{unit}`")),
         Err(error) => Err(error.to_string()),
     }
+}
+
+/// Whether a quantity and a difference of quantities are converted alike, or both units have references, so
+/// that it is a level.
+pub(super) fn converts_alike(given: &Unit, unit: &Unit) -> bool {
+    given.has_zero_of(unit) || given.has_reference() && unit.has_reference()
 }
 
 /// That a number in a unit with another zero than this one could be converted in two ways.

@@ -22,7 +22,7 @@ use super::administrative::localized;
 use super::{Asking, CertifiedModel};
 use crate::folder::{FileSource, Folder};
 use crate::open::{is_no_object, text};
-use crate::value_text::ValueOf;
+use crate::value_text::{ValueOf, converts_alike, either_temperature};
 use gumption_analysis::certificate::contents::{Asked, Line, StatedFunction};
 use gumption_engine::model::{Capability, Quantity};
 use gumption_engine::task::{Task, Warning};
@@ -187,7 +187,7 @@ impl<'a> Rows<'a> {
         let label = localized(&row, "label");
         let nominal = row.get("nominal");
         let with_unit = nominal
-            .and_then(|member| row.value_of("nominal", &member.value, unit, ValueOf::Quantity));
+            .and_then(|member| row.value_of("nominal", &member.value, unit, ValueOf::Either));
         for (at, conditions) in rows.into_iter().zip(&conditions.rows) {
             let capability = match &own {
                 Some((capability, following)) => {
@@ -415,6 +415,12 @@ impl<'a> Rows<'a> {
             ));
         };
         match Unit::convert(value, of, unit) {
+            // the temperature at which an error in K was found is a column of its own
+            Ok(_) if !converts_alike(of, unit) => refuse(format!(
+                "the nominal value `{name}` is in `{of}`, and {}; the conditions of a row are shown by \
+                 `\"conditions\"` at the root",
+                either_temperature(unit)
+            )),
             Ok(value) => Some(value),
             Err(_) => refuse(format!(
                 "the nominal value `{name}` is in `{of}`, which cannot be converted to `{unit}`"

@@ -8,14 +8,16 @@ use super::Fault;
 use super::document::{self, BLANKS, Measured, names};
 
 /// What a temperature of a certificate is.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum TemperatureKind {
     /// A temperature, or no temperature at all.
     Value,
     /// A difference of temperatures.
     Difference,
-    /// Nothing tells but a word of its name, by which it would be a difference.
+    /// Nothing tells but a word of its name or of that of its result, by which it would be a difference.
     Named(String),
+    /// Nothing tells, and one of its values, in K, would be a temperature near absolute zero.
+    NearZero(f64),
 }
 
 impl TemperatureKind {
@@ -28,6 +30,10 @@ impl TemperatureKind {
         }
     }
 }
+
+/// Values below this, in K, are asked whether they are temperatures: few laboratories measure below the
+/// boiling point of nitrogen, 77 K.
+const COLD: f64 = 75.0;
 
 /// Parts of the reference types of differences (of `basic_measurementError` and its kind).
 const OF_TYPES: [&str; 6] =
@@ -74,12 +80,20 @@ pub(super) fn kind(
     if measured.is_difference || stated.unwrap_or(is_typed) {
         return Ok(TemperatureKind::Difference);
     }
-    let names = names(node);
-    let is_named = |name: &&String| OF_NAMES.iter().any(|word| name.to_lowercase().contains(word));
-    Ok(match names.iter().find(is_named) {
-        Some(name) if stated.is_none() => TemperatureKind::Named(name.clone()),
-        _ => TemperatureKind::Value,
-    })
+    if stated.is_some() {
+        return Ok(TemperatureKind::Value);
+    }
+    // certificates of one kind of result name it once, and its values `Measured value`
+    let results = node.ancestors().filter(|above| above.tag_name().name() == "result");
+    let mut names = names(node).into_iter().chain(results.flat_map(names));
+    let is_named = |name: &String| OF_NAMES.iter().any(|word| name.to_lowercase().contains(word));
+    if let Some(name) = names.find(is_named) {
+        return Ok(TemperatureKind::Named(name));
+    }
+    let unit = &measured.unit;
+    let kelvin = measured.values.iter().map(|value| value * unit.factor());
+    let cold = kelvin.filter(|value| unit.zero().is_none() && *value < COLD);
+    Ok(cold.reduce(f64::min).map_or(TemperatureKind::Value, TemperatureKind::NearZero))
 }
 
 /// Whether a unit is one of temperatures, and of their differences.

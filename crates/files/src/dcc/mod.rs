@@ -30,7 +30,7 @@ pub(super) use document::{Fault, parse, tag};
 use gumption_engine::distribution::{
     Arcsine, Constant, Distribution, Invalid, Normal, Rectangular, Triangular,
 };
-use gumption_engine::number::smallest_first;
+use gumption_engine::number::{Shortest, smallest_first};
 use gumption_units::{Unit, nearest};
 use known::{Interval, Known, known};
 use missing::Rows;
@@ -280,7 +280,9 @@ fn temperature(
                 .to_owned();
             return Err((of.span.clone(), reason));
         }
-        if *known == TemperatureKind::Value {
+        if matches!(known, TemperatureKind::Value | TemperatureKind::NearZero(_))
+            && kind != TemperatureKind::Value
+        {
             *known = kind;
         }
     }
@@ -597,6 +599,12 @@ impl FromCertificate {
                  place in {unit} than in {}, or a difference of temperatures, which is the same in both: \
                  say which by `\"difference\": true` or `\"difference\": false`",
                 self.unit
+            )),
+            TemperatureKind::NearZero(value) => Some(format!(
+                "{} K of the certificate can be a difference of temperatures, or a temperature near absolute \
+                 zero, which is another number in {unit}: say which by `\"difference\": true` or \
+                 `\"difference\": false`",
+                Shortest(*value)
             )),
         }
     }

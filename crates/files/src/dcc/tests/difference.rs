@@ -48,6 +48,37 @@ fn a_name_that_may_be_a_difference_is_asked() {
     near(known(&read(&named, "", "degC").unwrap(), 0), [0.05, 0.01]);
 }
 
+/// A result that is called a correction has values that are called `Measured value`; and where nothing tells,
+/// few temperatures are 0.05 K.
+#[test]
+fn results_and_small_values_are_asked() {
+    let kind = " refType=\"basic_measuredValue\"";
+    let measured = |unit: &str| of_5_hundredths(kind, "Measured value", unit);
+    let within = |name: &str, quantity: &str| {
+        format!(
+            "<dcc:result><dcc:name><dcc:content lang=\"en\">{name}</dcc:content></dcc:name>\
+             <dcc:data><dcc:list>{quantity}</dcc:list></dcc:data></dcc:result>"
+        )
+    };
+    let (celsius, in_degrees) = (r"\degreecelsius", r#", "unit": "degC""#);
+    for (quantity, keys, result) in [
+        (within("Correction", &measured(r"\kelvin")), in_degrees, "degC"),
+        (within("deviation", &measured(celsius)), r#", "unit": "K""#, "K"),
+    ] {
+        let errors = read(&quantity, keys, result).unwrap_err().to_string();
+        assert!(errors.contains("can be a temperature"), "{errors}");
+        let keys = format!("{keys}, \"difference\": false");
+        assert!(read(&quantity, &keys, result).is_ok());
+    }
+    let cold = within("t", &measured(r"\kelvin"));
+    let errors = read(&cold, in_degrees, "degC").unwrap_err().to_string();
+    assert!(errors.contains("near absolute zero"), "{errors}");
+    near(known(&read(&cold, r#", "unit": "K""#, "K").unwrap(), 0), [0.05, 0.01]);
+    let keys = format!("{in_degrees}, \"difference\": false");
+    near(known(&read(&cold, &keys, "degC").unwrap(), 0), [0.05 - 273.15, 0.01]);
+    near(known(&read(&within("t", &measured(celsius)), "", "degC").unwrap(), 0), [0.05, 0.01]);
+}
+
 /// A hybrid of the same number in both units is a difference, whatever it is called.
 #[test]
 fn hybrids_tell() {
