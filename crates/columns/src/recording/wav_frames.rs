@@ -94,7 +94,20 @@ impl<R: Read> WavFrames<R> {
         header(&mut start, size)?;
         let reader = WavReader::new(Cursor::new(start).chain(reader))
             .map_err(|error| format!("it is not a WAV file that this version reads: {error}"))?;
-        let channels = usize::from(reader.spec().channels);
+        let spec = reader.spec();
+        let channels = usize::from(spec.channels);
+        let is_named = |wanted: &&Wanted| wanted.unit.has_name();
+        if let Some(wanted) = wanted.iter().find(is_named)
+            && spec.sample_format == SampleFormat::Int
+        {
+            let Wanted { channel, becomes, .. } = wanted;
+            let bits = spec.bits_per_sample;
+            return Err(format!(
+                "its samples are whole numbers of {bits} bits, and nothing says how many `{becomes}` one is: \
+                 state the `scale` of `{channel}`, the value of full scale divided by {}",
+                1_u64 << bits.clamp(1, 64).saturating_sub(1)
+            ));
+        }
         let mut places = Vec::new();
         for wanted in &wanted {
             match &wanted.column {
@@ -190,16 +203,27 @@ mod tests {
     }
 
     fn read(bytes: &[u8]) -> Result<Vec<f64>, String> {
+        read_in(bytes, Unit::one())
+    }
+
+    fn read_in(bytes: &[u8], unit: Unit) -> Result<Vec<f64>, String> {
         let wanted = Wanted {
             column: ColumnName::Number(1),
             channel: "a".to_owned(),
-            unit: Unit::one(),
-            becomes: Unit::one(),
+            becomes: unit.clone(),
+            unit,
         };
         let mut frames = WavFrames::new(bytes, Some(bytes.len() as u64), vec![wanted])?;
         let mut columns = vec![Vec::new()];
         frames.read(&mut columns)?;
         Ok(columns.remove(0))
+    }
+
+    /// 300 is no voltage where the full scale is not known.
+    #[test]
+    fn whole_numbers_need_a_scale() {
+        let message = read_in(&file(&[], None), Unit::parse("V").unwrap()).unwrap_err();
+        assert!(message.contains("how many `V`") && message.contains("32768"), "{message}");
     }
 
     /// Chunks of odd length are filled up by a byte, which is no part of what follows; nor is what they

@@ -108,9 +108,14 @@ pub struct Correction {
 }
 
 impl Correction {
-    /// The complex gain that a component's phasor is multiplied by, at a frequency in hertz.
+    /// The complex gain that a component's phasor is multiplied by, at a frequency in hertz. The mean is
+    /// divided by the modulus alone where the response of its points has a phase other than 0 or 180 deg,
+    /// which a mean cannot have.
     pub fn gain(&self, frequency: f64) -> Phasor {
         let response = self.response.at(frequency);
+        let is_turned = frequency == 0.0 && response.im.abs() > 1e-12 * response.re.abs();
+        let response =
+            if is_turned { Phasor::new(phasor::modulus(response), 0.0) } else { response };
         let kept = frequency >= self.between[0] && frequency <= self.between[1];
         if kept && response.norm_sqr() > 0.0 { response.inv() } else { Phasor::new(0.0, 0.0) }
     }
@@ -205,6 +210,27 @@ mod tests {
         }
         for everywhere in [Response::HighPasses(vec![0.1]), Response::Points(vec![point(5.0)])] {
             assert_eq!(everywhere.reaches(1e6), Ok(()));
+        }
+    }
+
+    /// A mean of 1 stays 1 behind a sensor whose phase is known at one frequency, and changes its sign
+    /// with a sensor that does.
+    #[test]
+    fn the_mean_has_no_phase() {
+        let signal = Signal {
+            values: (0..1000).map(|k| 1.0 + (TAU * 0.05 * f64::from(k)).sin()).collect(),
+            rate: 100.0,
+            start: 0.0,
+        };
+        for (degrees, mean) in [(0.0, 0.5), (40.0, 0.5), (90.0, 0.5), (180.0, -0.5)] {
+            let point =
+                ResponsePoint { frequency: 5.0, gain: 2.0, phase: f64::to_radians(degrees) };
+            let response = Response::Points(vec![point]);
+            let correction = Correction { response, between: ALL, ends: Ends::WholePeriods };
+            let values = correction.apply(&signal).unwrap().signal.values;
+            let found = values.iter().sum::<f64>() / 1000.0;
+            // rounding of a thousand values alone
+            assert!((found - mean).abs() < 1e-12, "{degrees} deg: {found}");
         }
     }
 
