@@ -12,7 +12,8 @@ use super::scopes::report_formula;
 use super::shapes;
 use super::value_text::is_value;
 use gumption_engine::model::formula::{
-    Formula, LevelReference, Numbers, Scope, TableCall, TableData, Typing, Use, ValueSource,
+    Formula, KelvinKind, LevelReference, Numbers, Scope, TableCall, TableData, Typing, Use,
+    ValueSource,
 };
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::number::Shortest;
@@ -52,6 +53,7 @@ pub(super) fn of_formulas(
     found.extend(picohenries(of));
     if of.check_units {
         found.extend(celsius_as_kelvin(scope, &of.outputs.outputs));
+        found.extend(of.outputs.outputs.iter().filter_map(|of| difference_in_degrees(scope, of)));
         found.extend(of.outputs.outputs.iter().filter_map(|output| sum_of_levels(scope, output)));
         found.extend(of.outputs.outputs.iter().filter_map(|output| rate_of_turns(scope, output)));
         let in_nepers = |unit: &&Unit| !unit.level_exponent().is_zero() && unit.factor() != 1.0;
@@ -500,6 +502,23 @@ fn celsius_as_kelvin(scope: &Scope, outputs: &[Output]) -> Vec<Warning> {
         .collect()
 }
 
+/// An output in degC or degF that is a difference of two temperatures: `t - c` of an indication and its
+/// correction, both in degC, is no corrected temperature.
+fn difference_in_degrees(scope: &Scope, output: &Output) -> Option<Warning> {
+    let Quantity { name, unit, .. } = &output.quantity;
+    let is_temperature = unit.zero().is_some() && unit.level_exponent().is_zero();
+    let typing = scope.get(name).filter(|_| is_temperature)?;
+    let is_difference = typing.zero.is_none() && typing.kelvin == KelvinKind::Difference;
+    is_difference.then(|| {
+        let text = format!(
+            "`{name}` is a difference of temperatures, and is reported in {unit}, by which everything that \
+             takes it further takes it for a temperature; report it in K, or, where a correction is \
+             subtracted from a temperature, give the correction in K"
+        );
+        Warning::new("difference-in-degrees", name, text)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use std::path::Path;
@@ -560,6 +579,125 @@ mod tests {
         ] {
             let found = codes(unit, &normal(mean, std));
             assert_eq!(found, Vec::from_iter(wanted), "{mean}, {std} in {unit}");
+        }
+    }
+
+    /// The factor that converts from the units of quantities to that of a value, which is converted already;
+    /// not one of another size, of a coherent unit, or before a quantity of which no unit is known.
+    #[test]
+    fn factors_that_convert_units() {
+        let of = |inputs: [(&str, &str); 3], equations: &str, unit: &str| {
+            let input = |(name, unit): (&str, &str)| {
+                format!(
+                    r#""{name}": {{"unit": "{unit}", "distribution": "normal", "mean": 3, "std": 0.1}}"#
+                )
+            };
+            let found = notes(&format!(
+                r#"{{"inputs": {{{}}}, "equations": {{{equations}}},
+                "outputs": {{"y": {{"unit": "{unit}"}}}}}}"#,
+                inputs.map(input).join(", ")
+            ));
+            let found = found.into_iter().filter(|(code, ..)| *code == "result-converted-twice");
+            found.map(|(.., text)| text).collect::<Vec<_>>()
+        };
+        let masses = [("m", "mg"), ("V", "mL"), ("P", "1")];
+        for (inputs, equations, unit, factor) in [
+            (masses, r#""y": "1000*m*P/V""#, "mg/L", "1000"),
+            (masses, r#""c": "1000*m*P/V", "y": "2*c""#, "mg/L", "1000"),
+            (masses, r#""y": "m*1000*P/V - 2 [mg/L]""#, "mg/L", "1000"),
+            ([("V", "mL"), ("t", "s"), ("k", "1")], r#""y": "60*k*V/t""#, "mL/min", "60"),
+            ([("P", "W"), ("t", "h"), ("k", "1")], r#""y": "k*P*t/1000""#, "kWh", "0.001"),
+            ([("x", "mmHg"), ("a", "1"), ("b", "1")], r#""y": "133.322*x*a*b""#, "Pa", "133.322"),
+            ([("x", "m/s"), ("a", "1"), ("b", "1")], r#""y": "3.6*x*a*b""#, "km/h", "3.6"),
+            ([("x", "V"), ("a", "1"), ("b", "1")], r#""y": "sqrt(x^2*a*b)*1e6""#, "uV", "1000000"),
+        ] {
+            let found = of(inputs, equations, unit);
+            assert!(
+                found.len() == 1 && found[0].contains(&format!("factor of {factor}")),
+                "{equations}: {found:?}"
+            );
+        }
+        for (inputs, equations, unit) in [
+            (masses, r#""y": "m*P/V""#, "mg/L"),
+            (masses, r#""y": "10*m*P/V""#, "mg/L"),
+            (masses, r#""y": "1000*m*P/V""#, "kg/m^3"),
+            ([("P", "W"), ("t", "h"), ("k", "1")], r#""y": "k*P*t/3600""#, "kWh"),
+            ([("x", "V"), ("a", "1"), ("b", "1")], r#""y": "1000*x*a*b""#, "V"),
+            ([("x", "mV"), ("a", "1"), ("b", "1")], r#""y": "1000*x*a*b""#, "mV"),
+            // a coefficient of a sum whose terms are in different units
+            ([("x", "mm"), ("a", "m"), ("b", "1")], r#""y": "b*(x + 1000*a)""#, "mm"),
+        ] {
+            assert_eq!(of(inputs, equations, unit), Vec::<String>::new(), "{equations}");
+        }
+    }
+
+    /// 25 degC less a correction of 0.1 degC is 24.9 K, and not 24.9 degC.
+    #[test]
+    fn differences_that_are_reported_in_degrees() {
+        let codes = |correction: &str, equation: &str, unit: &str| {
+            let found = notes(&format!(
+                r#"{{"inputs": {{"t": {{"unit": "degC", "distribution": "normal", "mean": 25, "std": 0.1}},
+                "c": {{"unit": "{correction}", "distribution": "normal", "mean": 0.1, "std": 0.1}}}},
+                "equations": {{"y": "{equation}"}}, "outputs": {{"y": {{"unit": "{unit}"}}}}}}"#
+            ));
+            found.into_iter().map(|(code, ..)| code).collect::<Vec<_>>()
+        };
+        assert_eq!(codes("degC", "t - c", "degC"), ["difference-in-degrees"]);
+        assert_eq!(codes("degC", "t - c", "degF"), ["difference-in-degrees"]);
+        assert_eq!(codes("degC", "t - c", "K"), Vec::<&str>::new());
+        assert_eq!(codes("K", "t - c", "degC"), Vec::<&str>::new());
+        assert_eq!(codes("K", "t - c", "degF"), Vec::<&str>::new());
+    }
+
+    /// 1 %RH beside a share of the humidity, 2 beside a ratio in mV/V.
+    #[test]
+    fn numbers_beside_shares_and_ratios() {
+        let width = |unit: &str, width: &str| {
+            let found = notes(&format!(
+                r#"{{"conditions": {{"h": {{"unit": "{unit}", "values": [50]}}}},
+                "inputs": {{"a": {{"unit": "{unit}", "distribution": "rectangular", "mean": "h",
+                "half_width": "{width}"}}}}, "equations": {{"y": "a"}},
+                "outputs": {{"y": {{"unit": "{unit}"}}}}}}"#
+            ));
+            found.into_iter().map(|(code, ..)| code).collect::<Vec<_>>()
+        };
+        for (unit, of, expected) in [
+            ("%RH", "1 + 0.02*h", "bare-number"),
+            ("%RH", "sqrt(1 + h^2)", "bare-number"),
+            ("%", "max(1, 0.02*h)", "bare-number"),
+            ("%", "max(0.5, 0.02*h)", "bare-number"),
+            ("ppm", "1 + 0.02*h", "bare-number"),
+            ("deg", "1 + 0.02*h", "bare-number"),
+        ] {
+            assert_eq!(width(unit, of), [expected], "{of} in {unit}");
+        }
+        for of in ["1 [%] + 0.02*h", "0.02*h", "h/100", "max(0.01, 0.02*h)"] {
+            assert_eq!(width("%", of), Vec::<&str>::new(), "{of}");
+        }
+        let output = |unit: &str, equation: &str| {
+            let found = notes(&format!(
+                r#"{{"inputs": {{"a": {{"unit": "{unit}", "distribution": "normal", "mean": 2, "std": 0.1}}}},
+                "equations": {{"y": "{equation}"}}, "outputs": {{"y": {{"unit": "{unit}"}}}}}}"#
+            ));
+            found.into_iter().map(|(code, ..)| code).collect::<Vec<_>>()
+        };
+        for (unit, equation) in [
+            ("mV/V", "a + 2"),
+            ("um/m", "a - 5"),
+            ("g/kg", "a + 2"),
+            ("mV/V", "max(a, 2)"),
+            ("%", "max(a, 0.5)"),
+        ] {
+            assert_eq!(output(unit, equation), ["bare-number"], "{equation} in {unit}");
+        }
+        for (unit, equation) in [
+            ("g/kg", "a/(a + 0.622)"),
+            ("mV/V", "1 + a"),
+            ("mV/V", "a + 2 [mV/V]"),
+            ("um/m", "max(a, 0)"),
+            ("%", "min(a, 1)"),
+        ] {
+            assert_eq!(output(unit, equation), Vec::<&str>::new(), "{equation} in {unit}");
         }
     }
 

@@ -15,7 +15,7 @@ mod grid;
 pub(crate) mod heading;
 mod limits;
 mod linear;
-mod mark;
+pub(crate) mod mark;
 pub(crate) mod number;
 mod own;
 mod pint;

@@ -96,8 +96,12 @@ impl<R: Read> WavFrames<R> {
             .map_err(|error| format!("it is not a WAV file that this version reads: {error}"))?;
         let spec = reader.spec();
         let channels = usize::from(spec.channels);
-        let is_named = |wanted: &&Wanted| wanted.unit.has_name();
-        if let Some(wanted) = wanted.iter().find(is_named)
+        // what counts digits, `D` and `LSB`, is a plain number
+        let is_quantity = |wanted: &&Wanted| {
+            let unit = &wanted.unit;
+            !unit.dimension().is_none() || unit.turn().is_some() || unit.factor() != 1.0
+        };
+        if let Some(wanted) = wanted.iter().find(is_quantity)
             && spec.sample_format == SampleFormat::Int
         {
             let Wanted { channel, becomes, .. } = wanted;
@@ -224,6 +228,7 @@ mod tests {
     fn whole_numbers_need_a_scale() {
         let message = read_in(&file(&[], None), Unit::parse("V").unwrap()).unwrap_err();
         assert!(message.contains("how many `V`") && message.contains("32768"), "{message}");
+        assert!(read_in(&file(&[], None), Unit::parse("D").unwrap()).is_ok());
     }
 
     /// Chunks of odd length are filled up by a byte, which is no part of what follows; nor is what they

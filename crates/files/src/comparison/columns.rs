@@ -157,6 +157,13 @@ impl Columns {
         self.place(role).is_some()
     }
 
+    /// Whether the column holds measured values or uncertainties.
+    pub(super) fn is_of_results(&self, place: usize) -> bool {
+        let is_result =
+            |role: Role| matches!(role, Role::Value(_) | Role::Expanded(_) | Role::Standard(_));
+        self.roles.iter().any(|(role, at)| *at == place && is_result(*role))
+    }
+
     /// The place of a condition.
     pub(super) fn condition(&self, name: &str) -> Option<usize> {
         self.conditions.iter().find(|(of, _)| of == name).map(|(_, place)| *place)

@@ -128,6 +128,9 @@ fn read(
         };
         let conditions: Vec<&str> = answer.iter().flat_map(|answer| answer.conditions()).collect();
         let columns = Columns::of(&numbers, &conditions, &mut warnings)?;
+        if !numbers.has_known_mark(|place| columns.is_of_results(place)) {
+            return None;
+        }
         let is_of_pairs = columns.has(Role::Value(1));
         let (shares, units, moved) = (BTreeSet::new(), Vec::new(), Vec::new());
         let mut reader = Reader { numbers, columns, shares, units, moved, options };

@@ -7,6 +7,7 @@ use crate::DiagnosticKind;
 use crate::diagnostics::Collector;
 use crate::import::columns::without_in;
 use crate::import::concise::concise;
+use crate::import::mark::{MarkedCell, doubt};
 use crate::import::number::{self, without_groups, written};
 use crate::text_table::TextTable;
 use crate::value_text::{decimal_comma, grouped_digits, is_comma, power_of_last_digit};
@@ -45,6 +46,28 @@ impl<'a> Numbers<'a> {
     ) -> Self {
         let marks = RefCell::new(DecimalMarks::of(table.separator()));
         Self { log, table, sheet, marks, mixed: Cell::new(false) }
+    }
+
+    /// Whether the decimal mark of the numbers in these columns is known; otherwise after a mistake.
+    pub(super) fn has_known_mark(&self, is_number: impl Fn(usize) -> bool) -> bool {
+        let table = self.table;
+        // the cells of a workbook are numbers
+        if table.separator() == Separator::Comma || self.sheet.is_some() {
+            return true;
+        }
+        let headings = table.columns();
+        let places = (0..table.rows()).flat_map(|row| (0..headings.len()).map(move |of| (row, of)));
+        let cells = places.map(|(row, column)| MarkedCell {
+            place: (row, column),
+            text: table.text(row, column),
+            is_number: is_number(column),
+        });
+        let doubt = doubt(headings.iter().map(String::as_str), cells);
+        if let Some(((row, column), reason)) = &doubt {
+            let reason = reason.clone();
+            self.log.report_at(table.place(*row, *column), DiagnosticKind::Table { reason });
+        }
+        doubt.is_none()
     }
 
     /// The text of a cell as a name: of a date or a time what it shows.

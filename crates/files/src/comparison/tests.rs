@@ -28,6 +28,18 @@ fn pairs_with_and_without_factors() {
 }
 
 /// 10.012 V and 10 011.5 mV differ by 0.5 mV; the last digits are worth 0.5 mV, 0.05 mV and 5 uV.
+/// 101.325 under German headings may be 101 325; one number that tells is enough.
+#[test]
+fn marks_that_may_group_are_asked() {
+    let table =
+        |value: &str| format!("Labor;Messwert [Pa];U (k=2) [Pa]\nA;{value};12\nB;101.330;10\n");
+    let message = read(&table("101.325")).unwrap_err().to_string();
+    assert!(message.contains("`101.325` can be `101,325` or `101325`"), "{message}");
+    assert!(read(&table("101.3251")).is_ok());
+    assert!(read(&table("101.325").replace(";12", ";0.12")).is_ok());
+    assert!(read("Lab;Value [Pa];U (k=2) [Pa]\nA;101.325;12\nB;101.330;10\n").is_ok());
+}
+
 #[test]
 fn units_stand_in_headings() {
     let text = "label,x1 [V],U1 [mV],x2 [mV],U2 / mV,k1\na,10.012,0.4,10011.5,0.30,2\n";

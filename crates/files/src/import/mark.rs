@@ -39,7 +39,7 @@ impl Mark {
 
 /// Whether a heading is a German or French one, in whose tables points may group thousands.
 fn is_of_commas(heading: &str) -> bool {
-    const WORDS: [&str; 16] = [
+    const WORDS: [&str; 19] = [
         "größe",
         "groesse",
         "wert",
@@ -52,6 +52,9 @@ fn is_of_commas(heading: &str) -> bool {
         "freiheitsgrad",
         "koeffizient",
         "quelle",
+        "mesure",
+        "résultat",
+        "ergebnis",
         "bezeichnung",
         "grandeur",
         "incertitude",
@@ -61,6 +64,42 @@ fn is_of_commas(heading: &str) -> bool {
     WORDS.iter().any(|word| small.contains(word))
 }
 
+/// A cell of a table: where it stands, its text, and whether the table reads it as a number.
+pub(crate) struct MarkedCell<'c, P> {
+    pub(crate) place: P,
+    pub(crate) text: &'c str,
+    pub(crate) is_number: bool,
+}
+
+/// The first number whose mark may be the decimal one or group thousands, under headings of a language in
+/// which it does either and with no other cell that tells; where it stands, and what it can be.
+pub(crate) fn doubt<'c, P>(
+    headings: impl IntoIterator<Item = &'c str>,
+    cells: impl IntoIterator<Item = MarkedCell<'c, P>>,
+) -> Option<(P, String)> {
+    let grouping = if headings.into_iter().any(is_of_commas) { '.' } else { ',' };
+    let mut doubtful = None;
+    for MarkedCell { place, text, is_number } in cells {
+        match Mark::of(text) {
+            Some(Mark::Doubtful(mark)) if mark != grouping => return None,
+            Some(Mark::Shown) => return None,
+            Some(Mark::Doubtful(_)) if is_number && doubtful.is_none() => {
+                doubtful = Some((place, text.trim()));
+            }
+            _ => {}
+        }
+    }
+    let (place, text) = doubtful?;
+    let other = if grouping == '.' { "," } else { "." };
+    let reason = format!(
+        "`{text}` can be `{}` or `{}`, as no other number of this table shows which decimal mark it has: \
+         write one of them",
+        text.replace(grouping, other),
+        text.replace(grouping, "")
+    );
+    Some((place, reason))
+}
+
 impl Budget<'_> {
     /// Whether the decimal mark of the numbers is known; otherwise after a mistake.
     pub(super) fn has_known_mark(&self, header: &Header) -> bool {
@@ -68,36 +107,27 @@ impl Budget<'_> {
             return true;
         }
         let headings = header.columns.iter().map(|(place, _)| header.heading(*place));
-        let grouping = if headings.into_iter().any(is_of_commas) { '.' } else { ',' };
-        let mut doubtful = None;
-        for line in 0..self.cells.lines() {
-            for (place, cell) in self.cells.row(line).iter().enumerate() {
-                let mark = Mark::of(cell).filter(|_| self.cells.is_written(line, place));
-                match mark {
-                    Some(Mark::Doubtful(mark)) if mark != grouping => return true,
-                    Some(Mark::Shown) => return true,
-                    Some(Mark::Doubtful(_)) if doubtful.is_none() => {
-                        let is_number = |(of, column): &(usize, Column)| {
-                            *of == place && *column != Column::Quantity && *column != Column::Symbol
-                        };
-                        let is_one = header.columns.iter().any(is_number) && line > header.line;
-                        doubtful = is_one.then_some((line, cell));
-                    }
-                    _ => {}
-                }
-            }
+        let is_number = |line: usize, place: usize| {
+            let is_one = |(of, column): &(usize, Column)| {
+                *of == place && *column != Column::Quantity && *column != Column::Symbol
+            };
+            line > header.line && header.columns.iter().any(is_one)
+        };
+        let cells = (0..self.cells.lines()).flat_map(|line| {
+            let written = self.cells.row(line).iter().enumerate();
+            let written = written.filter(move |(place, _)| self.cells.is_written(line, *place));
+            written.map(move |(place, text)| (line, place, text.as_str()))
+        });
+        let cells = cells.map(|(line, place, text)| MarkedCell {
+            place: line,
+            text,
+            is_number: is_number(line, place),
+        });
+        let doubt = doubt(headings, cells);
+        if let Some((line, reason)) = &doubt {
+            self.fail(*line, reason.clone());
         }
-        let Some((line, cell)) = doubtful else { return true };
-        let cell = cell.trim();
-        let other = if grouping == '.' { "," } else { "." };
-        let reason = format!(
-            "`{cell}` can be `{}` or `{}`, as no other number of this sheet shows which decimal mark it \
-             has: write one of them",
-            cell.replace(grouping, other),
-            cell.replace(grouping, "")
-        );
-        self.fail(line, reason);
-        false
+        doubt.is_none()
     }
 }
 

@@ -65,6 +65,7 @@ mod note;
 mod note_bare;
 mod note_result;
 mod note_turns;
+mod note_units;
 mod note_unstated;
 mod numbers;
 mod parser;
@@ -228,7 +229,8 @@ impl Formula {
         unit: &'u Unit,
         what: &str,
     ) -> Option<FormulaNote> {
-        note::Walk::new(&self.text, &self.tree, numbers_of, Use::Quantity).result(unit, what)
+        note::Walk::new(&self.text, &self.tree, numbers_of, Use::Quantity)
+            .converted_result(unit, what)
     }
 
     /// The names that the value is a sum, a small multiple or a choice of.

@@ -16,6 +16,9 @@ const SHARE_TWICE: &str = "share-converted-twice";
 /// The code of angles that a product converts once more.
 pub(super) const ANGLE_TWICE: &str = "angle-converted-twice";
 
+/// The code of results that a formula converts to their unit.
+pub(super) const RESULT_TWICE: &str = "result-converted-twice";
+
 /// A note on a formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FormulaNote {
@@ -40,15 +43,13 @@ pub(super) fn notes<'u>(
         tree.nodes.iter().flat_map(|node| walk.of_node(node)).collect();
     found.extend(tree.nodes.iter().filter_map(|node| walk.unstated_beside(node)));
     found.extend(walk.unstated_result());
-    // of a width, `0.01*p` is a hundredth of p
-    let is_told = |note: &FormulaNote| of != Use::Width || note.code != SHARE_TWICE;
-    found.extend(walk.conversions().filter(is_told));
+    found.extend(walk.conversions());
     let result = match of {
         Use::Output(unit) => Some((unit, "the output")),
         Use::Estimate(unit) => Some((unit, "the quantity")),
         Use::Quantity | Use::Width => None,
     };
-    if let Some(twice) = result.and_then(|(unit, what)| walk.result(unit, what)) {
+    if let Some(twice) = result.and_then(|(unit, what)| walk.converted_result(unit, what)) {
         // the factor of `c*100/p` that is reported in % may be meant for either
         found.retain(|note| !(note.code == SHARE_TWICE && note.span == twice.span));
         found.push(twice);
@@ -63,6 +64,7 @@ pub(super) struct Walk<'t, 'u> {
     pub(super) constants: Vec<Option<f64>>,
     pub(super) of: Use<'u>,
     scaled: Vec<Scaled<'u>>,
+    sizes: Vec<Option<f64>>,
 }
 
 impl<'t, 'u> Walk<'t, 'u> {
@@ -73,15 +75,24 @@ impl<'t, 'u> Walk<'t, 'u> {
         of: Use<'u>,
     ) -> Self {
         let scaled = Vec::with_capacity(tree.nodes.len());
-        let mut walk = Self { text, tree, constants: constants(tree), of, scaled };
+        let sizes = Vec::with_capacity(tree.nodes.len());
+        let mut walk = Self { text, tree, constants: constants(tree), of, scaled, sizes };
         for (index, node) in tree.nodes.iter().enumerate() {
             let found = match walk.constant(index) {
                 Some(factor) => Scaled { factor, ..Scaled::UNKNOWN },
                 None => walk.computed(node, &numbers_of),
             };
             walk.scaled.push(found);
+            let size = walk.computed_size(node, &numbers_of);
+            walk.sizes.push(size);
         }
         walk
+    }
+
+    /// The coherent value of a node where each quantity in it is one of its units, and each plain number
+    /// is 1; `None` where that is not known.
+    pub(super) fn size(&self, index: usize) -> Option<f64> {
+        self.sizes.get(index).copied().flatten()
     }
 
     pub(super) fn constant(&self, index: usize) -> Option<f64> {
@@ -127,8 +138,14 @@ impl<'t, 'u> Walk<'t, 'u> {
     /// 2 pi.
     fn conversions(&self) -> impl Iterator<Item = FormulaNote> {
         let products = self.products();
+        // of a width, `0.01*p` is a hundredth of p; `0.1 [V]*p/100` is none
+        let is_share = |node: &Node, of: Scaled<'_>| {
+            let is_divided = matches!(node.kind, Kind::Infix { operator: Operator::Divide, .. });
+            let is_relative = of.unit.is_some_and(|unit| unit.turn().is_none());
+            self.of == Use::Width && is_relative && (of.is_bare || !is_divided)
+        };
         let nodes = self.tree.nodes.iter().zip(products).enumerate();
-        nodes.filter_map(|(index, (node, product))| {
+        nodes.filter_map(move |(index, (node, product))| {
             let operands = match &node.kind {
                 Kind::Infix { left, right, .. } => vec![*left, *right],
                 Kind::InUnit { number, .. } => vec![*number],
@@ -139,7 +156,7 @@ impl<'t, 'u> Walk<'t, 'u> {
             let of = self.scaled(index);
             let unit = of.unit.filter(|_| of.converts() && !is_told)?;
             let is_area = of.has_turn() && self.is_of_area(of, product);
-            (!is_area).then(|| self.converted_twice(node, unit))
+            (!is_area && !is_share(node, of)).then(|| self.converted_twice(node, unit))
         })
     }
 
@@ -177,7 +194,7 @@ impl<'t, 'u> Walk<'t, 'u> {
     /// `phi*pi/180` of an angle in degrees, `p/100` and `c*100/p` of per cent.
     fn converted_twice(&self, node: &Node, unit: &Unit) -> FormulaNote {
         let quoted = self.quoted(&node.span);
-        let (code, text) = if unit.is_relative() {
+        let (code, text) = if unit.turn().is_none() {
             let text = format!(
                 "`{quoted}` converts from {unit} once more: formulas have a share in {unit} as a plain \
                  number already, so that its name is enough"

@@ -16,6 +16,9 @@ const BARE: &str = "bare-number";
 /// Beside an angle in degrees, smaller numbers are hardly degrees.
 const SMALLEST_ANGLE: f64 = 0.01;
 
+/// Beside a share, of which one chooses the larger, smaller numbers may be shares.
+const LARGEST_SHARE: f64 = 0.1;
+
 /// What a plain number stands beside.
 #[derive(Clone, Copy)]
 enum Beside<'u> {
@@ -127,11 +130,15 @@ impl<'u> Walk<'_, 'u> {
         // an estimate of per cent that begins with its condition is no whole beside a share
         let is_estimate = matches!(self.of, Use::Estimate(unit) if unit.is_relative());
         let is_first = at == left;
-        let is_whole =
-            Self::is_whole(number, beside.unit(), is_first) && (is_first || !is_estimate);
+        // and no width is the whole
+        let is_whole = Self::is_whole(number, beside.unit(), is_first)
+            && (is_first || !is_estimate)
+            && self.of != Use::Width;
         // what a function gives is in radians for whoever reads only this
         let is_small = beside.unit().is_none() && number.abs() <= TAU && !self.is_result(node);
-        if number == 0.0 || is_whole || is_small || self.has_pi(at) {
+        // 0.622 beside a mixing ratio in g/kg is a ratio itself
+        let is_ratio = beside.unit().is_some_and(is_ratio) && number.abs() <= 1.0;
+        if number == 0.0 || is_whole || is_small || is_ratio || self.has_pi(at) {
             return None;
         }
         Some(self.number_beside(node, number, (name, beside)))
@@ -165,12 +172,13 @@ impl<'u> Walk<'_, 'u> {
             // an estimate and its width are in the unit that is declared beside them
             (_, true) if is_width && beside.unit().is_some() => SMALLEST_ANGLE,
             (_, true) => TAU,
-            (_, false) => 1.0,
+            (_, false) if beside.unit().is_some_and(is_ratio) => 1.0,
+            (_, false) => LARGEST_SHARE,
         };
+        // a share is 1 at most, and a width is no whole
+        let is_limit = |number: f64| number.abs() == 1.0 && self.of != Use::Width;
         let is_far = |number: &f64| {
-            number.abs() > most
-                && number.abs() != 1.0
-                && !(beside.is_angle() && is_of_turn(*number))
+            number.abs() > most && !is_limit(*number) && !(beside.is_angle() && is_of_turn(*number))
         };
         let numbers = parts.iter().filter(|index| !self.has_pi(**index));
         let number = numbers.filter_map(|index| self.constant(*index)).find(is_far)?;
@@ -256,6 +264,11 @@ impl<'u> Walk<'_, 'u> {
 
 fn note_at(node: &Node, code: &'static str, text: String) -> FormulaNote {
     FormulaNote { code, text, span: node.span.clone() }
+}
+
+/// Whether a unit is a ratio of like units, `mV/V`, and no share.
+fn is_ratio(unit: &Unit) -> bool {
+    unit.turn().is_none() && !unit.is_relative()
 }
 
 /// Whether a number is a multiple of pi/4 but for the digits that somebody wrote.

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::function::Function;
-use super::note::{FormulaNote, Walk};
+use super::note::{FormulaNote, RESULT_TWICE, Walk};
 use super::numbers::is_same_factor;
 use super::syntax::{Kind, Node, Operator, Tree};
 use crate::number::{Binary, Unary, elementary};
@@ -84,8 +84,14 @@ pub(super) fn taken_up(function: Function, arguments: &[usize]) -> &[usize] {
 }
 
 impl Walk<'_, '_> {
-    /// `(a - b)/b*100` that is reported in %, also as a term of a sum. `what` is what is in the unit.
-    pub(super) fn result(&self, unit: &Unit, what: &str) -> Option<FormulaNote> {
+    /// What a formula converts to the unit of its value, which is converted to it. `what` is what is in the
+    /// unit.
+    pub(super) fn converted_result(&self, unit: &Unit, what: &str) -> Option<FormulaNote> {
+        self.of_ratio(unit, what).or_else(|| self.of_units(unit, what))
+    }
+
+    /// `(a - b)/b*100` that is reported in %, also as a term of a sum.
+    fn of_ratio(&self, unit: &Unit, what: &str) -> Option<FormulaNote> {
         // a share, an angle, or a ratio of like units: mV/V; a rate in degrees per second
         let is_scaled = unit.level_exponent().is_zero() && unit.turn() != Some(Turn::Periods);
         if !is_scaled || unit.factor() == 1.0 {
@@ -115,7 +121,7 @@ impl Walk<'_, '_> {
                 None => "ratios as plain numbers",
             },
         );
-        Some(FormulaNote { code: "result-converted-twice", text, span: node.span.clone() })
+        Some(FormulaNote { code: RESULT_TWICE, text, span: node.span.clone() })
     }
 
     /// Whether a product converts from the unit of its name to another one: `3600*a` of degrees that is
@@ -153,7 +159,7 @@ impl Walk<'_, '_> {
         is_once && is_meant || of_deviation()
     }
 
-    fn is_product(&self, index: usize) -> bool {
+    pub(super) fn is_product(&self, index: usize) -> bool {
         let operator = match self.node(index) {
             Some(Kind::Infix { operator, .. }) => *operator,
             _ => return false,

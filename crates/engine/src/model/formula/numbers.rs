@@ -114,9 +114,10 @@ impl<'u> Scaled<'u> {
     /// Of a name with this unit.
     fn in_unit(unit: &'u Unit) -> Self {
         let counts_turns = unit.turn() == Some(Turn::Angle);
-        let is_scaled = (unit.is_relative() || counts_turns)
-            && unit.factor() != 1.0
-            && (counts_turns || unit.dimension().is_none());
+        // a share, or a ratio of like units: mV/V
+        let is_ratio =
+            unit.dimension().is_none() && unit.turn().is_none() && unit.level_exponent().is_zero();
+        let is_scaled = (is_ratio || counts_turns) && unit.factor() != 1.0;
         let lengths = if unit.dimension() == Dimension::LENGTH { 1.0 } else { 0.0 };
         if is_scaled {
             Self { unit: Some(unit), is_bare: true, lengths, ..Self::UNKNOWN }
