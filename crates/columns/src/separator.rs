@@ -72,11 +72,14 @@ impl DecimalMarks {
         Self { separator, point: None, comma: None }
     }
 
-    /// The text of a number with a decimal point.
+    /// The text of a number with a decimal point, and with a hyphen for the minus sign of typesetters.
     ///
     /// # Errors
     /// Both marks stand in the numbers of the text.
     pub fn with_point<'c>(&mut self, cell: &'c str) -> Result<Cow<'c, str>, String> {
+        if let Some(rest) = cell.strip_prefix('−') {
+            return self.with_point(rest).map(|rest| Cow::Owned(format!("-{rest}")));
+        }
         if self.separator == Separator::Comma {
             return Ok(Cow::Borrowed(cell));
         }
@@ -114,7 +117,8 @@ mod tests {
         for cells in [["1.234", "2,5"], ["2,5", "1.234"], ["1.234,5", "2"]] {
             assert!(read(Separator::Semicolon, &cells).unwrap_err().contains("decimal mark"));
         }
-        assert_eq!(read(Separator::Comma, &["1.5"]).unwrap(), ["1.5"]);
+        assert_eq!(read(Separator::Comma, &["1.5", "−5"]).unwrap(), ["1.5", "-5"]);
+        assert_eq!(read(Separator::Tab, &["−1,5"]).unwrap(), ["-1.5"]);
     }
 
     #[test]

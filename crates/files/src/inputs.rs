@@ -384,7 +384,7 @@ impl<'a> Reader<'a, '_> {
             self.note_of_moved_limits();
         }
         let shared = if differs { None } else { drawn.first() };
-        self.note_of_readings(self.name, kind, shared, read.as_ref());
+        self.note_of_readings((&object, unit), self.name, kind, (shared, read.as_ref()));
         let same_elsewhere = !differs && self.conditions.rows() > 1;
         self.note_of_zero_width(self.name, &zero_width, same_elsewhere);
         if !zero_share.is_empty() {
@@ -506,10 +506,10 @@ impl<'a> Reader<'a, '_> {
     /// What is to be said of readings: groups, a drift, no scatter.
     fn note_of_readings(
         &mut self,
+        (object, unit): (&Object<'_>, &Unit),
         name: &str,
         kind: &Shape,
-        drawn: Option<&Distribution>,
-        read: Option<&FileReadings>,
+        (drawn, read): (Option<&Distribution>, Option<&FileReadings>),
     ) {
         if kind.name != "readings" {
             return;
@@ -518,6 +518,7 @@ impl<'a> Reader<'a, '_> {
         notes.extend(read.and_then(|read| read.note.clone()).map(|note| ("nested-readings", note)));
         match drawn {
             Some(Distribution::Readings(readings)) => {
+                readings::refuse_branches(object, readings.values(), unit);
                 let note = readings::dependence(name, readings.values());
                 notes.extend(note.map(|note| ("dependent-readings", note)));
             }
@@ -758,7 +759,8 @@ impl<'a> Reader<'a, '_> {
                 self.note_of_saved_estimate(&part.full, saved, unit);
             }
             let shared = if differs { None } else { drawn.first() };
-            self.note_of_readings(&part.full, part.kind, shared, part.read.0.as_ref());
+            let read = part.read.0.as_ref();
+            self.note_of_readings((&part.object, unit), &part.full, part.kind, (shared, read));
         }
         for (part, mut drawn) in drawn.into_iter().enumerate() {
             match drawn.pop() {

@@ -5,6 +5,7 @@
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
 
+mod angle_branches;
 mod answer;
 pub mod bytes;
 mod carried;

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::DiagnosticKind;
+use super::angle_branches::{branches, turn};
 use super::column_heading;
 use super::folder::Folder;
 use super::json::{Json, Node};
@@ -12,7 +13,8 @@ use super::object::Object;
 use super::table::{self, Table};
 use super::value_text::{ValueOf, is_value};
 use super::{keys, samples};
-use gumption_engine::decimal;
+use gumption_engine::decimal::{self, to_15_digits};
+use gumption_engine::number::Shortest;
 use gumption_engine::regression::{CurveFunction, Spread};
 use gumption_engine::special;
 use gumption_units::{Unit, nearest};
@@ -215,6 +217,25 @@ pub(super) fn dependence(name: &str, values: &[f64]) -> Option<String> {
     })
 }
 
+/// Refuses readings of an angle on both sides of a turn, 359.9 deg and 0.1 deg, whose mean is far from all of
+/// them.
+pub(super) fn refuse_branches(object: &Object<'_>, values: &[f64], unit: &Unit) {
+    let Some(turn) = turn(unit) else { return };
+    let Ok(added) = branches(values, turn) else { return };
+    let moved = values.iter().zip(&added).find(|(_, turns)| **turns != 0.0);
+    let (Some(first), Some((value, turns))) = (values.first(), moved) else { return };
+    let found = unit.after(&Shortest(*value).to_string());
+    let reason = format!(
+        "it and the reading {} lie on both sides of a turn, and their mean is far from both; write it as {}",
+        unit.after(&Shortest(*first).to_string()),
+        unit.after(&Shortest(to_15_digits(value + turns * turn)).to_string())
+    );
+    let key = if object.get("file").is_some() { "file" } else { "values" };
+    let place = object.get(key).map_or(object.place(), |member| &member.value.span);
+    let key = key.to_owned();
+    object.log.report(place, DiagnosticKind::Value { key, found, reason });
+}
+
 /// What stands in place of the scatter of readings.
 #[derive(Clone, Debug)]
 pub(super) enum Pooled {
@@ -409,6 +430,26 @@ mod tests {
     }
 
     /// Twelve readings in a straight line, and a random walk.
+    /// The mean of 359.9, 0.1, 0 and 359.8 deg is no 179.95 deg.
+    #[test]
+    fn readings_on_both_sides_of_a_turn_are_refused() {
+        let of = |values: &str, unit: &str| {
+            let text = format!(
+                r#"{{"inputs": {{"x": {{"unit": "{unit}", "distribution": "readings", "values": {values}}}}},
+                "equations": {{"y": "x"}}, "outputs": {{"y": {{"unit": "{unit}"}}}}}}"#
+            );
+            crate::read_text("m", &text, std::path::Path::new(""), &[])
+        };
+        let message = of("[359.9, 0.1, 0.0, 359.8]", "deg").unwrap_err().to_string();
+        assert!(message.contains("`0.1 deg` of `values`"), "{message}");
+        assert!(message.contains("write it as 360.1 deg"), "{message}");
+        for (values, unit) in
+            [("[359.9, 360.1, 360.0]", "deg"), ("[10, 100, 179]", "deg"), ("[359.9, 0.1]", "V")]
+        {
+            assert!(of(values, unit).is_ok(), "{values} {unit}");
+        }
+    }
+
     #[test]
     fn drifting_readings_are_noticed() {
         let drift: Vec<f64> = (1..=12).map(|i| 1.0 + f64::from(i) / 1000.0).collect();

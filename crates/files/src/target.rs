@@ -5,6 +5,7 @@ use super::value_text::{
 };
 use super::width::{Width, number, share};
 use gumption_analysis::plan::{Drift, DriftLaw, PlanTarget};
+use gumption_engine::number::Shortest;
 use gumption_engine::task::Task;
 use gumption_units::nearest;
 
@@ -76,6 +77,13 @@ pub fn read_target(text: &str, task: &Task) -> Result<PlanTarget, String> {
         let value = with_unit(right).ok_or_else(form)?;
         let most = converted(value, unit, ValueOf::Difference, &[])
             .map_err(|error| wrong(format!(": {error}")))?;
+        if !unit.is_relative() && share(behind).is_some() {
+            let (of, most) = (kind.trim(), Shortest(most));
+            return Err(wrong(format!(
+                " can be {most} or a share of its value: write `{of}({name}) <= {most}` for the one, \
+                 `{of}({name})/{name} <= {right}` for the other"
+            )));
+        }
         return Ok(PlanTarget { most, ..target });
     }
     let width = Width::specification(right, unit, &[]);
@@ -181,6 +189,14 @@ mod tests {
             assert!(read_target(form, &task()).is_err(), "{form}");
         }
         assert!(wrong("length <= 3").contains("is written"));
+        // of a plain number a per cent is of it, or 0.01
+        let ratio = Task::builder("").input("x", Input::normal(10.0, 0.1, "1").unwrap());
+        let ratio = ratio.equation("q", "x").output("q", "1").trials(0).build().unwrap();
+        let message = read_target("U(q) <= 0.1 %", &ratio).unwrap_err();
+        assert!(message.contains("`U(q) <= 0.001` for the one"), "{message}");
+        assert!(message.contains("`U(q)/q <= 0.1 %` for the other"), "{message}");
+        assert_eq!(read_target("U(q)/q <= 0.1 %", &ratio).unwrap(), of_share(0.001));
+        assert_eq!(read_target("U(q) <= 0.001", &ratio).unwrap(), of(0.001));
     }
 
     #[test]

@@ -67,6 +67,12 @@ const SPELLED: &[(&str, &[&str])] = &[
     ("cst", &["mm^2/s"]), ("centistokes", &["mm^2/s"]), ("nit", &["cd/m^2"]),
     ("poise", &["0.1*Pa*s"]), ("st", &["1e-4*m^2/s"]), ("stokes", &["1e-4*m^2/s"]),
     ("cpm", &["1/min"]), ("molar", &["mol/L"]),
+    ("cp", &["mPa*s"]), ("centipoise", &["mPa*s"]), ("btu", &["1055.05585262*J"]),
+    ("hp", &["745.69987158227022*W", "735.49875*W"]), ("horsepower", &["745.69987158227022*W", "735.49875*W"]),
+    ("oe", &["79.577471545947668*A/m"]), ("oersted", &["79.577471545947668*A/m"]),
+    ("ci", &["3.7e10*Bq"]), ("curie", &["3.7e10*Bq"]), ("rem", &["0.01*Sv"]),
+    ("gpm", &["3.785411784*L/min"]), ("cfm", &["28.316846592*L/min"]), ("lpm", &["L/min"]),
+    ("at", &["98.0665*kPa"]), ("barg", &["bar"]), ("bara", &["bar"]),
 ];
 
 /// Nobody means a prefix beyond these powers of ten who writes an abbreviation.

@@ -12,7 +12,7 @@ use super::super::value_text::{
 use super::parameter_units;
 use gumption_engine::model::formula::{Formula, Scope, Typing, check_name};
 use gumption_engine::model::{NumberForm, Program, Recorder, Traced};
-use gumption_units::Unit;
+use gumption_units::{Turn, Unit};
 
 /// The variable of a formula.
 const VARIABLE: &str = "x";
@@ -155,7 +155,21 @@ impl<'a> Form<'a> {
         let inferred = empirical
             .then(|| parameter_units::inferred(fit.log, formula, (x, y), range, &start.parameters))
             .flatten();
-        let note = (empirical && inferred.is_none()).then(|| {
+        let is_unchecked = empirical && inferred.is_none();
+        let is_of_radians = x.turn() == Some(Turn::Angle) && x.dimension().is_none();
+        let angle = formula.angles().find(|(_, name)| *name == VARIABLE);
+        if let Some((function, _)) =
+            angle.filter(|_| is_unchecked && is_of_radians && x.factor() != 1.0)
+        {
+            let reason = format!(
+                "`{function}` takes radians, and x is computed with in {x}: give the parameters of `start` \
+                 with units, such as `\"1 V\"`, by which x is an angle, or x in rad"
+            );
+            let (key, found) = ("form".to_owned(), formula.text().to_owned());
+            fit.log.report(&member.value.span, DiagnosticKind::Value { key, found, reason });
+            return None;
+        }
+        let note = is_unchecked.then(|| {
             format!(
                 "units are not checked in the formula of `{fit_name}`: it computes with x in {x} and \
                  y in {y}, and its parameters are plain numbers; give those of `start` with units"
