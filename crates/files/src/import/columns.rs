@@ -1618,6 +1618,9 @@ pub(super) fn is_of_correlation(text: &str) -> bool {
     }
     ["correl", "korrel", "corrél"].iter().any(|word| words.contains(word))
         || compact.starts_with("r(") && compact.contains('=')
+        || ["r(", "ρ("].iter().any(|begin| compact.starts_with(begin))
+            && compact.ends_with(')')
+            && compact.contains([',', ';'])
         || compact.contains(":r=")
 }
 

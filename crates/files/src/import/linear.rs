@@ -109,7 +109,7 @@ impl Budget<'_> {
 
     /// The row whose coefficient with the other sign makes the sheet's estimate, as the end of a
     /// sentence.
-    fn sign_that_explains(rows: &[Row], factors: &[f64], difference: f64) -> String {
+    pub(super) fn sign_that_explains(rows: &[Row], factors: &[f64], difference: f64) -> String {
         let mut turned = rows.iter().zip(factors).filter(|(row, factor)| {
             let product = **factor * row.estimate.unwrap_or(0.0);
             (difference + 2.0 * product).abs() <= 1e-6 * product.abs()

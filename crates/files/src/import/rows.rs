@@ -449,10 +449,11 @@ impl Budget<'_> {
             !is_empty(header.cell(self.cells, last.line, Column::Contribution).trim());
         let is_told = others.iter().all(|row| row.sensitivity.is_some())
             || has_coefficients && (contributes || !bare(last));
-        if is_alone && is_told && bare(last) && !contributes && self.is_far(last, others) {
+        if is_alone && is_told && bare(last) && !contributes && self.is_far(header, last, others) {
             let reason = format!(
                 "`{}` has neither an uncertainty nor a coefficient, and is not what the others make: it can be \
-                 a constant, whose coefficient is missing, or a result that contradicts them",
+                 a constant, whose coefficient is missing, a result that contradicts them, or stand beside the \
+                 budget: take the row out, give its coefficient, or write the equation",
                 last.name
             );
             self.fail(last.line, reason);
@@ -540,17 +541,31 @@ impl Budget<'_> {
         None
     }
 
-    /// Whether the estimate of a row is far from the sum of others that are in its unit with coefficients of
-    /// 1 and -1, which leave no constant to be added.
-    fn is_far(&self, last: &Row, others: &[Row]) -> bool {
+    /// Whether a row cannot be what others in one unit with coefficients of 1 and -1 make, which leave no
+    /// constant to be added: it is of another kind, or far from their sum.
+    fn is_far(&self, header: &Header, last: &Row, others: &[Row]) -> bool {
+        let Some(first) = others.first() else { return false };
         let are_plain = others.iter().all(|row| {
-            row.unit == last.unit
+            row.unit == first.unit
                 && row.sensitivity.is_some_and(|c| c.abs() == 1.0)
                 && row.unit_of_sensitivity.is_empty()
         });
+        let units = (Unit::parse(&last.unit), Unit::parse(&first.unit));
+        let scale = match units {
+            _ if last.unit == first.unit || last.unit.is_empty() => Some(1.0),
+            (Ok(of), Ok(unit)) => Unit::conversion_factor(&of, &unit).ok(),
+            _ => return false,
+        };
         let (sum, combined) = sum_of(others);
-        let apart = last.estimate.map_or(0.0, |estimate| (estimate - sum).abs());
-        are_plain && apart > FAR * combined && apart > 0.01 * sum.abs()
+        let half_digit = self.half_digit(header, last, Column::Estimate);
+        let signs: Vec<f64> = others.iter().filter_map(|row| row.sensitivity).collect();
+        let is_apart = scale.is_none_or(|scale| {
+            let apart = last.estimate.map_or(0.0, |estimate| scale * estimate - sum);
+            let is_apart = apart.abs() > FAR * combined + 1.01 * scale * half_digit;
+            // a slip of one sign is told by the linear model, and changes no uncertainty
+            is_apart && Self::sign_that_explains(others, &signs, apart).is_empty()
+        });
+        are_plain && is_apart
     }
 
     /// Whether a line has no uncertainty, coefficient, shape or divisor.
@@ -1536,8 +1551,9 @@ fn is_grouped(text: &str) -> bool {
     is_first && rest.peek().is_some() && rest.all(|group| group.len() == 3)
 }
 
-/// A result this many combined standard uncertainties from what its quantities make is none of them.
-const FAR: f64 = 20.0;
+/// A result this many combined standard uncertainties from what its quantities make is not theirs: sheets
+/// round by less.
+const FAR: f64 = 0.1;
 
 /// Why the last row of a budget is taken for its result.
 const NO_UNCERTAINTY: &str = "has no uncertainty of its own";

@@ -741,6 +741,33 @@ fn the_sheet_s_result_is_compared() {
     }
 }
 
+/// What stands below a budget is no result of it: a tolerance, a temperature, a number of readings; a
+/// coefficient of correlation is told.
+#[test]
+fn rows_beside_the_budget_are_no_results() {
+    let head = "Source,Value,Unit,±,Distribution,Divisor,c_i,u_i(y)\n\
+                Reference,100.000,mm,0.5,Normal,2,1,0.25\n\
+                Indication,100.200,mm,0.3,Rect,1.732,-1,0.173\n";
+    for row in [
+        "Combined,,mm,,,,,0.304\nTolerance,0.5,mm,,,,,\n",
+        "Ambient temperature,20.3,°C,,,,,\n",
+        "Scale interval,0.1,mm,,,,,\n",
+        "Drift per year,0.01,mm,,,,,\n",
+        "n,10,,,,,,\n",
+    ] {
+        let error = import("b.csv", format!("{head}{row}").as_bytes()).unwrap_err().to_string();
+        assert!(error.contains("stand beside the budget"), "{row}: {error}");
+    }
+    for (row, expected) in [
+        ("Error,-0.2,mm,,,,,\n", "\"Error\":\"Reference + (-1)*Indication\""),
+        ("\"r(Ref,Ind)\",0.9,,,,,,\n", "\"y\":\"Reference + (-1)*Indication\""),
+    ] {
+        let budget = import("b.csv", format!("{head}{row}").as_bytes()).unwrap();
+        assert!(budget.text.contains(expected), "{row}: {}", budget.text);
+        assert_eq!(guesses(&budget, "independent without it"), row.contains("r("), "{row}");
+    }
+}
+
 /// A sheet whose coefficient has the wrong sign, or none, adds up to another estimate: that is said,
 /// with the sign that would explain it.
 #[test]
