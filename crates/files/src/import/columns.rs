@@ -322,6 +322,7 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "k factor",
             "k-factor",
             "coverage factor",
+            "cf",
             "factor",
             "teiler",
             "erweiterungsfaktor",
@@ -956,13 +957,15 @@ impl Header {
                 Err(reason) => best.doubtful.push(reason),
             }
         }
-        best.coverages();
+        best.coverages(cells);
         best.units_below(cells);
         Some(best)
     }
 
     /// A standard uncertainty has no coverage factor, and a column of probabilities tells none here.
-    fn coverages(&mut self) {
+    fn coverages(&mut self, cells: &Cells) {
+        // which may be headings of other columns too, where no cell is a probability
+        const SYMBOLS: [&str; 6] = ["p", "cl", "coverage", "level", "conf", "conf. level"];
         const PROBABILITIES: [&str; 9] = [
             "coverage probability",
             "confidence",
@@ -989,9 +992,15 @@ impl Header {
                 "`{width}`: degrees of freedom are read in a column `dof`: write them into the rows"
             ));
         }
+        let is_of_per_cent = |place: usize| {
+            let cells = (self.line + 1..cells.lines()).map(|line| cells.text(line, place).trim());
+            let mut shares = cells.filter_map(|cell| cell.strip_suffix('%'));
+            shares.any(|cell| cell.trim().replace(',', ".").parse::<f64>().is_ok_and(|p| p > 50.0))
+        };
         let is_probability = |place: &&usize| {
             let words = plain(self.heading(**place));
             PROBABILITIES.iter().any(|of| words.starts_with(of))
+                || SYMBOLS.contains(&words.as_str()) && is_of_per_cent(**place)
         };
         if !self.has(Column::Divisor)
             && self.coverage(Column::Width).factor(None).is_none()
@@ -1206,19 +1215,8 @@ impl Header {
 
     /// The column of the numbers of readings that divisors `√n` are of; `None` where no divisor is.
     pub(super) fn number_of_readings(&self, cells: &Cells) -> Option<usize> {
-        let place = self.unknown.iter().find(|place| {
-            const WORDS: [&str; 8] = [
-                "n",
-                "n_i",
-                "ni",
-                "number of readings",
-                "number of measurements",
-                "anzahl",
-                "anzahl messungen",
-                "nombre de mesures",
-            ];
-            WORDS.contains(&plain(self.heading(**place)).as_str())
-        })?;
+        let is_count = |place: &&usize| is_number_of_readings(self.heading(**place));
+        let place = self.unknown.iter().find(is_count)?;
         let is_used = |line: usize| is_root_of_n(self.cell(cells, line, Column::Divisor));
         (self.line + 1..cells.lines()).any(is_used).then_some(*place)
     }
@@ -1320,7 +1318,8 @@ impl Header {
         if let Some((place, _)) = std {
             let heading = self.heading(*place);
             let compact: String = heading.to_lowercase().split_whitespace().collect();
-            let number = self.unknown.iter().find(|place| self.heading(**place).trim() == "n");
+            let mut unknown = self.unknown.iter().map(|place| self.heading(*place));
+            let number = unknown.find(|heading| is_number_of_readings(heading));
             if is_deviation(heading) && (compact.contains("n=") || number.is_some()) {
                 self.doubtful.push(format!(
                     "`{heading}` can be the standard deviation of single readings, to be divided by the \
@@ -1483,6 +1482,36 @@ fn of_two_lines(cells: &Cells, line: usize) -> Option<Vec<String>> {
     heads.then(|| headings.collect())
 }
 
+/// Whether a heading is that of numbers of readings.
+fn is_number_of_readings(heading: &str) -> bool {
+    const WORDS: [&str; 23] = [
+        "n",
+        "n_i",
+        "ni",
+        "count",
+        "sample size",
+        "readings",
+        "measurements",
+        "observations",
+        "repeats",
+        "replicates",
+        "number of readings",
+        "number of measurements",
+        "number of observations",
+        "no. of readings",
+        "no. of measurements",
+        "no of readings",
+        "no of measurements",
+        "anzahl",
+        "anzahl messungen",
+        "anzahl der messungen",
+        "messungen",
+        "nombre de mesures",
+        "nombre d'observations",
+    ];
+    WORDS.contains(&plain(heading).as_str())
+}
+
 /// Whether a divisor is the root of the number of readings: `√n`, `sqrt(n)`.
 pub(super) fn is_root_of_n(text: &str) -> bool {
     let compact: String = text.to_lowercase().split_whitespace().collect();
@@ -1636,18 +1665,15 @@ pub(super) fn is_summary_symbol(words: &str) -> bool {
         ["U", "u", "k", "p", "uc", "u_c", "veff", "v_eff", "νeff", "ν_eff", "nu_eff", "dof"];
     let compact: String =
         words.split(['(', '=']).next().unwrap_or_default().split_whitespace().collect();
-    SYMBOLS.contains(&compact.as_str()) || is_u_of_probability(&compact)
+    SYMBOLS.contains(&compact.as_str()) || probability_of_symbol(&compact).is_some()
 }
 
-/// Whether a row's words are the symbol of an expanded uncertainty with its probability: `U95`, `U_0.95`,
-/// `U95%`.
-pub(super) fn is_u_of_probability(words: &str) -> bool {
-    let index = words.trim().strip_prefix('U').map(|rest| rest.trim_start_matches('_'));
-    let index = index.map(|index| index.trim_end_matches('%'));
-    index.is_some_and(|index| {
-        let number = index.replace(',', ".").parse::<f64>();
-        number.is_ok_and(|p| (0.5..1.0).contains(&p) || (50.0..100.0).contains(&p))
-    })
+/// The probability that the symbol of an expanded uncertainty states: `U95`, `U_0.95`, `U95%`.
+pub(super) fn probability_of_symbol(words: &str) -> Option<f64> {
+    let index = words.trim().strip_prefix('U')?.trim_start_matches('_').trim_end_matches('%');
+    let p = index.replace(',', ".").parse::<f64>().ok()?;
+    let p = if p >= 50.0 { p / 100.0 } else { p };
+    (0.5..1.0).contains(&p).then_some(p)
 }
 
 /// Degrees of freedom without the type of the evaluation, which is often said with them: `9 (A)`.

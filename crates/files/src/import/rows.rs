@@ -1063,13 +1063,29 @@ impl Budget<'_> {
         let is_normal = matches!(row.distribution, None | Some("normal"));
         let divisor = row.divisor.map(|k| (HeaderCoverage::Factor(k), "the divisor"));
         let mut stated: Vec<(HeaderCoverage, &str)> = divisor.into_iter().collect();
+        let of_words = self.coverage_in_words(header, row.line);
+        if !is_normal && stated.is_empty() && of_words.factor(None).is_some() {
+            let reason = format!(
+                "`{}` is {}, and its words say a coverage factor or probability: {} can be its half-width or \
+                 an expanded uncertainty; leave the one or the other out",
+                row.about,
+                row.distribution.unwrap_or_default(),
+                header.cell(self.cells, row.line, Column::Width).trim()
+            );
+            return self.fail(row.line, reason);
+        }
         for (coverage, place) in [
             (cell(Column::Distribution), "the distribution"),
             (cell(Column::Width), "the uncertainty"),
+            (of_words, OF_WORDS),
             (of_header, "the heading"),
         ] {
             // a heading speaks of the rows that say nothing else
-            let counts = place != "the heading" || (stated.is_empty() && is_normal);
+            let counts = match place {
+                OF_WORDS => is_normal,
+                "the heading" => stated.is_empty() && is_normal,
+                _ => true,
+            };
             if counts && coverage.factor(row.dof).is_some() {
                 stated.push((coverage, place));
             }
@@ -1095,6 +1111,14 @@ impl Budget<'_> {
             }
             row.divisor = Some(factor);
             row.probability = coverage.probability();
+            if of == OF_WORDS {
+                self.guessed.push(format!(
+                    "line {}: the uncertainty of `{}` is expanded by its words: it is divided by {}",
+                    row.line + 1,
+                    row.name,
+                    significant(factor, 4)
+                ));
+            }
             if let Some((p, dof)) = row.probability.zip(row.dof) {
                 self.understood.push(format!(
                     "line {}: of {} % and {} degrees of freedom k = {} of the t distribution",
@@ -1107,6 +1131,17 @@ impl Budget<'_> {
             return;
         }
         if !is_normal {
+            let heading = header.heading_of(Column::Width).trim();
+            if of_header.factor(None).is_some() || of_header == HeaderCoverage::Expanded {
+                self.guessed.push(format!(
+                    "line {}: `{}` is {}, by which {} below `{heading}` is taken for its half-width, and for \
+                     no expanded uncertainty",
+                    row.line + 1,
+                    row.name,
+                    row.distribution.unwrap_or_default(),
+                    header.cell(self.cells, row.line, Column::Width).trim()
+                ));
+            }
             return;
         }
         let line = row.line + 1;
@@ -1152,6 +1187,21 @@ impl Budget<'_> {
                 row.name
             ));
         }
+    }
+
+    /// What the name of a row, or a column of remarks, says of the coverage of its uncertainty:
+    /// `Certificate (k=2)`, `Cert U95`.
+    fn coverage_in_words(&self, header: &Header, line: usize) -> HeaderCoverage {
+        let name = header.cell(self.cells, line, Column::Quantity);
+        let remarks = header.unknown.iter().map(|place| self.cells.text(line, *place));
+        // a share alone may be of something else: `Humidity at 60 %`
+        let coverage = |text: &str| {
+            let last = text.split_whitespace().next_back().unwrap_or_default();
+            let of_symbol = columns::probability_of_symbol(last).map(HeaderCoverage::Probability);
+            let is_factor = |of: &HeaderCoverage| matches!(of, HeaderCoverage::Factor(_));
+            of_symbol.or_else(|| Some(HeaderCoverage::of(text)).filter(is_factor))
+        };
+        [name].into_iter().chain(remarks).find_map(coverage).unwrap_or(HeaderCoverage::None)
     }
 
     /// Says how a divisor beside nothing but standard uncertainties is taken: below `u` they are still to
@@ -1554,6 +1604,9 @@ fn is_grouped(text: &str) -> bool {
 /// A result this many combined standard uncertainties from what its quantities make is not theirs: sheets
 /// round by less.
 const FAR: f64 = 0.1;
+
+/// Where a row says its coverage beside its numbers.
+const OF_WORDS: &str = "the words";
 
 /// Why the last row of a budget is taken for its result.
 const NO_UNCERTAINTY: &str = "has no uncertainty of its own";

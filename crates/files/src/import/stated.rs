@@ -129,7 +129,9 @@ impl Budget<'_> {
         };
         let is_expanded = columns::is_expanded(label)
             || is_symbol(&["U"])
-            || [label, symbol].into_iter().any(columns::is_u_of_probability);
+            || [label, symbol]
+                .into_iter()
+                .any(|words| columns::probability_of_symbol(words).is_some());
         let is_uncertainty =
             is_expanded || columns::is_of_uncertainty(label) || is_symbol(&["u", "uc", "u_c"]);
         let divisor = header.cell(self.cells, line, Column::Divisor);

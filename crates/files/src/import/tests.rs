@@ -741,6 +741,56 @@ fn the_sheet_s_result_is_compared() {
     }
 }
 
+/// A factor or a probability in the name of a row or in a remark is taken, and said; beside a half-width it
+/// contradicts. A share is none.
+#[test]
+fn coverage_is_said_in_words() {
+    let head = "Source,Value,Unit,Uncertainty,Distribution,Remark\n";
+    for (row, u) in [
+        ("Standard (k=2),5,V,0.10,Normal,", 0.05),
+        ("Standard,5,V,0.10,Normal,k=2", 0.05),
+        ("Cert U95,5,V,0.196,Normal,", 0.1),
+        ("Humidity at 60 %,5,V,0.10,Normal,", 0.10),
+    ] {
+        let (found, budget) = uncertainties(&format!("{head}{row}\n"));
+        // 1.96 has four digits here
+        assert!((found[0] / u - 1.0).abs() < 1e-4, "{row}: {found:?}");
+        assert_eq!(guesses(&budget, "by its words"), !row.contains('%'), "{row}");
+    }
+    for (row, said) in [
+        ("Standard (k=2),5,V,0.10,Rectangular,", "half-width or an expanded uncertainty"),
+        ("Standard (k=2),5,V,0.10,Normal,k=3", ""),
+    ] {
+        let found = import("b.csv", format!("{head}{row}\n").as_bytes());
+        assert!(said.is_empty() || found.unwrap_err().to_string().contains(said), "{row}");
+    }
+    for heading in ["p", "CL", "Conf. level", "Level", "Coverage"] {
+        let text = format!("Source,Value,Unit,U,{heading}\na,5,V,0.1,95%\n");
+        let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains("tells the coverage factors"), "{heading}: {error}");
+    }
+    let (found, _) = uncertainties("Source,Value,Unit,U,CF\na,5,V,0.1,2\n");
+    assert_eq!(found, [0.05]);
+    // a half-width below the heading of expanded uncertainties is said
+    let (_, budget) =
+        uncertainties("Source,Value,Unit,U (k=2),Distribution\na,5,V,0.1,rectangular\n");
+    assert!(guesses(&budget, "for its half-width"), "{:?}", budget.guessed);
+}
+
+/// Standard deviations of a number of readings are of one reading or of their mean.
+#[test]
+fn numbers_of_readings_are_asked() {
+    for heading in
+        ["n", "N", "No. of readings", "Readings", "Count", "Sample size", "Anzahl Messungen"]
+    {
+        let text = format!(
+            "Source,Value,Unit,Standard deviation,Distribution,{heading}\nA,50,V,0.05,Normal,10\n"
+        );
+        let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains("standard deviation of single readings"), "{heading}: {error}");
+    }
+}
+
 /// What stands below a budget is no result of it: a tolerance, a temperature, a number of readings; a
 /// coefficient of correlation is told.
 #[test]
