@@ -29,6 +29,9 @@ pub(super) struct Linear {
 /// rounded: a single digit is 1.5 at worst.
 pub(super) const CONTRIBUTIONS_DIFFER: f64 = 1.6;
 
+/// Units of numbers that a display or a converter counts.
+const COUNTS: [&str; 5] = ["digit", "digits", "D", "LSB", "count"];
+
 impl Budget<'_> {
     /// The linear model of the sensitivity coefficients; `None` after a mistake.
     pub(super) fn linear(
@@ -253,7 +256,10 @@ impl Budget<'_> {
             return self.with_unit_of_coefficient(header, row, c, result).map(Factor::Known);
         }
         let line = row.line + 1;
+        // what one digit is of the result only its coefficient says
+        let is_count = COUNTS.contains(&row.unit.as_str()) && row.unit != unit;
         let scale = Unit::conversion_factor(&own, whole).ok();
+        let scale = scale.filter(|_| !is_count || row.sensitivity.is_some());
         let shifted = own.offset() != whole.offset();
         let c = row.sensitivity.unwrap_or(1.0);
         // a coefficient multiplies differences, whose zeros do not matter

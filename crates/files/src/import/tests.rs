@@ -777,6 +777,15 @@ fn coverage_is_said_in_words() {
     assert!(guesses(&budget, "for its half-width"), "{:?}", budget.guessed);
 }
 
+/// Half a digit is no half of 100 %.
+#[test]
+fn digits_need_a_coefficient() {
+    let text = "Source,Value,Unit,±,Distribution,Divisor\nStandard,0,%,0.10,Normal,2\n\
+                Resolution,0,digit,0.5,Rectangular,1.732\n";
+    let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("is in `digit`, the result in `%`"), "{error}");
+}
+
 /// Standard deviations of a number of readings are of one reading or of their mean.
 #[test]
 fn numbers_of_readings_are_asked() {
