@@ -176,22 +176,22 @@ fn unreadable<'h>(
     (declared.has_name() && !name.is_empty() && is_wrong).then_some(text)
 }
 
-/// Words for parts of a hundred and of a thousand, for multiples and for parts of a range or a screen.
-const OF_SHARES: [&str; 13] = [
-    "percent",
-    "percentage",
-    "pct",
-    "prozent",
-    "pourcent",
-    "permille",
-    "promille",
-    "thousand",
-    "thousands",
-    "million",
-    "millions",
-    "per",
-    "fs",
+/// Words for parts of a hundred and of a thousand, with their units.
+const SHARES: [(&str, &str); 9] = [
+    ("%", "%"),
+    ("percent", "%"),
+    ("percentage", "%"),
+    ("pct", "%"),
+    ("prozent", "%"),
+    ("pourcent", "%"),
+    ("‰", "‰"),
+    ("permille", "‰"),
+    ("promille", "‰"),
 ];
+
+/// Words for multiples, and for parts of a range or a screen.
+const MULTIPLES: [&str; 7] =
+    ["thousand", "thousands", "million", "millions", "fs", "div", "division"];
 
 /// What stands in brackets and says that the numbers are multiples or shares of the declared unit:
 /// `x1000 V`, `V x1000`, `1e-3`, `percent`, `% FS`, `V per div`. A small whole number alone counts something.
@@ -205,15 +205,30 @@ fn multiple(column: &str) -> Option<&str> {
         let factor = word.strip_prefix(['x', 'X', '×', '*']).and_then(power);
         let factor = factor.or_else(|| word.strip_suffix(['x', 'X', '×']).and_then(power));
         let lower = word.to_lowercase();
-        let share = lower.strip_prefix(['%', '‰']).unwrap_or(&lower);
-        factor.is_some() || OF_SHARES.contains(&share)
+        let behind_share = lower.strip_prefix(['%', '‰']).unwrap_or(&lower);
+        factor.is_some() || share(&lower).is_some() || MULTIPLES.contains(&behind_share)
     };
     let is_scale = |number: f64| number >= 1e3 || number.fract() != 0.0;
     let times = text.strip_prefix(['x', '×', '*']).map_or("", str::trim_start);
     let is_scaled = power(text).is_some_and(is_scale)
         || times.split_whitespace().next().and_then(power).is_some()
-        || text.split_whitespace().any(is_multiple);
+        || text.split([' ', '/']).any(is_multiple);
     (!name.is_empty() && is_scaled).then_some(text)
+}
+
+/// The unit of a word for shares: `%` of `percent`.
+fn share(lower: &str) -> Option<&'static str> {
+    SHARES.iter().find(|(word, unit)| *word == lower && *word != *unit).map(|(_, unit)| *unit)
+}
+
+/// Whether a text is the declared unit of shares in words: `percent`, `% FS`.
+fn is_share_in(text: &str, declared: &Unit) -> bool {
+    let first = text.split(' ').next().unwrap_or_default().to_lowercase();
+    let is_word = |rest: &str| rest.chars().all(char::is_alphabetic);
+    SHARES.iter().any(|(word, unit)| {
+        let is_symbol = || word == unit && first.strip_prefix(word).is_some_and(is_word);
+        *unit == declared.text() && (first == *word || is_symbol())
+    })
 }
 
 /// What follows a unit in the notation of instruments, `mVrms`.
@@ -272,6 +287,10 @@ pub fn contradiction(
         Unit::conversion_factor(unit, declared) == Ok(1.0)
             && (of == ValueOf::Difference || unit.has_zero_of(declared))
     };
+    let bracketed = enclosed(column, '[', "]").or_else(|| enclosed(column, '(', ")"));
+    if bracketed.is_some_and(|(_, text)| is_share_in(text, declared)) {
+        return None;
+    }
     let is_its =
         |text: &str| text == declared.text() || unit(text).is_some_and(|of| is_declared(&of));
     if let Some(text) = multiple(column).filter(|text| !is_its(text)) {
@@ -410,6 +429,11 @@ mod tests {
         }
         assert_eq!(said("a [10^-6/K]", "10^-6/K"), None);
         assert_eq!(said("x [1e-3]", "0.001"), None);
+        for heading in ["x [percent]", "x [% FS]", "x [%FS]", "x [Prozent]", "x [%]"] {
+            assert_eq!(said(heading, "%"), None, "{heading}");
+        }
+        assert_eq!(said("x [%/K]", "%").as_deref(), Some("%/K"));
+        assert_eq!(said("x [V/div]", "V").as_deref(), Some("V/div"));
         for heading in ["x [Vrms]", "x [V pk]", "x (left)", "drift in run2", "x [mean]", "x, m"] {
             assert_eq!(said(heading, "V"), None, "{heading}");
         }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::columns::{Column, Header};
+use super::columns::{self, Column, Header};
 use crate::open::no_table;
 use crate::source::SourceText;
 use crate::text_table::record;
@@ -122,6 +122,29 @@ impl Cells {
         said
     }
 
+    /// Moves the words of totals that stand right before their numbers, `,,,,,,uc,0.304`, to where the names of
+    /// quantities stand.
+    fn move_totals(&mut self, header: &Header) {
+        let Some((place, _)) = header.columns.iter().find(|(_, of)| *of == Column::Quantity) else {
+            return;
+        };
+        let (place, symbol) = (*place, header.columns.iter().find(|(_, of)| *of == Column::Symbol));
+        for row in self.rows.iter_mut().skip(header.line + 1) {
+            let Some(first) = row.iter().position(|cell| !cell.trim().is_empty()) else { continue };
+            if first <= place || symbol.is_some_and(|(symbol, _)| *symbol == first) {
+                continue;
+            }
+            let words = row[first].trim();
+            let is_total = columns::is_combined_symbol(words)
+                || columns::is_summary_symbol(words)
+                || columns::is_expanded_symbol(words)
+                || columns::is_result(words);
+            if is_total {
+                row.swap(place, first);
+            }
+        }
+    }
+
     /// The decimal marks of its numbers; of a workbook those of its texts, since its numbers have none.
     pub(super) fn marks(&self) -> DecimalMarks {
         DecimalMarks::of(self.separator.unwrap_or(Separator::Semicolon))
@@ -144,8 +167,9 @@ impl Cells {
 pub(super) fn of_sheet(rows: Vec<Vec<String>>, layout: Layout) -> (Cells, String, Vec<String>) {
     let (cells, text) = of_rows(rows);
     let mut cells = Cells { layout, ..cells };
-    let header = Header::find(&cells);
-    let said = header.map(|header| cells.spread_merged(&header)).unwrap_or_default();
+    let Some(header) = Header::find(&cells) else { return (cells, text, Vec::new()) };
+    let said = cells.spread_merged(&header);
+    cells.move_totals(&header);
     (cells, text, said)
 }
 
@@ -177,11 +201,15 @@ pub(super) fn of_text(content: &[u8]) -> Result<(Cells, String), DiagnosticKind>
         _ => counts.iter().position(|count| *count == most).unwrap_or(2),
     };
     let [semicolon, tab, comma] = read;
-    match best {
+    let (mut cells, text) = match best {
         0 => semicolon,
         1 => tab,
         _ => comma,
+    }?;
+    if let Some(header) = Header::find(&cells) {
+        cells.move_totals(&header);
     }
+    Ok((cells, text))
 }
 
 fn separated(text: &str, separator: Separator) -> Result<(Cells, String), DiagnosticKind> {

@@ -777,6 +777,22 @@ fn coverage_is_said_in_words() {
     assert!(guesses(&budget, "for its half-width"), "{:?}", budget.guessed);
 }
 
+/// The words of totals stand right before their numbers in many workbooks.
+#[test]
+fn totals_beside_their_numbers() {
+    let text = "Source,Value,Unit,±,Distribution,Divisor,c_i,u_i(y)\n\
+                Reference,100.000,mm,0.5,Normal,2,1,0.25\n\
+                Indication,100.200,mm,0.3,Rect,1.732,-1,0.173\n\
+                ,,,,,,uc,0.304\n,,,,,,U (k=2),0.61\n";
+    let (found, budget) = uncertainties(text);
+    assert_eq!(found.len(), 2);
+    assert!(budget.text.contains("\"y\":\"Reference + (-1)*Indication\""), "{}", budget.text);
+    // they are compared with the model
+    let wrong = import("b.csv", text.replace("0.304", "0.404").as_bytes());
+    let said = wrong.map_or_else(|error| error.to_string(), |budget| budget.guessed.join("; "));
+    assert!(said.contains("0.404"), "{said}");
+}
+
 /// Half a digit is no half of 100 %.
 #[test]
 fn digits_need_a_coefficient() {

@@ -229,8 +229,8 @@ impl Formula {
         unit: &'u Unit,
         what: &str,
     ) -> Option<FormulaNote> {
-        note::Walk::new(&self.text, &self.tree, numbers_of, Use::Quantity)
-            .converted_result(unit, what)
+        let walk = note::Walk::new(&self.text, &self.tree, numbers_of, Use::Quantity);
+        walk.of_ratio(unit, what).or_else(|| walk.of_units(unit, what))
     }
 
     /// The names that the value is a sum, a small multiple or a choice of.

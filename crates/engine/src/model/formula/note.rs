@@ -49,7 +49,13 @@ pub(super) fn notes<'u>(
         Use::Estimate(unit) => Some((unit, "the quantity")),
         Use::Quantity | Use::Width => None,
     };
-    if let Some(twice) = result.and_then(|(unit, what)| walk.converted_result(unit, what)) {
+    let twice = result.and_then(|(unit, what)| {
+        // what converts from per cent is told
+        let is_told = found.iter().any(|note| note.code == SHARE_TWICE);
+        let of_units = || if is_told { None } else { walk.of_units(unit, what) };
+        walk.of_ratio(unit, what).or_else(of_units)
+    });
+    if let Some(twice) = twice {
         // the factor of `c*100/p` that is reported in % may be meant for either
         found.retain(|note| !(note.code == SHARE_TWICE && note.span == twice.span));
         found.push(twice);

@@ -84,14 +84,8 @@ pub(super) fn taken_up(function: Function, arguments: &[usize]) -> &[usize] {
 }
 
 impl Walk<'_, '_> {
-    /// What a formula converts to the unit of its value, which is converted to it. `what` is what is in the
-    /// unit.
-    pub(super) fn converted_result(&self, unit: &Unit, what: &str) -> Option<FormulaNote> {
-        self.of_ratio(unit, what).or_else(|| self.of_units(unit, what))
-    }
-
-    /// `(a - b)/b*100` that is reported in %, also as a term of a sum.
-    fn of_ratio(&self, unit: &Unit, what: &str) -> Option<FormulaNote> {
+    /// `(a - b)/b*100` that is reported in %, also as a term of a sum. `what` is what is in the unit.
+    pub(super) fn of_ratio(&self, unit: &Unit, what: &str) -> Option<FormulaNote> {
         // a share, an angle, or a ratio of like units: mV/V; a rate in degrees per second
         let is_scaled = unit.level_exponent().is_zero() && unit.turn() != Some(Turn::Periods);
         if !is_scaled || unit.factor() == 1.0 {

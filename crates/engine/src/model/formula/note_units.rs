@@ -59,7 +59,7 @@ impl<'u> Walk<'_, 'u> {
     }
 
     /// A product that is the value, or a term of it, with the factor by which the program converts from
-    /// the units of its quantities to that of the value.
+    /// the units of its quantities to that of the value. `what` is what is in the unit.
     pub(super) fn of_units(&self, unit: &Unit, what: &str) -> Option<FormulaNote> {
         let of_unit = factor(unit).filter(|_| !unit.dimension().is_none())?;
         let terms = terms(self.tree, &self.constants);
