@@ -772,6 +772,16 @@ impl fmt::Display for DiagnosticKind {
             Self::Unit { unit, error } => {
                 write!(f, "the unit `{unit}` cannot be read: {}", error.in_whole(unit))
             }
+            // of one dimension are levels and ratios
+            Self::WrongDimension { name, found, found_as, expected, expected_as }
+                if found_as == expected_as && (found.contains("dB") || found.contains("Np")) =>
+            {
+                write!(
+                    f,
+                    "`{name}` has the unit `{found}`, but must be {expected_as} such as `{expected}`; of a \
+                     level L in dB the ratio of amplitudes is 10^(L/20), that of powers 10^(L/10)"
+                )
+            }
             Self::WrongDimension { name, found, found_as, expected, expected_as } => write!(
                 f,
                 "`{name}` has the unit `{found}`, {found_as}, but must be {expected_as}, such as \

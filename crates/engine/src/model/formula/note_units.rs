@@ -6,9 +6,9 @@ use super::note::{FormulaNote, RESULT_TWICE, Walk};
 use super::note_result::terms;
 use super::numbers::{Numbers, ValueSource, is_same_factor};
 use super::syntax::{Kind, Node, Operator};
-use crate::decimal::significant;
+use crate::decimal::to_15_digits;
 use crate::number::elementary::pow;
-use crate::number::{Binary, Unary};
+use crate::number::{Binary, Shortest, Unary};
 use gumption_units::Unit;
 
 impl<'u> Walk<'_, 'u> {
@@ -84,7 +84,7 @@ impl<'u> Walk<'_, 'u> {
                      and {what} in {unit} is converted, too: formulas compute in coherent SI units; leave \
                      the factor out, or let it be an input of its own if it is no conversion",
                     self.quoted(&node.span),
-                    significant(conversion, 6),
+                    Shortest(to_15_digits(conversion)),
                 );
                 FormulaNote { code: RESULT_TWICE, text, span: node.span.clone() }
             })
