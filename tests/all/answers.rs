@@ -13,6 +13,7 @@ use sha2::{Digest, Sha256};
 use crate::support::{command, file_name, model_files, root};
 
 /// Turns the C library's kernels with fused products off, as on a processor without them.
+#[cfg(all(target_arch = "x86_64", target_os = "linux", target_env = "gnu"))]
 const WITHOUT_FUSED_PRODUCTS: &str = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F,-AVX512VL";
 
 /// Trials of `run`: enough for every branch of the intervals and moments.

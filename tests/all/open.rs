@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
+#[cfg(unix)]
 use std::process::Command;
 
 use serde_json::json;

@@ -66,11 +66,13 @@ impl PageServer {
         Self { child, _stdout: stdout, port, token }
     }
 
+    #[cfg(unix)]
     pub(crate) fn id(&self) -> u32 {
         self.child.id()
     }
 
     /// Waits for its end, and gives its exit code.
+    #[cfg(unix)]
     pub(crate) fn ended(mut self) -> Option<i32> {
         self.child.wait().expect("an end").code()
     }

@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use crate::support::{command, root};
+use crate::support::command;
+#[cfg(unix)]
+use crate::support::root;
 
 /// Several outputs, correlated inputs, a tolerance, undefined trials, few degrees of freedom, a phase,
 /// a condition's value of its own, and an input from a file.

@@ -225,6 +225,11 @@ fn in_place(
 
 impl Sink {
     fn open(path: &Path) -> io::Result<Self> {
+        let in_place = || OpenOptions::new().write(true).open(path);
+        #[cfg(windows)]
+        if is_device(path) {
+            return in_place().map(Self::InPlace);
+        }
         let existing = match std::fs::metadata(path) {
             Ok(existing) => existing,
             Err(error) if error.kind() == ErrorKind::NotFound => {
@@ -232,7 +237,6 @@ impl Sink {
             }
             Err(error) => return Err(error),
         };
-        let in_place = || OpenOptions::new().write(true).open(path);
         if !existing.is_file() {
             return in_place().map(Self::InPlace);
         }
@@ -246,6 +250,12 @@ impl Sink {
             None => Self::InPlace(old),
         })
     }
+}
+
+/// Whether a name is that of the console or of what takes everything, which have no metadata.
+#[cfg(windows)]
+fn is_device(path: &Path) -> bool {
+    ["NUL", "CON"].iter().any(|device| path.as_os_str().eq_ignore_ascii_case(device))
 }
 
 /// A name as messages show it.

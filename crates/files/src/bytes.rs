@@ -16,6 +16,10 @@ pub(super) const MOST_OF_SAMPLES: u64 = 200_000_000;
 /// The content of a file of at most so many bytes, or why there is none. Of a larger one, or of a
 /// device without an end, no more than that is read.
 pub(super) fn of_file(path: &Path, most: u64) -> Result<Vec<u8>, String> {
+    // what systems say of one differs: access is denied on Windows
+    if path.is_dir() {
+        return Err("it is a folder: name a file".to_owned());
+    }
     let file = File::open(path).map_err(|error| error.to_string())?;
     of(file, most).map_err(|error| error.to_string())
 }
@@ -115,5 +119,10 @@ mod tests {
         assert!(of(&b"abcd"[..], 3).is_err());
         let message = of(io::repeat(0), 2_000_000).unwrap_err().to_string();
         assert_eq!(message, "it is larger than 2 MB, which this version takes at most");
+    }
+
+    #[test]
+    fn a_folder_is_called_one() {
+        assert_eq!(of_file(Path::new("."), 1).unwrap_err(), "it is a folder: name a file");
     }
 }

@@ -61,11 +61,12 @@ pub(super) fn of_formulas(
             found.extend(of.outputs.outputs.iter().filter_map(|output| decibels(scope, output)));
         }
         for (name, _, formula) in equations {
-            let notes = formula.iter();
-            let notes = notes.flat_map(|formula| {
-                formula.periods_as_radians(scope, |name| given.get(name).copied())
-            });
-            found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
+            let Some(formula) = formula else { continue };
+            let unit_of = |name: &str| given.get(name).copied();
+            let mut notes = formula.periods_as_radians(scope, unit_of);
+            notes.extend(formula.torque_by_periods(unit_of));
+            notes.extend(formula.level_of_other_kind(scope));
+            found.extend(notes.into_iter().map(|note| Warning::new(note.code, name, note.text)));
         }
         let by_name: ByName<'_> = equations
             .iter()
@@ -75,6 +76,7 @@ pub(super) fn of_formulas(
         for output in &of.outputs.outputs {
             let terms = terms(&by_name, &output.quantity.name);
             found.extend(converted_terms(&terms, &numbers, &output.quantity));
+            found.extend(angular_frequency(scope, &terms, &output.quantity.unit));
             if counts_turns {
                 let radians = radians_of_turns(scope, output);
                 found.extend(radians.or_else(|| displaced(scope, &terms, &output.quantity.unit)));
@@ -168,6 +170,17 @@ fn converted_terms(
     notes.collect()
 }
 
+/// A term of an output in Hz that is an angular frequency.
+fn angular_frequency(scope: &Scope, terms: &[(&str, &Formula)], unit: &Unit) -> Option<Warning> {
+    if unit.turn() != Some(Turn::Periods) {
+        return None;
+    }
+    terms.iter().find_map(|(name, formula)| {
+        let note = formula.angular_frequency(scope)?;
+        Some(Warning::new(note.code, *name, note.text))
+    })
+}
+
 /// What an output or a term of it multiplies by revolutions in radians: `Vg*n`, `pi*d*n`.
 fn displaced(scope: &Scope, terms: &[(&str, &Formula)], unit: &Unit) -> Option<Warning> {
     // an impedance in N s/m is of an angular frequency
@@ -185,7 +198,10 @@ fn displaced(scope: &Scope, terms: &[(&str, &Formula)], unit: &Unit) -> Option<W
 fn drop_repeated(notes: &mut Vec<Warning>) {
     let mut told = HashSet::new();
     notes.retain(|note| {
-        let is_of_result = matches!(note.code, "result-converted-twice" | "radians-of-turns");
+        let is_of_result = matches!(
+            note.code,
+            "result-converted-twice" | "radians-of-turns" | "radians-as-periods"
+        );
         !is_of_result || told.insert((note.code, note.place.clone()))
     });
 }
@@ -628,6 +644,68 @@ mod tests {
             ([("x", "mm"), ("a", "m"), ("b", "1")], r#""y": "b*(x + 1000*a)""#, "mm"),
         ] {
             assert_eq!(of(inputs, equations, unit), Vec::<String>::new(), "{equations}");
+        }
+    }
+
+    /// Angular frequencies in Hz, torques times 1/min, levels with another factor; not their like with 2 pi,
+    /// means of frequencies, frequencies of strings, energies times rates.
+    #[test]
+    fn radians_and_levels_that_no_unit_shows() {
+        let codes = |inputs: [(&str, &str); 3], equations: &str, unit: &str| {
+            let input = |(name, unit): (&str, &str)| {
+                format!(
+                    r#""{name}": {{"unit": "{unit}", "distribution": "normal", "mean": 3, "std": 0.1}}"#
+                )
+            };
+            let found = notes(&format!(
+                r#"{{"inputs": {{{}}}, "equations": {{{equations}}},
+                "outputs": {{"y": {{"unit": "{unit}"}}}}}}"#,
+                inputs.map(input).join(", ")
+            ));
+            let codes = found.into_iter().map(|(code, ..)| code);
+            codes.filter(|code| *code != "unused-input").collect::<Vec<_>>()
+        };
+        let spring = [("k", "N/m"), ("m", "kg"), ("z", "1")];
+        let circuit = [("R", "kohm"), ("L", "mH"), ("C", "nF")];
+        let string = [("F", "N"), ("q", "g/m"), ("L", "m")];
+        let rates = [("f1", "Hz"), ("f2", "kHz"), ("t", "s")];
+        let shaft = [("M", "N*m"), ("n", "1/min"), ("e", "%")];
+        let pulses = [("E", "mJ"), ("f", "Hz"), ("e", "%")];
+        let signals = [("a", "V"), ("b", "mV"), ("R", "ohm")];
+        let powers = [("a", "W"), ("b", "mW"), ("R", "ohm")];
+        let angular = ["radians-as-periods"].as_slice();
+        let torque = ["periods-as-radians"].as_slice();
+        let level = ["level-of-other-kind"].as_slice();
+        for (inputs, equations, unit, wanted) in [
+            (spring, r#""y": "sqrt(k/m)""#, "Hz", angular),
+            (spring, r#""w": "sqrt(k/m)*sqrt(1 - (z/9)^2)", "y": "w""#, "kHz", angular),
+            (spring, r#""w": "(k/m)^0.5", "y": "w/(2*pi)""#, "Hz", &[]),
+            (spring, r#""y": "sqrt(k/m)/6.2832""#, "Hz", &[]),
+            (spring, r#""y": "sqrt(k/m)/z""#, "Hz", &[]),
+            (spring, r#""y": "sqrt(k/m)""#, "rad/s", &[]),
+            (circuit, r#""y": "1/sqrt(L*C)""#, "kHz", angular),
+            (circuit, r#""y": "1/(R*C)""#, "Hz", angular),
+            (circuit, r#""y": "R/L""#, "Hz", angular),
+            (circuit, r#""y": "1/(2*pi*R*C)""#, "Hz", &[]),
+            (circuit, r#""y": "1.44/(R*C)""#, "Hz", &[]),
+            (string, r#""y": "sqrt(F/q)/(2*L)""#, "Hz", &[]),
+            (rates, r#""y": "sqrt(f1*f2)""#, "Hz", &[]),
+            (rates, r#""y": "sqrt(2)/t""#, "Hz", &[]),
+            (shaft, r#""y": "M*n""#, "W", torque),
+            (shaft, r#""y": "e*M*n + 2 [W]""#, "W", torque),
+            (shaft, r#""y": "2*pi*M*n""#, "W", &[]),
+            (pulses, r#""y": "e*E*f""#, "W", &[]),
+            (signals, r#""y": "10*log10(a/b)""#, "dB", level),
+            (signals, r#""y": "-log10(a/b)*10""#, "dB", level),
+            (signals, r#""y": "20*log10(a/b)""#, "dB", &[]),
+            (signals, r#""y": "10*log10(a/b)*2""#, "dB", &[]),
+            (signals, r#""y": "10*log10(a^2/R/1 [mW])""#, "dBm", &[]),
+            (signals, r#""y": "10*log10(a*a/b^2)""#, "dB", &[]),
+            (powers, r#""y": "20*log10(a/b)""#, "dB", level),
+            (powers, r#""y": "10*log10(a/b)""#, "dB", &[]),
+            (powers, r#""y": "20*log10(sqrt(a/b))""#, "dB", &[]),
+        ] {
+            assert_eq!(codes(inputs, equations, unit), wanted, "{equations} in {unit}");
         }
     }
 

@@ -63,6 +63,8 @@ mod misfit;
 mod name;
 mod note;
 mod note_bare;
+mod note_frequency;
+mod note_level;
 mod note_result;
 mod note_turns;
 mod note_units;
@@ -255,6 +257,27 @@ impl Formula {
         unit_of: impl Fn(&str) -> Option<&'u Unit>,
     ) -> Vec<FormulaNote> {
         note_turns::periods(&self.text, &self.tree, scope, unit_of)
+    }
+
+    /// A term of a value in Hz that is an angular frequency by what it is made of: `sqrt(k/m)`,
+    /// `1/sqrt(L*C)`, `1/(R*C)`.
+    pub fn angular_frequency(&self, scope: &Scope) -> Option<FormulaNote> {
+        note_frequency::angular(&self.text, &self.tree, scope)
+    }
+
+    /// A term of the value that multiplies a torque by periods in a time: `M*n` of N m and 1/min. `unit_of`
+    /// gives the units of names that are given in one.
+    pub fn torque_by_periods<'u>(
+        &self,
+        unit_of: impl Fn(&str) -> Option<&'u Unit>,
+    ) -> Option<FormulaNote> {
+        note_frequency::torque(&self.text, &self.tree, unit_of)
+    }
+
+    /// A level with the factor of another kind of quantity: `10*log10` of a ratio of voltages, `20*log10`
+    /// of one of powers.
+    pub fn level_of_other_kind(&self, scope: &Scope) -> Option<FormulaNote> {
+        note_level::of_other_kind(&self.text, &self.tree, scope)
     }
 
     /// The names that `sin`, `cos` and `tan` take as they are, with the name of the function.
