@@ -16,7 +16,7 @@ use super::outputs::Outputs;
 use super::scopes::{coherent, condition_scope, give_units, report_formula};
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{
-    Formula, KelvinKind, Scope, TableCall, TableData, Typing, check_name, looks_of,
+    Formula, KelvinKind, LevelReference, Scope, TableCall, TableData, Typing, check_name, looks_of,
 };
 use gumption_engine::model::typed::CatalogueEntry;
 use gumption_engine::task::Warning;
@@ -359,7 +359,14 @@ pub(super) fn check_formula_outputs(log: &Collector, scope: &Scope, of: &Quantit
             let mut expected_as = dimension.describe();
             if dimension.is_none() {
                 // of an empirical formula
-                expected_as += &format!(" (`(...) [{unit}]` makes one of its number)");
+                expected_as += &match typing.reference {
+                    LevelReference::Above(zero) => format!(
+                        " (`...*1 [{}]` makes what a level in {} is of)",
+                        zero.reference().unwrap_or_default(),
+                        zero.unit(),
+                    ),
+                    _ => format!(" (`(...) [{unit}]` makes one of its number)"),
+                };
             }
             let diagnostic = DiagnosticKind::WrongDimension {
                 name: name.clone(),

@@ -24,6 +24,17 @@ pub enum UnitError {
         /// At most three unit texts that may be meant, likeliest first; each of them parses.
         nearest: Vec<String>,
     },
+    /// A name that says what a quantity is beside its unit: `barg`, `Vpp`, `Nm3`, `dB(A)`.
+    QualifiedUnit {
+        /// The name as written.
+        name: String,
+        /// Where it stands.
+        span: Range<usize>,
+        /// The unit: `bar`.
+        unit: String,
+        /// What the name says of the quantity: `a peak-to-peak value`.
+        says: &'static str,
+    },
     /// A prefix before a unit that takes none: `mdegC`, `kmin`, `mkg`.
     PrefixNotAllowed {
         /// The prefix as written.
@@ -148,6 +159,7 @@ impl UnitError {
     pub fn span(&self) -> Range<usize> {
         match self {
             Self::UnknownUnit { span, .. }
+            | Self::QualifiedUnit { span, .. }
             | Self::PrefixNotAllowed { span, .. }
             | Self::UnexpectedCharacter { span, .. }
             | Self::MissingFactor { span, .. }
@@ -167,6 +179,7 @@ impl UnitError {
     pub fn suggestions(&self) -> Vec<&str> {
         match self {
             Self::UnknownUnit { nearest, .. } => nearest.iter().map(String::as_str).collect(),
+            Self::QualifiedUnit { unit, .. } => vec![unit],
             Self::PrefixNotAllowed { instead, .. } => vec![instead],
             Self::UnexpectedCharacter { suggestion, .. } => {
                 suggestion.iter().map(String::as_str).collect()
@@ -204,6 +217,7 @@ impl UnitError {
             Self::UnknownUnit { span, nearest, .. } => {
                 nearest.iter_mut().for_each(|near| *near = whole(span, near));
             }
+            Self::QualifiedUnit { span, unit, .. } => *unit = whole(span, unit),
             Self::PrefixNotAllowed { span, instead, .. } => *instead = whole(span, instead),
             _ => {}
         }
@@ -223,6 +237,11 @@ impl fmt::Display for UnitError {
             Self::UnknownUnit { name, nearest, .. } => {
                 write!(f, "`{name}` is not a known unit; did you mean {}?", alternatives(nearest))
             }
+            Self::QualifiedUnit { name, unit, says, .. } => write!(
+                f,
+                "`{name}` says more than a unit does: it is {says}; write `{unit}`, and say the rest in the \
+                 name of the quantity"
+            ),
             Self::PrefixNotAllowed { prefix, unit, instead, .. } => {
                 write!(f, "the prefix `{prefix}` cannot stand before `{unit}`; write `{instead}`")
             }

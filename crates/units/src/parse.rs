@@ -82,6 +82,10 @@ pub(super) fn parse_among(text: &str, own: &[Unit]) -> Result<(Meaning, Vec<Fact
     if parser.peek().is_none() {
         return Ok((ONE, Vec::new()));
     }
+    // `dB(A)` would be a product
+    if let Some(error) = suggest::whole(text.trim(), start..text.trim_end().len()) {
+        return Err(error);
+    }
     let meaning = parser.product(0)?;
     if let Some(found) = parser.peek() {
         return Err(UnitError::UnbalancedParenthesis { found, span: parser.next_span() });
@@ -89,7 +93,28 @@ pub(super) fn parse_among(text: &str, own: &[Unit]) -> Result<(Meaning, Vec<Fact
     if !meaning.scale.in_range() {
         return Err(UnitError::FactorOutOfRange { span: start..text.trim_end().len() });
     }
+    refuse_conductivity(text.trim(), &parser.factors, start)?;
     Ok((meaning, parser.factors))
+}
+
+/// Refuses `W/mK`, by which most mean the conductivity in W/(m K), and some a conductance per millikelvin.
+fn refuse_conductivity(text: &str, factors: &[Factor], start: usize) -> Result<(), UnitError> {
+    let [watt, kelvin] = factors else { return Ok(()) };
+    let is = |factor: &Factor, name: &str, exponent: Exponent| match factor.base {
+        FactorBase::Named { symbol, .. } => symbol.name() == name && factor.exponent == exponent,
+        FactorBase::Number(_) | FactorBase::Defined(_) => false,
+    };
+    let is_one = is(watt, "W", Exponent::ONE) && is(kelvin, "K", MINUS_ONE);
+    let divisor = text.split_once('/').map(|(_, divisor)| divisor.trim());
+    if is_one && matches!(divisor, Some("mK" | "(mK)")) {
+        return Err(UnitError::AmbiguousProduct {
+            found: text.to_owned(),
+            span: start..start + text.len(),
+            likelier: format!("{}/(m*K)", watt.base),
+            other: format!("1e3*{}/K", watt.base),
+        });
+    }
+    Ok(())
 }
 
 /// A text and how far it has been read.

@@ -47,7 +47,7 @@ const SPELLED: &[(&str, &[&str])] = &[
     ("dig", &["digit"]), ("dgt", &["digit"]), ("cnt", &["count"]), ("cts", &["count"]),
     ("bit", &["LSB"]),
     ("liter", &["L"]), ("litre", &["L"]), ("ltr", &["L"]), ("cc", &["cm^3"]), ("ccm", &["cm^3"]),
-    ("tonne", &["t"]), ("ton", &["t"]), ("electronvolt", &["eV"]), ("dalton", &["Da"]),
+    ("tonne", &["t"]), ("ton", &["t", "907.18474*kg"]), ("electronvolt", &["eV"]), ("dalton", &["Da"]),
     ("amu", &["u"]), ("carat", &["ct"]), ("hectare", &["ha"]), ("torr", &["Torr"]), ("atmosphere", &["atm"]),
     ("inch", &["in"]), ("inches", &["in"]), ("foot", &["ft"]), ("feet", &["ft"]),
     ("yard", &["0.9144*m"]), ("yd", &["0.9144*m"]), ("mile", &["1609.344*m"]),
@@ -59,20 +59,23 @@ const SPELLED: &[(&str, &[&str])] = &[
     ("kmh", &["km/h"]), ("mps", &["m/s"]), ("fps", &["ft/s"]), ("sqm", &["m^2"]),
     ("micron", &["um"]), ("angstrom", &["1e-10*m"]), ("å", &["1e-10*m"]),
     ("\u{212b}", &["1e-10*m"]), ("gee", &["g_n"]), ("gn", &["g_n"]), ("g0", &["g_n"]),
-    ("gravity", &["g_n"]), ("lbm", &["lb"]), ("psig", &["psi"]), ("psia", &["psi"]),
+    ("gravity", &["g_n"]), ("lbm", &["lb"]), ("psia", &["psi"]),
     ("oc", &["degC"]), ("c°", &["degC"]), ("neper", &["Np"]),
     ("microstrain", &["um/m"]), ("ustrain", &["um/m"]), ("µε", &["um/m"]), ("με", &["um/m"]),
-    ("strain", &["m/m"]), ("vdc", &["V"]), ("vac", &["V"]), ("vrms", &["V"]), ("vpp", &["V"]),
+    ("strain", &["m/m"]), ("vdc", &["V"]), ("vac", &["V"]), ("vrms", &["V"]),
     ("rms", &[]), ("pp", &[]), ("rdg", &[]), ("reading", &[]), ("nan", &[]),
     ("cst", &["mm^2/s"]), ("centistokes", &["mm^2/s"]), ("nit", &["cd/m^2"]),
     ("poise", &["0.1*Pa*s"]), ("st", &["1e-4*m^2/s"]), ("stokes", &["1e-4*m^2/s"]),
-    ("cpm", &["1/min"]), ("molar", &["mol/L"]),
+    ("cpm", &["1/min"]), ("dpm", &["1/min"]), ("molar", &["mol/L"]),
     ("cp", &["mPa*s"]), ("centipoise", &["mPa*s"]), ("btu", &["1055.05585262*J"]),
     ("hp", &["745.69987158227022*W", "735.49875*W"]), ("horsepower", &["745.69987158227022*W", "735.49875*W"]),
     ("oe", &["79.577471545947668*A/m"]), ("oersted", &["79.577471545947668*A/m"]),
     ("ci", &["3.7e10*Bq"]), ("curie", &["3.7e10*Bq"]), ("rem", &["0.01*Sv"]),
     ("gpm", &["3.785411784*L/min"]), ("cfm", &["28.316846592*L/min"]), ("lpm", &["L/min"]),
-    ("at", &["98.0665*kPa"]), ("barg", &["bar"]), ("bara", &["bar"]),
+    ("at", &["98.0665*kPa"]), ("bara", &["bar"]),
+    ("cmhg", &["10*mmHg"]), ("cmh2o", &["10*mmH2O"]), ("mh2o", &["1e3*mmH2O"]), ("fth2o", &["12*inH2O"]),
+    ("cstokes", &["mm^2/s"]), ("mmbtu", &["1e6*1055.05585262*J"]), ("nmi", &["1852*m"]),
+    ("nmile", &["1852*m"]), ("dbu", &[]), ("upm", &["rpm"]), ("umdr", &["rev"]),
 ];
 
 /// Nobody means a prefix beyond these powers of ten who writes an abbreviation.
@@ -82,6 +85,25 @@ const FARTHEST: i32 = 24;
 /// activity, and full scale, to which nothing corresponds.
 const ABBREVIATED: &[(&str, &[&str])] =
     &[("M", &["m", "mol/L"]), ("U", &["umol/min"]), ("FS", &[])];
+
+/// Names that say what a quantity is beside its unit, which no unit does (SI Brochure, 9th edition, 5.4.2): the
+/// unit, and what they say. They take prefixes where the unit does.
+#[rustfmt::skip]
+const QUALIFIED: &[(&str, &str, &str)] = &[
+    ("barg", "bar", GAUGE), ("psig", "psi", GAUGE), ("Pag", "Pa", GAUGE), ("atü", "98.0665*kPa", GAUGE),
+    ("Vpp", "V", "a peak-to-peak value"), ("Vpk", "V", "a peak value"), ("App", "A", "a peak-to-peak value"),
+    ("Nm3", "m^3", NORMAL), ("Nm³", "m^3", NORMAL), ("Nl", "L", NORMAL), ("Sm3", "m^3", STANDARD),
+    ("Sm³", "m^3", STANDARD), ("sccm", "cm^3/min", STANDARD), ("slm", "L/min", STANDARD),
+    ("slpm", "L/min", STANDARD), ("SLPM", "L/min", STANDARD), ("SCCM", "cm^3/min", STANDARD),
+    ("scfm", "28.316846592*L/min", STANDARD), ("SCFM", "28.316846592*L/min", STANDARD),
+    ("dBA", "dB", "an A-weighted level"), ("dBC", "dB", "a C-weighted level"),
+    ("dBZ", "dB", "an unweighted level"), ("dB(A)", "dB", "an A-weighted level"),
+    ("dB(C)", "dB", "a C-weighted level"), ("dB(Z)", "dB", "an unweighted level"),
+];
+
+const GAUGE: &str = "a pressure above the ambient one, which formulas of the pressure itself add";
+const NORMAL: &str = "a volume of gas at 0 degC and 101.325 kPa";
+const STANDARD: &str = "a volume of gas at standard conditions, of which there are several";
 
 /// Products written without a sign, and the same with one. They take prefixes.
 const JOINED: &[(&str, &str)] = &[
@@ -95,8 +117,36 @@ const JOINED: &[(&str, &str)] = &[
     ("M", "mol/L"),
 ];
 
+/// The error for a whole text of which the parts are units, or look like some.
+pub(super) fn whole(text: &str, span: Range<usize>) -> Option<UnitError> {
+    // revolutions in German; alone, or in other quotients, U is that of enzymes
+    let rate = match text {
+        "U/min" => "rpm",
+        "U/s" => "rev/s",
+        _ => return qualified(text, &span),
+    };
+    Some(UnitError::UnknownUnit { name: text.to_owned(), span, nearest: vec![rate.to_owned()] })
+}
+
+/// The error for a name that says more than a unit does.
+fn qualified(name: &str, span: &Range<usize>) -> Option<UnitError> {
+    let of = |name: &str| QUALIFIED.iter().find(|(wrong, ..)| *wrong == name);
+    let prefixed = || {
+        prefix_spellings().find_map(|(spelling, prefix)| {
+            let (_, unit, says) = of(name.strip_prefix(spelling)?)?;
+            takes_prefix(unit, prefix).then(|| (format!("{spelling}{unit}"), *says))
+        })
+    };
+    let plain = of(name).map(|(_, unit, says)| ((*unit).to_owned(), *says));
+    let (unit, says) = plain.or_else(prefixed)?;
+    Some(UnitError::QualifiedUnit { name: name.to_owned(), span: span.clone(), unit, says })
+}
+
 /// The error for a name that is not a unit, standing at `span`.
 pub(super) fn unknown(name: &str, span: Range<usize>) -> UnitError {
+    if let Some(error) = qualified(name, &span) {
+        return error;
+    }
     if let Some(nearest) = spelled_out(name) {
         return UnitError::UnknownUnit { name: name.to_owned(), span, nearest };
     }
@@ -140,18 +190,18 @@ fn spelled_out(name: &str) -> Option<Vec<String>> {
             }
             if let Some(text) = word(&rest.to_lowercase()).and_then(|right| right.first())
                 && rest.chars().count() > 2
-                && takes_prefix(text, prefix)
+                && let Some(text) = with_prefix(text, spelling, prefix)
             {
-                return Some(vec![format!("{spelling}{text}")]);
+                return Some(vec![text]);
             }
         }
         if let Some(rest) = lower.strip_prefix(prefix.name())
             && let Some(text) = word(rest)
                 .and_then(|right| right.first().copied())
                 .or_else(|| spellings().find(|symbol| same_letters(symbol, rest)))
-            && takes_prefix(text, prefix)
+            && let Some(text) = with_prefix(text, spelling, prefix)
         {
-            return Some(vec![format!("{spelling}{text}")]);
+            return Some(vec![text]);
         }
     }
     if name.starts_with('%') {
@@ -172,6 +222,17 @@ fn spelled_out(name: &str) -> Option<Vec<String>> {
 fn word(lower: &str) -> Option<&'static [&'static str]> {
     let find = |text: &str| SPELLED.iter().find(|(wrong, _)| *wrong == text).map(|(_, r)| *r);
     find(lower).or_else(|| lower.strip_suffix('s').and_then(find))
+}
+
+/// A unit text with a prefix, as a power of ten where it takes none: `1e3*4.184*J` of kcal. Nothing of a
+/// prefix that nobody means, and of Celsius temperatures.
+fn with_prefix(text: &str, spelling: &str, prefix: &Prefix) -> Option<String> {
+    if takes_prefix(text, prefix) {
+        return Some(format!("{spelling}{text}"));
+    }
+    let has_zero = symbol(text).is_some_and(|symbol| symbol.flavour != Flavour::Plain);
+    let is_usual = (-12..=9).contains(&prefix.decimal());
+    (is_usual && !has_zero).then(|| format!("1e{}*{text}", prefix.decimal()))
 }
 
 /// Whether a text is one symbol that takes the prefix.

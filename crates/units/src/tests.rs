@@ -135,6 +135,7 @@ fn right_texts_have_the_right_factor_and_dimension() {
 fn variant(error: &UnitError) -> &'static str {
     match error {
         UnitError::UnknownUnit { .. } => "unknown",
+        UnitError::QualifiedUnit { .. } => "qualified",
         UnitError::PrefixNotAllowed { .. } => "prefix",
         UnitError::UnexpectedCharacter { .. } => "character",
         UnitError::MissingFactor { side: MissingSide::Before, .. } => "missing before",
@@ -655,6 +656,47 @@ fn names_in_other_languages_are_unique() {
     }
     let named = PREFIXES.iter().filter(|prefix| prefix.macro_name().is_some());
     assert_eq!(named.count(), 20);
+}
+
+/// Prefixes are kept, of words and of units that take none; a name that says more than a unit says what.
+#[test]
+fn suggestions_keep_prefixes() {
+    for (text, wanted) in [
+        ("kcal", "1e3*4.184*J"),
+        ("Mcal", "1e6*4.184*J"),
+        ("mrem", "1e-3*0.01*Sv"),
+        ("kGauss", "1e3*1e-4*T"),
+        ("kBtu", "1e3*1055.05585262*J"),
+        ("MMBTU", "1e6*1055.05585262*J"),
+        ("cStokes", "mm^2/s"),
+        ("µinch", "1e-6*in"),
+        ("mtorr", "1e-3*Torr"),
+        ("kton", "kt"),
+        ("cmHg", "10*mmHg"),
+        ("mH2O", "1e3*mmH2O"),
+        ("ftH2O", "12*inH2O"),
+        ("nmile", "1852*m"),
+        ("dpm", "1/min"),
+        ("U/min", "rpm"),
+        ("mbarg", "mbar"),
+        ("atü", "98.0665*kPa"),
+        ("mVpp", "mV"),
+        ("Nm3/h", "m^3/h"),
+        ("dB(A)", "dB"),
+        ("sccm", "cm^3/min"),
+        ("W/mK", "W/(m*K)"),
+        ("kW/(mK)", "kW/(m*K)"),
+    ] {
+        let error = Unit::parse(text).expect_err(text).in_whole(text);
+        assert_eq!(error.suggestions().first(), Some(&wanted), "{text}: {error}");
+        assert!(Unit::parse(wanted).is_ok(), "{wanted}");
+    }
+    assert!(Unit::parse("dBu").expect_err("no reference").suggestions().is_empty());
+    let error = Unit::parse("Vpp").expect_err("no unit").to_string();
+    assert!(error.contains("a peak-to-peak value") && error.contains("`V`"), "{error}");
+    for text in ["mJ/mK", "V/mK", "W/mK^2", "dB", "nm^3", "N*m^3"] {
+        assert!(Unit::parse(text).is_ok(), "{text}");
+    }
 }
 
 #[test]

@@ -98,7 +98,10 @@ impl<'c> Checker<'c> {
                 (typing, Tie::None)
             }
             Kind::Constant(constant) => free(Typing::of(constant.dimension())),
-            Kind::InUnit { number, unit } => free(self.in_unit(*number, unit, &node.span)),
+            Kind::InUnit { number, unit } => {
+                self.refuse_unit_of_level(index, *number, unit);
+                free(self.in_unit(*number, unit, &node.span))
+            }
             Kind::Negate(x) => (self.typing(*x), self.tie(*x).times(-1.0)),
             Kind::Infix { operator, operator_span, left, right } => {
                 self.infix(*operator, operator_span, (index, &node.span), [*left, *right])

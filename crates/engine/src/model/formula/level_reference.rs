@@ -8,7 +8,7 @@ use super::scale_fault::ScaleFault;
 use super::syntax::{Kind, Operator};
 use super::typing::{LevelReference, Typing};
 use crate::number::Unary;
-use gumption_units::{Dimension, Zero};
+use gumption_units::{Dimension, Unit, Zero};
 
 /// The dimensions of power, of voltage, and of its square.
 const POWER: Dimension = Dimension::of([1, 2, -3, 0, 0, 0, 0]);
@@ -239,25 +239,38 @@ impl Checker<'_> {
     /// in `10^(L/10)*1 [W]` of a level in dBm.
     pub(super) fn refuse_other_reference(&mut self, index: usize, [left, right]: [usize; 2]) {
         for (power, quantity) in [(left, right), (right, left)] {
-            let Some((level, zero, divisor)) = self.taken_away(power) else { continue };
             let is_one = match self.kind(quantity) {
                 Some(Kind::Unit(_)) => true,
                 Some(Kind::InUnit { number, .. }) => self.constant(*number) == Some(1.0),
                 _ => false,
             };
-            let Some(written) = self.written(quantity).filter(|_| is_one) else { continue };
-            let is_of_kind = match (zero, divisor) {
-                (Zero::Milliwatt | Zero::Watt, _) => written.dimension == POWER,
-                (Zero::Volt | Zero::Millivolt | Zero::Microvolt, 10.0) => {
-                    [VOLTAGE, SQUARED_VOLTAGE].contains(&written.dimension)
-                }
-                (Zero::Volt | Zero::Millivolt | Zero::Microvolt, _) => written.dimension == VOLTAGE,
-                _ => false,
-            };
-            if is_of_kind && above(divisor, written) != LevelReference::Above(zero) {
-                let (level, quantity) = (self.quoted(level), self.quoted(quantity));
-                self.fault(index, ScaleFault::OtherReference { level, zero, quantity });
+            if let Some(written) = self.written(quantity).filter(|_| is_one) {
+                let quantity = self.quoted(quantity);
+                self.refuse_if_other(index, power, written, quantity);
             }
+        }
+    }
+
+    /// Refuses the unit of a level's number that is of the kind of its reference and not that reference,
+    /// as in `(10^(L/10)) [W]` of a level in dBm.
+    pub(super) fn refuse_unit_of_level(&mut self, index: usize, number: usize, unit: &Unit) {
+        let written = Written { dimension: unit.dimension(), value: unit.factor() };
+        self.refuse_if_other(index, number, written, format!("1 [{unit}]"));
+    }
+
+    fn refuse_if_other(&mut self, index: usize, power: usize, written: Written, quantity: String) {
+        let Some((level, zero, divisor)) = self.taken_away(power) else { return };
+        let is_of_kind = match (zero, divisor) {
+            (Zero::Milliwatt | Zero::Watt, _) => written.dimension == POWER,
+            (Zero::Volt | Zero::Millivolt | Zero::Microvolt, 10.0) => {
+                [VOLTAGE, SQUARED_VOLTAGE].contains(&written.dimension)
+            }
+            (Zero::Volt | Zero::Millivolt | Zero::Microvolt, _) => written.dimension == VOLTAGE,
+            _ => false,
+        };
+        if is_of_kind && above(divisor, written) != LevelReference::Above(zero) {
+            let level = self.quoted(level);
+            self.fault(index, ScaleFault::OtherReference { level, zero, quantity });
         }
     }
 

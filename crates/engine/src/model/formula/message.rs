@@ -75,6 +75,13 @@ impl fmt::Display for Operand {
     }
 }
 
+/// The number that a product begins with: `0.004` of `0.004*(t - t0)`.
+fn leading_number(text: &str) -> Option<&str> {
+    let (number, _) = text.split_once('*')?;
+    let number = number.trim_end();
+    number.parse::<f64>().is_ok().then_some(number)
+}
+
 impl fmt::Display for FormulaError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -180,10 +187,32 @@ impl fmt::Display for FormulaError {
                             other.text
                         );
                     }
+                    // a factor of a quantity beside the 1 is per unit of it
+                    if number.text == "1"
+                        && let Some(factor) = leading_number(&other.text)
+                    {
+                        let unit = match (other.is_celsius, &other.unit) {
+                            (false, Some(unit)) if other.dimension != Dimension::TEMPERATURE => {
+                                unit.clone()
+                            }
+                            _ => other.dimension.usual_unit(),
+                        };
+                        let unit = if unit.contains(['*', '/', ' ', '^']) {
+                            format!("({unit})")
+                        } else {
+                            unit
+                        };
+                        return write!(
+                            f,
+                            " (a number other than 0 in a formula has no unit; write one behind the factor, \
+                             such as `{factor} [1/{unit}]`)"
+                        );
+                    }
+                    let given = other.unit.as_deref().unwrap_or("degC");
                     let unit = match (other.is_celsius, *operator) {
                         // two Celsius temperatures have no sum
                         (true, "+") => "K".to_owned(),
-                        (true, _) => "degC".to_owned(),
+                        (true, _) => given.to_owned(),
                         (false, _) => {
                             other.unit.clone().unwrap_or_else(|| other.dimension.usual_unit())
                         }
@@ -194,8 +223,22 @@ impl fmt::Display for FormulaError {
                          such as `{} [{unit}]`",
                         number.text,
                     )?;
-                    if other.is_celsius && is_name(&other.text) {
-                        write!(f, ", or take the number of the other, `{}/[degC]`", other.text)?;
+                    match (other.is_celsius, is_name(&other.text)) {
+                        (true, true) => {
+                            write!(f, ", or take the number of the other, `{}/[{given}]`", other.text)?;
+                        }
+                        // a width that grows with the temperature, IEC 60751
+                        (true, false) => f.write_str(
+                            ", or compute with numbers: those of degrees Celsius are `t/[degC]`, as in \
+                             `(0.3 + 0.005*t/[degC])*1 [K]`",
+                        )?,
+                        _ => {}
+                    }
+                    if other.is_celsius && given.ends_with('F') {
+                        f.write_str(
+                            "; units are converted where an input is read and an output is reported, and \
+                             a formula that converts from degF leaves it out",
+                        )?;
                     }
                     f.write_str(")")?;
                 }

@@ -217,8 +217,9 @@ impl fmt::Display for ScaleFault {
                 )?;
                 match zero {
                     Zero::Celsius => f.write_str(
-                        "Write `kelvin(...)` for thermodynamic temperatures, or give a correction \
-                         in `K`",
+                        "Write `kelvin(...)` for thermodynamic temperatures, give a correction in `K`, or \
+                         compute with numbers of degrees Celsius, `t/[degC]`, as in \
+                         `(0.3 + 0.005*t/[degC])*1 [K]`",
                     ),
                     _ => f.write_str("Give a correction in `dB`"),
                 }
