@@ -4,6 +4,7 @@
 //! Such a text becomes the object that the file could have had in its place, before anything reads
 //! it; whatever is wrong with that object is reported at the text.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use super::DiagnosticKind;
@@ -286,7 +287,7 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
         return Err("a decimal fraction is written with a point, such as `5.01`".to_owned());
     }
     if let Some((before, of, after)) = named_uncertainty(rest) {
-        let (uncertainty, behind) = digits(after)
+        let (uncertainty, behind) = digits(&after)
             .ok_or_else(|| format!("a number is needed behind `{} =`", of.symbol()))?;
         let unit_end = behind.find(['(', ',', ';']).unwrap_or(behind.len());
         let unit = behind.get(..unit_end).unwrap_or_default().trim();
@@ -309,11 +310,18 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
         };
         let std = in_parentheses(&value, inside.trim(), shift)?;
         let value = format!("{value}{power}");
+        if let Some(said) = coverage_behind(after) {
+            return Err(format!(
+                "the digits in parentheses are a standard uncertainty (JCGM 100, 7.2.2), and {said} belongs \
+                 to an expanded one: write `5.0112(23) V` or `5.0112 V ± 0.0046 V (k=2)`"
+            ));
+        }
         return Ok((unit(after)?, Stated::Standard(value, std)));
     }
     if let Some((before, after)) = rest.split_once('±') {
+        let after = without_parentheses(after.trim());
         let (expanded, behind) =
-            digits(after.trim()).ok_or("a number is needed behind `±`".to_owned())?;
+            digits(&after).ok_or("a number is needed behind `±`".to_owned())?;
         let behind = match outer {
             Some(outer) if behind.trim().is_empty() => outer,
             Some(_) => return Err(format!("the unit stands behind the parenthesis; {FORMS}")),
@@ -344,15 +352,43 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
 
 /// `V, U = 0.0046 V, k = 2`: what stands before the uncertainty that is named, which one it is, and
 /// what stands behind its equals sign.
-fn named_uncertainty(text: &str) -> Option<(&str, Uncertainty, &str)> {
+fn named_uncertainty(text: &str) -> Option<(&str, Uncertainty, Cow<'_, str>)> {
     let (before, rest) = text.split_once([',', ';'])?;
     let (symbol, after) = rest.split_once('=')?;
     let of = match symbol.trim() {
         "u" => Uncertainty::Standard,
         "U" => Uncertainty::Expanded,
+        // of 95 %, whether that is said once more or not
+        "U95" | "U_95" | "U(95)" => {
+            let after = after.trim();
+            let is_said = after.contains(['(', ',', ';']);
+            let said = if is_said { after.to_owned() } else { format!("{after} (p=95 %)") };
+            return Some((before, Uncertainty::Expanded, said.into()));
+        }
         _ => return None,
     };
-    Some((before, of, after.trim()))
+    Some((before, of, after.trim().into()))
+}
+
+/// A specification as an uncertainty, `(0.05 % + 2 mV) (k=2)`, without its parentheses.
+fn without_parentheses(text: &str) -> Cow<'_, str> {
+    match text.strip_prefix('(').and_then(|rest| rest.split_once(')')) {
+        Some((inside, behind)) if is_sum(inside) => format!("{inside}{behind}").into(),
+        _ => text.into(),
+    }
+}
+
+/// Whether an uncertainty is a sum, `0.05 % + 2 mV`.
+fn is_sum(text: &str) -> bool {
+    text.contains(" + ")
+}
+
+/// A coverage behind a unit: `(k=2)`, `, p = 95 %`.
+fn coverage_behind(text: &str) -> Option<&str> {
+    let at = text.find(['(', ',', ';'])?;
+    let said = text.get(at..)?.trim_start_matches([',', ';']).trim();
+    let begins = said.trim_start_matches('(').trim_start();
+    (begins.starts_with(['k', 'p']) && said.contains('=')).then_some(said)
 }
 
 /// A value whose unit is `first`, and its uncertainty with its own unit and what is said of it behind
@@ -393,8 +429,9 @@ fn uncertain(
     if first.is_empty() || first == own {
         return Ok((unit(own)?, Stated::Expanded { value, expanded: uncertainty, coverage }));
     }
-    // a width that names its own unit, or per cent of the value
-    let expanded = format!("{uncertainty} {}", unit(own)?);
+    // a width that names its own unit, or per cent of the value, or a specification of both
+    let own = if is_sum(own) { own.to_owned() } else { unit(own)? };
+    let expanded = format!("{uncertainty} {own}");
     Ok((unit(first)?, Stated::Expanded { value, expanded, coverage }))
 }
 
@@ -723,6 +760,11 @@ mod tests {
             ("5.0 V, U = , k = 2", "a number is needed behind `U =`"),
             ("5.0 V, u = 0.1 V, k = 2", "`u =` is a standard uncertainty"),
             ("5.0 V, s = 0.1 V", "is no unit"),
+            ("5.0112(46) V (k=2)", "belongs to an expanded one"),
+            ("5.0112(46) V, k = 2", "belongs to an expanded one"),
+            ("1'000.5 V", "without marks"),
+            ("5.0 V ± 1’000 mV (k=2)", "without marks"),
+            ("10 ± 0.05 % + 2 mV (k=2)", "is no unit"),
             ("(5.0e3 ± 1)e-3 V (k=2)", "one power of ten is enough"),
             ("5.0, U = 2 mV, k = 2", "the value has no unit"),
             ("5.0 V ± 0.1 V (k=2, p=99 %)", "k = 2 is less than the 2.58"),

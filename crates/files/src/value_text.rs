@@ -134,6 +134,16 @@ pub(super) fn power_of_ten(text: &str) -> Option<(i32, &str)> {
 /// What is wrong with a unit that begins with digits, as in `1 234 V`, where the number may have been
 /// written in groups; a unit may begin with 1/. Or in `1 1/2 in`, which is one and a half.
 pub(super) fn grouped_digits(unit: &str) -> Option<String> {
+    // 1'000.5, as in Switzerland
+    let group = unit
+        .strip_prefix(['\'', '’'])
+        .map(|rest| rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len());
+    if group == Some(3) {
+        return Some(format!(
+            "behind the number stands `{unit}`: digits are written without marks of thousands, such as \
+             `1234.5`"
+        ));
+    }
     let digits = unit.len() - unit.trim_start_matches(|c: char| c.is_ascii_digit()).len();
     let below = unit.get(digits..)?.trim_start().strip_prefix('/').map(str::trim_start);
     let is_digit = |below: &str| below.starts_with(|c: char| c.is_ascii_digit());
