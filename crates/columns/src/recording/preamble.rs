@@ -168,23 +168,34 @@ impl Beginning {
         if !wanted.iter().any(|wanted| matches!(wanted.column, ColumnName::Name(_))) {
             return None;
         }
-        lines.iter().enumerate().find_map(|(at, line)| {
+        let places = |line: &Line| -> Option<Vec<usize>> {
             let place = |wanted: &Wanted| match &wanted.column {
                 ColumnName::Name(name) => heading::place_of(&line.cells, name),
                 ColumnName::Number(number) => Some(number - 1),
             };
-            let places: Option<Vec<usize>> = wanted.iter().map(place).collect();
-            let places = places?;
-            let has_numbers = |line: &Line| places.iter().all(|place| line.is_number(*place));
+            wanted.iter().map(place).collect()
+        };
+        let has_numbers =
+            |line: &Line, places: &[usize]| places.iter().all(|place| line.is_number(*place));
+        let header = lines.iter().enumerate().find_map(|(at, line)| {
+            let places = places(line)?;
             let next = lines.get(at + 1);
-            let units =
-                next.filter(|next| next.is_of_units(&places)).map(|next| next.cells.clone());
-            let behind = lines.get(at + 2);
-            match units.filter(|_| behind.is_some_and(has_numbers)) {
-                Some(units) => Some((at, Some(units))),
+            let units = next.filter(|next| next.is_of_units(&places));
+            let behind = lines.get(at + 2).filter(|behind| has_numbers(behind, &places));
+            match units.filter(|_| behind.is_some()) {
+                Some(units) => Some((at, Some(units.cells.clone()))),
                 // of a first line the samples below may be mistakes
-                None => (at == 0 || next.is_some_and(has_numbers)).then_some((at, None)),
+                None => (at == 0 || next.is_some_and(|next| has_numbers(next, &places)))
+                    .then_some((at, None)),
             }
+        });
+        // the first samples may be mistakes, which are told then
+        header.or_else(|| {
+            let is_above = |(at, line): &(usize, &Line)| {
+                let mut below = lines.iter().skip(at + 1);
+                places(line).is_some_and(|places| below.any(|line| has_numbers(line, &places)))
+            };
+            lines.iter().enumerate().find(is_above).map(|(at, _)| (at, None))
         })
     }
 
@@ -195,23 +206,28 @@ impl Beginning {
             ColumnName::Name(_) => None,
         };
         let wanted: Vec<usize> = wanted.iter().filter_map(place).collect();
-        let begins = |at: &usize| {
+        let begins = |at: &usize, wanted: &[usize]| {
             let next = lines.iter().skip(*at).take(LEAST_NUMBERS);
-            next.into_iter().all(|line| line.is_of_numbers(&wanted))
+            next.into_iter().all(|line| line.is_of_numbers(wanted))
         };
-        let body = (0..lines.len()).find(begins)?;
+        let first = |wanted: &[usize]| (0..lines.len()).find(|at| begins(at, wanted));
+        // a column without numbers is told as such
+        let mut body = first(&wanted).or_else(|| first(&[]))?;
+        // words may stand beside the first samples
+        let is_sample = |line: &Line| wanted.iter().all(|place| line.is_number(*place));
+        while !wanted.is_empty() && body > 0 && lines.get(body - 1).is_some_and(is_sample) {
+            body -= 1;
+        }
         let above = lines.get(body.checked_sub(1)?)?;
         // a heading above each unit
         let names = body.checked_sub(2).and_then(|at| lines.get(at)).filter(|names| {
             let name = |place: &usize| names.cells.get(*place).map_or("", String::as_str);
             above.is_of_units(&wanted) && wanted.iter().all(|place| !name(place).is_empty())
         });
-        if names.is_some() {
-            return Some((body - 2, Some(above.cells.clone())));
-        }
-        // samples with words beside them are no header
-        let is_sample = !wanted.is_empty() && wanted.iter().all(|place| above.is_number(*place));
-        (!is_sample).then_some((body - 1, None))
+        Some(match names {
+            Some(_) => (body - 2, Some(above.cells.clone())),
+            None => (body - 1, None),
+        })
     }
 
     /// The unit that is stated for a column elsewhere than in its heading, of values or of instants.
@@ -306,6 +322,11 @@ X_Value	U	I
         // what an instrument writes beside its first samples
         let beside = "Record Length,4,,0,1\nSample Interval,1,,1,2\n,,,2,3\n,,,3,4\n,,,4,5\n";
         assert_eq!(beginning(beside, &numbers(&[5, 4])).first, 0);
+        // a comment beside the first sample, and mistakes in it
+        let noted = "Operator\tx\nX_Value\tU\tComment\n0\t1\tstart\n1\t2\t\n2\t3\t\n3\t4\t\n";
+        assert_eq!(beginning(noted, &numbers(&[2, 1])).first, 1);
+        let over = "P,1\nt,a\nOVLD,OVLD\n0,1\n1,2\n2,3\n";
+        assert_eq!(beginning(over, &names(&["a", "t"])).first, 1);
         // text in another column that every line has
         assert_eq!(beginning("a,state\n1,OK\n2,OK\n", &numbers(&[1])).first, 0);
     }
