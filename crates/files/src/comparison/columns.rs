@@ -155,11 +155,17 @@ impl Columns {
             }
             roles.push((role, place));
         }
-        let is_point = |place: &usize| headings::is_of_points(heading(*place));
-        if let Some(at) = unknown.iter().position(is_point)
-            && !roles.iter().any(|(role, _)| *role == Role::Label)
-        {
-            roles.push((Role::Label, unknown.remove(at)));
+        // points are no laboratories, whose results have a mean
+        let has = |role: Role| roles.iter().any(|(of, _)| *of == role);
+        if has(Role::Value(2)) && !has(Role::Label) {
+            let is_point = |place: &usize| headings::is_of_points(heading(*place));
+            let is_nominal = |place: &usize| columns::is_nominal(heading(*place));
+            let found = if let Some(at) = unknown.iter().position(is_point) {
+                Some(unknown.remove(at))
+            } else {
+                nominal.iter().position(is_nominal).map(|at| nominal.remove(at))
+            };
+            roles.extend(found.map(|place| (Role::Label, place)));
         }
         owned(&mut roles, |place| headings::is_of_party(heading(place)), is_against);
         for &(of, place) in &doubtful {

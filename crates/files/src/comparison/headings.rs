@@ -59,8 +59,10 @@ const LABORATORIES: [&str; 22] = [
     "messgröße",
 ];
 
-/// Words for points of a measurement, which are labels where no other column has them.
-const POINTS: [&str; 18] = [
+/// Words for points of a measurement, which label pairs where no other column does.
+const POINTS: [&str; 20] = [
+    "artefact",
+    "artifact",
     "point",
     "points",
     "test point",
@@ -267,7 +269,8 @@ fn said_of_any(heading: &str) -> Said {
     if VALUES.contains(&words.as_str()) {
         return Said::Role(Role::Value(0), false);
     }
-    if DEVIATIONS.contains(&words.as_str()) {
+    let is_from = ["deviation from ", "abweichung vom ", "abweichung von ", "écart à "];
+    if DEVIATIONS.contains(&words.as_str()) || is_from.iter().any(|of| words.starts_with(of)) {
         return Said::Deviation(0);
     }
     if words.contains("correlation coefficient") || words.contains("korrelationskoeffizient") {
@@ -420,7 +423,9 @@ pub(super) fn is_like_uncertainty(heading: &str, known: &[&str]) -> bool {
     // a symbol with an index: `u_c`, `U_ref`, `kp`, `x_ref`
     let mut letters = name.chars();
     let is_symbol = letters.next().is_some_and(|c| "uUkrsxXνv".contains(c))
-        && (name.chars().count() <= 2 || letters.next() == Some('_'));
+        && (name.chars().count() <= 2 || letters.next() == Some('_'))
+        || name.starts_with("U ")
+        || name.starts_with("u ");
     let is_other = columns::column(heading)
         .is_some_and(|column| !matches!(column, Column::Symbol | Column::Quantity));
     let near = known.iter().filter(|of| of.len() > 3).copied();

@@ -6,7 +6,7 @@ const LABORATORY: u8 = 1;
 const REFERENCE: u8 = 2;
 
 /// Words of a laboratory, and those that begin a German compound with `wert`.
-const LABORATORIES: [&str; 13] = [
+const LABORATORIES: [&str; 14] = [
     "lab",
     "lab's",
     "laboratory",
@@ -20,8 +20,9 @@ const LABORATORIES: [&str; 13] = [
     "participant's",
     "teilnehmer",
     "teilnehmers",
+    "nmi",
 ];
-const REFERENCES: [&str; 18] = [
+const REFERENCES: [&str; 20] = [
     "ref",
     "reference",
     "referenz",
@@ -40,14 +41,18 @@ const REFERENCES: [&str; 18] = [
     "scrv",
     "kcrv",
     "pilot",
+    "referenzlabor",
+    "referenzlabors",
 ];
 
 /// The index of an assigned value in ISO 13528, which is no word.
 const ASSIGNED: &str = "pt";
 
 /// Words between others, which say nothing where a column has an owner.
-const BETWEEN: [&str; 13] =
-    ["of", "the", "by", "from", "des", "der", "vom", "von", "du", "de", "la", "le", "l'"];
+const BETWEEN: [&str; 11] = ["of", "the", "by", "des", "der", "von", "du", "de", "la", "le", "l'"];
+
+/// Words between two quantities that a difference is of.
+const OF_DIFFERENCES: [&str; 5] = ["from", "vom", "zum", "zur", "minus"];
 
 /// Whether a word names the laboratory or the reference.
 fn owner(word: &str) -> Option<u8> {
@@ -102,26 +107,39 @@ fn is_of_uncertainty(word: &str) -> bool {
     matches!(word, "U" | "u") || ["uncert", "unsich", "incert"].iter().any(|of| small.contains(of))
 }
 
+/// The owner in a name of two words, and the other one: `Value_lab`, `ref_U`.
+fn joined(word: &str) -> Option<(u8, &str)> {
+    let (first, second) = word.split_once('_')?;
+    owner(second).map(|of| (of, first)).or_else(|| owner(first).map(|of| (of, second)))
+}
+
 /// The owner of what a heading stands above, and the heading without it: of `Ref. U [V]` it is `U [V]`.
 /// `None` where none or both are named.
 pub(super) fn split(heading: &str) -> Option<(u8, String)> {
     let spaced = heading.replace('(', " (").replace('[', " [");
-    let (mut found, mut kept): (Option<u8>, Vec<&str>) = (None, Vec::new());
+    let (mut found, mut kept): (Option<u8>, Vec<String>) = (None, Vec::new());
     for word in spaced.split_whitespace() {
         let bare = word.trim_matches(['(', ')', '[', ']', ',', ':']);
+        // `Deviation from reference` is none of the reference
+        if OF_DIFFERENCES.contains(&bare.to_lowercase().as_str()) {
+            return None;
+        }
         // of an index in brackets the symbol stands before them: `u(x_ref)`
         let is_enclosed = word.starts_with(['(', '[']);
         let own = owner(bare)
             .map(|of| (of, ""))
             .or_else(|| compound(bare))
-            .or_else(|| indexed(bare).map(|(of, stem)| (of, if is_enclosed { "" } else { stem })));
+            .or_else(|| indexed(bare).map(|(of, stem)| (of, if is_enclosed { "" } else { stem })))
+            .or_else(|| joined(bare));
         match own {
             Some((of, _)) if found.is_some_and(|other| other != of) => return None,
             Some((of, rest)) => {
                 found = Some(of);
-                kept.extend((!rest.is_empty()).then_some(rest));
+                // a unit may stand behind the comma
+                let comma = if word.ends_with(',') { "," } else { "" };
+                kept.extend((!rest.is_empty()).then(|| format!("{rest}{comma}")));
             }
-            None => kept.push(word),
+            None => kept.push(word.to_owned()),
         }
     }
     let found = found?;
@@ -156,6 +174,11 @@ mod tests {
             ("Assigned value", Some((2, "value"))),
             ("U of the assigned value", Some((2, "U"))),
             ("Pt 100 value", None),
+            ("Value_lab", Some((1, "Value"))),
+            ("ref_U", Some((2, "U"))),
+            ("U_lab, V", Some((1, "U, V"))),
+            ("Ergebnis Referenzlabor", Some((2, "Ergebnis"))),
+            ("Deviation from reference", None),
             ("Reference laboratory", None),
             ("x_lab - x_ref", None),
             ("Value", None),

@@ -5,7 +5,7 @@ use super::numbers::{self, Number};
 use super::{InUnits, Reader};
 use crate::DiagnosticKind;
 use crate::share::{self, Share};
-use crate::value_text::either_temperature;
+use crate::value_text::{PLUS_MINUS, either_temperature};
 use gumption_analysis::compare::StatedResult;
 use gumption_engine::number::Shortest;
 use gumption_units::{IncompatibleUnits, Unit};
@@ -163,7 +163,13 @@ impl Reader<'_> {
                 let (value, uncertainty, factor) = found?;
                 (Some(value), Some(uncertainty), Some(factor))
             }
-            None => (self.in_unit(row, x), self.in_unit(row, u), None),
+            None => {
+                // `±0.2` below a heading of uncertainties
+                let text = self.numbers.table.text(row, u).trim();
+                let sign = PLUS_MINUS.iter().find_map(|sign| text.strip_prefix(sign));
+                let uncertainty = self.in_unit_of(row, u, sign.unwrap_or(text).trim_start());
+                (self.in_unit(row, x), uncertainty, None)
+            }
         };
         let factor = match (expanded, &uncertainty) {
             _ if in_one.is_some() => in_one,

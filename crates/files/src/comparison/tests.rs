@@ -563,6 +563,7 @@ fn laboratory_and_reference_are_told_by_words() {
         "Point de mesure;Valeur laboratoire;Incertitude élargie laboratoire;Valeur de référence;Incertitude élargie de référence",
         "Point;Valeur du laboratoire;U_lab;Valeur assignée;U_réf",
         "Point;Lab error;U_lab;Reference error;U_ref",
+        "Nominal value;Value_lab;U_lab;ref_value;ref_U",
         "Point;Lab value;Lab uncertainty (k=2);Reference value;Reference uncertainty (k=2)",
     ] {
         is_lab_and_reference(&format!("{heading}\n1;10,0;0,2;10,1;0,1\n"));
@@ -580,6 +581,12 @@ fn laboratory_and_reference_are_told_by_words() {
     assert!(found.contains("`Value` and `Error` can both be what is compared"), "{found}");
     let found = refused("Point,Lab value,Lab uncertainty,Ref value,U_ref\n1,1,1,1,1\n");
     assert!(found.contains("`Lab uncertainty` can be the standard uncertainty"), "{found}");
+    // points have no mean, and what is not read may be of the reference
+    let found = refused("Point,Value,U\n1,1,1\n2,1,1\n");
+    assert!(found.contains("no column label"), "{found}");
+    let found = refused("Lab,Lab value,U lab,After,U after\na,1,1,1,1\nb,1,1,1,1\n");
+    assert!(found.contains("`U after` is not known"), "{found}");
+    is_lab_and_reference("Lab,x_lab,U_lab,x_ref,U_ref\n1,10.0,±0.2,10.1,+/-0.1\n");
     let found = refused("Point,x_lab,U,x_ref,u\n1,1,1,1,1\n");
     assert!(found.contains("no column U"), "{found}");
 }
