@@ -6,6 +6,7 @@ use super::numbers::Number;
 use crate::import::both::sides;
 use crate::import::concise::concise;
 use crate::import::coverage::HeaderCoverage;
+use crate::import::number::number;
 use crate::value_text::PLUS_MINUS;
 use gumption_engine::number::Shortest;
 
@@ -19,7 +20,7 @@ struct InOneCell {
 
 #[derive(Clone, Debug, PartialEq)]
 enum Uncertainty {
-    /// In the last digits of the estimate, a standard uncertainty (JCGM 100, 7.2.2).
+    /// In brackets behind the digits of the estimate, a standard uncertainty (JCGM 100, 7.2.2).
     InDigits(f64),
     /// Behind the sign, as text, with what is said of its coverage.
     BehindSign(String, HeaderCoverage),
@@ -33,6 +34,10 @@ impl InOneCell {
             let (digits, rest) = text.split_once('(')?;
             let (_, behind) = rest.split_once(')')?;
             let estimate = format!("{}{behind}", digits.trim_end());
+            return Some(Self { estimate, uncertainty: Uncertainty::InDigits(std) });
+        }
+        if let Some((digits, std, behind)) = in_unit_of_estimate(text, decimal_comma) {
+            let estimate = format!("{digits}{behind}");
             return Some(Self { estimate, uncertainty: Uncertainty::InDigits(std) });
         }
         let coverage = HeaderCoverage::of(text);
@@ -51,6 +56,16 @@ impl InOneCell {
             uncertainty: Uncertainty::BehindSign(with_unit(uncertainty), coverage),
         })
     }
+}
+
+/// The estimate, its standard uncertainty as a number in the unit of it, and what stands behind:
+/// `100.02147(0.00035) g` (JCGM 100, 7.2.2). Without a decimal mark the digits are the last ones.
+fn in_unit_of_estimate(text: &str, decimal_comma: bool) -> Option<(&str, f64, &str)> {
+    let (digits, rest) = text.split_once('(')?;
+    let (inside, behind) = rest.split_once(')')?;
+    number(digits, decimal_comma).filter(|_| digits == digits.trim_end())?;
+    let std = number(inside, decimal_comma).filter(|_| inside.contains(['.', ',']))?;
+    (std >= 0.0 && !inside.contains('%')).then_some((digits, std, behind))
 }
 
 /// Whether a cell holds an estimate and its uncertainty.
@@ -99,7 +114,7 @@ impl Reader<'_> {
             Uncertainty::InDigits(std) => {
                 if let Some(k) = of_column.or(heading.factor(None)).filter(|k| *k != 1.0) {
                     fail(format!(
-                        "`{text}` states the standard uncertainty {} in its last digits, and the table the \
+                        "`{text}` states the standard uncertainty {} in brackets, and the table the \
                          coverage factor {}: write value and uncertainty into columns `x` and `u`, or `U`",
                         Shortest(std),
                         Shortest(k)
@@ -155,6 +170,7 @@ mod tests {
         for (cell, estimate, uncertainty) in [
             ("10.0(2)", "10.0", Uncertainty::InDigits(0.2)),
             ("10.0(2) V", "10.0 V", Uncertainty::InDigits(0.2)),
+            ("10.00(0.20) V", "10.00 V", Uncertainty::InDigits(0.2)),
             ("10.0 ± 0.2", "10.0", behind("0.2", none)),
             ("10.0 V ± 0.2 mV (k=2)", "10.0 V", behind("0.2 mV", HeaderCoverage::Factor(2.0))),
             ("(10.0 ± 0.2) V", "10.0 V", behind("0.2 V", none)),
@@ -163,7 +179,7 @@ mod tests {
             let expected = InOneCell { estimate: estimate.to_owned(), uncertainty };
             assert_eq!(InOneCell::of(cell, false), Some(expected), "{cell}");
         }
-        for cell in ["10.0", "± 0.2", "10.0 V", "(10.0)", "", "n/a", "10.0 (k=2)"] {
+        for cell in ["10.0", "± 0.2", "10.0 V", "(10.0)", "", "n/a", "10.0 (k=2)", "10.0 (1.5)"] {
             assert_eq!(InOneCell::of(cell, false), None, "{cell}");
         }
     }
