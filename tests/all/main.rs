@@ -32,6 +32,7 @@ mod interrupt;
 mod intervals;
 mod manual;
 mod observe;
+mod observe_instruments;
 mod observe_slips;
 mod observe_steps;
 mod one_number;

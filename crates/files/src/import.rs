@@ -3,7 +3,7 @@
 //! A budget is a table somewhere on a sheet: a header, one row for each quantity, perhaps a row of
 //! the result, perhaps the equation. What is found is said, and so is what had to be guessed.
 
-mod both;
+pub(crate) mod both;
 pub(crate) mod columns;
 pub(crate) mod concise;
 pub(crate) mod coverage;

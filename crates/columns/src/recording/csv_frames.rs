@@ -1,14 +1,17 @@
 //! Frames of a CSV file: cells between `,`, `;` or tabs (of the last two perhaps with decimal commas),
-//! with or without a header, lines that begin with `#` skipped. A heading with a unit is held against
+//! with or without a header, lines that begin with `#` skipped. What an instrument writes above the header
+//! is passed by, which is said, and a line of units below it belongs to the headings. A heading with a unit is held against
 //! the unit that the recipe states, by whichever of name and number it names the column.
 
 use std::io::{self, BufRead, BufReader, Cursor, Read};
 
 use csv::{ByteRecord, Reader};
 
+use super::preamble::{self, Beginning, MOST_LINES};
+use super::stamps::{Stamps, is_stamp};
 use super::wide_text::NarrowText;
 use super::{BLOCK, ColumnName, Frames, Wanted, place};
-use crate::separator::{DecimalMarks, Separator};
+use crate::separator::DecimalMarks;
 use crate::{ValueOf, gravity, heading};
 use gumption_units::{Unit, nearest};
 
@@ -38,35 +41,49 @@ pub(super) struct CsvFrames<R> {
     samples: u64,
     /// Lines before the reader's first.
     skipped: u64,
+    beginning: Beginning,
+    /// The instants, where these are stamps of a clock.
+    stamps: Stamps,
+}
+
+/// Bytes of the lines that are looked at before the samples are read.
+const MOST_BYTES: u64 = 1 << 20;
+
+/// The first lines of a text, in bytes; without a byte-order mark.
+fn first_lines(reader: &mut impl BufRead) -> Result<Vec<Vec<u8>>, String> {
+    let (mut lines, mut left): (Vec<Vec<u8>>, u64) = (Vec::new(), MOST_BYTES);
+    while lines.len() < MOST_LINES && left > 0 {
+        let mut line = Vec::new();
+        let limit = &mut reader.by_ref().take(left);
+        let count = limit.read_until(b'\n', &mut line).map_err(|error| error.to_string())?;
+        if count == 0 {
+            break;
+        }
+        left -= count as u64;
+        if lines.is_empty() && line.starts_with(b"\xef\xbb\xbf") {
+            line.drain(..3);
+        }
+        lines.push(line);
+    }
+    Ok(lines)
 }
 
 impl<R: Read> CsvFrames<R> {
     pub(super) fn new(reader: R, wanted: Vec<Wanted>) -> Result<Self, String> {
         let text = NarrowText::new(reader).map_err(|error| error.to_string())?;
         let mut reader = BufReader::new(text);
-        let mut line = Vec::new();
-        let mut skipped = 0;
-        // the first line that is no comment shows the separator
-        loop {
-            line.clear();
-            let limit = &mut reader.by_ref().take(1 << 20);
-            let count = limit.read_until(b'\n', &mut line).map_err(|e| e.to_string())?;
-            if count == 0 {
-                return Err("it is empty; a recording has a line for each sample".to_owned());
-            }
-            if line.starts_with(b"\xef\xbb\xbf") {
-                line.drain(..3);
-            }
-            let text = line.trim_ascii();
-            if !text.is_empty() && !text.starts_with(b"#") {
-                break;
-            }
-            skipped += 1;
-        }
-        if line.contains(&0) {
+        let lines = first_lines(&mut reader)?;
+        let texts: Vec<String> =
+            lines.iter().map(|line| String::from_utf8_lossy(line).into_owned()).collect();
+        let Some(beginning) = Beginning::of(&texts, &wanted) else {
+            return Err("it is empty; a recording has a line for each sample".to_owned());
+        };
+        if lines.iter().any(|line| line.contains(&0)) {
             return Err("it is not a text; WAV and NumPy files end in `.wav` and `.npy`".to_owned());
         }
-        let separator = Separator::of_line(&String::from_utf8_lossy(&line));
+        let skipped = beginning.first as u64;
+        let separator = beginning.separator;
+        let line = lines.get(beginning.first..).unwrap_or(&[]).concat();
         let reader = csv::ReaderBuilder::new()
             .delimiter(separator.byte())
             .has_headers(false)
@@ -85,6 +102,8 @@ impl<R: Read> CsvFrames<R> {
             wanted,
             samples: 0,
             skipped,
+            beginning,
+            stamps: Stamps::default(),
         };
         frames.begin()?;
         Ok(frames)
@@ -94,13 +113,16 @@ impl<R: Read> CsvFrames<R> {
     fn begin(&mut self) -> Result<(), String> {
         self.next()?;
         self.cells = self.record.len();
-        let header = self.has_header()?;
+        let header = self.beginning.is_header || self.has_header()?;
         let names: Vec<String> = self
             .record
             .iter()
             .map(|cell| String::from_utf8_lossy(cell.trim_ascii()).into_owned())
             .collect();
         self.waiting = !header;
+        if header {
+            self.pass_units()?;
+        }
         for wanted in &self.wanted {
             let found = match &wanted.column {
                 ColumnName::Number(number) if *number <= self.cells => number - 1,
@@ -129,9 +151,26 @@ impl<R: Read> CsvFrames<R> {
                     place
                 }
             };
-            if let Some(contradiction) =
-                names.get(found).filter(|_| header).and_then(|name| contradiction(wanted, name))
-            {
+            if wanted.is_time() && self.beginning.is_without_unit(found) {
+                return Err(format!(
+                    "its column `{}` counts samples, as the line of units below the header says, and is no \
+                     time: leave out `time` and state `sampling_rate`",
+                    names.get(found).map_or("", String::as_str)
+                ));
+            }
+            // a clock tells hours, minutes and seconds, whatever its heading says of them
+            let is_clock = || wanted.is_time() && self.ahead_cell(found).is_some_and(is_stamp);
+            let contradicted = names.get(found).filter(|_| header && !is_clock());
+            let contradicted = contradicted.and_then(|name| {
+                contradiction(
+                    wanted,
+                    &preamble::with_unit(
+                        name,
+                        self.beginning.unit(found, wanted.is_time()).as_deref(),
+                    ),
+                )
+            });
+            if let Some(contradiction) = contradicted {
                 return Err(contradiction);
             }
             self.places.push(found);
@@ -139,12 +178,52 @@ impl<R: Read> CsvFrames<R> {
         Ok(())
     }
 
+    /// Passes the line of units below the header by, and looks at the first sample: what the header has
+    /// beside the names of its columns has no cells there.
+    fn pass_units(&mut self) -> Result<(), String> {
+        let header = self.record.clone();
+        let mut ahead = ByteRecord::new();
+        let mut is_units = self.beginning.units.is_none();
+        loop {
+            if !self.reader.read_byte_record(&mut ahead).map_err(|error| error.to_string())? {
+                return Ok(());
+            }
+            let is_blank = ahead.iter().all(|cell| cell.trim_ascii().is_empty());
+            match (is_blank, is_units) {
+                (true, _) if self.beginning.units.is_some() => {}
+                (_, true) => break,
+                (_, false) => is_units = true,
+            }
+        }
+        let count = ahead.len();
+        let is_beside = |cell: &[u8]| {
+            let text = String::from_utf8_lossy(cell.trim_ascii()).to_lowercase();
+            matches!(text.as_str(), "" | "comment" | "start" | "increment") || text.contains('=')
+        };
+        let is_empty = |cell: &[u8]| cell.trim_ascii().is_empty();
+        let fits = header.iter().skip(count).all(is_beside)
+            && ahead.iter().skip(header.len()).all(is_empty);
+        if fits {
+            self.cells = count;
+        }
+        self.ahead = Some(ahead);
+        Ok(())
+    }
+
+    /// The text of a cell of the first sample below the header.
+    fn ahead_cell(&self, place: usize) -> Option<&str> {
+        std::str::from_utf8(self.ahead.as_ref()?.get(place)?).ok().map(str::trim)
+    }
+
     /// Whether the first record is a header: where columns are wanted by their names, and where those that
     /// are wanted by their numbers have no numbers in it. Text in other columns may be a state or a date
     /// that every line has.
     fn has_header(&mut self) -> Result<bool, String> {
         let marks = &self.marks;
-        let is_text = |cell: &[u8]| number(cell, &mut marks.clone()).is_ok_and(|of| of.is_none());
+        let is_clock = |cell: &[u8]| std::str::from_utf8(cell).is_ok_and(is_stamp);
+        let is_text = |cell: &[u8]| {
+            number(cell, &mut marks.clone()).is_ok_and(|of| of.is_none()) && !is_clock(cell)
+        };
         let texts: Vec<bool> = self.record.iter().map(is_text).collect();
         let wanted = self.wanted.iter().filter_map(|wanted| match &wanted.column {
             ColumnName::Number(number) => Some(number - 1),
@@ -238,6 +317,16 @@ impl<R: Read> CsvFrames<R> {
         }
         for ((column, at), wanted) in columns.iter_mut().zip(&self.places).zip(&self.wanted) {
             let cell = self.record.get(*at).unwrap_or(b"");
+            if wanted.is_time()
+                && let Ok(text) = std::str::from_utf8(cell)
+                && let Some(seconds) = self
+                    .stamps
+                    .seconds(text)
+                    .map_err(|reason| format!("line {}: {reason}", self.line()))?
+            {
+                column.push(seconds / wanted.unit.factor());
+                continue;
+            }
             match number(cell, &mut self.marks).map(|cell| cell.filter(|cell| cell.is_finite())) {
                 Ok(Some(value)) => column.push(value),
                 Err(reason) => return Err(format!("line {}: {reason}", self.line())),
@@ -258,6 +347,18 @@ impl<R: Read> CsvFrames<R> {
 }
 
 impl<R: Read> Frames for CsvFrames<R> {
+    fn passed_by(&self) -> Option<String> {
+        let above = self.beginning.above?;
+        let (first, header) = (above + 1, self.beginning.first + 1);
+        Some(match header - first {
+            1 => format!("line {first} stands above the header in line {header} and is not read"),
+            _ => format!(
+                "lines {first} to {} stand above the header in line {header} and are not read",
+                header - 1
+            ),
+        })
+    }
+
     fn read(&mut self, columns: &mut [Vec<f64>]) -> Result<(), String> {
         for _ in 0..BLOCK {
             if !self.waiting && !self.next()? {

@@ -3,7 +3,9 @@
 mod csv_frames;
 mod npy_frames;
 mod npy_header;
+mod preamble;
 mod scan;
+mod stamps;
 mod wav_frames;
 mod wide_text;
 
@@ -180,6 +182,11 @@ trait Frames {
         false
     }
 
+    /// What stands above the samples and is not read, in words.
+    fn passed_by(&self) -> Option<String> {
+        None
+    }
+
     /// Reads up to [`BLOCK`] frames into the columns, which are empty before; none at the end.
     fn read(&mut self, columns: &mut [Vec<f64>]) -> Result<(), String>;
 }
@@ -209,7 +216,9 @@ impl Reading {
         let extension = Path::new(&self.name).extension().and_then(|e| e.to_str()).unwrap_or("");
         match extension.to_ascii_lowercase().as_str() {
             "wav" | "wave" => {
-                Ok(Box::new(wav_frames::WavFrames::new(reader, self.bytes.size(), wanted)?))
+                let ranges: Vec<_> = self.channels.iter().map(|(_, of)| of.range).collect();
+                let size = self.bytes.size();
+                Ok(Box::new(wav_frames::WavFrames::new(reader, size, wanted, &ranges)?))
             }
             "npy" => Ok(Box::new(npy_frames::NpyFrames::new(reader, wanted)?)),
             _ => Ok(Box::new(csv_frames::CsvFrames::new(reader, wanted)?)),

@@ -32,7 +32,7 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
     let file = Digesting { inner: bytes.opened()?, digest: digest.clone() };
     let mut reader = BufReader::with_capacity(1 << 20, file);
     let channels = reading.channels.len();
-    let (stated, whole, mut scanned) = {
+    let (stated, whole, passed_by, mut scanned) = {
         let mut frames = reading.frames(&mut reader)?;
         let stated = frames.rate();
         let rate = reading.rate.map(|rate| rate.value).or(stated);
@@ -41,7 +41,7 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
                         column of instants in `time`"
                 .to_owned());
         }
-        let mut scanned = Scanned::new(&reading, rate);
+        let mut scanned = Scanned::new(&reading, rate, frames.whole());
         let mut columns = vec![Vec::with_capacity(BLOCK); reading.wanted().len()];
         loop {
             columns.iter_mut().for_each(Vec::clear);
@@ -51,7 +51,7 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
             }
             scanned.block(&columns)?;
         }
-        (stated, frames.whole(), scanned)
+        (stated, frames.whole(), frames.passed_by(), scanned)
     };
     // what stands behind the last frame belongs to the file too
     io::copy(&mut reader.by_ref(), &mut io::sink()).map_err(|error| error.to_string())?;
@@ -65,7 +65,12 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
         ));
     }
     let rate = scanned.rate(stated);
-    let mut warnings = scanned.suspects(rate.value, channels);
+    let of_preamble = passed_by.map(|text| {
+        let text = format!("`{}`: {text}", reading.name);
+        Warning::new("preamble", reading.name.clone(), text)
+    });
+    let mut warnings: Vec<Warning> = of_preamble.into_iter().collect();
+    warnings.extend(scanned.suspects(rate.value, channels));
     if let Some(scatter) = scanned.clock.as_ref().map(Clock::scatter)
         && scatter * rate.value > SCATTER
     {
@@ -95,6 +100,8 @@ struct Scanned<'r> {
     reading: &'r Reading,
     /// The sampling rate where it is not that of the instants.
     known: Option<f64>,
+    /// Whether the file holds whole numbers of a converter.
+    whole: bool,
     all: u64,
     first: u64,
     kept: u64,
@@ -138,6 +145,9 @@ const TIMES_NEXT: u64 = 6;
 /// So many values in all at or beyond the range of a channel are saturated, and two in a row.
 const BEYOND_IN_ALL: u64 = 3;
 
+/// Values that are so many times beyond the range are in another unit than it.
+const FAR_BEYOND: f64 = 2.0;
+
 impl Extreme {
     fn see(&mut self, value: f64, sample: u64) {
         let value = self.sign * value;
@@ -176,7 +186,7 @@ impl Extreme {
 }
 
 impl<'r> Scanned<'r> {
-    fn new(reading: &'r Reading, known: Option<f64>) -> Self {
+    fn new(reading: &'r Reading, known: Option<f64>, whole: bool) -> Self {
         let channels = reading.channels.len();
         let extreme = |sign| Extreme {
             sign,
@@ -191,6 +201,7 @@ impl<'r> Scanned<'r> {
         Self {
             reading,
             known,
+            whole,
             all: 0,
             first: 0,
             kept: 0,
@@ -254,8 +265,14 @@ impl<'r> Scanned<'r> {
                 *in_a_row = if is_beyond { *in_a_row + 1 } else { 0 };
                 *in_all += u64::from(is_beyond);
                 if *in_a_row == 2 || *in_all == BEYOND_IN_ALL {
+                    let far = value.abs() > FAR_BEYOND * lower.abs().max(upper.abs());
+                    let of_raw = if self.whole && far {
+                        "; the range is that of the raw values, here of whole numbers"
+                    } else {
+                        ""
+                    };
                     return Err(format!(
-                        "{}: the channel is saturated: {} at or beyond its range, {} to {}",
+                        "{}: the channel is saturated: {} at or beyond its range, {} to {}{of_raw}",
                         place(sample + 1, &wanted.channel),
                         if *in_a_row == 2 { "two values in a row" } else { "three values" },
                         Shortest(lower),

@@ -4,6 +4,8 @@ use std::io::{Chain, Cursor, Read};
 
 use hound::{SampleFormat, WavReader};
 
+use gumption_engine::number::Shortest;
+
 use super::{BLOCK, ColumnName, Frames, Wanted, finite};
 
 /// Frames of a WAV file.
@@ -87,6 +89,7 @@ impl<R: Read> WavFrames<R> {
         mut reader: R,
         size: Option<u64>,
         wanted: Vec<Wanted>,
+        ranges: &[Option<[f64; 2]>],
     ) -> Result<Self, String> {
         let mut start = Vec::new();
         let read = reader.by_ref().take(LONGEST_HEADER).read_to_end(&mut start);
@@ -101,15 +104,26 @@ impl<R: Read> WavFrames<R> {
             let unit = &wanted.unit;
             !unit.dimension().is_none() || unit.turn().is_some() || unit.factor() != 1.0
         };
-        if let Some(wanted) = wanted.iter().find(is_quantity)
+        if let Some((place, wanted)) =
+            wanted.iter().enumerate().find(|(_, wanted)| is_quantity(wanted))
             && spec.sample_format == SampleFormat::Int
         {
             let Wanted { channel, becomes, .. } = wanted;
             let bits = spec.bits_per_sample;
+            let full = 1_u64 << bits.clamp(1, 64).saturating_sub(1);
+            let of_range = ranges.get(place).copied().flatten().map(|[lower, upper]| {
+                format!(
+                    "; where its `range` is that of the converter in `{becomes}`, this is `\"scale\": \
+                     {{\"value\": {}, \"unit\": \"{becomes}\"}}` without `bits`, and the range in raw \
+                     values `\"range\": [-{full}, {}]`",
+                    Shortest((upper - lower) / 2.0 / full as f64),
+                    full - 1
+                )
+            });
             return Err(format!(
                 "its samples are whole numbers of {bits} bits, and nothing says how many `{becomes}` one is: \
-                 state the `scale` of `{channel}`, the value of full scale divided by {}",
-                1_u64 << bits.clamp(1, 64).saturating_sub(1)
+                 state the `scale` of `{channel}`, the value of full scale divided by {full}{}",
+                of_range.unwrap_or_default()
             ));
         }
         let mut places = Vec::new();
@@ -217,7 +231,7 @@ mod tests {
             becomes: unit.clone(),
             unit,
         };
-        let mut frames = WavFrames::new(bytes, Some(bytes.len() as u64), vec![wanted])?;
+        let mut frames = WavFrames::new(bytes, Some(bytes.len() as u64), vec![wanted], &[])?;
         let mut columns = vec![Vec::new()];
         frames.read(&mut columns)?;
         Ok(columns.remove(0))

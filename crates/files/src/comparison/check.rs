@@ -27,8 +27,8 @@ impl Reader<'_> {
         if !missing.is_empty() {
             self.fail(format!(
                 "the table has no column {}; a table of pairs has {} (and perhaps k1, k2, r), one of \
-                 laboratories {} (and perhaps k). Words such as `Laboratory`, `Value` and `Standard \
-                 uncertainty` are understood",
+                 laboratories {} (and perhaps k). Words such as `Laboratory`, `Value`, `Standard \
+                 uncertainty`, and `Lab value`, `U_lab`, `Ref. value`, `U_ref` are understood",
                 missing.join(", "),
                 OF_PAIRS,
                 OF_LABORATORIES

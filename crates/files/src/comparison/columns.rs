@@ -1,5 +1,6 @@
 //! Which column of a table of results holds what, and in which unit.
 
+use super::both;
 use super::headings::{self, Role, Said, UnitOfHeading};
 use super::numbers::Numbers;
 use crate::DiagnosticKind;
@@ -20,19 +21,58 @@ pub(super) struct Columns {
     coverages: Vec<(usize, HeaderCoverage)>,
 }
 
+/// Gives columns without an owner to the laboratory where others are those of the reference, and those of
+/// laboratories to a table of laboratories where there is no reference: `Result`, `U` beside `Ref. value`,
+/// `U_ref`; `x_lab`, `U_lab` alone. `is_owned` tells columns that say whose they are in words.
+fn owned(roles: &mut [(Role, usize)], is_owned: impl Fn(usize) -> bool, is_against: bool) {
+    let kinds = [Role::Value, Role::Expanded, Role::Standard, Role::Factor];
+    let place = |roles: &[(Role, usize)], role: Role| {
+        roles.iter().find(|(of, _)| *of == role).map(|(_, place)| *place)
+    };
+    let change = |roles: &mut [(Role, usize)], from: Role, to: Role| {
+        if let (Some(at), None) = (place(roles, from), place(roles, to))
+            && let Some(found) = roles.iter_mut().find(|(_, of)| *of == at)
+        {
+            found.0 = to;
+        }
+    };
+    let has_any =
+        |roles: &[(Role, usize)], of: u8| kinds.iter().any(|kind| place(roles, kind(of)).is_some());
+    if place(roles, Role::Value(2)).is_some_and(&is_owned) {
+        let has_own_u = [Role::Expanded(2), Role::Standard(2)]
+            .into_iter()
+            .any(|role| place(roles, role).is_some_and(&is_owned));
+        change(roles, Role::Value(0), Role::Value(1));
+        if has_own_u {
+            change(roles, Role::Expanded(0), Role::Expanded(1));
+            change(roles, Role::Standard(0), Role::Standard(1));
+        }
+    } else if !is_against && !has_any(roles, 2) {
+        let of_words =
+            |(role, at): &(Role, usize)| kinds.iter().all(|kind| *role != kind(1)) || is_owned(*at);
+        if roles.iter().all(of_words) {
+            kinds.iter().for_each(|kind| change(roles, kind(1), kind(0)));
+        }
+    }
+}
+
 impl Columns {
-    /// The columns of a table, of which these conditions may be some. Mistakes are reported.
+    /// The columns of a table, of which these conditions of a run that it is held against may be some.
+    /// Mistakes are reported.
     pub(super) fn of(
         numbers: &Numbers<'_>,
-        conditions: &[&str],
+        run: Option<&[&str]>,
         warnings: &mut Vec<Warning>,
     ) -> Option<Self> {
+        let (conditions, is_against) = (run.unwrap_or(&[]), run.is_some());
         let headings = numbers.table.columns();
         let fail = |reason: String| {
             numbers.log.report_at(numbers.table.header(), DiagnosticKind::Table { reason });
         };
         let mut found: Vec<(Role, bool, usize)> = Vec::new();
-        let (mut of_conditions, mut unknown, mut doubtful) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut of_conditions, mut unknown) = (Vec::new(), Vec::new());
+        // the results that they are of, and their places
+        let (mut doubtful, mut deviations) = (Vec::<(u8, usize)>::new(), Vec::<(u8, usize)>::new());
         for (place, heading) in headings.iter().enumerate() {
             let bare = column_heading::bare(heading);
             if let Some(name) = conditions.iter().find(|name| **name == heading || **name == bare) {
@@ -47,17 +87,45 @@ impl Columns {
             }
             match headings::said(heading) {
                 Said::Role(role, is_symbol) => found.push((role, is_symbol, place)),
-                Said::SomeUncertainty => doubtful.push(place),
+                Said::SomeUncertainty(of) => doubtful.push((of, place)),
+                Said::Deviation(of) => deviations.push((of, place)),
                 Said::Nothing => unknown.push(place),
             }
         }
         let heading = |place: usize| headings.get(place).map_or("", String::as_str);
+        let holds_both = |place: usize| {
+            let cells = (0..numbers.table.rows()).map(|row| numbers.table.text(row, place));
+            cells.into_iter().any(|cell| both::is_of_both(cell, numbers.has_commas()))
+        };
         // a nominal value tells which point is meant where results stand beside it
         let is_value = |role: Role| matches!(role, Role::Value(_));
         let is_nominal = |(role, _, place): &(Role, bool, usize)| {
             is_value(*role) && columns::is_nominal(heading(*place))
         };
         let mut nominal = Vec::new();
+        // the difference of two results is computed here; beside one value it may be the result
+        let is_pair =
+            [1, 2].iter().all(|of| found.iter().any(|(role, ..)| *role == Role::Value(*of)));
+        for (of, place) in deviations {
+            let is_other = |other: &&(Role, bool, usize)| match other.0 {
+                Role::Value(other) => of == 0 || other == of,
+                _ => false,
+            };
+            let value = found.iter().filter(|other| !is_nominal(other)).find(is_other);
+            match value {
+                _ if of == 0 && is_pair => nominal.push(place),
+                None => found.push((Role::Value(of), false, place)),
+                Some((.., other)) => {
+                    fail(format!(
+                        "`{}` and `{}` can both be what is compared: leave one of them, or write `#` before \
+                         its words",
+                        heading(*other),
+                        heading(place)
+                    ));
+                    return None;
+                }
+            }
+        }
         if found.iter().any(|of| is_value(of.0) && !is_nominal(of)) {
             nominal.extend(found.extract_if(.., |of| is_nominal(of)).map(|(_, _, place)| place));
         }
@@ -87,20 +155,42 @@ impl Columns {
             }
             roles.push((role, place));
         }
+        // points are no laboratories, whose results have a mean
         let has = |role: Role| roles.iter().any(|(of, _)| *of == role);
-        // a factor tells that they are expanded
-        match doubtful.as_slice() {
-            [] => {}
-            &[place] if has(Role::Factor(0)) && !has(Role::Expanded(0)) => {
-                roles.push((Role::Expanded(0), place));
-            }
-            &[.., place] => {
+        if has(Role::Value(2)) && !has(Role::Label) {
+            let is_point = |place: &usize| headings::is_of_points(heading(*place));
+            let is_nominal = |place: &usize| columns::is_nominal(heading(*place));
+            let found = if let Some(at) = unknown.iter().position(is_point) {
+                Some(unknown.remove(at))
+            } else {
+                nominal.iter().position(is_nominal).map(|at| nominal.remove(at))
+            };
+            roles.extend(found.map(|place| (Role::Label, place)));
+        }
+        owned(&mut roles, |place| headings::is_of_party(heading(place)), is_against);
+        for &(of, place) in &doubtful {
+            let has = |role: Role| roles.iter().any(|(of, _)| *of == role);
+            let is_only = doubtful.iter().filter(|(other, _)| *other == of).count() == 1;
+            let is_free = is_only && !has(Role::Expanded(of));
+            // a factor tells that they are expanded, and a cell with a value may say it itself
+            if is_free && (has(Role::Factor(of)) || !has(Role::Value(of)) && holds_both(place)) {
+                roles.push((Role::Expanded(of), place));
+            } else {
                 fail(format!(
                     "`{}` can be the standard uncertainty or an expanded one: call the column `u`, or \
                      `U` with its coverage factor, `U (k=2)`",
                     heading(place)
                 ));
                 return None;
+            }
+        }
+        for of in 0..=2 {
+            let place = |role: Role| roles.iter().find(|(of, _)| *of == role).map(|(_, at)| *at);
+            let uncertain = place(Role::Expanded(of)).or(place(Role::Standard(of)));
+            match (place(Role::Value(of)), uncertain) {
+                (Some(value), None) if holds_both(value) => roles.push((Role::Expanded(of), value)),
+                (None, Some(place)) if holds_both(place) => roles.push((Role::Value(of), place)),
+                _ => {}
             }
         }
         let known = ["label", "correlation"];
@@ -162,6 +252,15 @@ impl Columns {
         let is_result =
             |role: Role| matches!(role, Role::Value(_) | Role::Expanded(_) | Role::Standard(_));
         self.roles.iter().any(|(role, at)| *at == place && is_result(*role))
+    }
+
+    /// Whether the column holds numbers of any kind.
+    pub(super) fn is_of_numbers(&self, place: usize) -> bool {
+        let is_number =
+            |role: Role| matches!(role, Role::Factor(_) | Role::Correlation | Role::Dof);
+        self.is_of_results(place)
+            || self.roles.iter().any(|(role, at)| *at == place && is_number(*role))
+            || self.conditions.iter().any(|(_, at)| *at == place)
     }
 
     /// The place of a condition.

@@ -1,5 +1,6 @@
 //! What the columns of results are called: by their symbols, or by the words that budgets have for them.
 
+use super::party;
 use crate::column_heading;
 use crate::import::columns::{self, Column};
 use crate::import::coverage::HeaderCoverage;
@@ -24,8 +25,10 @@ pub(super) enum Role {
 pub(super) enum Said {
     /// What its column holds, and whether by its symbol.
     Role(Role, bool),
-    /// That it is an uncertainty, and not of which kind.
-    SomeUncertainty,
+    /// That it is an uncertainty of these results, and not of which kind.
+    SomeUncertainty(u8),
+    /// That it is an error or a deviation, which is a result where no other column is one.
+    Deviation(u8),
     /// Nothing that is known.
     Nothing,
 }
@@ -55,6 +58,35 @@ const LABORATORIES: [&str; 22] = [
     "prüfling",
     "messgröße",
 ];
+
+/// Words for points of a measurement, which label pairs where no other column does.
+const POINTS: [&str; 20] = [
+    "artefact",
+    "artifact",
+    "point",
+    "points",
+    "test point",
+    "measuring point",
+    "measurement point",
+    "calibration point",
+    "item",
+    "no",
+    "nr",
+    "run",
+    "punkt",
+    "messpunkt",
+    "kalibrierpunkt",
+    "prüfpunkt",
+    "messstelle",
+    "point de mesure",
+    "point d'étalonnage",
+    "position",
+];
+
+/// Whether a heading is that of points of a measurement.
+pub(super) fn is_of_points(heading: &str) -> bool {
+    POINTS.contains(&columns::plain(heading).as_str())
+}
 
 /// Words for results beside those that budgets have for estimates.
 const VALUES: [&str; 13] = [
@@ -163,8 +195,54 @@ fn is_mean(words: &str) -> bool {
         || BEGINNINGS.iter().any(|beginning| words.starts_with(beginning))
 }
 
+/// Words of errors and deviations.
+const DEVIATIONS: [&str; 16] = [
+    "error",
+    "deviation",
+    "error of indication",
+    "measurement error",
+    "measured error",
+    "bias",
+    "abweichung",
+    "fehler",
+    "messabweichung",
+    "messfehler",
+    "anzeigeabweichung",
+    "erreur",
+    "erreur d'indication",
+    "écart",
+    "ecart",
+    "justesse",
+];
+
 /// What a heading says.
 pub(super) fn said(heading: &str) -> Said {
+    let plain = || said_of_any(heading);
+    let Some((of, rest)) = party::split(heading) else { return plain() };
+    match said_of_any(&rest) {
+        Said::Role(Role::Value(0), _) => Said::Role(Role::Value(of), false),
+        Said::Role(Role::Expanded(0), _) => Said::Role(Role::Expanded(of), false),
+        Said::Role(Role::Standard(0), _) => Said::Role(Role::Standard(of), false),
+        Said::Role(Role::Factor(0), _) => Said::Role(Role::Factor(of), false),
+        Said::SomeUncertainty(0) => Said::SomeUncertainty(of),
+        Said::Deviation(0) => Said::Deviation(of),
+        _ => plain(),
+    }
+}
+
+/// Whether a heading says in words whose results they are.
+pub(super) fn is_of_party(heading: &str) -> bool {
+    party::split(heading).is_some()
+}
+
+/// A heading without words that say whose results they are, which say nothing of units and coverage.
+fn without_party(heading: &str) -> String {
+    let is_party = party::split(heading).filter(|(_, rest)| said_of_any(rest) != Said::Nothing);
+    is_party.map_or_else(|| heading.to_owned(), |(_, rest)| rest)
+}
+
+/// What a heading says, whosever results they are.
+fn said_of_any(heading: &str) -> Said {
     let name = name(heading);
     let (stem, of) = numbered(&name);
     let role = match stem {
@@ -191,6 +269,10 @@ pub(super) fn said(heading: &str) -> Said {
     if VALUES.contains(&words.as_str()) {
         return Said::Role(Role::Value(0), false);
     }
+    let is_from = ["deviation from ", "abweichung vom ", "abweichung von ", "écart à "];
+    if DEVIATIONS.contains(&words.as_str()) || is_from.iter().any(|of| words.starts_with(of)) {
+        return Said::Deviation(0);
+    }
     if words.contains("correlation coefficient") || words.contains("korrelationskoeffizient") {
         return Said::Role(Role::Correlation, false);
     }
@@ -201,8 +283,8 @@ pub(super) fn said(heading: &str) -> Said {
         Some(Column::Dof) => Said::Role(Role::Dof, false),
         Some(Column::Std) => Said::Role(Role::Standard(0), false),
         Some(Column::Divisor) if columns::is_factor(&name) => Said::Role(Role::Factor(0), false),
-        Some(Column::Width) => match coverage(heading) {
-            HeaderCoverage::None => Said::SomeUncertainty,
+        Some(Column::Width) => match coverage_of_any(heading) {
+            HeaderCoverage::None => Said::SomeUncertainty(0),
             HeaderCoverage::Factor(1.0) => Said::Role(Role::Standard(0), false),
             _ => Said::Role(Role::Expanded(0), false),
         },
@@ -230,6 +312,11 @@ fn of_symbol(name: &str) -> Option<f64> {
 
 /// What the heading of expanded uncertainties says of their coverage.
 pub(super) fn coverage(heading: &str) -> HeaderCoverage {
+    let own = without_party(heading);
+    coverage_of_any(&own)
+}
+
+fn coverage_of_any(heading: &str) -> HeaderCoverage {
     match of_symbol(&name(heading)) {
         Some(percent) => HeaderCoverage::Probability(percent / 100.0),
         None => HeaderCoverage::of(heading),
@@ -237,7 +324,7 @@ pub(super) fn coverage(heading: &str) -> HeaderCoverage {
 }
 
 /// A heading without brackets that speak of the coverage: `U (k=2) / mV` is `U / mV`.
-fn without_coverage(heading: &str) -> String {
+pub(super) fn without_coverage(heading: &str) -> String {
     let speaks_of_it = |inside: &str| {
         let has_digit = inside.contains(|c: char| c.is_ascii_digit());
         let is_probability = has_digit && inside.trim_end().ends_with('%');
@@ -281,18 +368,19 @@ pub(super) fn unit(
     heading: &str,
     parse: impl Fn(&str) -> Result<Unit, String>,
 ) -> Result<Option<UnitOfHeading>, String> {
-    let is_of_value = brackets(heading).any(|(_, _, inside)| {
+    let own = without_party(heading);
+    let is_of_value = brackets(&own).any(|(_, _, inside)| {
         inside.split_once(' ').is_some_and(|(_, of)| columns::is_of_estimate(of))
     });
     let of = |text: &str| parse(text).map(|unit| UnitOfHeading { unit, is_of_value });
     // of words of uncertainties nothing else may be there
-    let is_value = matches!(said(heading), Said::Role(Role::Value(_), _));
-    if let Some(text) = unit_of_header(heading, is_value)? {
+    let is_value = matches!(said(heading), Said::Role(Role::Value(_), _) | Said::Deviation(_));
+    if let Some(text) = unit_of_header(&own, is_value)? {
         return of(&text)
             .map(Some)
             .map_err(|error| format!("`{heading}`: `{text}` is no unit: {error}"));
     }
-    let bare = without_coverage(heading);
+    let bare = without_coverage(&own);
     match column_heading::named(&bare) {
         Some((_, text)) if !SYMBOLS.contains(&text) => {
             of(text).map(Some).map_err(|error| format!("`{heading}`: `{text}` is no unit: {error}"))
@@ -335,7 +423,9 @@ pub(super) fn is_like_uncertainty(heading: &str, known: &[&str]) -> bool {
     // a symbol with an index: `u_c`, `U_ref`, `kp`, `x_ref`
     let mut letters = name.chars();
     let is_symbol = letters.next().is_some_and(|c| "uUkrsxXνv".contains(c))
-        && (name.chars().count() <= 2 || letters.next() == Some('_'));
+        && (name.chars().count() <= 2 || letters.next() == Some('_'))
+        || name.starts_with("U ")
+        || name.starts_with("u ");
     let is_other = columns::column(heading)
         .is_some_and(|column| !matches!(column, Column::Symbol | Column::Quantity));
     let near = known.iter().filter(|of| of.len() > 3).copied();
@@ -393,7 +483,29 @@ mod tests {
         ] {
             assert_eq!(role(heading), Some(expected), "{heading}");
         }
-        assert_eq!(said("Uncertainty"), Said::SomeUncertainty);
+        for (heading, expected) in [
+            ("Lab value [V]", Role::Value(1)),
+            ("U_lab (k=2)", Role::Expanded(1)),
+            ("U95 lab", Role::Expanded(1)),
+            ("Ref U", Role::Expanded(2)),
+            ("Ref. u", Role::Standard(2)),
+            ("Assigned value", Role::Value(2)),
+            ("Laborwert", Role::Value(1)),
+            ("Erweiterte Unsicherheit Labor", Role::Expanded(1)),
+            ("Referenzwert [mV]", Role::Value(2)),
+            ("U of reference value", Role::Expanded(2)),
+            ("Valeur du laboratoire", Role::Value(1)),
+            ("k_ref", Role::Factor(2)),
+            // of these the words are a name
+            ("Lab code", Role::Label),
+        ] {
+            assert_eq!(role(heading), Some(expected), "{heading}");
+        }
+        assert_eq!(said("Uncertainty"), Said::SomeUncertainty(0));
+        assert_eq!(said("Unsicherheit Labor"), Said::SomeUncertainty(1));
+        assert_eq!(said("Abweichung [V]"), Said::Deviation(0));
+        assert_eq!(said("Standard deviation"), Said::Role(Role::Standard(0), false));
+        assert_eq!(coverage("U95 lab"), HeaderCoverage::Probability(0.95));
         for heading in ["date", "method", "n", "remark"] {
             assert_eq!(said(heading), Said::Nothing, "{heading}");
             assert!(!is_like_uncertainty(heading, &["label"]), "{heading}");

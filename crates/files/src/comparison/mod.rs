@@ -1,5 +1,6 @@
 //! Tables of results to be compared: two results a row, or one result a laboratory.
 
+mod both;
 mod branches;
 mod check;
 mod columns;
@@ -7,6 +8,7 @@ mod conditions;
 mod correlations;
 mod headings;
 mod numbers;
+mod party;
 mod sheet;
 mod stated;
 #[cfg(test)]
@@ -127,8 +129,9 @@ fn read(
             None => None,
         };
         let conditions: Vec<&str> = answer.iter().flat_map(|answer| answer.conditions()).collect();
-        let columns = Columns::of(&numbers, &conditions, &mut warnings)?;
-        if !numbers.has_known_mark(|place| columns.is_of_results(place)) {
+        let run = answer.is_some().then_some(conditions.as_slice());
+        let columns = Columns::of(&numbers, run, &mut warnings)?;
+        if !numbers.has_known_mark(|place| columns.is_of_numbers(place)) {
             return None;
         }
         let is_of_pairs = columns.has(Role::Value(1));

@@ -2,9 +2,11 @@
 
 use std::cell::{Cell, RefCell};
 
+use super::both::is_of_both;
 use super::sheet;
 use crate::DiagnosticKind;
 use crate::diagnostics::Collector;
+use crate::import::both::sides;
 use crate::import::columns::without_in;
 use crate::import::concise::concise;
 use crate::import::mark::{MarkedCell, doubt};
@@ -48,6 +50,11 @@ impl<'a> Numbers<'a> {
         Self { log, table, sheet, marks, mixed: Cell::new(false) }
     }
 
+    /// Whether a comma may be the decimal mark of a number: not between commas, and not in a workbook.
+    pub(super) fn has_commas(&self) -> bool {
+        self.table.separator() != Separator::Comma
+    }
+
     /// Whether the decimal mark of the numbers in these columns is known; otherwise after a mistake.
     pub(super) fn has_known_mark(&self, is_number: impl Fn(usize) -> bool) -> bool {
         let table = self.table;
@@ -57,10 +64,12 @@ impl<'a> Numbers<'a> {
         }
         let headings = table.columns();
         let places = (0..table.rows()).flat_map(|row| (0..headings.len()).map(move |of| (row, of)));
-        let cells = places.map(|(row, column)| MarkedCell {
-            place: (row, column),
-            text: table.text(row, column),
-            is_number: is_number(column),
+        let cells = places.flat_map(|(row, column)| {
+            let text = table.text(row, column);
+            let (estimate, uncertainty) = sides(text).map_or((text, None), |(a, b)| (a, Some(b)));
+            let cell =
+                |text| MarkedCell { place: (row, column), text, is_number: is_number(column) };
+            [Some(estimate), uncertainty].into_iter().flatten().map(cell).collect::<Vec<_>>()
         });
         let doubt = doubt(headings.iter().map(String::as_str), cells);
         if let Some(((row, column), reason)) = &doubt {
@@ -90,7 +99,11 @@ impl<'a> Numbers<'a> {
 
     /// The number in a cell; `None` after a mistake, which is reported.
     pub(super) fn number(&self, row: usize, column: usize) -> Option<Number> {
-        let text = self.table.text(row, column);
+        self.number_of(row, column, self.table.text(row, column))
+    }
+
+    /// The number in this text of a cell; `None` after a mistake, which is reported.
+    pub(super) fn number_of(&self, row: usize, column: usize, text: &str) -> Option<Number> {
         let name = || self.table.columns().get(column).cloned().unwrap_or_default();
         let place = || self.table.place(row, column);
         let fail = |reason: String| {
@@ -107,7 +120,7 @@ impl<'a> Numbers<'a> {
                 DiagnosticKind::Cell { row: row + 1, column: name(), found: text.to_owned() };
             self.log.report_at(place(), kind);
         };
-        let with_commas = self.table.separator() != Separator::Comma;
+        let with_commas = self.has_commas();
         let read = written(text, with_commas)
             .map(|(value, digits, unit)| (value, digits, without_in(unit)));
         let Some((value, digits, unit)) = read else {
@@ -134,6 +147,9 @@ impl<'a> Numbers<'a> {
             }
             match grouped_digits(unit) {
                 Some(reason) => fail(reason),
+                None if is_of_both(text, with_commas) => fail(format!(
+                    "`{text}` holds an uncertainty, as a column beside it does: write the estimate alone"
+                )),
                 None => no_number(),
             }
             return None;

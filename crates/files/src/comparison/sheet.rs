@@ -62,8 +62,10 @@ pub(super) fn results(
                 .any(|cell| matches!(headings::said(cell), Said::Role(found, _) if role(&found)))
         };
         let is_uncertain = of(|role| matches!(role, Role::Expanded(_) | Role::Standard(_)))
-            || header.iter().any(|cell| headings::said(cell) == Said::SomeUncertainty);
-        of(|role| matches!(role, Role::Value(_))) && is_uncertain
+            || header.iter().any(|cell| matches!(headings::said(cell), Said::SomeUncertainty(_)));
+        let is_deviation = |cell: &String| matches!(headings::said(cell), Said::Deviation(_));
+        let has_value = of(|role| matches!(role, Role::Value(_)));
+        (has_value || header.iter().any(is_deviation)) && is_uncertain
     };
     read(path, content, (sheet, &RESULTS), holds)
 }

@@ -5,22 +5,32 @@ use super::numbers::{self, Number};
 use super::{InUnits, Reader};
 use crate::DiagnosticKind;
 use crate::share::{self, Share};
-use crate::value_text::either_temperature;
+use crate::value_text::{PLUS_MINUS, either_temperature};
 use gumption_analysis::compare::StatedResult;
 use gumption_engine::number::Shortest;
 use gumption_units::{IncompatibleUnits, Unit};
 
 /// Coverage factor of a stated uncertainty unless the table has another.
-const USUAL_FACTOR: f64 = 2.0;
+pub(super) const USUAL_FACTOR: f64 = 2.0;
 
 /// Two factors are the same where they differ by no more than this share: two digits, of which the least
 /// are 1.0, are rounded by up to 5 %.
 const ROUNDED: f64 = 0.05;
 
+/// Whether two factors are not the same.
+pub(super) fn differs(a: f64, b: f64) -> bool {
+    (a - b).abs() > ROUNDED * b
+}
+
 impl Reader<'_> {
     /// A number with its unit: that of its cell, of its heading or of the column of units.
     fn in_unit(&self, row: usize, place: usize) -> Option<Number> {
-        let mut found = self.numbers.number(row, place)?;
+        self.in_unit_of(row, place, self.numbers.table.text(row, place))
+    }
+
+    /// The number in this text of a cell with its unit.
+    pub(super) fn in_unit_of(&self, row: usize, place: usize, text: &str) -> Option<Number> {
+        let mut found = self.numbers.number_of(row, place, text)?;
         let fail = |reason: String| self.fail_at(self.numbers.table.place(row, place), reason);
         if let (Some(own), Some(of_heading)) = (&found.unit, self.columns.unit(place)) {
             if own.text() != of_heading.unit.text() {
@@ -74,7 +84,6 @@ impl Reader<'_> {
                 .filter(|_| stated.is_none() || coverage.probability().is_none()),
         };
         let mut found = stated.map(|(k, found)| (found, self.heading(k)));
-        let differs = |a: f64, b: f64| (a - b).abs() > ROUNDED * b;
         if let Some(factor) = of_heading {
             if let Some((other, name)) = found.filter(|(other, _)| differs(*other, factor)) {
                 let reason = format!(
@@ -148,8 +157,22 @@ impl Reader<'_> {
         let x = self.columns.place(Role::Value(of))?;
         let expanded = self.columns.place(Role::Expanded(of));
         let u = expanded.or(self.columns.place(Role::Standard(of)))?;
-        let (value, uncertainty) = (self.in_unit(row, x), self.in_unit(row, u));
+        let in_one = (x == u).then(|| self.in_one_cell(row, of, x));
+        let (value, uncertainty, in_one) = match in_one {
+            Some(found) => {
+                let (value, uncertainty, factor) = found?;
+                (Some(value), Some(uncertainty), Some(factor))
+            }
+            None => {
+                // `±0.2` below a heading of uncertainties
+                let text = self.numbers.table.text(row, u).trim();
+                let sign = PLUS_MINUS.iter().find_map(|sign| text.strip_prefix(sign));
+                let uncertainty = self.in_unit_of(row, u, sign.unwrap_or(text).trim_start());
+                (self.in_unit(row, x), uncertainty, None)
+            }
+        };
         let factor = match (expanded, &uncertainty) {
+            _ if in_one.is_some() => in_one,
             (Some(place), Some(uncertainty)) => self.factor(row, of, (place, uncertainty)),
             (None, _) => Some(1.0),
             // its factor may be a mistake as well

@@ -522,3 +522,101 @@ fn angles_are_compared_on_one_branch() {
         assert_eq!(laboratories(&text)[1].result.value, 359.0);
     }
 }
+
+/// `1,000` of a condition was 1 without a word, where it may be 1000.
+#[test]
+fn marks_of_conditions_are_asked() {
+    let row = format!(r#"{{"conditions": {{"f": 1}}, {}}}"#, output("V", 10.0));
+    let found = against("label;f;x1;U1\ny;1,000;10;2\n", "", &row).unwrap_err();
+    assert!(found.contains("`1,000` can be `1.000` or `1000`"), "{found}");
+    // another number that shows the mark
+    assert!(against("label;f;x1;U1\ny;1,000;10,5;2\n", "", &row).is_ok());
+    let found = read("label;x1;U1;k1;x2;U2\na;10;2;2,000;11;2\n").unwrap_err().to_string();
+    assert!(found.contains("`2,000` can be"), "{found}");
+}
+
+/// The results of a pair: of 10.0 with U = 0.2 and 10.1 with 0.1 (k = 2).
+fn is_lab_and_reference(text: &str) {
+    let Ok(ComparisonTable::Pairs(pairs)) = read(text) else {
+        panic!("{text}: {:?}", read(text).map_err(|errors| errors.to_string()))
+    };
+    let [lab, reference] = pairs[0].results;
+    let found = [lab.value, lab.expanded / lab.factor, reference.value, reference.expanded];
+    for (found, expected) in found.into_iter().zip([10.0, 0.1, 10.1, 0.1]) {
+        assert!((found - expected).abs() < 1e-12, "{text}: {pairs:?}");
+    }
+    assert_eq!(reference.factor, 2.0, "{text}");
+}
+
+#[test]
+fn laboratory_and_reference_are_told_by_words() {
+    for heading in [
+        "Point;Lab value [V];U_lab (k=2) [V];Ref. value [V];Ref U [V]",
+        "Point;Lab value;U_lab;Assigned value;U_ref",
+        "Lab;Result;U;Assigned value;U_ref",
+        "Lab;x_lab;Ulab;x_ref;Uref",
+        "Lab;X_LAB;U_LAB;X_REF;U_REF",
+        "Lab;x_i;U(x_i);x_pt;U(x_pt)",
+        "Messpunkt;Laborwert;U_Lab;Referenzwert;U_Ref",
+        "Messpunkt;Laborwert;U Labor;zugewiesener Wert;U des zugewiesenen Wertes",
+        "Punkt;Messwert Labor;erw. Messunsicherheit Labor;Bezugswert;erw. Messunsicherheit Referenz",
+        "Point de mesure;Valeur laboratoire;Incertitude élargie laboratoire;Valeur de référence;Incertitude élargie de référence",
+        "Point;Valeur du laboratoire;U_lab;Valeur assignée;U_réf",
+        "Point;Lab error;U_lab;Reference error;U_ref",
+        "Nominal value;Value_lab;U_lab;ref_value;ref_U",
+        "Point;Lab value;Lab uncertainty (k=2);Reference value;Reference uncertainty (k=2)",
+    ] {
+        is_lab_and_reference(&format!("{heading}\n1;10,0;0,2;10,1;0,1\n"));
+    }
+    is_lab_and_reference("Ref value;U_ref;Lab;Lab value;U_lab\n10,1;0,1;1;10,0;0,2\n");
+    is_lab_and_reference(
+        "Lab,x_lab,u_lab,x_ref,U_ref,Difference,En\n1,10.0,0.1,10.1,0.1,-0.1,0.4\n",
+    );
+    // results of one laboratory each
+    for text in ["Lab,x_lab,U_lab\nA,1,2\nB,2,1\n", "Labor;Abweichung [V];U [V]\nA;1;2\nB;2;1\n"] {
+        assert_eq!(laboratories(text)[1].result.value, 2.0, "{text}");
+    }
+    let refused = |text: &str| read(text).unwrap_err().to_string();
+    let found = refused("Lab,Value,Error,U\nA,1,1,1\nB,1,1,1\n");
+    assert!(found.contains("`Value` and `Error` can both be what is compared"), "{found}");
+    let found = refused("Point,Lab value,Lab uncertainty,Ref value,U_ref\n1,1,1,1,1\n");
+    assert!(found.contains("`Lab uncertainty` can be the standard uncertainty"), "{found}");
+    // points have no mean, and what is not read may be of the reference
+    let found = refused("Point,Value,U\n1,1,1\n2,1,1\n");
+    assert!(found.contains("no column label"), "{found}");
+    let found = refused("Lab,Lab value,U lab,After,U after\na,1,1,1,1\nb,1,1,1,1\n");
+    assert!(found.contains("`U after` is not known"), "{found}");
+    is_lab_and_reference("Lab,x_lab,U_lab,x_ref,U_ref\n1,10.0,±0.2,10.1,+/-0.1\n");
+    let found = refused("Point,x_lab,U,x_ref,u\n1,1,1,1,1\n");
+    assert!(found.contains("no column U"), "{found}");
+}
+
+#[test]
+fn results_in_one_cell() {
+    for (text, expanded, factor) in [
+        ("Lab,x\nA,10.0(2)\nB,10.1(1) \n", 0.2, 1.0),
+        ("Lab,x [V]\nA,10.0(2) V\nB,10.1(1)\n", 0.2, 1.0),
+        ("Lab,x (k=2)\nA,10.0 ± 0.2\nB,10.1 ± 0.1\n", 0.2, 2.0),
+        ("Lab,Value ± U\nA,10.0 ± 0.2\nB,10.1 +/- 0.1\n", 0.2, 2.0),
+        ("Lab,x ± u\nA,10.0 ± 0.2\nB,10.1 ± 0.1\n", 0.2, 1.0),
+        ("Lab,Value\nA,(10.0 ± 0.2) V (k=2)\nB,10.1 V ± 100 mV (k=2)\n", 0.2, 2.0),
+        ("Lab,Value,k\nA,10.0 ± 0.2,3\nB,10.1 ± 0.1,2\n", 0.2, 3.0),
+        ("Labor;Messwert (k=2)\nA;10,0 ± 0,2\nB;10,1 ± 0,1\n", 0.2, 2.0),
+    ] {
+        let found = laboratories(text);
+        assert!((found[0].result.expanded - expanded).abs() < 1e-12, "{text}: {found:?}");
+        assert_eq!((found[0].result.value, found[0].result.factor), (10.0, factor), "{text}");
+    }
+    is_lab_and_reference("Point,Lab value,Ref value\n1,10.0 ± 0.2 (k=2),10.1 ± 0.1 (k=2)\n");
+    for (text, expected) in [
+        ("Lab,x\nA,10.0 ± 0.2\nB,10.1 ± 0.1\n", "the standard uncertainty or an expanded one"),
+        ("Lab,x (k=2)\nA,10.0(2)\nB,10.1(1)\n", "and the table the coverage factor 2"),
+        ("Lab,x (k=2)\nA,10.0 ± 0.2 (k=3)\nB,10.1 ± 0.1\n", "is 3 in one place and 2 in another"),
+        ("Lab,x (k=2)\nA,10.0 ± 0.2\nB,10.1\n", "`10.1` has no uncertainty behind it"),
+        ("Lab,x,U\nA,10.0 ± 0.2,0.2\nB,10.1,0.1\n", "write the estimate alone"),
+        ("Lab;x (k=2)\nA;1,000 ± 1\nB;1,001 ± 1\n", "`1,000` can be `1.000` or `1000`"),
+    ] {
+        let found = read(text).unwrap_err().to_string();
+        assert!(found.contains(expected), "{text}: {found}");
+    }
+}

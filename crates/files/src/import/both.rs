@@ -11,7 +11,7 @@ use super::number::number_with_unit;
 use crate::value_text::PLUS_MINUS;
 
 /// What a cell holds before and behind the sign; `None` where it holds one thing.
-fn sides(cell: &str) -> Option<(&str, &str)> {
+pub(crate) fn sides(cell: &str) -> Option<(&str, &str)> {
     let (estimate, uncertainty) = PLUS_MINUS.into_iter().find_map(|sign| cell.split_once(sign))?;
     let (estimate, uncertainty) = (estimate.trim(), uncertainty.trim());
     // both: `±` alone begins an uncertainty
