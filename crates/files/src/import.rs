@@ -3,9 +3,11 @@
 //! A budget is a table somewhere on a sheet: a header, one row for each quantity, perhaps a row of
 //! the result, perhaps the equation. What is found is said, and so is what had to be guessed.
 
+mod bare_number;
 mod both;
 pub(crate) mod columns;
 pub(crate) mod concise;
+mod corrected;
 pub(crate) mod coverage;
 mod cut;
 mod document;
@@ -16,6 +18,7 @@ pub(crate) mod heading;
 mod limits;
 mod linear;
 pub(crate) mod mark;
+mod negligible;
 pub(crate) mod number;
 mod own;
 mod pint;
@@ -26,6 +29,8 @@ mod signs;
 mod stated;
 mod suncal;
 mod symbol;
+mod temperature;
+mod title;
 mod yaml;
 
 use crate::open::{FileKind, are_results};
@@ -244,6 +249,10 @@ impl Budget<'_> {
                  the divisors are the standard uncertainties; estimates are 0"
             ));
         }
+        if let Some((text, unit)) = &header.unit_of_all {
+            self.understood
+                .push(format!("`{text}`: {unit} is the unit of the columns that say none"));
+        }
         let readings = header.number_of_readings(self.cells);
         for place in header.unknown.iter().filter(|place| readings != Some(**place)) {
             let text = header.heading(*place);
@@ -264,7 +273,7 @@ impl Budget<'_> {
             self.fail(line, reason);
             return None;
         }
-        let (equations, unread) = match found.of_result(&known) {
+        let (mut equations, unread) = match found.of_result(&known) {
             Ok(Equations { read, unread, .. }) => (read, unread),
             Err((line, reason)) => {
                 self.fail(line, reason);
@@ -284,7 +293,12 @@ impl Budget<'_> {
         }
         let measured = equations.last().map(|equation| equation.name.clone());
         let used: Vec<String> = equations.iter().flat_map(Equation::names).collect();
-        let Table { rows, result, stated, factor } = self.rows(&header, measured.as_deref(), &used);
+        let Table { mut rows, result, stated, factor } =
+            self.rows(&header, measured.as_deref(), &used);
+        if !equations.is_empty() {
+            self.differences_in_kelvin(&mut rows);
+            self.units_of_bare_numbers(&rows, &mut equations);
+        }
         self.needs_estimates(&header, &rows, &equations);
         let has_coefficients = rows.iter().any(|row| row.sensitivity.is_some());
         self.unread(&unread, has_coefficients || !equations.is_empty(), &equations, &known);

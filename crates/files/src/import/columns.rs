@@ -18,6 +18,8 @@ pub(crate) enum Column {
     Symbol,
     Quantity,
     Estimate,
+    /// What is added to the estimates.
+    Correction,
     Unit,
     /// The unit of the uncertainties alone.
     UnitOfUncertainty,
@@ -84,6 +86,18 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "input quantity",
             "influence quantity",
             "influence factor",
+            "influence",
+            "influences",
+            "effect",
+            "contributor",
+            "contributions",
+            "error source",
+            "source of error",
+            "sources of uncertainty",
+            "uncertainty contribution source",
+            "input parameter",
+            "input variable",
+            "variable",
             "name",
             "source",
             "source of uncertainty",
@@ -106,6 +120,14 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "einflussgröße",
             "einflussgrösse",
             "einflussgroesse",
+            "einfluss",
+            "einflüsse",
+            "einflussfaktor",
+            "beitragsgröße",
+            "unsicherheitsbeiträge",
+            "unsicherheitskomponente",
+            "komponente",
+            "parameter x_i",
             "bezeichnung",
             "beschreibung",
             "grandeur",
@@ -114,6 +136,18 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "source d'incertitude",
             "composante",
             "désignation",
+            "sources d'incertitude",
+            "facteur d'influence",
+            "paramètre",
+            "magnitud",
+            "magnitud de entrada",
+            "magnitud de influencia",
+            "fuente",
+            "fuente de incertidumbre",
+            "fuentes de incertidumbre",
+            "componente",
+            "componente de incertidumbre",
+            "descripción",
         ],
     ),
     (
@@ -138,9 +172,18 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "meilleure estimation",
             "valeur nominale",
             "moyenne",
+            "valor",
+            "estimación",
+            "valor estimado",
+            "mejor estimación",
+            "valor nominal",
+            "media",
         ],
     ),
-    (Column::Unit, &["unit", "units", "einheit", "einheiten", "unité", "unités"]),
+    (
+        Column::Unit,
+        &["unit", "units", "einheit", "einheiten", "unité", "unités", "unidad", "unidades"],
+    ),
     (
         Column::Width,
         &[
@@ -151,10 +194,15 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "value ±",
             "uncertainty",
             "expanded uncertainty",
+            "expanded u",
             "u",
             "a",
             "limit",
             "limits",
+            "error limit",
+            "error limits",
+            "limits of error",
+            "limit of error",
             "half-width",
             "half width",
             "halfwidth",
@@ -194,6 +242,15 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "gesamtbreite",
             "spannweite",
             "étendue",
+            "incertidumbre",
+            "incertidumbre expandida",
+            "semiamplitud",
+            "semiancho",
+            "semirango",
+            "límite",
+            "límites",
+            "tolerancia",
+            "error máximo permitido",
         ],
     ),
     (
@@ -259,6 +316,11 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "std. messunsicherheit",
             "incertitude-type",
             "incertitude type",
+            "sd",
+            "incertidumbre típica",
+            "incertidumbre estándar",
+            "desviación típica",
+            "desviación estándar",
             "écart-type",
             "écart type",
         ],
@@ -309,6 +371,9 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "probability density",
             "probability density function",
             "densité de probabilité",
+            "distribución",
+            "distribución de probabilidad",
+            "tipo de distribución",
             "loi",
             "loi de probabilité",
             "distribution de probabilité",
@@ -318,6 +383,8 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
         Column::Divisor,
         &[
             "divisor",
+            "div",
+            "divided by",
             "k",
             "k factor",
             "k-factor",
@@ -333,6 +400,7 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "facteur d'élargissement",
             "facteur",
             "multiplier",
+            "factor de cobertura",
         ],
     ),
     (
@@ -360,6 +428,10 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "sensitivitäts-koeff",
             "sensitivitäts-koeffizient",
             "coefficient de sensibilité",
+            "coeficiente de sensibilidad",
+            "coef. de sensibilidad",
+            "sensibilidad",
+            "sensibilité",
         ],
     ),
     (
@@ -382,6 +454,7 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "effektive freiheitsgrade",
             "degrés de liberté",
             "ddl",
+            "grados de libertad",
         ],
     ),
     (
@@ -397,6 +470,8 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "uns. beitrag",
             "unsicherheits-beitrag",
             "contribution à l'incertitude",
+            "contribución",
+            "contribución a la incertidumbre",
             "ci*ui",
             "c_i*u_i",
             "c*u",
@@ -507,10 +582,15 @@ pub(crate) fn is_nominal(heading: &str) -> bool {
 }
 
 /// Whether a heading speaks of a standard deviation.
-fn is_deviation(heading: &str) -> bool {
+pub(super) fn is_deviation(heading: &str) -> bool {
     let words = plain(heading);
+    if matches!(symbol::before_unit(heading).trim(), "s" | "s_i" | "s(x)" | "s(x_i)" | "s(xi)") {
+        return true;
+    }
     [
         "standard deviation",
+        "desviación",
+        "sd",
         "standardabweichung",
         "écart-type",
         "écart type",
@@ -537,7 +617,10 @@ impl Column {
     /// Whether its cells are numbers of a quantity, in units.
     fn is_of_numbers(self) -> bool {
         self.is_of_place()
-            || matches!(self, Self::Width | Self::Std | Self::Relative | Self::Contribution)
+            || matches!(
+                self,
+                Self::Correction | Self::Width | Self::Std | Self::Relative | Self::Contribution
+            )
     }
 
     /// Whether its cells are values of a quantity, which may lie below zero.
@@ -551,6 +634,7 @@ impl Column {
             Self::Symbol => "symbol",
             Self::Quantity => "quantity",
             Self::Estimate => "estimate",
+            Self::Correction => "correction",
             Self::Unit => "unit",
             Self::UnitOfUncertainty => "unit of the uncertainty",
             Self::Width => "stated uncertainty (+-)",
@@ -591,6 +675,10 @@ pub(crate) fn column(text: &str) -> Option<Column> {
     let compact: String = text.to_lowercase().split_whitespace().collect();
     match compact.as_str() {
         "u(xi)" | "u(x_i)" | "u(x)" => return Some(Column::Std),
+        // of readings; a capital letter may be anything
+        "s" | "s_i" | "s(x)" | "s(x_i)" | "s(xi)" if text.trim().starts_with('s') => {
+            return Some(Column::Std);
+        }
         "u(xi)/xi" | "u(x_i)/x_i" | "u(x)/x" => return Some(Column::Relative),
         // the symbol of relative ones in ISO 376 and others
         "w(xi)" | "w(x_i)" | "w(x)" => return Some(Column::Relative),
@@ -824,6 +912,8 @@ pub(super) struct Header {
     units: Vec<(Column, String)>,
     /// Whether a column that is headed like one of estimates holds what is divided by the divisors.
     pub(super) has_widths_as_values: bool,
+    /// The unit that a line beside the table states for all values, with that line.
+    pub(super) unit_of_all: Option<(String, String)>,
     /// What cannot be read in one way.
     pub(super) doubtful: Vec<String>,
 }
@@ -847,8 +937,21 @@ impl Header {
                         || place_of(&columns, Column::Quantity).is_some()
                             && has_numbers_alone(cells, line, place));
                 // `u` beside what is divided is the quotient
+                let mut found = match (is_estimate, column(cell)) {
+                    (true, _) => Some(Column::Estimate),
+                    // `X` and `x` side by side, and the names of the contributions
+                    (false, None) if matches!(cell.trim(), "X" | "x") => {
+                        has_names(cells, line, place).then_some(Column::Symbol)
+                    }
+                    (false, Some(Column::Contribution))
+                        if has_names(cells, line, place)
+                            && place_of(&columns, Column::Quantity).is_none() =>
+                    {
+                        Some(Column::Quantity)
+                    }
+                    (false, found) => found,
+                };
                 let width = columns.iter_mut().find(|(_, known)| *known == Column::Width);
-                let mut found = if is_estimate { Some(Column::Estimate) } else { column(cell) };
                 if let Some((known, of)) = width
                     && found == Some(Column::Width)
                 {
@@ -935,12 +1038,14 @@ impl Header {
                     unknown,
                     units: Vec::new(),
                     has_widths_as_values: false,
+                    unit_of_all: None,
                     doubtful: Vec::new(),
                 });
             }
         }
         let mut best = best?;
         best.measured_values(cells);
+        best.corrections(cells);
         best.bare_coefficients();
         best.named_distributions(cells);
         best.types_of_evaluations(cells);
@@ -959,6 +1064,7 @@ impl Header {
         }
         best.coverages(cells);
         best.units_below(cells);
+        best.unit_of_all(cells);
         Some(best)
     }
 
@@ -1446,10 +1552,35 @@ impl Header {
         self.headings.get(place).map_or("", String::as_str)
     }
 
+    /// The units that columns state for their numbers.
+    pub(super) fn units_of_columns(&self) -> impl Iterator<Item = &str> {
+        self.units.iter().map(|(_, unit)| unit.as_str())
+    }
+
+    /// Takes a unit for the columns of numbers that state none; whether there is such a one.
+    pub(super) fn take_unit_of_all(&mut self, unit: &str) -> bool {
+        let columns: Vec<Column> = self.columns.iter().map(|(_, column)| *column).collect();
+        let count = self.units.len();
+        for column in columns {
+            if column.is_of_numbers() && column != Column::Relative && self.unit(column).is_none() {
+                self.units.push((column, unit.to_owned()));
+            }
+        }
+        self.units.len() > count
+    }
+
     /// The unit that a column states for its numbers.
     pub(super) fn unit(&self, column: Column) -> Option<&str> {
         self.units.iter().find(|(of, _)| *of == column).map(|(_, unit)| unit.as_str())
     }
+}
+
+/// Whether a column has names below a line, and no numbers.
+fn has_names(cells: &Cells, line: usize, place: usize) -> bool {
+    let texts = (line + 1..cells.lines()).map(|line| cells.text(line, place).trim());
+    let mut held = texts.filter(|text| !super::rows::is_empty(text)).peekable();
+    let comma = cells.decimal_comma();
+    held.peek().is_some() && held.all(|text| number_with_unit(text, comma).is_none())
 }
 
 /// Whether a column has numbers below a line, and nothing else.
@@ -1566,7 +1697,13 @@ pub(super) fn evaluation(text: &str) -> Option<char> {
 
 /// Whether a heading is of half-widths or limits of errors, which are no standard uncertainties.
 pub(super) fn is_of_limits(heading: &str) -> bool {
-    const WORDS: [&str; 18] = [
+    const WORDS: [&str; 24] = [
+        "error limit",
+        "límite",
+        "semiamplitud",
+        "semiancho",
+        "semirango",
+        "tolerancia",
         "half-width",
         "half width",
         "halfwidth",
@@ -1688,11 +1825,18 @@ pub(super) fn without_type(text: &str) -> &str {
     of_type(text).map_or(text, |length| text[..length].trim_end())
 }
 
-/// A name and the unit that stands in brackets behind it, `dT [K]`; `None` where there is none.
+/// A name and the unit that stands in brackets behind it, `dT [K]`, `A (mV)`; `None` where there is none. In
+/// parentheses some letters are types of evaluations and symbols.
 pub(super) fn with_unit_in_brackets(words: &str) -> Option<(&str, String)> {
-    let (name, unit) = words.trim().strip_suffix(']')?.rsplit_once('[')?;
-    let (name, unit) = (name.trim(), unit.trim());
-    if name.is_empty() || unit.is_empty() {
+    const LETTERS: [&str; 14] =
+        ["A", "B", "C", "a", "b", "c", "d", "h", "k", "n", "s", "u", "x", "1"];
+    let brackets = |open: char, close: char| words.trim().strip_suffix(close)?.rsplit_once(open);
+    let is_unit = |unit: &str| !LETTERS.contains(&unit.trim());
+    let (name, unit) =
+        brackets('[', ']').or_else(|| brackets('(', ')').filter(|(_, unit)| is_unit(unit)))?;
+    let (name, unit) = (name.trim(), without_in(unit.trim()));
+    // `r(a)` is a name, and so is `Value (2)`
+    if name.is_empty() || unit.is_empty() || unit.parse::<f64>().is_ok() {
         return None;
     }
     let unit = Unit::parse(unit).map(|_| unit.to_owned()).ok().or_else(|| unit_as_meant(unit))?;

@@ -3,12 +3,13 @@
 use gumption_engine::decimal::{significant, to_15_digits};
 use gumption_engine::model::formula::check_name;
 use gumption_engine::number::Shortest;
-use gumption_units::Unit;
+use gumption_units::{Dimension, Unit};
 
 use super::columns::{self, Column, Header};
 use super::concise::concise;
 use super::coverage::{HeaderCoverage, Statement};
 use super::linear::{CONTRIBUTIONS_DIFFER, standard_uncertainty};
+use super::negligible::{self, is_negligible};
 use super::stated::{Stated, half_digit};
 use super::{Budget, equation, number};
 use crate::named_shape::NamedShape;
@@ -219,6 +220,7 @@ impl Budget<'_> {
             table.stated.extend(self.stated(header, last.line, &last));
             table.result = Some(last);
         }
+        self.deviations(header, &table.rows);
         self.blank_estimates(header, &table.rows);
         self.blank_uncertainties(header, &table.rows);
         self.stated_twice(header, &table.rows);
@@ -229,6 +231,17 @@ impl Budget<'_> {
             }
         }
         table
+    }
+
+    /// Says how standard deviations are taken where nothing tells whether they are those of single readings.
+    fn deviations(&mut self, header: &Header, rows: &[Row]) {
+        let heading = header.heading_of(Column::Std).trim();
+        if columns::is_deviation(heading) && rows.iter().any(|row| row.std.is_some()) {
+            self.guessed.push(format!(
+                "`{heading}` is taken for the standard uncertainties: where it is of single readings, divide it \
+                 by the root of their number"
+            ));
+        }
     }
 
     /// Says which quantities have no estimate where others have one.
@@ -348,6 +361,7 @@ impl Budget<'_> {
         row.unit = self.unit(header, line, lenient);
         self.unit_of_name(header, &mut row, lenient);
         row.estimate = self.in_unit(header, line, (Column::Estimate, lenient), &mut row);
+        self.corrected(header, lenient, &mut row);
         row.width = self.in_unit(header, line, (Column::Width, lenient), &mut row);
         row.std = self.in_unit(header, line, (Column::Std, lenient), &mut row);
         self.relative(header, lenient, &mut row);
@@ -716,7 +730,10 @@ impl Budget<'_> {
         });
         if read.is_none() && !lenient {
             let groups = text.contains('.') && text.contains(',') || is_grouped(text);
-            let hint = if groups {
+            let advice = negligible::advice(text);
+            let hint = if !advice.is_empty() {
+                &advice
+            } else if groups {
                 ": digits are not grouped by points or commas"
             } else if text.ends_with(['*', '†', '‡']) {
                 ": what a mark says of it belongs into a column, such as `Distribution`"
@@ -788,12 +805,22 @@ impl Budget<'_> {
         if column == Column::Width && text.contains(" + ") && !lenient {
             return self.specification(text, line, row);
         }
+        let is_uncertain = matches!(column, Column::Width | Column::Std);
+        if is_uncertain && is_negligible(text) {
+            let said = format!(
+                "line {}: the sheet calls the uncertainty of `{}` `{text}`: 0 is taken",
+                line + 1,
+                row.about
+            );
+            self.guessed.extend((!lenient).then_some(said));
+            return Some(0.0);
+        }
         let (value, unit) = self.with_unit(header, line, column, lenient)?;
         let unit = unit.to_owned();
         // `0.06 (95 %)` is no share
-        let is_uncertain = matches!(column, Column::Width | Column::Std);
         let own_text = if is_uncertain { without_factor(text) } else { text };
-        if !column.is_of_place() && value < 0.0 && !lenient {
+        let may_be_negative = column.is_of_place() || column == Column::Correction;
+        if !may_be_negative && value < 0.0 && !lenient {
             self.fail(line, format!("the {} `{text}` is below zero", column.name()));
             return None;
         }
@@ -1013,7 +1040,9 @@ impl Budget<'_> {
                     line + 1,
                     Shortest(estimate)
                 ));
-                return Some(to_15_digits(share * estimate.abs()));
+                // a correction goes with the sign of what it corrects
+                let whole = if column == Column::Correction { estimate } else { estimate.abs() };
+                return Some(to_15_digits(share * whole));
             }
         };
         if !lenient {
@@ -1447,22 +1476,47 @@ impl Budget<'_> {
             let Some((_, unit)) = columns::with_unit_in_brackets(words) else {
                 continue;
             };
-            if row.unit.is_empty() {
+            let other = self.other_unit(header, row, &unit);
+            // a remark in parentheses may be of what makes the quantity: `Temperature (°C)` in mm
+            let is_remark = words.trim().ends_with(')')
+                && other.as_ref().is_some_and(|(other, _)| is_remark_beside(&unit, other));
+            if is_remark {
+                continue;
+            }
+            if other.is_none() && row.unit.is_empty() {
                 self.understood.push(format!(
                     "line {}: the unit `{unit}` of `{}`",
                     row.line + 1,
                     words.trim()
                 ));
                 row.unit = unit;
-            } else if row.unit != unit && !lenient {
+            } else if let Some((other, place)) = other.filter(|_| !lenient) {
                 let reason = format!(
-                    "`{}` says `{unit}`, but the column of the unit `{}`",
-                    words.trim(),
-                    row.unit
+                    "`{}` says `{unit}`, but {place} `{other}`: which is the unit of its numbers?",
+                    words.trim()
                 );
                 self.fail(row.line, reason);
             }
         }
+    }
+
+    /// A unit that the table states for a row beside that in its name, and where, if it is another one.
+    fn other_unit(&self, header: &Header, row: &Row, unit: &str) -> Option<(String, &'static str)> {
+        let own = Unit::parse(unit).ok()?;
+        let is_other = |text: &str| {
+            let same = Unit::parse(text).ok().filter(|of| of.dimension() == own.dimension());
+            let factor = same.filter(|of| of.zero() == own.zero());
+            factor.is_none_or(|of| (of.factor() / own.factor() - 1.0).abs() > 1e-12)
+        };
+        let of_headings = [Column::Estimate, Column::Width, Column::Std].map(|of| header.unit(of));
+        let of_row =
+            (!row.unit.is_empty()).then_some((row.unit.as_str(), "the column of the unit"));
+        let of_headings = of_headings.into_iter().flatten().map(|of| (of, "a heading"));
+        let mut stated = of_row.into_iter().chain(of_headings);
+        // a share is of the estimate
+        let is_share = |text: &str| Unit::parse(text).is_ok_and(|of| of.is_relative());
+        let found = stated.find(|(text, _)| is_other(text) && !is_share(text))?;
+        Some((found.0.to_owned(), found.1))
     }
 
     fn distribution(&mut self, header: &Header, row: &Row, lenient: bool) -> Option<&'static str> {
@@ -1539,6 +1593,14 @@ impl Budget<'_> {
             }
         }
     }
+}
+
+/// Whether a unit in parentheses behind a name is no other statement of the unit of its row: it is of another
+/// dimension, or both are of temperatures, of which one may be a difference.
+fn is_remark_beside(unit: &str, other: &str) -> bool {
+    let dimension = |text: &str| Unit::parse(text).ok().map(|unit| unit.dimension());
+    let (own, other) = (dimension(unit), dimension(other));
+    own != other || own == Some(Dimension::TEMPERATURE)
 }
 
 /// Whether a cell says that there is nothing.

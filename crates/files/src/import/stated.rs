@@ -217,8 +217,13 @@ impl Budget<'_> {
             }
             return made;
         }
+        let converting = numbers::converting(&made);
         let is_scaled = |stated: &Stated| {
             let own = of(&checked, stated)?;
+            // 60 of rpm is no power of ten
+            if converting.is_some() && (own - stated.value).abs() > LARGE * own.abs() {
+                return Some(true);
+            }
             let ratio = elementary::log10(own / stated.value);
             let power = ratio.round();
             let value = stated.value * elementary::pow(10.0, power);

@@ -53,7 +53,7 @@ impl Budget<'_> {
 }
 
 /// The equation with a number that is the size of a unit, that number, and what it is.
-fn converting(model: &str) -> Option<(String, String, String)> {
+pub(super) fn converting(model: &str) -> Option<(String, String, String)> {
     let model: Value = serde_json::from_str(model).ok()?;
     let formulas = model.get("equations")?.as_object()?;
     let result = model.get("outputs")?.as_object()?.values().next()?.get("unit");
@@ -91,8 +91,16 @@ fn conversions(units: &[&str]) -> Vec<Conversion> {
         });
         let prefixes = prefixes.map(|decimal| elementary::pow(10.0, decimal));
         let words = format!("a size of `{text}`");
+        // of what counts turns also in turns: 1/60 of rpm
+        let in_turns = unit.turn().map(|_| unit.factor() / std::f64::consts::TAU);
+        let in_turns = in_turns.map(|size| {
+            let words =
+                format!("{words} (which is in radians here: a factor 2*pi is too much, too)");
+            Conversion { size, words }
+        });
         let sizes = prefixes.chain([unit.factor()]);
         found.extend(sizes.map(|size| Conversion { size, words: words.clone() }));
+        found.extend(in_turns);
     }
     found.retain(|of| (of.size - 1.0).abs() > ROUNDED);
     found

@@ -1,0 +1,164 @@
+//! Numbers that are made of two: nominal values and corrections, full widths, and what an equation converts.
+
+use super::{guesses, import, refusal, task, uncertainties};
+use gumption_engine::propagate::gum;
+
+/// The estimates of a budget's quantities, in units of their own.
+fn estimates(text: &str) -> Vec<f64> {
+    let (_, budget) = uncertainties(text);
+    task(&budget).rows[0].distributions.iter().map(|of| of.mean()).collect()
+}
+
+/// The estimate and the standard uncertainty of the result in its unit.
+fn result(text: &str) -> [f64; 2] {
+    let budget = import("b.csv", text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+    let task = task(&budget);
+    let of = gum::evaluate(&task, &task.rows[0]).outputs[0].clone().unwrap();
+    [of.estimate, of.standard_uncertainty]
+}
+
+/// A weight of 100 g with a correction of 1.2 mg was 100 g.
+#[test]
+fn corrections_are_added_to_nominal_values() {
+    for text in [
+        "Quantity;Nominal;Correction;Unit;u\nm;100;0,0012;g;0,0003\n",
+        "Quantity;Nominal (g);Correction (mg);u (mg)\nm;100;1,2;0,3\n",
+        "Größe;Nennwert;Korrektion;Einheit;Standardunsicherheit\nm;100;1,2 mg;g;0,0003\n",
+        "Größe;Nennwert;Abweichung vom Nennwert in mg;Einheit;Standardunsicherheit\nm;100;1,2;g;0,0003\n",
+        "Quantity;Indication;Correction;Unit;u\nm;100;0,0012;g;0,0003\n",
+        "Quantity;Nominal;Correction;Unit;u\nm;100;12 ppm;g;0,0003\n",
+    ] {
+        assert_eq!(estimates(text), [100.0012], "{text}");
+        let (_, budget) = uncertainties(text);
+        let said = budget.understood.iter().any(|said| said.contains("the estimate is 100 and"));
+        assert!(said, "{:?}", budget.understood);
+    }
+    // a correction below zero of a value below zero, and a result with its own
+    assert_eq!(estimates("Quantity;Nominal;Correction;Unit;u\nV;-10;1 %;V;0,1\n"), [-10.1]);
+    let text = "Quantity;Nominal;Correction;Unit;u;c\nm;100;0,0012;g;0,0003;1\nd;0;0;g;0,0001;1\n\
+                Result;100;0,0012;g;;\n";
+    assert!((result(text)[0] - 100.0012).abs() < 1e-12);
+    // the estimate that has it already
+    let text = "Quantity;Nominal;Correction;Value;Unit;u\nm;100;0,0012;100,0012;g;0,0003\n";
+    assert_eq!(estimates(text), [100.0012]);
+}
+
+/// Where the estimate may be corrected or not, it is asked.
+#[test]
+fn corrections_beside_estimates_are_asked() {
+    for (text, part) in [
+        (
+            "Quantity;Value;Correction;Unit;u\nm;100;0,0012;g;0,0003\n",
+            "the estimate can be `Value` or its sum with `Correction`",
+        ),
+        (
+            "Quantity;Indication;Deviation;Unit;u\nm;100;0,0012;g;0,0003\n",
+            "the estimate can be `Indication` or its sum with `Deviation`",
+        ),
+        (
+            "Quantity;Nominal;Correction;Deviation;Unit;u\nm;100;0,001;0,001;g;0,0003\n",
+            "`Correction` and `Deviation` may both be corrections",
+        ),
+        ("Quantity;Correction;Unit;u\nm;0,0012;g;0,0003\n", "the column `Correction` has numbers"),
+    ] {
+        let error = refusal(text);
+        assert!(error.contains(part), "{text}: {error}");
+    }
+    assert_eq!(estimates("Quantity;Value;Correction;Unit;u\nm;100;0;g;0,0003\n"), [100.0]);
+}
+
+/// A resolution of 0.1 mV of full width was one of ±0.1 mV.
+#[test]
+fn names_say_full_widths() {
+    let root = 3f64.sqrt();
+    for (name, heading, shape, divisor) in [
+        ("Resolution (full width)", "Value ±", "rectangular", ""),
+        ("Resolution (full width)", "Uncertainty", "rectangular", "2√3"),
+        ("Auflösung (volle Breite)", "Uncertainty", "Rechteck", "3,46"),
+        ("Résolution, étendue", "Uncertainty", "rectangulaire", ""),
+    ] {
+        let text = format!(
+            "Quantity;Estimate;Unit;{heading};Distribution;Divisor\n{name};0;mV;0,1;{shape};{divisor}\n"
+        );
+        let (found, _) = uncertainties(&text);
+        // a conversion and a divisor are rounded
+        assert!((found[0] / (0.05 / root) - 1.0).abs() < 1e-12, "{text}: {found:?}");
+    }
+    for (heading, cell, part) in [
+        (
+            "Half-width",
+            "rectangular",
+            "`full width` in the name, but the heading says a half-width",
+        ),
+        ("Uncertainty", "rectangular (half-width)", "but the distribution says a half-width"),
+        ("Standard uncertainty", "rectangular", "is the heading of standard uncertainties"),
+    ] {
+        let text = format!(
+            "Quantity;Estimate;Unit;{heading};Distribution\nResolution (full width);0;mV;0,1;{cell}\n"
+        );
+        let error = refusal(&text);
+        assert!(error.contains(part), "{text}: {error}");
+    }
+    let text = "Quantity;Estimate;Unit;Uncertainty;Distribution;Divisor\n\
+                Resolution (full width);0;mV;0,1;rectangular;√3\n";
+    let error = refusal(text);
+    assert!(error.contains("and the divisor √3 can be 0.1 or 0.05"), "{error}");
+}
+
+/// 100 mm at 22 °C with 11.5e-6/K: 100.0023 mm. Its parts are 1 µm, 2e-6 K^-1 * 100 mm * 2 K = 0.2 µm, and
+/// 11.5e-6/K * 100 mm * 0.2 K = 0.23 µm.
+#[test]
+fn temperatures_and_their_differences_in_equations() {
+    let u = (1f64 + 0.2 * 0.2 + 0.23 * 0.23).sqrt() * 1e-3;
+    for (equation, per, row) in [
+        ("L = L0*(1+alpha*(T-20))", "1/K", "T,22,°C,0.2"),
+        ("L = L0*(1+alpha*(T-20))", "1/°C", "T,22,degC,0.2"),
+        ("L = L0*(1+alpha*dT)", "1/K", "dT,2,°C,0.2"),
+        ("L = L0*(1+alpha*dT)", "1/°C", "dT,2,°C,0.2"),
+        ("L = L0*(1+alpha*dT)", "1/K", "dT,2,K,0.2"),
+    ] {
+        let text = format!(
+            "Model: {equation}\nQuantity,Estimate,Unit,Standard uncertainty\nL0,100,mm,0.001\n\
+             alpha,11.5E-6,{per},1E-6\n{row}\nL,100.0023,mm,0.00104\n"
+        );
+        let [estimate, found] = result(&text);
+        assert!((estimate - 100.0023).abs() < 1e-6, "{text}: {estimate}");
+        assert!((found / u - 1.0).abs() < 1e-4, "{text}: {found}");
+    }
+    // the ideal gas: 101325 Pa / (287.05 J/(kg K) * 293.15 K) = 1.2041 kg/m^3
+    let text = "rho = p/(R*(t+273.15))\nQuantity,Estimate,Unit,Standard uncertainty\np,1013.25,hPa,1\n\
+                R,287.05,J/(kg K),0.01\nt,20,°C,0.1\nrho,1.2041,kg/m^3,\n";
+    assert!((result(text)[0] - 101_325.0 / (287.05 * 293.15)).abs() < 1e-12);
+    // an indication and its correction, both in °C
+    let text = "t = ti - c\nSymbol,Quantity,Estimate,Unit,Standard uncertainty\nti,Indication,20.1,°C,0.01\n\
+                c,Correction of the thermometer,0.1,°C,0.02\nt,Temperature,20.0,°C,\n";
+    let budget = import("b.csv", text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+    assert!(guesses(&budget, "`c` in °C is a difference of temperatures"), "{:?}", budget.guessed);
+    assert!((result(text)[0] - 20.0).abs() < 1e-9);
+    // a temperature that is no difference by its name
+    let text = "L = L0*(1+alpha*T)\nQuantity,Estimate,Unit,Standard uncertainty\nL0,100,mm,0.001\n\
+                alpha,11.5E-6,1/K,1E-6\nT,2,°C,0.2\n";
+    assert!(refusal(text).contains("`T` is a Celsius temperature"));
+}
+
+/// 3000 rpm and 10 N m are 3141.59 W; 60 converts what is converted already.
+#[test]
+fn numbers_that_convert_rates() {
+    for unit in ["rpm", "1/min"] {
+        let rows = format!(
+            "P = 2*pi*n*M/60\nQuantity,Estimate,Unit,Standard uncertainty\nn,3000,{unit},3\nM,10,N m,0.01\n"
+        );
+        let [estimate, u] = result(&format!("{rows}P,3141.59,W,4.4\n"));
+        assert!((estimate - 1000.0 * std::f64::consts::PI).abs() < 1e-6, "{unit}: {estimate}");
+        assert!((u / estimate / (2f64.sqrt() * 1e-3) - 1.0).abs() < 1e-6, "{unit}: {u}");
+        let error = refusal(&rows);
+        assert!(
+            error.contains(&format!("the number 60 in `2*pi*n*M/60` is a size of `{unit}`")),
+            "{error}"
+        );
+        assert_eq!(error.contains("a factor 2*pi is too much"), unit == "rpm", "{error}");
+        // a result that neither of them gives
+        let error = refusal(&format!("{rows}P,100,W,\n"));
+        assert!(error.contains("the estimate of the result is 100 W"), "{error}");
+    }
+}

@@ -1,0 +1,120 @@
+//! Words of headings, titles, names and cells as laboratories write them.
+
+use super::{guesses, import, refusal, task, uncertainties};
+
+/// The unit of all values was dropped: 10.7 mV was 10.7.
+#[test]
+fn titles_state_the_unit_of_all_values() {
+    for (title, words) in [
+        ("Budget (all values in mV)", "Quantity;Estimate;Standard uncertainty;c"),
+        ("alle Werte in mV", "Größe;Schätzwert;Standardunsicherheit;Sensitivitätskoeffizient"),
+        ("Toutes les valeurs sont exprimées en mV", "Grandeur;Estimation;Incertitude-type;c"),
+        ("Unit;mV", "Quantity;Estimate;Standard uncertainty;c"),
+    ] {
+        let text = format!("{title}\n\n{words}\nA;10,5;0,1;1\nB;0,2;0,05;1\n");
+        let (found, budget) = uncertainties(&text);
+        assert!(found == [0.1, 0.05], "{title}: {found:?}");
+        assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "mV", "{title}");
+    }
+    let head = "Quantity;Estimate;Unit;Standard uncertainty\nA;10,5;V;0,1\n";
+    for (title, head, part) in [
+        ("All values in mV", head, "`All values in mV` says `mV`, and the table `V`"),
+        (
+            "All values in mV",
+            "Quantity;Estimate (V);Standard uncertainty\nA;10,5;0,1\n",
+            "says `mV`, and the table `V`",
+        ),
+        (
+            "All values in mVrms",
+            "Quantity;Estimate;Standard uncertainty\nA;10,5;0,1\n",
+            "`mVrms` is no unit that is known",
+        ),
+    ] {
+        let error = refusal(&format!("{title}\n{head}"));
+        assert!(error.contains(part), "{title}: {error}");
+    }
+}
+
+/// Headings for which no budget was found.
+#[test]
+fn headings_of_lists_of_contributions() {
+    // numbered contributions, whose values are what is divided
+    let text = "No.,Contribution,Type,Value,Unit,Dist.,Div.,ci,ui,vi\n1,Calibration,B,0.10,mV,normal,2,1,0.05,inf\n\
+                2,Resolution,B,0.05,mV,rectangular,1.732,1,0.0289,inf\n3,Repeatability,A,0.03,mV,normal,1,1,0.03,9\n";
+    let (found, budget) = uncertainties(text);
+    let wanted = [0.05, 0.05 / 3f64.sqrt(), 0.03];
+    for (found, wanted) in found.iter().zip(wanted) {
+        assert!((found / wanted - 1.0).abs() < 1e-12, "{found} {wanted}");
+    }
+    assert_eq!(task(&budget).rows[0].distributions[2].dof(), 9.0);
+    let text = "Influence;Wert;Einheit;a (±);Verteilung\nNormal;100;mm;0,002;Rechteck\n";
+    assert!((uncertainties(text).0[0] - 2e-3 / 3f64.sqrt()).abs() < 1e-15);
+    let text = "X,x,u(x),c,u(y)\nA,10.5,0.1,2,0.2\nB,3.2,0.05,1,0.05\n";
+    let (found, budget) = uncertainties(text);
+    assert_eq!(found, [0.1, 0.05]);
+    assert_eq!(task(&budget).rows[0].distributions[0].mean(), 10.5);
+    assert!(budget.text.contains("(2)*A + B"), "{}", budget.text);
+}
+
+/// Headings of uncertainties that were not known.
+#[test]
+fn headings_of_uncertainties() {
+    let of = |heading: &str, shape: &str| {
+        uncertainties(&format!(
+            "Quantity,Estimate,Unit,{heading},Distribution\nA,10,V,0.1,{shape}\n"
+        ))
+    };
+    assert_eq!(of("Expanded U", "normal").0, [0.05]);
+    assert!(guesses(&of("Expanded U", "normal").1, "k = 2 is taken"));
+    assert_eq!(of("Expanded U (k=3)", "normal").0, [0.1 / 3.0]);
+    assert!((of("Error limits", "rectangular").0[0] - 0.1 / 3f64.sqrt()).abs() < 1e-16);
+    for heading in ["SD", "s", "s / V", "Standard deviation"] {
+        let (found, budget) = of(heading, "normal");
+        assert_eq!(found, [0.1], "{heading}");
+        assert!(guesses(&budget, "where it is of single readings, divide it"), "{heading}");
+    }
+    let error = refusal("Quantity,Estimate,Unit,Error limits\nA,10,V,0.1\n");
+    assert!(error.contains("name the distribution of `A`"), "{error}");
+    let error = refusal("Quantity,Estimate,Unit,SD,n\nA,10,V,0.1,10\n");
+    assert!(error.contains("can be the standard deviation of single readings"), "{error}");
+}
+
+/// Words and bounds in the place of uncertainties.
+#[test]
+fn negligible_contributions_and_bounds() {
+    let of = |cell: &str| {
+        format!(
+            "Quantity;Estimate;Unit;Half-width;Distribution\nA;10,5;mV;0,1;rectangular\n\
+             Stability;0;mV;{cell};rectangular\n"
+        )
+    };
+    for cell in ["negligible", "vernachlässigbar", "négligeable", "(negl.)"] {
+        let (found, budget) = uncertainties(&of(cell));
+        assert_eq!(found[1], 0.0, "{cell}");
+        let part = format!("the sheet calls the uncertainty of `Stability` `{cell}`: 0 is taken");
+        assert!(guesses(&budget, &part), "{:?}", budget.guessed);
+    }
+    for cell in ["<0.01", "≤0,01", "< 0,01 mV"] {
+        let error = refusal(&of(cell));
+        assert!(error.contains("but a bound: write 0") && error.contains("b.csv:3:1"), "{error}");
+    }
+    let error = refusal(&of("ca. 0,01"));
+    assert!(error.contains("write 0,01 where that is what counts"), "{error}");
+}
+
+/// A unit behind a name is that of its numbers, or contradicts their column; letters of types are none.
+#[test]
+fn units_behind_names() {
+    let error = refusal("Quantity,Estimate,Unit,Standard uncertainty\nA (mV),10.5,V,0.1\n");
+    assert!(error.contains("`A (mV)` says `mV`, but the column of the unit `V`"), "{error}");
+    let error = refusal("Quantity,Estimate (V),Standard uncertainty\nA (mV),10.5,0.1\n");
+    assert!(error.contains("`A (mV)` says `mV`, but a heading `V`"), "{error}");
+    let text = "Quantity,Estimate,Standard uncertainty\nA (mV),10.5,0.1\nRipple [mV],0,0.1\n";
+    let budget = import("b.csv", text.as_bytes());
+    let budget = budget.unwrap_or_else(|error| panic!("{error}"));
+    assert!(budget.text.contains(r#""A": {"unit":"mV""#), "{}", budget.text);
+    for name in ["Repeatability (A)", "Temperature (°C)", "Length (mm)", "Type (B)"] {
+        let text = format!("Quantity,Estimate,Unit,Standard uncertainty\n{name},10.5,mm,0.1\n");
+        assert!(uncertainties(&text).0[0] == 0.1, "{name}");
+    }
+}
