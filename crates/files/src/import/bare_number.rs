@@ -69,6 +69,9 @@ fn changed(formula: &str, fault: &FormulaError) -> Option<(String, String)> {
     let span = left.span.start..right.span.end;
     let part = match *operator {
         "+" if is_absolute => format!("kelvin({name})"),
+        "-" if CELSIUS_ZERO.contains(&digits) && unit.text() == "K" && right.is_number => {
+            format!("celsius({name})")
+        }
         // what is added to a Celsius temperature is a difference
         "+" if unit.is_celsius() && unit.factor() == 1.0 => {
             format!("{}{digits} [K]", formula.get(span.start..number.span.start)?)

@@ -77,7 +77,10 @@ pub(super) const MEASURED: [&str; 27] = [
 
 /// The words of each column, without what stands in brackets.
 pub(super) const WORDS: &[(Column, &[&str])] = &[
-    (Column::Symbol, &["symbol", "formelzeichen", "x_i", "xi", "zeichen", "symbole"]),
+    (
+        Column::Symbol,
+        &["sym", "símbolo", "symbol", "formelzeichen", "x_i", "xi", "zeichen", "symbole"],
+    ),
     (
         Column::Quantity,
         &[
@@ -98,6 +101,7 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "input parameter",
             "input variable",
             "variable",
+            "term",
             "name",
             "source",
             "source of uncertainty",
@@ -138,6 +142,8 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "désignation",
             "sources d'incertitude",
             "facteur d'influence",
+            "origine",
+            "cause",
             "paramètre",
             "magnitud",
             "magnitud de entrada",
@@ -201,6 +207,11 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "limits",
             "error limit",
             "error limits",
+            "accuracy",
+            "max error",
+            "max. error",
+            "maximum error",
+            "genauigkeit",
             "limits of error",
             "limit of error",
             "half-width",
@@ -553,6 +564,13 @@ const RESULTS: &[&str] = &[
     "total standard uncertainty",
     "gesamtunsicherheit",
     "incertitude totale",
+    "resultado",
+    "mensurando",
+    "suma",
+    "total combinado",
+    "suma cuadrática",
+    "incertidumbre total",
+    "factor de cobertura",
 ];
 
 /// Whether a row's words are those of the sum of some rows above it.
@@ -700,7 +718,14 @@ pub(crate) fn column(text: &str) -> Option<Column> {
     if words.is_empty() {
         return None;
     }
-    let exact = WORDS.iter().find(|(_, all)| all.contains(&words.as_str()));
+    // as cells break words: `Standardmess-unsicherheit`
+    let joined = words.replace("- ", "").replace('-', "");
+    let product = compact.replace(['·', '×', '⋅'], "*").replace('|', "");
+    let exact = WORDS
+        .iter()
+        .find(|(_, all)| all.contains(&words.as_str()))
+        .or_else(|| WORDS.iter().find(|(_, all)| all.contains(&joined.as_str())))
+        .or_else(|| WORDS.iter().find(|(_, all)| all.contains(&product.as_str())));
     // `estimate x_i`, `standard uncertainty u(x_i)`: the longest words that begin it
     let begins = || {
         let mut found: Option<(usize, Column)> = None;
@@ -734,7 +759,21 @@ pub(crate) fn column(text: &str) -> Option<Column> {
             found => Some(found).filter(|found| found.is_of_numbers()),
         }
     };
-    exact.map(|(column, _)| *column).or_else(begins).or_else(one_of_two).or_else(quotient)
+    // `U (k=2) µm`
+    let with_unit = || {
+        let (word, unit) = words.split_once(' ')?;
+        let written = text.trim().get(text.trim().len().checked_sub(unit.len())?..)?;
+        let is_unit = written.parse::<f64>().is_err()
+            && (Unit::parse(written).is_ok() || unit_as_meant(written).is_some());
+        let found = WORDS.iter().find(|(_, all)| all.contains(&word))?;
+        Some(found.0).filter(|found| is_unit && found.is_of_numbers())
+    };
+    exact
+        .map(|(column, _)| *column)
+        .or_else(begins)
+        .or_else(one_of_two)
+        .or_else(quotient)
+        .or_else(with_unit)
 }
 
 /// What a header that speaks of units beside another column's words names: `Uncertainty unit`, `Unit of
@@ -1434,6 +1473,13 @@ impl Header {
                 ));
             }
         }
+        let coefficients = self.heading_of(Column::Sensitivity).trim();
+        if coefficients.to_lowercase().contains("rel") {
+            self.doubtful.push(format!(
+                "`{coefficients}`: relative coefficients are the exponents of a product: write the equation (`y \
+                 = a*b^2`), and estimates and uncertainties as they are"
+            ));
+        }
         let beside = self.unknown.iter().find(|place| is_deviation(self.heading(**place)));
         if let Some(&place) = beside {
             let comma = cells.decimal_comma();
@@ -1662,7 +1708,8 @@ pub(super) fn plain_case(text: &str) -> &str {
 
 /// Whether a row's words are those of a coverage factor.
 pub(crate) fn is_factor(words: &str) -> bool {
-    const FACTORS: [&str; 7] = [
+    const FACTORS: [&str; 8] = [
+        "factor de cobertura",
         "k",
         "k factor",
         "k-factor",
@@ -1678,9 +1725,18 @@ pub(crate) fn is_factor(words: &str) -> bool {
 /// Whether a row's words are those of the effective degrees of freedom of a result.
 pub(super) fn is_effective_dof(words: &str) -> bool {
     let words = plain(words);
-    ["effective degrees of freedom", "effektive freiheitsgrade", "degrés de liberté effectifs"]
-        .iter()
-        .any(|of| words.starts_with(of))
+    const WORDS: [&str; 9] = [
+        "effective degrees of freedom",
+        "effective dof",
+        "eff. dof",
+        "eff. degrees of freedom",
+        "effektive freiheitsgrade",
+        "eff. freiheitsgrade",
+        "degrés de liberté effectifs",
+        "ddl effectifs",
+        "grados efectivos de libertad",
+    ];
+    WORDS.iter().any(|of| words.starts_with(of))
 }
 
 /// The letter of a type of evaluation, `A`, `Type B`.
@@ -1697,7 +1753,11 @@ pub(super) fn evaluation(text: &str) -> Option<char> {
 
 /// Whether a heading is of half-widths or limits of errors, which are no standard uncertainties.
 pub(super) fn is_of_limits(heading: &str) -> bool {
-    const WORDS: [&str; 24] = [
+    const WORDS: [&str; 28] = [
+        "accuracy",
+        "max error",
+        "max. error",
+        "genauigkeit",
         "error limit",
         "límite",
         "semiamplitud",
@@ -1737,7 +1797,7 @@ pub(super) fn is_share_of_estimate(heading: &str) -> bool {
 /// Whether a row's words are those of an expanded uncertainty.
 pub(super) fn is_expanded(words: &str) -> bool {
     let words = plain(words);
-    ["expanded", "erweiterte", "élargie"].iter().any(|of| words.contains(of))
+    ["expanded", "erweiterte", "élargie", "expandida"].iter().any(|of| words.contains(of))
         && !words.contains("factor")
 }
 
@@ -1747,7 +1807,7 @@ pub(super) fn is_of_uncertainty(words: &str) -> bool {
         return true;
     }
     let words = plain(words);
-    ["uncertainty", "unsicherheit", "incertitude", "freedom", "freiheitsgrad"]
+    ["uncertainty", "unsicherheit", "incertitude", "incertidumbre", "freedom", "freiheitsgrad"]
         .iter()
         .any(|of| words.contains(of))
         || words == "combined"
@@ -1769,6 +1829,10 @@ pub(super) fn is_result(words: &str) -> bool {
             "incertitude-type composée",
             "incertitude type composée",
             "incertitude élargie",
+            "incertidumbre combinada",
+            "incertidumbre típica combinada",
+            "incertidumbre estándar combinada",
+            "incertidumbre expandida",
         ]
         .iter()
         .any(|begin| words.starts_with(begin))
@@ -1834,9 +1898,10 @@ pub(super) fn with_unit_in_brackets(words: &str) -> Option<(&str, String)> {
     let is_unit = |unit: &str| !LETTERS.contains(&unit.trim());
     let (name, unit) =
         brackets('[', ']').or_else(|| brackets('(', ')').filter(|(_, unit)| is_unit(unit)))?;
+    // `u(V)` and `r(m)` are names, and so is `Value (2)`
+    let is_argument = words.trim().ends_with(')') && !name.ends_with(char::is_whitespace);
     let (name, unit) = (name.trim(), without_in(unit.trim()));
-    // `r(a)` is a name, and so is `Value (2)`
-    if name.is_empty() || unit.is_empty() || unit.parse::<f64>().is_ok() {
+    if name.is_empty() || unit.is_empty() || is_argument || unit.parse::<f64>().is_ok() {
         return None;
     }
     let unit = Unit::parse(unit).map(|_| unit.to_owned()).ok().or_else(|| unit_as_meant(unit))?;

@@ -82,7 +82,18 @@ pub(super) struct Equations {
 }
 
 /// Words before an equation.
-const LABELS: [&str; 12] = [
+const LABELS: [&str; 23] = [
+    "model function",
+    "measurement model",
+    "measurement equation",
+    "mathematical model of the measurement",
+    "modellfunktion",
+    "messgleichung",
+    "fonction de mesure",
+    "ecuación",
+    "modelo",
+    "modelo matemático",
+    "fórmula",
     "equation",
     "formula",
     "model",

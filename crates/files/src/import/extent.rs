@@ -175,7 +175,7 @@ impl Budget<'_> {
         if let Some((Extent::Full, words)) = of_name.filter(|_| row.width.is_none() && is_uncertain)
         {
             let reason = format!(
-                "`{words}` in the name, but `{}` is the heading of standard uncertainties: which is it? Head the                  column `Half-width` and write half of the width",
+                "`{words}` in the name, but `{}` is the heading of standard uncertainties: which is it? Head the column `Half-width` and write half of the width",
                 header.heading_of(Column::Std).trim()
             );
             return self.fail(row.line, reason);

@@ -129,7 +129,7 @@ fn parts(text: &str) -> (String, Vec<String>) {
 /// one. At least one, which may be empty.
 fn separated(text: &str) -> Vec<String> {
     let mut text = format!(" {text} ");
-    for sign in [" / ", " - ", " – ", " — ", " in ", ": "] {
+    for sign in [" / ", " - ", " – ", " — ", " in ", " en ", ": "] {
         text = text.replace(sign, " ; ");
     }
     let mut pieces = vec![String::new()];

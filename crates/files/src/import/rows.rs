@@ -1,7 +1,7 @@
 //! The rows of a budget: what their cells say, and what has to be guessed.
 
 use gumption_engine::decimal::{significant, to_15_digits};
-use gumption_engine::model::formula::check_name;
+use gumption_engine::model::formula::{Formula, check_name};
 use gumption_engine::number::Shortest;
 use gumption_units::{Dimension, Unit};
 
@@ -104,7 +104,10 @@ impl Budget<'_> {
             // a symbol of results may be that of a quantity: `U` of a voltage, `p` of a pressure
             let is_after = last_uncertain.is_some_and(|last| line > last);
             let is_symbol = !used.contains(&columns::identifier(words))
-                && (columns::is_combined_symbol(words) && !self.is_quantity(header, line)
+                && (columns::is_combined_symbol(words)
+                    && (!self.is_quantity(header, line)
+                        || self.lacks_shape(header, line)
+                        || !header.has(Column::Estimate))
                     || columns::is_summary_symbol(words)
                         && (self.is_bare(header, line) && is_after
                             || self.is_figure(header, line, table.rows.len())));
@@ -181,6 +184,13 @@ impl Budget<'_> {
                 table.result = Some(Row { name, ..row });
                 continue;
             }
+            if nothing && self.names_quantities(&label, &table.rows) {
+                let reason = format!(
+                    "`{label}` may be the equation of the result: write `y = {label}`, with its name"
+                );
+                self.fail(line, reason);
+                continue;
+            }
             if nothing {
                 self.guessed.push(format!("line {}: `{label}` has no numbers; left out", line + 1));
                 continue;
@@ -231,6 +241,19 @@ impl Budget<'_> {
             }
         }
         table
+    }
+
+    /// Whether words can be read as a formula of two quantities of the sheet at least, `A-B`.
+    fn names_quantities(&self, words: &str, rows: &[Row]) -> bool {
+        let Some(formula) = equation::readable(words, self.cells.decimal_comma()) else {
+            return false;
+        };
+        let names = Formula::parse(&formula).map_or(0, |formula| {
+            let is_known = |name: &str| rows.iter().any(|row| row.name == name);
+            let names: Vec<bool> = formula.names().map(|(name, _)| is_known(name)).collect();
+            if names.iter().all(|known| *known) { names.len() } else { 0 }
+        });
+        names > 1
     }
 
     /// Says how standard deviations are taken where nothing tells whether they are those of single readings.
@@ -605,12 +628,31 @@ impl Budget<'_> {
         let has_estimate = |line: &usize| !is_empty(cell(*line, Column::Estimate));
         let is_uncertain =
             |line: &usize| Column::UNCERTAIN.iter().any(|of| !is_empty(cell(*line, *of)));
+        // where no column has estimates, the rows of quantities have shapes, or stand above the combined one
+        let is_combined = |line: &usize| {
+            let words = cell(*line, Column::Quantity);
+            columns::is_combined_symbol(words) || columns::is_result(words)
+        };
+        let has_shape = |line: &usize| {
+            let text = cell(*line, Column::Distribution);
+            !is_empty(text) && !is_factor_of(text)
+        };
+        let combined = (header.line + 1..line).rev().find(is_combined);
+        let is_of_table = |of: &usize| {
+            if header.has(Column::Estimate) {
+                has_estimate(of)
+            } else if header.has(Column::Distribution) {
+                has_shape(of) || is_combined(of)
+            } else {
+                combined.is_some_and(|combined| *of <= combined)
+            }
+        };
         quantities > 1
             && is_empty(cell(line, Column::Estimate))
             && is_empty(cell(line, Column::Sensitivity))
             && (is_empty(of_shape) || is_factor_of(of_shape))
-            && (header.line + 1..line).filter(is_uncertain).all(|line| has_estimate(&line))
-            && (line + 1..self.cells.lines()).all(|line| !has_estimate(&line))
+            && (header.line + 1..line).filter(is_uncertain).all(|line| is_of_table(&line))
+            && (line + 1..self.cells.lines()).all(|line| !is_of_table(&line))
     }
 
     /// Whether a line has the numbers of a quantity: an estimate, and an uncertainty.
@@ -950,7 +992,16 @@ impl Budget<'_> {
         let (Some(share), Some(estimate)) = (share, estimate) else {
             if !lenient && row.std.is_none() && row.width.is_none() {
                 let heading = header.heading_of(Column::Relative);
-                self.fail(line, format!("`{text}` below `{heading}` is no share of an estimate"));
+                let advice = match header.has(Column::Estimate) {
+                    true => "",
+                    false => {
+                        ", as no column has estimates: write them, or where all of the budget is in shares of \
+                         the result head the column `Standard uncertainty (%)`"
+                    }
+                };
+                let reason =
+                    format!("`{text}` below `{heading}` is no share of an estimate{advice}");
+                self.fail(line, reason);
             }
             return None;
         };
@@ -984,9 +1035,20 @@ impl Budget<'_> {
     fn specification(&mut self, text: &str, line: usize, row: &Row) -> Option<f64> {
         let written =
             if self.cells.decimal_comma() { equation::with_points(text) } else { text.to_owned() };
+        // `± (0.5 % + 2 mV)`
+        let bare = written.trim_start_matches(['±', ' ']).trim();
+        let inside = bare.strip_prefix('(').and_then(|bare| bare.strip_suffix(')'));
         let unit = Unit::parse(&row.unit).ok()?;
-        let width = Width::specification(&written, &unit, &[]);
+        let width = Width::specification(inside.unwrap_or(bare), &unit, &[]);
         match width.and_then(|width| Ok((width, row.estimate.ok_or("the estimate is missing")?))) {
+            Ok((width, 0.0)) if width.relative > 0.0 => {
+                let reason = format!(
+                    "`{text}` of the estimate 0 lacks its share: state what it is a share of, such as `35 ppm of \
+                     10 V + 5 uV`"
+                );
+                self.fail(line, reason);
+                None
+            }
             Ok((width, estimate)) => {
                 let found = to_15_digits(width.at(estimate));
                 self.guessed.push(format!(

@@ -98,7 +98,13 @@ fn conversions(units: &[&str]) -> Vec<Conversion> {
                 format!("{words} (which is in radians here: a factor 2*pi is too much, too)");
             Conversion { size, words }
         });
-        let sizes = prefixes.chain([unit.factor()]);
+        // the minute of L/min
+        let parts = unit.factors().iter().filter_map(|factor| match factor.base {
+            FactorBase::Named { symbol, .. } => Unit::parse(symbol.spellings().next()?).ok(),
+            _ => None,
+        });
+        let parts: Vec<f64> = parts.map(|part| part.factor()).collect();
+        let sizes = prefixes.chain([unit.factor()]).chain(parts);
         found.extend(sizes.map(|size| Conversion { size, words: words.clone() }));
         found.extend(in_turns);
     }

@@ -162,3 +162,44 @@ fn numbers_that_convert_rates() {
         assert!(error.contains("the estimate of the result is 100 W"), "{error}");
     }
 }
+
+/// 10 L in 60 s are 10 L/min; the minute of a unit is a number that converts as well.
+#[test]
+fn numbers_that_convert_a_part_of_a_unit() {
+    let rows = "q = V/t*60\nSymbol;Estimate;Unit;u\nV;10,00;L;0,01\nt;60,0;s;0,1\n";
+    assert_eq!(result(&format!("{rows}q;10,00;L/min;0,02\n"))[0], 10.0);
+}
+
+/// 300.15 K are 27 °C.
+#[test]
+fn zeros_of_temperatures_in_equations() {
+    let text = "t = T - 273.15\nQuantity;Estimate;Unit;u\nT;300,15;K;0,01\nt;27,00;°C;0,01\n";
+    assert!((result(text)[0] - 27.0).abs() < 1e-9);
+}
+
+/// A coefficient multiplies no Celsius temperature: 2 µV/°C at 23 °C made 10 V to 10.000046 V.
+#[test]
+fn celsius_temperatures_of_linear_budgets() {
+    let text = "Quantity,Estimate,Unit,±,Distribution,c_i\nStandard,10,V,50 µV,normal (k=2),1\n\
+                Temperature,23,°C,1,rectangular,2 µV/°C\n";
+    let [estimate, u] = result(text);
+    assert_eq!(estimate, 10.0);
+    assert!((u / (625f64 + 4.0 / 3.0).sqrt() * 1e6 - 1.0).abs() < 1e-9, "{u}");
+    let (_, budget) = uncertainties(text);
+    let part = "`Temperature` counts in the result by what it differs from its estimate, 23 °C";
+    assert!(guesses(&budget, part), "{:?}", budget.guessed);
+}
+
+/// The share of a specification is of something: 35 ppm of 0 V were nothing.
+#[test]
+fn shares_of_specifications() {
+    let of = |estimate: &str, cell: &str| {
+        format!(
+            "Quantity,Estimate,Unit,Uncertainty,Distribution\nV,{estimate},V,{cell},rectangular\n"
+        )
+    };
+    let error = refusal(&of("0", "35 ppm + 5 µV"));
+    assert!(error.contains("of the estimate 0 lacks its share"), "{error}");
+    let (found, _) = uncertainties(&of("10", "± (35 ppm + 5 µV)"));
+    assert!((found[0] / (355e-6 / 3f64.sqrt()) - 1.0).abs() < 1e-12, "{found:?}");
+}

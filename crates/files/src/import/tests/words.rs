@@ -118,3 +118,71 @@ fn units_behind_names() {
         assert!(uncertainties(&text).0[0] == 0.1, "{name}");
     }
 }
+
+/// A Spanish budget, and a French one whose contributions are in µm: 0.29 µm/K were 0.29 mm/K.
+#[test]
+fn spanish_and_french_budgets() {
+    let text = "Incertidumbre de un termómetro (todos los valores en °C)\n\
+                Fuente;Tipo;Valor ±;Distribución;Divisor;Incertidumbre estándar\n\
+                Patrón;B;0,02;Normal;2;0,01\nResolución;B;0,05;Rectangular;1,732;0,029\n\
+                Repetibilidad;A;0,015;Normal;1;0,015\nIncertidumbre combinada;;;;;0,034\n\
+                Incertidumbre expandida (k=2);;;;;0,068\n";
+    let (found, budget) = uncertainties(text);
+    assert_eq!(found.len(), 3);
+    assert_eq!(found[0], 0.01);
+    assert!(!guesses(&budget, "the sheet says"), "{:?}", budget.guessed);
+    let text = "Origine;Valeur;Unité;Demi-étendue;Loi;u(xi);ci;u(y) en µm\n\
+                Étalon;25,0003;mm;0,10 µm;normale (k=2);0,05 µm;1;0,05\n\
+                Température;20;°C;0,5;arcsinus;0,35;0,29;0,10\n";
+    let (_, budget) = uncertainties(text);
+    assert!(budget.text.contains("(0.00029)*Température"), "{}", budget.text);
+}
+
+/// Words of totals in tables that have no estimates were quantities: 0.49 mV for 0.35 mV.
+#[test]
+fn totals_of_tables_without_estimates() {
+    for text in [
+        "Beitrag;Unsicherheit (mV);Verteilung;Teiler;Standardunsicherheit (mV)\nPuffer;0,3;Rechteck;1,73;0,17\n\
+         Temperatur;0,5;Rechteck;1,73;0,29\nuc;;;;0,34\nU;;;;0,68\n",
+        "Component,u (mV)\nA,0.1\nB,0.2\nuc,0.22\nU,0.45\n",
+        "No,Source,Uncertainty (±),Unit,Prob. Dist.,Divisor,Ci,Std Uncertainty,DOF\n\
+         1,Repeatability,0.02,mm,Normal,1,1,0.02,4\n2,Resolution,0.01,mm,Rectangular,1.732,1,0.0058,\n\
+         ,Combined Uncertainty,,,,,,0.021,\n,Effective DOF,,,,,,5,\n,Coverage Factor,,,,,,2.57,\n",
+    ] {
+        let (found, budget) = uncertainties(text);
+        assert_eq!(found.len(), 2, "{text}");
+        assert!(!guesses(&budget, "the sheet says"), "{:?}", budget.guessed);
+    }
+}
+
+/// Words that cells break, a unit behind the coverage, and the symbol of the measurand in a heading.
+#[test]
+fn broken_words_and_units_behind_symbols() {
+    let text = "Größe;Schätzwert;Standardmess-unsicherheit;Sensitivitäts-koeffizient;Unsicherheits-beitrag\n\
+                X_i;x_i;u(x_i);c_i;u_i(y)\nl_S;50,000 020 mm;15 nm;1,0;15,0 nm\nδl_D;0 mm;17,3 nm;1,0;17,3 nm\n";
+    let (found, budget) = uncertainties(text);
+    assert!((found[0] / 15e-6 - 1.0).abs() < 1e-12, "{found:?}");
+    assert!(budget.text.contains("l_S + δl_D"), "{}", budget.text);
+    let text = "Quantity;Estimate (mm);U (k=2) µm\nl;10;0,05\n";
+    assert!((uncertainties(text).0[0] / 25e-6 - 1.0).abs() < 1e-12);
+    let text = "Symbol,Source of uncertainty,Value ±,Distribution,Divisor,ci,ui (W) mg\n\
+                Ws,Standard,30 mg,Normal,2,1,15.0\nDs,Drift,30 mg,Rectangular,√3,1,17.3\n\
+                uc(W),Combined uncertainty,,,,,22.9\n";
+    let (_, budget) = uncertainties(text);
+    assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "mg");
+}
+
+/// What a line says of the model is asked, and labels are no part of a name.
+#[test]
+fn equations_behind_labels_and_without_a_name() {
+    let head = "Quantity;Estimate;Unit;u\nA;10;V;0,02\nB;3;V;0,01\n";
+    let error = refusal(&format!("{head}A-B\n"));
+    assert!(error.contains("`A-B` may be the equation of the result"), "{error}");
+    let (_, budget) = uncertainties(&format!("Model function: y = A - B\n{head}y;7;V;\n"));
+    assert!(budget.text.contains(r#""y":"A - B""#), "{}", budget.text);
+    let error =
+        refusal("Quantity,Estimate,Relative u (ppm),c_i (relative)\nR,10000 ohm,2,1\nr,1,0.5,1\n");
+    assert!(error.contains("relative coefficients are the exponents of a product"), "{error}");
+    let error = refusal("Quantity,Estimate,Relative u (ppm),c_i\nR,10000 ohm,2,1\nr,1,0.5,1\n");
+    assert!(error.contains("or an exponent"), "{error}");
+}
