@@ -50,6 +50,7 @@ use gumption_units::Unit;
 use number::value;
 use rows::{Row, Table};
 use sheets::Chosen;
+use stated::Stated;
 
 /// A model file that was made of a budget.
 #[derive(Clone, Debug, PartialEq)]
@@ -335,7 +336,7 @@ impl Budget<'_> {
                 if unit.is_empty() { self.unit_of_equation(&rows, &equations) } else { unit };
             let model = |checked| document(title, &rows, &formulas, &unit, checked);
             let line = equations.last().map_or(0, |equation| equation.line);
-            let made = self.checked(&rows, &unit, line, &model)?;
+            let made = self.checked((&rows, &stated), &unit, line, &model)?;
             self.of_numbers(made, &stated, &model)
         };
         self.compare(&made, &stated, factor)?;
@@ -416,11 +417,11 @@ impl Budget<'_> {
     }
 
     /// The model with a check of units where it passes; without it only where numbers in the units of
-    /// the sheet give the same as those in SI units, and no two quantities of different dimension are
-    /// added or compared; `line` is that of the equation.
+    /// the sheet give the same as those in SI units, or the estimate that the sheet states, and no two quantities
+    /// of different dimension are added or compared; `line` is that of the equation.
     fn checked(
         &mut self,
-        rows: &[Row],
+        (rows, stated): (&[Row], &[Stated]),
         unit: &str,
         line: usize,
         model: &impl Fn(bool) -> String,
@@ -446,7 +447,8 @@ impl Budget<'_> {
                     Unit::parse(unit)
                         .is_ok_and(|unit| unit.factor() != 1.0 || unit.zero().is_some())
                 });
-                if let Some(scaled) = scaled {
+                let is_stated = scaled.is_some() && stated::is_of_numbers(&without, stated);
+                if let Some(scaled) = scaled.filter(|_| !is_stated) {
                     let text = format!(
                         "the equation does not pass the check of units, without which `{scaled}` would \
                          not be converted: {reason}"

@@ -23,6 +23,8 @@ impl Budget<'_> {
             scope.define(row.name.as_str(), Typing::in_unit(&unit));
             scope.give(&row.name, unit);
         }
+        let estimate =
+            |name: &str| rows.iter().find(|row| row.name == name).and_then(|row| row.estimate);
         let mut written: Vec<Equation> = equations.to_vec();
         let mut said = Vec::new();
         for equation in &mut written {
@@ -35,6 +37,14 @@ impl Budget<'_> {
                     }
                     Err(faults) => faults,
                 };
+                let mixed = |fault| of_two_scales(&equation.formula, fault, estimate);
+                if let Some(part) = faults.iter().find_map(mixed) {
+                    let reason = format!(
+                        "`{part}` takes degrees Celsius from a temperature in K: write the quantity in °C, or the \
+                         number in K"
+                    );
+                    return self.fail(equation.line, reason);
+                }
                 let change = faults.iter().find_map(|fault| changed(&equation.formula, fault));
                 let Some((formula, part)) = change else { return };
                 said.push(format!(
@@ -51,6 +61,26 @@ impl Budget<'_> {
             equations.clone_from_slice(&written);
         }
     }
+}
+
+/// A number below this beside a temperature above it, both said to be in K, is one of degrees Celsius.
+const BETWEEN_SCALES: f64 = 150.0;
+
+/// The difference of a thermodynamic temperature of a row and a number of degrees Celsius.
+fn of_two_scales<'f>(
+    formula: &'f str,
+    fault: &FormulaError,
+    estimate: impl Fn(&str) -> Option<f64>,
+) -> Option<&'f str> {
+    let FormulaError::MixedDimensions { operator: "-", operands, .. } = fault else { return None };
+    let [left, right] = operands.as_ref();
+    let (number, quantity) = if left.is_number { (left, right) } else { (right, left) };
+    let value: f64 = formula.get(number.span.clone())?.parse().ok()?;
+    let kelvin = estimate(formula.get(quantity.span.clone())?)?;
+    let is_mixed = quantity.unit.as_deref() == Some("K")
+        && value.abs() < BETWEEN_SCALES
+        && kelvin > BETWEEN_SCALES;
+    formula.get(left.span.start..right.span.end).filter(|_| is_mixed)
 }
 
 /// A formula with the unit of a number that has none beside a quantity, and the part of it that has changed.

@@ -432,6 +432,7 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "|ci|",
             "|c_i|",
             "sensitivity coeff",
+            "sens",
             "sens. coeff",
             "sens.-koeff",
             "sens. koeff",
@@ -1293,17 +1294,8 @@ impl Header {
     /// A column of numbers that nothing names and whose words may be those of sensitivity coefficients;
     /// 1 in every row is none that changes anything.
     pub(super) fn possible_coefficients(&self, cells: &Cells) -> Option<usize> {
-        const WORDS: [&str; 9] = [
-            "coeff",
-            "coef",
-            "koeff",
-            "c_i",
-            "facteur",
-            "faktor",
-            "factor",
-            "empfindlich",
-            "sensib",
-        ];
+        const WORDS: [&str; 9] =
+            ["coeff", "coef", "koeff", "c_i", "facteur", "faktor", "factor", "empfindlich", "sens"];
         if self.has(Column::Sensitivity) {
             return None;
         }
@@ -1396,26 +1388,36 @@ impl Header {
         {
             return;
         }
+        let is_behind = place_of(Column::Std) > place_of(Column::Sensitivity);
+        let coefficients = place_of(Column::Sensitivity).filter(|_| {
+            of_quotients == Column::Std && is_behind && !self.has(Column::Contribution)
+        });
         let comma = cells.decimal_comma();
         let of = |line: usize, column: Column| value(self.cell(cells, line, column).trim(), comma);
-        let rows: Vec<[f64; 3]> = (self.line + 1..cells.lines())
+        let rows: Vec<[f64; 4]> = (self.line + 1..cells.lines())
             .filter_map(|line| {
                 let all = [Column::Estimate, Column::Divisor, of_quotients];
                 let [value, divisor, std] = all.map(|column| of(line, column));
-                Some([value?, divisor?, std?])
+                let c = coefficients.map_or(Some(1.0), |_| of(line, Column::Sensitivity));
+                Some([value?, divisor?, std?, c?])
             })
             .collect();
         // factors below 1 multiply
         let multiplies = is_of_factors(self.heading_of(Column::Divisor));
-        let is_width = |[value, divisor, std]: &[f64; 3]| {
+        let is_width = |[value, divisor, std, _]: &[f64; 4]| {
             let is_factor = multiplies && *divisor < 1.0;
             let found = if is_factor { value.abs() * divisor } else { value.abs() / divisor };
             (found - std).abs() <= ROUNDED * std.abs() && *std > 0.0
         };
-        if rows.len() >= 2 && rows.iter().all(is_width) {
+        // `ui` behind the coefficients may be their products with the quotients
+        let is_contribution =
+            |[value, divisor, std, c]: &[f64; 4]| is_width(&[c * value, *divisor, std.abs(), 1.0]);
+        let are_widths = rows.len() >= 2 && rows.iter().all(is_width);
+        let are_contributions = rows.len() >= 2 && !are_widths && rows.iter().all(is_contribution);
+        if are_widths || are_contributions {
             for (_, column) in &mut self.columns {
                 if *column == of_quotients {
-                    *column = Column::Std;
+                    *column = if are_widths { Column::Std } else { Column::Contribution };
                 } else if *column == Column::Estimate {
                     *column = Column::Width;
                 }
@@ -1901,7 +1903,8 @@ pub(super) fn with_unit_in_brackets(words: &str) -> Option<(&str, String)> {
     // `u(V)` and `r(m)` are names, and so is `Value (2)`
     let is_argument = words.trim().ends_with(')') && !name.ends_with(char::is_whitespace);
     let (name, unit) = (name.trim(), without_in(unit.trim()));
-    if name.is_empty() || unit.is_empty() || is_argument || unit.parse::<f64>().is_ok() {
+    let is_value = unit.starts_with(|c: char| c.is_ascii_digit()) && !unit.starts_with("1/");
+    if name.is_empty() || unit.is_empty() || is_argument || is_value {
         return None;
     }
     let unit = Unit::parse(unit).map(|_| unit.to_owned()).ok().or_else(|| unit_as_meant(unit))?;

@@ -27,6 +27,18 @@ const DEVIATIONS: [&str; 9] = [
     "desviación",
 ];
 
+/// Words of errors, which are added to what is right and taken from what is indicated.
+const ERRORS: [&str; 8] = [
+    "error",
+    "error of indication",
+    "measurement error",
+    "fehler",
+    "messabweichung",
+    "erreur",
+    "erreur de mesure",
+    "erreur d'indication",
+];
+
 /// Measured values that may be corrected already.
 const RESULTS: [&str; 9] = [
     "x",
@@ -71,7 +83,9 @@ impl Header {
             self.unknown.iter().copied().filter(|place| changes(*place)).collect();
         let found: Vec<usize> = found
             .into_iter()
-            .filter(|place| is_of(self, *place, &CORRECTIONS) || is_of(self, *place, &DEVIATIONS))
+            .filter(|place| {
+                [&CORRECTIONS[..], &DEVIATIONS, &ERRORS].iter().any(|all| is_of(self, *place, all))
+            })
             .collect();
         let Some(&place) = found.first() else { return };
         let heading = self.heading(place).trim().to_owned();
@@ -94,7 +108,8 @@ impl Header {
         let is_indicated =
             MEASURED.contains(&own_words.as_str()) && !RESULTS.contains(&own_words.as_str());
         let is_correction = is_of(self, place, &CORRECTIONS);
-        if is_nominal(self.heading(own)) || is_indicated && is_correction {
+        let is_error = is_of(self, place, &ERRORS);
+        if is_nominal(self.heading(own)) && !is_error || is_indicated && is_correction {
             self.unknown.retain(|of| *of != place);
             self.columns.push((place, Column::Correction));
             smallest_first(&mut self.columns, |(place, _)| *place as f64);
@@ -111,11 +126,23 @@ impl Header {
                 })
             })
         };
+        // an error is that of the estimate, or one that is still to be taken from it
+        if is_error && !is_nominal(self.heading(own)) && !is_indicated {
+            return;
+        }
         if !self.unknown.iter().any(makes_estimates) {
             self.doubtful.push(format!(
-                "the estimate can be `{0}` or its sum with `{heading}`: write the corrected values below `{0}` \
-                 and take `{heading}` away, or head `{0}` with what it is, `Nominal` or `Indication`",
-                self.heading(own).trim()
+                "the estimate can be `{0}` or its {1} `{heading}`: write the corrected values into a column \
+                 `Estimate` and take `{heading}` away{2}",
+                self.heading(own).trim(),
+                if is_error { "sum or difference with" } else { "sum with" },
+                match is_correction {
+                    true => format!(
+                        ", or head `{}` with what it is, `Nominal` or `Indication`",
+                        self.heading(own).trim()
+                    ),
+                    false => String::new(),
+                }
             ));
         }
     }

@@ -39,7 +39,12 @@ impl Extent {
             "demietendue",
             "±",
         ];
-        const FULL: [&str; 15] = [
+        const FULL: [&str; 20] = [
+            "peaktopeak",
+            "pktopk",
+            "pkpk",
+            "spitzespitze",
+            "crêteàcrête",
             "fullwidth",
             "fullrange",
             "fullspan",
@@ -335,6 +340,7 @@ mod tests {
             ("Auflösung (volle Breite)", Some(Extent::Full)),
             ("Résolution, étendue", Some(Extent::Full)),
             ("Resolution (half-width)", Some(Extent::Half)),
+            ("Noise (peak-to-peak)", Some(Extent::Full)),
             ("Linearity (full range)", None),
             ("Étendue de mesure", None),
             ("Resolution (full width 0.1 mV)", None),

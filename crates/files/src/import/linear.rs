@@ -73,7 +73,7 @@ impl Budget<'_> {
         let estimate = result.and_then(|result| result.estimate);
         let mut terms = Vec::new();
         if estimate.is_none() {
-            terms.extend(self.from_own_zero(rows, &factors, &unit));
+            terms.extend(self.shift_of_temperatures(rows, &factors, &unit));
         }
         let sum = sum + terms.iter().sum::<f64>();
         let mut terms: Vec<String> = terms.into_iter().map(written).collect();
@@ -118,7 +118,7 @@ impl Budget<'_> {
     /// What is taken from a sum in which Celsius temperatures are multiplied by coefficients of a result in
     /// another unit, and no estimate of the result is stated: those products, as their zero is none of the
     /// result's.
-    fn from_own_zero(&mut self, rows: &[Row], factors: &[f64], unit: &str) -> Option<f64> {
+    fn shift_of_temperatures(&mut self, rows: &[Row], factors: &[f64], unit: &str) -> Option<f64> {
         let is_celsius = |unit: &str| Unit::parse(unit).is_ok_and(|unit| unit.is_celsius());
         if is_celsius(unit) {
             return None;

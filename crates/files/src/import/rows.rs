@@ -886,6 +886,11 @@ impl Budget<'_> {
             return None;
         }
         let of_header = header.unit(column).unwrap_or_default();
+        // what a line says of all values yields to what a row says
+        let is_of_all = header.unit_of_all.as_ref().is_some_and(|(_, unit)| unit == of_header);
+        let dimension = |unit: &str| Unit::parse(unit).ok().map(|unit| unit.dimension());
+        let is_of_row = !row.unit.is_empty() && dimension(&row.unit) != dimension(of_header);
+        let of_header = if is_of_all && (!unit.is_empty() || is_of_row) { "" } else { of_header };
         let is_percent = own_text.contains('%') && unit.is_empty();
         if !of_header.is_empty() && (is_percent || !unit.is_empty()) && !lenient {
             let own = if is_percent { "%" } else { unit.as_str() };

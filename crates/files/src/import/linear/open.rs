@@ -320,7 +320,8 @@ fn reason(row: &Row, rows: &[Row], [plain, other]: [&Reading; 2], whole: &Whole)
              equation then (`y = {product}`)"
         ),
         None => format!(
-            ", or lack its unit, as {own} and {of_result} cannot be added: write the equation"
+            ", or lack its unit, as {own} and {} cannot be added: write the equation",
+            if of_result.is_empty() { "a plain number" } else { of_result }
         ),
     };
     format!("{begin}{equation}, or {}", WRITE.replace("its unit", "the unit of the coefficient"))

@@ -203,3 +203,35 @@ fn shares_of_specifications() {
     let (found, _) = uncertainties(&of("10", "± (35 ppm + 5 µV)"));
     assert!((found[0] / (355e-6 / 3f64.sqrt()) - 1.0).abs() < 1e-12, "{found:?}");
 }
+
+/// 5 % of mass in volume, 100*2.5 g/50 mL, is a number of an equation whose units do not pass.
+#[test]
+fn numbers_that_no_units_give() {
+    let rows = "c = 100*m/V\nSymbol;Estimate;Unit;u\nm;2,5;g;0,01\nV;50;mL;0,05\n";
+    assert_eq!(result(&format!("{rows}c;5,0;%;0,02\n"))[0], 5.0);
+    assert!(refusal(&format!("{rows}c;50;%;0,2\n")).contains("does not pass the check of units"));
+}
+
+/// 296.15 K less 20 was 276.15 K.
+#[test]
+fn degrees_are_not_taken_from_kelvins() {
+    let head = "y = 2*(T-20)\nQuantity;Estimate;Unit;u\n";
+    let error = refusal(&format!("{head}T;296,15;K;0,5\n"));
+    assert!(error.contains("`T-20` takes degrees Celsius from a temperature in K"), "{error}");
+    assert_eq!(result(&format!("{head}T;30;K;0,5\n"))[0], 20.0);
+}
+
+/// An error of a nominal value may be added to it or taken from it; a peak-to-peak value is a full width.
+#[test]
+fn errors_and_values_from_peak_to_peak() {
+    let error = refusal("Quantity;Nominal;Error;Unit;u\nA;10;0,02;V;0,01\n");
+    assert!(error.contains("can be `Nominal` or its sum or difference with `Error`"), "{error}");
+    let of = |heading: &str| {
+        format!(
+            "Quantity;Estimate;Unit;{heading};Distribution\nNoise (peak-to-peak);0;mV;0,6;rectangular\n"
+        )
+    };
+    let (found, _) = uncertainties(&of("Uncertainty"));
+    assert!((found[0] / (0.3 / 3f64.sqrt()) - 1.0).abs() < 1e-12, "{found:?}");
+    assert!(refusal(&of("Half-width")).contains("`peak-to-peak` in the name, but the heading"));
+}

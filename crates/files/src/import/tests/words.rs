@@ -113,7 +113,9 @@ fn units_behind_names() {
     let budget = import("b.csv", text.as_bytes());
     let budget = budget.unwrap_or_else(|error| panic!("{error}"));
     assert!(budget.text.contains(r#""A": {"unit":"mV""#), "{}", budget.text);
-    for name in ["Repeatability (A)", "Temperature (°C)", "Length (mm)", "Type (B)"] {
+    for name in
+        ["Range (10 mm)", "Repeatability (A)", "Temperature (°C)", "Length (mm)", "Type (B)"]
+    {
         let text = format!("Quantity,Estimate,Unit,Standard uncertainty\n{name},10.5,mm,0.1\n");
         assert!(uncertainties(&text).0[0] == 0.1, "{name}");
     }
@@ -185,4 +187,28 @@ fn equations_behind_labels_and_without_a_name() {
     assert!(error.contains("relative coefficients are the exponents of a product"), "{error}");
     let error = refusal("Quantity,Estimate,Relative u (ppm),c_i\nR,10000 ohm,2,1\nr,1,0.5,1\n");
     assert!(error.contains("or an exponent"), "{error}");
+}
+
+/// `ui` behind the coefficients of values that are divided is their product: 0.038 mV were 0.031 mV.
+#[test]
+fn contributions_of_values_that_are_divided() {
+    let text = "Nr.;Beitrag;Typ;Wert;Einheit;Vert.;Div.;ci;ui;vi\n\
+                1;Kalibrierung;B;0,10;mV;Normal;2;0,5;0,025;∞\n2;Auflösung;B;0,05;mV;Rechteck;1,732;1;0,0289;∞\n";
+    let (found, budget) = uncertainties(text);
+    assert_eq!(found[0], 0.05);
+    assert!(budget.text.contains("(0.5)*Kalibrierung + Auflösung"), "{}", budget.text);
+    let text = "Quantity,Estimate,Unit,±,Distribution,Sens.\nA,5,V,0.1,rectangular,2\nB,1,V,0.1,rectangular,1\n";
+    assert!(uncertainties(text).1.text.contains("(2)*A + B"));
+}
+
+/// A unit of all values yields to that of a row.
+#[test]
+fn rows_with_a_unit_of_their_own_beside_that_of_all_values() {
+    let text = "Caliper (values in µm unless stated)\n\
+                Source,Limits (±),Distribution,Divisor,Std Uncertainty,Sensitivity,Contribution\n\
+                Resolution (10 µm full width),5,Rectangular,1.73,2.89,1,2.89\n\
+                Temperature,0.7 °C,Rectangular,1.73,0.40,1.15 µm/°C,0.46\nCombined,,,,,,2.93\n";
+    let (found, budget) = uncertainties(text);
+    assert!((found[1] / (0.7 / 3f64.sqrt()) - 1.0).abs() < 1e-12, "{found:?}");
+    assert!(!guesses(&budget, "the sheet says"), "{:?}", budget.guessed);
 }
