@@ -247,7 +247,7 @@ impl Budget<'_> {
             let text = column.map_or("", |(place, _)| header.heading(*place));
             self.guessed.push(format!(
                 "`{text}` is taken for half-widths and expanded uncertainties, as its numbers over \
-                 the divisors are the standard uncertainties; estimates are 0"
+                 the divisors are the standard uncertainties or make the contributions; estimates are 0"
             ));
         }
         if let Some((text, unit)) = &header.unit_of_all {

@@ -226,6 +226,8 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "stated uncertainty",
             "unsicherheit",
             "halbbreite",
+            "halbe breite",
+            "halbe weite",
             "halbweite",
             "grenze",
             "grenzen",
@@ -433,6 +435,10 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "|c_i|",
             "sensitivity coeff",
             "sens",
+            "sens coeff",
+            "sens coef",
+            "sens. coef",
+            "sensitivity coef",
             "sens. coeff",
             "sens.-koeff",
             "sens. koeff",
@@ -1067,6 +1073,7 @@ impl Header {
                 unknown.extend(alone.map(|(place, _)| place));
             }
             Self::cells_of_both(&of_both, line, &mut columns);
+            let has_widths_as_values = widths_by_contributions(cells, line, &mut columns);
             let has = |wanted: Column| columns.iter().any(|(_, column)| *column == wanted);
             let enough = has(Column::Quantity) && Column::UNCERTAIN.into_iter().any(has);
             if enough && best.as_ref().is_none_or(|best| columns.len() > best.columns.len()) {
@@ -1077,7 +1084,7 @@ impl Header {
                     columns,
                     unknown,
                     units: Vec::new(),
-                    has_widths_as_values: false,
+                    has_widths_as_values,
                     unit_of_all: None,
                     doubtful: Vec::new(),
                 });
@@ -1623,6 +1630,39 @@ impl Header {
     }
 }
 
+/// Takes values for widths where no column has uncertainties, and the values over the divisors, times the
+/// coefficients, are the contributions in two rows at least.
+fn widths_by_contributions(cells: &Cells, line: usize, columns: &mut [(usize, Column)]) -> bool {
+    if Column::UNCERTAIN.into_iter().any(|of| place_of(columns, of).is_some()) {
+        return false;
+    }
+    let [Some(estimate), Some(divisor), Some(contribution)] =
+        [Column::Estimate, Column::Divisor, Column::Contribution].map(|of| place_of(columns, of))
+    else {
+        return false;
+    };
+    let comma = cells.decimal_comma();
+    let number = |line: usize, place: usize| value(cells.text(line, place).trim(), comma);
+    let c = place_of(columns, Column::Sensitivity);
+    let rows: Vec<[f64; 2]> = (line + 1..cells.lines())
+        .filter_map(|line| {
+            let c = c.map_or(Some(1.0), |place| number(line, place))?;
+            let product = c * number(line, estimate)? / number(line, divisor)?;
+            Some([product.abs(), number(line, contribution)?.abs()])
+        })
+        .collect();
+    let is_it = |[product, stated]: &[f64; 2]| {
+        *stated > 0.0 && (product - stated).abs() <= ROUNDED * stated
+    };
+    let are_widths = rows.len() >= 2 && rows.iter().all(is_it);
+    if let Some((_, column)) =
+        columns.iter_mut().find(|(place, _)| are_widths && *place == estimate)
+    {
+        *column = Column::Width;
+    }
+    are_widths
+}
+
 /// Whether a column has names below a line, and no numbers.
 fn has_names(cells: &Cells, line: usize, place: usize) -> bool {
     let texts = (line + 1..cells.lines()).map(|line| cells.text(line, place).trim());
@@ -1755,7 +1795,9 @@ pub(super) fn evaluation(text: &str) -> Option<char> {
 
 /// Whether a heading is of half-widths or limits of errors, which are no standard uncertainties.
 pub(super) fn is_of_limits(heading: &str) -> bool {
-    const WORDS: [&str; 28] = [
+    const WORDS: [&str; 30] = [
+        "halbe breite",
+        "halbe weite",
         "accuracy",
         "max error",
         "max. error",

@@ -1153,7 +1153,9 @@ impl Budget<'_> {
     /// The coverage factor of a row: of its divisor, its distribution (`normal (k=2)`), its uncertainty
     /// (`0.4 mV (k=2)`), or the header of its column.
     fn coverage(&mut self, header: &Header, row: &mut Row) {
-        let Some(width) = row.width.filter(|width| *width > 0.0) else { return };
+        let Some(width) = row.width.filter(|width| *width > 0.0) else {
+            return self.standard_beside_words(header, row);
+        };
         let cell = |column| HeaderCoverage::of(header.cell(self.cells, row.line, column));
         let of_header = header.coverage(Column::Width);
         let is_normal = matches!(row.distribution, None | Some("normal"));
@@ -1281,6 +1283,25 @@ impl Budget<'_> {
                 "line {line}: nothing says what the uncertainty of `{}` is divided by: k = 1 is taken, as \
                  of a standard uncertainty",
                 row.name
+            ));
+        }
+    }
+
+    /// Says that a standard uncertainty is taken as it is where the words of its row say a coverage factor.
+    fn standard_beside_words(&mut self, header: &Header, row: &Row) {
+        let of_words = self.coverage_in_words(header, row.line).factor(row.dof);
+        let (Some(std), Some(factor)) = (row.std.filter(|std| *std > 0.0), of_words) else {
+            return;
+        };
+        if !near(factor, 1.0) && row.divisor.is_none() {
+            self.guessed.push(format!(
+                "line {}: the words of `{}` say k = {}, and {} below `{}` is taken for its standard uncertainty, \
+                 divided already",
+                row.line + 1,
+                row.about,
+                Shortest(to_15_digits(factor)),
+                Shortest(std),
+                header.heading_of(Column::Std).trim()
             ));
         }
     }

@@ -95,8 +95,9 @@ fn stated(text: &str) -> Option<Result<String, String>> {
     if let Some(unit) = parsed(&trimmed(&whole)) {
         return Some(Ok(unit));
     }
-    // `in the table below` is no unit
-    may_be_unit(&first).then_some(Err(trimmed(&whole)))
+    // `in the table below` and `in one place` are no units
+    let is_word = first.chars().all(char::is_lowercase) && first.chars().count() <= 3;
+    (may_be_unit(&first) && !is_word).then_some(Err(trimmed(&whole)))
 }
 
 impl Header {
@@ -173,9 +174,13 @@ mod tests {
         ] {
             assert_eq!(stated(text), Some(Ok(unit.to_owned())), "{text}");
         }
-        for text in
-            ["all values in the table below", "Values of 2024", "Budget", "Werte in Klammern"]
-        {
+        for text in [
+            "all in one budget",
+            "all values in the table below",
+            "Values of 2024",
+            "Budget",
+            "Werte in Klammern",
+        ] {
             assert_eq!(stated(text), None, "{text}");
         }
         assert_eq!(stated("all values in mVrms"), Some(Err("mVrms".to_owned())));

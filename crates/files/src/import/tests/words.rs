@@ -197,6 +197,14 @@ fn contributions_of_values_that_are_divided() {
     let (found, budget) = uncertainties(text);
     assert_eq!(found[0], 0.05);
     assert!(budget.text.contains("(0.5)*Kalibrierung + Auflösung"), "{}", budget.text);
+    let text = "Item,Uncertainty Source,Value,Unit,Probability Distribution,Divisor,ci,ui(y),Veff\n\
+                1,Repeatability,0.0005,V,Normal,sqrt(5),1,0.00022,4\n\
+                2,Accuracy,0.001,V,Rectangular,sqrt(3),0.5,0.00029,Infinite\n,Combined std uncertainty,,,,,,0.00036,\n";
+    let (found, _) = uncertainties(text);
+    assert!((found[1] / (1e-3 / 3f64.sqrt()) - 1.0).abs() < 1e-12, "{found:?}");
+    let (found, budget) = uncertainties("Source;u (dB)\nMismatch;0,05\nCalibration (k=2);0,10\n");
+    assert_eq!(found[1], 0.1);
+    assert!(guesses(&budget, "say k = 2, and 0.1 below `u (dB)`"), "{:?}", budget.guessed);
     let text = "Quantity,Estimate,Unit,±,Distribution,Sens.\nA,5,V,0.1,rectangular,2\nB,1,V,0.1,rectangular,1\n";
     assert!(uncertainties(text).1.text.contains("(2)*A + B"));
 }
