@@ -93,7 +93,6 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "influences",
             "effect",
             "contributor",
-            "contributions",
             "error source",
             "source of error",
             "sources of uncertainty",
@@ -128,7 +127,6 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "einflüsse",
             "einflussfaktor",
             "beitragsgröße",
-            "unsicherheitsbeiträge",
             "unsicherheitskomponente",
             "komponente",
             "parameter x_i",
@@ -479,6 +477,9 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
         Column::Contribution,
         &[
             "contribution",
+            "contributions",
+            "beiträge",
+            "unsicherheitsbeiträge",
             "uncertainty contribution",
             "u_i(y)",
             "ui(y)",
@@ -739,7 +740,10 @@ pub(crate) fn column(text: &str) -> Option<Column> {
         for (column, all) in WORDS {
             for word in all.iter().filter(|word| word.len() > 3) {
                 let behind = words.strip_prefix(*word);
-                if behind.is_some_and(|rest| rest.starts_with([' ', ',', '/']))
+                // the accuracy class of an instrument is no accuracy
+                let continues =
+                    |rest: &str| rest.starts_with([' ', ',', '/']) && !rest.contains("class");
+                if behind.is_some_and(continues)
                     && found.is_none_or(|(length, _)| word.len() > length)
                 {
                     found = Some((word.len(), *column));

@@ -1567,7 +1567,8 @@ impl Budget<'_> {
             let other = self.other_unit(header, row, &unit);
             // a remark in parentheses may be of what makes the quantity: `Temperature (°C)` in mm
             let is_remark = words.trim().ends_with(')')
-                && other.as_ref().is_some_and(|(other, _)| is_remark_beside(&unit, other));
+                && (self.states_unit(header, row.line)
+                    || other.as_ref().is_some_and(|(other, _)| is_remark_beside(&unit, other)));
             if is_remark {
                 continue;
             }
@@ -1586,6 +1587,19 @@ impl Budget<'_> {
                 self.fail(row.line, reason);
             }
         }
+    }
+
+    /// Whether a row has the unit `1`, or a unit behind its numbers.
+    fn states_unit(&self, header: &Header, line: usize) -> bool {
+        let comma = self.cells.decimal_comma();
+        let cell = |column| header.cell(self.cells, line, column).trim();
+        let mut numbers = [Column::Estimate, Column::Width, Column::Std].into_iter();
+        cell(Column::Unit) == "1"
+            || numbers.any(|column| {
+                let read =
+                    number::number_with_unit(cell(column).trim_start_matches(['±', ' ']), comma);
+                read.is_some_and(|(_, unit)| !unit.is_empty())
+            })
     }
 
     /// A unit that the table states for a row beside that in its name, and where, if it is another one.

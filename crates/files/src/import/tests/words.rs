@@ -174,6 +174,18 @@ fn broken_words_and_units_behind_symbols() {
     assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "mg");
 }
 
+/// A unit behind a number goes before one in a name, and the class of an instrument is no uncertainty.
+#[test]
+fn units_of_numbers_and_classes() {
+    for (text, u) in [
+        ("Quantity;Estimate;u\nVoltage (V);5 mV;0,1 mV\n", 0.1),
+        ("Quantity;Estimate;Unit;u\nGain (dB);2;1;0,1\n", 0.1),
+        ("Quantity;Estimate;Unit;Accuracy class;u\nA;2;V;0,5;0,1\n", 0.1),
+    ] {
+        assert_eq!(uncertainties(text).0, [u], "{text}");
+    }
+}
+
 /// What a line says of the model is asked, and labels are no part of a name.
 #[test]
 fn equations_behind_labels_and_without_a_name() {
