@@ -604,7 +604,9 @@ pub(super) fn is_standard_symbol(heading: &str) -> bool {
 /// Whether a heading speaks of nominal values.
 pub(crate) fn is_nominal(heading: &str) -> bool {
     let words = plain(heading);
+    let small = heading.to_lowercase();
     ["nominal", "nennwert", "valeur nominale"].iter().any(|of| words.starts_with(of))
+        || ["(nominal", "(nennwert"].iter().any(|of| small.contains(of))
 }
 
 /// Whether a heading speaks of a standard deviation.

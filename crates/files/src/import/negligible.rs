@@ -2,7 +2,10 @@
 
 /// Whether a cell says that an uncertainty is not worth counting.
 pub(super) fn is_negligible(text: &str) -> bool {
-    const WORDS: [&str; 14] = [
+    const WORDS: [&str; 17] = [
+        "nil",
+        "none",
+        "keine",
         "negligible",
         "negligable",
         "neglected",

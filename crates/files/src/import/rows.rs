@@ -65,6 +65,14 @@ fn is_bare_of(row: &Row) -> bool {
         && row.distribution.is_none()
 }
 
+/// Whether a row has neither an estimate nor a coefficient, a shape or a divisor.
+fn is_bare_of_shape(row: &Row) -> bool {
+    row.estimate.is_none()
+        && row.sensitivity.is_none()
+        && row.distribution.is_none()
+        && row.divisor.is_none()
+}
+
 impl Budget<'_> {
     /// The rows of the quantities, and what the sheet says of the result; `used` are the names that
     /// the equations need.
@@ -160,6 +168,13 @@ impl Budget<'_> {
             }
             let nothing = row.estimate.is_none() && row.width.is_none() && row.std.is_none();
             if label.is_empty() && nothing {
+                continue;
+            }
+            let is_nameless = label.is_empty() && symbol.is_empty() && !table.rows.is_empty();
+            if is_nameless && is_bare_of_shape(&row) {
+                let reason = "a row without a name has an uncertainty alone, which may be the combined one of the \
+                              rows above: write `Combined` or `Expanded (k=2)`, or the name of the quantity";
+                self.fail(line, reason.to_owned());
                 continue;
             }
             if is_result || is_symbol {

@@ -228,11 +228,11 @@ impl Budget<'_> {
             }
             return made;
         }
-        let converting = numbers::converting(&made);
+        let converts = numbers::converting(&made).is_some() || numbers::may_convert(&made);
         let is_scaled = |stated: &Stated| {
             let own = of(&checked, stated)?;
             // 60 of rpm is no power of ten
-            if converting.is_some() && (own - stated.value).abs() > LARGE * own.abs() {
+            if converts && (own - stated.value).abs() > LARGE * own.abs() {
                 return Some(true);
             }
             let ratio = elementary::log10(own / stated.value);

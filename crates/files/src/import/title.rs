@@ -81,7 +81,15 @@ fn stated(text: &str) -> Option<Result<String, String>> {
             && is_noun.is_some_and(|word| BEFORE.contains(&word.as_str()))
     };
     let of_values = || (1..words.len()).find(is_in).map(|at| at + 1);
-    let at = of_label.or_else(of_values)?;
+    // `Budget of a length measurement in mm`
+    let of_budget = || {
+        let at = words.len().checked_sub(1)?;
+        let is_unit = words[at].chars().count() > 1 && Unit::parse(words[at]).is_ok();
+        let is_it = matches!(small.get(at.checked_sub(1)?)?.as_str(), "in" | "en")
+            && small.iter().any(|word| word.contains("budget"));
+        (is_unit && is_it).then_some(at)
+    };
+    let at = of_label.or_else(of_values).or_else(of_budget)?;
     let rest = words.get(at..).filter(|rest| !rest.is_empty())?;
     let end = rest.iter().position(|word| BEHIND.contains(&word.to_lowercase().as_str()));
     let rest = &rest[..end.unwrap_or(rest.len())];
@@ -169,6 +177,7 @@ mod tests {
             ("Toutes les valeurs sont exprimées en mm", "mm"),
             ("Todos los valores en mm", "mm"),
             ("Budget in mV", "mV"),
+            ("Unsicherheitsbudget Längenmessung in mm", "mm"),
             ("Unit: mV", "mV"),
             ("Einheit : mm", "mm"),
         ] {

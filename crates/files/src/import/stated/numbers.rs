@@ -73,6 +73,19 @@ pub(super) fn converting(model: &str) -> Option<(String, String, String)> {
     })
 }
 
+/// Whether an equation has a number that may convert units by several factors at once, as 9550 does.
+pub(super) fn may_convert(model: &str) -> bool {
+    // 2, 4 and a half are of geometry
+    const LEAST: f64 = 10.0;
+    let formulas = || {
+        let model: Value = serde_json::from_str(model).ok()?;
+        let formulas = model.get("equations")?.as_object()?.values();
+        Some(formulas.filter_map(Value::as_str).flat_map(numbers_of).collect::<Vec<_>>())
+    };
+    let numbers = formulas().unwrap_or_default();
+    numbers.iter().any(|(_, number)| *number >= LEAST || *number <= 1.0 / LEAST)
+}
+
 /// The sizes of some units: of their prefixes, in SI units, and of each two of them.
 fn conversions(units: &[&str]) -> Vec<Conversion> {
     let units: Vec<Unit> = units.iter().filter_map(|unit| Unit::parse(unit).ok()).collect();

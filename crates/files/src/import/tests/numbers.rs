@@ -235,3 +235,18 @@ fn errors_and_values_from_peak_to_peak() {
     assert!((found[0] / (0.3 / 3f64.sqrt()) - 1.0).abs() < 1e-12, "{found:?}");
     assert!(refusal(&of("Half-width")).contains("`peak-to-peak` in the name, but the heading"));
 }
+
+/// 9550 makes kW of N m and revolutions a minute: 100*1500/9550 kW = 15.707 kW.
+#[test]
+fn numbers_that_convert_several_units_at_once() {
+    let rows = "P = M*n/9550\nSymbol;Value;Unit;u\nM;100;N m;0,5\nn;1500;1/min;1\n";
+    assert!((result(&format!("{rows}P;15,707;kW;0,08\n"))[0] - 15.7068).abs() < 1e-4);
+    assert!(
+        refusal(&format!("{rows}P;17,5;kW;0,08\n"))
+            .contains("the estimate of the result is 17,5 kW")
+    );
+    let text = "V20 = V*(1 - 3*alpha*(t - 20 °C))\nSymbol;Value;Unit;u\nV;100;mL;0,1\nalpha;1e-5;1/°C;1e-6\n\
+                t;25;°C;0,2\nV20;99,985;mL;0,1\n";
+    assert!((result(text)[0] - 99.985).abs() < 1e-9);
+    assert_eq!(estimates("Quantity;Value (nominal);Correction;Unit;u\nA;10;0,1;V;0,02\n"), [10.1]);
+}

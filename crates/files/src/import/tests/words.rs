@@ -147,6 +147,8 @@ fn totals_of_tables_without_estimates() {
         "Beitrag;Unsicherheit (mV);Verteilung;Teiler;Standardunsicherheit (mV)\nPuffer;0,3;Rechteck;1,73;0,17\n\
          Temperatur;0,5;Rechteck;1,73;0,29\nuc;;;;0,34\nU;;;;0,68\n",
         "Component,u (mV)\nA,0.1\nB,0.2\nuc,0.22\nU,0.45\n",
+        "Type,Component,Value,Distribution,Divisor,Std unc (µV)\nA,Repeatability,1.2,normal,1,1.2\n\
+         B,Reference,3,normal,2,1.5\nCombined,,,,,1.92\nExpanded (k=2),,,,,3.84\n",
         "No,Source,Uncertainty (±),Unit,Prob. Dist.,Divisor,Ci,Std Uncertainty,DOF\n\
          1,Repeatability,0.02,mm,Normal,1,1,0.02,4\n2,Resolution,0.01,mm,Rectangular,1.732,1,0.0058,\n\
          ,Combined Uncertainty,,,,,,0.021,\n,Effective DOF,,,,,,5,\n,Coverage Factor,,,,,,2.57,\n",
@@ -231,4 +233,12 @@ fn rows_with_a_unit_of_their_own_beside_that_of_all_values() {
     let (found, budget) = uncertainties(text);
     assert!((found[1] / (0.7 / 3f64.sqrt()) - 1.0).abs() < 1e-12, "{found:?}");
     assert!(!guesses(&budget, "the sheet says"), "{:?}", budget.guessed);
+}
+
+/// A total without a word was a quantity: 0.32 mV for 0.22 mV.
+#[test]
+fn rows_without_a_name() {
+    let error = refusal("Component,u (mV),Remark\nA,0.1,\nB,0.2,\n,0.22,root sum of squares\n");
+    assert!(error.contains("a row without a name has an uncertainty alone"), "{error}");
+    assert!(error.contains("b.csv:4:1"), "{error}");
 }
