@@ -199,6 +199,9 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "uncertainty",
             "expanded uncertainty",
             "expanded u",
+            "expanded unc",
+            "exp. unc",
+            "exp. uncertainty",
             "u",
             "a",
             "limit",
@@ -536,6 +539,9 @@ const RESULTS: &[&str] = &[
     "quadratic sum",
     "quadratische summe",
     "somme quadratique",
+    "sum in quadrature",
+    "quadrature sum",
+    "geometrische summe",
     "measurement result",
     "overall",
     "overall uncertainty",
@@ -609,10 +615,15 @@ pub(crate) fn is_nominal(heading: &str) -> bool {
         || ["(nominal", "(nennwert"].iter().any(|of| small.contains(of))
 }
 
+/// Whether a heading is the symbol of standard deviations of readings; a capital letter may be anything.
+fn is_deviation_symbol(heading: &str) -> bool {
+    matches!(symbol::before_unit(heading).trim(), "s" | "s_i" | "s(x)" | "s(x_i)" | "s(xi)")
+}
+
 /// Whether a heading speaks of a standard deviation.
 pub(super) fn is_deviation(heading: &str) -> bool {
     let words = plain(heading);
-    if matches!(symbol::before_unit(heading).trim(), "s" | "s_i" | "s(x)" | "s(x_i)" | "s(xi)") {
+    if is_deviation_symbol(heading) {
         return true;
     }
     [
@@ -703,10 +714,6 @@ pub(crate) fn column(text: &str) -> Option<Column> {
     let compact: String = text.to_lowercase().split_whitespace().collect();
     match compact.as_str() {
         "u(xi)" | "u(x_i)" | "u(x)" => return Some(Column::Std),
-        // of readings; a capital letter may be anything
-        "s" | "s_i" | "s(x)" | "s(x_i)" | "s(xi)" if text.trim().starts_with('s') => {
-            return Some(Column::Std);
-        }
         "u(xi)/xi" | "u(x_i)/x_i" | "u(x)/x" => return Some(Column::Relative),
         // the symbol of relative ones in ISO 376 and others
         "w(xi)" | "w(x_i)" | "w(x)" => return Some(Column::Relative),
@@ -991,6 +998,8 @@ impl Header {
                 // `u` beside what is divided is the quotient
                 let mut found = match (is_estimate, column(cell)) {
                     (true, _) => Some(Column::Estimate),
+                    // `s` of readings, which is no uncertainty of a comparison's results
+                    (false, None) if is_deviation_symbol(cell) => Some(Column::Std),
                     // `X` and `x` side by side, and the names of the contributions
                     (false, None) if matches!(cell.trim(), "X" | "x") => {
                         has_names(cells, line, place).then_some(Column::Symbol)

@@ -2,7 +2,7 @@
 //! 2.53). Their sum is the estimate.
 
 use super::Budget;
-use super::columns::{Column, Header, MEASURED, is_nominal, place_of, plain};
+use super::columns::{Column, Header, MEASURED, is_deviation, is_nominal, place_of, plain};
 use super::grid::Cells;
 use super::number::number_with_unit;
 use super::rows::Row;
@@ -77,7 +77,18 @@ impl Header {
             [plain(symbol::before_unit(heading)), plain(heading)]
         };
         let is_of = |header: &Self, place: usize, all: &[&str]| {
-            head(header, place).iter().any(|words| all.contains(&words.as_str()))
+            // `Measured deviation`, but no permissible one
+            let is_it = |words: &String, of: &str| {
+                let before = words.strip_suffix(of).and_then(|before| before.strip_suffix(' '));
+                let is_limit = |before: &str| {
+                    ["max", "perm", "zul", "allow", "tol"]
+                        .iter()
+                        .any(|limit| before.contains(limit))
+                };
+                words == of || before.is_some_and(|before| !is_limit(before))
+            };
+            !is_deviation(header.heading(place))
+                && head(header, place).iter().any(|words| all.iter().any(|of| is_it(words, of)))
         };
         let found: Vec<usize> =
             self.unknown.iter().copied().filter(|place| changes(*place)).collect();

@@ -518,7 +518,7 @@ impl Budget<'_> {
                 "has neither a sensitivity coefficient nor a distribution"
             });
         }
-        if bare(last) && last.sensitivity.is_none() && !is_constant {
+        if bare(last) && last.sensitivity.is_none() && last.distribution.is_none() && !is_constant {
             return others.iter().all(|row| !bare(row)).then_some(NO_UNCERTAINTY);
         }
         // a sum of two rows may be a third one by chance, with its uncertainty as well hardly
@@ -538,11 +538,22 @@ impl Budget<'_> {
             stated.map(|u| near(column, u, combined) || near(column, u, 2.0 * combined));
         let is_sum = last.estimate.is_some_and(|estimate| near(Column::Estimate, estimate, sum));
         let is_shaped = last.distribution.is_some_and(|shape| shape != "normal");
-        let is_combined_alone = last.estimate.is_none()
-            && is_alone
-            && is_combined == Some(true)
-            && others.iter().all(|row| row.estimate.is_some());
-        if others.len() > 1 && is_combined_alone && last.dof.is_none() {
+        let is_combined_alone =
+            last.estimate.is_none() && is_alone && is_combined == Some(true) && last.dof.is_none();
+        // where no row has an estimate, the others have what uncertainties are divided by
+        let have_estimates = others.iter().all(|row| row.estimate.is_some());
+        let are_divided = last.divisor.is_none()
+            && others.iter().all(|row| row.divisor.is_some() || row.distribution.is_some());
+        if others.len() > 1 && is_combined_alone && !have_estimates && !are_divided {
+            let reason = format!(
+                "`{}` has the combined uncertainty of the rows above, and can be the result or a further \
+                 quantity: name the result `Combined`, or give the others their estimates",
+                last.name
+            );
+            self.fail(last.line, reason);
+            return None;
+        }
+        if others.len() > 1 && is_combined_alone {
             return Some("has no estimate, and the combined uncertainty of the others");
         }
         if others.len() < 2 || !is_sum || is_constant || is_shaped {

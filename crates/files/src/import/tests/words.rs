@@ -242,3 +242,25 @@ fn rows_without_a_name() {
     assert!(error.contains("a row without a name has an uncertainty alone"), "{error}");
     assert!(error.contains("b.csv:4:1"), "{error}");
 }
+
+/// Two columns of uncertainties of which each row has one, and totals under other words.
+#[test]
+fn uncertainties_in_two_columns_and_totals_under_other_words() {
+    for heading in ["Expanded U (k=2)", "Expanded unc. (k=2)"] {
+        let text = format!(
+            "Term;Value;Unit;{heading};Error limits;Distribution\nA;1;V;0,02;;normal\nB;0;V;;0,01;rectangular\n"
+        );
+        let error = refusal(&text);
+        assert!(error.contains("may both be the stated uncertainty"), "{heading}: {error}");
+    }
+    let head =
+        "Source,Type,Uncertainty ± (V),k,u (V)\nRef,B,0.002,2,0.001\nRep,A,0.0005,1,0.0005\n";
+    for words in ["Sum in quadrature", "All together"] {
+        assert_eq!(uncertainties(&format!("{head}{words},,,,0.00112\n")).0.len(), 2, "{words}");
+    }
+    let error = refusal("Component,u (V)\nRef,0.001\nRep,0.0005\nAll together,0.00112\n");
+    assert!(error.contains("can be the result or a further quantity"), "{error}");
+    let text = "Symbol;Nominal value;Measured deviation;Unit;u\nL;100;0,003;mm;0,001\n";
+    let (_, budget) = uncertainties(text);
+    assert_eq!(task(&budget).rows[0].distributions[0].mean(), 100.003);
+}
