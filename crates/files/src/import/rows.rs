@@ -540,11 +540,12 @@ impl Budget<'_> {
         let is_shaped = last.distribution.is_some_and(|shape| shape != "normal");
         let is_combined_alone =
             last.estimate.is_none() && is_alone && is_combined == Some(true) && last.dof.is_none();
+        let may_be_total = is_combined_alone && last.divisor.is_none() && !last.is_type_a;
         // where no row has an estimate, the others have what uncertainties are divided by
         let have_estimates = others.iter().all(|row| row.estimate.is_some());
         let are_divided = last.divisor.is_none()
             && others.iter().all(|row| row.divisor.is_some() || row.distribution.is_some());
-        if others.len() > 1 && is_combined_alone && !have_estimates && !are_divided {
+        if others.len() > 1 && may_be_total && !have_estimates && !are_divided {
             let reason = format!(
                 "`{}` has the combined uncertainty of the rows above, and can be the result or a further \
                  quantity: name the result `Combined`, or give the others their estimates",
@@ -553,7 +554,7 @@ impl Budget<'_> {
             self.fail(last.line, reason);
             return None;
         }
-        if others.len() > 1 && is_combined_alone {
+        if others.len() > 1 && is_combined_alone && (have_estimates || may_be_total) {
             return Some("has no estimate, and the combined uncertainty of the others");
         }
         if others.len() < 2 || !is_sum || is_constant || is_shaped {

@@ -258,6 +258,10 @@ fn uncertainties_in_two_columns_and_totals_under_other_words() {
     for words in ["Sum in quadrature", "All together"] {
         assert_eq!(uncertainties(&format!("{head}{words},,,,0.00112\n")).0.len(), 2, "{words}");
     }
+    // by chance
+    let text = "Uncertainty component,Type,Value,Divisor,Standard uncertainty (µm)\nu1,B,0.10 µm,2,0.05\n\
+                u2,B,0.5 µm,√3,0.289\nu3,A,0.3 µm,1,0.3\n";
+    assert_eq!(uncertainties(text).0.len(), 3);
     let error = refusal("Component,u (V)\nRef,0.001\nRep,0.0005\nAll together,0.00112\n");
     assert!(error.contains("can be the result or a further quantity"), "{error}");
     let text = "Symbol;Nominal value;Measured deviation;Unit;u\nL;100;0,003;mm;0,001\n";
