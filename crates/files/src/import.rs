@@ -3,9 +3,11 @@
 //! A budget is a table somewhere on a sheet: a header, one row for each quantity, perhaps a row of
 //! the result, perhaps the equation. What is found is said, and so is what had to be guessed.
 
+mod bare_number;
 pub(crate) mod both;
 pub(crate) mod columns;
 pub(crate) mod concise;
+mod corrected;
 pub(crate) mod coverage;
 mod cut;
 mod document;
@@ -16,6 +18,7 @@ pub(crate) mod heading;
 mod limits;
 mod linear;
 pub(crate) mod mark;
+mod negligible;
 pub(crate) mod number;
 mod own;
 mod pint;
@@ -26,6 +29,8 @@ mod signs;
 mod stated;
 mod suncal;
 mod symbol;
+mod temperature;
+mod title;
 mod yaml;
 
 use crate::open::{FileKind, are_results};
@@ -45,6 +50,7 @@ use gumption_units::Unit;
 use number::value;
 use rows::{Row, Table};
 use sheets::Chosen;
+use stated::Stated;
 
 /// A model file that was made of a budget.
 #[derive(Clone, Debug, PartialEq)]
@@ -241,8 +247,12 @@ impl Budget<'_> {
             let text = column.map_or("", |(place, _)| header.heading(*place));
             self.guessed.push(format!(
                 "`{text}` is taken for half-widths and expanded uncertainties, as its numbers over \
-                 the divisors are the standard uncertainties; estimates are 0"
+                 the divisors are the standard uncertainties or make the contributions; estimates are 0"
             ));
+        }
+        if let Some((text, unit)) = &header.unit_of_all {
+            self.understood
+                .push(format!("`{text}`: {unit} is the unit of the columns that say none"));
         }
         let readings = header.number_of_readings(self.cells);
         for place in header.unknown.iter().filter(|place| readings != Some(**place)) {
@@ -264,7 +274,7 @@ impl Budget<'_> {
             self.fail(line, reason);
             return None;
         }
-        let (equations, unread) = match found.of_result(&known) {
+        let (mut equations, unread) = match found.of_result(&known) {
             Ok(Equations { read, unread, .. }) => (read, unread),
             Err((line, reason)) => {
                 self.fail(line, reason);
@@ -284,7 +294,12 @@ impl Budget<'_> {
         }
         let measured = equations.last().map(|equation| equation.name.clone());
         let used: Vec<String> = equations.iter().flat_map(Equation::names).collect();
-        let Table { rows, result, stated, factor } = self.rows(&header, measured.as_deref(), &used);
+        let Table { mut rows, result, stated, factor } =
+            self.rows(&header, measured.as_deref(), &used);
+        if !equations.is_empty() {
+            self.differences_in_kelvin(&mut rows);
+            self.units_of_bare_numbers(&rows, &mut equations);
+        }
         self.needs_estimates(&header, &rows, &equations);
         let has_coefficients = rows.iter().any(|row| row.sensitivity.is_some());
         self.unread(&unread, has_coefficients || !equations.is_empty(), &equations, &known);
@@ -321,7 +336,7 @@ impl Budget<'_> {
                 if unit.is_empty() { self.unit_of_equation(&rows, &equations) } else { unit };
             let model = |checked| document(title, &rows, &formulas, &unit, checked);
             let line = equations.last().map_or(0, |equation| equation.line);
-            let made = self.checked(&rows, &unit, line, &model)?;
+            let made = self.checked((&rows, &stated), &unit, line, &model)?;
             self.of_numbers(made, &stated, &model)
         };
         self.compare(&made, &stated, factor)?;
@@ -402,11 +417,11 @@ impl Budget<'_> {
     }
 
     /// The model with a check of units where it passes; without it only where numbers in the units of
-    /// the sheet give the same as those in SI units, and no two quantities of different dimension are
-    /// added or compared; `line` is that of the equation.
+    /// the sheet give the same as those in SI units, or the estimate that the sheet states, and no two quantities
+    /// of different dimension are added or compared; `line` is that of the equation.
     fn checked(
         &mut self,
-        rows: &[Row],
+        (rows, stated): (&[Row], &[Stated]),
         unit: &str,
         line: usize,
         model: &impl Fn(bool) -> String,
@@ -432,7 +447,8 @@ impl Budget<'_> {
                     Unit::parse(unit)
                         .is_ok_and(|unit| unit.factor() != 1.0 || unit.zero().is_some())
                 });
-                if let Some(scaled) = scaled {
+                let is_stated = scaled.is_some() && stated::is_of_numbers(&without, stated);
+                if let Some(scaled) = scaled.filter(|_| !is_stated) {
                     let text = format!(
                         "the equation does not pass the check of units, without which `{scaled}` would \
                          not be converted: {reason}"

@@ -86,14 +86,19 @@ pub(super) fn kind(
     // certificates of one kind of result name it once, and its values `Measured value`
     let results = node.ancestors().filter(|above| above.tag_name().name() == "result");
     let mut names = names(node).into_iter().chain(results.flat_map(names));
-    let is_named = |name: &String| OF_NAMES.iter().any(|word| name.to_lowercase().contains(word));
-    if let Some(name) = names.find(is_named) {
+    if let Some(name) = names.find(|name| is_of_difference(name)) {
         return Ok(TemperatureKind::Named(name));
     }
     let unit = &measured.unit;
     let kelvin = measured.values.iter().map(|value| value * unit.factor());
     let cold = kelvin.filter(|value| unit.zero().is_none() && *value < COLD);
     Ok(cold.reduce(f64::min).map_or(TemperatureKind::Value, TemperatureKind::NearZero))
+}
+
+/// Whether a name has a word of differences in it.
+pub(crate) fn is_of_difference(name: &str) -> bool {
+    let small = name.to_lowercase();
+    OF_NAMES.iter().any(|word| small.contains(word))
 }
 
 /// Whether a unit is one of temperatures, and of their differences.

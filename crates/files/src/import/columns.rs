@@ -18,6 +18,8 @@ pub(crate) enum Column {
     Symbol,
     Quantity,
     Estimate,
+    /// What is added to the estimates.
+    Correction,
     Unit,
     /// The unit of the uncertainties alone.
     UnitOfUncertainty,
@@ -75,7 +77,10 @@ pub(super) const MEASURED: [&str; 27] = [
 
 /// The words of each column, without what stands in brackets.
 pub(super) const WORDS: &[(Column, &[&str])] = &[
-    (Column::Symbol, &["symbol", "formelzeichen", "x_i", "xi", "zeichen", "symbole"]),
+    (
+        Column::Symbol,
+        &["sym", "símbolo", "symbol", "formelzeichen", "x_i", "xi", "zeichen", "symbole"],
+    ),
     (
         Column::Quantity,
         &[
@@ -84,6 +89,18 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "input quantity",
             "influence quantity",
             "influence factor",
+            "influence",
+            "influences",
+            "effect",
+            "contributor",
+            "error source",
+            "source of error",
+            "sources of uncertainty",
+            "uncertainty contribution source",
+            "input parameter",
+            "input variable",
+            "variable",
+            "term",
             "name",
             "source",
             "source of uncertainty",
@@ -106,6 +123,13 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "einflussgröße",
             "einflussgrösse",
             "einflussgroesse",
+            "einfluss",
+            "einflüsse",
+            "einflussfaktor",
+            "beitragsgröße",
+            "unsicherheitskomponente",
+            "komponente",
+            "parameter x_i",
             "bezeichnung",
             "beschreibung",
             "grandeur",
@@ -114,6 +138,20 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "source d'incertitude",
             "composante",
             "désignation",
+            "sources d'incertitude",
+            "facteur d'influence",
+            "origine",
+            "cause",
+            "paramètre",
+            "magnitud",
+            "magnitud de entrada",
+            "magnitud de influencia",
+            "fuente",
+            "fuente de incertidumbre",
+            "fuentes de incertidumbre",
+            "componente",
+            "componente de incertidumbre",
+            "descripción",
         ],
     ),
     (
@@ -138,9 +176,18 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "meilleure estimation",
             "valeur nominale",
             "moyenne",
+            "valor",
+            "estimación",
+            "valor estimado",
+            "mejor estimación",
+            "valor nominal",
+            "media",
         ],
     ),
-    (Column::Unit, &["unit", "units", "einheit", "einheiten", "unité", "unités"]),
+    (
+        Column::Unit,
+        &["unit", "units", "einheit", "einheiten", "unité", "unités", "unidad", "unidades"],
+    ),
     (
         Column::Width,
         &[
@@ -151,10 +198,23 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "value ±",
             "uncertainty",
             "expanded uncertainty",
+            "expanded u",
+            "expanded unc",
+            "exp. unc",
+            "exp. uncertainty",
             "u",
             "a",
             "limit",
             "limits",
+            "error limit",
+            "error limits",
+            "accuracy",
+            "max error",
+            "max. error",
+            "maximum error",
+            "genauigkeit",
+            "limits of error",
+            "limit of error",
             "half-width",
             "half width",
             "halfwidth",
@@ -167,6 +227,8 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "stated uncertainty",
             "unsicherheit",
             "halbbreite",
+            "halbe breite",
+            "halbe weite",
             "halbweite",
             "grenze",
             "grenzen",
@@ -194,6 +256,15 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "gesamtbreite",
             "spannweite",
             "étendue",
+            "incertidumbre",
+            "incertidumbre expandida",
+            "semiamplitud",
+            "semiancho",
+            "semirango",
+            "límite",
+            "límites",
+            "tolerancia",
+            "error máximo permitido",
         ],
     ),
     (
@@ -259,6 +330,11 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "std. messunsicherheit",
             "incertitude-type",
             "incertitude type",
+            "sd",
+            "incertidumbre típica",
+            "incertidumbre estándar",
+            "desviación típica",
+            "desviación estándar",
             "écart-type",
             "écart type",
         ],
@@ -309,6 +385,9 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "probability density",
             "probability density function",
             "densité de probabilité",
+            "distribución",
+            "distribución de probabilidad",
+            "tipo de distribución",
             "loi",
             "loi de probabilité",
             "distribution de probabilité",
@@ -318,6 +397,8 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
         Column::Divisor,
         &[
             "divisor",
+            "div",
+            "divided by",
             "k",
             "k factor",
             "k-factor",
@@ -333,6 +414,7 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "facteur d'élargissement",
             "facteur",
             "multiplier",
+            "factor de cobertura",
         ],
     ),
     (
@@ -353,6 +435,11 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "|ci|",
             "|c_i|",
             "sensitivity coeff",
+            "sens",
+            "sens coeff",
+            "sens coef",
+            "sens. coef",
+            "sensitivity coef",
             "sens. coeff",
             "sens.-koeff",
             "sens. koeff",
@@ -360,6 +447,10 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "sensitivitäts-koeff",
             "sensitivitäts-koeffizient",
             "coefficient de sensibilité",
+            "coeficiente de sensibilidad",
+            "coef. de sensibilidad",
+            "sensibilidad",
+            "sensibilité",
         ],
     ),
     (
@@ -382,12 +473,16 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "effektive freiheitsgrade",
             "degrés de liberté",
             "ddl",
+            "grados de libertad",
         ],
     ),
     (
         Column::Contribution,
         &[
             "contribution",
+            "contributions",
+            "beiträge",
+            "unsicherheitsbeiträge",
             "uncertainty contribution",
             "u_i(y)",
             "ui(y)",
@@ -397,6 +492,8 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "uns. beitrag",
             "unsicherheits-beitrag",
             "contribution à l'incertitude",
+            "contribución",
+            "contribución a la incertidumbre",
             "ci*ui",
             "c_i*u_i",
             "c*u",
@@ -442,6 +539,9 @@ const RESULTS: &[&str] = &[
     "quadratic sum",
     "quadratische summe",
     "somme quadratique",
+    "sum in quadrature",
+    "quadrature sum",
+    "geometrische summe",
     "measurement result",
     "overall",
     "overall uncertainty",
@@ -478,6 +578,13 @@ const RESULTS: &[&str] = &[
     "total standard uncertainty",
     "gesamtunsicherheit",
     "incertitude totale",
+    "resultado",
+    "mensurando",
+    "suma",
+    "total combinado",
+    "suma cuadrática",
+    "incertidumbre total",
+    "factor de cobertura",
 ];
 
 /// Whether a row's words are those of the sum of some rows above it.
@@ -503,14 +610,26 @@ pub(super) fn is_standard_symbol(heading: &str) -> bool {
 /// Whether a heading speaks of nominal values.
 pub(crate) fn is_nominal(heading: &str) -> bool {
     let words = plain(heading);
+    let small = heading.to_lowercase();
     ["nominal", "nennwert", "valeur nominale"].iter().any(|of| words.starts_with(of))
+        || ["(nominal", "(nennwert"].iter().any(|of| small.contains(of))
+}
+
+/// Whether a heading is the symbol of standard deviations of readings; a capital letter may be anything.
+fn is_deviation_symbol(heading: &str) -> bool {
+    matches!(symbol::before_unit(heading).trim(), "s" | "s_i" | "s(x)" | "s(x_i)" | "s(xi)")
 }
 
 /// Whether a heading speaks of a standard deviation.
-fn is_deviation(heading: &str) -> bool {
+pub(super) fn is_deviation(heading: &str) -> bool {
     let words = plain(heading);
+    if is_deviation_symbol(heading) {
+        return true;
+    }
     [
         "standard deviation",
+        "desviación",
+        "sd",
         "standardabweichung",
         "écart-type",
         "écart type",
@@ -537,7 +656,10 @@ impl Column {
     /// Whether its cells are numbers of a quantity, in units.
     fn is_of_numbers(self) -> bool {
         self.is_of_place()
-            || matches!(self, Self::Width | Self::Std | Self::Relative | Self::Contribution)
+            || matches!(
+                self,
+                Self::Correction | Self::Width | Self::Std | Self::Relative | Self::Contribution
+            )
     }
 
     /// Whether its cells are values of a quantity, which may lie below zero.
@@ -551,6 +673,7 @@ impl Column {
             Self::Symbol => "symbol",
             Self::Quantity => "quantity",
             Self::Estimate => "estimate",
+            Self::Correction => "correction",
             Self::Unit => "unit",
             Self::UnitOfUncertainty => "unit of the uncertainty",
             Self::Width => "stated uncertainty (+-)",
@@ -612,14 +735,24 @@ pub(crate) fn column(text: &str) -> Option<Column> {
     if words.is_empty() {
         return None;
     }
-    let exact = WORDS.iter().find(|(_, all)| all.contains(&words.as_str()));
+    // as cells break words: `Standardmess-unsicherheit`
+    let joined = words.replace("- ", "").replace('-', "");
+    let product = compact.replace(['·', '×', '⋅'], "*").replace('|', "");
+    let exact = WORDS
+        .iter()
+        .find(|(_, all)| all.contains(&words.as_str()))
+        .or_else(|| WORDS.iter().find(|(_, all)| all.contains(&joined.as_str())))
+        .or_else(|| WORDS.iter().find(|(_, all)| all.contains(&product.as_str())));
     // `estimate x_i`, `standard uncertainty u(x_i)`: the longest words that begin it
     let begins = || {
         let mut found: Option<(usize, Column)> = None;
         for (column, all) in WORDS {
             for word in all.iter().filter(|word| word.len() > 3) {
                 let behind = words.strip_prefix(*word);
-                if behind.is_some_and(|rest| rest.starts_with([' ', ',', '/']))
+                // the accuracy class of an instrument is no accuracy
+                let continues =
+                    |rest: &str| rest.starts_with([' ', ',', '/']) && !rest.contains("class");
+                if behind.is_some_and(continues)
                     && found.is_none_or(|(length, _)| word.len() > length)
                 {
                     found = Some((word.len(), *column));
@@ -646,7 +779,21 @@ pub(crate) fn column(text: &str) -> Option<Column> {
             found => Some(found).filter(|found| found.is_of_numbers()),
         }
     };
-    exact.map(|(column, _)| *column).or_else(begins).or_else(one_of_two).or_else(quotient)
+    // `U (k=2) µm`
+    let with_unit = || {
+        let (word, unit) = words.split_once(' ')?;
+        let written = text.trim().get(text.trim().len().checked_sub(unit.len())?..)?;
+        let is_unit = written.parse::<f64>().is_err()
+            && (Unit::parse(written).is_ok() || unit_as_meant(written).is_some());
+        let found = WORDS.iter().find(|(_, all)| all.contains(&word))?;
+        Some(found.0).filter(|found| is_unit && found.is_of_numbers())
+    };
+    exact
+        .map(|(column, _)| *column)
+        .or_else(begins)
+        .or_else(one_of_two)
+        .or_else(quotient)
+        .or_else(with_unit)
 }
 
 /// What a header that speaks of units beside another column's words names: `Uncertainty unit`, `Unit of
@@ -824,6 +971,8 @@ pub(super) struct Header {
     units: Vec<(Column, String)>,
     /// Whether a column that is headed like one of estimates holds what is divided by the divisors.
     pub(super) has_widths_as_values: bool,
+    /// The unit that a line beside the table states for all values, with that line.
+    pub(super) unit_of_all: Option<(String, String)>,
     /// What cannot be read in one way.
     pub(super) doubtful: Vec<String>,
 }
@@ -847,8 +996,23 @@ impl Header {
                         || place_of(&columns, Column::Quantity).is_some()
                             && has_numbers_alone(cells, line, place));
                 // `u` beside what is divided is the quotient
+                let mut found = match (is_estimate, column(cell)) {
+                    (true, _) => Some(Column::Estimate),
+                    // `s` of readings, which is no uncertainty of a comparison's results
+                    (false, None) if is_deviation_symbol(cell) => Some(Column::Std),
+                    // `X` and `x` side by side, and the names of the contributions
+                    (false, None) if matches!(cell.trim(), "X" | "x") => {
+                        has_names(cells, line, place).then_some(Column::Symbol)
+                    }
+                    (false, Some(Column::Contribution))
+                        if has_names(cells, line, place)
+                            && place_of(&columns, Column::Quantity).is_none() =>
+                    {
+                        Some(Column::Quantity)
+                    }
+                    (false, found) => found,
+                };
                 let width = columns.iter_mut().find(|(_, known)| *known == Column::Width);
-                let mut found = if is_estimate { Some(Column::Estimate) } else { column(cell) };
                 if let Some((known, of)) = width
                     && found == Some(Column::Width)
                 {
@@ -924,6 +1088,7 @@ impl Header {
                 unknown.extend(alone.map(|(place, _)| place));
             }
             Self::cells_of_both(&of_both, line, &mut columns);
+            let has_widths_as_values = widths_by_contributions(cells, line, &mut columns);
             let has = |wanted: Column| columns.iter().any(|(_, column)| *column == wanted);
             let enough = has(Column::Quantity) && Column::UNCERTAIN.into_iter().any(has);
             if enough && best.as_ref().is_none_or(|best| columns.len() > best.columns.len()) {
@@ -934,13 +1099,15 @@ impl Header {
                     columns,
                     unknown,
                     units: Vec::new(),
-                    has_widths_as_values: false,
+                    has_widths_as_values,
+                    unit_of_all: None,
                     doubtful: Vec::new(),
                 });
             }
         }
         let mut best = best?;
         best.measured_values(cells);
+        best.corrections(cells);
         best.bare_coefficients();
         best.named_distributions(cells);
         best.types_of_evaluations(cells);
@@ -959,6 +1126,7 @@ impl Header {
         }
         best.coverages(cells);
         best.units_below(cells);
+        best.unit_of_all(cells);
         Some(best)
     }
 
@@ -1148,17 +1316,8 @@ impl Header {
     /// A column of numbers that nothing names and whose words may be those of sensitivity coefficients;
     /// 1 in every row is none that changes anything.
     pub(super) fn possible_coefficients(&self, cells: &Cells) -> Option<usize> {
-        const WORDS: [&str; 9] = [
-            "coeff",
-            "coef",
-            "koeff",
-            "c_i",
-            "facteur",
-            "faktor",
-            "factor",
-            "empfindlich",
-            "sensib",
-        ];
+        const WORDS: [&str; 9] =
+            ["coeff", "coef", "koeff", "c_i", "facteur", "faktor", "factor", "empfindlich", "sens"];
         if self.has(Column::Sensitivity) {
             return None;
         }
@@ -1251,26 +1410,36 @@ impl Header {
         {
             return;
         }
+        let is_behind = place_of(Column::Std) > place_of(Column::Sensitivity);
+        let coefficients = place_of(Column::Sensitivity).filter(|_| {
+            of_quotients == Column::Std && is_behind && !self.has(Column::Contribution)
+        });
         let comma = cells.decimal_comma();
         let of = |line: usize, column: Column| value(self.cell(cells, line, column).trim(), comma);
-        let rows: Vec<[f64; 3]> = (self.line + 1..cells.lines())
+        let rows: Vec<[f64; 4]> = (self.line + 1..cells.lines())
             .filter_map(|line| {
                 let all = [Column::Estimate, Column::Divisor, of_quotients];
                 let [value, divisor, std] = all.map(|column| of(line, column));
-                Some([value?, divisor?, std?])
+                let c = coefficients.map_or(Some(1.0), |_| of(line, Column::Sensitivity));
+                Some([value?, divisor?, std?, c?])
             })
             .collect();
         // factors below 1 multiply
         let multiplies = is_of_factors(self.heading_of(Column::Divisor));
-        let is_width = |[value, divisor, std]: &[f64; 3]| {
+        let is_width = |[value, divisor, std, _]: &[f64; 4]| {
             let is_factor = multiplies && *divisor < 1.0;
             let found = if is_factor { value.abs() * divisor } else { value.abs() / divisor };
             (found - std).abs() <= ROUNDED * std.abs() && *std > 0.0
         };
-        if rows.len() >= 2 && rows.iter().all(is_width) {
+        // `ui` behind the coefficients may be their products with the quotients
+        let is_contribution =
+            |[value, divisor, std, c]: &[f64; 4]| is_width(&[c * value, *divisor, std.abs(), 1.0]);
+        let are_widths = rows.len() >= 2 && rows.iter().all(is_width);
+        let are_contributions = rows.len() >= 2 && !are_widths && rows.iter().all(is_contribution);
+        if are_widths || are_contributions {
             for (_, column) in &mut self.columns {
                 if *column == of_quotients {
-                    *column = Column::Std;
+                    *column = if are_widths { Column::Std } else { Column::Contribution };
                 } else if *column == Column::Estimate {
                     *column = Column::Width;
                 }
@@ -1327,6 +1496,13 @@ impl Header {
                      `Standard uncertainty`, with a column of degrees of freedom"
                 ));
             }
+        }
+        let coefficients = self.heading_of(Column::Sensitivity).trim();
+        if coefficients.to_lowercase().contains("rel") {
+            self.doubtful.push(format!(
+                "`{coefficients}`: relative coefficients are the exponents of a product: write the equation (`y \
+                 = a*b^2`), and estimates and uncertainties as they are"
+            ));
         }
         let beside = self.unknown.iter().find(|place| is_deviation(self.heading(**place)));
         if let Some(&place) = beside {
@@ -1446,10 +1622,68 @@ impl Header {
         self.headings.get(place).map_or("", String::as_str)
     }
 
+    /// The units that columns state for their numbers.
+    pub(super) fn units_of_columns(&self) -> impl Iterator<Item = &str> {
+        self.units.iter().map(|(_, unit)| unit.as_str())
+    }
+
+    /// Takes a unit for the columns of numbers that state none; whether there is such a one.
+    pub(super) fn take_unit_of_all(&mut self, unit: &str) -> bool {
+        let columns: Vec<Column> = self.columns.iter().map(|(_, column)| *column).collect();
+        let count = self.units.len();
+        for column in columns {
+            if column.is_of_numbers() && column != Column::Relative && self.unit(column).is_none() {
+                self.units.push((column, unit.to_owned()));
+            }
+        }
+        self.units.len() > count
+    }
+
     /// The unit that a column states for its numbers.
     pub(super) fn unit(&self, column: Column) -> Option<&str> {
         self.units.iter().find(|(of, _)| *of == column).map(|(_, unit)| unit.as_str())
     }
+}
+
+/// Takes values for widths where no column has uncertainties, and the values over the divisors, times the
+/// coefficients, are the contributions in two rows at least.
+fn widths_by_contributions(cells: &Cells, line: usize, columns: &mut [(usize, Column)]) -> bool {
+    if Column::UNCERTAIN.into_iter().any(|of| place_of(columns, of).is_some()) {
+        return false;
+    }
+    let [Some(estimate), Some(divisor), Some(contribution)] =
+        [Column::Estimate, Column::Divisor, Column::Contribution].map(|of| place_of(columns, of))
+    else {
+        return false;
+    };
+    let comma = cells.decimal_comma();
+    let number = |line: usize, place: usize| value(cells.text(line, place).trim(), comma);
+    let c = place_of(columns, Column::Sensitivity);
+    let rows: Vec<[f64; 2]> = (line + 1..cells.lines())
+        .filter_map(|line| {
+            let c = c.map_or(Some(1.0), |place| number(line, place))?;
+            let product = c * number(line, estimate)? / number(line, divisor)?;
+            Some([product.abs(), number(line, contribution)?.abs()])
+        })
+        .collect();
+    let is_it = |[product, stated]: &[f64; 2]| {
+        *stated > 0.0 && (product - stated).abs() <= ROUNDED * stated
+    };
+    let are_widths = rows.len() >= 2 && rows.iter().all(is_it);
+    if let Some((_, column)) =
+        columns.iter_mut().find(|(place, _)| are_widths && *place == estimate)
+    {
+        *column = Column::Width;
+    }
+    are_widths
+}
+
+/// Whether a column has names below a line, and no numbers.
+fn has_names(cells: &Cells, line: usize, place: usize) -> bool {
+    let texts = (line + 1..cells.lines()).map(|line| cells.text(line, place).trim());
+    let mut held = texts.filter(|text| !super::rows::is_empty(text)).peekable();
+    let comma = cells.decimal_comma();
+    held.peek().is_some() && held.all(|text| number_with_unit(text, comma).is_none())
 }
 
 /// Whether a column has numbers below a line, and nothing else.
@@ -1531,7 +1765,8 @@ pub(super) fn plain_case(text: &str) -> &str {
 
 /// Whether a row's words are those of a coverage factor.
 pub(crate) fn is_factor(words: &str) -> bool {
-    const FACTORS: [&str; 7] = [
+    const FACTORS: [&str; 8] = [
+        "factor de cobertura",
         "k",
         "k factor",
         "k-factor",
@@ -1547,9 +1782,18 @@ pub(crate) fn is_factor(words: &str) -> bool {
 /// Whether a row's words are those of the effective degrees of freedom of a result.
 pub(super) fn is_effective_dof(words: &str) -> bool {
     let words = plain(words);
-    ["effective degrees of freedom", "effektive freiheitsgrade", "degrés de liberté effectifs"]
-        .iter()
-        .any(|of| words.starts_with(of))
+    const WORDS: [&str; 9] = [
+        "effective degrees of freedom",
+        "effective dof",
+        "eff. dof",
+        "eff. degrees of freedom",
+        "effektive freiheitsgrade",
+        "eff. freiheitsgrade",
+        "degrés de liberté effectifs",
+        "ddl effectifs",
+        "grados efectivos de libertad",
+    ];
+    WORDS.iter().any(|of| words.starts_with(of))
 }
 
 /// The letter of a type of evaluation, `A`, `Type B`.
@@ -1566,7 +1810,19 @@ pub(super) fn evaluation(text: &str) -> Option<char> {
 
 /// Whether a heading is of half-widths or limits of errors, which are no standard uncertainties.
 pub(super) fn is_of_limits(heading: &str) -> bool {
-    const WORDS: [&str; 18] = [
+    const WORDS: [&str; 30] = [
+        "halbe breite",
+        "halbe weite",
+        "accuracy",
+        "max error",
+        "max. error",
+        "genauigkeit",
+        "error limit",
+        "límite",
+        "semiamplitud",
+        "semiancho",
+        "semirango",
+        "tolerancia",
         "half-width",
         "half width",
         "halfwidth",
@@ -1600,7 +1856,7 @@ pub(super) fn is_share_of_estimate(heading: &str) -> bool {
 /// Whether a row's words are those of an expanded uncertainty.
 pub(super) fn is_expanded(words: &str) -> bool {
     let words = plain(words);
-    ["expanded", "erweiterte", "élargie"].iter().any(|of| words.contains(of))
+    ["expanded", "erweiterte", "élargie", "expandida"].iter().any(|of| words.contains(of))
         && !words.contains("factor")
 }
 
@@ -1610,7 +1866,7 @@ pub(super) fn is_of_uncertainty(words: &str) -> bool {
         return true;
     }
     let words = plain(words);
-    ["uncertainty", "unsicherheit", "incertitude", "freedom", "freiheitsgrad"]
+    ["uncertainty", "unsicherheit", "incertitude", "incertidumbre", "freedom", "freiheitsgrad"]
         .iter()
         .any(|of| words.contains(of))
         || words == "combined"
@@ -1632,6 +1888,10 @@ pub(super) fn is_result(words: &str) -> bool {
             "incertitude-type composée",
             "incertitude type composée",
             "incertitude élargie",
+            "incertidumbre combinada",
+            "incertidumbre típica combinada",
+            "incertidumbre estándar combinada",
+            "incertidumbre expandida",
         ]
         .iter()
         .any(|begin| words.starts_with(begin))
@@ -1688,11 +1948,20 @@ pub(super) fn without_type(text: &str) -> &str {
     of_type(text).map_or(text, |length| text[..length].trim_end())
 }
 
-/// A name and the unit that stands in brackets behind it, `dT [K]`; `None` where there is none.
+/// A name and the unit that stands in brackets behind it, `dT [K]`, `A (mV)`; `None` where there is none. In
+/// parentheses some letters are types of evaluations and symbols.
 pub(super) fn with_unit_in_brackets(words: &str) -> Option<(&str, String)> {
-    let (name, unit) = words.trim().strip_suffix(']')?.rsplit_once('[')?;
-    let (name, unit) = (name.trim(), unit.trim());
-    if name.is_empty() || unit.is_empty() {
+    const LETTERS: [&str; 14] =
+        ["A", "B", "C", "a", "b", "c", "d", "h", "k", "n", "s", "u", "x", "1"];
+    let brackets = |open: char, close: char| words.trim().strip_suffix(close)?.rsplit_once(open);
+    let is_unit = |unit: &str| !LETTERS.contains(&unit.trim());
+    let (name, unit) =
+        brackets('[', ']').or_else(|| brackets('(', ')').filter(|(_, unit)| is_unit(unit)))?;
+    // `u(V)` and `r(m)` are names, and so is `Value (2)`
+    let is_argument = words.trim().ends_with(')') && !name.ends_with(char::is_whitespace);
+    let (name, unit) = (name.trim(), without_in(unit.trim()));
+    let is_value = unit.starts_with(|c: char| c.is_ascii_digit()) && !unit.starts_with("1/");
+    if name.is_empty() || unit.is_empty() || is_argument || is_value {
         return None;
     }
     let unit = Unit::parse(unit).map(|_| unit.to_owned()).ok().or_else(|| unit_as_meant(unit))?;

@@ -63,7 +63,14 @@ impl HeaderCoverage {
     /// Whether a text speaks of expanded uncertainties without a factor or a probability.
     fn expanded(text: &str) -> Self {
         let compact: String = text.to_lowercase().split_whitespace().collect();
-        let words = ["expanded", "erweiterte", "erw.", "incertitudeélargie", "incertitudeelargie"];
+        let words = [
+            "expanded",
+            "erweiterte",
+            "erw.",
+            "incertitudeélargie",
+            "incertitudeelargie",
+            "incertidumbreexpandida",
+        ];
         // `Uncertainty U`: the symbol stands behind the words
         let symbol = plain_case(before_unit(text)).split_whitespace().next_back();
         if words.iter().any(|word| compact.starts_with(word)) || symbol == Some("U") {

@@ -82,7 +82,18 @@ pub(super) struct Equations {
 }
 
 /// Words before an equation.
-const LABELS: [&str; 12] = [
+const LABELS: [&str; 23] = [
+    "model function",
+    "measurement model",
+    "measurement equation",
+    "mathematical model of the measurement",
+    "modellfunktion",
+    "messgleichung",
+    "fonction de mesure",
+    "ecuación",
+    "modelo",
+    "modelo matemático",
+    "fórmula",
     "equation",
     "formula",
     "model",
@@ -317,7 +328,21 @@ impl Equations {
 /// The right side of an equation of a sheet as formulas are written.
 fn as_formula(right: &str, decimal_comma: bool) -> String {
     let points = if decimal_comma { with_points(right) } else { right.to_owned() };
-    expression(&points).replace(';', ",")
+    with_degrees(&expression(&points).replace(';', ","))
+}
+
+/// `20 °C` as formulas have it, `20 [°C]`.
+fn with_degrees(text: &str) -> String {
+    let mut parts = text.split_inclusive(['C', 'F']);
+    let is_bare = |part: &str| {
+        let before = part.strip_suffix("°C").or_else(|| part.strip_suffix("°F"))?.trim_end();
+        before.ends_with(|c: char| c.is_ascii_digit()).then(|| before.to_owned())
+    };
+    let written = |part: &str| match is_bare(part) {
+        Some(before) => format!("{before} [{}]", if part.ends_with('C') { "°C" } else { "°F" }),
+        None => part.to_owned(),
+    };
+    parts.by_ref().map(written).collect()
 }
 
 /// The same where it can be read.

@@ -39,7 +39,12 @@ impl Extent {
             "demietendue",
             "±",
         ];
-        const FULL: [&str; 15] = [
+        const FULL: [&str; 20] = [
+            "peaktopeak",
+            "pktopk",
+            "pkpk",
+            "spitzespitze",
+            "crêteàcrête",
             "fullwidth",
             "fullrange",
             "fullspan",
@@ -60,6 +65,17 @@ impl Extent {
         let compact: String = signed.chars().filter(|c| c.is_alphabetic() || *c == '±').collect();
         let has = |words: &[&str]| words.iter().any(|word| compact.contains(word));
         if has(&HALF) { Some(Self::Half) } else { has(&FULL).then_some(Self::Full) }
+    }
+
+    /// What a name says in brackets or behind a comma, `Resolution (full width)`, and those words; `Full range
+    /// of the instrument` says nothing. Words with a number of their own say what that number is.
+    fn of_name(name: &str) -> Option<(Self, &str)> {
+        let mut pieces = name.split(['(', ')', '[', ']', ',', ';']).skip(1).map(str::trim);
+        pieces.find_map(|piece| {
+            let is_of_instrument = piece.to_lowercase().contains("full range");
+            let is_plain = !piece.contains(|c: char| c.is_ascii_digit()) && !is_of_instrument;
+            Some((Self::of(piece).filter(|_| is_plain)?, piece))
+        })
     }
 }
 
@@ -158,6 +174,17 @@ impl Budget<'_> {
     pub(super) fn extent(&mut self, header: &Header, row: &mut Row, between: bool) {
         self.rounded_divisor(header, row);
         let text = header.cell(self.cells, row.line, Column::Distribution).trim().to_owned();
+        let name = header.cell(self.cells, row.line, Column::Quantity).to_owned();
+        let of_name = Extent::of_name(&name);
+        let is_uncertain = row.std.is_some_and(|std| std > 0.0);
+        if let Some((Extent::Full, words)) = of_name.filter(|_| row.width.is_none() && is_uncertain)
+        {
+            let reason = format!(
+                "`{words}` in the name, but `{}` is the heading of standard uncertainties: which is it? Head the column `Half-width` and write half of the width",
+                header.heading_of(Column::Std).trim()
+            );
+            return self.fail(row.line, reason);
+        }
         let Some(width) = row.width.filter(|width| *width > 0.0 && !between) else { return };
         if let Some(word) = unknown_word(&text) {
             let reason = format!(
@@ -183,7 +210,25 @@ impl Budget<'_> {
             return;
         }
         let (of_cell, of_heading) = (Extent::of(&text), Extent::of(&heading));
+        // `±` in a heading is a sign of all its rows, which a name may say more of
+        let is_of_words =
+            of_heading.is_some_and(|_| Extent::of(&heading.replace('±', "")).is_some());
+        let others = [of_cell, of_heading.filter(|_| is_of_words)];
+        if let Some((extent, words)) = of_name
+            && let Some(other) = others.into_iter().flatten().find(|other| *other != extent)
+        {
+            let other = if other == Extent::Half { "a half-width" } else { "a full width" };
+            let reason = format!(
+                "`{words}` in the name, but the {} says {other}: which is it?",
+                if of_cell.is_some_and(|of| of != extent) { "distribution" } else { "heading" }
+            );
+            return self.fail(row.line, reason);
+        }
+        let of_name = of_name.filter(|_| of_cell.is_none());
         let whole = match (of_cell, of_heading) {
+            _ if of_name.is_some_and(|(extent, _)| extent == Extent::Full) => {
+                name.trim().to_owned()
+            }
             (Some(cell), Some(head)) if cell != head => {
                 let reason = format!(
                     "the heading `{heading}` and `{text}` contradict each other: write half-widths"
@@ -230,7 +275,11 @@ impl Budget<'_> {
             }
             None => {
                 let divisor = row.divisor.map_or_else(String::new, |divisor| {
-                    format!(" and the divisor {}", Shortest(divisor))
+                    let text = header.cell(self.cells, row.line, Column::Divisor).trim();
+                    match text {
+                        "" => format!(" and the divisor {}", Shortest(divisor)),
+                        text => format!(" and the divisor {text}"),
+                    }
                 });
                 self.fail(
                     row.line,
@@ -281,6 +330,22 @@ mod tests {
             ("rectangular (full width)", None),
         ] {
             assert_eq!(unknown_word(text), word, "{text}");
+        }
+    }
+
+    #[test]
+    fn widths_in_names() {
+        for (name, extent) in [
+            ("Resolution (full width)", Some(Extent::Full)),
+            ("Auflösung (volle Breite)", Some(Extent::Full)),
+            ("Résolution, étendue", Some(Extent::Full)),
+            ("Resolution (half-width)", Some(Extent::Half)),
+            ("Noise (peak-to-peak)", Some(Extent::Full)),
+            ("Linearity (full range)", None),
+            ("Étendue de mesure", None),
+            ("Resolution (full width 0.1 mV)", None),
+        ] {
+            assert_eq!(Extent::of_name(name).map(|(of, _)| of), extent, "{name}");
         }
     }
 

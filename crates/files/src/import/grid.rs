@@ -122,8 +122,8 @@ impl Cells {
         said
     }
 
-    /// Moves the words of totals that stand right before their numbers, `,,,,,,uc,0.304`, to where the names of
-    /// quantities stand.
+    /// Moves the words of totals that stand right before their numbers, `,,,,,,uc,0.304`, or in a column before the
+    /// names, to where the names of quantities stand.
     fn move_totals(&mut self, header: &Header) {
         let Some((place, _)) = header.columns.iter().find(|(_, of)| *of == Column::Quantity) else {
             return;
@@ -131,7 +131,10 @@ impl Cells {
         let (place, symbol) = (*place, header.columns.iter().find(|(_, of)| *of == Column::Symbol));
         for row in self.rows.iter_mut().skip(header.line + 1) {
             let Some(first) = row.iter().position(|cell| !cell.trim().is_empty()) else { continue };
-            if first <= place || symbol.is_some_and(|(symbol, _)| *symbol == first) {
+            if first == place
+                || first < place && row.get(place).is_some_and(|name| !name.trim().is_empty())
+                || symbol.is_some_and(|(symbol, _)| *symbol == first)
+            {
                 continue;
             }
             let words = row[first].trim();

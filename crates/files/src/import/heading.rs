@@ -6,7 +6,7 @@
 use super::columns::{MEASURED, WORDS, is_of_estimate, is_symbol, unit_as_meant};
 use super::coverage::Statement;
 use super::extent::Extent;
-use super::symbol;
+use super::{corrected, symbol};
 use crate::named_shape::NamedShape;
 use gumption_units::Unit;
 
@@ -129,7 +129,7 @@ fn parts(text: &str) -> (String, Vec<String>) {
 /// one. At least one, which may be empty.
 fn separated(text: &str) -> Vec<String> {
     let mut text = format!(" {text} ");
-    for sign in [" / ", " - ", " – ", " — ", " in ", ": "] {
+    for sign in [" / ", " - ", " – ", " — ", " in ", " en ", ": "] {
         text = text.replace(sign, " ; ");
     }
     let mut pieces = vec![String::new()];
@@ -151,7 +151,7 @@ fn separated(text: &str) -> Vec<String> {
 /// none.
 fn behind_words(text: &str) -> Option<&str> {
     let known = WORDS.iter().flat_map(|(_, words)| words.iter());
-    let known = known.chain(&MEASURED).chain(&RESULTS);
+    let known = known.chain(&MEASURED).chain(&RESULTS).copied().chain(corrected::words());
     known
         .filter_map(|word| behind(text, word))
         .filter(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
@@ -333,7 +333,7 @@ pub(super) fn is_scale(word: &str) -> bool {
 }
 
 /// Whether a word that is none of those known may be a unit, or change what numbers mean.
-fn may_be_unit(word: &str) -> bool {
+pub(super) fn may_be_unit(word: &str) -> bool {
     const SHORT: [&str; 68] = [
         "of", "the", "and", "or", "for", "at", "to", "by", "as", "on", "see", "cert", "type",
         "typ", "ref", "no", "nr", "lab", "est", "val", "unc", "std", "meas", "from", "with", "dev",

@@ -72,6 +72,11 @@ impl Budget<'_> {
             rows.iter().zip(&factors).map(|(row, c)| c * row.estimate.unwrap_or(0.0)).sum();
         let estimate = result.and_then(|result| result.estimate);
         let mut terms = Vec::new();
+        if estimate.is_none() {
+            terms.extend(self.shift_of_temperatures(rows, &factors, &unit));
+        }
+        let sum = sum + terms.iter().sum::<f64>();
+        let mut terms: Vec<String> = terms.into_iter().map(written).collect();
         match estimate {
             Some(estimate) if (estimate - sum).abs() > 1e-9 * estimate.abs().max(sum.abs()) => {
                 let constant = difference(estimate, sum);
@@ -108,6 +113,29 @@ impl Budget<'_> {
             });
         }
         Some(Linear { formula: terms.join(" + "), unit })
+    }
+
+    /// What is taken from a sum in which Celsius temperatures are multiplied by coefficients of a result in
+    /// another unit, and no estimate of the result is stated: those products, as their zero is none of the
+    /// result's.
+    fn shift_of_temperatures(&mut self, rows: &[Row], factors: &[f64], unit: &str) -> Option<f64> {
+        let is_celsius = |unit: &str| Unit::parse(unit).is_ok_and(|unit| unit.is_celsius());
+        if is_celsius(unit) {
+            return None;
+        }
+        let mut shift = 0.0;
+        for (row, factor) in rows.iter().zip(factors).filter(|(row, _)| is_celsius(&row.unit)) {
+            let Some(estimate) = row.estimate.filter(|estimate| *estimate != 0.0) else { continue };
+            self.guessed.push(format!(
+                "line {}: `{}` counts in the result by what it differs from its estimate, {} {}, as a coefficient multiplies no temperature",
+                row.line + 1,
+                row.name,
+                Shortest(estimate),
+                row.unit
+            ));
+            shift -= factor * estimate;
+        }
+        Some(to_15_digits(shift)).filter(|shift| *shift != 0.0)
     }
 
     /// The row whose coefficient with the other sign makes the sheet's estimate, as the end of a
@@ -197,7 +225,16 @@ impl Budget<'_> {
         let (unit, row) = match (whole, found.first()) {
             (Some(whole), Some((first, _))) if is_share(first) => whole,
             (_, Some(first)) => first,
-            (_, None) => return self.unit_of_product(rows, measurand),
+            (_, None) => {
+                let unit = self.unit_of_product(rows, measurand);
+                if unit.is_empty() && rows.iter().any(|row| !row.unit.is_empty()) {
+                    self.guessed.push(format!(
+                        "nothing says the unit of {measurand}: write it into its row; it is taken for a plain \
+                         number"
+                    ));
+                }
+                return unit;
+            }
         };
         let is_number = |row: &&Row| {
             let text = header.cell(self.cells, row.line, Column::Unit).trim();

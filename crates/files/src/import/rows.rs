@@ -1,14 +1,15 @@
 //! The rows of a budget: what their cells say, and what has to be guessed.
 
 use gumption_engine::decimal::{significant, to_15_digits};
-use gumption_engine::model::formula::check_name;
+use gumption_engine::model::formula::{Formula, check_name};
 use gumption_engine::number::Shortest;
-use gumption_units::Unit;
+use gumption_units::{Dimension, Unit};
 
 use super::columns::{self, Column, Header};
 use super::concise::concise;
 use super::coverage::{HeaderCoverage, Statement};
 use super::linear::{CONTRIBUTIONS_DIFFER, standard_uncertainty};
+use super::negligible::{self, is_negligible};
 use super::stated::{Stated, half_digit};
 use super::{Budget, equation, number};
 use crate::named_shape::NamedShape;
@@ -64,6 +65,14 @@ fn is_bare_of(row: &Row) -> bool {
         && row.distribution.is_none()
 }
 
+/// Whether a row has neither an estimate nor a coefficient, a shape or a divisor.
+fn is_bare_of_shape(row: &Row) -> bool {
+    row.estimate.is_none()
+        && row.sensitivity.is_none()
+        && row.distribution.is_none()
+        && row.divisor.is_none()
+}
+
 impl Budget<'_> {
     /// The rows of the quantities, and what the sheet says of the result; `used` are the names that
     /// the equations need.
@@ -103,7 +112,10 @@ impl Budget<'_> {
             // a symbol of results may be that of a quantity: `U` of a voltage, `p` of a pressure
             let is_after = last_uncertain.is_some_and(|last| line > last);
             let is_symbol = !used.contains(&columns::identifier(words))
-                && (columns::is_combined_symbol(words) && !self.is_quantity(header, line)
+                && (columns::is_combined_symbol(words)
+                    && (!self.is_quantity(header, line)
+                        || self.lacks_shape(header, line)
+                        || !header.has(Column::Estimate))
                     || columns::is_summary_symbol(words)
                         && (self.is_bare(header, line) && is_after
                             || self.is_figure(header, line, table.rows.len())));
@@ -158,6 +170,13 @@ impl Budget<'_> {
             if label.is_empty() && nothing {
                 continue;
             }
+            let is_nameless = label.is_empty() && symbol.is_empty() && !table.rows.is_empty();
+            if is_nameless && is_bare_of_shape(&row) {
+                let reason = "a row without a name has an uncertainty alone, which may be the combined one of the \
+                              rows above: write `Combined` or `Expanded (k=2)`, or the name of the quantity";
+                self.fail(line, reason.to_owned());
+                continue;
+            }
             if is_result || is_symbol {
                 self.surplus(header, line);
                 table.stated.extend(self.stated(header, line, &row));
@@ -178,6 +197,13 @@ impl Budget<'_> {
                 ));
                 let name = columns::identifier(words);
                 table.result = Some(Row { name, ..row });
+                continue;
+            }
+            if nothing && self.names_quantities(&label, &table.rows) {
+                let reason = format!(
+                    "`{label}` may be the equation of the result: write `y = {label}`, with its name"
+                );
+                self.fail(line, reason);
                 continue;
             }
             if nothing {
@@ -219,6 +245,7 @@ impl Budget<'_> {
             table.stated.extend(self.stated(header, last.line, &last));
             table.result = Some(last);
         }
+        self.deviations(header, &table.rows);
         self.blank_estimates(header, &table.rows);
         self.blank_uncertainties(header, &table.rows);
         self.stated_twice(header, &table.rows);
@@ -229,6 +256,30 @@ impl Budget<'_> {
             }
         }
         table
+    }
+
+    /// Whether words can be read as a formula of two quantities of the sheet at least, `A-B`.
+    fn names_quantities(&self, words: &str, rows: &[Row]) -> bool {
+        let Some(formula) = equation::readable(words, self.cells.decimal_comma()) else {
+            return false;
+        };
+        let names = Formula::parse(&formula).map_or(0, |formula| {
+            let is_known = |name: &str| rows.iter().any(|row| row.name == name);
+            let names: Vec<bool> = formula.names().map(|(name, _)| is_known(name)).collect();
+            if names.iter().all(|known| *known) { names.len() } else { 0 }
+        });
+        names > 1
+    }
+
+    /// Says how standard deviations are taken where nothing tells whether they are those of single readings.
+    fn deviations(&mut self, header: &Header, rows: &[Row]) {
+        let heading = header.heading_of(Column::Std).trim();
+        if columns::is_deviation(heading) && rows.iter().any(|row| row.std.is_some()) {
+            self.guessed.push(format!(
+                "`{heading}` is taken for the standard uncertainties: where it is of single readings, divide it \
+                 by the root of their number"
+            ));
+        }
     }
 
     /// Says which quantities have no estimate where others have one.
@@ -348,6 +399,7 @@ impl Budget<'_> {
         row.unit = self.unit(header, line, lenient);
         self.unit_of_name(header, &mut row, lenient);
         row.estimate = self.in_unit(header, line, (Column::Estimate, lenient), &mut row);
+        self.corrected(header, lenient, &mut row);
         row.width = self.in_unit(header, line, (Column::Width, lenient), &mut row);
         row.std = self.in_unit(header, line, (Column::Std, lenient), &mut row);
         self.relative(header, lenient, &mut row);
@@ -466,7 +518,7 @@ impl Budget<'_> {
                 "has neither a sensitivity coefficient nor a distribution"
             });
         }
-        if bare(last) && last.sensitivity.is_none() && !is_constant {
+        if bare(last) && last.sensitivity.is_none() && last.distribution.is_none() && !is_constant {
             return others.iter().all(|row| !bare(row)).then_some(NO_UNCERTAINTY);
         }
         // a sum of two rows may be a third one by chance, with its uncertainty as well hardly
@@ -486,11 +538,23 @@ impl Budget<'_> {
             stated.map(|u| near(column, u, combined) || near(column, u, 2.0 * combined));
         let is_sum = last.estimate.is_some_and(|estimate| near(Column::Estimate, estimate, sum));
         let is_shaped = last.distribution.is_some_and(|shape| shape != "normal");
-        let is_combined_alone = last.estimate.is_none()
-            && is_alone
-            && is_combined == Some(true)
-            && others.iter().all(|row| row.estimate.is_some());
-        if others.len() > 1 && is_combined_alone && last.dof.is_none() {
+        let is_combined_alone =
+            last.estimate.is_none() && is_alone && is_combined == Some(true) && last.dof.is_none();
+        let may_be_total = is_combined_alone && last.divisor.is_none() && !last.is_type_a;
+        // where no row has an estimate, the others have what uncertainties are divided by
+        let have_estimates = others.iter().all(|row| row.estimate.is_some());
+        let are_divided = last.divisor.is_none()
+            && others.iter().all(|row| row.divisor.is_some() || row.distribution.is_some());
+        if others.len() > 1 && may_be_total && !have_estimates && !are_divided {
+            let reason = format!(
+                "`{}` has the combined uncertainty of the rows above, and can be the result or a further \
+                 quantity: name the result `Combined`, or give the others their estimates",
+                last.name
+            );
+            self.fail(last.line, reason);
+            return None;
+        }
+        if others.len() > 1 && is_combined_alone && (have_estimates || may_be_total) {
             return Some("has no estimate, and the combined uncertainty of the others");
         }
         if others.len() < 2 || !is_sum || is_constant || is_shaped {
@@ -591,12 +655,31 @@ impl Budget<'_> {
         let has_estimate = |line: &usize| !is_empty(cell(*line, Column::Estimate));
         let is_uncertain =
             |line: &usize| Column::UNCERTAIN.iter().any(|of| !is_empty(cell(*line, *of)));
+        // where no column has estimates, the rows of quantities have shapes, or stand above the combined one
+        let is_combined = |line: &usize| {
+            let words = cell(*line, Column::Quantity);
+            columns::is_combined_symbol(words) || columns::is_result(words)
+        };
+        let has_shape = |line: &usize| {
+            let text = cell(*line, Column::Distribution);
+            !is_empty(text) && !is_factor_of(text)
+        };
+        let combined = (header.line + 1..line).rev().find(is_combined);
+        let is_of_table = |of: &usize| {
+            if header.has(Column::Estimate) {
+                has_estimate(of)
+            } else if header.has(Column::Distribution) {
+                has_shape(of) || is_combined(of)
+            } else {
+                combined.is_some_and(|combined| *of <= combined)
+            }
+        };
         quantities > 1
             && is_empty(cell(line, Column::Estimate))
             && is_empty(cell(line, Column::Sensitivity))
             && (is_empty(of_shape) || is_factor_of(of_shape))
-            && (header.line + 1..line).filter(is_uncertain).all(|line| has_estimate(&line))
-            && (line + 1..self.cells.lines()).all(|line| !has_estimate(&line))
+            && (header.line + 1..line).filter(is_uncertain).all(|line| is_of_table(&line))
+            && (line + 1..self.cells.lines()).all(|line| !is_of_table(&line))
     }
 
     /// Whether a line has the numbers of a quantity: an estimate, and an uncertainty.
@@ -716,7 +799,10 @@ impl Budget<'_> {
         });
         if read.is_none() && !lenient {
             let groups = text.contains('.') && text.contains(',') || is_grouped(text);
-            let hint = if groups {
+            let advice = negligible::advice(text);
+            let hint = if !advice.is_empty() {
+                &advice
+            } else if groups {
                 ": digits are not grouped by points or commas"
             } else if text.ends_with(['*', '†', '‡']) {
                 ": what a mark says of it belongs into a column, such as `Distribution`"
@@ -788,12 +874,22 @@ impl Budget<'_> {
         if column == Column::Width && text.contains(" + ") && !lenient {
             return self.specification(text, line, row);
         }
+        let is_uncertain = matches!(column, Column::Width | Column::Std);
+        if is_uncertain && is_negligible(text) {
+            let said = format!(
+                "line {}: the sheet calls the uncertainty of `{}` `{text}`: 0 is taken",
+                line + 1,
+                row.about
+            );
+            self.guessed.extend((!lenient).then_some(said));
+            return Some(0.0);
+        }
         let (value, unit) = self.with_unit(header, line, column, lenient)?;
         let unit = unit.to_owned();
         // `0.06 (95 %)` is no share
-        let is_uncertain = matches!(column, Column::Width | Column::Std);
         let own_text = if is_uncertain { without_factor(text) } else { text };
-        if !column.is_of_place() && value < 0.0 && !lenient {
+        let may_be_negative = column.is_of_place() || column == Column::Correction;
+        if !may_be_negative && value < 0.0 && !lenient {
             self.fail(line, format!("the {} `{text}` is below zero", column.name()));
             return None;
         }
@@ -817,6 +913,11 @@ impl Budget<'_> {
             return None;
         }
         let of_header = header.unit(column).unwrap_or_default();
+        // what a line says of all values yields to what a row says
+        let is_of_all = header.unit_of_all.as_ref().is_some_and(|(_, unit)| unit == of_header);
+        let dimension = |unit: &str| Unit::parse(unit).ok().map(|unit| unit.dimension());
+        let is_of_row = !row.unit.is_empty() && dimension(&row.unit) != dimension(of_header);
+        let of_header = if is_of_all && (!unit.is_empty() || is_of_row) { "" } else { of_header };
         let is_percent = own_text.contains('%') && unit.is_empty();
         if !of_header.is_empty() && (is_percent || !unit.is_empty()) && !lenient {
             let own = if is_percent { "%" } else { unit.as_str() };
@@ -923,7 +1024,16 @@ impl Budget<'_> {
         let (Some(share), Some(estimate)) = (share, estimate) else {
             if !lenient && row.std.is_none() && row.width.is_none() {
                 let heading = header.heading_of(Column::Relative);
-                self.fail(line, format!("`{text}` below `{heading}` is no share of an estimate"));
+                let advice = match header.has(Column::Estimate) {
+                    true => "",
+                    false => {
+                        ", as no column has estimates: write them, or where all of the budget is in shares of \
+                         the result head the column `Standard uncertainty (%)`"
+                    }
+                };
+                let reason =
+                    format!("`{text}` below `{heading}` is no share of an estimate{advice}");
+                self.fail(line, reason);
             }
             return None;
         };
@@ -957,9 +1067,20 @@ impl Budget<'_> {
     fn specification(&mut self, text: &str, line: usize, row: &Row) -> Option<f64> {
         let written =
             if self.cells.decimal_comma() { equation::with_points(text) } else { text.to_owned() };
+        // `± (0.5 % + 2 mV)`
+        let bare = written.trim_start_matches(['±', ' ']).trim();
+        let inside = bare.strip_prefix('(').and_then(|bare| bare.strip_suffix(')'));
         let unit = Unit::parse(&row.unit).ok()?;
-        let width = Width::specification(&written, &unit, &[]);
+        let width = Width::specification(inside.unwrap_or(bare), &unit, &[]);
         match width.and_then(|width| Ok((width, row.estimate.ok_or("the estimate is missing")?))) {
+            Ok((width, 0.0)) if width.relative > 0.0 => {
+                let reason = format!(
+                    "`{text}` of the estimate 0 lacks its share: state what it is a share of, such as `35 ppm of \
+                     10 V + 5 uV`"
+                );
+                self.fail(line, reason);
+                None
+            }
             Ok((width, estimate)) => {
                 let found = to_15_digits(width.at(estimate));
                 self.guessed.push(format!(
@@ -1013,7 +1134,9 @@ impl Budget<'_> {
                     line + 1,
                     Shortest(estimate)
                 ));
-                return Some(to_15_digits(share * estimate.abs()));
+                // a correction goes with the sign of what it corrects
+                let whole = if column == Column::Correction { estimate } else { estimate.abs() };
+                return Some(to_15_digits(share * whole));
             }
         };
         if !lenient {
@@ -1057,7 +1180,9 @@ impl Budget<'_> {
     /// The coverage factor of a row: of its divisor, its distribution (`normal (k=2)`), its uncertainty
     /// (`0.4 mV (k=2)`), or the header of its column.
     fn coverage(&mut self, header: &Header, row: &mut Row) {
-        let Some(width) = row.width.filter(|width| *width > 0.0) else { return };
+        let Some(width) = row.width.filter(|width| *width > 0.0) else {
+            return self.standard_beside_words(header, row);
+        };
         let cell = |column| HeaderCoverage::of(header.cell(self.cells, row.line, column));
         let of_header = header.coverage(Column::Width);
         let is_normal = matches!(row.distribution, None | Some("normal"));
@@ -1185,6 +1310,25 @@ impl Budget<'_> {
                 "line {line}: nothing says what the uncertainty of `{}` is divided by: k = 1 is taken, as \
                  of a standard uncertainty",
                 row.name
+            ));
+        }
+    }
+
+    /// Says that a standard uncertainty is taken as it is where the words of its row say a coverage factor.
+    fn standard_beside_words(&mut self, header: &Header, row: &Row) {
+        let of_words = self.coverage_in_words(header, row.line).factor(row.dof);
+        let (Some(std), Some(factor)) = (row.std.filter(|std| *std > 0.0), of_words) else {
+            return;
+        };
+        if !near(factor, 1.0) && row.divisor.is_none() {
+            self.guessed.push(format!(
+                "line {}: the words of `{}` say k = {}, and {} below `{}` is taken for its standard uncertainty, \
+                 divided already",
+                row.line + 1,
+                row.about,
+                Shortest(to_15_digits(factor)),
+                Shortest(std),
+                header.heading_of(Column::Std).trim()
             ));
         }
     }
@@ -1447,22 +1591,61 @@ impl Budget<'_> {
             let Some((_, unit)) = columns::with_unit_in_brackets(words) else {
                 continue;
             };
-            if row.unit.is_empty() {
+            let other = self.other_unit(header, row, &unit);
+            // a remark in parentheses may be of what makes the quantity: `Temperature (°C)` in mm
+            let is_remark = words.trim().ends_with(')')
+                && (self.states_unit(header, row.line)
+                    || other.as_ref().is_some_and(|(other, _)| is_remark_beside(&unit, other)));
+            if is_remark {
+                continue;
+            }
+            if other.is_none() && row.unit.is_empty() {
                 self.understood.push(format!(
                     "line {}: the unit `{unit}` of `{}`",
                     row.line + 1,
                     words.trim()
                 ));
                 row.unit = unit;
-            } else if row.unit != unit && !lenient {
+            } else if let Some((other, place)) = other.filter(|_| !lenient) {
                 let reason = format!(
-                    "`{}` says `{unit}`, but the column of the unit `{}`",
-                    words.trim(),
-                    row.unit
+                    "`{}` says `{unit}`, but {place} `{other}`: which is the unit of its numbers?",
+                    words.trim()
                 );
                 self.fail(row.line, reason);
             }
         }
+    }
+
+    /// Whether a row has the unit `1`, or a unit behind its numbers.
+    fn states_unit(&self, header: &Header, line: usize) -> bool {
+        let comma = self.cells.decimal_comma();
+        let cell = |column| header.cell(self.cells, line, column).trim();
+        let mut numbers = [Column::Estimate, Column::Width, Column::Std].into_iter();
+        cell(Column::Unit) == "1"
+            || numbers.any(|column| {
+                let read =
+                    number::number_with_unit(cell(column).trim_start_matches(['±', ' ']), comma);
+                read.is_some_and(|(_, unit)| !unit.is_empty())
+            })
+    }
+
+    /// A unit that the table states for a row beside that in its name, and where, if it is another one.
+    fn other_unit(&self, header: &Header, row: &Row, unit: &str) -> Option<(String, &'static str)> {
+        let own = Unit::parse(unit).ok()?;
+        let is_other = |text: &str| {
+            let same = Unit::parse(text).ok().filter(|of| of.dimension() == own.dimension());
+            let factor = same.filter(|of| of.zero() == own.zero());
+            factor.is_none_or(|of| (of.factor() / own.factor() - 1.0).abs() > 1e-12)
+        };
+        let of_headings = [Column::Estimate, Column::Width, Column::Std].map(|of| header.unit(of));
+        let of_row =
+            (!row.unit.is_empty()).then_some((row.unit.as_str(), "the column of the unit"));
+        let of_headings = of_headings.into_iter().flatten().map(|of| (of, "a heading"));
+        let mut stated = of_row.into_iter().chain(of_headings);
+        // a share is of the estimate
+        let is_share = |text: &str| Unit::parse(text).is_ok_and(|of| of.is_relative());
+        let found = stated.find(|(text, _)| is_other(text) && !is_share(text))?;
+        Some((found.0.to_owned(), found.1))
     }
 
     fn distribution(&mut self, header: &Header, row: &Row, lenient: bool) -> Option<&'static str> {
@@ -1539,6 +1722,14 @@ impl Budget<'_> {
             }
         }
     }
+}
+
+/// Whether a unit in parentheses behind a name is no other statement of the unit of its row: it is of another
+/// dimension, or both are of temperatures, of which one may be a difference.
+fn is_remark_beside(unit: &str, other: &str) -> bool {
+    let dimension = |text: &str| Unit::parse(text).ok().map(|unit| unit.dimension());
+    let (own, other) = (dimension(unit), dimension(other));
+    own != other || own == Some(Dimension::TEMPERATURE)
 }
 
 /// Whether a cell says that there is nothing.

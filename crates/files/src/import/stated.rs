@@ -73,6 +73,17 @@ fn result_of(model: &str) -> Option<(Gum, Unit)> {
     Some((evaluated.outputs.into_iter().next()??, output.quantity.unit.clone()))
 }
 
+/// Whether a model without a check of units has all estimates that a sheet states, of which there is one.
+pub(super) fn is_of_numbers(model: &str, stated: &[Stated]) -> bool {
+    let Some((gum, unit)) = result_of(model) else { return false };
+    let mut estimates = stated.iter().filter(|of| of.figure == Figure::Estimate).peekable();
+    estimates.peek().is_some()
+        && estimates.all(|of| {
+            of.scale(&unit).is_some_and(|scale| of.is_near(gum.estimate, scale, 0.0))
+                && of.value != 0.0
+        })
+}
+
 impl Stated {
     /// What one of the sheet's unit is in that of the result; `None` where one is not the other, or an
     /// estimate counts from another zero.
@@ -217,8 +228,13 @@ impl Budget<'_> {
             }
             return made;
         }
+        let converts = numbers::converting(&made).is_some() || numbers::may_convert(&made);
         let is_scaled = |stated: &Stated| {
             let own = of(&checked, stated)?;
+            // 60 of rpm is no power of ten
+            if converts && (own - stated.value).abs() > LARGE * own.abs() {
+                return Some(true);
+            }
             let ratio = elementary::log10(own / stated.value);
             let power = ratio.round();
             let value = stated.value * elementary::pow(10.0, power);

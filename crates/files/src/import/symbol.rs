@@ -17,7 +17,9 @@ pub(super) fn of_uncertainties(heading: &str) -> Option<(Column, &str)> {
     let behind = rest.trim();
     let is_separated = behind.is_empty() || behind.starts_with(['(', '[', '/']);
     let is_apart = rest.starts_with(char::is_whitespace)
-        && (behind.starts_with("in ") || is_unit(behind.split(['(', '[']).next().unwrap_or("")));
+        && (behind.starts_with("in ")
+            || behind.starts_with("en ")
+            || is_unit(behind.split(['(', '[']).next().unwrap_or("")));
     (is_separated || is_apart).then_some((column, rest))
 }
 
@@ -37,7 +39,7 @@ pub(super) fn before_unit(heading: &str) -> &str {
         // types of evaluations, `A/B`
         bare != "B" && is_unit(bare)
     };
-    [" / ", " in ", "/"]
+    [" / ", " in ", " en ", "/"]
         .into_iter()
         .find_map(|sign| heading.split_once(sign).filter(|(_, behind)| unit(behind)))
         .map_or(heading, |(before, _)| before.trim())

@@ -2,7 +2,9 @@
 
 use super::*;
 
+mod numbers;
 mod relative;
+mod words;
 
 fn import(name: &str, content: &[u8]) -> Result<ImportedBudget, Diagnostics> {
     let folder = tempfile::tempdir().unwrap();
@@ -949,7 +951,7 @@ fn nothing_of_the_sheet_is_dropped_without_a_word() {
     for (equation, part) in [
         ("y = 2a - b", "`y = 2a - b` cannot be read as an equation"),
         ("y = a + b\nz = a - b", "the result can be `y` of line 1 or `z` of line 2"),
-        ("y = a*(b - 20)", "which `mV` would not be converted"),
+        ("y = b*2^a", "which `mV` would not be converted"),
     ] {
         let text = format!("{equation}\n{head}\na;1;mV;0,1\nb;2;V;0,1\n");
         let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
@@ -1748,7 +1750,8 @@ fn equations_of_unlike_quantities_are_refused() {
     }
     // a bare number may be in the unit of what is beside it
     let (_, budget) = uncertainties(&format!("{head}a;3;V;0.1\nY = a + 5\n"));
-    assert!(guesses(&budget, "units are not checked"), "{:?}", budget.guessed);
+    assert!(budget.text.contains(r#""Y":"a + 5 [V]""#), "{}", budget.text);
+    assert!(guesses(&budget, "in the unit of the quantity beside it"), "{:?}", budget.guessed);
 }
 
 /// QUAM, example A1: c = 1000 m P/V with m in mg and V in mL, where 1000 stands for mL/L. Published:

@@ -157,7 +157,11 @@ impl Budget<'_> {
     /// Whether a coefficient without a unit can be something else than units of the result per unit of its
     /// quantity: 1, the estimate of the result, or an exponent.
     fn is_doubtful(&self, header: &Header, row: &Row, c: f64, whole: &Whole) -> bool {
-        if row.unit.is_empty() {
+        // a factor near 1 in a budget of relative uncertainties may be one of a product
+        let is_of_relative = header.has(Column::Relative)
+            && is_exponent(c)
+            && row.estimate.is_some_and(|estimate| estimate != 0.0);
+        if row.unit.is_empty() && !is_of_relative {
             return false;
         }
         let is_share = |unit: &str| Unit::parse(unit).is_ok_and(|own| own.is_relative());
@@ -316,7 +320,8 @@ fn reason(row: &Row, rows: &[Row], [plain, other]: [&Reading; 2], whole: &Whole)
              equation then (`y = {product}`)"
         ),
         None => format!(
-            ", or lack its unit, as {own} and {of_result} cannot be added: write the equation"
+            ", or lack its unit, as {own} and {} cannot be added: write the equation",
+            if of_result.is_empty() { "a plain number" } else { of_result }
         ),
     };
     format!("{begin}{equation}, or {}", WRITE.replace("its unit", "the unit of the coefficient"))

@@ -53,7 +53,7 @@ impl Budget<'_> {
 }
 
 /// The equation with a number that is the size of a unit, that number, and what it is.
-fn converting(model: &str) -> Option<(String, String, String)> {
+pub(super) fn converting(model: &str) -> Option<(String, String, String)> {
     let model: Value = serde_json::from_str(model).ok()?;
     let formulas = model.get("equations")?.as_object()?;
     let result = model.get("outputs")?.as_object()?.values().next()?.get("unit");
@@ -71,6 +71,19 @@ fn converting(model: &str) -> Option<(String, String, String)> {
             Some((formula.to_owned(), text, of.words.clone()))
         })
     })
+}
+
+/// Whether an equation has a number that may convert units by several factors at once, as 9550 does.
+pub(super) fn may_convert(model: &str) -> bool {
+    // 2, 4 and a half are of geometry
+    const LEAST: f64 = 10.0;
+    let formulas = || {
+        let model: Value = serde_json::from_str(model).ok()?;
+        let formulas = model.get("equations")?.as_object()?.values();
+        Some(formulas.filter_map(Value::as_str).flat_map(numbers_of).collect::<Vec<_>>())
+    };
+    let numbers = formulas().unwrap_or_default();
+    numbers.iter().any(|(_, number)| *number >= LEAST || *number <= 1.0 / LEAST)
 }
 
 /// The sizes of some units: of their prefixes, in SI units, and of each two of them.
@@ -91,8 +104,22 @@ fn conversions(units: &[&str]) -> Vec<Conversion> {
         });
         let prefixes = prefixes.map(|decimal| elementary::pow(10.0, decimal));
         let words = format!("a size of `{text}`");
-        let sizes = prefixes.chain([unit.factor()]);
+        // of what counts turns also in turns: 1/60 of rpm
+        let in_turns = unit.turn().map(|_| unit.factor() / std::f64::consts::TAU);
+        let in_turns = in_turns.map(|size| {
+            let words =
+                format!("{words} (which is in radians here: a factor 2*pi is too much, too)");
+            Conversion { size, words }
+        });
+        // the minute of L/min
+        let parts = unit.factors().iter().filter_map(|factor| match factor.base {
+            FactorBase::Named { symbol, .. } => Unit::parse(symbol.spellings().next()?).ok(),
+            _ => None,
+        });
+        let parts: Vec<f64> = parts.map(|part| part.factor()).collect();
+        let sizes = prefixes.chain([unit.factor()]).chain(parts);
         found.extend(sizes.map(|size| Conversion { size, words: words.clone() }));
+        found.extend(in_turns);
     }
     found.retain(|of| (of.size - 1.0).abs() > ROUNDED);
     found
