@@ -103,7 +103,7 @@ impl Certificate {
         let beside = self.beside()?;
         let [place, view] = output::open(
             [
-                ("--output", self.answer.output.as_deref()),
+                ("--output", output::to_file(self.answer.output.as_deref())),
                 ("--stylesheet", beside.as_ref().map(|(path, _)| path.as_path())),
             ],
             &self.paths(&file),
@@ -192,8 +192,8 @@ impl Certificate {
         if !self.stylesheet {
             return Ok(None);
         }
-        let Some(output) =
-            self.answer.output.as_ref().filter(|_| self.answer.format == Format::Dcc)
+        let Some(output) = output::to_file(self.answer.output.as_deref())
+            .filter(|_| self.answer.format == Format::Dcc)
         else {
             return refuse("`--stylesheet` goes with `--format dcc --output NAME.xml`");
         };
