@@ -1,5 +1,7 @@
 //! `gumption certificate`
 
+mod rounding;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -279,6 +281,7 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
     const OF_ROWS: [&str; 2] = ["below-cmc", "raised-to-cmc"];
     let mut notes = file.warnings.clone();
     notes.extend(not_stated(&file.certificate));
+    notes.extend(rounding::notes(file, issued));
     let evaluations = file.certificate.evaluations.iter().zip(&issued.evaluations);
     for (asked, evaluation) in evaluations {
         let found = warnings(&asked.task, evaluation).into_iter();
