@@ -474,3 +474,59 @@ fn a_guard_band_may_be_a_multiple_of_u() {
         assert!(!success && error.contains(part), "{error}");
     }
 }
+
+/// The clause of a guard band of U, and the factor of a capability, are those of approximately 95 %; of
+/// other coverages it is said what they are.
+#[test]
+fn clauses_of_95_percent_are_cited_for_that_alone() {
+    let of = |settings: Value| {
+        let inputs = json!({"x": normal("V", 9.9985, 0.001)});
+        let file = model(inputs, "x", Some(json!({"upper": 10, "guard_band": 1})));
+        let mut row = rows(&["y"]);
+        row[0]["cmc"] = "4 mV".into();
+        row[0]["cmc_floor"] = true.into();
+        let folder = folder(&[("m.json", &file), ("c.json", &certificate(row, settings))]);
+        output(folder.path(), &["certificate", "c.json", "--format", "markdown", "--quiet"])
+    };
+    for settings in [json!({"coverage_factor": 2}), json!({"coverage_probability": 0.95})] {
+        let said = of(settings);
+        assert!(said.contains("guard band of 1 U (ILAC-G8:09/2019, 4.2.2), with U"), "{said}");
+        assert!(said.contains("of the capability") && !said.contains("brought from"), "{said}");
+    }
+    for (factor, width) in [(1, "0.00200 V"), (3, "0.00600 V")] {
+        let said = of(json!({"coverage_factor": factor}));
+        assert!(!said.contains("U (ILAC-G8"), "{said}");
+        let part = format!("(U having k = {factor}.00; ILAC-G8:09/2019, 4.2.2, has it for U of");
+        assert!(said.contains(&part) && said.contains(width), "{said}");
+        let part =
+            format!("brought from the coverage factor 2 of the capability to k = {factor}.00");
+        assert!(said.contains(&part), "{said}");
+    }
+}
+
+/// More than two digits (ILAC-P14:09/2020, 5.3) and a rounding that takes away more than 5 % (EA-4/02
+/// M:2022, 6.3) have notes: 0.0221 V as 0.02 V is 9.5 % less.
+#[test]
+fn digits_that_a_certificate_may_not_have_are_told() {
+    let notes = |settings: Value| {
+        let file = model(json!({"x": normal("V", 9.0, 0.01105)}), "x", None);
+        let certificate = certificate(rows(&["y"]), settings);
+        let folder = folder(&[("m.json", &file), ("c.json", &certificate)]);
+        answer(folder.path(), &["certificate", "c.json"])["warnings"].clone()
+    };
+    let with = |settings: Value| {
+        let mut all = json!({"coverage_factor": 2});
+        all.as_object_mut().expect("an object").extend(settings.as_object().cloned().expect("one"));
+        notes(all).as_array().expect("a list").iter().map(|note| note.clone()).collect::<Vec<_>>()
+    };
+    let has = |found: &[Value], code: &str| found.iter().any(|note| note["code"] == code);
+    let three = with(json!({"digits": 3}));
+    assert!(has(&three, "more-than-two-digits"), "{three:?}");
+    let one = with(json!({"digits": 1, "rounding": "nearest"}));
+    assert!(has(&one, "rounded-away"), "{one:?}");
+    assert!(one.iter().any(|note| note["text"].to_string().contains("9.5 % less")), "{one:?}");
+    for settings in [json!({"digits": 2}), json!({"digits": 1, "rounding": "ea"}), json!({})] {
+        let found = with(settings);
+        assert!(!has(&found, "rounded-away") && !has(&found, "more-than-two-digits"), "{found:?}");
+    }
+}

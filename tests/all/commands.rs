@@ -569,3 +569,25 @@ fn a_file_beyond_the_limit_of_files_is_told() {
     assert!(message.contains("File too large"), "{message}");
     assert!(!page.exists());
 }
+
+/// A `-` is standard output wherever `--output` is, as it is standard input of a model, and no file of
+/// any other option.
+#[test]
+fn a_dash_is_standard_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = r#"{"inputs": {"x": {"distribution": "normal", "mean": 1, "std": 1}},
+        "equations": {"y": "x"}, "outputs": {"y": {}}, "monte_carlo": {"trials": 0}}"#;
+    fs::write(folder.path().join("m.json"), model).unwrap();
+    let run =
+        |arguments: &[&str]| command().current_dir(folder.path()).args(arguments).output().unwrap();
+    for asked in [&["run", "m.json", "--format", "json"][..], &["schema"], &["models"]] {
+        let [plain, dashed] =
+            [&[][..], &["--output", "-"]].map(|more| run(&[asked, more].concat()));
+        assert!(dashed.status.success(), "{dashed:?}");
+        assert!(!plain.stdout.is_empty() && plain.stdout == dashed.stdout, "{asked:?}");
+    }
+    let refused = run(&["run", "m.json", "--trials", "1000", "--save", "-"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("`--save -`"), "{refused:?}");
+    assert!(!folder.path().join("-").exists());
+}

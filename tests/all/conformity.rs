@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use calamine::{Data, Reader, Xlsx, open_workbook};
 use serde_json::{Value, json};
 
 use crate::support::command;
@@ -543,4 +544,92 @@ fn guard_bands_that_leave_nothing() {
     let whole =
         model(10.4, 0.2, r#""tolerance": {"lower": 10.2, "upper": 10.6, "guard_band": 0.4}"#);
     assert!(answer(&whole)["outputs"]["y"]["conformity"]["guard_band"]["lower"].is_number());
+}
+
+/// Cells of the results of a workbook by the texts before them, or below the headers of a sweep.
+fn cells(text: &str, label: &str) -> Vec<Data> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("m.json");
+    fs::write(&path, text).expect("written");
+    let arguments = ["run", "m.json", "--format", "xlsx", "--output", "m.xlsx", "--quiet"];
+    let run = command().current_dir(folder.path()).args(arguments).output();
+    assert!(run.expect("the program runs").status.success());
+    let mut book: Xlsx<_> = open_workbook(folder.path().join("m.xlsx")).expect("a workbook");
+    let sheet = book.worksheet_range("Results").expect("a sheet");
+    let (row, column) = sheet
+        .used_cells()
+        .find(|(_, _, cell)| **cell == *label)
+        .map(|(row, column, _)| (row, column))
+        .unwrap_or_else(|| panic!("{label} in {sheet:?}"));
+    let beside = sheet.get((row, column + 1)).filter(|_| column == 0);
+    let below = sheet.rows().skip(row + 1).filter_map(|row| row.get(column));
+    let below = below.filter(|cell| column > 0 && **cell != Data::Empty);
+    beside.into_iter().chain(below).cloned().collect()
+}
+
+const ROOT_OF_SQUARES: &str = r#"{"inputs": {
+    "x": {"unit": "mm", "distribution": "normal", "mean": 0.01, "std": 0.03},
+    "z": {"unit": "mm", "distribution": "rectangular", "mean": 0, "half_width": 0.03}},
+    "equations": {"y": "sqrt(x^2 + z^2)"},
+    "outputs": {"y": {"unit": "mm", "tolerance": {"upper": 0.02}}},
+    "monte_carlo": {"trials": 20000}}"#;
+
+/// What the estimate of the trials decides is decided with it in the workbook, too: it is 0.032 mm, and
+/// that of the law of propagation 0.010 mm, within the tolerance.
+#[test]
+fn the_workbook_decides_with_the_estimate_that_decides() {
+    let found = answer(ROOT_OF_SQUARES);
+    let of = &found["outputs"]["y"];
+    assert_eq!(of["conformity"]["conforms"], false);
+    assert_eq!(cells(ROOT_OF_SQUARES, "decision by the estimate"), [Data::from("rejected")]);
+    let decides = cells(ROOT_OF_SQUARES, "estimate that decides");
+    assert_eq!(decides, [Data::Float(number(&of["monte_carlo"]["estimate"]))]);
+
+    let conditions =
+        r#"{"conditions": {"q": {"unit": "mm", "values": [0.005, 0.01, 0.05]}}, "inputs""#;
+    let sweep = ROOT_OF_SQUARES.replace("0.01,", "\"q\",").replacen("{\"inputs\"", conditions, 1);
+    let rejected = vec![Data::from("rejected"); 3];
+    assert_eq!(cells(&sweep, "decision by the estimate"), rejected);
+    let (_, page, _) = run(&sweep, &[]);
+    assert!(page.contains("that decides") && page.contains("0 of 3 rows accepted"), "{page}");
+    let first = page.lines().find(|line| line.starts_with("0.005")).expect("a row");
+    assert!(first.contains("0.031") && first.ends_with("rejected"), "{page}");
+    // where the law of propagation decides it is live, and the page has no other estimate
+    let plain = model(0.01, 0.001, r#""tolerance": {"upper": 0.02}"#);
+    assert_eq!(cells(&plain, "decision by the estimate"), [Data::from("accepted")]);
+    assert_eq!(cells(&plain, "estimate that decides"), [Data::Float(0.01)]);
+}
+
+/// Where no value has so small a risk the workbook says so, and decides as the page does.
+#[test]
+fn the_workbook_rejects_where_there_is_no_guard_band() {
+    let text =
+        ROOT_OF_SQUARES.replace("\"upper\": 0.02", "\"lower\": 0, \"upper\": 0.02, \"risk\": 0.05");
+    let (_, page, _) = run(&text, &[]);
+    assert!(page.split_whitespace().collect::<Vec<_>>().join(" ").contains("so small a one"));
+    assert_eq!(cells(&text, "decision by the estimate"), [Data::from("rejected")]);
+    for label in ["guard band", "acceptance, from", "acceptance, to"] {
+        assert_eq!(cells(&text, label), [Data::from("-")], "{label}");
+    }
+}
+
+/// Below the capability nothing is to be stated, unless it is raised to it.
+#[test]
+fn the_workbook_states_nothing_below_the_capability() {
+    let stated = |more: &str| cells(&model(1.0, 0.15, more), "expanded uncertainty to be stated");
+    assert_eq!(stated(r#""cmc": 0.301"#), [Data::from("-")]);
+    assert_eq!(stated(r#""cmc": 0.301, "cmc_floor": true"#), [Data::Float(0.31)]);
+    assert_eq!(stated(r#""cmc": 0.2"#), [Data::Float(0.3)]);
+}
+
+/// A share of a level says as little as one of a temperature in degrees Celsius.
+#[test]
+fn levels_have_no_relative_uncertainty() {
+    for (unit, share) in [("dB", "-"), ("degC", "-"), ("V", "9.6")] {
+        let text = model(-3.01, 0.29, "\"about\": \"a\"").replace("\"um\"", &format!("\"{unit}\""));
+        let (code, page, said) = run(&text, &["--columns", "relative", "--trials", "0"]);
+        assert_eq!(code, Some(0), "{said}");
+        let line = page.lines().find(|line| line.starts_with("x ")).expect("a line");
+        assert_eq!(line.split_whitespace().nth(3), Some(share), "{page}");
+    }
 }

@@ -81,7 +81,7 @@ fn the_page_leaves_out_what_did_not_change() {
 
     equation `power`: from "(voltage + drift)^2/resistance" to "voltage^2/resistance"
 
-    power: U from 2.03 to 4.01 mW (+97.2 %)
+    power: U from 2.03 to 4.01 mW (+97.2 %), by the law of propagation
     what changed  from                             to                        change  share
                                                                                of U   in %
     ──────────────────────────────────────────────────────────────────────────────────────
@@ -122,10 +122,14 @@ fn standard_input_and_files() {
 
 /// Saves the result of each file beside it.
 fn saved(paths: &[PathBuf; 2]) -> [PathBuf; 2] {
+    saved_with(paths, "1000")
+}
+
+fn saved_with(paths: &[PathBuf; 2], trials: &str) -> [PathBuf; 2] {
     paths.each_ref().map(|path| {
         let result = path.with_extension("result.json");
         let (path, to) = (path.to_str().unwrap(), result.to_str().unwrap());
-        output(&["run", path, "--trials", "1000", "--save", to, "--quiet"]);
+        output(&["run", path, "--trials", trials, "--save", to, "--quiet"]);
         result
     })
 }
@@ -182,7 +186,7 @@ fn the_page_of_saved_results() {
     output `power`: other sensitivity coefficients to `voltage`, `resistance`, `drift`; what that does
     to U is counted with these inputs
 
-    power: U from 2.03 to 8.10 mW (+298.1 %)
+    power: U from 2.03 to 8.10 mW (+298.1 %), by the law of propagation
     what changed  from                                 to                                  change  share
                                                                                              of U   in %
     ────────────────────────────────────────────────────────────────────────────────────────────────────
@@ -193,4 +197,48 @@ fn the_page_of_saved_results() {
     drift         0.0000 V, u 0.0012, rectangular,     0.0000 V, u 0.0012, rectangular,      0.02    0.3
                   sensitivity 100.0                    sensitivity 200.0
     ");
+}
+
+/// A torque of a force at an angle about 0 deg, whose cosine has no sensitivity to it.
+fn torque(half_width: f64) -> String {
+    format!(
+        r#"{{"inputs": {{
+        "F": {{"unit": "N", "distribution": "normal", "mean": 98.1, "std": 0.001}},
+        "phi": {{"unit": "deg", "distribution": "rectangular", "mean": 0, "half_width": {half_width}}}}},
+        "equations": {{"M": "F*0.5 [m]*cos(phi)"}}, "outputs": {{"M": {{"unit": "N m"}}}},
+        "monte_carlo": {{"trials": 20000}}}}"#
+    )
+}
+
+/// Where clause 8 refutes the U that is compared, the change of the trials' stands beside it. M is
+/// c (1 - phi^2/2) with c = 49.05 N m, so that its symmetric interval holds phi^2 from 0.0227 to 0.9773
+/// times h of phi, squared: half its length is c h^2 (0.9551 - 0.0005)/4 = 8.914e-4 N m for 0.5 deg and
+/// 16 times as much for 2 deg. The tolerance covers u(F) and five standard errors of 20 000 trials.
+#[test]
+fn a_u_that_is_not_valid_is_said_to_be_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = [("a.json", 0.5), ("b.json", 2.0)].map(|(name, half_width)| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, torque(half_width)).unwrap();
+        path
+    });
+    for files in [paths.clone(), saved_with(&paths, "20000")] {
+        let answer = json(&files);
+        let found = &answer["outputs"]["M"];
+        let figure = |key: &str, side: usize| found[key][side].as_f64().unwrap();
+        assert!((figure("U", 0) / figure("U", 1) - 1.0).abs() < 1e-12, "{found}");
+        assert_eq!(found["gum_valid"], serde_json::json!([false, false]));
+        let exact = 49.05 * 2.0_f64.to_radians().powi(2) * 0.9546 / 4.0;
+        assert!((figure("U_by_trials", 1) / exact - 1.0).abs() < 0.03, "{found}");
+        assert!(figure("U_by_trials", 1) / figure("U_by_trials", 0) > 9.0, "{found}");
+        let phi = found["inputs"].as_array().unwrap().iter().find(|of| of["input"] == "phi");
+        let phi = phi.expect("an input that changed");
+        assert_ne!(phi["from"], phi["to"]);
+        let [a, b] = files.each_ref().map(|path| path.to_str().unwrap());
+        let page = output(&["diff", a, b]);
+        let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(page.contains("This U is not valid in both files"), "{page}");
+        assert!(page.contains("by the law of propagation") && page.contains("(+0.0 %)"), "{page}");
+        assert!(!page.contains("No input changed") && page.contains("phi"), "{page}");
+    }
 }

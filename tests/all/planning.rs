@@ -255,3 +255,42 @@ fn parameters_of_a_fit_are_kept() {
     let by_hand = 0.5 / 3.0_f64.sqrt() / needed - 1.0;
     assert!((number(&found["cost"]) / by_hand - 1.0).abs() < 1e-8, "{} {by_hand}", found["cost"]);
 }
+
+/// The cosine of an angle about 0 deg is no part of U, and all of what the trials give: neither a lower
+/// target nor a better force helps, and what is advised does.
+#[test]
+fn an_input_that_the_law_of_propagation_does_not_see_is_named() {
+    let torque = |half_width: f64| {
+        format!(
+            r#"{{"inputs": {{
+            "F": {{"unit": "N", "distribution": "normal", "mean": 98.1, "std": 0.001}},
+            "phi": {{"unit": "deg", "distribution": "rectangular", "mean": 0, "half_width": {half_width}}}}},
+            "equations": {{"M": "F*0.5 [m]*cos(phi)"}}, "outputs": {{"M": {{"unit": "N m"}}}},
+            "monte_carlo": {{"trials": 50000}}}}"#
+        )
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let plan = |half_width: f64, target: &str, more: &[&str]| {
+        fs::write(folder.path().join("m.json"), torque(half_width)).expect("a file");
+        let asked = [&["plan", "m.json", "--target", target], more].concat();
+        let found = run(folder.path(), &asked);
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        let words = text(&found.stderr) + &text(&found.stdout);
+        words.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let target = "U(M) <= 0.0015 N m";
+    let said = plan(2.0, target, &[]);
+    assert!(said.contains("`phi` makes the difference"), "{said}");
+    assert!(!said.contains("plan for U(M)"), "{said}");
+    let behind = said.split("uncertainty of `phi` of ").nth(1).expect("a figure");
+    let needed: f64 = behind.split(' ').next().and_then(|u| u.parse().ok()).expect("a number");
+    // with it the trials do come to the target: it is met
+    let met = plan(needed * 3.0_f64.sqrt(), target, &["--trials", "220000"]);
+    assert!(met.contains("is met already"), "{met}");
+    // a plan that the trials refute says the same
+    let page = plan(2.0, "U(M) <= 0.0005 N m", &[]);
+    assert!(page.contains("aiming lower does not help: `phi` makes the difference"), "{page}");
+    let found = plan(2.0, "U(M) <= 0.0005 N m", &["--format", "json", "--quiet"]);
+    let found: Value = serde_json::from_str(&found).expect("JSON");
+    assert_eq!(found["check"]["excess"]["input"], "phi");
+}

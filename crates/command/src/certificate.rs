@@ -1,5 +1,7 @@
 //! `gumption certificate`
 
+mod rounding;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -103,7 +105,7 @@ impl Certificate {
         let beside = self.beside()?;
         let [place, view] = output::open(
             [
-                ("--output", self.answer.output.as_deref()),
+                ("--output", output::to_file(self.answer.output.as_deref())),
                 ("--stylesheet", beside.as_ref().map(|(path, _)| path.as_path())),
             ],
             &self.paths(&file),
@@ -192,8 +194,8 @@ impl Certificate {
         if !self.stylesheet {
             return Ok(None);
         }
-        let Some(output) =
-            self.answer.output.as_ref().filter(|_| self.answer.format == Format::Dcc)
+        let Some(output) = output::to_file(self.answer.output.as_deref())
+            .filter(|_| self.answer.format == Format::Dcc)
         else {
             return refuse("`--stylesheet` goes with `--format dcc --output NAME.xml`");
         };
@@ -279,6 +281,7 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
     const OF_ROWS: [&str; 2] = ["below-cmc", "raised-to-cmc"];
     let mut notes = file.warnings.clone();
     notes.extend(not_stated(&file.certificate));
+    notes.extend(rounding::notes(file, issued));
     let evaluations = file.certificate.evaluations.iter().zip(&issued.evaluations);
     for (asked, evaluation) in evaluations {
         let found = warnings(&asked.task, evaluation).into_iter();

@@ -1,11 +1,13 @@
 //! `gumption diff`
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 
 use clap::{Args, ValueEnum};
 
-use super::options::{self, Answer, CoverageOption, Interactive, Trust};
-use super::{CommandLine, Exit, Failure};
+use super::exit::say;
+use super::options::{self, Answer, CoverageOption, Interactive, Threads, Trust};
+use super::{CommandLine, Exit, Failure, signals};
 use gumption_files as file;
 use gumption_files::{Diagnostics, ModelOrResult};
 use gumption_report as report;
@@ -25,6 +27,8 @@ pub(super) struct Diff {
     interactive: Interactive,
     #[command(flatten)]
     coverage: CoverageOption,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 /// The format of the answer.
@@ -75,12 +79,17 @@ impl Diff {
         let mut names = named(&self.a, &first);
         names.extend(named(&self.b, &second));
         let place = self.answer.open(&names)?;
+        let stop = signals::stop_flag();
         for file in [&first, &second] {
             if let ModelOrResult::Result(result) = file {
                 self.answer.say(&result.warnings);
             }
         }
-        let difference = file::difference(&first, &second)?;
+        let difference = file::difference(&first, &second, &self.threads.control(&stop))?;
+        if stop.load(Ordering::Relaxed) {
+            say("gumption: interrupted; no answer is given\n");
+            return Ok(Exit::Interrupted);
+        }
         let names = [&first, &second].map(ModelOrResult::name);
         let answer = match self.answer.format {
             Format::Table => report::diff::table(names, &difference),

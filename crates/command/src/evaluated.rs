@@ -79,7 +79,7 @@ impl Evaluated {
     /// Opens the files; `read` are those that the answer is made from.
     pub(super) fn open(&self, read: &[PathBuf]) -> Result<Places, Failure> {
         let asked = [
-            ("--output", self.answer.output.as_deref()),
+            ("--output", output::to_file(self.answer.output.as_deref())),
             ("--save", self.save.as_deref()),
             ("--samples", self.samples.as_ref().map(save::SampleFile::path)),
         ];

@@ -71,7 +71,7 @@ impl Gap {
             Format::Csv => report::gap::csv(&diagnosis),
         };
         // a page on standard output has the notes itself
-        if self.answer.format != Format::Table || self.answer.output.is_some() {
+        if self.answer.format != Format::Table || self.answer.is_to_file() {
             self.answer.note(diagnosis.notes.iter().map(|note| note.text.as_str()));
         }
         place.write(&answer)?;

@@ -34,7 +34,7 @@ pub(super) struct Import {
 impl Import {
     pub(super) fn execute(&self) -> Result<Exit, Failure> {
         let read = [self.file.clone()];
-        let [file] = output::open([("--output", self.output.as_deref())], &read)?;
+        let [file] = output::open([("--output", output::to_file(self.output.as_deref()))], &read)?;
         let budget = import_budget_sheet(&self.file, self.sheet.as_deref())?;
         if !self.quiet {
             for said in &budget.understood {

@@ -46,7 +46,7 @@ struct Draft {
 
 impl New {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
-        let [file] = output::open([("--output", self.output.as_deref())], &[])?;
+        let [file] = output::open([("--output", output::to_file(self.output.as_deref()))], &[])?;
         let draft = if self.equation.is_empty() { self.asked()? } else { self.told()? };
         let missing = draft.missing();
         let text = draft.text();
@@ -59,7 +59,8 @@ impl New {
             let unit = units.and_then(|units| units.into_iter().next());
             return Err(unit.map_or(Failure::Diagnostics(found), Failure::Argument));
         }
-        let name = self.output.as_ref().map_or_else(String::new, |path| path.display().to_string());
+        let name = output::to_file(self.output.as_deref());
+        let name = name.map_or_else(String::new, |path| path.display().to_string());
         file.map_or(Place::StandardOutput, Place::File).write(&text)?;
         if !name.is_empty() {
             let name = plain(&name);

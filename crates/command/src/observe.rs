@@ -90,7 +90,7 @@ impl Observe {
             Format::Html => page(report::html(&found)),
         };
         // a page on standard output has the notes itself
-        if self.answer.format != Format::Table || self.answer.output.is_some() {
+        if self.answer.format != Format::Table || self.answer.is_to_file() {
             self.answer.say(&warnings);
         }
         place.write(&answer)?;

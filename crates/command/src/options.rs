@@ -54,7 +54,7 @@ pub(super) struct Answer<F: ValueEnum + Send + Sync + 'static> {
     /// Format of the answer
     #[arg(long, value_enum, default_value = "table")]
     pub(super) format: F,
-    /// Write the answer to this file instead of standard output
+    /// Write the answer to this file instead of standard output, which `-` is as well
     #[arg(long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
     /// No progress, notes or warnings on standard error
@@ -65,10 +65,15 @@ pub(super) struct Answer<F: ValueEnum + Send + Sync + 'static> {
 impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
     /// Opens the place of the answer; `read` are the files that it is made from.
     pub(super) fn open(&self, read: &[PathBuf]) -> Result<Place, Failure> {
-        let [file] = output::open([("--output", self.output.as_deref())], read)?;
+        let [file] = output::open([("--output", output::to_file(self.output.as_deref()))], read)?;
         let is_page = self.format.to_possible_value().is_some_and(|of| of.get_name() == "table");
         let page = if is_page { Place::Page } else { Place::StandardOutput };
         Ok(file.map_or(page, Place::File))
+    }
+
+    /// Whether the answer goes to a file.
+    pub(super) fn is_to_file(&self) -> bool {
+        output::to_file(self.output.as_deref()).is_some()
     }
 
     /// Warnings and notes on standard error, unless nothing is to be said.
@@ -85,7 +90,7 @@ impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
 
     /// Whether the answer would go to a terminal.
     pub(super) fn is_terminal(&self) -> bool {
-        self.output.is_none() && in_call(|_| ()).is_none() && io::stdout().is_terminal()
+        !self.is_to_file() && in_call(|_| ()).is_none() && io::stdout().is_terminal()
     }
 }
 

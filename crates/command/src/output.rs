@@ -95,6 +95,15 @@ enum Sink {
 /// The options that name a file, and the file.
 pub(super) type Asked<'a> = (&'static str, Option<&'a Path>);
 
+/// The file of an `--output`; none of `-`, which is standard output as it is standard input of a model.
+pub(super) fn to_file(asked: Option<&Path>) -> Option<&Path> {
+    asked.filter(|path| !is_standard(path))
+}
+
+fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
 /// Opens the files that are asked for, those that are; `read` are the files that the answer rests
 /// on.
 ///
@@ -118,6 +127,13 @@ fn check(asked: &[Asked<'_>], read: &[PathBuf]) -> Result<(), Failure> {
         .iter()
         .filter_map(|&(option, path)| Some((option, path?, Identity::of(path?)?)))
         .collect();
+    if let Some((option, ..)) = wanted.iter().find(|(_, path, _)| is_standard(path)) {
+        let reason = format!(
+            "`{option} -`: the answer alone goes to standard output; name a file, `./-` for one of that \
+             name"
+        );
+        return Err(Failure::Argument(reason));
+    }
     for (number, (option, path, identity)) in wanted.iter().enumerate() {
         let shown = shown(path);
         if read.iter().filter_map(|read| Identity::of(read)).any(|read| read == *identity) {

@@ -167,14 +167,21 @@ fn said(error: &NoPlan, task: &Task, question: &PlanQuestion) -> String {
             "the target {kind}({name}) <= {most} is met already: {kind}({name}) is {} now",
             value(*now)
         ),
-        NoPlan::MetByPropagation { figure, by_trials, instead } => format!(
-            "the target {kind}({name}) <= {most} is met by the law of propagation, which plans ({}), but \
-             the trials give {}, as `gumption run` shows; plan for {kind}({name}) <= {}, with which the \
-             trials come to about the target",
-            value(*figure),
-            value(*by_trials),
-            value(*instead)
-        ),
+        NoPlan::MetByPropagation { figure, by_trials, instead, excess } => {
+            let advice = match excess {
+                Some(excess) => report::excess_text(excess, task, target),
+                None => format!(
+                    "plan for {kind}({name}) <= {}, with which the trials come to about the target",
+                    value(*instead)
+                ),
+            };
+            format!(
+                "the target {kind}({name}) <= {most} is met by the law of propagation, which plans ({}), \
+                 but the trials give {}, as `gumption run` shows; {advice}",
+                value(*figure),
+                value(*by_trials)
+            )
+        }
         NoPlan::Unreachable(least) => {
             let said = format!(
                 "the target {kind}({name}) <= {most} cannot be reached: with every improvement that {} \

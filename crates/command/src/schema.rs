@@ -18,7 +18,7 @@ pub(super) struct Schema {
 
 impl Schema {
     pub(super) fn execute(&self) -> Result<Exit, Failure> {
-        let [file] = output::open([("--output", self.output.as_deref())], &[])?;
+        let [file] = output::open([("--output", output::to_file(self.output.as_deref()))], &[])?;
         file.map_or(Place::StandardOutput, Place::File).write(&schema::text())?;
         Ok(Exit::Done)
     }

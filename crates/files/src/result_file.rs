@@ -15,6 +15,7 @@ use super::reader::FileReader;
 use super::result_consistency::{self, Stated};
 use super::result_outputs;
 use super::source::SourceText;
+use gumption_analysis::diff::ByTrials;
 use gumption_analysis::integrity;
 use gumption_engine::distribution::{
     Constant, Distribution, Occasion, Origin, Root, RootCorrelation, RootFigures, RootName, Saved,
@@ -70,6 +71,9 @@ pub struct SavedOutput {
     /// Sensitivity coefficients to the file's inputs, in output unit per input unit; `None` where
     /// they are not finite.
     pub sensitivities: Option<Vec<f64>>,
+    /// The interval of its trials beside that of the law of propagation; `None` where the file does not
+    /// have it.
+    pub by_trials: Option<ByTrials>,
 }
 
 /// Whether a file is a saved result: it says so itself.
@@ -423,11 +427,9 @@ impl<'a> Reader<'a> {
         if object.get("expanded_uncertainty").is_some_and(|m| m.value.value != Json::Null) {
             object.number("expanded_uncertainty");
         }
-        for (key, nullable) in
+        let [interval, symmetric, _] =
             [("interval", true), ("symmetric_interval", false), ("shortest_interval", false)]
-        {
-            self.check_interval(object, key, nullable);
-        }
+                .map(|(key, nullable)| self.interval(object, key, nullable));
         let quantiles = object.numbers("quantiles");
         let (unit, estimate, u, quantiles) = (unit?, estimate?, u?, quantiles?);
         let place = object.get("quantiles").map_or(object.place(), |member| &member.value.span);
@@ -459,21 +461,24 @@ impl<'a> Reader<'a> {
                 },
             );
         }
+        let worth = object.get("effective_trials");
+        let worth = worth.and_then(|_| positive(object, "effective_trials"));
+        let worth = worth.unwrap_or(f64::INFINITY).min(common.trials);
         let made = if constant {
             Constant::new(estimate).map(Distribution::from)
         } else {
             let origin = self.origin(name, unit.text(), &saved, sensitivities.as_deref(), common);
-            let worth = object.get("effective_trials");
-            let worth = worth.and_then(|_| positive(object, "effective_trials"));
-            let trials = worth.unwrap_or(f64::INFINITY).min(common.trials);
-            let origin = Origin { ranks, trials, ..origin };
+            let origin = Origin { ranks, trials: worth, ..origin };
             SavedResult::new(saved, common.scores, &quantiles, origin).map(Distribution::from)
         };
         let made = made.map_err(|error| {
             let place = object.get(error.parameter()).map_or(place, |member| &member.value.span);
             self.log.report(place, DiagnosticKind::Distribution { name: name.to_owned(), error });
         });
+        let by_trials = symmetric.filter(|_| !constant);
+        let by_trials = by_trials.map(|ends| ByTrials::saved(interval, ends, u, worth));
         Some(SavedOutput {
+            by_trials,
             name: name.to_owned(),
             unit,
             distribution: made.ok()?,
@@ -496,17 +501,18 @@ impl<'a> Reader<'a> {
         status == Some("undefined")
     }
 
-    fn check_interval(&self, object: &Object<'a>, key: &str, nullable: bool) {
-        let Some(member) = object.get(key) else {
-            return;
-        };
+    /// The ends of an interval, where the file has it.
+    fn interval(&self, object: &Object<'a>, key: &str, nullable: bool) -> Option<[f64; 2]> {
+        let member = object.get(key)?;
         if nullable && member.value.value == Json::Null {
-            return;
+            return None;
         }
-        if object.numbers(key).is_some_and(|ends| ends.len() != 2) {
+        let ends = <[f64; 2]>::try_from(object.numbers(key)?).ok();
+        if ends.is_none() {
             let reason = "two ends of an interval are needed here";
             self.log.report(&member.value.span, DiagnosticKind::SavedEntry { reason });
         }
+        ends
     }
 
     /// The sensitivity coefficients in the order of `inputs`; inside, `None` for null.

@@ -5,12 +5,13 @@ use serde::Serialize;
 use crate::answer::{in_order, pretty};
 use crate::document::{self, Document};
 use crate::number::{
-    MISSING, degrees_of_freedom, exact, position, rounded, significant, to, with_uncertainty,
+    MISSING, degrees_of_freedom, exact, justified, position, rounded, significant, to,
+    with_uncertainty,
 };
 use crate::sheet::Sheet;
 use crate::{Grid, plain, table::width, wrapped};
 use gumption_analysis::diff::{
-    ChangeCause, ChangePart, Difference, InputState, OutputDifference, RowDifference,
+    ByTrials, ChangeCause, ChangePart, Difference, InputState, OutputDifference, RowDifference,
 };
 
 /// Significant digits of uncertainties.
@@ -53,6 +54,11 @@ struct Output<'a> {
     unit: &'a str,
     #[serde(rename = "U")]
     expanded: [Option<f64>; 2],
+    /// Half the lengths of the trials' symmetric intervals.
+    #[serde(rename = "U_by_trials")]
+    by_trials: [Option<f64>; 2],
+    /// Whether clause 8 says that U is valid.
+    gum_valid: [Option<bool>; 2],
     inputs: Vec<Line<'a>>,
 }
 
@@ -116,7 +122,9 @@ fn outputs(row: &RowDifference) -> Outputs<'_> {
     let outputs = row.outputs.iter().map(|output| {
         let inputs = output.parts.iter().map(Line::of).collect();
         let (unit, expanded) = (output.unit.as_str(), output.expanded);
-        (output.name.as_str(), Output { unit, expanded, inputs })
+        let by_trials = output.by_trials.map(|of| of.map(|of| of.half_length));
+        let gum_valid = output.by_trials.map(|of| of?.gum_valid);
+        (output.name.as_str(), Output { unit, expanded, by_trials, gum_valid, inputs })
     });
     outputs.collect()
 }
@@ -158,6 +166,9 @@ fn paper([a, b]: [&str; 2], difference: &Difference) -> Document {
     for row in &difference.rows {
         for output in &row.outputs {
             paper.section(plain(&heading(output, &place(difference, row))));
+            if let Some(said) = by_trials(output) {
+                paper.text(said);
+            }
             match changes(output) {
                 Some(sheet) => paper.table(sheet),
                 None => paper.text(NONE_CHANGED),
@@ -206,6 +217,9 @@ pub fn table([a, b]: [&str; 2], difference: &Difference) -> String {
 
 fn section(output: &OutputDifference, at: &str) -> String {
     let mut text = wrapped(&heading(output, at));
+    if let Some(said) = by_trials(output) {
+        text += &wrapped(&said);
+    }
     let Some(sheet) = changes(output) else { return text + &wrapped(NONE_CHANGED) };
     text += &Grid::of(&sheet).render(width());
     if is_not_shared_out(output) {
@@ -252,21 +266,51 @@ fn missing() -> String {
     MISSING.to_owned()
 }
 
-/// Name, U before and after, and its relative change.
-fn heading(output: &OutputDifference, at: &str) -> String {
-    let unit = if matches!(output.unit.trim(), "" | "1") { "" } else { &output.unit };
-    let expanded = output.expanded.map(|u| u.map_or_else(missing, |u| significant(u, 3)));
-    let [from, to] = expanded;
-    let relative = match output.expanded {
+/// The unit behind a figure; nothing of plain numbers.
+fn unit_of(output: &OutputDifference) -> &str {
+    if matches!(output.unit.trim(), "" | "1") { "" } else { &output.unit }
+}
+
+/// A change in per cent, in brackets; nothing where it is none of a number above zero.
+fn relative(change: [Option<f64>; 2]) -> String {
+    match change {
         [Some(from), Some(to)] if from > 0.0 => {
             let percent = 100.0 * (to / from - 1.0);
             let sign = if percent < 0.0 { "" } else { "+" };
             format!(" ({sign}{} %)", rounded(percent, -1))
         }
         _ => String::new(),
+    }
+}
+
+/// Name, U before and after, and its relative change.
+fn heading(output: &OutputDifference, at: &str) -> String {
+    let expanded = output.expanded.map(|u| u.map_or_else(missing, |u| significant(u, 3)));
+    let [from, to] = expanded;
+    let (name, unit) = (&output.name, unit_of(output));
+    let change = format!("{name}{at}: U from {from} to {to} {unit}").trim_end().to_owned();
+    change + &relative(output.expanded) + ", by the law of propagation"
+}
+
+/// The half-lengths of the trials where clause 8 says that U is not valid.
+fn by_trials(output: &OutputDifference) -> Option<String> {
+    let refuted = output.by_trials.map(|of| of.is_some_and(|of| of.gum_valid == Some(false)));
+    let files = match refuted {
+        [true, true] => "in both files",
+        [true, false] => "in the first file",
+        [false, true] => "in the second file",
+        [false, false] => return None,
     };
-    let name = &output.name;
-    format!("{name}{at}: U from {from} to {to} {unit}").trim_end().to_owned() + &relative
+    let figure = |of: ByTrials| {
+        justified(of.half_length, position(of.half_length, 3), of.numerical_standard_error)
+    };
+    let [from, to] = output.by_trials.map(|of| of.map_or_else(missing, figure));
+    let change = relative(output.by_trials.map(|of| of.map(|of| of.half_length)));
+    let goes = format!("from {from} to {to} {}", unit_of(output)).trim_end().to_owned() + &change;
+    Some(format!(
+        "This U is not valid {files} (JCGM 101, clause 8): half the length of the trials' coverage interval \
+         goes {goes}. The changes below are those of U."
+    ))
 }
 
 /// What is known of an input in one of the files.

@@ -27,9 +27,14 @@ pub fn expanded(value: f64, digits: u32, rule: Rounding) -> Option<Decimal> {
     let nearest = to(Direction::Nearest);
     Some(match rule {
         Rounding::Nearest => nearest,
-        Rounding::Ea if nearest.value() >= (1.0 - EA_LOSS) * value => nearest,
+        Rounding::Ea if !takes_away_too_much(value, nearest) => nearest,
         Rounding::Ea | Rounding::Up => to(Direction::Up),
     })
+}
+
+/// Whether rounding takes away more of an expanded uncertainty than EA-4/02 M:2022, 6.3, allows.
+pub fn takes_away_too_much(value: f64, rounded: Decimal) -> bool {
+    rounded.value() < (1.0 - EA_LOSS) * value
 }
 
 #[cfg(test)]

@@ -2,7 +2,9 @@
 
 use std::fmt;
 
+use super::trials::{self, ByTrials};
 use gumption_engine::distribution::{Root, RootName};
+use gumption_engine::propagate::Control;
 use gumption_engine::propagate::gum;
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::origins;
@@ -38,6 +40,8 @@ pub struct LinearOutput {
     pub coverage_factor: Option<f64>,
     /// Coverage probability, if it is known.
     pub probability: Option<f64>,
+    /// What the trials say; `None` without trials.
+    pub by_trials: Option<ByTrials>,
     /// Sensitivity coefficients to the inputs, in order; 0 beyond the end.
     pub sensitivities: Vec<f64>,
 }
@@ -65,11 +69,11 @@ impl fmt::Display for SeveralRows {
 impl std::error::Error for SeveralRows {}
 
 impl LinearResult {
-    /// The outputs of a task's only row by the law of propagation.
+    /// The outputs of a task's only row by the law of propagation, and what its trials say.
     ///
     /// # Errors
     /// A task with another number of rows of conditions than one.
-    pub fn of_task(task: &Task) -> Result<Self, SeveralRows> {
+    pub fn of_task(task: &Task, control: &Control<'_>) -> Result<Self, SeveralRows> {
         // any name serves that is not a hash
         const MODEL: &str = "this file";
         let [row] = task.rows.as_slice() else {
@@ -78,20 +82,23 @@ impl LinearResult {
         let evaluated = gum::evaluate(task, row).outputs;
         let gums: Vec<Option<&Gum>> = evaluated.iter().map(Option::as_ref).collect();
         let origins = origins(task, row, &gums, MODEL);
+        let tried = trials::of_rows(task, &[row], control).into_iter().next().unwrap_or_default();
         let outputs = task.model.outputs.iter().zip(&gums).zip(origins.sensitivities);
-        let outputs = outputs.map(|((output, gum), sensitivities)| LinearOutput {
-            name: output.quantity.name.clone(),
-            unit: output.quantity.unit.clone(),
-            standard_uncertainty: gum.map_or(f64::NAN, |gum| gum.standard_uncertainty),
-            dof: match gum.map(|gum| gum.dof) {
-                Some(Dof::Finite(dof)) => dof,
-                Some(Dof::Infinite) => f64::INFINITY,
-                Some(Dof::Undefined) | None => f64::NAN,
-            },
-            coverage_factor: gum.and_then(|gum| gum.coverage_factor),
-            probability: Some(task.settings.coverage.probability()),
-            sensitivities: sensitivities.unwrap_or_default(),
-        });
+        let outputs =
+            outputs.enumerate().map(|(place, ((output, gum), sensitivities))| LinearOutput {
+                by_trials: tried.get(place).copied().flatten(),
+                name: output.quantity.name.clone(),
+                unit: output.quantity.unit.clone(),
+                standard_uncertainty: gum.map_or(f64::NAN, |gum| gum.standard_uncertainty),
+                dof: match gum.map(|gum| gum.dof) {
+                    Some(Dof::Finite(dof)) => dof,
+                    Some(Dof::Infinite) => f64::INFINITY,
+                    Some(Dof::Undefined) | None => f64::NAN,
+                },
+                coverage_factor: gum.and_then(|gum| gum.coverage_factor),
+                probability: Some(task.settings.coverage.probability()),
+                sensitivities: sensitivities.unwrap_or_default(),
+            });
         let index = |name: &RootName| origins.roots.iter().position(|root| root.name == *name);
         let correlations = origins.correlations.iter();
         let correlations =
@@ -105,7 +112,7 @@ impl LinearResult {
     }
 
     /// Whether the input is the model's own, not one of a saved result that it took.
-    fn is_own(&self, index: usize) -> bool {
+    pub(super) fn is_own(&self, index: usize) -> bool {
         self.inputs.get(index).is_some_and(|root| *root.name.model == *self.model)
     }
 }

@@ -18,6 +18,9 @@
 //! with the means of both files' values. These parts sum to U_B - U_A exactly, whatever the order
 //! of the inputs in the files.
 //!
+//! Where the law of propagation is not valid (JCGM 101, clause 8) that is not the change of what is
+//! stated: the half-lengths of the trials' intervals stand beside it ([`add_trials`]).
+//!
 //! # Tasks and saved results
 //!
 //! Where the model changed, inputs that only the first file has lose their uncertainty before, and
@@ -27,7 +30,8 @@
 //! A saved result does not tell its equations, but its sensitivity coefficients: u^2 is a sum of
 //! contributions c u and of their correlation terms ([`compare_linear`]). An input's part is then
 //! that of its whole contribution, whether its uncertainty moved or its sensitivity coefficient,
-//! and that of its degrees of freedom. A task that is compared with a saved result is evaluated
+//! and that of its degrees of freedom. An input that no output has a sensitivity to is listed where it
+//! changed, as the outputs may depend on it by terms of second order. A task that is compared with a saved result is evaluated
 //! and taken in the same way ([`LinearResult::of_task`]).
 
 mod attribution;
@@ -35,9 +39,11 @@ mod contributions;
 mod linear;
 mod mixture;
 mod saved;
+mod trials;
 
 pub use linear::{LinearOutput, LinearResult, SeveralRows};
 pub use saved::compare_linear;
+pub use trials::{ByTrials, add_trials};
 
 use std::collections::{HashMap, HashSet};
 
@@ -78,8 +84,10 @@ pub struct OutputDifference {
     pub name: String,
     /// Its unit in the first file, for all figures.
     pub unit: String,
-    /// U in both files; `None` where it is not defined.
+    /// U of the law of propagation in both files; `None` where it is not defined.
     pub expanded: [Option<f64>; 2],
+    /// What the trials of both files say; `None` without trials.
+    pub by_trials: [Option<ByTrials>; 2],
     /// The inputs in the order of the files, then everything else that changed.
     pub parts: Vec<ChangePart>,
 }
@@ -232,6 +240,7 @@ fn compare_rows(
             name: quantity.name.clone(),
             unit: quantity.unit.text().to_owned(),
             expanded: expanded(gums, output.factor),
+            by_trials: [None, None],
             parts: list(tasks, rows, gums, output.factor, parts),
         })
     });

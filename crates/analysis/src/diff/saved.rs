@@ -136,6 +136,17 @@ impl Pair<'_> {
         })
     }
 
+    /// Whether an own input may act on this output although that has no sensitivity to it: none of the
+    /// outputs has one, here or there.
+    fn may_act(&self, input: &Matched) -> bool {
+        (0..2).all(|side| {
+            let of = self.sides[side];
+            input.indices[side].is_none_or(|index| {
+                of.is_own(index) && of.outputs.iter().all(|output| output.sensitivity(index) == 0.0)
+            })
+        })
+    }
+
     fn known(&self, side: usize, correlations: &[(usize, usize, f64)]) -> Option<Known> {
         let output = self.outputs[side];
         let root = |input: &Matched| self.sides[side].inputs.get(input.indices[side]?);
@@ -188,7 +199,8 @@ impl Pair<'_> {
         for (index, input) in self.inputs.iter().enumerate() {
             let states = [self.state(0, input), self.state(1, input)];
             // an input that this output does not go back to, here or there
-            if (0..2).all(|side| self.sensitivity(side, input) == 0.0) {
+            let is_apart = (0..2).all(|side| self.sensitivity(side, input) == 0.0);
+            if is_apart && !(states[0] != states[1] && self.may_act(input)) {
                 continue;
             }
             let change = match part(Cause::Input(index)) {
@@ -223,6 +235,8 @@ impl Pair<'_> {
             name: self.outputs[0].name.clone(),
             unit: self.outputs[0].unit.text().to_owned(),
             expanded,
+            by_trials: [0, 1]
+                .map(|side| Some(self.outputs[side].by_trials?.scaled(self.scale(side)))),
             parts: list,
         }
     }

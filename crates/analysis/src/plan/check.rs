@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::NoPlan;
+use super::excess::Excess;
 use super::trial_budget::{Change, Changes, TrialBudget, stand_in};
 use gumption_engine::distribution::{
     Arcsine, Constant, Distribution, Fits, Invalid, Normal, Rectangular, StudentT, Trapezoidal,
@@ -29,6 +30,8 @@ pub struct PlanCheck {
     pub stood_in: Vec<usize>,
     /// The fewest degrees of freedom that an input of the plan is drawn with.
     pub drawn_dof: f64,
+    /// The input that makes the trials miss the target where aiming lower would not help.
+    pub excess: Option<Excess>,
 }
 
 /// The trials of the planned row.
@@ -83,6 +86,7 @@ pub(super) fn of(
         holds,
         stood_in,
         drawn_dof: output.map_or(f64::INFINITY, |output| output.drawn_dof),
+        excess: None,
     })
 }
 

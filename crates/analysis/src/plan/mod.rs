@@ -12,6 +12,7 @@
 
 mod check;
 mod cost;
+mod excess;
 mod interval;
 mod optimum;
 mod search;
@@ -23,6 +24,7 @@ use std::fmt;
 
 pub use check::PlanCheck;
 pub use cost::{Costs, Improvement, Offer};
+pub use excess::Excess;
 pub use interval::{Drift, DriftLaw, PlannedInterval};
 pub use optimum::{CheapestPlan, PlannedInput};
 
@@ -127,6 +129,8 @@ pub enum NoPlan {
         /// The most that it may be by the law of propagation for the trials to come to the target,
         /// where both shrink alike.
         instead: f64,
+        /// The input that makes the difference where they do not.
+        excess: Option<Excess>,
     },
     /// The target holds with no combination of improvements; the least that was found.
     Unreachable(f64),
@@ -211,7 +215,7 @@ pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Resu
     };
     let met = figure <= limit;
     if met && interval.is_none() {
-        return Err(unplanned(task, budget, figure, control)?);
+        return Err(unplanned((task, &question.costs), budget, figure, control)?);
     }
     // before the needs of the inputs, which take longer and are of no use where there is no plan
     let cheapest = if met { None } else { Some(optimum::cheapest(budget, &question.costs)?) };
@@ -223,17 +227,24 @@ pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Resu
         .filter(|(_, other)| !other.holds(&budget.carried_to(other, &changes)))
         .map(|(row, _)| row)
         .collect();
-    let check = match task.settings.trials {
+    let mut check = match task.settings.trials {
         Trials::Fixed(0) => None,
         _ => Some(check::of(task, budget, &changes, control)?),
     };
+    if let Some(found) = check.as_mut().filter(|found| found.holds == Some(false) && !met)
+        && let Some((by_trials, planned)) = found.figure.zip(budget.figure(&changes))
+    {
+        let aim = excess::lower_target(budget, planned, by_trials);
+        let asked = (task, &question.costs);
+        found.excess = excess::of(asked, budget, (&changes, by_trials), aim, control);
+    }
     Ok(Plan { target, row, now, figure, limit, inputs, cheapest, interval, missed_rows, check })
 }
 
 /// Why nothing is planned where the target holds by the law of propagation: it is met, unless the
 /// trials miss it.
 fn unplanned(
-    task: &Task,
+    (task, costs): (&Task, &Costs),
     budget: &TrialBudget<'_>,
     figure: f64,
     control: &Control<'_>,
@@ -244,8 +255,10 @@ fn unplanned(
     let check = check::of(task, budget, &Changes::default(), control)?;
     Ok(match (check.holds, check.figure) {
         (Some(false), Some(by_trials)) => {
-            let instead = budget.limit * figure / by_trials;
-            NoPlan::MetByPropagation { figure, by_trials, instead }
+            let instead = excess::lower_target(budget, figure, by_trials);
+            let as_it_is = (&Changes::default(), by_trials);
+            let excess = excess::of((task, costs), budget, as_it_is, instead, control);
+            NoPlan::MetByPropagation { figure, by_trials, instead, excess }
         }
         _ => NoPlan::Met(figure),
     })

@@ -39,7 +39,7 @@ pub(super) struct Models {
 
 impl Models {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
-        let [file] = output::open([("--output", self.output.as_deref())], &[])?;
+        let [file] = output::open([("--output", output::to_file(self.output.as_deref()))], &[])?;
         let text = match &self.name {
             name if self.effects => {
                 let listing = effects::named(name.as_deref())?;

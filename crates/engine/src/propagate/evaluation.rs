@@ -142,13 +142,10 @@ pub struct CapabilityStatement {
     pub raised: bool,
 }
 
-/// Coverage probabilities that are approximately 95 %, of factors from 1.92 to 2.06.
-const ABOUT_95: std::ops::RangeInclusive<f64> = 0.945..=0.96;
-
 /// A capability, which is stated for approximately 95 % and the factor 2 (ILAC-P14:09/2020, 4.2), with
 /// another coverage: it grows with the factor of a normal distribution.
 fn with_coverage(cmc: f64, coverage: Coverage) -> f64 {
-    if ABOUT_95.contains(&coverage.probability()) {
+    if coverage.is_about_95() {
         return cmc;
     }
     to_digits(0.5 * coverage.normal_factor() * cmc, COMPUTED_DIGITS)

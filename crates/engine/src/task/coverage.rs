@@ -2,6 +2,9 @@
 
 use crate::special;
 
+/// Coverage probabilities that are approximately 95 %, of factors from 1.92 to 2.06.
+const ABOUT_95: std::ops::RangeInclusive<f64> = 0.945..=0.96;
+
 /// A coverage probability, or the coverage factor that accreditation practice names instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coverage {
@@ -59,6 +62,12 @@ impl Coverage {
             Self::Usual | Self::Factor { factor: 2.0, .. } => 0.9545,
             Self::Factor { factor, .. } => 1.0 - 2.0 * special::normal::sf(factor),
         }
+    }
+
+    /// Whether it is approximately 95 %, as capabilities of laboratories and the guard bands of ILAC-G8
+    /// have it.
+    pub fn is_about_95(self) -> bool {
+        ABOUT_95.contains(&self.probability())
     }
 
     /// The coverage factor of a normal distribution.

@@ -10,9 +10,10 @@ use super::either::ModelOrResult;
 use super::result_file::{ResultFile, SavedOutput};
 use super::{DiagnosticKind, ModelFile};
 use gumption_analysis::diff::{
-    Difference, LinearOutput, LinearResult, SeveralRows, compare, compare_linear,
+    Difference, LinearOutput, LinearResult, SeveralRows, add_trials, compare, compare_linear,
 };
 use gumption_engine::distribution::RootName;
+use gumption_engine::propagate::Control;
 
 /// Compares two model files, two saved results, or one with the other.
 ///
@@ -21,11 +22,12 @@ use gumption_engine::distribution::RootName;
 pub fn difference(
     first: &ModelOrResult,
     second: &ModelOrResult,
+    control: &Control<'_>,
 ) -> Result<Difference, Diagnostics> {
     if let (ModelOrResult::Model(first), ModelOrResult::Model(second)) = (first, second) {
-        return Ok(of_models(first, second));
+        return Ok(of_models(first, second, control));
     }
-    match (linear(first), linear(second)) {
+    match (linear(first, control), linear(second, control)) {
         (Ok(first), Ok(second)) => Ok(compare_linear(&first, &second)),
         (first, second) => {
             let found = [first.err(), second.err()].into_iter().flatten();
@@ -34,21 +36,22 @@ pub fn difference(
     }
 }
 
-fn of_models(first: &ModelFile, second: &ModelFile) -> Difference {
+fn of_models(first: &ModelFile, second: &ModelFile, control: &Control<'_>) -> Difference {
     let mut difference = compare(&first.task, &second.task);
+    add_trials(&mut difference, [&first.task, &second.task], control);
     difference.changes.splice(0..0, changes::list(first, second));
     difference
 }
 
-fn linear(file: &ModelOrResult) -> Result<LinearResult, Diagnostics> {
+fn linear(file: &ModelOrResult, control: &Control<'_>) -> Result<LinearResult, Diagnostics> {
     match file {
         ModelOrResult::Result(file) => Ok(of_result(file)),
-        ModelOrResult::Model(file) => of_model(file),
+        ModelOrResult::Model(file) => of_model(file, control),
     }
 }
 
-fn of_model(file: &ModelFile) -> Result<LinearResult, Diagnostics> {
-    LinearResult::of_task(&file.task).map_err(|SeveralRows { rows }| {
+fn of_model(file: &ModelFile, control: &Control<'_>) -> Result<LinearResult, Diagnostics> {
+    LinearResult::of_task(&file.task, control).map_err(|SeveralRows { rows }| {
         file.diagnostic_at("conditions", DiagnosticKind::SeveralRows { rows })
     })
 }
@@ -71,6 +74,7 @@ fn of_result(file: &ResultFile) -> LinearResult {
             dof: saved.distribution.dof(),
             coverage_factor: saved.coverage_factor,
             probability: file.coverage_probability,
+            by_trials: saved.by_trials,
             sensitivities,
         }
     };

@@ -144,7 +144,11 @@ fn rule(row: &Stated<'_>, found: &Conformity, of: Said) -> String {
             Some(to) => (words.multiple, of.in_marks(&limits(row, to, place, words))),
             None => (words.too_wide, String::new()),
         };
+        let coverage = row.asked.task.settings.coverage;
+        let clause = words.of_ilac_g8[usize::from(!coverage.is_about_95())];
+        let clause = clause.replace("{k}", &of.in_marks(&row.factor().text));
         let said = said.replace("{factor}", &of.in_marks(&exact(factor)));
+        let said = said.replace("{clause}", &clause);
         return said.replace("{guard}", &guard).replace("{limits}", &accepted);
     }
     let Some(risk) = found.wanted_risk else { return words.simple.to_owned() };

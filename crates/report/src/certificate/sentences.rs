@@ -78,13 +78,16 @@ pub(super) fn coverage(report: &CertificateReport<'_>, of: Said, beside: Beside)
     }
     // an uncertainty that is the laboratory's capability was not evaluated so, nor confirmed
     say(words.propagation, &|row| !row.statement.of_distribution && !raised(row));
-    for (probability, factor) in raised_to(&rows) {
+    for (probability, factor, is_about_95) in raised_to(&rows) {
         let template = words.raised[usize::from(probability.is_none())];
         let sentence = template.replace("{p}", &self::probability(of, probability));
-        let sentence = sentence.replace("{k}", &of.in_marks(&factor));
+        let of_factor = words.of_capability[usize::from(!is_about_95)];
+        let of_factor = of_factor.replace("{k}", &of.in_marks(&factor));
+        let sentence = sentence.replace("{factor}", &of_factor);
         say(&sentence, &|row| {
             let same = row.statement.coverage_probability == probability;
-            raised(row) && same && row.factor().text == factor
+            let is_like = row.asked.task.settings.coverage.is_about_95() == is_about_95;
+            raised(row) && same && is_like && row.factor().text == factor
         });
     }
     say(words.confirmed, &|row| {
@@ -113,11 +116,13 @@ pub(super) fn in_marks(mark: DecimalMark, numbers: &str) -> String {
     }
 }
 
-/// The coverage probabilities and factors of rows whose uncertainty is the laboratory's capability.
-fn raised_to(rows: &[Stated<'_>]) -> Vec<(Option<f64>, String)> {
+/// The coverage probabilities and factors of rows whose uncertainty is the laboratory's capability, and
+/// whether they are about those of capabilities.
+fn raised_to(rows: &[Stated<'_>]) -> Vec<(Option<f64>, String, bool)> {
     let mut found = Vec::new();
     for row in rows.iter().filter(|row| row.is_raised()) {
-        let of = (row.statement.coverage_probability, row.factor().text);
+        let is_about_95 = row.asked.task.settings.coverage.is_about_95();
+        let of = (row.statement.coverage_probability, row.factor().text, is_about_95);
         if !found.contains(&of) {
             found.push(of);
         }

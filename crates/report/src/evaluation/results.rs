@@ -117,7 +117,8 @@ fn verdict(settings: &Settings, stated: &Output, found: &OutputEvaluation) -> Ve
         }
     }
     let trials = found.monte_carlo.as_ref().map(|figures| figures.trials);
-    said.extend(found.conformity.iter().flat_map(|c| comparison::conformity(output, c, trials)));
+    let beside = (trials, settings.coverage);
+    said.extend(found.conformity.iter().flat_map(|c| comparison::conformity(output, c, beside)));
     said.extend(comparison::capability(stated, found, settings.digits));
     said
 }

@@ -3,7 +3,7 @@
 use super::PlanReport;
 use crate::answer::{list, object, pretty};
 use gumption_analysis::plan::{
-    CheapestPlan, Costs, InputNeed, PlanCheck, PlannedInput, PlannedInterval,
+    CheapestPlan, Costs, Excess, InputNeed, PlanCheck, PlannedInput, PlannedInterval,
 };
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::task::Trials;
@@ -109,6 +109,16 @@ fn check(report: &PlanReport<'_>, found: &PlanCheck) -> Value {
         ("numerical_standard_error", found.numerical_standard_error.into()),
         ("holds", found.holds.into()),
         ("stood_in", list(found.stood_in.iter().map(|&variable| report.name(variable)))),
+        ("excess", found.excess.map(|excess| of_excess(report, excess)).into()),
+    ])
+}
+
+fn of_excess(report: &PlanReport<'_>, of: Excess) -> Value {
+    object([
+        ("input", Value::from(report.name(of.variable))),
+        ("unit", report.unit(of.variable).into()),
+        ("without", of.without.into()),
+        ("needed", of.needed.into()),
     ])
 }
 

@@ -10,7 +10,7 @@ mod words;
 pub use csv::csv;
 pub use json::json;
 pub use page::{html, markdown, table};
-pub use words::{wanted, worse_offers};
+pub use words::{excess_text, wanted, worse_offers};
 
 use crate::Provenance;
 use gumption_analysis::plan::{Costs, Plan};

@@ -6,7 +6,7 @@ use crate::number::{exact, rounded, significant};
 use crate::plain;
 use crate::table::{conditions_text, grouped, in_unit, row_numbers};
 use gumption_analysis::plan::{
-    Costs, DriftLaw, Improvement, PlanCheck, PlanTarget, PlannedInterval,
+    Costs, DriftLaw, Excess, Improvement, PlanCheck, PlanTarget, PlannedInterval,
 };
 use gumption_engine::decimal::to_digits;
 use gumption_engine::model::Quantity;
@@ -152,10 +152,34 @@ fn widening(dof: f64) -> f64 {
     if dof > 2.0 { (dof / (dof - 2.0)).sqrt() } else { f64::INFINITY }
 }
 
+/// Which input makes the trials miss a target that the law of propagation meets, and what it would have
+/// to become.
+pub fn excess_text(excess: &Excess, task: &Task, target: PlanTarget) -> String {
+    let variable = task.variables.get(excess.variable);
+    let name = plain(variable.map_or("", |variable| variable.name.as_str()));
+    let output = task.model.outputs.get(target.output).map(|output| &output.quantity);
+    let without = value(output, &significant(excess.without, DIGITS));
+    let mut said = format!(
+        "`{name}` makes the difference: the law of propagation does not see all that it does, and cannot plan it; without its uncertainty the trials give {without}"
+    );
+    if let Some((needed, variable)) = excess.needed.zip(variable) {
+        let needed = in_unit(&at_most(needed), &variable.unit);
+        said += &format!(
+            ", and with a standard uncertainty of `{name}` of {needed} they come to the target"
+        );
+    }
+    said
+}
+
 /// What the trials say.
 fn check(report: &PlanReport<'_>, found: &PlanCheck) -> Option<String> {
     let figure = value(report.output(), &significant(found.figure?, DIGITS));
+    let of_excess = found.excess.as_ref().map(|excess| {
+        let said = excess_text(excess, report.task, report.plan.target);
+        format!("the target is missed, and aiming lower does not help: {said}")
+    });
     let verdict = match found.holds {
+        Some(false) if of_excess.is_some() => of_excess.as_deref().unwrap_or_default(),
         Some(true) => "the target holds",
         Some(false) if found.figure? <= report.plan.limit * widening(found.drawn_dof) => {
             "the target is missed: standard uncertainties of inputs have few degrees of freedom, which \

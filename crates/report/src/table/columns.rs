@@ -165,10 +165,11 @@ fn all_cells(
 }
 
 /// A value relative to the modulus of an estimate, in per cent. A share of a temperature in degrees
-/// Celsius says nothing, and there is none of zero.
+/// Celsius or of a level says nothing, and there is none of zero.
 fn relative(value: f64, estimate: f64, unit: &Unit, digits: u32) -> String {
     let share = 100.0 * value / estimate.abs();
-    if unit.is_celsius() || !share.is_finite() { missing() } else { significant(share, digits) }
+    let is_share = !unit.is_celsius() && unit.level_exponent().is_zero() && share.is_finite();
+    if is_share { significant(share, digits) } else { missing() }
 }
 
 fn missing() -> String {

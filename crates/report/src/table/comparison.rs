@@ -13,7 +13,7 @@ use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
 use gumption_engine::propagate::validate::Validation;
 use gumption_engine::propagate::{Accuracy, Conformity, Noiseless, OutputEvaluation};
-use gumption_engine::task::{Coverage, StoppingRule};
+use gumption_engine::task::{Coverage, Settings, StoppingRule};
 
 /// What is said of a shortest interval that is not exact.
 pub(crate) const NEARLY_SHORTEST: &str =
@@ -28,7 +28,12 @@ const SHAPE_PLACE: i32 = -2;
 
 /// The figures of both methods with the numerical standard errors of the Monte Carlo ones, and the
 /// verdict; nothing without trials and without a GUM interval.
-pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) -> Option<String> {
+pub(super) fn table(
+    output: &Quantity,
+    figures: &OutputEvaluation,
+    settings: &Settings,
+) -> Option<String> {
+    let digits = settings.digits;
     let gum = figures.gum.as_ref();
     let lines = Lines::of(figures, digits);
     let said = without_noise(output, figures);
@@ -38,7 +43,12 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
             .and_then(|gum| interval_text(output, gum, digits))
             .into_iter()
             .chain(said)
-            .chain(figures.conformity.iter().flat_map(|found| conformity(output, found, None)))
+            .chain(
+                figures
+                    .conformity
+                    .iter()
+                    .flat_map(|found| conformity(output, found, (None, settings.coverage))),
+            )
             .map(|said| text::wrapped(&said))
             .collect::<String>();
         return (!page.is_empty()).then_some(page);
@@ -59,7 +69,7 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
     page.push('\n');
     page += &text::wrapped(&verdict(output, figures, monte_carlo));
     if let Some(found) = &figures.conformity {
-        let said = conformity(output, found, Some(monte_carlo.trials));
+        let said = conformity(output, found, (Some(monte_carlo.trials), settings.coverage));
         page += &said.map(|said| text::wrapped(&said)).concat();
     }
     Some(page)
@@ -166,15 +176,16 @@ pub(crate) fn capability(
 }
 
 /// Conformity with the output's tolerance: its probability, the rule and the decision, the risks.
-/// `trials` is how many of them the evaluation has.
+/// `trials` is how many of them the evaluation has, `coverage` that of U.
 pub(crate) fn conformity(
     output: &Quantity,
     found: &Conformity,
-    trials: Option<u64>,
+    (trials, coverage): (Option<u64>, Coverage),
 ) -> [String; 3] {
     // an uncertainty that is stated in place of the evaluated one has no trials
     let trials = trials.filter(|_| found.stated_uncertainty.is_none());
-    [conformity_text(output, found, trials), rule_text(output, found), risks_text(found, trials)]
+    let rule = rule_text(output, found, coverage);
+    [conformity_text(output, found, trials), rule, risks_text(found, trials)]
 }
 
 /// The probability of conformity with the output's tolerance.
@@ -237,19 +248,24 @@ pub(crate) fn decision(found: &Conformity) -> &'static str {
 }
 
 /// The rule by which it is decided.
-pub(super) fn rule(found: &Conformity) -> String {
+pub(super) fn rule(found: &Conformity, coverage: Coverage) -> String {
     match (found.wanted_risk, found.guard_factor) {
         (Some(risk), _) => {
             format!("guarded acceptance (JCGM 106, 8.3) for {}", risk_text(found, risk))
         }
-        (None, Some(factor)) => format!("guarded acceptance ({})", multiple_text(factor)),
+        (None, Some(factor)) => format!("guarded acceptance ({})", multiple_text(factor, coverage)),
         (None, None) => "simple acceptance (JCGM 106, 8.2)".to_owned(),
     }
 }
 
-/// A guard band in multiples of U.
-fn multiple_text(factor: f64) -> String {
-    format!("ILAC-G8, guard band of {} U", exact(factor))
+/// A guard band in multiples of U, which has approximately 95 % where it is that of ILAC-G8.
+fn multiple_text(factor: f64, coverage: Coverage) -> String {
+    let factor = exact(factor);
+    if coverage.is_about_95() {
+        return format!("ILAC-G8, guard band of {factor} U");
+    }
+    let of_u = coverage_text(coverage);
+    format!("guard band of {factor} U, with U for {of_u}; ILAC-G8 has it for approximately 95 %")
 }
 
 /// A risk that is wanted at most.
@@ -259,11 +275,12 @@ fn risk_text(found: &Conformity, risk: f64) -> String {
 }
 
 /// The decision rule and the decision.
-fn rule_text(output: &Quantity, found: &Conformity) -> String {
+fn rule_text(output: &Quantity, found: &Conformity, coverage: Coverage) -> String {
     let decision = decision(found);
     if let (Some(factor), Some(width)) = (found.guard_factor, found.guard_band) {
         let digits = position(width, 3);
-        let (rule, guard) = (multiple_text(factor), in_unit(&to(width, digits), &output.unit));
+        let rule = multiple_text(factor, coverage);
+        let guard = in_unit(&to(width, digits), &output.unit);
         return match found.acceptance {
             Some(acceptance) => format!(
                 "Decision rule: guarded acceptance ({rule}): {guard}, accepted {}. Decision: {decision}.",

@@ -93,7 +93,7 @@ pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> 
         "Tolerance {}, {}: {} of {} rows accepted{}. Probabilities, guard bands and risks of every row: \
          --format json.",
         limits,
-        rule(first),
+        rule(first, task.settings.coverage),
         found.len() - rejected.len(),
         found.len(),
         if rejected.is_empty() {
@@ -155,6 +155,9 @@ pub(crate) fn summary(task: &Task, row: &RowEvaluation, digits: u32) -> Sheet {
 /// The header of uncertainties that are raised to the laboratory's capability in some rows.
 const RAISED: &str = "to be stated\n(CMC)";
 
+/// The header of the estimates that were decided about, where some are not those of the GUM.
+const DECIDING: &str = "estimate\nthat decides";
+
 /// The columns of the answer.
 fn answer(sheet: &mut Sheet, lines: &[Line], has_trials: bool) {
     let column = |position: usize| lines.iter().map(move |line| line.texts[position].clone());
@@ -177,6 +180,9 @@ fn answer(sheet: &mut Sheet, lines: &[Line], has_trials: bool) {
             };
             sheet.text("Monte Carlo\ninterval is", lines.iter().map(kind));
         }
+    }
+    if lines.iter().any(|line| line.is_decided_apart) {
+        sheet.numbers(DECIDING, lines.iter().map(|line| line.deciding.clone()));
     }
     if lines.iter().any(|line| line.decision != MISSING) {
         sheet.text("decision", lines.iter().map(|line| line.decision.to_owned()));
@@ -372,6 +378,9 @@ impl Sweep<'_> {
             grid.text(header, intervals);
             grid.text("GUM\ninterval", column(6));
         }
+        if lines.iter().any(|line| line.is_decided_apart) {
+            grid.numbers(DECIDING, lines.iter().map(|line| line.deciding.clone()));
+        }
         if lines.iter().any(|line| line.decision != MISSING) {
             grid.text("decision", lines.iter().map(|line| line.decision.to_owned()));
         }
@@ -402,6 +411,10 @@ struct Line {
     stated: String,
     /// Whether it is the capability.
     is_raised: bool,
+    /// The estimate that was decided about.
+    deciding: String,
+    /// Whether it is another one than the estimate of the GUM, as they are printed.
+    is_decided_apart: bool,
     /// What is decided of an output with a tolerance.
     decision: &'static str,
 }
@@ -440,12 +453,20 @@ fn line(output: Option<&OutputEvaluation>, digits: u32) -> Line {
     ];
     let conformity = output.and_then(|output| output.conformity.as_deref());
     let decision = conformity.map_or(MISSING, decision);
+    let error = figures.and_then(|figures| figures.errors.estimate).unwrap_or(0.0);
+    let own = own.and_then(|u| position(u, digits));
+    let deciding = conformity.map(|found| {
+        let is_propagated = gum.is_some_and(|gum| gum.estimate == found.estimate);
+        if is_propagated { texts[0].clone() } else { justified(found.estimate, own, error) }
+    });
     let beside = output.and_then(|output| output.capability.as_deref());
     Line {
         stated: beside
             .and_then(|beside| beside.rounded(digits))
             .map_or_else(missing, |expanded| expanded.to_string()),
         is_raised: beside.is_some_and(|beside| beside.raised),
+        is_decided_apart: deciding.as_ref().is_some_and(|text| *text != texts[0]),
+        deciding: deciding.unwrap_or_else(missing),
         texts,
         shortest: stated.map(|of| of.shortest),
         decision,

@@ -1,8 +1,13 @@
 use std::path::Path;
 
-use super::super::of_models as compare;
+use super::super::of_models;
 use crate::{ModelFile, read_text};
 use gumption_analysis::diff::{ChangeCause, Difference, OutputDifference};
+use gumption_engine::propagate::Control;
+
+fn compare(first: &ModelFile, second: &ModelFile) -> Difference {
+    of_models(first, second, &Control::default())
+}
 
 fn read(text: &str) -> ModelFile {
     read_text("x", text, Path::new(""), &[]).unwrap()

@@ -3,6 +3,7 @@ use std::path::Path;
 
 use super::super::difference;
 use gumption_analysis::integrity;
+use gumption_engine::propagate::Control;
 
 use crate::{DiagnosticKind, ModelOrResult, read_result, read_text};
 use gumption_analysis::diff::{ChangeCause, Difference, OutputDifference};
@@ -58,7 +59,7 @@ impl Made<'_> {
 }
 
 fn compared(first: &Made<'_>, second: &Made<'_>) -> Difference {
-    difference(&first.result(), &second.result()).unwrap()
+    difference(&first.result(), &second.result(), &Control::default()).unwrap()
 }
 
 fn only(difference: &Difference) -> &OutputDifference {
@@ -225,7 +226,7 @@ fn a_model_file_and_a_result() {
         ModelOrResult::Model(Box::new(read_text("m.json", &text, Path::new(""), &[]).unwrap()))
     };
     let (first, second) = (first.result(), model(r#""coverage_probability": 0.95,"#));
-    let compared = difference(&first, &second).unwrap();
+    let compared = difference(&first, &second, &Control::default()).unwrap();
     let output = only(&compared);
     assert_complete(output);
     // in mV: u^2 from 9 + 9 to 400^2
@@ -235,7 +236,7 @@ fn a_model_file_and_a_result() {
     assert_eq!(output.parts[1].states[1], None);
 
     let swept = model(r#""conditions": {"f": {"values": [1, 2]}},"#);
-    let diagnostics = difference(&swept, &first).unwrap_err();
+    let diagnostics = difference(&swept, &first, &Control::default()).unwrap_err();
     assert_eq!(diagnostics.0[0].kind, DiagnosticKind::SeveralRows { rows: 2 });
     assert_eq!(diagnostics.0[0].position(), (1, 2));
 }

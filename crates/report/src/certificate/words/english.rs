@@ -82,12 +82,14 @@ pub(super) const WORDS: Words = Words {
     digits: ["one significant digit", "{digits} significant digits"],
     raised: [
         "The evaluated expanded uncertainty is smaller than the laboratory's calibration and \
-            measurement capability (CMC), which is stated as U instead (ILAC-P14:09/2020), with \
-            the coverage factor k = {k} of the capability; the interval from value - U to value \
+            measurement capability (CMC), which is stated as U instead (ILAC-P14:09/2020), {factor}; the interval from value - U to value \
             + U has a coverage probability of at least {p}.",
         "The evaluated expanded uncertainty is smaller than the laboratory's calibration and \
-            measurement capability (CMC), which is stated as U instead (ILAC-P14:09/2020), with \
-            the coverage factor k = {k} of the capability.",
+            measurement capability (CMC), which is stated as U instead (ILAC-P14:09/2020), {factor}.",
+    ],
+    of_capability: [
+        "with the coverage factor k = {k} of the capability",
+        "brought from the coverage factor 2 of the capability to k = {k}",
     ],
     dof_list: "Effective degrees of freedom ν_eff: {list}.",
     approximately: "approximately {p}",
@@ -141,9 +143,13 @@ pub(super) const WORDS: Words = Words {
     percent: ["{p} %", "more than {p} %", "less than {p} %"],
     simple: "Decision rule: simple acceptance (JCGM 106:2012, 8.2).",
     multiple: "Decision rule: guarded acceptance with a guard band of {factor} U \
-        (ILAC-G8:09/2019, 4.2.2), with U before rounding; guard band {guard}, accepted {limits}.",
+        ({clause}), with U before rounding; guard band {guard}, accepted {limits}.",
     too_wide: "Decision rule: guarded acceptance with a guard band of {factor} U \
-        (ILAC-G8:09/2019, 4.2.2), with U before rounding; guard band {guard}, more than half of the tolerance: no value is accepted.",
+        ({clause}), with U before rounding; guard band {guard}, more than half of the tolerance: no value is accepted.",
+    of_ilac_g8: [
+        "ILAC-G8:09/2019, 4.2.2",
+        "U having k = {k}; ILAC-G8:09/2019, 4.2.2, has it for U of approximately 95 %",
+    ],
     rule_agreed: "The decision rule was agreed with the customer.",
     specification: "Specification: {name}.",
     guarded: "Decision rule: guarded acceptance (JCGM 106:2012, 8.3) for {kind} of at most {risk} %; \

@@ -84,12 +84,16 @@ pub(super) const WORDS: Words = Words {
     raised: [
         "L'incertitude élargie évaluée est inférieure à l'aptitude en matière de mesures et \
             d'étalonnages (CMC) du laboratoire, qui est déclarée comme U à sa place \
-            (ILAC-P14:09/2020), avec le facteur d'élargissement k = {k} de l'aptitude ; \
+            (ILAC-P14:09/2020), {factor} ; \
             l'intervalle de valeur - U à valeur + U a une probabilité de couverture d'au moins \
             {p}.",
         "L'incertitude élargie évaluée est inférieure à l'aptitude en matière de mesures et \
             d'étalonnages (CMC) du laboratoire, qui est déclarée comme U à sa place \
-            (ILAC-P14:09/2020), avec le facteur d'élargissement k = {k} de l'aptitude.",
+            (ILAC-P14:09/2020), {factor}.",
+    ],
+    of_capability: [
+        "avec le facteur d'élargissement k = {k} de l'aptitude",
+        "ramenée de son facteur d'élargissement 2 à k = {k}",
     ],
     dof_list: "Degrés de liberté effectifs ν_eff : {list}.",
     approximately: "{p} environ",
@@ -144,10 +148,14 @@ pub(super) const WORDS: Words = Words {
     percent: ["{p} %", "plus de {p} %", "moins de {p} %"],
     simple: "Règle de décision : acceptation simple (JCGM 106:2012, 8.2).",
     multiple: "Règle de décision : acceptation avec une bande de garde de {factor} U \
-        (ILAC-G8:09/2019, 4.2.2), avec U avant arrondi ; bande de garde {guard}, accepté {limits}.",
+        ({clause}), avec U avant arrondi ; bande de garde {guard}, accepté {limits}.",
     too_wide: "Règle de décision : acceptation avec une bande de garde de {factor} U \
-        (ILAC-G8:09/2019, 4.2.2), avec U avant arrondi ; bande de garde {guard}, plus que la moitié de la tolérance : aucune \
+        ({clause}), avec U avant arrondi ; bande de garde {guard}, plus que la moitié de la tolérance : aucune \
         valeur n'est acceptée.",
+    of_ilac_g8: [
+        "ILAC-G8:09/2019, 4.2.2",
+        "U ayant k = {k} ; ILAC-G8:09/2019, 4.2.2, la prévoit pour U à 95 % environ",
+    ],
     rule_agreed: "La règle de décision a été convenue avec le client.",
     specification: "Spécification : {name}.",
     guarded: "Règle de décision : acceptation avec bande de garde (JCGM 106:2012, 8.3) pour {kind} d'au plus \

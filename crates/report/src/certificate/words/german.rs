@@ -87,11 +87,15 @@ pub(super) const WORDS: Words = Words {
     raised: [
         "Die ermittelte erweiterte Messunsicherheit ist kleiner als die kleinste angebbare \
             Messunsicherheit (CMC) des Laboratoriums; diese ist stattdessen als U angegeben \
-            (ILAC-P14:09/2020), mit ihrem Erweiterungsfaktor k = {k}. Das Intervall von Wert - U \
+            (ILAC-P14:09/2020), {factor}. Das Intervall von Wert - U \
             bis Wert + U hat eine Überdeckungswahrscheinlichkeit von mindestens {p}.",
         "Die ermittelte erweiterte Messunsicherheit ist kleiner als die kleinste angebbare \
             Messunsicherheit (CMC) des Laboratoriums; diese ist stattdessen als U angegeben \
-            (ILAC-P14:09/2020), mit ihrem Erweiterungsfaktor k = {k}.",
+            (ILAC-P14:09/2020), {factor}.",
+    ],
+    of_capability: [
+        "mit ihrem Erweiterungsfaktor k = {k}",
+        "von ihrem Erweiterungsfaktor 2 auf k = {k} gebracht",
     ],
     dof_list: "Effektive Freiheitsgrade ν_eff: {list}.",
     approximately: "annähernd {p}",
@@ -150,10 +154,14 @@ pub(super) const WORDS: Words = Words {
     percent: ["{p} %", "mehr als {p} %", "weniger als {p} %"],
     simple: "Entscheidungsregel: einfache Annahme (JCGM 106:2012, 8.2).",
     multiple: "Entscheidungsregel: Annahme mit einem Sicherheitsband von {factor} U \
-        (ILAC-G8:09/2019, 4.2.2), mit U vor der Rundung; Sicherheitsband {guard}, angenommen {limits}.",
+        ({clause}), mit U vor der Rundung; Sicherheitsband {guard}, angenommen {limits}.",
     too_wide: "Entscheidungsregel: Annahme mit einem Sicherheitsband von {factor} U \
-        (ILAC-G8:09/2019, 4.2.2), mit U vor der Rundung; Sicherheitsband {guard}, mehr als die halbe Toleranz: kein Wert wird \
+        ({clause}), mit U vor der Rundung; Sicherheitsband {guard}, mehr als die halbe Toleranz: kein Wert wird \
         angenommen.",
+    of_ilac_g8: [
+        "ILAC-G8:09/2019, 4.2.2",
+        "wobei U k = {k} hat; ILAC-G8:09/2019, 4.2.2, hat es für U mit etwa 95 %",
+    ],
     rule_agreed: "Die Entscheidungsregel ist mit dem Kunden vereinbart.",
     specification: "Spezifikation: {name}.",
     guarded: "Entscheidungsregel: Annahme mit Sicherheitsband (JCGM 106:2012, 8.3) für {kind} von \

@@ -82,12 +82,14 @@ pub(super) const WORDS: Words = Words {
     digits: ["una cifra significativa", "{digits} cifre significative"],
     raised: [
         "L'incertezza estesa valutata è minore della capacità di misura e taratura (CMC) del \
-            laboratorio, che è dichiarata come U in sua vece (ILAC-P14:09/2020), con il fattore \
-            di copertura k = {k} della capacità; l'intervallo da valore - U a valore + U ha una \
+            laboratorio, che è dichiarata come U in sua vece (ILAC-P14:09/2020), {factor}; l'intervallo da valore - U a valore + U ha una \
             probabilità di copertura di almeno {p}.",
         "L'incertezza estesa valutata è minore della capacità di misura e taratura (CMC) del \
-            laboratorio, che è dichiarata come U in sua vece (ILAC-P14:09/2020), con il fattore \
-            di copertura k = {k} della capacità.",
+            laboratorio, che è dichiarata come U in sua vece (ILAC-P14:09/2020), {factor}.",
+    ],
+    of_capability: [
+        "con il fattore di copertura k = {k} della capacità",
+        "riportata dal suo fattore di copertura 2 a k = {k}",
     ],
     dof_list: "Gradi di libertà effettivi ν_eff: {list}.",
     approximately: "circa {p}",
@@ -142,10 +144,14 @@ pub(super) const WORDS: Words = Words {
     percent: ["{p} %", "oltre {p} %", "meno di {p} %"],
     simple: "Regola decisionale: accettazione semplice (JCGM 106:2012, 8.2).",
     multiple: "Regola decisionale: accettazione con una banda di guardia di {factor} U \
-        (ILAC-G8:09/2019, 4.2.2), con U prima dell'arrotondamento; banda di guardia {guard}, accettato {limits}.",
+        ({clause}), con U prima dell'arrotondamento; banda di guardia {guard}, accettato {limits}.",
     too_wide: "Regola decisionale: accettazione con una banda di guardia di {factor} U \
-        (ILAC-G8:09/2019, 4.2.2), con U prima dell'arrotondamento; banda di guardia {guard}, più della metà della tolleranza: nessun \
+        ({clause}), con U prima dell'arrotondamento; banda di guardia {guard}, più della metà della tolleranza: nessun \
         valore è accettato.",
+    of_ilac_g8: [
+        "ILAC-G8:09/2019, 4.2.2",
+        "U avendo k = {k}; ILAC-G8:09/2019, 4.2.2, la prevede per U al 95 % circa",
+    ],
     rule_agreed: "La regola decisionale è stata concordata con il cliente.",
     specification: "Specifica: {name}.",
     guarded: "Regola decisionale: accettazione con banda di guardia (JCGM 106:2012, 8.3) per {kind} non \

@@ -79,8 +79,10 @@ pub(super) struct Words {
     pub(super) kept: &'static str,
     /// One digit, and `{digits}` digits.
     pub(super) digits: [&'static str; 2],
-    /// `{k}`, and with the probability that is reached at least: `{p}`.
+    /// `{factor}`, and with the probability that is reached at least: `{p}`.
     pub(super) raised: [&'static str; 2],
+    /// The factor of a capability as it is, and as it is brought from 2 to another: `{k}`.
+    pub(super) of_capability: [&'static str; 2],
     /// `{list}`; where no table has them.
     pub(super) dof_list: &'static str,
     /// `{p}`
@@ -131,10 +133,13 @@ pub(super) struct Words {
     /// A probability, one above a number and one below it: `{p}`.
     pub(super) percent: [&'static str; 3],
     pub(super) simple: &'static str,
-    /// A guard band in multiples of U: `{factor}`, `{guard}`, `{limits}`
+    /// A guard band in multiples of U: `{factor}`, `{clause}`, `{guard}`, `{limits}`
     pub(super) multiple: &'static str,
-    /// The same of a guard band that leaves nothing: `{factor}`, `{guard}`
+    /// The same of a guard band that leaves nothing: `{factor}`, `{clause}`, `{guard}`
     pub(super) too_wide: &'static str,
+    /// The clause of such a guard band, and how it is not that where U is not of approximately 95 %:
+    /// `{k}`.
+    pub(super) of_ilac_g8: [&'static str; 2],
     pub(super) rule_agreed: &'static str,
     /// What the tolerance is that of: `{name}`
     pub(super) specification: &'static str,

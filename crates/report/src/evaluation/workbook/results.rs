@@ -8,7 +8,7 @@ use crate::number::{place_of_ends, position};
 use crate::workbook::{Cached, Leaf, Look, PERCENT, here};
 use crate::{EvaluationReport, plain, table};
 use gumption_engine::decimal::Decimal;
-use gumption_engine::model::Quantity;
+use gumption_engine::model::Output;
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
 use gumption_engine::propagate::{Conformity, OutputEvaluation};
@@ -39,12 +39,13 @@ const HEADERS: [&str; 18] = [
 ];
 
 /// Figures of outputs with a tolerance.
-const CONFORMITY: [&str; 8] = [
+const CONFORMITY: [&str; 9] = [
     "tolerance, from",
     "tolerance, to",
     "guard band",
     "acceptance, from",
     "acceptance, to",
+    "estimate that decides",
     "decision by the estimate",
     "probability of conformity",
     "numerical standard error of it",
@@ -58,6 +59,8 @@ const ESTIMATE: usize = 2;
 const UNCERTAINTY: usize = 3;
 const GUM: usize = 2;
 const TRIALS: usize = 9;
+const OF_TRIALS: usize = 10;
+const MEDIAN: usize = 12;
 const VERDICT: usize = 17;
 const TOLERANCE: usize = 18;
 
@@ -127,11 +130,14 @@ pub(super) fn write(
                 at += 1;
             }
             let cells = totals.get(output).and_then(|rows| rows.get(number)?.as_ref());
-            figures(leaf, line, (quantity, found), evaluation.settings.digits, cells)?;
+            figures(leaf, line, (declared, found), evaluation.settings.digits, cells)?;
             if let Some(beside) = found.capability.as_deref() {
                 let digits = evaluation.settings.digits;
-                let expanded = beside.rounded(digits);
-                let stated = expanded.map_or(beside.expanded_uncertainty, Decimal::value);
+                // what is below the capability must not be stated (ILAC-P14)
+                let may_be_stated = beside.raised || !beside.below;
+                let expanded = beside.rounded(digits).filter(|_| may_be_stated);
+                let of_zero = if may_be_stated { beside.expanded_uncertainty } else { f64::NAN };
+                let stated = expanded.map_or(of_zero, Decimal::value);
                 let shown = expanded.map(Decimal::position);
                 let [cmc, to_be_stated] = [0, 1].map(|at| line.at(place_of_capability + at));
                 leaf.number(cmc, beside.cmc, None, Look::Plain)?;
@@ -145,8 +151,9 @@ pub(super) fn write(
     if !totals.is_empty() {
         leaf.line(
             at + 1,
-            "Figures of the GUM, the limits of acceptance and the decision follow what is changed \
-             under Inputs; those of the Monte Carlo method are of the inputs as evaluated.",
+            "Figures of the GUM follow what is changed under Inputs, and so do limits of acceptance and \
+             decisions by its estimate; those of the Monte Carlo method, and decisions by its estimate, \
+             are of the inputs as evaluated.",
         )?;
     } else {
         leaf.line(
@@ -161,10 +168,11 @@ pub(super) fn write(
 fn figures(
     leaf: &mut Leaf,
     line: Line,
-    (quantity, found): (&Quantity, &OutputEvaluation),
+    (output, found): (&Output, &OutputEvaluation),
     digits: u32,
     cells: Option<&[String; 7]>,
 ) -> Result<(), XlsxError> {
+    let quantity = &output.quantity;
     let (row, column) = line.at(1);
     match line {
         Line::Column(_) => leaf.word((row, column), &plain(quantity.unit.text()), Look::Plain)?,
@@ -184,7 +192,7 @@ fn figures(
         leaf.word(line.at(VERDICT), verdict, Look::Plain)?;
     }
     match &found.conformity {
-        Some(conformity) => decided(leaf, line, conformity, (found, digits)),
+        Some(conformity) => decided(leaf, line, conformity, (output, found, digits)),
         None => Ok(()),
     }
 }
@@ -248,13 +256,48 @@ fn trials(leaf: &mut Leaf, line: Line, figures: &MonteCarlo, digits: u32) -> Res
     Ok(())
 }
 
-/// Tolerance, limits of acceptance and decision. The guard band stays in proportion to the standard
-/// uncertainty where an input is changed; that of a laboratory's capability stays as it is.
+/// The cell with the value that was decided about, and the turns of an angle that it is away from it.
+enum Deciding {
+    /// The estimate by the law of propagation, which follows the inputs.
+    Propagated(f64),
+    /// Another figure, of the inputs as evaluated.
+    Evaluated(usize),
+    /// None of the figures, such as one without the noise of trials.
+    Apart,
+}
+
+impl Deciding {
+    fn of(conformity: &Conformity, output: &Output, found: &OutputEvaluation) -> Self {
+        let decided = conformity.estimate;
+        let turned = |from: f64| {
+            let away = decided - from;
+            let whole = output.period.map_or(0.0, |period| (away / period).round() * period);
+            ((away - whole).abs() <= SAME * decided.abs()).then_some(whole)
+        };
+        let gum = found.gum.as_ref().filter(|_| conformity.stated_uncertainty.is_none());
+        if let Some(turns) = gum.and_then(|gum| turned(gum.estimate)) {
+            return Self::Propagated(turns);
+        }
+        let trials = found.monte_carlo.as_ref();
+        match trials.map(|of| (of.estimate == Some(decided), of.median == decided)) {
+            Some((true, _)) => Self::Evaluated(OF_TRIALS),
+            Some((_, true)) => Self::Evaluated(MEDIAN),
+            _ => Self::Apart,
+        }
+    }
+}
+
+/// Values that differ by no more than this share are the same but for the rounding of turns.
+const SAME: f64 = 1e-12;
+
+/// Tolerance, limits of acceptance and decision, which follow the inputs where the estimate by the law
+/// of propagation decides: the guard band in proportion to its standard uncertainty. All others are
+/// those of the evaluation.
 fn decided(
     leaf: &mut Leaf,
     line: Line,
     conformity: &Conformity,
-    (found, digits): (&OutputEvaluation, u32),
+    (output, found, digits): (&Output, &OutputEvaluation, u32),
 ) -> Result<(), XlsxError> {
     let place = |figure: usize| line.at(TOLERANCE + figure);
     let cell = |figure: usize| {
@@ -269,36 +312,57 @@ fn decided(
     for (figure, limit) in limits.into_iter().enumerate() {
         leaf.number(place(figure), limit.unwrap_or(f64::NAN), None, Look::Plain)?;
     }
-    let gum = found.gum.as_ref().filter(|gum| gum.standard_uncertainty > 0.0);
-    if let (Some(gum), Some(width)) = (gum, conformity.guard_band) {
-        let u = gum.standard_uncertainty;
-        let shown = position(u, digits);
-        let now = |value: f64| Cached::Number(value);
-        if conformity.stated_uncertainty.is_some() {
-            leaf.number(place(2), width, shown, Look::Plain)?;
-        } else {
-            let band = format!("{:?}*{}", width / u, of(UNCERTAINTY));
-            leaf.formula(place(2), &band, &now(width), shown, Look::Plain)?;
-        }
-        let mut within = Vec::new();
-        let mut accepted = true;
-        for (figure, limit, sign) in [(0, limits[0], 1.0), (1, limits[1], -1.0)] {
-            let at = place(3 + figure);
-            let Some(limit) = limit else {
-                leaf.word(at, crate::number::MISSING, Look::Plain)?;
-                continue;
-            };
-            let (operator, compared) = if sign > 0.0 { ("+", ">=") } else { ("-", "<=") };
-            let formula = format!("{}{operator}{}", cell(figure), cell(2));
-            let end = limit + sign * width;
-            leaf.formula(at, &formula, &now(end), shown, Look::Plain)?;
-            within.push(format!("{}{compared}{}", of(ESTIMATE), cell(3 + figure)));
-            accepted &= if sign > 0.0 { gum.estimate >= end } else { gum.estimate <= end };
-        }
-        let decision = format!("IF(AND({}),\"accepted\",\"rejected\")", within.join(","));
-        let now = if accepted { "accepted" } else { "rejected" };
-        leaf.formula(place(5), &decision, &Cached::Text(now.to_owned()), None, Look::Stressed)?;
+    let now = |value: f64| Cached::Number(value);
+    let of_trials = found.monte_carlo.as_ref().and_then(|of| of.standard_uncertainty);
+    let propagated = found.gum.as_ref().map(|gum| gum.standard_uncertainty);
+    let deciding = Deciding::of(conformity, output, found);
+    let (formula, u) = match deciding {
+        Deciding::Propagated(0.0) => (Some(of(ESTIMATE)), propagated),
+        Deciding::Propagated(turns) => (Some(format!("{}+{turns:?}", of(ESTIMATE))), propagated),
+        Deciding::Evaluated(figure) => (Some(of(figure)), of_trials.or(propagated)),
+        Deciding::Apart => (None, of_trials.or(propagated)),
+    };
+    let shown = u.and_then(|u| position(u, digits));
+    let estimate = conformity.estimate;
+    match formula {
+        Some(formula) => leaf.formula(place(5), &formula, &now(estimate), shown, Look::Plain)?,
+        None => leaf.number(place(5), estimate, shown, Look::Plain)?,
     }
-    leaf.share(place(6), conformity.probability, PERCENT)?;
-    leaf.share(place(7), conformity.numerical_standard_error, PERCENT)
+    let decision = table::comparison::decision(conformity);
+    match conformity.guard_band {
+        Some(width) => {
+            let live = u.filter(|u| matches!(deciding, Deciding::Propagated(_)) && *u > 0.0);
+            match live {
+                Some(u) => {
+                    let band = format!("{:?}*{}", width / u, of(UNCERTAINTY));
+                    leaf.formula(place(2), &band, &now(width), shown, Look::Plain)?;
+                }
+                None => leaf.number(place(2), width, shown, Look::Plain)?,
+            }
+            let mut within = Vec::new();
+            for (figure, limit, sign) in [(0, limits[0], 1.0), (1, limits[1], -1.0)] {
+                let at = place(3 + figure);
+                let Some(limit) = limit else {
+                    leaf.word(at, crate::number::MISSING, Look::Plain)?;
+                    continue;
+                };
+                let (operator, compared) = if sign > 0.0 { ("+", ">=") } else { ("-", "<=") };
+                let formula = format!("{}{operator}{}", cell(figure), cell(2));
+                leaf.formula(at, &formula, &now(limit + sign * width), shown, Look::Plain)?;
+                within.push(format!("{}{compared}{}", cell(5), cell(3 + figure)));
+            }
+            let formula = format!("IF(AND({}),\"accepted\",\"rejected\")", within.join(","));
+            let now = Cached::Text(decision.to_owned());
+            leaf.formula(place(6), &formula, &now, None, Look::Stressed)?;
+        }
+        // no value has so small a risk
+        None => {
+            for figure in 2..5 {
+                leaf.word(place(figure), crate::number::MISSING, Look::Plain)?;
+            }
+            leaf.word(place(6), decision, Look::Stressed)?;
+        }
+    }
+    leaf.share(place(7), conformity.probability, PERCENT)?;
+    leaf.share(place(8), conformity.numerical_standard_error, PERCENT)
 }
