@@ -12,8 +12,8 @@ use super::scopes::report_formula;
 use super::shapes;
 use super::value_text::is_value;
 use gumption_engine::model::formula::{
-    Formula, KelvinKind, LevelReference, Numbers, Scope, TableCall, TableData, Typing, Use,
-    ValueSource,
+    Factors, Formula, KelvinKind, LevelReference, Numbers, Scope, TableCall, TableData, Typing,
+    Use, ValueSource,
 };
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::number::Shortest;
@@ -40,13 +40,18 @@ pub(super) fn of_formulas(
         for error in formula.unstated_arguments(known) {
             member.iter().for_each(|member| report_formula(log, member, error.clone()));
         }
-        let notes = formula.notes(known, result.map_or(Use::Quantity, Use::Output));
+        let factors_of = |name: &str| numbers.factors.get(name).copied();
+        let of_result = result.map_or(Use::Quantity, Use::Output);
+        let (notes, factors) = formula.notes(known, factors_of, of_result);
         let is_length = scope.get(name).is_some_and(|of| of.dimension == Some(Dimension::LENGTH));
         let computed = formula.numbers(known).or(is_length.then_some(Numbers::Length));
         let computed = computed.filter(|_| of.check_units);
         found.extend(notes.into_iter().map(|note| Warning::new(note.code, name, note.text)));
         if let Some(computed) = computed {
             numbers.names.insert(name, computed);
+        }
+        if let Some(factors) = factors.filter(|_| of.check_units) {
+            numbers.factors.insert(name, factors);
         }
     }
     found.extend(angles_of_turns(equations, of));
@@ -91,6 +96,8 @@ pub(super) fn of_formulas(
 /// units are not checked.
 struct KnownNumbers<'q> {
     names: HashMap<&'q str, Numbers<'q>>,
+    /// What equations are products of.
+    factors: HashMap<&'q str, Factors>,
     /// Where the tables are.
     scope: Option<&'q Scope>,
     is_checked: bool,
@@ -113,7 +120,7 @@ impl<'q> KnownNumbers<'q> {
                 names.extend(unstated.map(|name| (name.as_str(), Numbers::Unstated)));
             }
         }
-        Self { names, scope, is_checked }
+        Self { names, factors: HashMap::new(), scope, is_checked }
     }
 
     fn of(&self, source: ValueSource<'_>) -> Option<Numbers<'q>> {
@@ -164,7 +171,8 @@ fn converted_terms(
     let known = |source: ValueSource<'_>| numbers.of(source);
     let intermediate = terms.iter().filter(|(name, _)| *name != output.name);
     let notes = intermediate.filter_map(|(name, formula)| {
-        let note = formula.converted_to(known, &output.unit, &what)?;
+        let factors_of = |name: &str| numbers.factors.get(name).copied();
+        let note = formula.converted_to(known, factors_of, &output.unit, &what)?;
         Some(Warning::new(note.code, *name, note.text))
     });
     notes.collect()
@@ -200,7 +208,10 @@ fn drop_repeated(notes: &mut Vec<Warning>) {
     notes.retain(|note| {
         let is_of_result = matches!(
             note.code,
-            "result-converted-twice" | "radians-of-turns" | "radians-as-periods"
+            "result-converted-twice"
+                | "quantity-converted-twice"
+                | "radians-of-turns"
+                | "radians-as-periods"
         );
         !is_of_result || told.insert((note.code, note.place.clone()))
     });
@@ -313,7 +324,8 @@ pub(super) fn of_conditions(root: &Object<'_>, of: &Quantities) -> Vec<Warning> 
     let mut note = |name: &str, text: &str, of: Use<'_>| {
         let formula = Some(text).filter(|text| !is_value(text));
         let formula = formula.and_then(|text| root.log.formula(text).ok());
-        let notes = formula.map(|formula| formula.notes(|source| numbers.of(source), of));
+        let notes =
+            formula.map(|formula| formula.notes(|source| numbers.of(source), |_| None, of).0);
         let notes = notes.into_iter().flatten();
         found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
     };
@@ -644,6 +656,221 @@ mod tests {
             ([("x", "mm"), ("a", "m"), ("b", "1")], r#""y": "b*(x + 1000*a)""#, "mm"),
         ] {
             assert_eq!(of(inputs, equations, unit), Vec::<String>::new(), "{equations}");
+        }
+    }
+
+    /// The codes of a model's notes. Inputs and equations are written `m: g, V: mL` and `n = c*V; m = n*M`, of
+    /// which the last equation is the output.
+    fn codes_of(inputs: &str, equations: &str, unit: &str) -> Vec<&'static str> {
+        let input = |text: &str| {
+            let (name, unit) = text.split_once(": ").unwrap();
+            format!(
+                r#""{name}": {{"unit": "{unit}", "distribution": "normal", "mean": 20, "std": 0.1}}"#
+            )
+        };
+        let equation = |text: &str| {
+            let (name, formula) = text.split_once(" = ").unwrap();
+            format!(r#""{name}": "{formula}""#)
+        };
+        let inputs: Vec<_> = inputs.split(", ").map(input).collect();
+        let last = equations.rsplit("; ").next().unwrap();
+        let output = last.split_once(" = ").unwrap().0;
+        let equations: Vec<_> = equations.split("; ").map(equation).collect();
+        let found = notes(&format!(
+            r#"{{"inputs": {{{}}}, "equations": {{{}}}, "outputs": {{"{output}": {{"unit": "{unit}"}}}}}}"#,
+            inputs.join(", "),
+            equations.join(", ")
+        ));
+        found.into_iter().map(|(code, ..)| code).collect()
+    }
+
+    /// A conversion by hand, and the same without it: by a factor in one equation and units in another, beside
+    /// a coefficient, of mass fractions, beside a share, in powers and roots.
+    #[test]
+    fn products_that_convert_units() {
+        const RESULT: &str = "result-converted-twice";
+        const QUANTITY: &str = "quantity-converted-twice";
+        const SHARE: &str = "share-converted-twice";
+        const RATE: &str = "rate-converted-twice";
+        let shaft = "n: rpm, T: N*m";
+        let solution = "m: g, P: %, M: g/mol, V: mL";
+        let counts = "n: 1, t: min, eff: %";
+        for (inputs, wrong, right, unit, code) in [
+            ("c: mol/L, V: mL, M: g/mol", "n = c*V/1000; m = n*M", "n = c*V; m = n*M", "g", RESULT),
+            ("d: mm, F: kN", "A = pi*d^2/4; s = 1000*F/A", "A = pi*d^2/4; s = F/A", "MPa", RESULT),
+            (
+                "d: mm, h: mm, m: g",
+                "V = pi*d^2/4*h/1000; rho = m/V",
+                "V = pi*d^2/4*h; rho = m/V",
+                "g/cm^3",
+                RESULT,
+            ),
+            ("v: km/h, m: g", "vs = v/3.6; E = m/1000*vs^2/2", "vs = v; E = m*vs^2/2", "J", RESULT),
+            (
+                "m: g, l: cm, g: m/s^2",
+                "F = m/1000*g; M = F*l/100",
+                "F = m*g; M = F*l",
+                "N*m",
+                RESULT,
+            ),
+            (
+                "L: mm, a: ppm/K, t: degC",
+                "y = L*(1 + a*1e-6*(t - 20 [degC]))",
+                "y = L*(1 + a*(t - 20 [degC]))",
+                "mm",
+                QUANTITY,
+            ),
+            (
+                "L: mm, a: um/(m*K), t: degC",
+                "y = L*(1 + a*1e-6*(t - 20 [degC]))",
+                "y = L*(1 + a*(t - 20 [degC]))",
+                "mm",
+                QUANTITY,
+            ),
+            (
+                "R: ohm, tc: ppm/K, t: degC",
+                "y = R*(1+tc*(t-20 [degC])/1e6)",
+                "y = R*(1+tc*(t-20 [degC]))",
+                "ohm",
+                QUANTITY,
+            ),
+            (
+                "R: ohm, dr: ppm/year, t: year",
+                "y = R*(1+dr*t*1e-6)",
+                "y = R*(1+dr*t)",
+                "ohm",
+                QUANTITY,
+            ),
+            ("R: ohm, dr: %/K, t: K", "y = R*(1+dr*t/100)", "y = R*(1+dr*t)", "ohm", QUANTITY),
+            (
+                "R: ohm, f: kHz, L: H",
+                "y = sqrt(R^2 + (2*pi*f*1000*L)^2)",
+                "y = sqrt(R^2 + (2*pi*f*L)^2)",
+                "ohm",
+                QUANTITY,
+            ),
+            ("a: mg, b: g", "y = a/b*1000", "y = a/b", "mg/kg", RESULT),
+            ("a: mg, b: g", "y = a/b*1000", "y = a/b", "ppm", RESULT),
+            ("a: mg, b: g", "y = a/b/10", "y = a/b", "%", RESULT),
+            ("V: mL, c: mol/L, M: g/mol, m: g", "y = V*c*M/(10*m)", "y = V*c*M/m", "%", RESULT),
+            ("c: ug/L, V: mL, m: g", "y = c*V/(m*1000)", "y = c*V/m", "mg/kg", RESULT),
+            ("c: ug/L, V: mL, m: g", "y = c*V/1000/m", "y = c*V/m", "ug/g", RESULT),
+            ("c: mg/L, V: mL, m: g", "y = c*V/m/10000", "y = c*V/m", "%", RESULT),
+            ("x: mm, L: m", "y = x/L*1000", "y = x/L", "um/m", RESULT),
+            (solution, "y = 1000*m*P/(M*V)", "y = m*P/(M*V)", "mol/L", RESULT),
+            (solution, "y = m*P/(M*V/1000)", "y = m*P/(M*V)", "mol/L", RESULT),
+            (solution, "y = m*P/100/(M*V)*1000", "y = m*P/(M*V)", "mol/L", RESULT),
+            (counts, "y = n/(t*60*eff)", "y = n/(t*eff)", "Bq", RESULT),
+            (counts, "y = n/(60*t)/(eff/100)", "y = n/t/eff", "Bq", RESULT),
+            (counts, "y = n/(60*t)/eff", "y = n/t/eff", "Bq", RESULT),
+            ("I: mA, R: ohm", "y = (I/1000)^2*R", "y = I^2*R", "W", RESULT),
+            (
+                "h: mm",
+                "y = sqrt(2*9.81 [m/s^2]*h/1000)",
+                "y = sqrt(2*9.81 [m/s^2]*h)",
+                "m/s",
+                RESULT,
+            ),
+            ("f: kHz, C: nF", "y = 1/(2*pi*f*1000*C*1e-9)", "y = 1/(2*pi*f*C)", "ohm", RESULT),
+            (
+                "L: mH, C: nF",
+                "y = 1/(2*pi*sqrt(L*1e-3*C*1e-9))",
+                "y = 1/(2*pi*sqrt(L*C))",
+                "Hz",
+                RESULT,
+            ),
+            (
+                "k: N/mm, m: g",
+                "y = sqrt(1000*k/(m/1000))/(2*pi)",
+                "y = sqrt(k/m)/(2*pi)",
+                "Hz",
+                RESULT,
+            ),
+            (
+                "p: hPa, V: L, t: degC",
+                "y = p*100*V/1000/(8.314462618 [J/(mol K)]*kelvin(t))",
+                "y = p*V/(8.314462618 [J/(mol K)]*kelvin(t))",
+                "mol",
+                RESULT,
+            ),
+            (
+                "a: mm, b: mm",
+                "y = sqrt((a/1000)^2 + (b/1000)^2)",
+                "y = sqrt(a^2 + b^2)",
+                "m",
+                RESULT,
+            ),
+            ("a: mm, b: mm, t: s", "y = (a/1000 - b/1000)/t", "y = (a - b)/t", "m/s", RESULT),
+            ("f: Hz, t: ms", "y = sin(2*pi*f*t/1000)", "y = sin(2*pi*f*t)", "1", QUANTITY),
+            ("d: mm, l: mm", "y = pi*d^2*l/4000", "y = pi*d^2*l/4", "mL", RESULT),
+            ("v: m/s, t: us", "y = v*t/2000", "y = v*t/2", "mm", RESULT),
+            ("Q: L/min, A: mm^2", "y = Q/60000/(A*1e-6)", "y = Q/A", "m/s", RESULT),
+            ("n: 1/min, T: N*m", "y = T*n/9550", "y = 2*pi*T*n", "kW", RESULT),
+            (shaft, "y = 2*pi*n*T/60/1000", "y = n*T", "kW", RESULT),
+            (shaft, "y = n/60*T", "y = n*T", "W", RESULT),
+            (shaft, "y = 2*pi*n/60*T", "y = n*T", "W", RATE),
+            ("n: rpm, R: m", "y = R*(2*pi*n/60)^2", "y = R*n^2", "m/s^2", RATE),
+            ("n: rpm, R: m", "y = R*(n/60)^2", "y = R*n^2", "m/s^2", RESULT),
+            ("T: %", "y = 2 - log10(T)", "y = -log10(T)", "1", SHARE),
+            ("T: %", "y = -log10(T) + 2", "y = 2 + log10(T)", "1", SHARE),
+        ] {
+            assert_eq!(codes_of(inputs, wrong, unit), [code], "{wrong} in {unit}");
+            assert_eq!(codes_of(inputs, right, unit), Vec::<&str>::new(), "{right} in {unit}");
+        }
+        // shares of a quantity, divisors of it, numbers of other units and ratios as numbers
+        for (inputs, right, unit) in [
+            ("L: mm, a: 1/K, t: degC", "y = L*(1 + a*1e-6*(t - 20 [degC]))", "mm"),
+            ("a: mg, b: g", "y = a/b*1000", "1"),
+            ("a: hPa, b: hPa", "y = 100*a/b", "1"),
+            ("U: mV, k: 1", "y = U + 0.001*U*k", "mV"),
+            ("U: mV, R: ohm", "y = 0.001*U/R", "mA"),
+            ("x: mm", "y = x/1000", "um"),
+            ("x: mm", "d = 0.001*x; y = x + d", "mm"),
+            ("x: mm", "y = x/100", "mm"),
+            ("n: 1, t: s", "y = n/(60*t)", "Bq"),
+            ("d: mm, n: rpm", "y = pi*d*n/[rev]", "m/s"),
+            ("c: mol/L, V: mL, M: g/mol", "n = c*V*1000; m = n*M/1000", "g"),
+            ("T: 1", "y = 2 - log10(T)", "1"),
+            ("x: 1", "y = 100*x + 0.02*x^2", "%"),
+            ("a: mV, b: mV", "y = a + 0.001*b", "mV"),
+        ] {
+            assert_eq!(codes_of(inputs, right, unit), Vec::<&str>::new(), "{right} in {unit}");
+        }
+    }
+
+    /// The whole of `2*pi*n/60` is quoted, as what is left without a part of it would be wrong.
+    #[test]
+    fn conversions_are_quoted_as_a_whole() {
+        let of = |equation: &str| {
+            let text = format!(
+                r#"{{"inputs": {{"n": {{"unit": "rpm", "distribution": "normal", "mean": 9, "std": 1}},
+                "T": {{"unit": "N*m", "distribution": "normal", "mean": 9, "std": 1}}}},
+                "equations": {{"y": "{equation}"}}, "outputs": {{"y": {{"unit": "W"}}}}}}"#
+            );
+            let found = notes(&text);
+            assert_eq!(found.len(), 1, "{equation}: {found:?}");
+            found[0].2.clone()
+        };
+        for (equation, quoted) in [
+            ("2*pi*n/60*T", "`2*pi*n/60` converts"),
+            ("2*pi*n*T/60", "`2*pi*n*T/60` converts"),
+            ("T*2*pi*n", "`T*2*pi*n` converts"),
+            ("n/60*T", "factor of 1/60 that converts from the units of its quantities to W"),
+        ] {
+            assert!(of(equation).contains(quoted), "{equation}: {}", of(equation));
+        }
+    }
+
+    /// A choice of plain numbers is one beside a share.
+    #[test]
+    fn choices_of_numbers_beside_shares() {
+        for (equation, code) in [
+            ("y = x + if(f > 100 [Hz], 0.1, 0.2)", Some("bare-number")),
+            ("y = if(f > 100 [Hz], if(f > 200 [Hz], 5, 8), x)", Some("bare-number")),
+            ("y = x + if(f > 100 [Hz], 0.1 [%], 0.2 [%])", None),
+            ("y = x*if(f > 100 [Hz], 0.1, 0.2)", None),
+        ] {
+            assert_eq!(codes_of("x: %, f: Hz", equation, "%"), Vec::from_iter(code), "{equation}");
         }
     }
 

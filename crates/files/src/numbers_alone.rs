@@ -8,7 +8,8 @@ use super::DiagnosticKind;
 use super::scopes;
 use super::value_text::{ValueOf, converted, with_unit};
 use super::width::number;
-use gumption_engine::model::formula::{Formula, Scope};
+use gumption_engine::decimal::to_15_digits;
+use gumption_engine::model::formula::{Formula, NameKind, PlainNumber, Scope};
 use gumption_engine::number::Shortest;
 use gumption_units::{Turn, Unit};
 
@@ -43,6 +44,50 @@ pub(super) fn without_unit(
     let reason = format!(
         "`{first}` has no unit, so that its number can be in `{unit}`, as the quantity is given, or {plain}: \
          give `{first}` a unit, `{unit}` or `{own}`"
+    );
+    Some(DiagnosticKind::Value { key: "mean".to_owned(), found: text.to_owned(), reason })
+}
+
+/// The mistake of a formula of conditions for what is in per cent, degrees or the like that chooses among plain
+/// numbers, or adds to one: `if(f > 100 [Hz], 5, 8)` can be 5 % or 500 %.
+pub(super) fn plain_number(
+    formula: &Formula,
+    unit: &Unit,
+    of: ValueOf,
+    kind_of: impl Fn(&str) -> NameKind,
+) -> Option<DiagnosticKind> {
+    let text = formula.text().trim();
+    let is_in_radians = unit.turn() == Some(Turn::Angle) && names_pi(text);
+    let is_scaled = unit.dimension().is_none()
+        && unit.level_exponent().is_zero()
+        && unit.factor() != 1.0
+        && unit.turn() != Some(Turn::Periods);
+    if !is_scaled || is_in_radians || formula.names().next().is_none() {
+        return None;
+    }
+    let found = formula.plain_number(kind_of, of == ValueOf::Difference)?;
+    let (counted, plain) = match unit.turn() {
+        Some(_) => ("in radians", "rad"),
+        None => ("plain", "1"),
+    };
+    let one = format!("of which 1 is {} {unit}", Shortest(unit.from_si(1.0)));
+    let PlainNumber { text: number, is_alone, .. } = &found;
+    // an angle of 5 rad is written so, and 500 % are the number 5
+    let other = match (found.number, unit.turn()) {
+        (Some(value), None) => {
+            format!("`{} [{unit}]`", Shortest(to_15_digits(unit.from_si(value))))
+        }
+        _ => format!("`{number} [{plain}]`"),
+    };
+    let remedy = match (found.number, is_alone) {
+        (None, _) => format!("give `{number}` a unit, `{unit}` or `{plain}`"),
+        (_, true) => format!("write `{number} [{unit}]` or {other}"),
+        // what stands beside the number has no unit either
+        (_, false) => format!("write `({text})*1 [{unit}]` or `({text})*1 [{plain}]`"),
+    };
+    let reason = format!(
+        "`{number}` has no unit, so that it can be in `{unit}`, as the quantity is given, or {counted}, as \
+         formulas count, {one}: {remedy}"
     );
     Some(DiagnosticKind::Value { key: "mean".to_owned(), found: text.to_owned(), reason })
 }
@@ -164,6 +209,65 @@ mod tests {
             ("", "pi*c/180", "deg"),
         ] {
             read(condition, mean, unit).unwrap();
+        }
+    }
+
+    /// Choices and sums of plain numbers in a width, an estimate, a limit and a capability; not ratios of
+    /// conditions, the whole less one, and what says its unit.
+    #[test]
+    fn formulas_of_conditions_with_plain_numbers_are_refused() {
+        let read = |unit: &str, [mean, std, upper, cmc]: [&str; 4]| {
+            let text = format!(
+                r#"{{"conditions": {{"f": {{"unit": "Hz", "values": [10, 1000]}},
+                "f0": {{"unit": "kHz", "values": [1, 1]}}, "c": {{"values": [1, 2]}}}},
+                "inputs": {{"x": {{"unit": "{unit}", "distribution": "normal", "mean": {mean},
+                "std": {std}}}}}, "equations": {{"y": "x"}},
+                "outputs": {{"y": {{"unit": "{unit}", "tolerance": {{"upper": {upper}}},
+                "cmc": {cmc}}}}}}}"#
+            );
+            let read = crate::read_text("m", &text, std::path::Path::new(""), &[]);
+            read.map(|_| ()).map_err(|mistakes| mistakes.to_string())
+        };
+        let places = ["mean", "std", "upper", "cmc"];
+        let at = |unit: &str, key: &str, formula: &str| {
+            let all = places.map(|place| match place {
+                _ if place == key => format!("\"{formula}\""),
+                "std" | "cmc" => "0.1".to_owned(),
+                _ => "10".to_owned(),
+            });
+            read(unit, [&all[0], &all[1], &all[2], &all[3]])
+        };
+        for (unit, key, formula, said) in [
+            ("%", "upper", "if(f > 100 [Hz], 5, 8)", "write `5 [%]` or `500 [%]`"),
+            ("%", "cmc", "if(f > 100 [Hz], 0.5, 0.8)", "write `0.5 [%]` or `50 [%]`"),
+            ("%", "std", "if(f > 100 [Hz], 0.1, 0.2)", "write `0.1 [%]` or `10 [%]`"),
+            ("%", "std", "0.1*(1 + f/1000 [Hz])", "`(0.1*(1 + f/1000 [Hz]))*1 [%]`"),
+            ("%", "std", "sqrt(0.1^2 + (0.05*f/1000 [Hz])^2)", "`0.1^2` has no unit"),
+            ("%", "mean", "100 - f/[Hz]/100", "`(100 - f/[Hz]/100)*1 [%]`"),
+            ("deg", "mean", "if(f>100 [Hz],10,20)", "write `10 [deg]` or `10 [rad]`"),
+            ("ppm", "std", "if(f > 100 [Hz], 0.1, 0.2)", "or `100000 [ppm]`"),
+            ("mV/V", "std", "max(0.1, 0.2*f/1000 [Hz])", "`0.1` has no unit"),
+            ("um/m", "upper", "if(f > 100 [Hz], 5, 8)", "write `5 [um/m]`"),
+            ("%", "mean", "if(f > 100 [Hz], c, 3)", "give `c` a unit, `%` or `1`"),
+            ("%", "upper", "if(f > 100 [Hz], 5 [%], 8)", "write `8 [%]` or `800 [%]`"),
+        ] {
+            let found = at(unit, key, formula).unwrap_err();
+            assert!(found.contains(said) && found.contains(&format!("of `{key}`")), "{found}");
+        }
+        for (unit, key, formula) in [
+            ("%", "mean", "f/f0"),
+            ("%", "mean", "1 - f/f0"),
+            ("%", "upper", "0.5*(1 - f/f0)"),
+            ("%", "mean", "1/(1 + (f/f0)^2)"),
+            ("%", "mean", "if(f > 100 [Hz], f/f0, 0)"),
+            ("%", "std", "0.01*f/f0"),
+            ("%", "std", "if(f > 100 [Hz], 0.1 [%], 0.2 [%])"),
+            ("%", "std", "if(f > 100 [Hz], 0.1 [1], 0.2 [1])"),
+            ("%", "std", "(0.1*(1 + f/1000 [Hz]))*1 [%]"),
+            ("deg", "mean", "if(f > 100 [Hz], pi/4, pi/2)"),
+            ("1", "std", "if(f > 100 [Hz], 0.1, 0.2)"),
+        ] {
+            assert_eq!(at(unit, key, formula), Ok(()), "{formula} in {unit}");
         }
     }
 

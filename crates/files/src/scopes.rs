@@ -1,6 +1,6 @@
 //! What formulas of a file are checked against: the names that they may use, with their units.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 use super::DiagnosticKind;
@@ -14,7 +14,9 @@ use super::numbers_alone;
 use super::value_text::ValueOf;
 use gumption_engine::model::NumberForm;
 use gumption_engine::model::Quantity;
-use gumption_engine::model::formula::{Formula, FormulaError, ScaleMisfit, Scope, Typing};
+use gumption_engine::model::formula::{
+    Formula, FormulaError, NameKind, ScaleMisfit, Scope, Typing,
+};
 use gumption_engine::model::typed::CatalogueEntry;
 use gumption_units::{Dimension, Unit};
 
@@ -146,6 +148,14 @@ impl ConditionSet<'_> {
 }
 
 impl ConditionSet<'_> {
+    /// The names of a formula that are plain numbers by their units.
+    fn plain_names<'s>(&'s self, formula: &'s Formula) -> HashSet<&'s str> {
+        let constants = self.constants_of(formula).map(|(quantity, _)| quantity);
+        let all = self.conditions.quantities.iter().chain(constants);
+        let plain = all.filter(|quantity| quantity.unit.dimension().is_none());
+        plain.map(|quantity| quantity.name.as_str()).collect()
+    }
+
     /// What a formula is; `None` where it cannot be told.
     pub(super) fn typing(&self, formula: &Formula) -> Option<Typing> {
         formula.check_names(&self.scope_of(formula)).ok()
@@ -195,7 +205,17 @@ impl ConditionValues for ConditionSet<'_> {
             lists.into_iter().flatten().any(|unstated| unstated == name)
         };
         let unstated = numbers_alone::without_unit(formula, unit, is_unstated);
-        if let Some(kind) = unstated.filter(|_| self.check_units) {
+        let plain = || {
+            let plain = self.plain_names(formula);
+            numbers_alone::plain_number(formula, unit, of, |name| match is_unstated(name) {
+                true => NameKind::Unstated,
+                false if plain.contains(name) => NameKind::Stated,
+                false => NameKind::Other,
+            })
+        };
+        if self.check_units
+            && let Some(kind) = unstated.or_else(plain)
+        {
             return Err(vec![kind]);
         }
         match typing.dimension.filter(|_| self.check_units) {

@@ -65,12 +65,13 @@ mod note;
 mod note_bare;
 mod note_frequency;
 mod note_level;
+mod note_product;
 mod note_result;
 mod note_turns;
-mod note_units;
 mod note_unstated;
 mod numbers;
 mod parser;
+mod plain;
 mod scale;
 mod scale_fault;
 mod suggest;
@@ -93,7 +94,9 @@ pub use layout::Layout;
 pub use misfit::ScaleMisfit;
 pub use name::{NameError, check_name, is_name, looks_of};
 pub use note::FormulaNote;
+pub use note_product::Factors;
 pub use numbers::{Numbers, Use, ValueSource};
+pub use plain::{NameKind, PlainNumber};
 pub use scale_fault::{ScaleFault, ScaledPlace};
 pub use syntax::TableCall;
 pub use typing::{KelvinKind, LevelReference, Rate, Scope, TableData, Typing};
@@ -191,13 +194,15 @@ impl Formula {
 
     /// What is right by the rules and seldom meant: `sin(30)`, which is of 30 rad, `phi + 90` of an
     /// angle in degrees. `numbers_of` tells what the numbers of a name, a column or a coordinate are in
-    /// where formulas have them in coherent SI, else `None`; `of` is what the formula's value is for.
+    /// where formulas have them in coherent SI, else `None`, and `factors_of` what an equation is a product of;
+    /// `of` is what the formula's value is for. What the value is a product of comes with the notes.
     pub fn notes<'u>(
         &self,
         numbers_of: impl Fn(ValueSource<'_>) -> Option<Numbers<'u>>,
+        factors_of: impl Fn(&str) -> Option<Factors>,
         of: Use<'u>,
-    ) -> Vec<FormulaNote> {
-        note::notes(&self.text, &self.tree, numbers_of, of)
+    ) -> (Vec<FormulaNote>, Option<Factors>) {
+        note::notes(&self.text, &self.tree, numbers_of, factors_of, of)
     }
 
     /// Arguments of tables and calibration functions that are in a unit, where no unit is said of the
@@ -215,6 +220,17 @@ impl Formula {
         walk.unstated_arguments(numbers_of)
     }
 
+    /// A plain number that the value of a formula of conditions is, or is a sum with, where nothing in the
+    /// value has the unit of a share or an angle: `if(f > 100 [Hz], 5, 8)`. `is_width` says whether it is
+    /// one of a width, which is no whole.
+    pub fn plain_number(
+        &self,
+        kind_of: impl Fn(&str) -> NameKind,
+        is_width: bool,
+    ) -> Option<PlainNumber> {
+        plain::plain_number(&self.text, &self.tree, kind_of, is_width)
+    }
+
     /// What the numbers of the formula's value are in, by those of its names.
     pub fn numbers<'u>(
         &self,
@@ -228,11 +244,18 @@ impl Formula {
     pub fn converted_to<'u>(
         &self,
         numbers_of: impl Fn(ValueSource<'_>) -> Option<Numbers<'u>>,
+        factors_of: impl Fn(&str) -> Option<Factors>,
         unit: &'u Unit,
         what: &str,
     ) -> Option<FormulaNote> {
-        let walk = note::Walk::new(&self.text, &self.tree, numbers_of, Use::Quantity);
-        walk.of_ratio(unit, what).or_else(|| walk.of_units(unit, what))
+        let walk = note::Walk::new(&self.text, &self.tree, &numbers_of, Use::Quantity);
+        let of_products = || {
+            let mut found = Vec::new();
+            let all = note_product::factors(&walk, &numbers_of, factors_of);
+            walk.of_products(&all, Some((unit, what)), &mut found);
+            found.into_iter().next()
+        };
+        walk.of_ratio(unit, what).or_else(of_products)
     }
 
     /// The names that the value is a sum, a small multiple or a choice of.

@@ -5,16 +5,21 @@ use std::ops::Range;
 use super::evaluate::constants;
 use super::function::{Function, Part};
 use super::message::excerpt;
+use super::note_product::{Factors, factors};
+use super::note_result::taken_up;
 use super::numbers::{Numbers, Scaled, Use, ValueSource};
 use super::syntax::{Kind, Node, Operator, Tree};
 use crate::number::{Binary, Unary};
 use gumption_units::{Dimension, Unit};
 
 /// The code of shares that a product converts once more.
-const SHARE_TWICE: &str = "share-converted-twice";
+pub(super) const SHARE_TWICE: &str = "share-converted-twice";
 
 /// The code of angles that a product converts once more.
 pub(super) const ANGLE_TWICE: &str = "angle-converted-twice";
+
+/// The code of rates that a product converts once more.
+pub(super) const RATE_TWICE: &str = "rate-converted-twice";
 
 /// The code of results that a formula converts to their unit.
 pub(super) const RESULT_TWICE: &str = "result-converted-twice";
@@ -31,36 +36,36 @@ pub struct FormulaNote {
 }
 
 /// The notes on a formula. `numbers_of` gives what the numbers of a name, a column or a coordinate are in,
-/// which formulas compute with in coherent SI; `None` if they are not, or if it is not known.
+/// which formulas compute with in coherent SI; `None` if they are not, or if it is not known. `factors_of`
+/// gives the factors of equations.
 pub(super) fn notes<'u>(
     text: &str,
     tree: &Tree,
     numbers_of: impl Fn(ValueSource<'_>) -> Option<Numbers<'u>>,
+    factors_of: impl Fn(&str) -> Option<Factors>,
     of: Use<'u>,
-) -> Vec<FormulaNote> {
-    let walk = Walk::new(text, tree, numbers_of, of);
+) -> (Vec<FormulaNote>, Option<Factors>) {
+    let walk = Walk::new(text, tree, &numbers_of, of);
     let mut found: Vec<FormulaNote> =
         tree.nodes.iter().flat_map(|node| walk.of_node(node)).collect();
     found.extend(tree.nodes.iter().filter_map(|node| walk.unstated_beside(node)));
     found.extend(walk.unstated_result());
     found.extend(walk.conversions());
+    found.extend(tree.nodes.iter().filter_map(|node| walk.of_logarithm(node)));
     let result = match of {
         Use::Output(unit) => Some((unit, "the output")),
         Use::Estimate(unit) => Some((unit, "the quantity")),
         Use::Quantity | Use::Width => None,
     };
-    let twice = result.and_then(|(unit, what)| {
-        // what converts from per cent is told
-        let is_told = found.iter().any(|note| note.code == SHARE_TWICE);
-        let of_units = || if is_told { None } else { walk.of_units(unit, what) };
-        walk.of_ratio(unit, what).or_else(of_units)
-    });
+    let twice = result.and_then(|(unit, what)| walk.of_ratio(unit, what));
     if let Some(twice) = twice {
         // the factor of `c*100/p` that is reported in % may be meant for either
         found.retain(|note| !(note.code == SHARE_TWICE && note.span == twice.span));
         found.push(twice);
     }
-    found
+    let all = factors(&walk, &numbers_of, factors_of);
+    let whole = walk.of_products(&all, result, &mut found);
+    (found, whole)
 }
 
 /// A formula, and what the numbers of its nodes are in.
@@ -70,7 +75,7 @@ pub(super) struct Walk<'t, 'u> {
     pub(super) constants: Vec<Option<f64>>,
     pub(super) of: Use<'u>,
     scaled: Vec<Scaled<'u>>,
-    sizes: Vec<Option<f64>>,
+    written: Vec<Option<f64>>,
 }
 
 impl<'t, 'u> Walk<'t, 'u> {
@@ -81,24 +86,36 @@ impl<'t, 'u> Walk<'t, 'u> {
         of: Use<'u>,
     ) -> Self {
         let scaled = Vec::with_capacity(tree.nodes.len());
-        let sizes = Vec::with_capacity(tree.nodes.len());
-        let mut walk = Self { text, tree, constants: constants(tree), of, scaled, sizes };
+        let written = Vec::with_capacity(tree.nodes.len());
+        let mut walk = Self { text, tree, constants: constants(tree), of, scaled, written };
         for (index, node) in tree.nodes.iter().enumerate() {
             let found = match walk.constant(index) {
                 Some(factor) => Scaled { factor, ..Scaled::UNKNOWN },
                 None => walk.computed(node, &numbers_of),
             };
             walk.scaled.push(found);
-            let size = walk.computed_size(node, &numbers_of);
-            walk.sizes.push(size);
+            let written = walk.constant(index).or_else(|| walk.chosen(node));
+            walk.written.push(written);
         }
         walk
     }
 
-    /// The coherent value of a node where each quantity in it is one of its units, and each plain number
-    /// is 1; `None` where that is not known.
-    pub(super) fn size(&self, index: usize) -> Option<f64> {
-        self.sizes.get(index).copied().flatten()
+    /// The largest of the plain numbers that a node chooses from.
+    fn chosen(&self, node: &Node) -> Option<f64> {
+        let parts = match &node.kind {
+            Kind::Negate(x) => std::slice::from_ref(x),
+            Kind::Call { function: Some(function @ Function::If), arguments, .. } => {
+                taken_up(*function, arguments)
+            }
+            _ => return None,
+        };
+        let numbers: Option<Vec<f64>> = parts.iter().map(|part| self.written(*part)).collect();
+        numbers?.into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs()))
+    }
+
+    /// The plain number that a node is, or the largest of those that it chooses from.
+    pub(super) fn written(&self, index: usize) -> Option<f64> {
+        self.written.get(index).copied().flatten()
     }
 
     pub(super) fn constant(&self, index: usize) -> Option<f64> {
@@ -142,7 +159,7 @@ impl<'t, 'u> Walk<'t, 'u> {
 
     /// What converts from a name's unit to coherent ones, which formulas have already: pi/180, 1/100,
     /// 2 pi.
-    fn conversions(&self) -> impl Iterator<Item = FormulaNote> {
+    fn conversions(&self) -> Vec<FormulaNote> {
         let products = self.products();
         // of a width, `0.01*p` is a hundredth of p; `0.1 [V]*p/100` is none
         let is_share = |node: &Node, of: Scaled<'_>| {
@@ -150,20 +167,41 @@ impl<'t, 'u> Walk<'t, 'u> {
             let is_relative = of.unit.is_some_and(|unit| unit.turn().is_none());
             self.of == Use::Width && is_relative && (of.is_bare || !is_divided)
         };
-        let nodes = self.tree.nodes.iter().zip(products).enumerate();
-        nodes.filter_map(move |(index, (node, product))| {
+        let mut found = Vec::new();
+        // where `2*pi*n` of `2*pi*n/60` is told, of a node that may be the whole conversion
+        let mut turned: Vec<Option<usize>> = Vec::with_capacity(self.tree.nodes.len());
+        for (index, (node, product)) in self.tree.nodes.iter().zip(products).enumerate() {
             let operands = match &node.kind {
                 Kind::Infix { left, right, .. } => vec![*left, *right],
                 Kind::InUnit { number, .. } => vec![*number],
-                _ => return None,
+                _ => Vec::new(),
+            };
+            let of = self.scaled(index);
+            let Some(unit) = of.unit.filter(|_| of.converts() && !operands.is_empty()) else {
+                turned.push(None);
+                continue;
             };
             // one note for a chain of factors
             let is_told = operands.iter().any(|&operand| self.scaled(operand).converts());
-            let of = self.scaled(index);
-            let unit = of.unit.filter(|_| of.converts() && !is_told)?;
-            let is_area = of.has_turn() && self.is_of_area(of, product);
-            (!is_area && !is_share(node, of)).then(|| self.converted_twice(node, unit))
-        })
+            let of_part = || operands.iter().find_map(|&operand| *turned.get(operand)?);
+            let is_area = || of.has_turn() && self.is_of_area(of, product);
+            let at = match of_part() {
+                Some(at) => Some(at),
+                None if !is_told && !is_share(node, of) && !is_area() => {
+                    found.push(self.converted_twice(node, unit));
+                    Some(found.len() - 1)
+                }
+                None => None,
+            };
+            if is_told
+                && !of.has_turn()
+                && let Some(note) = at.and_then(|at| found.get_mut(at))
+            {
+                *note = self.converted_twice(node, unit);
+            }
+            turned.push(at.filter(|_| of.has_turn()));
+        }
+        found
     }
 
     /// Of every node the whole product that it is a factor of, and whether it is divided by there.
@@ -211,7 +249,7 @@ impl<'t, 'u> Walk<'t, 'u> {
                 "`{quoted}` converts to radians per second once more: formulas have what is given in \
                  {unit} in radians per second already, so that its name is enough"
             );
-            ("rate-converted-twice", text)
+            (RATE_TWICE, text)
         } else {
             let text = format!(
                 "`{quoted}` converts to radians once more: formulas have an angle in {unit} in radians \

@@ -112,7 +112,7 @@ impl<'u> Walk<'_, 'u> {
         operator: Operator,
         [left, right]: [usize; 2],
     ) -> Option<FormulaNote> {
-        let (at, name) = match (self.constant(left), self.constant(right)) {
+        let (at, name) = match (self.written(left), self.written(right)) {
             (Some(_), None) => (left, right),
             (None, Some(_)) => (right, left),
             _ => return None,
@@ -124,8 +124,8 @@ impl<'u> Walk<'_, 'u> {
         let (name, beside) = square.or_else(|| Some((name, Beside::of(of)?)))?;
         // `3^2`, or 9, beside the square of a quantity
         let number = match is_square {
-            true => self.constant(at).filter(|square| *square >= 0.0)?.sqrt(),
-            false => self.constant(at)?,
+            true => self.written(at).filter(|square| *square >= 0.0)?.sqrt(),
+            false => self.written(at)?,
         };
         // an estimate of per cent that begins with its condition is no whole beside a share
         let is_estimate = matches!(self.of, Use::Estimate(unit) if unit.is_relative());
@@ -181,7 +181,7 @@ impl<'u> Walk<'_, 'u> {
             number.abs() > most && !is_limit(*number) && !(beside.is_angle() && is_of_turn(*number))
         };
         let numbers = parts.iter().filter(|index| !self.has_pi(**index));
-        let number = numbers.filter_map(|index| self.constant(*index)).find(is_far)?;
+        let number = numbers.filter_map(|index| self.written(*index)).find(is_far)?;
         Some(self.number_beside(node, number, (name, beside)))
     }
 
