@@ -921,6 +921,7 @@ mod tests {
             (shaft, r#""y": "M*n""#, "W", torque),
             (shaft, r#""y": "e*M*n + 2 [W]""#, "W", torque),
             (shaft, r#""y": "2*pi*M*n""#, "W", &[]),
+            ([("M", "N*m"), ("w", "1/s"), ("e", "%")], r#""y": "M*w""#, "W", &[]),
             (pulses, r#""y": "e*E*f""#, "W", &[]),
             (signals, r#""y": "10*log10(a/b)""#, "dB", level),
             (signals, r#""y": "-log10(a/b)*10""#, "dB", level),
@@ -934,6 +935,21 @@ mod tests {
         ] {
             assert_eq!(codes(inputs, equations, unit), wanted, "{equations} in {unit}");
         }
+    }
+
+    /// An estimate in mV of a condition in V.
+    #[test]
+    fn estimates_that_convert() {
+        let codes = |mean: &str| {
+            let found = notes(&format!(
+                r#"{{"conditions": {{"U": {{"unit": "V", "values": [1, 2]}}}},
+                "inputs": {{"a": {{"unit": "mV", "distribution": "normal", "mean": "{mean}", "std": 0.1}}}},
+                "equations": {{"y": "a"}}, "outputs": {{"y": {{"unit": "mV"}}}}}}"#
+            ));
+            found.into_iter().map(|(code, ..)| code).collect::<Vec<_>>()
+        };
+        assert_eq!(codes("U*1000"), ["result-converted-twice"]);
+        assert_eq!(codes("0.9*U"), Vec::<&str>::new());
     }
 
     /// 25 degC less a correction of 0.1 degC is 24.9 K, and not 24.9 degC.

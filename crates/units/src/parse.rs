@@ -83,7 +83,10 @@ pub(super) fn parse_among(text: &str, own: &[Unit]) -> Result<(Meaning, Vec<Fact
         return Ok((ONE, Vec::new()));
     }
     // `dB(A)` would be a product
-    if let Some(error) = suggest::whole(text.trim(), start..text.trim_end().len()) {
+    let is_own = || own.iter().any(|unit| unit.text() == text.trim());
+    if let Some(error) = suggest::whole(text.trim(), start..text.trim_end().len())
+        && !is_own()
+    {
         return Err(error);
     }
     let meaning = parser.product(0)?;

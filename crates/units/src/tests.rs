@@ -691,6 +691,8 @@ fn suggestions_keep_prefixes() {
         assert_eq!(error.suggestions().first(), Some(&wanted), "{text}: {error}");
         assert!(Unit::parse(wanted).is_ok(), "{wanted}");
     }
+    let own = Unit::defined("sccm", &Unit::parse("cm^3/min").unwrap()).unwrap();
+    assert!(Unit::parse_among("sccm", &[own]).is_ok());
     assert!(Unit::parse("dBu").expect_err("no reference").suggestions().is_empty());
     let error = Unit::parse("Vpp").expect_err("no unit").to_string();
     assert!(error.contains("a peak-to-peak value") && error.contains("`V`"), "{error}");

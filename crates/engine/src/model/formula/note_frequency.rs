@@ -9,7 +9,7 @@ use super::numbers::{Use, is_same_factor};
 use super::syntax::{Kind, Node, Operator, Tree};
 use super::typing::{Scope, Typing};
 use crate::number::Unary;
-use gumption_units::{Dimension, Exponent, Unit};
+use gumption_units::{Dimension, Exponent, Turn, Unit};
 
 const RATE: Dimension = Dimension::of([0, 0, -1, 0, 0, 0, 0]);
 const ACCELERATION: Dimension = Dimension::of([0, 1, -2, 0, 0, 0, 0]);
@@ -77,9 +77,11 @@ fn is_torque(unit: &Unit) -> bool {
     unit.dimension() == TORQUE && factors.any(|factor| is_newton(&factor.base.to_string()))
 }
 
-/// Whether a unit is that of a rate of what it does not say, or of periods.
+/// Whether a unit is that of periods, or of a rate of what it does not say. In 1/s it may be an angular
+/// frequency.
 fn is_bare_rate(unit: &Unit) -> bool {
-    unit.dimension() == RATE && !unit.counts_angle()
+    let is_of_periods = unit.turn() == Some(Turn::Periods);
+    unit.dimension() == RATE && !unit.counts_angle() && (is_of_periods || unit.factor() != 1.0)
 }
 
 /// The nodes of a formula with what is known of each.

@@ -300,7 +300,7 @@ impl Walk<'_, '_> {
         found: &mut Vec<FormulaNote>,
     ) -> Option<Factors> {
         let whole = all.last().copied().flatten();
-        if matches!(self.of, Use::Width | Use::Estimate(_)) {
+        if self.of == Use::Width {
             return whole;
         }
         let mut notes = Vec::new();
