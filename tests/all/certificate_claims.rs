@@ -517,7 +517,7 @@ fn digits_that_a_certificate_may_not_have_are_told() {
     let with = |settings: Value| {
         let mut all = json!({"coverage_factor": 2});
         all.as_object_mut().expect("an object").extend(settings.as_object().cloned().expect("one"));
-        notes(all).as_array().expect("a list").iter().map(|note| note.clone()).collect::<Vec<_>>()
+        notes(all).as_array().expect("a list").to_vec()
     };
     let has = |found: &[Value], code: &str| found.iter().any(|note| note["code"] == code);
     let three = with(json!({"digits": 3}));
