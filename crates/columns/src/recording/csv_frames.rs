@@ -52,7 +52,9 @@ const MOST_BYTES: u64 = 1 << 20;
 /// The first lines of a text, in bytes; without a byte-order mark.
 fn first_lines(reader: &mut impl BufRead) -> Result<Vec<Vec<u8>>, String> {
     let (mut lines, mut left): (Vec<Vec<u8>>, u64) = (Vec::new(), MOST_BYTES);
-    while lines.len() < MOST_LINES && left > 0 {
+    // remarks and blank lines are not counted
+    let mut counted = 0;
+    while counted < MOST_LINES && left > 0 {
         let mut line = Vec::new();
         let limit = &mut reader.by_ref().take(left);
         let count = limit.read_until(b'\n', &mut line).map_err(|error| error.to_string())?;
@@ -63,6 +65,8 @@ fn first_lines(reader: &mut impl BufRead) -> Result<Vec<Vec<u8>>, String> {
         if lines.is_empty() && line.starts_with(b"\xef\xbb\xbf") {
             line.drain(..3);
         }
+        let is_remark = line.starts_with(b"#") || line.trim_ascii().is_empty();
+        counted += usize::from(!is_remark);
         lines.push(line);
     }
     Ok(lines)

@@ -107,7 +107,14 @@ fn date(text: &str) -> Option<Date> {
 
 /// The days of a date of the Gregorian calendar from a fixed one on.
 fn days(year: i128, month: i128, day: i128) -> Option<Date> {
-    if !(1..=12).contains(&month) || !(1..=31).contains(&day) {
+    let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    let length = match month {
+        2 => 28 + i128::from(is_leap),
+        4 | 6 | 9 | 11 => 30,
+        1..=12 => 31,
+        _ => return None,
+    };
+    if !(1..=length).contains(&day) {
         return None;
     }
     // years that begin in March have the leap day at their end

@@ -4,8 +4,11 @@
 use super::Budget;
 use super::equation::Equation;
 use super::rows::Row;
-use gumption_engine::model::formula::{Formula, FormulaError, Operand, Scope, Typing};
+use gumption_engine::model::formula::{Formula, FormulaError, Operand, Scope, Typing, is_name};
 use gumption_units::Unit;
+
+/// Usual temperatures of reference and of rooms, in degrees Celsius.
+const REFERENCES: [f64; 9] = [15.0, 18.0, 20.0, 21.0, 22.0, 23.0, 25.0, 27.0, 37.0];
 
 /// Numbers of an equation, at most.
 const MOST: usize = 50;
@@ -63,7 +66,7 @@ impl Budget<'_> {
     }
 }
 
-/// A number below this beside a temperature above it, both said to be in K, is one of degrees Celsius.
+/// A usual reference temperature beside one above this, both said to be in K, is one of degrees Celsius.
 const BETWEEN_SCALES: f64 = 150.0;
 
 /// The difference of a thermodynamic temperature of a row and a number of degrees Celsius.
@@ -78,7 +81,7 @@ fn of_two_scales<'f>(
     let value: f64 = formula.get(number.span.clone())?.parse().ok()?;
     let kelvin = estimate(formula.get(quantity.span.clone())?)?;
     let is_mixed = quantity.unit.as_deref() == Some("K")
-        && value.abs() < BETWEEN_SCALES
+        && REFERENCES.contains(&value)
         && kelvin > BETWEEN_SCALES;
     formula.get(left.span.start..right.span.end).filter(|_| is_mixed)
 }
@@ -93,7 +96,8 @@ fn changed(formula: &str, fault: &FormulaError) -> Option<(String, String)> {
         _ => return None,
     };
     let text = |of: &Operand| formula.get(of.span.clone());
-    let (digits, name) = (text(number)?, text(quantity)?);
+    // what a bare coefficient makes of a quantity, `0.39*T`, is in a unit that nothing tells
+    let (digits, name) = (text(number)?, text(quantity).filter(|name| is_name(name))?);
     let unit = Unit::parse(quantity.unit.as_deref()?).ok()?;
     let is_absolute = CELSIUS_ZERO.contains(&digits) && unit.is_celsius();
     let span = left.span.start..right.span.end;

@@ -1106,6 +1106,7 @@ impl Header {
             }
         }
         let mut best = best?;
+        best.limits_beside_standard();
         best.measured_values(cells);
         best.corrections(cells);
         best.bare_coefficients();
@@ -1627,6 +1628,20 @@ impl Header {
         self.units.iter().map(|(_, unit)| unit.as_str())
     }
 
+    /// Leaves a column of accuracies or tolerances beside one of standard uncertainties alone, which has them
+    /// in it.
+    fn limits_beside_standard(&mut self) {
+        let Some(place) = place_of(&self.columns, Column::Width) else { return };
+        let words = plain(symbol::before_unit(self.heading(place)));
+        let is_limit =
+            ["accuracy", "max error", "max. error", "maximum error", "genauigkeit", "tolerance"]
+                .contains(&words.as_str());
+        if is_limit && place_of(&self.columns, Column::Std).is_some() {
+            self.columns.retain(|(of, _)| *of != place);
+            self.unknown.push(place);
+        }
+    }
+
     /// Takes a unit for the columns of numbers that state none; whether there is such a one.
     pub(super) fn take_unit_of_all(&mut self, unit: &str) -> bool {
         let columns: Vec<Column> = self.columns.iter().map(|(_, column)| *column).collect();
@@ -1948,13 +1963,11 @@ pub(super) fn without_type(text: &str) -> &str {
     of_type(text).map_or(text, |length| text[..length].trim_end())
 }
 
-/// A name and the unit that stands in brackets behind it, `dT [K]`, `A (mV)`; `None` where there is none. In
-/// parentheses some letters are types of evaluations and symbols.
+/// A name and the unit that stands in brackets behind it, `dT [K]`, `A (mV)`; `None` where there is none. A
+/// letter in parentheses is a symbol, `Length (L)`, or the type of an evaluation.
 pub(super) fn with_unit_in_brackets(words: &str) -> Option<(&str, String)> {
-    const LETTERS: [&str; 14] =
-        ["A", "B", "C", "a", "b", "c", "d", "h", "k", "n", "s", "u", "x", "1"];
     let brackets = |open: char, close: char| words.trim().strip_suffix(close)?.rsplit_once(open);
-    let is_unit = |unit: &str| !LETTERS.contains(&unit.trim());
+    let is_unit = |unit: &str| unit.trim().chars().count() > 1;
     let (name, unit) =
         brackets('[', ']').or_else(|| brackets('(', ')').filter(|(_, unit)| is_unit(unit)))?;
     // `u(V)` and `r(m)` are names, and so is `Value (2)`

@@ -8,7 +8,7 @@ use super::number::number_with_unit;
 use super::rows::Row;
 use super::symbol;
 use gumption_engine::decimal::to_15_digits;
-use gumption_engine::number::{Shortest, smallest_first};
+use gumption_engine::number::Shortest;
 
 /// Words of what is added to an indicated value.
 const CORRECTIONS: [&str; 7] =
@@ -40,7 +40,14 @@ const ERRORS: [&str; 8] = [
 ];
 
 /// Measured values that may be corrected already.
-const RESULTS: [&str; 9] = [
+const RESULTS: [&str; 16] = [
+    "measured value",
+    "measured",
+    "measurement",
+    "observed value",
+    "messwert",
+    "gemessener wert",
+    "valeur mesurée",
     "x",
     "est",
     "est. value",
@@ -123,7 +130,7 @@ impl Header {
         if is_nominal(self.heading(own)) && !is_error || is_indicated && is_correction {
             self.unknown.retain(|of| *of != place);
             self.columns.push((place, Column::Correction));
-            smallest_first(&mut self.columns, |(place, _)| *place as f64);
+            self.columns.sort_by_key(|(place, _)| *place);
             return;
         }
         // the estimate is the sum of another column and the correction

@@ -68,7 +68,7 @@ impl Extent {
     }
 
     /// What a name says in brackets or behind a comma, `Resolution (full width)`, and those words; `Full range
-    /// of the instrument` says nothing. Words with a number of their own say what that number is.
+    /// of the instrument` says nothing, nor do words with a number, `full width 0.1 mV`, which is theirs.
     fn of_name(name: &str) -> Option<(Self, &str)> {
         let mut pieces = name.split(['(', ')', '[', ']', ',', ';']).skip(1).map(str::trim);
         pieces.find_map(|piece| {
@@ -77,6 +77,12 @@ impl Extent {
             Some((Self::of(piece).filter(|_| is_plain)?, piece))
         })
     }
+}
+
+/// Whether words that speak of a full width can be those of a quantity, too.
+fn is_peak_to_peak(words: &str) -> bool {
+    let words = words.to_lowercase();
+    ["peak", "pk", "spitze", "crête"].iter().any(|word| words.contains(word))
 }
 
 /// The first word of a distribution's cell that could change what the number beside it means and is not
@@ -175,7 +181,11 @@ impl Budget<'_> {
         self.rounded_divisor(header, row);
         let text = header.cell(self.cells, row.line, Column::Distribution).trim().to_owned();
         let name = header.cell(self.cells, row.line, Column::Quantity).to_owned();
-        let of_name = Extent::of_name(&name);
+        // a voltage from peak to peak has a value, and an expanded uncertainty no limits
+        let is_of_limits = row.estimate.is_none_or(|of| of == 0.0)
+            && row.distribution.is_none_or(|of| divisor_of(of).is_some());
+        let of_name =
+            Extent::of_name(&name).filter(|(_, words)| is_of_limits || !is_peak_to_peak(words));
         let is_uncertain = row.std.is_some_and(|std| std > 0.0);
         if let Some((Extent::Full, words)) = of_name.filter(|_| row.width.is_none() && is_uncertain)
         {

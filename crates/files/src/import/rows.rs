@@ -1593,9 +1593,14 @@ impl Budget<'_> {
             };
             let other = self.other_unit(header, row, &unit);
             // a remark in parentheses may be of what makes the quantity: `Temperature (°C)` in mm
+            // but not beside the unit of all values, which may be that of most
+            let is_of_all = |other: &str| {
+                header.unit_of_all.as_ref().is_some_and(|(_, of_all)| of_all == other)
+            };
+            let is_beside =
+                |(other, _): &(String, _)| is_remark_beside(&unit, other) && !is_of_all(other);
             let is_remark = words.trim().ends_with(')')
-                && (self.states_unit(header, row.line)
-                    || other.as_ref().is_some_and(|(other, _)| is_remark_beside(&unit, other)));
+                && (self.states_unit(header, row.line) || other.as_ref().is_some_and(is_beside));
             if is_remark {
                 continue;
             }

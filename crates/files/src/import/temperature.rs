@@ -18,7 +18,21 @@ fn is_difference(row: &Row) -> bool {
             index.is_some_and(|index| !index.starts_with(|c: char| c.is_alphabetic()))
         })
     });
-    is_symbol || is_of_difference(&row.about) || is_of_difference(&row.name)
+    is_symbol || is_called_difference(&row.about) || is_called_difference(&row.name)
+}
+
+/// Whether words call something a difference, and are none of a temperature that say one of it besides: `Air
+/// temperature (max. deviation 1 K)`, `Bath temperature, corrected for the deviation of the sensor`.
+fn is_called_difference(words: &str) -> bool {
+    const DIFFERENCES: [&str; 4] = ["difference", "differenz", "différence", "diferencia"];
+    let words = words.split(['(', '[', ',', ';']).next().unwrap_or_default().to_lowercase();
+    let first = words.split_whitespace().next().unwrap_or_default();
+    let is_of_temperature = first != words.trim()
+        && ["temperature", "temperatur", "température", "temperatura"]
+            .iter()
+            .any(|of| words.contains(of));
+    let is_said = DIFFERENCES.iter().any(|of| words.contains(of)) || is_of_difference(first);
+    is_of_difference(&words) && (!is_of_temperature || is_said)
 }
 
 impl Budget<'_> {
@@ -57,10 +71,18 @@ mod tests {
             ("delta_theta", ""),
             ("x_1", "Temperature difference"),
             ("c", "Korrektion des Thermometers"),
+            ("c", "Correction of the air temperature"),
         ] {
             assert!(is_difference(&row(name, about)), "{name} {about}");
         }
-        for (name, about) in [("T", "Temperature"), ("td", "dew point"), ("dew", ""), ("t_d", "")] {
+        for (name, about) in [
+            ("T", "Temperature"),
+            ("td", "dew point"),
+            ("dew", ""),
+            ("t_d", ""),
+            ("T", "Air temperature (max. deviation 1 K)"),
+            ("t", "Bath temperature corrected for the deviation of the sensor"),
+        ] {
             assert!(!is_difference(&row(name, about)), "{name} {about}");
         }
     }

@@ -54,7 +54,8 @@ const BETWEEN: [&str; 19] = [
 ];
 
 /// Words before a colon and the unit.
-const LABELS: [&str; 7] = ["unit", "units", "einheit", "einheiten", "unité", "unités", "unidad"];
+const LABELS: [&str; 8] =
+    ["unit", "units", "einheit", "einheiten", "unité", "unités", "unidad", "unidades"];
 
 /// What may stand behind the unit.
 const BEHIND: [&str; 9] =
@@ -103,9 +104,10 @@ fn stated(text: &str) -> Option<Result<String, String>> {
     if let Some(unit) = parsed(&trimmed(&whole)) {
         return Some(Ok(unit));
     }
-    // `in the table below` and `in one place` are no units
-    let is_word = first.chars().all(char::is_lowercase) && first.chars().count() <= 3;
-    (may_be_unit(&first) && !is_word).then_some(Err(trimmed(&whole)))
+    // `in the table below`, `in SI units` and `in A1 to A5` are no units, and `Unit: DMM 1` is an instrument
+    let is_word = first.chars().all(char::is_lowercase);
+    let is_doubtful = of_label.is_none() && rest.len() == 1 && !is_word;
+    (is_doubtful && may_be_unit(&first)).then_some(Err(trimmed(&whole)))
 }
 
 impl Header {
@@ -127,7 +129,14 @@ impl Header {
                 .collect::<Vec<_>>()
         });
         let Some((text, unit)) = found.into_iter().next() else { return };
+        let units = self.columns.iter().find(|(_, column)| *column == Column::Unit);
+        let below = units.map_or_else(Vec::new, |(place, _)| {
+            let lines = self.line + 1..cells.lines();
+            lines.map(|line| cells.text(line, *place).trim().to_owned()).collect::<Vec<_>>()
+        });
+        let has_units = below.iter().any(|text| !super::rows::is_empty(text));
         let unit = match unit {
+            Err(_) if has_units => return,
             Ok(unit) => unit,
             Err(word) => {
                 self.doubtful.push(format!(
@@ -139,11 +148,6 @@ impl Header {
         };
         let dimension = |unit: &str| Unit::parse(unit).ok().map(|unit| unit.dimension());
         let differs = |other: &str| other != unit && dimension(other) == dimension(&unit);
-        let units = self.columns.iter().find(|(_, column)| *column == Column::Unit);
-        let below = units.map_or_else(Vec::new, |(place, _)| {
-            let lines = self.line + 1..cells.lines();
-            lines.map(|line| cells.text(line, *place).trim().to_owned()).collect::<Vec<_>>()
-        });
         let of_headings = self.units_of_columns().map(str::to_owned);
         let stated: Vec<String> = of_headings.chain(below.iter().cloned()).collect();
         if let Some(other) = stated.into_iter().find(|other| differs(other)) {
@@ -153,7 +157,7 @@ impl Header {
             ));
             return;
         }
-        if below.iter().any(|text| !super::rows::is_empty(text)) {
+        if has_units {
             return;
         }
         let taken = self.take_unit_of_all(&unit);

@@ -268,3 +268,47 @@ fn uncertainties_in_two_columns_and_totals_under_other_words() {
     let (_, budget) = uncertainties(text);
     assert_eq!(task(&budget).rows[0].distributions[0].mean(), 100.003);
 }
+
+/// What looks like the words above and is something else: a voltage from peak to peak, symbols in
+/// parentheses, an instrument in a title, an accuracy beside the standard uncertainty that has it in it.
+#[test]
+fn words_that_say_something_else() {
+    let text = "Quantity;Value;Unit;Uncertainty;Distribution;Divisor\nVoltage (peak-to-peak);10;V;0,02;normal;2\n";
+    assert_eq!(uncertainties(text).0, [0.01]);
+    for text in [
+        "Quantity;Value;u\nLength (L);10;0,02\n",
+        "Quantity;Value;u;c\nMass (m);10;0,02;1\nGain (g);1;0,02;1\n",
+        "Quantity;Value;u\nStandard (S);10;0,02\nTest (T);10;0,02\n",
+        "Unit: DMM 1\n\nQuantity;Value;u\nA;10;0,02\n",
+        "All values in SI units\n\nQuantity;Value;u\nA;10;0,02\n",
+        "Quantity;Value;u\nA;10;0,02\n\nValues in A1 to A5 measured\n",
+        "Quantity;Value;u;Accuracy\nA;10;0,02;0,5\n",
+    ] {
+        let (found, budget) = uncertainties(text);
+        assert!(found.iter().all(|u| *u == 0.02), "{text}: {found:?}");
+        assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "1", "{text}");
+    }
+    let error =
+        refusal("all values in mV\n\nQuantity;Value;u\nA;10;0,02\nTemperature (°C);23;0,1\n");
+    assert!(error.contains("`Temperature (°C)` says `°C`"), "{error}");
+    let error = refusal("Quantity;Measured value;Correction;u\nA;10,1;0,1;0,02\n");
+    assert!(error.contains("the estimate can be `Measured value` or its sum"), "{error}");
+}
+
+/// A constant beside a bare coefficient is as bare as that, and no temperature of the Celsius scale.
+#[test]
+fn constants_that_no_quantity_tells_the_unit_of() {
+    let of =
+        |equation: &str| format!("{equation}\n\nQuantity;Value;Unit;u\nT;300;K;0,1\nx;5;V;0,1\n");
+    for (equation, without) in
+        [("R = 100 + 0.39*T + 0*x", "100 [K]"), ("y = 4 + 16*(x-1) + 0*T", "4 [V]")]
+    {
+        let text = import("b.csv", of(equation).as_bytes()).unwrap().text;
+        assert!(!text.contains(without), "{text}");
+    }
+    let text =
+        import("b.csv", b"y = a*(T - 4)\n\nQuantity;Value;Unit;u\nT;300;K;0,1\na;2;W/K;0,1\n")
+            .unwrap()
+            .text;
+    assert!(text.contains("T - 4 [K]"), "{text}");
+}
