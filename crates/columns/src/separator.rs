@@ -47,6 +47,23 @@ impl Separator {
     pub const fn byte(self) -> u8 {
         self.sign() as u8
     }
+
+    /// The cells of a line, without the blanks about them.
+    ///
+    /// # Errors
+    /// What the line cannot be read for, as a sentence.
+    pub fn cells(self, line: &str) -> Result<Vec<String>, String> {
+        let mut reader = csv::ReaderBuilder::new()
+            .delimiter(self.byte())
+            .trim(csv::Trim::All)
+            .has_headers(false)
+            .from_reader(line.as_bytes());
+        match reader.records().next() {
+            Some(Ok(record)) => Ok(record.iter().map(str::to_owned).collect()),
+            Some(Err(error)) => Err(error.to_string()),
+            None => Ok(Vec::new()),
+        }
+    }
 }
 
 /// Whether a line is no record: empty, a comment, or the separator as spreadsheets announce it

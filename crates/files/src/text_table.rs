@@ -51,7 +51,7 @@ impl TextTable {
             let span = start..start + content.len();
             start += length;
             let place = Place { source: source.clone(), span: span.clone() };
-            let cells = match cells(content, separator) {
+            let cells = match separator.cells(content) {
                 Ok(cells) => cells,
                 Err(reason) => {
                     log.report_at(place, DiagnosticKind::Table { reason });
@@ -201,20 +201,6 @@ pub(super) fn record(text: &str, separator: char) -> Option<usize> {
         begins = !quoted && letter == separator;
     }
     (!quoted).then_some(text.len())
-}
-
-/// The cells of a line.
-fn cells(line: &str, separator: Separator) -> Result<Vec<String>, String> {
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(separator.byte())
-        .trim(csv::Trim::All)
-        .has_headers(false)
-        .from_reader(line.as_bytes());
-    match reader.records().next() {
-        Some(Ok(record)) => Ok(record.iter().map(str::to_owned).collect()),
-        Some(Err(error)) => Err(error.to_string()),
-        None => Ok(Vec::new()),
-    }
 }
 
 #[cfg(test)]

@@ -33,19 +33,6 @@ pub(super) struct Beginning {
     pub(super) is_header: bool,
 }
 
-/// The cells of a line.
-fn cells(line: &str, separator: Separator) -> Vec<String> {
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(separator.byte())
-        .trim(csv::Trim::All)
-        .has_headers(false)
-        .from_reader(line.as_bytes());
-    match reader.records().next() {
-        Some(Ok(record)) => record.iter().map(str::to_owned).collect(),
-        _ => Vec::new(),
-    }
-}
-
 /// A line that holds something.
 struct Line {
     place: usize,
@@ -136,7 +123,7 @@ impl Beginning {
     pub(super) fn of(lines: &[String], wanted: &[Wanted]) -> Option<Self> {
         let of_line = |(place, text): (usize, &String)| {
             let separator = Separator::of_line(text);
-            let cells = cells(text, separator);
+            let cells = separator.cells(text).unwrap_or_default();
             let is_held = !is_skipped(text) && cells.iter().any(|cell| !cell.is_empty());
             is_held.then_some(Line { place, separator, cells })
         };

@@ -7,11 +7,10 @@ use super::note::{FormulaNote, Walk};
 use super::note_result::terms;
 use super::numbers::{Use, is_same_factor};
 use super::syntax::{Kind, Node, Operator, Tree};
-use super::typing::{Scope, Typing};
+use super::typing::{RATE, Scope, Typing};
 use crate::number::Unary;
 use gumption_units::{Dimension, Exponent, Turn, Unit};
 
-const RATE: Dimension = Dimension::of([0, 0, -1, 0, 0, 0, 0]);
 const ACCELERATION: Dimension = Dimension::of([0, 1, -2, 0, 0, 0, 0]);
 const TORQUE: Dimension = Dimension::of([1, 2, -2, 0, 0, 0, 0]);
 const RESISTANCE: Dimension = Dimension::of([1, 2, -3, -2, 0, 0, 0]);
@@ -46,12 +45,9 @@ pub(super) fn torque<'u>(
     let terms = terms(tree, &walk.constants).into_iter().filter(|term| !term.is_factor);
     let products = terms.filter(|term| walk.is_product(term.index));
     let node = products.filter_map(|term| tree.nodes.get(term.index)).find(|node| {
-        let (mut factor, mut torques, mut rates) = (1.0, 0, 0);
-        for (index, is_divided) in walk.operands(node) {
-            if let Some(number) = walk.constant(index) {
-                factor *= if is_divided { 1.0 / number } else { number };
-                continue;
-            }
+        let (factor, operands) = walk.factor_and_operands(node);
+        let (mut torques, mut rates) = (0, 0);
+        for (index, is_divided) in operands {
             match (walk.node(index), unit_of(walk.slice(index))) {
                 (Some(Kind::Name), Some(unit)) if is_torque(unit) && !is_divided => torques += 1,
                 (Some(Kind::Name), Some(unit)) if is_bare_rate(unit) && !is_divided => rates += 1,
@@ -72,9 +68,8 @@ pub(super) fn torque<'u>(
 
 /// Whether a unit is that of a torque and not of an energy: `N m`, `kN*m`.
 fn is_torque(unit: &Unit) -> bool {
-    let is_newton = |base: &str| base.strip_suffix('N').is_some();
     let mut factors = unit.factors().iter();
-    unit.dimension() == TORQUE && factors.any(|factor| is_newton(&factor.base.to_string()))
+    unit.dimension() == TORQUE && factors.any(|factor| factor.base.to_string().ends_with('N'))
 }
 
 /// Whether a unit is that of periods, or of a rate of what it does not say. In 1/s it may be an angular
@@ -105,14 +100,7 @@ impl Typed<'_> {
             return self.is_of_oscillator(radicand);
         }
         let Some(node) = self.walk.tree.nodes.get(index) else { return false };
-        let (mut factor, mut operands) = (1.0, Vec::new());
-        for (index, is_divided) in self.walk.operands(node) {
-            match self.walk.constant(index) {
-                Some(number) if is_divided => factor /= number,
-                Some(number) => factor *= number,
-                None => operands.push((index, is_divided)),
-            }
-        }
+        let (factor, operands) = self.walk.factor_and_operands(node);
         is_same_factor(factor, 1.0)
             && (self.is_of_roots(&operands) || self.is_of_time_constant(node, &operands))
     }

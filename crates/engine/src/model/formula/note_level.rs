@@ -61,20 +61,14 @@ struct Level<'t> {
 }
 
 fn level<'t>(walk: &Walk<'t, '_>, node: &'t Node) -> Option<Level<'t>> {
-    let (mut factor, mut argument) = (1.0, None);
-    for (index, is_divided) in walk.operands(node) {
-        match (walk.constant(index), walk.node(index)?) {
-            (Some(number), _) if is_divided => factor /= number,
-            (Some(number), _) => factor *= number,
-            (None, Kind::Call { function: Some(Function::One(Unary::Log10)), arguments, .. })
-                if argument.is_none() && !is_divided =>
-            {
-                argument = arguments.first().copied();
-            }
-            _ => return None,
+    let (factor, operands) = walk.factor_and_operands(node);
+    let [(logarithm, false)] = operands[..] else { return None };
+    match walk.node(logarithm)? {
+        Kind::Call { function: Some(Function::One(Unary::Log10)), arguments, .. } => {
+            Some(Level { node, factor: factor.abs(), argument: *arguments.first()? })
         }
+        _ => None,
     }
-    Some(Level { node, factor: factor.abs(), argument: argument? })
 }
 
 /// The products that are no factors of others.

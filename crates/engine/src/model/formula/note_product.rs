@@ -10,18 +10,17 @@ use super::note::{ANGLE_TWICE, FormulaNote, RATE_TWICE, RESULT_TWICE, SHARE_TWIC
 use super::note_result::{taken_up, terms};
 use super::numbers::{Numbers, Use, ValueSource, is_same_factor};
 use super::syntax::{Kind, Node, Operator};
+use super::typing::RATE;
 use crate::decimal::{to_15_digits, to_digits};
 use crate::number::elementary::{log10, pow};
 use crate::number::{Binary, Shortest, Unary};
-use gumption_units::{Dimension, Turn, Unit};
+use gumption_units::{Turn, Unit};
 
 /// The code of quantities that a product converts to coherent units.
 const QUANTITY_TWICE: &str = "quantity-converted-twice";
 
 /// The codes of notes that a note on the whole product has the part of.
 const OF_PARTS: [&str; 3] = [SHARE_TWICE, ANGLE_TWICE, RATE_TWICE];
-
-const RATE: Dimension = Dimension::of([0, 0, -1, 0, 0, 0, 0]);
 
 /// The numbers and the units that a value is a product of, through the equations that it takes up.
 #[derive(Clone, Copy, Debug, PartialEq)]

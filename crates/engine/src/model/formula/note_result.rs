@@ -189,6 +189,22 @@ impl Walk<'_, '_> {
         found
     }
 
+    /// The plain number that a product has in all, and its other operands, each with whether it is divided by.
+    pub(super) fn factor_and_operands(&self, node: &Node) -> (f64, Vec<(usize, bool)>) {
+        let mut factor = 1.0;
+        let mut operands = self.operands(node);
+        operands.retain(|(index, is_divided)| {
+            let number = self.constant(*index);
+            match number {
+                Some(number) if *is_divided => factor /= number,
+                Some(number) => factor *= number,
+                None => {}
+            }
+            number.is_none()
+        });
+        (factor, operands)
+    }
+
     /// The plain numbers that a product is multiplied by.
     fn factors(&self, node: &Node) -> Vec<f64> {
         let operands = self.operands(node).into_iter().filter(|(_, is_divided)| !is_divided);

@@ -9,11 +9,9 @@ use super::note::{FormulaNote, Walk};
 use super::note_result::terms;
 use super::numbers::{Use, is_same_factor};
 use super::syntax::{Kind, Node, Tree};
-use super::typing::{Scope, Typing};
+use super::typing::{RATE, Scope, Typing};
 use crate::number::Unary;
 use gumption_units::{Dimension, Exponent, Turn, Unit};
-
-const RATE: Dimension = Dimension::of([0, 0, -1, 0, 0, 0, 0]);
 
 /// What a machine moves in a revolution: volume, mass, amount, charge.
 const DISPLACED: [Dimension; 4] = [

@@ -66,7 +66,7 @@ impl Rate {
 }
 
 /// The dimension of a rate.
-const RATE: Dimension = Dimension::of([0, 0, -1, 0, 0, 0, 0]);
+pub(super) const RATE: Dimension = Dimension::of([0, 0, -1, 0, 0, 0, 0]);
 
 /// What a level is above by the formula that makes it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
