@@ -9,8 +9,8 @@
 
 use std::f64::consts::TAU;
 
-use super::ComposedEffect;
 use super::generator::SplitMix64;
+use crate::ComposedEffect;
 
 /// An effect that is withheld: what it does to the outputs, and what names it rightly.
 pub(crate) struct Withheld {

@@ -5,12 +5,13 @@ use std::fs;
 use crate::support::root;
 
 /// The crates from low to high.
-const CRATES: [&str; 13] = [
+const CRATES: [&str; 14] = [
     "units",
     "engine",
     "measurements",
     "signal",
     "columns",
+    "inference",
     "gap",
     "assumptions",
     "analysis",

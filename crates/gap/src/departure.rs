@@ -2,14 +2,13 @@
 //! what the discrepancy looks like.
 
 use super::diagnosis::{DepartureForm, DepartureKind, DepartureOver, DepartureShape};
-use super::discrepancy::{Of, Term, Weighted};
-use super::noise_model::Weighing;
-use super::posterior::Posterior;
-use super::shared_noise::Setting;
 use super::shrink;
-use super::weighed::names;
 use gumption_engine::number::{elementary, largest_first, smallest_first};
 use gumption_engine::task::Row;
+use gumption_inference::discrepancy::{Of, Term, Weighted};
+use gumption_inference::noise_model::Weighing;
+use gumption_inference::posterior::Posterior;
+use gumption_inference::shared_noise::Setting;
 
 /// Forms are told where "unexplained" has more than this probability.
 pub(crate) const WORTH_TELLING: f64 = 0.05;
@@ -206,7 +205,7 @@ fn form(weighing: &Weighing<'_>, group: &[&Weighted], probability: f64) -> Depar
         scale_unit,
         size,
         unit,
-        beside: names(setup, beside(first)),
+        beside: setup.effect_names(beside(first)),
         probability,
     }
 }

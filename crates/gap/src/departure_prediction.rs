@@ -7,11 +7,11 @@
 //! smooth ones grows with the distance. The change is gradual over a tenth of the range.
 
 use super::composed::Compositions;
-use super::discrepancy::{Discrepancy, Weighted};
-use super::predict::Normals;
-use super::setup::Setup;
 use super::shrink;
 use gumption_engine::task::Row;
+use gumption_inference::discrepancy::{Discrepancy, Weighted};
+use gumption_inference::predict::Normals;
+use gumption_inference::setup::Setup;
 
 /// The distance from the box, in ranges of a condition, over which weights change.
 const GRADUAL: f64 = 0.1;

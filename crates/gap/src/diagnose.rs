@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::composed::{ComposedForm, Compositions};
+use super::composed::Compositions;
 use super::departure;
 use super::departure_prediction;
 use super::diagnosis::{
@@ -10,26 +10,28 @@ use super::diagnosis::{
     MostProbable, NamedQuantity, NextMeasurements, NoiseEstimate, OutputCorrelation, Predicted,
     RowGap, SerialCorrelation, SettingError, SuspectValue,
 };
-use super::discrepancy::Discrepancy;
 use super::goodness_of_fit::{gap, plus_rows};
-use super::latent::Role;
-use super::noise_model::NoiseModel;
 use super::notes::notes;
 use super::parameters::{equal_tails, parameters, present};
 use super::periodic_residuals::{self, PeriodicResiduals};
-use super::posterior::{Effort, Posterior};
-use super::prior_widths::{self, OtherPriors};
-use super::setup::Setup;
-use super::shared_noise::Setting;
-use super::weighed::{Weighed, names, rival};
+use super::weighed::{Weighed, rival};
 use super::weighed_noise::WeighedNoise;
-use super::{next, predict, prior_conflict, replication, scan, shrink, strength};
+use super::{next, prior_conflict, replication, shrink, strength};
 use crate::{Candidate, Case, OverrideError};
 use gumption_engine::decimal::significant;
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::Formula;
 use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::task::{Coverage, Row};
+use gumption_inference::discrepancy::Discrepancy;
+use gumption_inference::latent::Role;
+use gumption_inference::noise_model::NoiseModel;
+use gumption_inference::posterior::{Effort, Posterior};
+use gumption_inference::prior_widths::{self, OtherPriors};
+use gumption_inference::setup::Setup;
+use gumption_inference::shape::ComposedForm;
+use gumption_inference::shared_noise::Setting;
+use gumption_inference::{predict, scan};
 
 /// Rows of the data that are handed back, at most; of longer records every so many-th.
 const MOST_ROWS: usize = 2000;
@@ -338,7 +340,7 @@ pub(crate) fn hypotheses(
         .hypotheses
         .iter()
         .map(|hypothesis| Hypothesis {
-            effects: Some(names(setup, &hypothesis.effects)),
+            effects: Some(setup.effect_names(&hypothesis.effects)),
             prior: hypothesis.prior,
             probability: hypothesis.probability,
             log_evidence: hypothesis.evidence.ln_evidence,
@@ -348,7 +350,7 @@ pub(crate) fn hypotheses(
                 .evidence
                 .modes
                 .iter()
-                .map(super::search::Mode::ln_likelihood)
+                .map(gumption_inference::search::Mode::ln_likelihood)
                 .fold(f64::NEG_INFINITY, f64::max),
             fitted: hypothesis.evidence.unknowns() - setup.roles.len(),
             parameters: parameters(setup, hypothesis, probability),

@@ -2,6 +2,8 @@
 
 use super::composed::ComposedEffect;
 use gumption_engine::task::ModelStatement;
+use gumption_inference::scan::GapRegion;
+use gumption_inference::{noise_model, shared_noise};
 
 /// The answer of the gap diagnosis.
 #[derive(Clone, Debug)]
@@ -109,21 +111,6 @@ pub struct GapTest {
     pub chi2: f64,
     /// Degrees of freedom.
     pub dof: f64,
-}
-
-/// A region of the conditions that departs from the rest.
-#[derive(Clone, Debug, PartialEq)]
-pub struct GapRegion {
-    /// Place of the output; `None` for all of them together.
-    pub output: Option<usize>,
-    /// Place of the condition and its least and largest value, in its unit; `None` for all of them.
-    pub range: Option<(usize, [f64; 2])>,
-    /// The probability that data without a gap have a region as surprising anywhere.
-    pub p_value: f64,
-    /// Share of the excess of squared residuals that lies here.
-    pub share_of_gap: f64,
-    /// Mean of the residuals over their standard uncertainties.
-    pub mean_z: f64,
 }
 
 /// How strong the gap of an output is along a condition.
@@ -495,7 +482,7 @@ pub struct UncertaintyFactor {
 
 impl UncertaintyFactor {
     /// The factors that are weighed.
-    pub const LIMITS: [f64; 2] = [0.25, 1000.0];
+    pub const LIMITS: [f64; 2] = noise_model::FAR_FACTORS;
 
     /// Whether the estimate is as near to a limit as to be decided by it.
     pub fn is_at_limit(&self) -> bool {
@@ -550,7 +537,7 @@ pub struct SettingError {
 
 impl SettingError {
     /// The standard deviations that are weighed, in standard uncertainties of a reading.
-    pub const LIMITS: [f64; 2] = [0.5, 256.0];
+    pub const LIMITS: [f64; 2] = shared_noise::LIMITS;
 
     /// Whether the estimate is beyond what is weighed.
     pub fn is_at_limit(&self) -> bool {

@@ -11,9 +11,9 @@ use gumption_engine::number::{elementary, smallest_first};
 use gumption_engine::parallel;
 use gumption_engine::special;
 
-use super::covariance::Covariance;
-use super::noise_model::NoiseModel;
-use super::setup::Setup;
+use gumption_inference::covariance::Covariance;
+use gumption_inference::noise_model::NoiseModel;
+use gumption_inference::setup::Setup;
 
 /// An input is far from its estimate by more than this, in standard uncertainties.
 const FAR: f64 = 3.0;

@@ -1,10 +1,10 @@
 //! Whether residuals are as large as their uncertainties let expect: chi-square and F tests.
 
-use super::data::by_rows;
 use super::diagnosis::{GapTest, HypothesisKind};
-use super::setup::Setup;
 use gumption_engine::number::elementary;
 use gumption_engine::special;
+use gumption_inference::data::by_rows;
+use gumption_inference::setup::Setup;
 
 /// Noise and what belongs to a row alone.
 pub(crate) fn plus_rows(setup: &Setup<'_>, noise: &[f64]) -> Vec<f64> {

@@ -9,18 +9,17 @@ use gumption_engine::parallel;
 
 use super::composed::Compositions;
 use super::diagnosis::{NamedQuantity, NextMeasurements, ProposalKind, ProposedMeasurement};
-use super::discrepancy::Discrepancy;
-use super::equivalent;
-use super::expected_entropy::{Detail, Normals, Outlook, expected_loss, ln_odds};
-use super::posterior::Posterior;
-use super::predict::{self, Predictor, Values};
-use super::reachable::{self, Place};
-use super::setup::Setup;
 use super::shrink;
-use super::weighed::names;
 use gumption_engine::number::{elementary, largest_first, median, smallest_first};
 use gumption_engine::special::normal;
 use gumption_engine::task::Sharing;
+use gumption_inference::discrepancy::Discrepancy;
+use gumption_inference::equivalent;
+use gumption_inference::expected_entropy::{Detail, Normals, Outlook, expected_loss, ln_odds};
+use gumption_inference::posterior::Posterior;
+use gumption_inference::predict::{self, Predictor, Values};
+use gumption_inference::reachable::{self, Place};
+use gumption_inference::setup::Setup;
 
 /// Draws of each hypothesis.
 const DRAWS: usize = 64;
@@ -84,7 +83,7 @@ pub(crate) fn next(
     let separates = rivals.map(|pair| {
         pair.map(|place| {
             let hypothesis = posterior.hypotheses.get(place?)?;
-            Some(names(setup, &hypothesis.effects))
+            Some(setup.effect_names(&hypothesis.effects))
         })
     });
     let places = reachable::places(setup);
@@ -175,7 +174,7 @@ fn predictive(
         };
         let input = |place: usize| draws.iter().map(|draw| draw[place]).collect();
         PredictiveHypothesis {
-            effects: Some(names(setup, &hypothesis.effects)),
+            effects: Some(setup.effect_names(&hypothesis.effects)),
             probability: hypothesis.probability,
             values: of(&setup.data.outputs),
             unobserved: (!others.is_empty()).then(|| of(&others)),

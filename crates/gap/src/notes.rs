@@ -1,21 +1,21 @@
 //! What to bear in mind when a diagnosis is read.
 
-use super::copies::Copies;
 use super::diagnosis::{
     DiagnosisNote, GapTest, HypothesisKind, MostProbable, NoiseEstimate, Shrinkage,
 };
-use super::evidence::DISAGREE;
 use super::far_input;
 use super::goodness_of_fit::misfit;
-use super::posterior::Posterior;
-use super::resolution::Rounding;
 use super::row_drift;
-use super::setup::Setup;
-use super::shared_noise;
 use super::turns;
 use super::unit_slip;
 use gumption_engine::decimal::significant;
 use gumption_engine::number::Shortest;
+use gumption_inference::copies::Copies;
+use gumption_inference::evidence::DISAGREE;
+use gumption_inference::posterior::Posterior;
+use gumption_inference::resolution::Rounding;
+use gumption_inference::setup::Setup;
+use gumption_inference::shared_noise;
 
 pub(crate) fn notes(
     setup: &Setup<'_>,

@@ -1,13 +1,13 @@
 //! The parameters of effects after the data: estimates, standard uncertainties, intervals.
 
 use super::diagnosis::{EffectParameter, PresentEffect};
-use super::latent::{Map, Role};
-use super::posterior::{Posterior, WeighedHypothesis};
-use super::predict;
-use super::setup::Setup;
 use super::shrink;
 use gumption_engine::number::{COLUMN, largest_first, smallest_first};
 use gumption_engine::task::Row;
+use gumption_inference::latent::{Map, Role};
+use gumption_inference::posterior::{Posterior, WeighedHypothesis};
+use gumption_inference::predict;
+use gumption_inference::setup::Setup;
 
 /// The candidate effects with the probability that each is part of the truth, most probable first,
 /// and their parameters over all hypotheses that hold them.

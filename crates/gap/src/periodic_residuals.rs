@@ -1,7 +1,7 @@
 //! A sine in what a verdict leaves: along a condition, or along the rows.
 //!
 //! Departures that change faster than from one setting to the next are noise to the smooth forms of
-//! [`crate::discrepancy`], and a sine of a few rows a period is told from a larger noise by nothing else
+//! [`gumption_inference::discrepancy`], and a sine of a few rows a period is told from a larger noise by nothing else
 //! than its line in the spectrum. The spectrum is that of least squares (N. R. Lomb, Astrophysics and
 //! Space Science 39 (1976) 447), with a level of its own, at frequencies between those of smooth
 //! departures and half of the mean sampling rate.

@@ -1,12 +1,11 @@
 //! Effects that explain the data with a size that their prior all but excludes.
 
 use super::diagnosis::PriorConflict;
-use super::noise_model::Weighing;
 use super::parameters::parameters;
-use super::weighed::names;
 use crate::Case;
 use gumption_engine::distribution::Distribution;
 use gumption_engine::number::{elementary, largest_first};
+use gumption_inference::noise_model::Weighing;
 
 /// Conflicts below this probability are not worth a word.
 const LEAST: f64 = 0.01;
@@ -28,7 +27,7 @@ pub(crate) fn conflicts(
             if probability < LEAST {
                 continue;
             }
-            let effects = names(&weighing.setup, &hypothesis.effects);
+            let effects = weighing.setup.effect_names(&hypothesis.effects);
             let candidates = hypothesis.effects.iter().map(|&effect| &case.candidates[effect]);
             let priors =
                 candidates.flat_map(|of| of.priors.iter().map(|prior| (&of.effect, prior)));

@@ -4,11 +4,11 @@
 //! among its conditions. What changes slowly over a campaign (a warming bench, a wearing bearing) then
 //! is no function of anything that a hypothesis knows, and looks like an offset with more noise.
 
-use super::posterior::WeighedHypothesis;
-use super::remainder::Remainder;
-use super::setup::Setup;
 use gumption_engine::linalg::dot;
 use gumption_engine::special::{normal, student};
+use gumption_inference::posterior::WeighedHypothesis;
+use gumption_inference::remainder::Remainder;
+use gumption_inference::setup::Setup;
 
 /// Fewer rows tell a drift from nothing else.
 const LEAST_ROWS: usize = 10;

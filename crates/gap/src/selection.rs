@@ -2,12 +2,12 @@
 
 use super::diagnose::{hypotheses, prediction};
 use super::diagnosis::{Hypothesis, MostProbable, Predicted};
-use super::posterior::Effort;
-use super::prior_widths::OtherPriors;
 use super::shrink;
 use super::weighed::Weighed;
 use crate::{Case, OverrideError};
 use gumption_engine::task::Row;
+use gumption_inference::posterior::Effort;
+use gumption_inference::prior_widths::OtherPriors;
 
 /// A diagnosis without regions, cross-validation and advice.
 #[derive(Clone, Debug)]
@@ -29,7 +29,7 @@ pub struct ModelSelection {
 /// Effects that cannot act on the model.
 pub fn noise(case: &Case, seed: u64) -> Result<Vec<Vec<f64>>, OverrideError> {
     case.check()?;
-    let data = super::data::Data::new(case);
+    let data = gumption_inference::data::Data::new(case);
     let stated: Option<Vec<Vec<f64>>> = data.uncertainties.into_iter().collect();
     Ok(stated.unwrap_or_else(|| {
         let others = OtherPriors::of(case);
@@ -46,7 +46,7 @@ pub fn noise(case: &Case, seed: u64) -> Result<Vec<Vec<f64>>, OverrideError> {
 
 /// What the model says of every observed output in every row at the inputs' estimates.
 pub fn nominal(case: &Case) -> Vec<Vec<f64>> {
-    let data = super::data::Data::new(case);
+    let data = gumption_inference::data::Data::new(case);
     (0..data.outputs.len())
         .map(|output| data.point_of.iter().map(|&p| data.points[p].nominal[output]).collect())
         .collect()

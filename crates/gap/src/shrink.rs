@@ -5,19 +5,19 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use gumption_engine::parallel;
 
 use super::composed::Compositions;
-use super::data::{Data, by_rows, within_half_a_turn};
 use super::departure_prediction;
 use super::diagnosis::{RowGap, Shrinkage, Shrunk, ValueGap};
-use super::discrepancy::{Base, Discrepancy, Weighted};
-use super::evidence::EvidenceEstimate;
-use super::logarithm::{HALF_LN_TWO_PI, ln_sum};
-use super::posterior::Posterior;
-use super::predict::{self, Normals, Values};
-use super::setup::Setup;
-use super::shared_noise::SharedNoise;
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::{ascending, elementary};
 use gumption_engine::task::Row;
+use gumption_inference::data::{Data, by_rows, within_half_a_turn};
+use gumption_inference::discrepancy::{Base, Discrepancy, Weighted};
+use gumption_inference::evidence::EvidenceEstimate;
+use gumption_inference::logarithm::{HALF_LN_TWO_PI, ln_sum};
+use gumption_inference::posterior::Posterior;
+use gumption_inference::predict::{self, Normals, Values};
+use gumption_inference::setup::Setup;
+use gumption_inference::shared_noise::SharedNoise;
 
 /// Blocks of conditions that are left out in turn.
 const BLOCKS: usize = 6;

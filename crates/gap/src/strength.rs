@@ -1,8 +1,8 @@
 //! How strong the gap is along each condition: finer than where it can be told from chance.
 
 use super::diagnosis::{GapStrength, RowGap, StrengthPart};
-use super::setup::Setup;
 use gumption_engine::number::smallest_first;
+use gumption_inference::setup::Setup;
 
 /// Parts that a condition's values are taken in, at most: its levels where it has no more.
 const MOST_PARTS: usize = 8;

@@ -1,9 +1,9 @@
 //! Angles that come round, where nothing says that they do.
 
 use super::departure::ends;
-use super::setup::Setup;
 use gumption_engine::decimal::to_15_digits;
 use gumption_engine::number::{Shortest, smallest_first};
+use gumption_inference::setup::Setup;
 use gumption_units::Turn;
 
 /// From one condition to the next a residual jumps by more than this part of a turn where it was

@@ -4,8 +4,8 @@
 //! an output. Of effects a gain comes nearest, with a prior that excludes it, or a departure that no one
 //! would think of.
 
-use super::setup::Setup;
 use gumption_engine::number::{elementary, median};
+use gumption_inference::setup::Setup;
 
 /// The median of the ratios is known for one of the factors within this share of it.
 const NEAR: f64 = 0.02;

@@ -2,13 +2,13 @@
 
 use super::departure;
 use super::diagnosis::UnlistedEffect;
-use super::logarithm::ln_add;
-use super::noise_model::Weighing;
 use super::parameters::parameters;
-use super::posterior::{Effort, singles};
-use super::setup::Setup;
 use crate::Case;
 use gumption_engine::number::{elementary, largest_first};
+use gumption_inference::logarithm::ln_add;
+use gumption_inference::noise_model::Weighing;
+use gumption_inference::posterior::{Effort, singles};
+use gumption_inference::setup::Setup;
 
 /// Effects below this probability are not handed over.
 const LEAST: f64 = 0.01;

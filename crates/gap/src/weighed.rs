@@ -8,22 +8,22 @@ use super::departure;
 use super::diagnosis::{
     DepartureForm, HypothesisKind, MostProbable, PriorConflict, UnlistedEffect,
 };
-use super::discrepancy::Discrepancy;
-use super::latent::Role;
-use super::noise_model::{self, Weighing};
-use super::over_noises;
-use super::posterior::{Effort, Posterior};
-use super::predict;
 use super::prior_conflict;
-use super::prior_widths::{self, OtherPriors};
-use super::resolution::Rounding;
-use super::setup::Setup;
 use super::shrink::Correction;
 use super::unlisted;
 use super::weighed_noise::WeighedNoise;
 use crate::Case;
 use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::task::Row;
+use gumption_inference::discrepancy::Discrepancy;
+use gumption_inference::latent::Role;
+use gumption_inference::noise_model::{self, Weighing};
+use gumption_inference::over_noises;
+use gumption_inference::posterior::{Effort, Posterior};
+use gumption_inference::predict;
+use gumption_inference::prior_widths::{self, OtherPriors};
+use gumption_inference::resolution::Rounding;
+use gumption_inference::setup::Setup;
 
 /// Two hypotheses look alike if their best predictions differ by less than this, in standard
 /// uncertainties of the data and over all of them: the expected logarithm of the odds is half its
@@ -304,10 +304,6 @@ pub(crate) fn rival(posterior: &Posterior, best: usize, group: &[usize]) -> Opti
         .or_else(|| most(&mut others().map(|(place, ..)| place)))
 }
 
-pub(crate) fn names(setup: &Setup<'_>, effects: &[usize]) -> Vec<String> {
-    effects.iter().map(|&e| setup.case.candidates[e].effect.name.clone()).collect()
-}
-
 fn most_probable(
     setup: &Setup<'_>,
     posterior: &Posterior,
@@ -332,12 +328,12 @@ fn most_probable(
         } else {
             HypothesisKind::Explained
         },
-        effects: names(setup, &winner.effects),
+        effects: setup.effect_names(&winner.effects),
         prior_conflict: false,
         probability: winner.probability,
         indistinguishable: group
             .iter()
-            .map(|&h| names(setup, &posterior.hypotheses[h].effects))
+            .map(|&h| setup.effect_names(&posterior.hypotheses[h].effects))
             .collect(),
         indistinguishable_probability: group
             .iter()

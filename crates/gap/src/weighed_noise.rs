@@ -1,14 +1,14 @@
 //! What the data say of their noise, over all hypotheses.
 
-use super::latent::Role;
-use super::logarithm::ln_add;
-use super::noise_model::{Suspect, Weighing, serial_gain};
 use super::parameters::equal_tails;
-use super::remainder::Remainder;
-use super::setup::Setup;
-use super::shared_noise::{Groups, RATIOS, Setting};
 use crate::UncertaintyFactor;
 use gumption_engine::number::{COLUMN, elementary, smallest_first};
+use gumption_inference::latent::Role;
+use gumption_inference::logarithm::ln_add;
+use gumption_inference::noise_model::{Suspect, Weighing, serial_gain};
+use gumption_inference::remainder::Remainder;
+use gumption_inference::setup::Setup;
+use gumption_inference::shared_noise::{Groups, RATIOS, Setting};
 
 /// Hypotheses below this probability do not contribute to the factor.
 const LEAST: f64 = 1e-3;

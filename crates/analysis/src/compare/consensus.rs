@@ -14,6 +14,7 @@
 use nalgebra::DMatrix;
 
 use super::laboratories::{Impossible, ReferenceValue, Results};
+use gumption_engine::linalg::DenseRoot;
 use gumption_engine::special;
 
 /// How the reference value of a comparison is made.
@@ -146,7 +147,7 @@ fn widened(results: &Results, squared: f64) -> DMatrix<f64> {
 /// n - 1 + tau^2 (tr W - 1' W W 1 / 1' W 1), where W is the inverse of V.
 fn moment(results: &Results, chi_squared: f64) -> Option<f64> {
     let n = results.values.len();
-    let inverse = results.covariance.clone().cholesky()?.inverse();
+    let inverse = DenseRoot::of(results.covariance.clone())?.inverse();
     let sums = inverse.column_sum();
     let slope = inverse.trace() - sums.dot(&sums) / sums.sum();
     let squared = (chi_squared - (n - 1) as f64) / slope;

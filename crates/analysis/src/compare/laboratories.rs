@@ -14,6 +14,7 @@ use super::consensus::{self, ConsensusValue, Estimator};
 use super::pair::StatedResult;
 use super::subset::{self, Found, SubsetSearch, Ties};
 use super::{FACTOR, agree, definite, probability};
+use gumption_engine::linalg::{DenseRoot, principal_part};
 use gumption_engine::special;
 
 /// The result of a laboratory.
@@ -195,8 +196,8 @@ impl Results {
     /// is not positive definite.
     fn weights(&self, members: &[usize]) -> Option<(DVector<f64>, f64)> {
         let n = members.len();
-        let part = DMatrix::from_fn(n, n, |i, j| self.covariance[(members[i], members[j])]);
-        let solved = part.cholesky()?.solve(&DVector::from_element(n, 1.0));
+        let part = principal_part(&self.covariance, members);
+        let solved = DenseRoot::of(part)?.solve(&DVector::from_element(n, 1.0));
         let sum = solved.sum();
         (sum > 0.0 && sum.is_finite()).then(|| (solved / sum, 1.0 / sum.sqrt()))
     }
@@ -209,10 +210,10 @@ impl Results {
         let deviations = DVector::from_fn(members.len(), |i, _| self.values[members[i]] - origin);
         let mean = weights.dot(&deviations);
         let n = members.len();
-        let part = DMatrix::from_fn(n, n, |i, j| self.covariance[(members[i], members[j])]);
+        let part = principal_part(&self.covariance, members);
         let residuals = deviations.add_scalar(-mean);
         // a zero has no sign
-        let chi_squared = residuals.dot(&part.cholesky()?.solve(&residuals)).max(0.0) + 0.0;
+        let chi_squared = residuals.dot(&DenseRoot::of(part)?.solve(&residuals)).max(0.0) + 0.0;
         let dof = n - 1;
         let p_value =
             if dof == 0 { 1.0 } else { special::gamma::sf(0.5 * chi_squared, 0.5 * dof as f64) };
@@ -223,8 +224,8 @@ impl Results {
     /// The members' precision, from which chi-squared without some of them follows.
     pub(super) fn precision(&self, members: &[usize]) -> Option<Precision> {
         let n = members.len();
-        let part = DMatrix::from_fn(n, n, |i, j| self.covariance[(members[i], members[j])]);
-        let inverse = part.cholesky()?.inverse();
+        let part = principal_part(&self.covariance, members);
+        let inverse = DenseRoot::of(part)?.inverse();
         let mean = self.reference(members)?.value;
         let of_ones = inverse.column_sum();
         let of_values = &inverse * DVector::from_fn(n, |i, _| self.values[members[i]] - mean);
@@ -270,8 +271,8 @@ impl Precision {
     /// Chi-squared of the others without those at some places; `None` where rounding left nothing.
     pub(super) fn chi_squared_without(&self, out: &[usize]) -> Option<f64> {
         let k = out.len();
-        let block = DMatrix::from_fn(k, k, |i, j| self.inverse[(out[i], out[j])]);
-        let block = block.cholesky()?;
+        let block = principal_part(&self.inverse, out);
+        let block = DenseRoot::of(block)?;
         let [a, b] =
             [&self.of_ones, &self.of_values].map(|of| DVector::from_fn(k, |i, _| of[out[i]]));
         let [of_a, of_b] = [&a, &b].map(|of| block.solve(of));

@@ -107,9 +107,7 @@ fn smallest(
         let chi_squared = if 2 * out > count {
             results.reference(&members)?.chi_squared
         } else {
-            let left: Vec<usize> =
-                (0..count).filter(|place| members.binary_search(place).is_err()).collect();
-            match precision.chi_squared_without(&left) {
+            match precision.chi_squared_without(&without(&members, count)) {
                 Some(found) => found,
                 None => results.reference(&members)?.chi_squared,
             }
@@ -132,6 +130,18 @@ fn smallest(
             return best.map(|(_, members)| (members, ties));
         }
     }
+}
+
+/// The places below `count` that are not among these, which are in order.
+fn without(places: &[usize], count: usize) -> Vec<usize> {
+    let mut others = Vec::with_capacity(count - places.len());
+    let mut from = 0;
+    for &place in places {
+        others.extend(from..place);
+        from = place + 1;
+    }
+    others.extend(from..count);
+    others
 }
 
 fn one_at_a_time(results: &Results, count: usize) -> Option<Found> {

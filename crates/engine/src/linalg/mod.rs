@@ -6,6 +6,7 @@
 //! the platform. What nalgebra does not have stands here:
 //!
 //! - [`BlockedRoot`]: Cholesky roots of large matrices, in tiles and on all threads;
+//! - [`DenseRoot`]: roots of dense matrices, compiled once for all crates;
 //! - [`packed`]: lower triangles stored row by row, for loops over many small matrices;
 //! - [`Eigen`]: eigenvalues of symmetric matrices with the eigenvectors beside each other in memory;
 //! - [`CorrelationMatrix`]: factors of nearly singular correlation matrices and the nearest possible
@@ -16,11 +17,13 @@
 
 mod blocked;
 mod correlation;
+mod dense;
 mod eigen;
 pub mod packed;
 
 pub use blocked::BlockedRoot;
 pub use correlation::CorrelationMatrix;
+pub use dense::{DenseRoot, column_products, principal_part};
 pub use eigen::Eigen;
 
 /// The sum of the products of two vectors, from the first entry to the last.

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::truth::Scores;
-use crate::noise_model::{DrawnNoise, Factor, NoiseModel};
 use crate::{Case, Prior};
 use gumption_engine::number::elementary;
+use gumption_inference::noise_model::{DrawnNoise, Factor, NoiseModel};
 
 /// What the noise of blind draws is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -116,7 +116,7 @@ impl NoiseOfDraw {
 mod tests {
     use super::CheckedNoise;
     use crate::check::truth;
-    use crate::tests::line;
+    use crate::tests::cases::line;
 
     #[test]
     fn the_noise_of_draws_is_as_probable_as_in_the_diagnosis() {

@@ -4,13 +4,13 @@ use serde::{Deserialize, Serialize};
 
 use super::drawn_noise::{CheckedNoise, NoiseOfDraw};
 use crate::Prior;
-use crate::data::{Data, Spread};
-use crate::latent::Map;
-use crate::mixture::standard_normals;
 use crate::{Case, OverrideError};
-use crate::{correlated, setup};
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::{COLUMN, Column};
+use gumption_inference::data::{Data, Spread};
+use gumption_inference::latent::Map;
+use gumption_inference::mixture::standard_normals;
+use gumption_inference::{correlated, setup};
 
 /// What makes the data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

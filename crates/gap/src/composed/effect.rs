@@ -2,23 +2,22 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::metric::{Metric, White};
-use super::search::{Fit, solved};
-use super::shape::{ComposedForm, Function, RangeOf};
 use super::target::{fresh, of_differences};
 use super::term::{Argument, Term};
 use super::{Composition, Compositions, MOST};
 use crate::OverridableModel;
-use crate::data::by_rows;
 use crate::diagnosis::{DepartureKind, DepartureOver, Shrunk};
-use crate::model::Effect;
-use crate::setup::Setup;
-use crate::weighed::names;
 use gumption_engine::decimal::to_digits;
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{NumberForm, Quantity};
 use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::task::Row;
+use gumption_inference::data::by_rows;
+use gumption_inference::metric::{Metric, White};
+use gumption_inference::model::Effect;
+use gumption_inference::setup::Setup;
+use gumption_inference::shape::{ComposedForm, Function, RangeOf};
+use gumption_inference::term_evidence::{Fit, solved};
 use gumption_units::Unit;
 
 /// The prior of a size is as wide as so many times what was found.
@@ -144,7 +143,7 @@ impl Compositions {
 
 /// The rows of the points of the data.
 pub(super) fn rows_of_points(setup: &Setup<'_>) -> Vec<Row> {
-    let first = |point: &crate::data::Point| point.rows.first().copied().unwrap_or(0);
+    let first = |point: &gumption_inference::data::Point| point.rows.first().copied().unwrap_or(0);
     let rows = setup.data.points.iter().map(first);
     rows.map(|row| setup.row(row).clone()).collect()
 }
@@ -251,7 +250,7 @@ impl Composition {
             product: self.product,
             overrides,
             parameters,
-            beside: names(setup, &self.beside),
+            beside: setup.effect_names(&self.beside),
             probability: 0.0,
             shrunk: Shrunk {
                 rms_before: 0.0,

@@ -3,15 +3,15 @@
 
 use gumption_engine::parallel;
 
-use super::metric::{Metric, White};
-use super::search::solved;
 use super::term::Argument;
 use super::{Composition, Search, Term};
-use crate::discrepancy::Base;
-use crate::posterior::{Posterior, WeighedHypothesis};
 use gumption_engine::linalg::dot;
 use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::special;
+use gumption_inference::discrepancy::Base;
+use gumption_inference::metric::{Metric, White};
+use gumption_inference::posterior::{Posterior, WeighedHypothesis};
+use gumption_inference::term_evidence::solved;
 use nalgebra::{DMatrix, DVector};
 
 /// Prior share of two at once, where one term does not do.
@@ -258,7 +258,7 @@ impl Composition {
     /// The gain of its functions with their parameters as they are.
     fn gain_at(
         &self,
-        setup: &crate::setup::Setup<'_>,
+        setup: &gumption_inference::setup::Setup<'_>,
         metric: &Metric<'_>,
         residuals: &White,
     ) -> f64 {

@@ -7,36 +7,32 @@
 //! pairs of terms are tried, and a term beside each leading effect of the list.
 //!
 //! Quantities, conditions and forms are equally probable beforehand, and all composed effects together
-//! are as probable as the smooth departures of [`crate::discrepancy`], against which their evidence
+//! are as probable as the smooth departures of [`gumption_inference::discrepancy`], against which their evidence
 //! stands: a departure that is none of these forms leaves them improbable.
 
 mod effect;
 mod joint;
-mod metric;
 mod prediction;
-mod search;
-mod shape;
 mod target;
 mod term;
 #[cfg(test)]
 mod tests;
 
 pub use effect::{ComposedEffect, ComposedParameter, ComposedPrior, ComposedTerm};
-pub use shape::ComposedForm;
 
 use gumption_engine::parallel;
 
-use crate::data::by_rows;
 use crate::diagnosis::DepartureKind;
-use crate::discrepancy::{Discrepancy, Unexplained};
-use crate::logarithm::{ln_add, ln_sum};
-use crate::posterior::Posterior;
-use crate::setup::Setup;
 use gumption_engine::linalg::dot;
 use gumption_engine::number::{elementary, largest_first};
-use metric::{Metric, White};
-use search::{Frame, OnGrid};
-use shape::{Shape, Values};
+use gumption_inference::data::by_rows;
+use gumption_inference::discrepancy::{Discrepancy, Unexplained};
+use gumption_inference::logarithm::{ln_add, ln_sum};
+use gumption_inference::metric::{Metric, White};
+use gumption_inference::posterior::Posterior;
+use gumption_inference::setup::Setup;
+use gumption_inference::shape::{ComposedForm, Shape, Values};
+use gumption_inference::term_evidence::{Frame, OnGrid};
 use target::{Response, Target};
 use term::{Argument, Term};
 
@@ -177,11 +173,11 @@ fn of_process(
             .map(|column| column.iter().map(|x| kind.multiplier * x).collect())
             .collect();
         let gain = gain(&metric.with(&columns), metric, residuals);
-        let steps = crate::discrepancy::amplitude_steps(true) as f64;
+        let steps = gumption_inference::discrepancy::amplitude_steps(true) as f64;
         return gain + form.ln_weight - elementary::ln(steps) - elementary::ln(kind.weight);
     }
     let whitened = setup.linear.whiten_blocks(residuals);
-    unexplained.ln_evidence - crate::discrepancy::ln_normal(setup, &whitened)
+    unexplained.ln_evidence - gumption_inference::discrepancy::ln_normal(setup, &whitened)
 }
 
 /// By how much the logarithm of the density of residuals is higher in one metric than in another with

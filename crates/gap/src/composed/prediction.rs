@@ -3,14 +3,14 @@
 use nalgebra::DMatrix;
 
 use super::{Composition, Compositions};
-use crate::data::by_rows;
 use crate::diagnosis::Shrunk;
-use crate::discrepancy::{conditioned, nominal};
-use crate::predict::Normals;
-use crate::setup::Setup;
 use crate::shrink::blocks;
-use gumption_engine::linalg::dot;
+use gumption_engine::linalg::{DenseRoot, column_products, dot};
 use gumption_engine::task::Row;
+use gumption_inference::data::by_rows;
+use gumption_inference::discrepancy::{conditioned, nominal};
+use gumption_inference::predict::Normals;
+use gumption_inference::setup::Setup;
 
 /// Composed departures that predictions are averaged over, at most.
 const MOST: usize = 12;
@@ -142,8 +142,8 @@ impl Compositions {
                 used.len(),
                 used.iter().map(|&value| white[value]),
             );
-            let precision = own.tr_mul(&own) + DMatrix::identity(order, order);
-            let Some(root) = precision.cholesky() else { continue };
+            let precision = column_products(&own, &own) + DMatrix::identity(order, order);
+            let Some(root) = DenseRoot::of(precision) else { continue };
             let coefficients = root.solve(&own.tr_mul(&own_white));
             for value in (0..white.len()).filter(|&value| is_in(value, left_out)) {
                 let row: Vec<f64> = design.row(value).iter().copied().collect();

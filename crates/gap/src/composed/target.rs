@@ -1,12 +1,12 @@
 //! The quantities that a composed departure may act on, and what that does to the data.
 
 use crate::diagnosis::DepartureKind;
-use crate::model::{Effect, ModelForm};
-use crate::setup::Setup;
 use crate::{Case, OverridableModel};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{NumberForm, Output, Program, Quantity};
 use gumption_engine::task::Row;
+use gumption_inference::model::{Effect, ModelForm};
+use gumption_inference::setup::Setup;
 use gumption_units::{Unit, Zero};
 
 /// At most so many quantities that equations compute are looked at.

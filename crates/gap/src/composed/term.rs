@@ -1,11 +1,11 @@
 //! One term of a composed departure: a quantity, whether it is added or a share, a function of
 //! something.
 
-use super::shape::{Shape, Values};
 use super::target::Target;
 use crate::diagnosis::{DepartureKind, DepartureOver};
-use crate::setup::Setup;
 use gumption_engine::task::Row;
+use gumption_inference::setup::Setup;
+use gumption_inference::shape::{Shape, Values};
 
 /// What a function is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Cases whose fields were set by hand: data and priors that are none are refused.
 
-use super::{line, observed};
+use super::cases::{line, observed};
 use crate::{Case, DiagnosisOptions, ObservedOutput, OverrideError, Prior, diagnose};
 use gumption_engine::task::Row;
 

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use super::cases::normal;
 use super::departures::{BENCHES, Bench, Simulated, said, simulated};
-use super::normal;
 use crate::{
     Candidate, Case, ComposedEffect, ComposedPrior, DepartureOver, Diagnosis, DiagnosisOptions,
     Effect, ModelForm, ObservedOutput, OverridableModel, Prior, diagnose,

@@ -1,9 +1,9 @@
 //! Rows that repeat others to all digits.
 
-use super::{candidate, case, normal, observed};
-use crate::copies::Copies;
+use super::cases::{candidate, case, normal, observed};
 use crate::{Case, Diagnosis, DiagnosisOptions, HypothesisKind, diagnose};
 use gumption_engine::task::Sharing;
+use gumption_inference::copies::Copies;
 
 const VALUES: [f64; 10] = [100.9, 199.2, 300.4, 398.7, 501.3, 600.2, 699.1, 801.1, 900.3, 998.9];
 

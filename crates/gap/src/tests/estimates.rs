@@ -1,6 +1,6 @@
 //! Estimates of the parameters of effects.
 
-use super::{candidate, case, normal, observed};
+use super::cases::{candidate, case, normal, observed};
 use crate::{DiagnosisOptions, diagnose};
 use gumption_engine::task::Sharing;
 

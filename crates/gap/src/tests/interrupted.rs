@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::line;
+use super::cases::line;
 use crate::{DiagnosisOptions, diagnose_until};
 
 /// Interrupted before it began, it still says what it knows, of the hypothesis that it has.

@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{candidate, case, formulas, line, normal, observed, quantity};
-use crate::expected_entropy::{Detail, Normals, Outlook, expected_loss, ln_odds};
-use crate::prior_widths::OtherPriors;
+use super::cases::{candidate, case, formulas, line, normal, observed, quantity};
 use crate::{
     Case, Diagnosis, DiagnosisOptions, HypothesisKind, ModelForm, Prior, ProposalKind,
     ProposedMeasurement, diagnose,
@@ -15,9 +13,11 @@ use gumption_engine::model::formula::{Scope, Typing};
 use gumption_engine::number::Column;
 use gumption_engine::special;
 use gumption_engine::task::{Row, Sharing, Task, Variable};
+use gumption_inference::expected_entropy::{Detail, Normals, Outlook, expected_loss, ln_odds};
+use gumption_inference::prior_widths::OtherPriors;
 use gumption_units::Unit;
 
-use crate::mixture::standard_normals;
+use gumption_inference::mixture::standard_normals;
 
 /// Draws of a normal prediction, spread evenly.
 fn draws(mean: f64, deviation: f64) -> Vec<Vec<f64>> {
@@ -302,8 +302,13 @@ fn promises_are_kept() {
         Row { conditions: best.kind.conditions().unwrap().to_vec(), ..case.task.rows[0].clone() };
     // the truth is drawn from the posterior: a hypothesis, then its parameters
     let others = OtherPriors::of(&case);
-    let weighed =
-        crate::weighed::Weighed::new(&case, &others, 1, crate::posterior::Effort::FULL, &|_| {});
+    let weighed = crate::weighed::Weighed::new(
+        &case,
+        &others,
+        1,
+        gumption_inference::posterior::Effort::FULL,
+        &|_| {},
+    );
     let mut total = 0.0;
     let sets = 100;
     let chances: Vec<f64> = weighed
@@ -322,7 +327,7 @@ fn promises_are_kept() {
         let truth = &weighed.posterior.hypotheses[truth.unwrap_or(0)];
         let draws = truth.evidence.resampled(100);
         let draw = &draws[(set as usize * 37) % 100..][..1];
-        let values = crate::predict::values(
+        let values = gumption_inference::predict::values(
             &weighed.setup,
             &truth.effects,
             draw,

@@ -1,6 +1,6 @@
 //! What the noise may be, and modes that are hard to find.
 
-use super::{candidate, case, formulas, normal, observed, quantity};
+use super::cases::{candidate, case, formulas, normal, observed, quantity};
 use crate::diagnosis::{DepartureShape, SuspectValue};
 use crate::{
     Candidate, Case, Diagnosis, DiagnosisOptions, Effect, HypothesisKind, Prior, diagnose,
@@ -18,7 +18,7 @@ fn normals(count: usize, seed: u64) -> Vec<f64> {
     let mut columns = Vec::new();
     while columns.len() < count {
         let mut column = gumption_engine::number::Column::ZERO;
-        crate::mixture::standard_normals(&mut stream, &mut column);
+        gumption_inference::mixture::standard_normals(&mut stream, &mut column);
         columns.extend(column.0);
     }
     columns.truncate(count);

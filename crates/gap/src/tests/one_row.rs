@@ -1,6 +1,6 @@
 //! Data of a single row, of which nothing can be left out.
 
-use super::{candidate, case, normal, observed};
+use super::cases::{candidate, case, normal, observed};
 use crate::{DiagnosisOptions, diagnose};
 use gumption_engine::task::Sharing;
 

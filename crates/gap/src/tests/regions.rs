@@ -1,9 +1,9 @@
 //! The scan for regions.
 
-use super::line;
+use super::cases::line;
 use crate::check::truth_with;
-use crate::scan::regions;
-use crate::setup::Setup;
+use gumption_inference::scan::regions;
+use gumption_inference::setup::Setup;
 
 fn false_alarms(sets: u64) -> usize {
     let mut case = line();

@@ -1,6 +1,6 @@
 //! Effects whose size each device has of its own.
 
-use super::{candidate, case, normal, observed};
+use super::cases::{candidate, case, normal, observed};
 use crate::{Case, DiagnosisOptions, ReplicatedEffect, diagnose};
 use gumption_engine::task::Sharing;
 

@@ -1,0 +1,268 @@
+//! Rows that repeat others to all digits.
+//!
+//! Every row counts with noise of its own. Rows of which conditions, values and uncertainties repeat
+//! exactly have none: two independent readings with the standard uncertainty u, read to the digit d,
+//! are the same with the probability d/(2 sqrt(pi) u) at most, the density of their difference (normal,
+//! of standard deviation sqrt(2) u) at zero times d. Where so many rows repeat that chance does not do
+//! it, they were copied, or their uncertainty is one that they share; either way they tell what one row
+//! tells, and count as one. Where chance may do it (a coarse digit, few rows), and where no uncertainty
+//! is stated, they stay.
+
+use std::collections::HashMap;
+use std::f64::consts::PI;
+
+use crate::Case;
+use gumption_engine::decimal::Decimal;
+use gumption_engine::number::{ascending, elementary};
+
+/// Repeated rows count once where chance makes so many of them with less than this probability.
+const NO_CHANCE: f64 = 1e-6;
+
+/// They are told where it makes them with less than this.
+const HARDLY_CHANCE: f64 = 0.01;
+
+/// A value with up to so many digits fewer than others of its output ends in zeros by chance.
+const CHANCE_ZEROS: i32 = 2;
+
+/// Two readings of so many digits are hardly ever the same, whatever their uncertainty.
+const TELLING_DIGITS: i32 = 5;
+
+/// Without uncertainties, and with fewer digits, so many repeated rows are told where no other rows
+/// share their conditions.
+const TELLING_ROWS: usize = 3;
+
+/// Rows that repeat others.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Copies {
+    /// Rows of the case, the first of its kind and the one that repeats it, by the latter.
+    pub(crate) pairs: Vec<(usize, usize)>,
+    /// The probability of so many by chance, or a bound above it; `None` where no uncertainty is
+    /// stated.
+    pub chance: Option<f64>,
+    /// Whether they are worth telling.
+    pub told: bool,
+}
+
+impl Copies {
+    /// The repeated rows of a case.
+    pub fn of(case: &Case) -> Self {
+        let rows = case.task.rows.len();
+        let observed: Vec<_> = case.observed.iter().flatten().collect();
+        let mut known: HashMap<Vec<u64>, usize> = HashMap::with_capacity(rows);
+        let mut pairs = Vec::new();
+        for row in 0..rows {
+            let of_output = |of: &&crate::ObservedOutput| {
+                let u = of.standard_uncertainties.as_ref().map_or(0.0, |u| u[row]);
+                [of.values[row].to_bits(), u.to_bits()]
+            };
+            let conditions = case.task.rows[row].conditions.iter().map(|value| value.to_bits());
+            let key = conditions.chain(observed.iter().flat_map(of_output)).collect();
+            match known.get(&key) {
+                Some(&first) => pairs.push((first, row)),
+                None => {
+                    known.insert(key, row);
+                }
+            }
+        }
+        if pairs.is_empty() || observed.is_empty() {
+            return Self::default();
+        }
+        let digits = Digits::of(case);
+        let places = places(case);
+        let not_first: usize = places.iter().map(|rows| rows.len() - 1).sum();
+        let many = pairs.len() >= TELLING_ROWS && pairs.len() == not_first;
+        if observed.iter().any(|of| of.standard_uncertainties.is_none()) {
+            let told = many || pairs.iter().any(|(_, copy)| digits.are_telling(*copy));
+            return Self { pairs, chance: None, told };
+        }
+        let expected: f64 = places.iter().map(|rows| digits.expected_repeats(case, rows)).sum();
+        let chance = at_least(pairs.len(), expected);
+        Self { pairs, chance: Some(chance), told: chance < HARDLY_CHANCE }
+    }
+
+    /// Whether the repeated rows count once, with the rows that they repeat.
+    pub(crate) fn count_once(&self) -> bool {
+        self.chance.is_some_and(|chance| chance < NO_CHANCE)
+    }
+
+    /// The rows of a case that count.
+    pub fn counted(&self, case: &Case) -> Vec<usize> {
+        let mut counts = vec![true; case.task.rows.len()];
+        if self.count_once() {
+            self.pairs.iter().for_each(|(_, copy)| counts[*copy] = false);
+        }
+        (0..counts.len()).filter(|row| counts[*row]).collect()
+    }
+
+    /// What is to be said of them.
+    pub fn note(&self, case: &Case) -> Option<String> {
+        let (first, copy) = self.pairs.first().filter(|_| self.told)?;
+        let one = self.pairs.len() == 1;
+        let repeated = if one {
+            format!(
+                "Row {} has the conditions and, to all digits, the values of row {}.",
+                copy + 1,
+                first + 1
+            )
+        } else {
+            let mut firsts: Vec<usize> = self.pairs.iter().map(|(first, _)| *first).collect();
+            firsts.sort_unstable();
+            firsts.dedup();
+            let copies: Vec<usize> = self.pairs.iter().map(|(_, copy)| *copy).collect();
+            format!(
+                "{} have the conditions and, to all digits, the values of {}.",
+                capitalized(&named(&copies)),
+                named(&firsts)
+            )
+        };
+        let said = if self.count_once() {
+            let all = case.task.rows.len();
+            format!(
+                "Independent readings with the stated uncertainties would repeat {} with a \
+                 probability below {}: what repeats was copied, or its uncertainty is one that the \
+                 rows share, and tells nothing new. Such rows count once, {} of {all}.",
+                if one { "one another" } else { "so often" },
+                bound(self.chance.unwrap_or(NO_CHANCE)),
+                all - self.pairs.len()
+            )
+        } else {
+            let why = match self.chance {
+                None => "Without stated uncertainties it cannot be told whether",
+                Some(_) => "Chance seldom does that, but it cannot be excluded that",
+            };
+            format!(
+                "{why} {} measured, so {} with noise of {} own. If {} copied, that makes the \
+                 diagnosis too sure, or finds a gap that is not there: leave such rows out unless \
+                 they were measured.",
+                if one { "it was" } else { "they were" },
+                if one { "it counts" } else { "they count" },
+                if one { "its" } else { "their" },
+                if one { "it was" } else { "they were" },
+            )
+        };
+        Some(format!("{repeated} {said}"))
+    }
+}
+
+/// Rows at the same conditions.
+fn places(case: &Case) -> Vec<Vec<usize>> {
+    let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
+    let mut places: Vec<Vec<usize>> = Vec::new();
+    for (number, row) in case.task.rows.iter().enumerate() {
+        let key = row.conditions.iter().map(|value| value.to_bits()).collect();
+        let place = *known.entry(key).or_insert(places.len());
+        if place == places.len() {
+            places.push(Vec::new());
+        }
+        places[place].push(number);
+    }
+    places
+}
+
+/// A bound above the probability of at least so many of independent events, of which so many are
+/// expected (Chernoff).
+fn at_least(count: usize, expected: f64) -> f64 {
+    let count = count as f64;
+    if expected >= count {
+        return 1.0;
+    }
+    elementary::exp(count * (1.0 + elementary::ln(expected / count)) - expected)
+}
+
+/// The last digits of the values of every observed output, as powers of ten.
+struct Digits {
+    last: Vec<Vec<i32>>,
+    leading: Vec<Vec<i32>>,
+    finest: Vec<i32>,
+}
+
+impl Digits {
+    fn of(case: &Case) -> Self {
+        let observed = case.observed.iter().flatten();
+        let of = |value: &f64| {
+            let decimal = Decimal::shortest(*value);
+            let last = decimal.map_or(0, Decimal::position);
+            (last, decimal.and_then(Decimal::leading).unwrap_or(last))
+        };
+        let digits: Vec<Vec<(i32, i32)>> =
+            observed.map(|observed| observed.values.iter().map(of).collect()).collect();
+        let last = |of: &Vec<(i32, i32)>| of.iter().map(|(last, _)| *last).collect::<Vec<i32>>();
+        let leading = |of: &Vec<(i32, i32)>| of.iter().map(|(_, first)| *first).collect();
+        let last: Vec<Vec<i32>> = digits.iter().map(last).collect();
+        let finest = last.iter().map(|of| of.iter().copied().min().unwrap_or(0)).collect();
+        Self { leading: digits.iter().map(leading).collect(), last, finest }
+    }
+
+    /// Whether a value of a row has so many digits that it is not the same twice.
+    fn are_telling(&self, row: usize) -> bool {
+        let mut outputs = self.last.iter().zip(&self.leading);
+        outputs.any(|(last, leading)| leading[row] - last[row] + 1 >= TELLING_DIGITS)
+    }
+
+    /// To what an output is read in a row.
+    fn read_to(&self, output: usize, row: usize) -> f64 {
+        let (own, finest) = (self.last[output][row], self.finest[output]);
+        // of a whole number the zeros at its end are digits
+        let own = if finest <= 0 { own.min(0) } else { own };
+        elementary::pow(10.0, f64::from(if own - finest <= CHANCE_ZEROS { finest } else { own }))
+    }
+
+    /// How many of some rows at the same conditions are expected to repeat one of them by chance, at
+    /// most.
+    fn expected_repeats(&self, case: &Case, rows: &[usize]) -> f64 {
+        let observed: Vec<_> = case.observed.iter().flatten().collect();
+        // values that differ at the same conditions tell a step that is coarser than the last digit
+        let steps: Vec<f64> = observed
+            .iter()
+            .map(|of| {
+                let mut values: Vec<f64> = rows.iter().map(|&row| of.values[row]).collect();
+                ascending(&mut values);
+                let apart = values.windows(2).map(|pair| pair[1] - pair[0]);
+                let least = apart.filter(|apart| *apart > 0.0).fold(f64::INFINITY, f64::min);
+                if least.is_finite() { least } else { 0.0 }
+            })
+            .collect();
+        let same = |row: usize| -> f64 {
+            let of_output = |(output, of): (usize, &&crate::ObservedOutput)| {
+                let u = of.standard_uncertainties.as_ref().map_or(0.0, |u| u[row]);
+                let step = self.read_to(output, row).max(steps[output]);
+                (step / (2.0 * PI.sqrt() * u)).min(1.0)
+            };
+            observed.iter().enumerate().map(of_output).product()
+        };
+        rows.iter().enumerate().map(|(before, &row)| (before as f64 * same(row)).min(1.0)).sum()
+    }
+}
+
+/// A power of ten above a probability.
+fn bound(probability: f64) -> String {
+    let power = elementary::log10(probability.max(f64::MIN_POSITIVE)).ceil().max(-15.0);
+    format!("1e{power}")
+}
+
+/// Rows as a user counts them, neighbours as ranges.
+fn named(rows: &[usize]) -> String {
+    const MOST: usize = 8;
+    let mut ranges: Vec<[usize; 2]> = Vec::new();
+    for &row in rows {
+        match ranges.last_mut() {
+            Some([_, last]) if *last + 1 == row => *last = row,
+            _ => ranges.push([row, row]),
+        }
+    }
+    let range = |[first, last]: &[usize; 2]| match last - first {
+        0 => (first + 1).to_string(),
+        1 => format!("{}, {}", first + 1, last + 1),
+        _ => format!("{} to {}", first + 1, last + 1),
+    };
+    let said: Vec<String> = ranges.iter().take(MOST).map(range).collect();
+    let more: usize = ranges.iter().skip(MOST).map(|[first, last]| last - first + 1).sum();
+    let word = if rows.len() == 1 { "row" } else { "rows" };
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!("{word} {}{more}", said.join(", "))
+}
+
+fn capitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

@@ -1,0 +1,122 @@
+//! The forms that an unknown discrepancy may have: a small grammar of terms of equal weight.
+
+use crate::Case;
+use crate::data::Data;
+
+/// Conditions with at most so many levels may have an effect by level.
+const MOST_LEVELS: usize = 5;
+
+/// With at most so many outputs every subset of them is a form of its own.
+const MOST_FOR_SUBSETS: usize = 3;
+
+/// What a discrepancy is a function of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Of {
+    /// Nothing: a constant.
+    Constant,
+    /// A condition, smoothly.
+    Condition(usize),
+    /// A condition, with a value of its own at each level.
+    Level(usize),
+    /// What the model says.
+    Sim,
+    /// All conditions together, smoothly.
+    Together,
+}
+
+/// One form of a discrepancy.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Term {
+    /// The observed outputs that it acts on.
+    pub outputs: Vec<usize>,
+    /// Whether it is a share of the model's value.
+    pub relative: bool,
+    /// Whether all outputs have the same function.
+    pub common: bool,
+    /// What it is a function of.
+    pub of: Of,
+}
+
+impl Term {
+    /// Whether the function has a length over which it varies.
+    pub(crate) fn is_smooth(&self) -> bool {
+        matches!(self.of, Of::Condition(_) | Of::Sim | Of::Together)
+    }
+}
+
+/// All terms for a case.
+pub(crate) fn terms(case: &Case, data: &Data) -> Vec<Term> {
+    let conditions: Vec<usize> = (0..case.model.conditions.len() - case.simulated)
+        .filter(|&condition| levels(case, data, condition) > 1)
+        .collect();
+    let mut of = vec![Of::Constant];
+    of.extend(conditions.iter().map(|&condition| Of::Condition(condition)));
+    let few = |condition: &&usize| {
+        let levels = levels(case, data, **condition);
+        levels <= MOST_LEVELS && levels < data.rows()
+    };
+    of.extend(conditions.iter().filter(few).map(|&condition| Of::Level(condition)));
+    of.push(Of::Sim);
+    if conditions.len() > 1 {
+        of.push(Of::Together);
+    }
+    let varies = |output: usize| {
+        let first = data.points[0].nominal[output];
+        data.points.iter().any(|point| (point.nominal[output] - first).abs() > 1e-9 * first.abs())
+    };
+    let has_size = |output: usize| {
+        data.points.iter().any(|point| point.nominal[output].abs() > f64::MIN_POSITIVE)
+    };
+    let unit = |output: usize| &case.model.outputs[data.outputs[output]].quantity.unit;
+    let mut terms = Vec::new();
+    for outputs in subsets(data.outputs.len()) {
+        for relative in [false, true] {
+            if relative && !outputs.iter().all(|&output| has_size(output)) {
+                continue;
+            }
+            for common in [true, false] {
+                let alike =
+                    outputs.windows(2).all(|pair| unit(pair[0]).is_compatible(unit(pair[1])));
+                if common && !relative && !alike || !common && outputs.len() == 1 {
+                    continue;
+                }
+                for &of in &of {
+                    if of == Of::Sim && !outputs.iter().all(|&output| varies(output)) {
+                        continue;
+                    }
+                    terms.push(Term { outputs: outputs.clone(), relative, common, of });
+                }
+            }
+        }
+    }
+    terms
+}
+
+/// Number of distinct values of a condition.
+pub(crate) fn levels(case: &Case, data: &Data, condition: usize) -> usize {
+    let mut values: Vec<u64> = data
+        .ids
+        .iter()
+        .filter_map(|&id| case.task.rows[id].conditions.get(condition))
+        .map(|value| value.to_bits())
+        .collect();
+    values.sort_unstable();
+    values.dedup();
+    values.len()
+}
+
+/// The sets of outputs that a discrepancy may act on: all subsets of a few, of more each alone and
+/// all together.
+fn subsets(count: usize) -> Vec<Vec<usize>> {
+    let mut subsets: Vec<Vec<usize>> = if count <= MOST_FOR_SUBSETS {
+        (1..1usize << count)
+            .map(|set| (0..count).filter(|output| set >> output & 1 == 1).collect())
+            .collect()
+    } else {
+        let mut sets: Vec<Vec<usize>> = (0..count).map(|output| vec![output]).collect();
+        sets.push((0..count).collect());
+        sets
+    };
+    subsets.sort_by_key(|subset| (subset.len(), subset.clone()));
+    subsets
+}
