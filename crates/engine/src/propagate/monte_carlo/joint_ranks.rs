@@ -178,10 +178,11 @@ fn chosen(scores: &[Vec<f32>], count: usize, rows: usize) -> Vec<u32> {
     let mut chosen = vec![0; rows.min(count)];
     match scores {
         [] => {}
-        [x] => choose_among([x], count, &mut chosen),
-        [x, y] => choose_among([x, y], count, &mut chosen),
-        [x, y, z] => choose_among([x, y, z], count, &mut chosen),
-        [x, y, z, w] => choose_among([x, y, z, w], count, &mut chosen),
+        // an odd one is filled up: every number of scores is compiled for itself
+        [x] => choose_among([x, x], 1, count, &mut chosen),
+        [x, y] => choose_among([x, y], 2, count, &mut chosen),
+        [x, y, z] => choose_among([x, y, z, z], 3, count, &mut chosen),
+        [x, y, z, w] => choose_among([x, y, z, w], 4, count, &mut chosen),
         _ => {
             let mut trials: Vec<u32> = (0..count as u32).collect();
             let along = |direction: usize, trial: &u32| whole(scores[direction][*trial as usize]);
@@ -198,12 +199,17 @@ fn whole(score: f32) -> u32 {
 }
 
 /// The choice with the scores of a trial beside it: what is moved together is read together.
-fn choose_among<const N: usize>(scores: [&Vec<f32>; N], count: usize, chosen: &mut [u32]) {
+fn choose_among<const N: usize>(
+    scores: [&Vec<f32>; N],
+    directions: usize,
+    count: usize,
+    chosen: &mut [u32],
+) {
     let trial = |index: u32| (scores.map(|scores| whole(scores[index as usize])), index);
     let mut trials: Vec<([u32; N], u32)> = (0..count as u32).map(trial).collect();
     let along = |direction: usize, trial: &([u32; N], u32)| trial.0[direction];
     let index = |trial: &([u32; N], u32)| trial.1;
-    choose((N, &along, &index), &mut trials, chosen);
+    choose((directions, &along, &index), &mut trials, chosen);
 }
 
 /// Cuts the trials into as many cells as there is room in `chosen`, and puts the first trial of each
