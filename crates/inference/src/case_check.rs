@@ -74,7 +74,7 @@ impl Case {
     /// Checks rows that are to be predicted at.
     ///
     /// # Errors
-    /// As [`Case::check_data`].
+    /// As `Case::check_data`.
     pub fn check_rows(&self, rows: &[Row]) -> Result<(), OverrideError> {
         let conditions = self.task.model.conditions.len();
         let variables = self.task.variables.len();

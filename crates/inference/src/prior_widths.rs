@@ -51,11 +51,11 @@ const LEAST: f64 = 1e-9;
 pub enum PriorWidths {
     /// As stated.
     AsStated,
-    /// [`WIDER`] times as wide.
+    /// `WIDER` times as wide.
     Wider,
-    /// [`WIDEST`] times as wide.
+    /// `WIDEST` times as wide.
     Widest,
-    /// Sizes a [`NARROWER`]th as wide.
+    /// Sizes a `NARROWER`th as wide.
     Narrower,
 }
 

@@ -1,6 +1,6 @@
 //! The hypothesis "unexplained": the model plus a random discrepancy that no candidate makes.
 //!
-//! The discrepancy is one term of a small grammar ([`grammar`]), all of equal weight; its amplitude
+//! The discrepancy is one term of a small grammar (`grammar`), all of equal weight; its amplitude
 //! is log-uniform from 3 to 300 standard uncertainties. Each term is a Gaussian process, so that its
 //! evidence is exact.
 
