@@ -23,6 +23,7 @@ mod costs;
 mod counted_twice;
 mod coverage_slips;
 mod dcc;
+mod deviation_words;
 mod diagnostic_kind;
 mod diagnostics;
 mod difference;

@@ -2,6 +2,7 @@
 
 use super::party;
 use crate::column_heading;
+use crate::deviation_words::{DEVIATIONS, ERRORS};
 use crate::import::columns::{self, Column};
 use crate::import::coverage::HeaderCoverage;
 use crate::import::heading::unit_of_header;
@@ -195,26 +196,6 @@ fn is_mean(words: &str) -> bool {
         || BEGINNINGS.iter().any(|beginning| words.starts_with(beginning))
 }
 
-/// Words of errors and deviations.
-const DEVIATIONS: [&str; 16] = [
-    "error",
-    "deviation",
-    "error of indication",
-    "measurement error",
-    "measured error",
-    "bias",
-    "abweichung",
-    "fehler",
-    "messabweichung",
-    "messfehler",
-    "anzeigeabweichung",
-    "erreur",
-    "erreur d'indication",
-    "écart",
-    "ecart",
-    "justesse",
-];
-
 /// What a heading says.
 pub(super) fn said(heading: &str) -> Said {
     let plain = || said_of_any(heading);
@@ -270,7 +251,10 @@ fn said_of_any(heading: &str) -> Said {
         return Said::Role(Role::Value(0), false);
     }
     let is_from = ["deviation from ", "abweichung vom ", "abweichung von ", "écart à "];
-    if DEVIATIONS.contains(&words.as_str()) || is_from.iter().any(|of| words.starts_with(of)) {
+    let is_deviation = |of: &&str| *of == words.as_str();
+    if ERRORS.iter().chain(&DEVIATIONS).any(is_deviation)
+        || is_from.iter().any(|of| words.starts_with(of))
+    {
         return Said::Deviation(0);
     }
     if words.contains("correlation coefficient") || words.contains("korrelationskoeffizient") {

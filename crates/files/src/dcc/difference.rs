@@ -6,6 +6,7 @@ use roxmltree::Node;
 
 use super::Fault;
 use super::document::{self, BLANKS, Measured, names};
+use crate::deviation_words::{PARTS_OF_TYPES, is_of_difference};
 
 /// What a temperature of a certificate is.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,26 +36,6 @@ impl TemperatureKind {
 /// boiling point of nitrogen, 77 K.
 const COLD: f64 = 75.0;
 
-/// Parts of the reference types of differences (of `basic_measurementError` and its kind).
-const OF_TYPES: [&str; 6] =
-    ["error", "correction", "deviation", "difference", "drift", "hysteresis"];
-
-/// Words of names, in the languages of the certificates that are read.
-const OF_NAMES: [&str; 12] = [
-    "error",
-    "correction",
-    "deviation",
-    "difference",
-    "drift",
-    "hysteresis",
-    "abweichung",
-    "korrektion",
-    "korrektur",
-    "differenz",
-    "erreur",
-    "écart",
-];
-
 /// What a quantity is; `stated` is what the model file says of it.
 ///
 /// # Errors
@@ -76,7 +57,7 @@ pub(super) fn kind(
     }
     let types = node.attribute("refType").unwrap_or_default();
     let mut types = types.split(BLANKS).map(str::to_lowercase);
-    let is_typed = types.any(|of| OF_TYPES.iter().any(|word| of.contains(word)));
+    let is_typed = types.any(|of| PARTS_OF_TYPES.iter().any(|word| of.contains(word)));
     if measured.is_difference || stated.unwrap_or(is_typed) {
         return Ok(TemperatureKind::Difference);
     }
@@ -93,12 +74,6 @@ pub(super) fn kind(
     let kelvin = measured.values.iter().map(|value| value * unit.factor());
     let cold = kelvin.filter(|value| unit.zero().is_none() && *value < COLD);
     Ok(cold.reduce(f64::min).map_or(TemperatureKind::Value, TemperatureKind::NearZero))
-}
-
-/// Whether a name has a word of differences in it.
-pub(crate) fn is_of_difference(name: &str) -> bool {
-    let small = name.to_lowercase();
-    OF_NAMES.iter().any(|word| small.contains(word))
 }
 
 /// Whether a unit is one of temperatures, and of their differences.

@@ -25,7 +25,6 @@ use super::source::{Place, SourceText};
 use super::value_text::ValueOf;
 use super::{DiagnosticKind, bytes};
 use difference::TemperatureKind;
-pub(crate) use difference::is_of_difference;
 use document::Measured;
 pub(super) use document::{Fault, parse, tag};
 use gumption_engine::distribution::{

@@ -44,6 +44,10 @@ pub(crate) enum Column {
     Evaluation,
 }
 
+/// Words of units at the head of a column, and before a colon in a title.
+pub(super) const UNITS: [&str; 8] =
+    ["unit", "units", "einheit", "einheiten", "unité", "unités", "unidad", "unidades"];
+
 /// Words of measured values and other weak words, which head estimates where no other column is one.
 pub(super) const MEASURED: [&str; 27] = [
     "measured value",
@@ -186,7 +190,7 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
     ),
     (
         Column::Unit,
-        &["unit", "units", "einheit", "einheiten", "unité", "unités", "unidad", "unidades"],
+        &UNITS,
     ),
     (
         Column::Width,
@@ -799,7 +803,6 @@ pub(crate) fn column(text: &str) -> Option<Column> {
 /// What a header that speaks of units beside another column's words names: `Uncertainty unit`, `Unit of
 /// estimate`; `None` where it speaks of units alone, or of other ones.
 fn unit_column(text: &str) -> Option<Column> {
-    const UNITS: [&str; 6] = ["unit", "units", "einheit", "einheiten", "unité", "unités"];
     const UNCERTAINTIES: [&str; 6] = ["unc", "uncert", "uncertainty", "u", "unsicherheit", "±"];
     let words = text.to_lowercase();
     let sign = |c: char| !(c.is_alphanumeric() || matches!(c, '±' | '_'));

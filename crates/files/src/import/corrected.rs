@@ -7,37 +7,9 @@ use super::grid::Cells;
 use super::number::number_with_unit;
 use super::rows::Row;
 use super::symbol;
+use crate::deviation_words::{CORRECTIONS, DEVIATIONS, ERRORS};
 use gumption_engine::decimal::to_15_digits;
 use gumption_engine::number::Shortest;
-
-/// Words of what is added to an indicated value.
-const CORRECTIONS: [&str; 7] =
-    ["correction", "corr", "korrektion", "korrektur", "korr", "corrección", "correction value"];
-
-/// Words of what is added to a nominal value alone.
-const DEVIATIONS: [&str; 9] = [
-    "deviation",
-    "deviation from nominal",
-    "deviation from nominal value",
-    "abweichung",
-    "abweichung vom nennwert",
-    "écart",
-    "écart au nominal",
-    "écart à la valeur nominale",
-    "desviación",
-];
-
-/// Words of errors, which are added to what is right and taken from what is indicated.
-const ERRORS: [&str; 8] = [
-    "error",
-    "error of indication",
-    "measurement error",
-    "fehler",
-    "messabweichung",
-    "erreur",
-    "erreur de mesure",
-    "erreur d'indication",
-];
 
 /// Measured values that may be corrected already.
 const RESULTS: [&str; 16] = [

@@ -315,7 +315,7 @@ impl Budget<'_> {
     fn stated_twice(&self, header: &Header, rows: &[Row]) {
         let comma = self.cells.decimal_comma();
         let number = |text: &str| {
-            let text = without_factor(text.trim().trim_start_matches(['±', ' ']));
+            let text = without_factor(without_sign(text));
             let read = number::number_with_unit(text, comma);
             let read = read.map(|(value, unit)| (value, unit.to_owned()));
             read.or_else(|| Some((number::constant(text, comma)?, String::new())))
@@ -685,7 +685,7 @@ impl Budget<'_> {
     /// Whether a line has the numbers of a quantity: an estimate, and an uncertainty.
     fn is_quantity(&self, header: &Header, line: usize) -> bool {
         let is_number = |column| {
-            let text = header.cell(self.cells, line, column).trim().trim_start_matches(['±', ' ']);
+            let text = without_sign(header.cell(self.cells, line, column));
             number::number_with_unit(text, self.cells.decimal_comma()).is_some()
         };
         let has = |column| header.columns.iter().any(|(_, of)| *of == column);
@@ -778,7 +778,7 @@ impl Budget<'_> {
         }
         // an uncertainty may have its sign and its factor with it
         let text = match column {
-            Column::Width | Column::Std => without_factor(text.trim_start_matches(['±', ' '])),
+            Column::Width | Column::Std => without_factor(without_sign(text)),
             Column::Dof => columns::without_type(text),
             _ => text,
         };
@@ -1068,7 +1068,7 @@ impl Budget<'_> {
         let written =
             if self.cells.decimal_comma() { equation::with_points(text) } else { text.to_owned() };
         // `± (0.5 % + 2 mV)`
-        let bare = written.trim_start_matches(['±', ' ']).trim();
+        let bare = without_sign(written);
         let inside = bare.strip_prefix('(').and_then(|bare| bare.strip_suffix(')'));
         let unit = Unit::parse(&row.unit).ok()?;
         let width = Width::specification(inside.unwrap_or(bare), &unit, &[]);
@@ -1629,7 +1629,7 @@ impl Budget<'_> {
         cell(Column::Unit) == "1"
             || numbers.any(|column| {
                 let read =
-                    number::number_with_unit(cell(column).trim_start_matches(['±', ' ']), comma);
+                    number::number_with_unit(without_sign(cell(column)), comma);
                 read.is_some_and(|(_, unit)| !unit.is_empty())
             })
     }
@@ -1782,6 +1782,11 @@ fn says_constant(text: &str) -> bool {
 /// Whether a text states a coverage factor.
 fn is_factor_of(text: &str) -> bool {
     HeaderCoverage::of(text).factor(None).is_some()
+}
+
+/// An uncertainty without the sign before it.
+pub(super) fn without_sign(text: &str) -> &str {
+    text.trim().trim_start_matches(['±', ' '])
 }
 
 /// An uncertainty without the factor or the probability in parentheses behind it, `0.2 V (k=2)`.

@@ -12,7 +12,7 @@ use super::columns::{self, Column, Header};
 use super::coverage::HeaderCoverage;
 use super::linear::are_all;
 use super::number::{constant, number_with_unit};
-use super::rows::{Row, without_factor};
+use super::rows::{Row, without_factor, without_sign};
 use crate::reader::read_text;
 use gumption_engine::decimal::significant;
 use gumption_engine::number::elementary;
@@ -159,7 +159,7 @@ impl Budget<'_> {
         let mut found = Vec::new();
         for column in columns {
             let text = header.cell(self.cells, line, column).trim();
-            let digits = without_factor(text.trim_start_matches(['±', ' ']));
+            let digits = without_factor(without_sign(text));
             let Some((value, unit)) = number_with_unit(digits, comma) else { continue };
             let expanded = Figure::ExpandedUncertainty(coverage, row.dof);
             let figure = match column {

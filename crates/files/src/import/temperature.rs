@@ -2,7 +2,7 @@
 
 use super::Budget;
 use super::rows::Row;
-use crate::dcc::is_of_difference;
+use crate::deviation_words::is_of_difference;
 use gumption_units::Unit;
 
 /// Whether the name or the words of a row are those of a difference of temperatures: `dT`, `Δϑ`,

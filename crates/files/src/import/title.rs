@@ -1,7 +1,7 @@
 //! The unit that a line beside the table states for all of its values: `Budget (all values in mV)`, `alle
 //! Werte in mV`.
 
-use super::columns::{Column, Header, unit_as_meant};
+use super::columns::{Column, Header, UNITS, unit_as_meant};
 use super::grid::Cells;
 use super::heading::may_be_unit;
 use gumption_units::Unit;
@@ -53,10 +53,6 @@ const BETWEEN: [&str; 19] = [
     "table",
 ];
 
-/// Words before a colon and the unit.
-const LABELS: [&str; 8] =
-    ["unit", "units", "einheit", "einheiten", "unité", "unités", "unidad", "unidades"];
-
 /// What may stand behind the unit.
 const BEHIND: [&str; 9] =
     ["unless", "except", "wenn", "sofern", "soweit", "außer", "sauf", "salvo", "excepto"];
@@ -68,9 +64,9 @@ fn stated(text: &str) -> Option<Result<String, String>> {
     let small: Vec<String> = words.iter().map(|word| word.to_lowercase()).collect();
     let is_label = |at: usize| {
         let bare = small[at].strip_suffix(':');
-        bare.is_some_and(|bare| LABELS.contains(&bare))
+        bare.is_some_and(|bare| UNITS.contains(&bare))
             || small.get(at + 1).is_some_and(|next| next == ":")
-                && LABELS.contains(&small[at].as_str())
+                && UNITS.contains(&small[at].as_str())
     };
     let of_label = (0..words.len())
         .find(|at| is_label(*at))
