@@ -1068,7 +1068,7 @@ impl Budget<'_> {
         let written =
             if self.cells.decimal_comma() { equation::with_points(text) } else { text.to_owned() };
         // `± (0.5 % + 2 mV)`
-        let bare = without_sign(written);
+        let bare = without_sign(&written);
         let inside = bare.strip_prefix('(').and_then(|bare| bare.strip_suffix(')'));
         let unit = Unit::parse(&row.unit).ok()?;
         let width = Width::specification(inside.unwrap_or(bare), &unit, &[]);
