@@ -192,29 +192,30 @@ pub(super) struct Results {
 }
 
 impl Results {
-    /// Weights of the members' mean and its standard uncertainty; `None` if their covariance matrix
-    /// is not positive definite.
-    fn weights(&self, members: &[usize]) -> Option<(DVector<f64>, f64)> {
-        let n = members.len();
-        let part = principal_part(&self.covariance, members);
-        let solved = DenseRoot::of(part)?.solve(&DVector::from_element(n, 1.0));
+    /// The root of the members' covariance matrix; `None` if that is not positive definite.
+    fn root(&self, members: &[usize]) -> Option<DenseRoot> {
+        DenseRoot::of(principal_part(&self.covariance, members))
+    }
+
+    /// Weights of the mean of so many members and its standard uncertainty; `None` if they have none.
+    fn weights(root: &DenseRoot, members: usize) -> Option<(DVector<f64>, f64)> {
+        let solved = root.solve(&DVector::from_element(members, 1.0));
         let sum = solved.sum();
         (sum > 0.0 && sum.is_finite()).then(|| (solved / sum, 1.0 / sum.sqrt()))
     }
 
     /// The weighted mean of the members and its consistency.
     pub(super) fn reference(&self, members: &[usize]) -> Option<ReferenceValue> {
-        let (weights, u) = self.weights(members)?;
+        let root = self.root(members)?;
+        let (weights, u) = Self::weights(&root, members.len())?;
         // about one of the values, so that a common large part costs no digits
         let origin = *self.values.get(*members.first()?)?;
         let deviations = DVector::from_fn(members.len(), |i, _| self.values[members[i]] - origin);
         let mean = weights.dot(&deviations);
-        let n = members.len();
-        let part = principal_part(&self.covariance, members);
         let residuals = deviations.add_scalar(-mean);
         // a zero has no sign
-        let chi_squared = residuals.dot(&DenseRoot::of(part)?.solve(&residuals)).max(0.0) + 0.0;
-        let dof = n - 1;
+        let chi_squared = residuals.dot(&root.solve(&residuals)).max(0.0) + 0.0;
+        let dof = members.len() - 1;
         let p_value =
             if dof == 0 { 1.0 } else { special::gamma::sf(0.5 * chi_squared, 0.5 * dof as f64) };
         let (members, value) = (members.to_vec(), origin + mean);
@@ -224,8 +225,7 @@ impl Results {
     /// The members' precision, from which chi-squared without some of them follows.
     pub(super) fn precision(&self, members: &[usize]) -> Option<Precision> {
         let n = members.len();
-        let part = principal_part(&self.covariance, members);
-        let inverse = DenseRoot::of(part)?.inverse();
+        let inverse = self.root(members)?.inverse();
         let mean = self.reference(members)?.value;
         let of_ones = inverse.column_sum();
         let of_values = &inverse * DVector::from_fn(n, |i, _| self.values[members[i]] - mean);
@@ -240,7 +240,7 @@ impl Results {
 
     /// The standard uncertainty of a laboratory's difference from the members' mean.
     fn of_difference(&self, laboratory: usize, members: &[usize]) -> Option<f64> {
-        let (weights, u) = self.weights(members)?;
+        let (weights, u) = Self::weights(&self.root(members)?, members.len())?;
         let shared: f64 = members
             .iter()
             .zip(weights.iter())

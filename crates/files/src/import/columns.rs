@@ -188,10 +188,7 @@ pub(super) const WORDS: &[(Column, &[&str])] = &[
             "media",
         ],
     ),
-    (
-        Column::Unit,
-        &UNITS,
-    ),
+    (Column::Unit, &UNITS),
     (
         Column::Width,
         &[

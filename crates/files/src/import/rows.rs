@@ -1628,8 +1628,7 @@ impl Budget<'_> {
         let mut numbers = [Column::Estimate, Column::Width, Column::Std].into_iter();
         cell(Column::Unit) == "1"
             || numbers.any(|column| {
-                let read =
-                    number::number_with_unit(without_sign(cell(column)), comma);
+                let read = number::number_with_unit(without_sign(cell(column)), comma);
                 read.is_some_and(|(_, unit)| !unit.is_empty())
             })
     }
