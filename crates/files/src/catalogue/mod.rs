@@ -138,8 +138,11 @@ pub fn catalogue() -> EffectListing {
     EffectListing::of(&Catalogue::shipped())
 }
 
-/// Adds the effects that a case asks for after its own. Without a sim, because the model has mistakes,
-/// only their names are checked.
+/// The value of `catalogue` that stands for every effect that can act on the sim.
+const ALL: &str = "all";
+
+/// Adds the effects that a case asks for after its own; one that does not fit the sim is left out with
+/// a note. Without a sim, because the model has mistakes, only their names are checked.
 pub(super) fn read(
     log: &Collector,
     root: &Object<'_>,
@@ -148,7 +151,18 @@ pub(super) fn read(
     own: &mut Vec<Placed>,
     warnings: &mut Vec<Warning>,
 ) -> Option<()> {
-    if root.get("catalogue").is_none() {
+    let Some(member) = root.get("catalogue") else { return Some(()) };
+    if let Json::Text(text) = &member.value.value {
+        let place = &member.value.span;
+        if text != ALL {
+            let expected =
+                "a list of names of effects, or \"all\" for each that can act on the model";
+            let (what, found) = ("`catalogue`".to_owned(), member.value.value.kind());
+            log.report(place, DiagnosticKind::WrongType { what, found, expected });
+            return None;
+        }
+        let fitting = sim.map(|sim| unlisted(&sim, results, own)).unwrap_or_default();
+        own.extend(fitting.into_iter().map(|candidate| Placed { candidate, place: place.clone() }));
         return Some(());
     }
     let shipped = Catalogue::shipped();
@@ -161,7 +175,6 @@ pub(super) fn read(
             clean = false;
             continue;
         };
-        let diagnostic = |reason: String| DiagnosticKind::Effect { name: name.clone(), reason };
         if !shipped.entries.iter().any(|entry| entry.name == *name) {
             let known = shipped.entries.iter().map(|entry| entry.name.as_str());
             let nearest = nearest(name, known).map(str::to_owned);
@@ -170,14 +183,15 @@ pub(super) fn read(
         } else if own.iter().any(|other| other.candidate.effect.name == *name) {
             let reason = "is there already: in `effects`, or a second time in `catalogue`; give \
                           the own effect another name, or take one of them out";
-            log.report(&node.span, diagnostic(reason.to_owned()));
+            let (name, reason) = (name.clone(), reason.to_owned());
+            log.report(&node.span, DiagnosticKind::Effect { name, reason });
             clean = false;
         } else if let Some(sim) = &sim {
             match one(&shipped, name, sim, results, warnings) {
                 Ok(candidate) => own.push(Placed { candidate, place: node.span.clone() }),
                 Err(reason) => {
-                    log.report(&node.span, diagnostic(reason));
-                    clean = false;
+                    let text = format!("the effect `{name}` is left out: it {reason}");
+                    warnings.push(Warning::new("effect-misfit", name, text));
                 }
             }
         }
@@ -216,11 +230,14 @@ fn one(
     let log = Collector::new(shipped.source.clone());
     let read = effects::read_one(&log, &member, Some(sim.sim), results, warnings);
     match read.filter(|_| log.is_clean()) {
+        Some(placed) if !sim.is_changed_by(&placed.candidate.effect) => {
+            Err("changes no observed output".to_owned())
+        }
         Some(placed) => Ok(placed.candidate),
         None => {
             let diagnostics = log.into_diagnostics();
             let first = diagnostics.0.first().map(|diagnostic| diagnostic.kind.to_string());
-            Err(format!("of the catalogue cannot act on this sim: {}", first.unwrap_or_default()))
+            Err(format!("cannot act on this sim: {}", first.unwrap_or_default()))
         }
     }
 }

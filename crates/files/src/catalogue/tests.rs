@@ -128,10 +128,14 @@ const BENCHES: [Bench; 9] =
 
 impl Bench {
     fn read(&self, effects: &[&str]) -> Result<CaseFile, Vec<DiagnosticKind>> {
+        let names: Vec<String> = effects.iter().map(|name| format!("{name:?}")).collect();
+        self.read_catalogue(&format!("[{}]", names.join(", ")))
+    }
+
+    fn read_catalogue(&self, catalogue: &str) -> Result<CaseFile, Vec<DiagnosticKind>> {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("data.csv"), self.data).unwrap();
-        let names: Vec<String> = effects.iter().map(|name| format!("{name:?}")).collect();
-        let text = format!("{}, \"catalogue\": [{}]}}", self.file, names.join(", "));
+        let text = format!("{}, \"catalogue\": {catalogue}}}", self.file);
         let read = FileReader::default().case_text("case.json", &text, folder.path());
         read.map_err(|diagnostics| {
             diagnostics.0.into_iter().map(|diagnostic| diagnostic.kind).collect()
@@ -496,9 +500,11 @@ fn priors_that_follow_the_data() {
 
 #[test]
 fn an_effect_that_does_not_fit_says_what_it_needs() {
-    let says = |bench: &Bench, name: &str| match bench.read(&[name]) {
-        Err(kinds) => kinds.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
-        Ok(_) => panic!("{name} was taken"),
+    let says = |bench: &Bench, name: &str| {
+        let file = bench.read(&[name]).unwrap();
+        assert!(file.case.candidates.is_empty(), "{name} was taken");
+        let notes = file.warnings.into_iter().filter(|note| note.code == "effect-misfit");
+        notes.map(|note| note.text).collect::<Vec<_>>().join("\n")
     };
     let text = says(&CHAIN, "lateral-mode");
     for needed in
@@ -526,6 +532,25 @@ fn an_effect_that_does_not_fit_says_what_it_needs() {
     };
     let text = says(&fixed, "radius-offset");
     assert!(text.contains("the condition `radius` is set and known"), "{text}");
+}
+
+/// `"all"` is every effect that would be read if a list named it alone.
+#[test]
+fn all_are_those_that_fit_one_by_one() {
+    for bench in [&PLANE, &TABLE, &CHAIN, &SIGNAL, &OTHER] {
+        let file = bench.read_catalogue("\"all\"").unwrap();
+        let all: Vec<&str> =
+            file.case.candidates.iter().map(|of| of.effect.name.as_str()).collect();
+        let names: BTreeSet<String> =
+            catalogue().effects.iter().map(|effect| effect.name.clone()).collect();
+        let fits = |name: &str| !bench.read(&[name]).unwrap().case.candidates.is_empty();
+        let fitting: BTreeSet<&str> =
+            names.iter().map(String::as_str).filter(|name| fits(name)).collect();
+        assert!(!fitting.is_empty() && fitting.len() < names.len());
+        assert_eq!(all.iter().copied().collect::<BTreeSet<_>>(), fitting, "{}", bench.name);
+        assert!(file.case.shipped.is_empty());
+        assert!(file.warnings.iter().all(|note| note.code != "effect-misfit"));
+    }
 }
 
 /// Overrides of outputs that a sim does not have are left out.

@@ -109,11 +109,10 @@ fn effects() -> Value {
 
 fn parameters() -> Value {
     named(
-        "The effect's unknown quantities with their prior distributions. A parameter hides a \
-         quantity of the same name.",
+        "The effect's unknown quantities with their prior distributions; `{}` for an effect of \
+         known size. A parameter hides a quantity of the same name.",
         reference("input"),
     )
-    .with("minProperties", 1)
 }
 
 fn overrides() -> Value {
@@ -175,9 +174,11 @@ fn effect() -> Value {
 
 fn catalogue(effects: &BTreeSet<String>) -> Value {
     let name = object([("enum", texts(effects.iter().map(String::as_str)))]);
-    described("array", "Ready-made effects, added after the own: `gumption models --effects`.")
-        .with("items", name)
-        .with("uniqueItems", true)
+    let list = described("array", "Their names.").with("items", name).with("uniqueItems", true);
+    let all = object([("const", Value::from("all"))]);
+    let about = "Ready-made effects, added after the own: names of `gumption models --effects`, or \
+                 `\"all\"` for every one that can act on the model.";
+    object([("description", Value::from(about)), ("anyOf", Value::from(vec![list, all]))])
         .with("examples", vec![texts(["lateral-mode"])])
 }
 
