@@ -1,7 +1,7 @@
 //! What effects are read against.
 
 use gumption_engine::task::Task;
-use gumption_gap::{Effect, ObservedOutput, OverridableModel};
+use gumption_gap::{Effect, History, ObservedOutput, OverridableModel};
 
 /// What effects are read against: the sim, and what was measured.
 #[derive(Clone, Copy, Debug)]
@@ -9,6 +9,10 @@ pub(super) struct EffectContext<'a> {
     pub(super) sim: &'a OverridableModel,
     pub(super) task: &'a Task,
     pub(super) observed: &'a [Option<ObservedOutput>],
+    /// Conditions that follow from the order of the rows, with their places.
+    pub(super) history: &'a [(usize, History)],
+    /// The place of the condition that says when each row was taken.
+    pub(super) clock: Option<usize>,
 }
 
 impl EffectContext<'_> {

@@ -35,6 +35,7 @@ mod folder;
 mod formula_notes;
 mod implied_dof;
 mod import;
+mod history;
 mod input_set;
 mod inputs;
 mod interpolated;

@@ -139,7 +139,7 @@ fn diagnosed(
         (seed, stop),
     );
     progress(0.85);
-    let periodic = periodic_residuals::found(&rows, case.model.conditions.len());
+    let periodic = periodic_residuals::found(&rows, case.measured());
     // a wave that was composed says it already
     let is_composed = composed
         .first()

@@ -731,6 +731,8 @@ pub enum DepartureShape {
         /// The place.
         at: f64,
     },
+    /// A function of a condition that depends on what follows from the order of the rows.
+    Loop,
     /// Anything else.
     Varying,
 }
@@ -747,6 +749,7 @@ impl DepartureShape {
             Self::Step { .. } => "step",
             Self::Peak { .. } => "peak",
             Self::Dip { .. } => "dip",
+            Self::Loop => "loop",
             Self::Varying => "varying",
         }
     }

@@ -209,7 +209,7 @@ fn one_if_empty(unit: &str) -> &str {
 }
 
 /// The member with all its texts rewritten.
-fn written(member: &Member, text: &impl Fn(&str) -> String) -> Member {
+pub(super) fn written(member: &Member, text: &impl Fn(&str) -> String) -> Member {
     let value = match &member.value.value {
         Json::Text(value) => Json::Text(text(value)),
         Json::Object(members) => {

@@ -32,6 +32,13 @@ pub(crate) const OBSERVATIONS: &[Key] = keys![
                  outputs in their units.",
             ),
     "columns" => observed_columns(),
+    "order" => text_of(
+                "The column that says in which order the rows were taken, as a number. Without it and \
+                 `time` they were taken in the order of the file.",
+            ),
+    "time" => text_of(
+                "The column that says when each row was taken, as a number in the unit of its heading.",
+            ),
     "replication" => text_of(
                 "The column that says which device, day or other unit of replication a row belongs to, \
                  as a number: effects are tried with one size for all of them and with one of each \
@@ -54,6 +61,7 @@ fn observations() -> Value {
         ),
     ]);
     closed("Measured data of a gap case.", OBSERVATIONS, &["file", "columns"])
+        .with("not", object([("required", texts(["order", "time"]))]))
         .with("examples", vec![example])
 }
 
