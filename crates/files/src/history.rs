@@ -78,7 +78,8 @@ impl<'r> Series<'r> {
                 let mut values = vec![0.0; self.rows.len()];
                 let mut last: Option<Vec<u64>> = None;
                 for &row in &self.order {
-                    let key: Vec<u64> = self.rows[row].iter().map(|value| value.to_bits()).collect();
+                    let key: Vec<u64> =
+                        self.rows[row].iter().map(|value| value.to_bits()).collect();
                     let count = seen.entry(key.clone()).or_insert(0.0);
                     *count += f64::from(u8::from(last.as_ref() != Some(&key)));
                     values[row] = *count;
@@ -144,9 +145,8 @@ impl<'r> Series<'r> {
                 return None;
             }
             let count = levels.len().min(most);
-            let part = |value: &f64| {
-                levels.partition_point(|level| level < value) * count / levels.len()
-            };
+            let part =
+                |value: &f64| levels.partition_point(|level| level < value) * count / levels.len();
             Some(values.iter().map(part).collect())
         };
         (0..conditions).filter_map(of).collect()
@@ -201,9 +201,8 @@ impl Known<'_> {
     /// What of the order of the rows can matter.
     fn matter(&self, series: &Series<'_>) -> Vec<History> {
         let rows = series.rows.len();
-        let is_sorted_by = |values: &&[f64]| {
-            values.is_sorted() || values.is_sorted_by(|a, b| a >= b)
-        };
+        let is_sorted_by =
+            |values: &&[f64]| values.is_sorted() || values.is_sorted_by(|a, b| a >= b);
         if !ROWS.contains(&rows) || !self.is_stated && self.measured.iter().any(is_sorted_by) {
             return Vec::new();
         }

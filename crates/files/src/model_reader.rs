@@ -251,17 +251,7 @@ impl<'a> ModelReader<'a> {
             Some(of) => (Some(of.table), of.replication.map(|(name, _)| name)),
             None => (None, None),
         };
-        Some(Found {
-            file,
-            sim,
-            observed,
-            simulated,
-            history,
-            clock,
-            reachable,
-            replication,
-            data,
-        })
+        Some(Found { file, sim, observed, simulated, history, clock, reachable, replication, data })
     }
 
     /// Whether units are checked. Where formulas are built in, their quantities have units of their own.

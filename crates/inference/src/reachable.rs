@@ -70,7 +70,8 @@ pub fn places(setup: &Setup<'_>) -> Vec<Place> {
             let mut row = Row { conditions, distributions: template.distributions.clone() };
             let nearest = nearest(&row, &measured, &spans);
             let nearest = nearest.first().and_then(|&place| measured.get(place));
-            let history = nearest.and_then(|nearest| nearest.conditions.get(row.conditions.len()..));
+            let history =
+                nearest.and_then(|nearest| nearest.conditions.get(row.conditions.len()..));
             row.conditions.extend(history.unwrap_or_default());
             row
         };

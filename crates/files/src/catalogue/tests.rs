@@ -596,18 +596,26 @@ fn effects_of_what_came_before() {
     let row = |number: usize| case.task.rows[number].conditions.as_slice();
     // 3 kg the first time: up from 1 kg, just put on, the third of 18 rows
     let third = |effect: &str, parameters: &[f64]| with(&LOOP, effect, parameters, row(2));
-    assert_close("hysteresis", &third("hysteresis", &[0.5]), &[6.5]);
+    assert_close("hysteresis", &third("hysteresis", &[0.5, 0.3]), &[6.5]);
     assert_close("creep", &third("creep", &[3.0, 0.5]), &[6.0]);
     assert_close("memory", &third("memory", &[0.5]), &[6.0 + 0.5 / 5.0]);
     assert_close("drift", &third("drift", &[0.5]), &[6.0 + 0.5 * 2.0 / 17.0]);
     // exp(-2/17/0.25)
-    assert_close("warm-up", &third("warm-up", &[0.5, 0.25]), &[6.0 + 0.5 * 0.624_634_728_000_274_4]);
+    assert_close(
+        "warm-up",
+        &third("warm-up", &[0.5, 0.25]),
+        &[6.0 + 0.5 * 0.624_634_728_000_274_4],
+    );
     // 3 kg on the way down, the second reading: 1 - exp(-2)
     let later = |effect: &str, parameters: &[f64]| with(&LOOP, effect, parameters, row(7));
-    assert_close("hysteresis", &later("hysteresis", &[0.5]), &[5.5]);
-    assert_close("creep", &later("creep", &[3.0, 0.5]), &[6.0 * (1.0 + 0.03 * 0.864_664_716_763_387_3)]);
+    assert_close("hysteresis", &later("hysteresis", &[0.5, 0.3]), &[5.5]);
+    assert_close(
+        "creep",
+        &later("creep", &[3.0, 0.5]),
+        &[6.0 * (1.0 + 0.03 * 0.864_664_716_763_387_3)],
+    );
     // closed where it turns round
-    assert_close("hysteresis", &with(&LOOP, "hysteresis", &[0.5], row(8)), &[2.0]);
+    assert_close("hysteresis", &with(&LOOP, "hysteresis", &[0.5, 0.3], row(8)), &[2.0]);
     let note = |bench: &Bench, name: &str| {
         let file = bench.read(&[name]).unwrap();
         file.warnings.into_iter().find(|note| note.code == "effect-misfit").map(|note| note.text)

@@ -156,9 +156,8 @@ fn noise(seed: u64) -> impl FnMut() -> f64 {
 fn readings(loads: &[f64], seed: u64, effect: impl Fn(usize) -> f64) -> String {
     let mut noise = noise(seed);
     let rows = loads.iter().enumerate();
-    let mut row = |(n, m): (usize, &f64)| {
-        format!("{n},{m},{:.5}\n", 0.2 * m + effect(n) + 0.001 * noise())
-    };
+    let mut row =
+        |(n, m): (usize, &f64)| format!("{n},{m},{:.5}\n", 0.2 * m + effect(n) + 0.001 * noise());
     let rows: String = rows.map(&mut row).collect();
     format!("run,m,y\n{rows}")
 }
@@ -240,8 +239,13 @@ fn a_loop_is_hysteresis_without_a_column_that_says_so() {
 #[test]
 fn effects_of_what_came_before_have_names() {
     let sweeps = loops();
-    let mixed: Vec<f64> = (0..40).map(|n| f64::from(n * 7 % 11)).collect();
-    let held: Vec<f64> = [2.0, 9.0, 5.0, 10.0, 1.0, 6.0, 3.0, 8.0].iter().flat_map(|m| [*m; 6]).collect();
+    let mixed = [
+        3.0, 4.0, 1.0, 6.0, 7.0, 2.0, 1.0, 1.0, 0.0, 6.0, 8.0, 4.0, 0.0, 3.0, 8.0, 8.0, 5.0, 4.0,
+        2.0, 1.0, 4.0, 3.0, 0.0, 10.0, 4.0, 4.0, 3.0, 2.0, 4.0, 4.0, 10.0, 5.0, 1.0, 9.0, 5.0,
+        10.0, 6.0, 8.0, 3.0, 2.0,
+    ];
+    let held: Vec<f64> =
+        [2.0, 9.0, 5.0, 10.0, 1.0, 6.0, 3.0, 8.0].iter().flat_map(|m| [*m; 6]).collect();
     let rising = |n: usize| if n > 0 && sweeps[n] > sweeps[n - 1] { 1.0 } else { -1.0 };
     let hysteresis = |n: usize| {
         let x = sweeps[n] / 10.0;
@@ -279,6 +283,9 @@ fn effects_of_what_came_before_have_names() {
         let found = diagnosed(&case);
         let composed: Vec<&str> = found.composed.iter().map(|of| of.name.as_str()).collect();
         let of_list = found.unlisted.iter().any(|of| of.effect == name);
-        assert!(of_list || composed.first().is_some_and(|of| of.contains(name)), "{name}: {composed:?}");
+        assert!(
+            of_list || composed.first().is_some_and(|of| of.contains(name)),
+            "{name}: {composed:?}"
+        );
     }
 }

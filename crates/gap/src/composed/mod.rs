@@ -228,8 +228,7 @@ impl Search<'_> {
             };
             let of_conditions: f64 = tables.iter().map(|(argument, ..)| weight(*argument)).sum();
             let arguments = 1.0 + of_conditions + own_weight;
-            let ln_of =
-                |argument: Argument| ln_way + elementary::ln(weight(argument) / arguments);
+            let ln_of = |argument: Argument| ln_way + elementary::ln(weight(argument) / arguments);
             let constant = Shape::constant();
             let points = setup.data.points.len();
             let grid = vec![(Vec::new(), constant.columns(&vec![0.0; points], &[]))];
