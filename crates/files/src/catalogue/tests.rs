@@ -640,7 +640,13 @@ fn a_part_of_the_outputs_is_enough() {
     let case = fewer.read(&["lateral-mode"]).unwrap().case;
     assert_eq!(case.candidates[0].effect.overrides.len(), 1);
     let shipped = Catalogue::shipped();
-    let read = EffectContext { sim: &case.model, task: &case.task, observed: &case.observed };
+    let read = EffectContext {
+        sim: &case.model,
+        task: &case.task,
+        observed: &case.observed,
+        history: &[],
+        clock: None,
+    };
     let count = |name: &str| {
         let entry = shipped.entries.iter().find(|entry| entry.name == name).unwrap();
         fit::fit(&shipped, entry, &read).map(|(count, _)| count).ok()
