@@ -8,6 +8,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
+use super::DiagnosticKind;
 use super::column_heading;
 use super::conditions::Conditions;
 use super::json::Json;
@@ -282,10 +283,10 @@ pub(super) fn add(
 ) {
     let named = observations.order.as_ref();
     let own = |name: &str| conditions.quantities.iter().position(|of| of.name == name);
-    let bare = named.map(|(name, _)| column_heading::bare(name));
+    let bare = named.map(|of| column_heading::bare(&of.name));
     let own_clock = bare.and_then(own);
     let column = |table: &Table| -> Option<Vec<f64>> {
-        let place = table.column(&named?.0)?;
+        let place = table.column(&named?.name)?;
         Some(table.rows.iter().map(|row| row.get(place).copied().unwrap_or(f64::NAN)).collect())
     };
     let data = &observations.table;
@@ -308,14 +309,22 @@ pub(super) fn add(
         is_condition: own_clock.is_some() || series.has_clock(count),
     };
     let found = known.matter(&series);
+    let of_time = [HistoryKind::Since, HistoryKind::Order];
+    if let (Some(at), Some(of)) = (at, named.filter(|of| of.is_time))
+        && at.column(&of.name).is_none()
+        && found.iter().any(|history| of_time.contains(&history.kind))
+    {
+        let reason = format!("to predict at, {}", at.no_column(&of.name));
+        root.log.report(&of.place, DiagnosticKind::Table { reason });
+    }
     let there = conditions.rows.clone();
     let series = match at {
         None => series,
         Some(at) => Series::new(&there, column(at)),
     };
     let taken = |name: &str| own(name).is_some() || is_quantity(root, name);
-    let heading = named.and_then(|(name, _)| {
-        let place = data.column(name)?;
+    let heading = named.and_then(|of| {
+        let place = data.column(&of.name)?;
         column_heading::heading(root.log, data.columns.get(place)?)
     });
     let clock = match (own_clock, &heading) {
@@ -323,7 +332,7 @@ pub(super) fn add(
         (None, Some((_, unit))) => unit.clone(),
         (None, None) => Unit::one(),
     };
-    let place = named.map_or(0..0, |(_, place)| place.clone());
+    let place = named.map_or(0..0, |of| of.place.clone());
     let mut added: Vec<(History, Quantity)> = Vec::new();
     for history in found {
         let of = history.of.map(|of| &conditions.quantities[of]);

@@ -24,10 +24,18 @@ pub(super) struct Observations {
     pub(super) columns: Vec<Column>,
     /// The column that tells devices or days apart, and where it is named.
     pub(super) replication: Option<(String, Range<usize>)>,
-    /// The column that says in which order the rows were taken, or when, and where it is named.
-    pub(super) order: Option<(String, Range<usize>)>,
+    /// The column that says in which order the rows were taken.
+    pub(super) order: Option<OrderColumn>,
     /// The content of the tables read, by name.
     pub(super) files: Vec<(String, Vec<u8>)>,
+}
+
+/// The column that says in which order the rows were taken, or when, and where it is named.
+#[derive(Debug)]
+pub(super) struct OrderColumn {
+    pub(super) name: String,
+    pub(super) place: Range<usize>,
+    pub(super) is_time: bool,
 }
 
 /// What the table says of one output.
@@ -117,7 +125,7 @@ pub(super) fn read(
 }
 
 /// The column that says in which order the rows were taken, or when; none where no key names one.
-fn order(object: &Object<'_>, table: &Table) -> Option<Option<(String, Range<usize>)>> {
+fn order(object: &Object<'_>, table: &Table) -> Option<Option<OrderColumn>> {
     let [first, second] = ["order", "time"];
     let member = match [first, second].map(|key| object.get(key)) {
         [Some(_), Some(other)] => {
@@ -134,7 +142,8 @@ fn order(object: &Object<'_>, table: &Table) -> Option<Option<(String, Range<usi
         object.log.report(&member.value.span, DiagnosticKind::Table { reason });
         return None;
     }
-    Some(Some((name.to_owned(), member.value.span.clone())))
+    let (name, place) = (name.to_owned(), member.value.span.clone());
+    Some(Some(OrderColumn { name, place, is_time: member.key == second }))
 }
 
 /// The column that tells devices or days apart.

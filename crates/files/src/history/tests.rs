@@ -112,6 +112,9 @@ fn what_came_before_is_counted_in_time_and_in_the_units_of_conditions() {
     let of = |place: usize| there.iter().map(|row| row.conditions[place]).collect::<Vec<f64>>();
     assert_eq!(of(places[0]), [0.0, 5.0, 0.0]);
     assert_eq!(of(places[1]), [4.0, 4.0, 4.0]);
+    std::fs::write(&at, "m\n4\n6\n").unwrap();
+    let without = read.case_text_at("case.json", &case_text, folder.path(), &at).unwrap_err();
+    assert!(without.to_string().contains("no column `t`"), "{without}");
 }
 
 #[test]
