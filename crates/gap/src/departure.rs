@@ -234,6 +234,8 @@ fn departures(weighing: &Weighing<'_>, group: &[&Weighted], term: &Term) -> Vec<
         let departure = if term.relative { departure / sim } else { departure };
         let coordinate = match term.of {
             Of::Condition(c) | Of::Level(c) => row.conditions[c],
+            // up and down a loop are no mean of each other
+            Of::WithHistory(..) => id as f64,
             _ => nominal,
         };
         if departure.is_finite() {

@@ -228,6 +228,7 @@ fn diagnosed(
             .map(|quantity| named(&quantity.name, &quantity.unit))
             .collect(),
         conditions: case.model.conditions.iter().map(|c| named(&c.name, &c.unit)).collect(),
+        history: case.measured()..case.described(),
         gap,
         candidates: case.candidates.iter().map(described).collect(),
         interrupted,

@@ -1,5 +1,7 @@
 //! What a diagnosis says.
 
+use std::ops::Range;
+
 use super::composed::ComposedEffect;
 use gumption_engine::task::ModelStatement;
 use gumption_inference::scan::GapRegion;
@@ -18,6 +20,8 @@ pub struct Diagnosis {
     pub outputs: Vec<NamedQuantity>,
     /// The conditions with their units.
     pub conditions: Vec<NamedQuantity>,
+    /// The places of those that follow from the order of the rows.
+    pub history: Range<usize>,
     /// Whether there is a gap.
     pub gap: GapTest,
     /// The candidate effects, in the order of the case.
