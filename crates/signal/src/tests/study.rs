@@ -154,7 +154,7 @@ fn uncertainties_are_those_of_1000_recordings() {
 
 /// The ratios of the errors of SNR, SINAD and RMS to their standard uncertainties, for noise that is
 /// uniform (as rounding makes it), normal, and of a t-distribution with 5 degrees of freedom. By the
-/// variance of normal noise they would be 0.63, 1 and 2 at least. Of 300 recordings a ratio has a
+/// variance of normal noise they would be 0.63, 1 and up to 2. Of 300 recordings a ratio has a
 /// standard deviation of 4 % for normal noise and of some 6 % for the t-distribution.
 #[test]
 fn power_of_noise_is_known_by_its_kurtosis() {
