@@ -182,14 +182,20 @@ impl Row {
         at: f64,
     ) -> Drawn {
         strip.name(area, self.name, at)?;
-        strip.interval(area, self.ends, at, self.colour)?;
+        // what the file states is shown as it is stated
+        let place = self.method.and_then(|_| position(self.ends[1] - self.ends[0], 3));
+        let number = |end: f64| place.map_or_else(|| exact(end), |place| to(end, Some(place)));
+        strip.interval(area, self.ends, at, (self.colour, &number))?;
         let said = format!("{}: {}", self.name, range(self.ends, unit));
         for end in self.ends.into_iter().filter(|end| end.is_finite()) {
             let x = strip.x(end);
-            line(area, [(x, at), (x, 0.35 * TALL)], faded(self.colour, 0.55, 0.75))?;
+            if strip.holds(end) {
+                line(area, [(x, at), (x, 0.35 * TALL)], faded(self.colour, 0.55, 0.75))?;
+            }
             titles.at_pixels((x, at), &said);
         }
-        if let Some(estimate) = self.estimate {
+        // the estimate of an interval beyond an end is beyond it as well
+        if let Some(estimate) = self.estimate.filter(|estimate| strip.holds(*estimate)) {
             let place = (px(strip.x(estimate)), px(at));
             area.draw(&Circle::new(place, px(3.5), self.colour.filled()))?;
             titles.at_pixels((strip.x(estimate), at), &said);
