@@ -399,8 +399,7 @@ fn interrupted(arguments: &[&str], milliseconds: u64) -> Output {
     let mut child = start(&[&["run", "-", "--trials", "1e11"], arguments].concat());
     child.stdin.take().expect("a pipe").write_all(SMALL.as_bytes()).expect("written");
     std::thread::sleep(std::time::Duration::from_millis(milliseconds));
-    let killed =
-        Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(killed.expect("kill runs").success());
     child.wait_with_output().expect("an end")
 }

@@ -72,11 +72,6 @@ impl Command {
         self
     }
 
-    pub(crate) fn env_remove(&mut self, name: impl AsRef<OsStr>) -> &mut Self {
-        self.program.env_remove(name);
-        self
-    }
-
     pub(crate) fn current_dir(&mut self, folder: impl AsRef<Path>) -> &mut Self {
         self.program.current_dir(folder);
         self
@@ -189,7 +184,8 @@ impl DerefMut for Child {
 fn hangup_is_ignored() -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).is_some_and(|mask| mask & 1 == 1)
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
+        .is_some_and(|mask| mask & 1 == 1)
 }
 
 /// Signals that end a program here, with its exit code as shells have it.

@@ -222,12 +222,7 @@ pub enum ResultStatement {
 pub(crate) enum Taken<'a> {
     /// An estimate with its expanded uncertainty and coverage factor, and the laboratory's capability
     /// where it is beside them.
-    Expanded {
-        estimate: f64,
-        expanded: f64,
-        factor: f64,
-        beside: Option<&'a CapabilityStatement>,
-    },
+    Expanded { estimate: f64, expanded: f64, factor: f64, beside: Option<&'a CapabilityStatement> },
     /// The interval that is stated of the trials.
     Interval(&'a MonteCarlo),
     /// No interval, only a standard uncertainty.

@@ -79,7 +79,12 @@ fn histogram(output: &Quantity, found: &OutputEvaluation, counts: &Histogram) ->
 
 /// An interval: a bracket at each end that lies among the bars, an arrow with its number for each that
 /// lies beyond them.
-fn line(grid: &mut CharacterGrid, (counts, width): (&Histogram, usize), row: usize, ends: [f64; 2]) {
+fn line(
+    grid: &mut CharacterGrid,
+    (counts, width): (&Histogram, usize),
+    row: usize,
+    ends: [f64; 2],
+) {
     let [first, last] = [counts.low, counts.high()];
     let place = position(ends[1] - ends[0], 3);
     let beyond = |is_beyond: &dyn Fn(f64) -> bool| {
@@ -90,7 +95,8 @@ fn line(grid: &mut CharacterGrid, (counts, width): (&Histogram, usize), row: usi
     if ends[0] <= last && ends[1] >= first {
         let columns = ends.map(|end| column(counts, width, end));
         (columns[0]..=columns[1]).for_each(|position| grid.put(position, row, '─'));
-        for (end, (column, bracket)) in ends.into_iter().zip(columns.into_iter().zip(['├', '┤'])) {
+        for (end, (column, bracket)) in ends.into_iter().zip(columns.into_iter().zip(['├', '┤']))
+        {
             if (first..=last).contains(&end) {
                 grid.put(column, row, bracket);
             }

@@ -74,11 +74,7 @@ pub(crate) const MORE: &str = "Budgets, shortest intervals, numerical standard e
 
 /// Which rows' coverage interval is that of the trials, because clause 8 fails for the GUM's or there is
 /// none; `None` where every row has the GUM's.
-pub(crate) fn taken(
-    settings: &Settings,
-    rows: &[RowEvaluation],
-    output: usize,
-) -> Option<String> {
+pub(crate) fn taken(settings: &Settings, rows: &[RowEvaluation], output: usize) -> Option<String> {
     let is_of_trials = |row: &RowEvaluation| {
         let found = row.outputs.get(output);
         found.is_some_and(|found| matches!(Taken::of(settings, found), Taken::Interval(_)))

@@ -416,7 +416,8 @@ fn a_stopped_run_says_the_trials_that_were_made() {
     for (format, page) in all.into_iter().chain([("table", table)]) {
         let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
         let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-        let said = format!("; {made} Monte Carlo trials, seed 1; it was stopped before {asked} were");
+        let said =
+            format!("; {made} Monte Carlo trials, seed 1; it was stopped before {asked} were");
         if format != "latex" {
             assert!(page.contains(&words(&said)), "{format}: {page}");
         }

@@ -204,7 +204,7 @@ fn figures_of_changed_inputs_are_marked() {
         [("Results", (2, 0)), ("Budget a_x", (figures - 1, 4)), ("Correlations", (1, 0))]
     {
         let marked = book.formula(name, place);
-        let said = "\"inputs were changed: these figures are not of these inputs\"";
+        let said = ": inputs were changed: these figures are not of these inputs\"";
         assert!(marked.contains("$L$4>0") && marked.contains(said), "{name}: {marked}");
     }
 }

@@ -5,11 +5,13 @@ use gumption_engine::number::ascending;
 use plotters::element::PathElement;
 use plotters::style::RGBColor;
 
-use crate::html::Drawing;
 use crate::evaluation::Taken;
+use crate::html::Drawing;
 use crate::number::{exact, position, to, with_uncertainty};
 use crate::plain;
-use crate::plot::{AFTER, Axis, BEFORE, Fill, Groups, INK, Panel, mark, px, stroke, svg_with_titles};
+use crate::plot::{
+    AFTER, Axis, BEFORE, Fill, Groups, INK, Panel, mark, px, stroke, svg_with_titles,
+};
 use crate::table::{conditions_text, in_unit};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::{RowEvaluation, naming};

@@ -55,19 +55,18 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// Says beside figures of the inputs as evaluated that an input was changed, once one is; until then
-    /// a text.
+    /// Says what stands here of the inputs as evaluated, and that an input was changed, once one is.
     pub(super) fn marked(
         &self,
         leaf: &mut Leaf,
         at: (u32, u16),
-        until_then: &str,
+        what: &str,
     ) -> Result<(), XlsxError> {
         if self.changed.is_empty() {
             return Ok(());
         }
-        let formula = format!("IF({}>0,\"{OLD}\",\"{until_then}\")", self.changed);
-        leaf.formula(at, &formula, &Cached::Text(until_then.to_owned()), None, Look::Words)
+        let formula = format!("IF({}>0,\"{what}: {OLD}\",\"{what}\")", self.changed);
+        leaf.formula(at, &formula, &Cached::Text(what.to_owned()), None, Look::Words)
     }
 }
 
@@ -85,7 +84,10 @@ pub(super) struct RowPlaces {
 pub(super) fn write(leaf: &mut Leaf, report: &EvaluationReport<'_>) -> Result<Places, XlsxError> {
     let EvaluationReport { task, evaluation, .. } = *report;
     leaf.title(0, "Inputs")?;
-    leaf.line(1, "Shaded cells may be changed; budgets and results follow, and other figures say so.")?;
+    leaf.line(
+        1,
+        "Shaded cells may be changed; budgets and results follow, and other figures say so.",
+    )?;
     leaf.text(3, 0, "coverage probability")?;
     leaf.number((3, ESTIMATE), evaluation.coverage_probability, None, Look::Input)?;
     let changed = leaf.cell(3, CHANGED);
@@ -170,10 +172,9 @@ fn changes(leaf: &mut Leaf, at: u32, columns: &[u16], known: &[f64]) -> Result<(
 fn unlike(row: u32, column: u16, known: f64) -> String {
     let cell = here(row, column);
     match known.is_finite() {
-        true => format!(
-            "IF(ISNUMBER({cell}),ABS({cell}-({known:?}))>{:?},TRUE)",
-            SAME * known.abs()
-        ),
+        true => {
+            format!("IF(ISNUMBER({cell}),ABS({cell}-({known:?}))>{:?},TRUE)", SAME * known.abs())
+        }
         // infinite degrees of freedom, and what no cell holds, are words
         false => format!("ISNUMBER({cell})"),
     }

@@ -81,7 +81,7 @@ fn write(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, Xl
     {
         let mut leaf = book.leaf("Correlations")?;
         leaf.title(0, "Correlation of the outputs")?;
-        places.marked(&mut leaf, (1, 0), "of the inputs as evaluated")?;
+        places.marked(&mut leaf, (1, 0), "Of the inputs as evaluated")?;
         leaf.table(2, &sheet)?;
         book.push(leaf)?;
     }
@@ -116,7 +116,7 @@ fn worksheet(
     let mut leaf = book.leaf(name)?;
     let mut row = 0;
     if let Some(inputs) = inputs {
-        inputs.marked(&mut leaf, (row, 0), "of the inputs as evaluated")?;
+        inputs.marked(&mut leaf, (row, 0), "Of the inputs as evaluated")?;
         row += 1;
     }
     for block in &document.blocks {

@@ -94,8 +94,7 @@ pub(super) fn write(
     leaf.title(0, &plain(&task.title))?;
     leaf.line(1, &table::settings_text(evaluation))?;
     if evaluation.rows.iter().flat_map(|row| &row.outputs).any(|of| of.monte_carlo.is_some()) {
-        let beside = "Monte Carlo figures: of the inputs as evaluated";
-        places.marked(leaf, (2, 0), beside)?;
+        places.marked(leaf, (2, 0), "Monte Carlo, of the inputs as evaluated")?;
     }
     let tolerances = task.model.outputs.iter().any(|output| output.tolerance.is_some());
     let further = if tolerances { CONFORMITY.as_slice() } else { &[] };
