@@ -280,7 +280,7 @@ fn a_result_is_not_normal_only_where_the_digits_show_it() {
 
 /// A coverage factor belongs to a law; that the result has it is said nowhere, in no language: not of one
 /// rectangle of which nothing was looked at, and not of a sum of two, which is a triangle, though U prints
-/// alike to one digit. The digital certificate names no law that the trials contradict.
+/// alike to one digit.
 #[test]
 fn no_law_is_stated_that_a_result_has_not() {
     let rectangle = json!({"distribution": "rectangular", "mean": 5, "half_width": 0.3});
@@ -303,10 +303,29 @@ fn no_law_is_stated_that_a_result_has_not() {
             assert!(said.contains(conditional), "{said}");
             assert!(!claims.iter().any(|claim| said.contains(claim)), "{said}");
         }
-        let folder = folder(&files);
-        let dcc = ["certificate", &path(folder.path(), "c.json"), "--quiet", "--format", "dcc"];
-        let dcc = output(&[&dcc[..], more].concat());
-        assert_eq!(dcc.contains("si:distributionXMLList>normal"), !more.is_empty(), "{dcc}");
+    }
+}
+
+/// A product whose trials refute clause 8 at three digits, with U to one digit: its interval has the digits
+/// of theirs, and the digital certificate names no law that they contradict.
+#[test]
+fn the_digital_certificate_names_no_law_that_trials_contradict() {
+    for (digits, is_named) in [(1, true), (3, false)] {
+        let model = json!({"inputs": {"a": normal(10.0, 0.1), "b": normal(10.0, 0.1)},
+            "equations": {"y": "a*b"}, "outputs": {"y": {}},
+            "monte_carlo": {"trials": 1_000_000, "digits": digits}});
+        let mut file = small()[0].1.clone();
+        file["digits"] = json!(1);
+        file["rows"] = json!([{"model": "m.json", "output": "y"}]);
+        if let Some(file) = file.as_object_mut() {
+            file.remove("monte_carlo");
+        }
+        let folder = folder(&[("c.json", file), ("m.json", model)]);
+        let name = path(folder.path(), "c.json");
+        let dcc = output(&["certificate", &name, "--quiet", "--format", "dcc"]);
+        assert!(dcc.contains("<si:coverageFactorXMLList>2.00</si:coverageFactorXMLList>"), "{dcc}");
+        assert_eq!(dcc.contains("<si:distributionXMLList>normal<"), is_named, "{dcc}");
+        assert_eq!(dcc.contains("<si:distributionXMLList>"), is_named, "{dcc}");
     }
 }
 
