@@ -120,8 +120,8 @@ pub(super) fn settings_text(evaluation: &Evaluation) -> String {
     line += &match evaluation.stopped {
         false => format!("; {asked} Monte Carlo trials{each}{needed}, seed {seed}"),
         true => format!(
-            "; {} Monte Carlo trials{together}, seed {seed}; it was stopped before {asked}{each}{needed} \
-             were made",
+            "; {} Monte Carlo trials{together}, seed {seed}, as it was stopped; {asked}{needed} were asked \
+             for{each}",
             grouped(trials_made(evaluation))
         ),
     };

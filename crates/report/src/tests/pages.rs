@@ -333,7 +333,9 @@ fn a_limit_beyond_the_axis_is_an_arrow_with_its_number() {
         page
     };
     // once for a page and once for a narrow screen
-    let texts = |page: &str, text: &str| page.matches(&format!(">\n{text}\n</text>")).count();
+    let texts = |page: &str, text: &str| {
+        page.matches(&format!("fill=\"#D55E00\">\n{text}\n</text>")).count()
+    };
     let inside = page(r#"{"lower": 100.005, "upper": 100.02}"#);
     assert_eq!([texts(&inside, "100.005"), texts(&inside, "100.02")], [0, 0]);
     let below = page(r#"{"lower": 99.873, "upper": 100.02}"#);
@@ -416,8 +418,7 @@ fn a_stopped_run_says_the_trials_that_were_made() {
     for (format, page) in all.into_iter().chain([("table", table)]) {
         let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
         let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-        let said =
-            format!("; {made} Monte Carlo trials, seed 1; it was stopped before {asked} were");
+        let said = format!("; {made} Monte Carlo trials, seed 1, as it was stopped; {asked} were");
         if format != "latex" {
             assert!(page.contains(&words(&said)), "{format}: {page}");
         }
