@@ -89,3 +89,46 @@ fn described(of: &ListedQuantity) -> String {
     let parts: Vec<String> = [of.name.clone(), id, kind, values].into_iter().flatten().collect();
     parts.join(", ")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CERTIFICATE: &str = r#"<dcc:digitalCalibrationCertificate xmlns:dcc="https://ptb.de/dcc"
+        xmlns:si="https://ptb.de/si" schemaVersion="3.2.1"><dcc:measurementResults><dcc:measurementResult>
+        <dcc:influenceConditions><dcc:influenceCondition><dcc:name><dcc:content>Found</dcc:content></dcc:name>
+        <dcc:status>beforeAdjustment</dcc:status><dcc:data><dcc:quantity id="a"><si:real><si:value>3</si:value>
+        <si:unit>\kelvin</si:unit></si:real></dcc:quantity></dcc:data></dcc:influenceCondition>
+        </dcc:influenceConditions><dcc:results><dcc:result><dcc:name><dcc:content>Left</dcc:content></dcc:name>
+        <dcc:data><dcc:list><dcc:quantity refType="basic_measuredValue"><dcc:name><dcc:content>T</dcc:content>
+        </dcc:name><si:realListXMLList><si:valueXMLList>1 2</si:valueXMLList><si:unitXMLList>\kelvin
+        </si:unitXMLList></si:realListXMLList></dcc:quantity><dcc:quantity><dcc:noQuantity/></dcc:quantity>
+        </dcc:list></dcc:data></dcc:result></dcc:results></dcc:measurementResult></dcc:measurementResults>
+        </dcc:digitalCalibrationCertificate>"#;
+
+    #[test]
+    fn the_page_has_each_quantity_with_its_input() {
+        let listing = gumption_files::certificate_listing_text("c\u{1b}.xml", CERTIFICATE).unwrap();
+        let page = page(&listing);
+        let lines: Vec<&str> = page.lines().collect();
+        assert_eq!(lines[0], "Found (influenceConditions, beforeAdjustment)");
+        assert_eq!(lines[1], "   0  id a, 1 value in K");
+        assert_eq!(lines[2].trim(), r#"{"distribution":"dcc","file":"c\u001b.xml","quantity":0}"#);
+        assert_eq!(lines[4], "Left (results)");
+        assert_eq!(lines[5], "   1  T, ref_type basic_measuredValue, 2 values in K");
+        assert_eq!(
+            lines[6].trim(),
+            r#"{"distribution":"dcc","file":"c\u001b.xml","quantity":1,"index":0}"#
+        );
+        assert!(lines[8].trim().starts_with("not read: "), "{page}");
+        let json: serde_json::Value = serde_json::from_str(&pretty(&listing)).unwrap();
+        let [first, second, third] = [0, 1, 2].map(|place| &json["results"][place]);
+        assert_eq!(first["status"], "beforeAdjustment");
+        assert_eq!([&first["place"], &second["place"]], ["influenceConditions", "results"]);
+        assert_eq!(second["values"], serde_json::json!([1.0, 2.0]));
+        assert_eq!(
+            [&second["unit"], &second["name"], &third["unit"]],
+            [&serde_json::json!("K"), &serde_json::json!("T"), &serde_json::Value::Null]
+        );
+    }
+}

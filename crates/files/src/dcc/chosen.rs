@@ -13,8 +13,8 @@ use roxmltree::{Node, NodeId};
 use super::document::{self, Measured, names};
 use super::standing::{self, STATUSES};
 use crate::DiagnosticKind;
-use crate::object::{Object, whole_number};
 use crate::json::Json;
+use crate::object::{Object, whole_number};
 
 /// Tables and quantities that a message lists, at most.
 const SHOWN: usize = 8;
@@ -90,7 +90,8 @@ pub(super) fn quantities<'d>(
             return None;
         }
     }
-    let is_named = ["id", "ref_type", "within", "status"].iter().any(|key| object.get(key).is_some());
+    let is_named =
+        ["id", "ref_type", "within", "status"].iter().any(|key| object.get(key).is_some());
     if !is_named && all.len() != 1 {
         let shown: Vec<String> = all.iter().take(SHOWN).map(|of| document::called(*of)).collect();
         let reason = format!(
@@ -193,7 +194,8 @@ fn of_ref_type<'d>(object: &Object<'_>, all: &[Node<'d, 'd>]) -> Option<Vec<Node
     };
     let found: Vec<Node<'d, 'd>> = all.iter().filter(has).copied().collect();
     if found.is_empty() {
-        let mut known: Vec<&str> = all.iter().filter_map(|node| node.attribute("refType")).collect();
+        let mut known: Vec<&str> =
+            all.iter().filter_map(|node| node.attribute("refType")).collect();
         known.dedup();
         let known = suggested(wanted, &known);
         report(object, &["ref_type"], format!("no quantity has the refType `{wanted}`{known}"));
@@ -240,7 +242,8 @@ pub(super) fn is_one_table<'d>(
     all: &[Node<'d, 'd>],
 ) -> bool {
     if object.get("quantity").is_some() {
-        let of: HashSet<Option<String>> = chosen.iter().map(|node| standing::status(*node)).collect();
+        let of: HashSet<Option<String>> =
+            chosen.iter().map(|node| standing::status(*node)).collect();
         if of.len() > 1 {
             let said = |of: &Option<String>| format!("`{}`", of.as_deref().unwrap_or("no status"));
             let mut of: Vec<String> = of.iter().map(said).collect();

@@ -425,7 +425,8 @@ pub(super) fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Meas
 /// # Errors
 /// The list that has another length.
 fn lists_of(holder: Node<'_, '_>, count: usize) -> Result<(), Fault> {
-    let lists = holder.descendants().filter(|of| is_list(*of) && of.children().all(|of| of.is_text()));
+    let lists =
+        holder.descendants().filter(|of| is_list(*of) && of.children().all(|of| of.is_text()));
     for list in lists {
         let text = content_of(list);
         let entries = text.split(BLANKS).filter(|word| !word.is_empty()).count();

@@ -24,7 +24,8 @@ pub(super) fn state(object: &Object<'_>, measured: &mut [Measured]) -> Result<bo
         return Ok(false);
     };
     if measured.iter().all(|of| of.uncertainty.is_none()) {
-        let reason = "the certificate states no uncertainty here, of which `law` could be the distribution";
+        let reason =
+            "the certificate states no uncertainty here, of which `law` could be the distribution";
         let reason = reason.to_owned();
         object.log.report(&member.key_span, DiagnosticKind::Certificate { reason });
         return Ok(false);

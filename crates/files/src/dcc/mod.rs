@@ -37,14 +37,14 @@ use gumption_engine::distribution::{
 use gumption_engine::number::{Shortest, smallest_first};
 use gumption_units::Unit;
 use known::{Interval, Known, known};
+pub(crate) use law::LAWS;
+pub use listing::{CertificateListing, ListedPart, ListedQuantity, listing, listing_text};
 use missing::Rows;
 pub(super) use own::Certified;
 use own::OwnCertificate;
-pub(crate) use law::LAWS;
-pub use listing::{CertificateListing, ListedPart, ListedQuantity, listing, listing_text};
-pub(crate) use standing::STATUSES;
 pub(super) use quantities::inputs;
 use roxmltree::{Document, Node};
+pub(crate) use standing::STATUSES;
 
 /// The certificates that a model file names: name, text if it could be read, content.
 #[derive(Debug, Default)]

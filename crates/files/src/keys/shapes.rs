@@ -312,8 +312,8 @@ fn field(shape: &str, key: &str) -> Value {
         .with("enum", texts(crate::dcc::STATUSES)),
         (_, "quantity") => {
             let place = || object([("type", Value::from("integer")), ("minimum", Value::from(0))]);
-            let places = described("array", "Quantities of one table, in order.");
-            let places = places.with("items", place()).with("minItems", 1);
+            let places = object([("type", Value::from("array")), ("items", place())]);
+            let places = places.with("minItems", 1);
             object([
                 (
                     "description",

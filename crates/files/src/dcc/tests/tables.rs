@@ -46,7 +46,8 @@ const KIND: &str = r#""ref_type": "basic_measurementError""#;
 
 /// The value and U at a temperature.
 fn at(xml: &str, keys: &str, temperature: f64) -> Result<[f64; 2], String> {
-    let conditions = format!(r#", "conditions": {{"t": {{"unit": "K", "values": [{temperature}]}}}}"#);
+    let conditions =
+        format!(r#", "conditions": {{"t": {{"unit": "K", "values": [{temperature}]}}}}"#);
     let input = format!(r#"{KIND}{keys}, "at": "t""#);
     let file = model_in("K", xml, &input, &conditions).map_err(|errors| errors.to_string())?;
     let [value, u, _] = known(&file, 0);
@@ -121,7 +122,8 @@ fn before_and_after_an_adjustment() {
 fn several_sensors() {
     let first = |attributes: &str| table(attributes, "300 320", "0.01 0.03", "0.1");
     let second = |attributes: &str| table(attributes, "310 330", "0.51 0.53", "0.2");
-    let of = |sensor: usize, table: &str| named("result", "", &format!("Sensor {sensor}"), "", table);
+    let of =
+        |sensor: usize, table: &str| named("result", "", &format!("Sensor {sensor}"), "", table);
     let results = of(1, &first("")) + &of(2, &second(""));
     let lists = of(1, &(first(" refType=\"gp_table1\"") + &second(" refType=\"gp_table2\"")));
     let ids = of(1, &(first(" id=\"a\"") + &second(" id=\"b\"")));

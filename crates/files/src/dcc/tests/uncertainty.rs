@@ -329,8 +329,20 @@ fn factors_of_no_normal_distribution_are_asked() {
         quantity(&real("10", r"\volt", &expanded(["1.1", k, p, law])))
     };
     for (k, p, names, law, shape) in [
-        ("1.65", "0.95", "a distribution `rectangular`; a normal one has 1.96", "rectangular", "rectangular"),
-        ("1.9", "0.95", "a distribution `triangular`; a normal one has 1.96", "triangular", "triangular"),
+        (
+            "1.65",
+            "0.95",
+            "a distribution `rectangular`; a normal one has 1.96",
+            "rectangular",
+            "rectangular",
+        ),
+        (
+            "1.9",
+            "0.95",
+            "a distribution `triangular`; a normal one has 1.96",
+            "triangular",
+            "triangular",
+        ),
         ("1.41", "0.95", "a distribution `arcsine`; a normal one has 1.96", "arcsine", "arcsine"),
         ("1.18", "0.68", "a distribution `t` or `rectangular`", "t", "t"),
         ("1.6", "0.90", "a distribution `normal` or `rectangular`", "normal", "normal"),
