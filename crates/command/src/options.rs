@@ -9,7 +9,7 @@ use std::sync::atomic::AtomicBool;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
-use super::exit::say;
+use super::exit::say_line;
 use super::output::Place;
 use super::surroundings::{GivenFile, in_call};
 use super::{CommandLine, Failure, output};
@@ -84,7 +84,7 @@ impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
     /// Sentences on standard error, unless nothing is to be said.
     pub(super) fn note<'t>(&self, texts: impl IntoIterator<Item = &'t str>) {
         for text in texts.into_iter().filter(|_| !self.quiet) {
-            say(&format!("note: {text}\n"));
+            say_line(&format!("note: {text}"));
         }
     }
 

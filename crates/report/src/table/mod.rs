@@ -12,7 +12,7 @@ mod width;
 pub use columns::BudgetColumn;
 pub use grid::Grid;
 pub use text::{grouped, plain, wrapped};
-pub(crate) use text::{is_obeyed, one_line, printable};
+pub(crate) use text::{one_line, printable};
 use width::USUAL;
 pub use width::within_width;
 pub(crate) use width::{text_width, width};

@@ -6,7 +6,7 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
 use crate::answer::in_memory;
-use crate::table::is_obeyed;
+use gumption_files::is_obeyed;
 use gumption_analysis::certificate::contents::{Language, Localized};
 
 /// A document in memory.
