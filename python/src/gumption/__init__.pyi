@@ -18,7 +18,6 @@ from gumption._measurement import (
     Measurement as Measurement,
     NotTracedWarning as NotTracedWarning,
     model as model,
-    quantity as quantity,
 )
 from gumption._model import (
     Model as Model,
@@ -34,6 +33,7 @@ from gumption._result import (
     Result as Result,
 )
 from gumption._samples import Samples as Samples, SampleTable as SampleTable
+from gumption._trace import quantity as quantity
 from gumption._shapes import (
     Input as Input,
     arcsine as arcsine,

@@ -1,0 +1,270 @@
+"""Functions are held against themselves: what was traced, and what is called with columns, is
+evaluated again one draw at a time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from gumption import _gumption
+from gumption._block import BlockFunction, Column, Way
+
+if TYPE_CHECKING:
+    from gumption._measurement import Measurement
+
+Marks = npt.NDArray[np.bool_]
+
+#: How many draws are evaluated one at a time, beside the estimates.
+DRAWS = 32
+
+#: Every so many of them are evaluated twice.
+TWICE = 4
+
+#: Draws that the engine hands to a function at a time.
+BLOCK = 1024
+
+#: Two evaluations of the same operations in double precision differ by the roundings of elementary
+#: functions: a few units in the last place each, for some dozens of them.
+ROUNDING = 64 * np.finfo(np.float64).eps
+
+#: A difference of this part of the scatter of the draws is in no digit that anybody states.
+OF_SCATTER = 1e-6
+
+#: By so many units in the last place arguments are moved to see what rounding makes of a function
+#: that nearly cancels, and so many times what is seen is allowed.
+MOVED, ALLOWED = 8, 8
+
+#: Zeros of temperature scales, apart, in kelvin: of degC from 0 K, degF from 0 K, and degF from degC.
+ZEROS = (273.15, 459.67 / 1.8, 32 / 1.8)
+
+
+class Held:
+    """A function with what it gave when a model of it was made.
+
+    Parameters
+    ----------
+    one : BlockFunction
+        The function, one draw at a time.
+    model : Model
+        The model, with the variables of the function.
+    variables, outputs : list of ndarray
+        Sets of values, and the outputs at them.
+    """
+
+    def __init__(
+        self, one: BlockFunction, model: _gumption.Model, variables: list[Column], outputs: list[Column]
+    ) -> None:
+        self._one, self._model, self._variables, self._outputs = one, model, variables, outputs
+
+    def check_unchanged(self) -> None:
+        """Refuses a function that gives something else now."""
+        found = self._one.of(self._model)(self._variables)
+        known = (self._variables, self._outputs)
+        _compare_twice(self._one.measurement, self._model, known, found)
+
+    def of(self, model: _gumption.Model) -> Held:
+        """The same for another model of its formulas.
+
+        Raises
+        ------
+        ModelError
+            If the formulas are not those of the function there.
+        """
+        if self._model.variables != model.variables:
+            # its inputs were put together with those of other models
+            return self
+        found = checked(self._one.measurement, model, self._one.aliases)
+        if found.function is not None:
+            raise _gumption.ModelError(f"`{self._one.measurement.title}`: {found.difference}")
+        return found.held
+
+    def __reduce__(self) -> Any:
+        source = self._model.source
+        return _held_from, (self._one, source, self._variables, self._outputs)
+
+
+def _held_from(
+    one: BlockFunction, source: tuple[Any, ...], variables: list[Column], outputs: list[Column]
+) -> Held:
+    return Held(one, _gumption.Model(*source), variables, outputs)
+
+
+class Checked(NamedTuple):
+    """How a function is evaluated.
+
+    `function` is `None` where its formulas hold; `difference` says why it is not evaluated by them, or
+    not with columns.
+    """
+
+    function: BlockFunction | None
+    difference: str | None
+    held: Held
+
+
+def checked(measurement: Measurement, model: _gumption.Model, aliases: Mapping[str, str]) -> Checked:
+    """Finds a way to evaluate a function that gives what the function gives one draw at a time.
+
+    Raises
+    ------
+    ModelError
+        If the function does not give the same values for the same arguments.
+    """
+    variables, formulas = model.draws(DRAWS)
+    draws = _Draws(measurement, model, aliases, variables)
+    draws.check_that_it_repeats()
+    # two sets are enough to notice that something else changed meanwhile
+    held = Held(draws.one, model, [c[:2] for c in variables], [c[:2] for c in draws.truth])
+    if measurement.equations is not None:
+        difference = draws.difference(formulas, "by the formulas that were traced")
+        if difference is None:
+            return Checked(None, None, held)
+        if any(_gumption.unit_within(unit)[1] for _, unit in [*model.inputs, *model.outputs]):
+            raise _gumption.ModelError(
+                f"`{measurement.title}`: {difference}. With temperatures or levels that count from a zero "
+                "of their own it cannot be evaluated by Python instead; let it do without what depends on "
+                "the type of its arguments"
+            )
+        return Checked(draws.one, difference, held)
+    columns = BlockFunction(measurement, Way.COLUMNS, aliases)
+    called = columns.of(model)
+    try:
+        # as long as the engine's, and of another length
+        long = [found[: draws.count] for found in called([np.resize(c, BLOCK) for c in variables])]
+        short = called(variables)
+    except Exception as error:  # noqa: BLE001 - whatever a function of somebody else's says
+        return Checked(draws.one, f"with columns of draws: {type(error).__name__}: {error}", held)
+    by_columns = "called with columns of draws"
+    difference = draws.difference(long, by_columns) or draws.difference(short, by_columns)
+    return Checked(columns if difference is None else draws.one, difference, held)
+
+
+def check_rows(
+    measurement: Measurement,
+    model: _gumption.Model,
+    estimates: Mapping[str, Column | float],
+    outputs: Sequence[Column],
+) -> None:
+    """Refuses formulas that do not give what their function gives, in some rows of budgets."""
+    count = len(outputs[0])
+    rows = np.unique(np.linspace(0, count - 1, DRAWS).astype(int)) if count else np.empty(0, int)
+    if not rows.size:
+        return
+    names = [*model.variables, *(name for name, _ in model.conditions)]
+    variables = [np.broadcast_to(np.asarray(estimates[name]), count)[rows] for name in names]
+    draws = _Draws(measurement, model, {}, variables)
+    draws.check_that_it_repeats()
+    difference = draws.difference([column[rows] for column in outputs], "by the formulas that were traced")
+    if difference is not None:
+        raise _gumption.ModelError(f"`{measurement.title}`: {difference}; budgets in columns need formulas")
+
+
+class _Draws:
+    """A function at some draws, one at a time."""
+
+    def __init__(
+        self,
+        measurement: Measurement,
+        model: _gumption.Model,
+        aliases: Mapping[str, str],
+        variables: list[Column],
+    ) -> None:
+        self.measurement, self.model, self.variables = measurement, model, variables
+        self.count = len(variables[0])
+        self.one = BlockFunction(measurement, Way.NUMBERS, aliases)
+        try:
+            self.truth = self.one.of(model)(variables)
+        except (TypeError, ValueError, AttributeError, IndexError) as error:
+            # it may take arrays and nothing else
+            self.one = BlockFunction(measurement, Way.ENTRIES, aliases)
+            try:
+                self.truth = self.one.of(model)(variables)
+            except Exception:  # noqa: BLE001 - the first one is about what everybody expects
+                raise error from None
+
+    def check_that_it_repeats(self) -> None:
+        places = list(range(self.count - 1, -1, -TWICE))
+        at = ([column[places] for column in self.variables], [column[places] for column in self.truth])
+        _compare_twice(self.measurement, self.model, at, self.one.of(self.model)(at[0]))
+
+    def difference(self, found: Sequence[Column], how: str) -> str | None:
+        """Where some outputs are not those of the function, in words."""
+        for (name, unit), values, truth in zip(self.model.outputs, found, self.truth):
+            values, known = np.asarray(values), np.isfinite(truth)
+            scatter = float(np.std(truth[known])) if known.any() else 0.0
+            allowed = ROUNDING * np.maximum(abs(values), abs(truth)) + OF_SCATTER * scatter
+            wrong = _differ(values, truth, allowed)
+            if wrong.any():
+                wrong = _differ(values, truth, allowed + ALLOWED * self._noise(name))
+            if wrong.any() and known.any() and _gumption.units_fit(unit, "K"):
+                # the engine converts between temperature scales
+                shift = np.median(values[known] - truth[known])
+                factor = _gumption.unit_scale(unit)[0]
+                if np.isclose(abs(shift) * factor, ZEROS, rtol=1e-9).any():
+                    wrong = _differ(values - shift, truth, allowed + ROUNDING * abs(shift))
+            if wrong.any():
+                place = int(np.argmax(wrong))
+                return (
+                    f"{how} `{name}` is {_with_unit(values[place], unit)}, and one draw at a time "
+                    f"{_with_unit(truth[place], unit)}, at {_at(self.model, self.variables, place)}"
+                )
+        return None
+
+    def _noise(self, name: str) -> Column:
+        """How far an output moves where every argument moves in its last places."""
+        output = [own for own, _ in self.model.outputs].index(name)
+        noise = np.zeros(self.count)
+        eps = MOVED * np.finfo(np.float64).eps
+        for signs in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
+            moved = [c * (1 + signs[i % 2] * eps) for i, c in enumerate(self.variables)]
+            change = abs(self.one.of(self.model)(moved)[output] - self.truth[output])
+            noise = np.fmax(noise, change)
+        return noise
+
+
+def _differ(values: Column, truth: Column, allowed: Column) -> Marks:
+    """Where two columns differ by more than is allowed; what both do not define does not."""
+    defined = np.isfinite(values), np.isfinite(truth)
+    with np.errstate(invalid="ignore"):
+        apart = ~(abs(values - truth) <= allowed)
+    found: Marks = (defined[0] != defined[1]) | (defined[0] & defined[1] & apart)
+    return found
+
+
+def _with_unit(value: float, unit: str, digits: int = 10) -> str:
+    return f"{value:.{digits}g} {unit}" if unit != "1" else f"{value:.{digits}g}"
+
+
+def _at(model: _gumption.Model, variables: Sequence[Column], place: int) -> str:
+    """A set of values in words."""
+    names = [*model.variables, *(name for name, _ in model.conditions)]
+    units = dict([*model.inputs, *model.conditions])
+    shown = []
+    for name, column in zip(names[:6], variables):
+        shown.append(f"{name} = {_with_unit(column[place], units[name.partition('/')[0]])}")
+    return ", ".join(shown) + (", ..." if len(names) > 6 else "")
+
+
+def _compare_twice(
+    measurement: Measurement,
+    model: _gumption.Model,
+    first: tuple[Sequence[Column], Sequence[Column]],
+    again: Sequence[Column],
+) -> None:
+    """Refuses a function that gave two values for the same arguments."""
+    variables, outputs = first
+    for (name, unit), before, now in zip(model.outputs, outputs, again):
+        # the same operations: as many roundings as a parallel sum may do in another order
+        allowed = 4 * np.finfo(np.float64).eps * np.maximum(abs(before), abs(now))
+        wrong = _differ(before, now, allowed)
+        if wrong.any():
+            place = int(np.argmax(wrong))
+            raise _gumption.ModelError(
+                f"`{measurement.title}` does not give the same value for the same arguments: `{name}` was "
+                f"{_with_unit(before[place], unit, 17)} and then {_with_unit(now[place], unit, 17)}, at "
+                f"{_at(model, variables, place)}. Random numbers, counters, the time, and global "
+                "variables or arguments that are changed do this; what varies is to be an input"
+            )
