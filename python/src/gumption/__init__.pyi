@@ -33,7 +33,6 @@ from gumption._result import (
     Result as Result,
 )
 from gumption._samples import Samples as Samples, SampleTable as SampleTable
-from gumption._trace import quantity as quantity
 from gumption._shapes import (
     Input as Input,
     arcsine as arcsine,
@@ -56,6 +55,7 @@ from gumption._shapes import (
     trapezoidal as trapezoidal,
     triangular as triangular,
 )
+from gumption._trace import quantity as quantity
 
 __version__: str
 __all__ = [

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import itertools
 import json
+import re
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -117,7 +118,8 @@ class Measurement:
             _gumption.Model("decision", json.dumps(file))
         except _gumption.ModelError as error:
             said = error.errors[0]["message"] if error.errors else str(error)
-            units = sorted({*self.arguments.values()} - {"1"})
+            names = set(re.findall(r"\w+", " ".join(formulas.values())))
+            units = [unit for n, unit in self.arguments.items() if n in names and unit != "1"]
             raise _gumption.ModelError(
                 f"`{self.title}` decides by `{shown}`: {said}. {self._units_within()} A number may be meant "
                 "in the declared unit or in the one within the function: say which with "
@@ -304,8 +306,8 @@ class Measurement:
             if difference is not None:
                 why = f"{why} {difference};"
         how = "in blocks of values" if function.way in (Way.COLUMNS, Way.UNCHECKED) else "one draw at a time"
-        units = f" {self._units_within()}".rstrip() if self.check_units else ""
-        unchecked = f"{units} Dimensions are not checked." if units else ""
+        has_units = self.check_units and {*self.arguments.values(), *self.outputs.values()} != {"1"}
+        unchecked = f" Dimensions are not checked. {self._units_within()}".rstrip() if has_units else ""
         warnings.warn(
             f"{why} it is evaluated by Python {how}, which is slower, with sensitivities by central "
             f"differences.{unchecked}",
