@@ -234,6 +234,9 @@ FORMULAS: dict[str, Function] = {
     "np.linalg.norm": lambda a, b: np.linalg.norm([a, b]),
     "np.size": has_length,
     "out": shifted_in_place,
+    "np.std": lambda a, b: np.std([a, b]),
+    "np.var": lambda a, b: np.var([a, b, 1.0], ddof=1),
+    "getattr with a default": lambda a, b: a * 2 if getattr(a, "shape", ()) == () else b,
     "constant": lambda a, b: 4.25,
 }
 
@@ -406,7 +409,6 @@ DRAWS: dict[str, Function] = {
     "np.fft": lambda a, b: np.fft.fft([a, b, a, 2.0])[1].real,
     "np.unwrap": lambda a, b: np.unwrap(np.array([a, b + 6.0]))[1],
     "np.linspace": lambda a, b: np.sum(np.linspace(0, a, 11) ** 2) + b,
-    "np.std": lambda a, b: np.std([a, b]),
     "np.linalg.det": lambda a, b: np.linalg.det(np.array([[a, b], [b, 1.0]])),
     "np.linalg.inv": lambda a, b: np.linalg.inv(np.array([[a, 0.1], [0.1, b]]))[0, 1],
     "np.linalg.solve": lambda a, b: np.linalg.solve(np.array([[2.0, a], [a, 1.0]]), np.array([1.0, b]))[0],
@@ -424,7 +426,6 @@ DRAWS: dict[str, Function] = {
     "np.convolve": lambda a, b: np.convolve([a, b], [1.0, 2.0])[1].max() + np.sort([a, b])[1],
     "np.interp of a table of it": lambda a, b: np.interp(0.5, [0.0, 1.0], [a, b]),
     "np.average": lambda a, b: np.average([a, b], weights=[1.0, abs(a)]) + np.max([a, b]),
-    "np.var": lambda a, b: np.var([a, b, 1.0], ddof=1),
     "np.cov": lambda a, b: np.cov([a, b, 1.0], [1.0, 2.0, a])[0, 1],
     "np.corrcoef": lambda a, b: np.corrcoef([a, b, 1.0], [1.0, 2.0, 4.0])[0, 1],
     "np.gradient": lambda a, b: np.gradient(np.array([a, b, 2.0]))[0] + np.ptp([a, b]),
@@ -438,7 +439,6 @@ DRAWS: dict[str, Function] = {
     "type": by_type,
     "type name": lambda a, b: a * 2 if type(a).__name__ == "float" else b,
     "hasattr": lambda a, b: a * 2 if hasattr(a, "hex") else b,
-    "callable name": lambda a, b: a * 2 if getattr(a, "shape", ()) == () else b,
     "string": lambda a, b: a * 2 if "." in str(a) else b,
     "parsed": lambda a, b: float(str(a)) + b,
     "formatted": lambda a, b: float(f"{a:.2f}") + b,

@@ -348,6 +348,18 @@ class TestChecked:
             with pytest.raises(gu.ModelError, match="one draw at a time"):
                 other()
 
+    @pytest.mark.parametrize("limit", [3.0, 4.0])
+    def test_what_hangs_on_rare_draws(self, limit: float) -> None:
+        """Of 1024 draws one is beyond 3 standard uncertainties in 3 of 4 cases, and beyond 4 in 1 of 30:
+        that is noticed when the model is made, or in the blocks of the run."""
+        f = one(lambda x, y: y + (1 if np.any(np.asarray(x > limit)) else 0) + 0 * x)
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            model = f(x=(0.0, 1.0), y=(1.0, 0.1))
+        if "one draw at a time" not in str(said[0].message):
+            with pytest.raises(gu.ModelError, match="hangs on the others"):
+                model.run(trials=500_000)
+
     def test_rows_of_conditions(self) -> None:
         f = gu.model(inputs={"x": "1"}, conditions={"t": "1"}, outputs={"z": "1"})(
             lambda x, t: np.max([x * t, 2.0])

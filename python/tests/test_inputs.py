@@ -254,9 +254,9 @@ class TestOneQuantity:
         p, q = linear(2)(x).run(trials=1000), linear(3)(x).run(trials=1000, seed=5)
         self.zero(combined(p["y"], q["y"]))
 
-    def test_a_number_of_uncertainties(self) -> None:
-        ufloat = pytest.importorskip("uncertainties").ufloat
-        x = ufloat(1.0, 0.3)
+    @pytest.mark.parametrize("library, number", [("uncertainties", "ufloat"), ("GTC", "ureal")])
+    def test_a_number_of_others(self, library: str, number: str) -> None:
+        x = getattr(pytest.importorskip(library), number)(1.0, 0.3)
         self.zero(combined(linear(2)(x).run(trials=0)["y"], linear(3)(x).run(trials=0)["y"]))
 
     def test_a_result_and_its_input(self) -> None:

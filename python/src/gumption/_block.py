@@ -7,14 +7,16 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from gumption import _gumption
+from gumption._agreement import Column, apart, scatter_of
 
 if TYPE_CHECKING:
     from gumption._measurement import Measurement
 
-Column = npt.NDArray[np.float64]
+
+class NotTheSame(_gumption.ModelError):
+    """A draw in a column is evaluated otherwise than alone."""
 
 
 class Way(Enum):
@@ -41,15 +43,24 @@ class BlockFunction:
         What it is called with.
     aliases : mapping of str to str
         Inputs that are the same quantity as another one.
+    alone : Way, optional
+        With columns, how the first draw of each is evaluated once more, to be held against it.
     """
 
-    def __init__(self, measurement: Measurement, way: Way, aliases: Mapping[str, str]) -> None:
+    def __init__(
+        self,
+        measurement: Measurement,
+        way: Way,
+        aliases: Mapping[str, str],
+        alone: Way | None = None,
+    ) -> None:
         self.measurement = measurement
         self.way = way
         self.aliases = dict(aliases)
+        self.alone = alone
 
     def __reduce__(self) -> Any:
-        return BlockFunction, (self.measurement, self.way, self.aliases)
+        return BlockFunction, (self.measurement, self.way, self.aliases, self.alone)
 
     def of(self, model: _gumption.Model) -> Callable[[list[Column]], list[Column]]:
         """The function over the columns of the variables of a model."""
@@ -87,9 +98,32 @@ class BlockFunction:
                 except (TypeError, ValueError):
                     # it takes numbers and no arrays
                     self.way = Way.NUMBERS
-            if self.way is Way.COLUMNS:
-                return self._of_columns(columns)
-            return self._of_draws(columns)
+            if self.way is not Way.COLUMNS:
+                return self._of_draws(columns, self.way)
+            found = self._of_columns(columns)
+            if self.alone is not None:
+                self._check_first(columns, found, self.alone)
+            return found
+
+    def _check_first(
+        self, columns: Mapping[str, Column], found: Mapping[str, Column], alone: Way
+    ) -> None:
+        """Holds the first draw of columns against what it gives alone."""
+        first = {name: column[:1] for name, column in columns.items()}
+        truth = self._of_draws(first, alone)
+        for name, values in found.items():
+
+            def moved(by: Callable[[int], float], name: str = name) -> Column:
+                changed = {own: c * by(i) for i, (own, c) in enumerate(first.items())}
+                return self._of_draws(changed, alone)[name]
+
+            if apart(values[:1], truth[name], scatter_of(values), moved).any():
+                at = ", ".join(f"{own} = {column[0]:.10g}" for own, column in first.items())
+                raise NotTheSame(
+                    f"called with columns of draws `{self.measurement.title}` gives {values[0]:.10g} for "
+                    f"`{name}`, and one draw at a time {truth[name][0]:.10g}, at {at} (within the "
+                    "function); what it gives for a draw hangs on the others"
+                )
 
     def _of_columns(self, columns: Mapping[str, Column]) -> Mapping[str, Column]:
         given = {name: np.array(column) for name, column in columns.items()}
@@ -106,11 +140,11 @@ class BlockFunction:
             made[name] = np.broadcast_to(values, count)
         return made
 
-    def _of_draws(self, columns: Mapping[str, Column]) -> Mapping[str, Column]:
+    def _of_draws(self, columns: Mapping[str, Column], way: Way) -> Mapping[str, Column]:
         made: dict[str, list[float]] = {name: [] for name in self.measurement.outputs}
         for values in zip(*(column.tolist() for column in columns.values())):
             given: dict[str, Any] = dict(zip(columns, values))
-            if self.way is Way.ENTRIES:
+            if way is Way.ENTRIES:
                 given = {name: np.array([value]) for name, value in given.items()}
             try:
                 found = self.measurement.called(given)

@@ -4,19 +4,18 @@ evaluated again one draw at a time.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import functools
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from gumption import _gumption
-from gumption._block import BlockFunction, Column, Way
+from gumption._agreement import EPS, Column, apart, differ, scatter_of
+from gumption._block import BlockFunction, NotTheSame, Way
 
 if TYPE_CHECKING:
     from gumption._measurement import Measurement
-
-Marks = npt.NDArray[np.bool_]
 
 #: How many draws are evaluated one at a time, beside the estimates.
 DRAWS = 32
@@ -26,17 +25,6 @@ TWICE = 4
 
 #: Draws that the engine hands to a function at a time.
 BLOCK = 1024
-
-#: Two evaluations of the same operations in double precision differ by the roundings of elementary
-#: functions: a few units in the last place each, for some dozens of them.
-ROUNDING = 64 * np.finfo(np.float64).eps
-
-#: A difference of this part of the scatter of the draws is in no digit that anybody states.
-OF_SCATTER = 1e-6
-
-#: By so many units in the last place arguments are moved to see what rounding makes of a function
-#: that nearly cancels, and so many times what is seen is allowed.
-MOVED, ALLOWED = 8, 8
 
 #: Zeros of temperature scales, apart, in kelvin: of degC from 0 K, degF from 0 K, and degF from degC.
 ZEROS = (273.15, 459.67 / 1.8, 32 / 1.8)
@@ -113,11 +101,17 @@ def checked(measurement: Measurement, model: _gumption.Model, aliases: Mapping[s
     ModelError
         If the function does not give the same values for the same arguments.
     """
-    variables, formulas = model.draws(DRAWS)
-    draws = _Draws(measurement, model, aliases, variables)
+    # a whole block of draws, so that what hangs on any of them is noticed in the few that are looked at
+    variables, formulas = model.draws(BLOCK)
+    rows = max(1, min(model.rows, DRAWS // 4, len(variables[0])))
+    length = len(variables[0]) // rows
+    # of each row the estimates and the first draws
+    each = range(min(length, DRAWS // rows + 1))
+    places = [row * length + place for row in range(rows) for place in each]
+    draws = _Draws(measurement, model, aliases, variables, places)
     draws.check_that_it_repeats()
     # two sets are enough to notice that something else changed meanwhile
-    held = Held(draws.one, model, [c[:2] for c in variables], [c[:2] for c in draws.truth])
+    held = Held(draws.one, model, [c[:2] for c in draws.variables], [c[:2] for c in draws.truth])
     if measurement.equations is not None:
         difference = draws.difference(formulas, "by the formulas that were traced")
         if difference is None:
@@ -129,16 +123,14 @@ def checked(measurement: Measurement, model: _gumption.Model, aliases: Mapping[s
                 "the type of its arguments"
             )
         return Checked(draws.one, difference, held)
-    columns = BlockFunction(measurement, Way.COLUMNS, aliases)
-    called = columns.of(model)
+    columns = BlockFunction(measurement, Way.COLUMNS, aliases, draws.one.way)
     try:
-        # as long as the engine's, and of another length
-        long = [found[: draws.count] for found in called([np.resize(c, BLOCK) for c in variables])]
-        short = called(variables)
+        found = columns.of(model)(variables)
+    except NotTheSame as error:
+        return Checked(draws.one, str(error), held)
     except Exception as error:  # noqa: BLE001 - whatever a function of somebody else's says
         return Checked(draws.one, f"with columns of draws: {type(error).__name__}: {error}", held)
-    by_columns = "called with columns of draws"
-    difference = draws.difference(long, by_columns) or draws.difference(short, by_columns)
+    difference = draws.difference(found, "called with columns of draws")
     return Checked(columns if difference is None else draws.one, difference, held)
 
 
@@ -154,10 +146,10 @@ def check_rows(
     if not rows.size:
         return
     names = [*model.variables, *(name for name, _ in model.conditions)]
-    variables = [np.broadcast_to(np.asarray(estimates[name]), count)[rows] for name in names]
-    draws = _Draws(measurement, model, {}, variables)
+    variables = [np.broadcast_to(np.asarray(estimates[name]), count) for name in names]
+    draws = _Draws(measurement, model, {}, variables, rows.tolist())
     draws.check_that_it_repeats()
-    difference = draws.difference([column[rows] for column in outputs], "by the formulas that were traced")
+    difference = draws.difference(outputs, "by the formulas that were traced")
     if difference is not None:
         raise _gumption.ModelError(f"`{measurement.title}`: {difference}; budgets in columns need formulas")
 
@@ -170,10 +162,11 @@ class _Draws:
         measurement: Measurement,
         model: _gumption.Model,
         aliases: Mapping[str, str],
-        variables: list[Column],
+        variables: Sequence[Column],
+        places: Sequence[int],
     ) -> None:
-        self.measurement, self.model, self.variables = measurement, model, variables
-        self.count = len(variables[0])
+        self.measurement, self.model, self.places = measurement, model, list(places)
+        self.variables = variables = [column[self.places] for column in variables]
         self.one = BlockFunction(measurement, Way.NUMBERS, aliases)
         try:
             self.truth = self.one.of(model)(variables)
@@ -186,25 +179,24 @@ class _Draws:
                 raise error from None
 
     def check_that_it_repeats(self) -> None:
-        places = list(range(self.count - 1, -1, -TWICE))
+        places = list(range(len(self.places) - 1, -1, -TWICE))
         at = ([column[places] for column in self.variables], [column[places] for column in self.truth])
         _compare_twice(self.measurement, self.model, at, self.one.of(self.model)(at[0]))
 
     def difference(self, found: Sequence[Column], how: str) -> str | None:
         """Where some outputs are not those of the function, in words."""
-        for (name, unit), values, truth in zip(self.model.outputs, found, self.truth):
-            values, known = np.asarray(values), np.isfinite(truth)
-            scatter = float(np.std(truth[known])) if known.any() else 0.0
-            allowed = ROUNDING * np.maximum(abs(values), abs(truth)) + OF_SCATTER * scatter
-            wrong = _differ(values, truth, allowed)
-            if wrong.any():
-                wrong = _differ(values, truth, allowed + ALLOWED * self._noise(name))
+        for number, (name, unit) in enumerate(self.model.outputs):
+            values, truth = np.asarray(found[number]), self.truth[number]
+            values, scatter = values[self.places], scatter_of(truth)
+            moved = functools.partial(self._moved, number)
+            wrong = apart(values, truth, scatter, moved)
+            known = np.isfinite(truth)
             if wrong.any() and known.any() and _gumption.units_fit(unit, "K"):
                 # the engine converts between temperature scales
                 shift = np.median(values[known] - truth[known])
                 factor = _gumption.unit_scale(unit)[0]
                 if np.isclose(abs(shift) * factor, ZEROS, rtol=1e-9).any():
-                    wrong = _differ(values - shift, truth, allowed + ROUNDING * abs(shift))
+                    wrong = apart(values - shift, truth, scatter, moved)
             if wrong.any():
                 place = int(np.argmax(wrong))
                 return (
@@ -213,25 +205,11 @@ class _Draws:
                 )
         return None
 
-    def _noise(self, name: str) -> Column:
-        """How far an output moves where every argument moves in its last places."""
-        output = [own for own, _ in self.model.outputs].index(name)
-        noise = np.zeros(self.count)
-        eps = MOVED * np.finfo(np.float64).eps
-        for signs in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
-            moved = [c * (1 + signs[i % 2] * eps) for i, c in enumerate(self.variables)]
-            change = abs(self.one.of(self.model)(moved)[output] - self.truth[output])
-            noise = np.fmax(noise, change)
-        return noise
 
-
-def _differ(values: Column, truth: Column, allowed: Column) -> Marks:
-    """Where two columns differ by more than is allowed; what both do not define does not."""
-    defined = np.isfinite(values), np.isfinite(truth)
-    with np.errstate(invalid="ignore"):
-        apart = ~(abs(values - truth) <= allowed)
-    found: Marks = (defined[0] != defined[1]) | (defined[0] & defined[1] & apart)
-    return found
+    def _moved(self, output: int, by: Callable[[int], float]) -> Column:
+        """An output where the arguments are multiplied by something."""
+        moved = [column * by(i) for i, column in enumerate(self.variables)]
+        return self.one.of(self.model)(moved)[output]
 
 
 def _with_unit(value: float, unit: str, digits: int = 10) -> str:
@@ -258,8 +236,7 @@ def _compare_twice(
     variables, outputs = first
     for (name, unit), before, now in zip(model.outputs, outputs, again):
         # the same operations: as many roundings as a parallel sum may do in another order
-        allowed = 4 * np.finfo(np.float64).eps * np.maximum(abs(before), abs(now))
-        wrong = _differ(before, now, allowed)
+        wrong = differ(before, now, 4 * EPS * np.maximum(abs(before), abs(now)))
         if wrong.any():
             place = int(np.argmax(wrong))
             raise _gumption.ModelError(
