@@ -43,9 +43,9 @@ except ImportError:
 Function = Callable[[Any, Any], Any]
 
 KNOWN = {"a": gu.normal(0.7, 0.05), "b": gu.rectangular(1.3, 0.2)}
-TRIALS = 2000
+TRIALS = 1000
 #: How many trials of each are compared.
-COMPARED = 200
+COMPARED = 100
 
 TABLE_X, TABLE_Y = np.linspace(0, 3, 13), np.linspace(0, 3, 13) ** 2 / 3
 FACTOR = 1.5

@@ -381,12 +381,19 @@ class TestChecked:
         # it was traced, and never called again
         assert len(calls) == 1
 
-    def test_temperatures(self) -> None:
-        """The engine converts between the zeros of scales, which is no difference."""
-        f = gu.model(inputs={"t": "degC"}, outputs={"T": "K"})(lambda t: t)
+    def test_scales_with_zeros_of_their_own(self) -> None:
+        """20 degC is 68 degF, and 20 dBm is -10 dBW: the engine converts, which is no difference."""
+        units = {"inputs": {"t": "degC", "p": "dBm"}, "outputs": {"T": "degF", "q": "dBW"}}
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            assert f(t=(20, 0.1)).run(trials=0)["T"].gum.estimate == 293.15
+            f = gu.model(**units)(lambda t, p: (t, p))
+            result = f(t=(20, 0.1), p=(20, 0.1)).run(trials=0)
+        assert math.isclose(result["T"].gum.estimate, 68)
+        assert result["q"].gum.estimate == -10
+        # where Python computes nobody knows what is to be converted
+        by_python = gu.model(**units, trace=False)(lambda t, p: (t, p))
+        with pytest.raises(gu.ModelError, match="levels in dBm and `q` in dBW"):
+            by_python(t=(20, 0.1), p=(20, 0.1))
 
     def test_what_nearly_cancels_is_no_difference(self) -> None:
         """(1 - cos x)/x^2 of x = 1e-6: rounding alone is of the order of 1e-4."""

@@ -293,7 +293,7 @@ class TestOneQuantity:
 
     def test_in_a_dictionary_and_in_place_of_others(self) -> None:
         x = gu.normal(1.0, 0.3, "V")
-        p, q = linear(2)(x).run(trials=0)["y"], linear(3)(x).run(trials=0)["y"]
+        p, q = linear(2)(x).run(trials=1000)["y"], linear(3)(x).run(trials=1000)["y"]
         file = {"equations": {"z": "3*p - 2*q"}, "outputs": {"z": {"unit": "V"}}}
         self.zero(gu.from_dict({"inputs": {"p": p, "q": q}, **file}))
         self.zero(combined(p=(1.0, 0.1), q=(1.0, 0.1)).with_inputs(p=p, q=q))

@@ -5,6 +5,7 @@ evaluated again one draw at a time.
 from __future__ import annotations
 
 import functools
+import json
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -25,9 +26,6 @@ TWICE = 4
 
 #: Draws that the engine hands to a function at a time.
 BLOCK = 1024
-
-#: Zeros of temperature scales, apart, in kelvin: of degC from 0 K, degF from 0 K, and degF from degC.
-ZEROS = (273.15, 459.67 / 1.8, 32 / 1.8)
 
 
 class Held:
@@ -116,13 +114,9 @@ def checked(measurement: Measurement, model: _gumption.Model, aliases: Mapping[s
         difference = draws.difference(formulas, "by the formulas that were traced")
         if difference is None:
             return Checked(None, None, held)
-        if any(_gumption.unit_within(unit)[1] for _, unit in [*model.inputs, *model.outputs]):
-            raise _gumption.ModelError(
-                f"`{measurement.title}`: {difference}. With temperatures or levels that count from a zero "
-                "of their own it cannot be evaluated by Python instead; let it do without what depends on "
-                "the type of its arguments"
-            )
+        draws.check_that_units_are_converted()
         return Checked(draws.one, difference, held)
+    draws.check_that_units_are_converted()
     columns = BlockFunction(measurement, Way.COLUMNS, aliases, draws.one.way)
     try:
         found = columns.of(model)(variables)
@@ -187,16 +181,11 @@ class _Draws:
         """Where some outputs are not those of the function, in words."""
         for number, (name, unit) in enumerate(self.model.outputs):
             values, truth = np.asarray(found[number]), self.truth[number]
-            values, scatter = values[self.places], scatter_of(truth)
-            moved = functools.partial(self._moved, number)
-            wrong = apart(values, truth, scatter, moved)
-            known = np.isfinite(truth)
-            if wrong.any() and known.any() and _gumption.units_fit(unit, "K"):
-                # the engine converts between temperature scales
-                shift = np.median(values[known] - truth[known])
-                factor = _gumption.unit_scale(unit)[0]
-                if np.isclose(abs(shift) * factor, ZEROS, rtol=1e-9).any():
-                    wrong = apart(values - shift, truth, scatter, moved)
+            values, moved = values[self.places], functools.partial(self._moved, number)
+            for shift in (0.0, *self._shifts(unit).values()):
+                wrong = apart(values - shift, truth, scatter_of(truth), moved)
+                if not wrong.any():
+                    break
             if wrong.any():
                 place = int(np.argmax(wrong))
                 return (
@@ -205,6 +194,31 @@ class _Draws:
                 )
         return None
 
+
+    def _shifts(self, output: str) -> dict[str, float]:
+        """By what the engine shifts levels between the zeros of their units and that of an output."""
+        found: dict[str, float] = {}
+        for _, unit in self.model.inputs if _gumption.unit_within(output)[1] else []:
+            if unit == output or not _gumption.unit_within(unit)[1]:
+                continue
+            x, y = {"unit": unit, "distribution": "constant", "value": 0}, {"unit": output}
+            file = {"format": 1, "inputs": {"x": x}, "equations": {"y": "x"}, "outputs": {"y": y}}
+            try:
+                converted = _gumption.Model("shift", json.dumps(file)).draws(0)[1][0][0]
+            except _gumption.ModelError:
+                continue
+            (_, own), (factor, offset) = _gumption.unit_scale(unit), _gumption.unit_scale(output)
+            found[unit] = converted - (own - offset) / factor
+        return {unit: shift for unit, shift in found.items() if abs(shift) > 1e-9}
+
+    def check_that_units_are_converted(self) -> None:
+        """Refuses levels of different references where no formula tells which is converted."""
+        for name, unit in self.model.outputs:
+            for other in self._shifts(unit):
+                raise _gumption.ModelError(
+                    f"`{self.measurement.title}` is evaluated by Python, which does not convert between "
+                    f"levels in {other} and `{name}` in {unit}; declare them in one unit"
+                )
 
     def _moved(self, output: int, by: Callable[[int], float]) -> Column:
         """An output where the arguments are multiplied by something."""
