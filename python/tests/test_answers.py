@@ -290,6 +290,18 @@ class TestBudgets:
         with pytest.raises(gu.ModelError, match="no input or condition `c`"):
             gu.budgets(self.product(), a=1.0, b=2.0, c=3.0)
 
+    def test_the_index_of_a_frame_is_kept(self) -> None:
+        """U stands on its own row after a join, whatever the order of the frame."""
+        pandas = pytest.importorskip("pandas")
+        frame = pandas.DataFrame({"a": [3.0, 1.0, 2.0, 5.0], "u": [0.3, 0.1, 0.2, 0.5]}, index=list("wxyz"))
+        frame = frame[frame["a"] < 4].sort_values("a")
+        table = gu.budgets(self.product(), a=(frame["a"], frame["u"]), b=2.0).to_pandas()
+        assert list(table.index) == ["x", "y", "w"]
+        joined = frame.join(table)
+        assert np.allclose(joined["standard_uncertainty"], 2 * joined["u"], rtol=1e-12)
+        with pytest.raises(gu.ModelError, match="by their label"):
+            gu.budgets(self.product(), a=(frame["a"], 0.1), b=frame["a"].sort_index(ascending=False))
+
 
 def test_published_examples_are_where_they_were() -> None:
     assert (ROOT / "tests" / "cases").is_dir()

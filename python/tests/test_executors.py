@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import multiprocessing
 import os
 import pickle
 import random
@@ -11,6 +12,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 from collections.abc import Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
@@ -109,6 +111,22 @@ def test_a_function_that_is_not_traced(pool: ProcessPoolExecutor) -> None:
     assert model.run(trials=50_000, executor=pool).to_json() == model.run(trials=50_000).to_json()
     with pytest.raises(gu.ModelError, match="resume"):
         model.run(trials=50_000, executor=pool, resume="nowhere")
+
+
+@pytest.mark.parametrize("method", multiprocessing.get_all_start_methods())
+def test_pools_of_every_kind(method: str) -> None:
+    """Also of children that were forked after this process had threads of its own, with formulas and
+    with a function."""
+    context = multiprocessing.get_context(method)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gu.NotTracedWarning)
+        function = untraced(x=(1.0, 0.1))
+    for model in (gu.load(PLANE), function):
+        # both of the engine's pools have threads here: those of a number, and those of the machine
+        here = model.run(trials=100_000, threads=1)
+        assert model.run(trials=100_000).to_json() == here.to_json()
+        with ProcessPoolExecutor(2, mp_context=context) as executor:
+            assert model.run(trials=100_000, executor=executor).to_json() == here.to_json()
 
 
 class Shuffled(Executor):

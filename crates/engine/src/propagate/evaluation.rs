@@ -26,6 +26,7 @@ use crate::distribution::{BLOCK, Correlation, CorrelationError, Distribution, In
 use crate::model::{COMPUTED_DIGITS, Capability, Output, Program};
 use crate::number::{COLUMN, Column, Shortest};
 use crate::task::{Coverage, MethodChoice, Row, Settings, Task, TaskError, Trials};
+use crate::threads::OwnPool;
 
 /// The evaluation of a whole task.
 #[derive(Clone, Debug)]
@@ -387,15 +388,10 @@ pub fn in_pool<R: Send>(
 /// the one that starts them and may wait there for milliseconds, as long as a run of a million trials
 /// takes.
 fn pool_of(threads: usize) -> Result<Arc<ThreadPool>, EvaluationError> {
-    static LAST: Mutex<Option<Arc<ThreadPool>>> = Mutex::new(None);
-    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(pool) = last.as_ref().filter(|pool| pool.current_num_threads() == threads) {
-        return Ok(Arc::clone(pool));
-    }
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = Arc::new(pool.map_err(|error| EvaluationError::Threads(error.to_string()))?);
-    *last = Some(Arc::clone(&pool));
-    Ok(pool)
+    static LAST: OwnPool = OwnPool::new();
+    let builder = || ThreadPoolBuilder::new().num_threads(threads);
+    let pool = LAST.of(builder, |pool| pool.current_num_threads() == threads);
+    pool.map_err(|error| EvaluationError::Threads(error.to_string()))
 }
 
 /// Among how many rows at most the memory for kept values is divided.
