@@ -25,6 +25,7 @@ mod regions;
 mod replay;
 mod rounding;
 mod second_order;
+mod shortest;
 mod statement;
 pub mod validate;
 mod warnings;

@@ -162,39 +162,58 @@ fn of_noiseless(name: &str, evaluated: &OutputEvaluation, found: &mut Vec<Warnin
         return;
     };
     let errors = &trials.errors;
-    let [low, high] = trials.symmetric_interval;
-    let [low_error, high_error] = errors.symmetric_interval;
-    let [exact_low, exact_high] = noiseless.symmetric_interval;
     let own = noiseless.scatter();
-    let [own_low, own_high] = own.map_or([0.0; 2], |own| own.symmetric_interval);
-    let figures = [
-        (
+    let of = |figure: &str, trials, exact, error, own| (figure.to_owned(), trials, exact, error, own);
+    let mut figures = vec![
+        of(
             "estimate",
-            trials.estimate.zip(noiseless.estimate),
+            trials.estimate,
+            noiseless.estimate,
             errors.estimate,
             own.and_then(|own| own.estimate),
         ),
-        (
+        of(
             "standard uncertainty",
-            trials.standard_uncertainty.zip(noiseless.standard_uncertainty),
+            trials.standard_uncertainty,
+            noiseless.standard_uncertainty,
             errors.standard_uncertainty,
             own.and_then(|own| own.standard_uncertainty),
         ),
-        (
-            "lower end of the symmetric interval",
-            Some((low, exact_low)),
-            Some(low_error),
-            Some(own_low),
+        of(
+            "median",
+            Some(trials.median),
+            Some(noiseless.median),
+            Some(errors.median),
+            own.map(|own| own.median),
         ),
-        (
-            "upper end of the symmetric interval",
-            Some((high, exact_high)),
-            Some(high_error),
-            Some(own_high),
+        of(
+            "probability within the tolerance",
+            Some(trials.inside),
+            noiseless.inside,
+            noiseless.inside.map(|inside| (inside * (1.0 - inside) / trials.trials as f64).sqrt()),
+            own.and_then(|own| own.inside),
         ),
     ];
-    let far = figures.into_iter().filter_map(|(figure, values, error, own)| {
-        let (trials, exact) = values?;
+    let both_unique = trials.shortest_unique && noiseless.shortest_unique;
+    for (place, end) in ["lower", "upper"].into_iter().enumerate() {
+        figures.push(of(
+            &format!("{end} end of the symmetric interval"),
+            Some(trials.symmetric_interval[place]),
+            Some(noiseless.symmetric_interval[place]),
+            Some(errors.symmetric_interval[place]),
+            own.map(|own| own.symmetric_interval[place]),
+        ));
+        let shortest = noiseless.shortest_interval.filter(|_| both_unique);
+        figures.push(of(
+            &format!("{end} end of the shortest interval"),
+            Some(trials.shortest_interval[place]),
+            shortest.map(|ends| ends[place]),
+            Some(errors.shortest_interval[place]),
+            own.and_then(|own| Some(own.shortest_interval?[place])),
+        ));
+    }
+    let far = figures.into_iter().filter_map(|(figure, trials, exact, error, own)| {
+        let (trials, exact) = trials.zip(exact)?;
         let error = crate::number::elementary::hypot(error?, own.unwrap_or(0.0));
         let count = (trials - exact).abs() / error;
         (error > 0.0 && count > BEYOND).then(|| format!("its {figure} by {count:.1}"))
@@ -617,5 +636,51 @@ fn of_results(
             gum.standard_uncertainty
         );
         push(found, Warning::new("copula-effect", name, text));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::distribution::{Gamma, Normal};
+    use crate::model::Tolerance;
+    use crate::propagate::exact::test_task;
+    use crate::task::MethodChoice;
+
+    /// Each figure of the trials that is moved by ten of its numerical standard errors is named, and none
+    /// else; with its own seed none is.
+    #[test]
+    fn every_figure_is_compared_with_that_without_noise() {
+        let inputs =
+            vec![Gamma::new(3.0, 1.0).unwrap().into(), Normal::new(0.0, 1.0).unwrap().into()];
+        let mut task = test_task(inputs, "x0 + x1", 0.95);
+        task.settings.trials = 20_000.into();
+        task.settings.method = Some(MethodChoice::Exact);
+        task.model.outputs[0].tolerance = Some(Tolerance { lower: Some(0.0), upper: Some(6.0) });
+        let run = crate::propagate::evaluate(&task, &Default::default()).unwrap();
+        let output = run.rows[0].outputs[0].clone();
+        let said = |output: &OutputEvaluation| {
+            let mut found = Vec::new();
+            of_noiseless("y", output, &mut found);
+            found.first().map(|warning| warning.text.clone())
+        };
+        assert_eq!(said(&output), None);
+        let moved: [(&str, fn(&mut crate::propagate::monte_carlo::MonteCarlo)); 8] = [
+            ("its estimate by", |of| *of.estimate.as_mut().unwrap() += 0.2),
+            ("its standard uncertainty by", |of| *of.standard_uncertainty.as_mut().unwrap() += 0.2),
+            ("its median by", |of| of.median += 0.2),
+            ("its lower end of the symmetric", |of| of.symmetric_interval[0] += 0.5),
+            ("its upper end of the symmetric", |of| of.symmetric_interval[1] += 0.9),
+            ("its lower end of the shortest", |of| of.shortest_interval[0] -= 1.5),
+            ("its upper end of the shortest", |of| of.shortest_interval[1] += 1.5),
+            ("its probability within the tolerance", |of| of.inside -= 0.03),
+        ];
+        for (name, moved) in moved {
+            let mut output = output.clone();
+            moved(output.monte_carlo.as_mut().unwrap());
+            let text = said(&output).unwrap_or_default();
+            let listed = text.rsplit_once("errors: ").map_or("", |(_, listed)| listed);
+            assert!(listed.starts_with(name) && !listed.contains(", "), "{name}: {text}");
+        }
     }
 }

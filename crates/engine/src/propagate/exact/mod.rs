@@ -42,9 +42,11 @@ pub struct Noiseless {
     pub median: f64,
     /// Probabilistically symmetric coverage interval.
     pub symmetric_interval: [f64; 2],
-    /// Shortest coverage interval; `None` where it is not found to as many digits as the rest.
+    /// Shortest coverage interval, never longer than the symmetric one; `None` where its ends are not known
+    /// to a millionth of the standard uncertainty.
     pub shortest_interval: Option<[f64; 2]>,
-    /// Whether there is one shortest interval.
+    /// Whether there is one shortest interval: where the density is flat, or two intervals are as short,
+    /// there is not, and one of them is given.
     pub shortest_unique: bool,
     /// The probability of values within the output's tolerance limits, where it has such.
     pub inside: Option<f64>,
@@ -96,6 +98,10 @@ pub struct Scatter {
 
 /// Bounds beyond this share of the standard uncertainty are not exact.
 const EXACT: f64 = 1e-9;
+
+/// The same of the ends of a shortest interval, which are less certain than its length: that hardly changes
+/// where they move together.
+const OF_SHORTEST: f64 = 1e-6;
 
 /// What an evaluation of one output needs.
 pub(crate) struct Problem<'a> {
@@ -425,10 +431,11 @@ fn figures(problem: &Problem<'_>, law: &Law, moments: Moments) -> Result<Noisele
         bound = bound.max(off);
     }
     let shortest = law.shortest(p, symmetric);
-    let exact = |ends: &[Found; 2]| ends.iter().all(|end| end.bound <= EXACT * scale);
-    let shortest = shortest.filter(|(ends, _)| exact(ends));
-    if let Some((ends, _)) = &shortest {
-        bound = bound.max(ends[0].bound).max(ends[1].bound);
+    let unique = shortest.is_some_and(|(_, unique)| unique);
+    let known = |ends: &[Found; 2]| ends.iter().all(|end| end.bound <= OF_SHORTEST * scale);
+    let shortest = shortest.map(|(ends, _)| ends).filter(known);
+    if let Some([low, high]) = &shortest {
+        bound = bound.max(low.bound).max(high.bound);
     }
     let inside = problem.tolerance().map(|tolerance| {
         let [low, high] = tolerance.ends();
@@ -439,8 +446,8 @@ fn figures(problem: &Problem<'_>, law: &Law, moments: Moments) -> Result<Noisele
         standard_uncertainty: (problem.drawn_dof > 2.0 && std.is_finite()).then_some(std),
         median: median.value,
         symmetric_interval: symmetric.map(|end| end.value),
-        shortest_interval: shortest.map(|(ends, _)| ends.map(|end| end.value)),
-        shortest_unique: shortest.is_some_and(|(_, unique)| unique),
+        shortest_interval: shortest.map(|ends| ends.map(|end| end.value)),
+        shortest_unique: unique,
         inside,
         accuracy: Accuracy::Bound(bound),
     })
