@@ -542,7 +542,6 @@ fn evaluate_row(
     if !result.correlations.is_empty() {
         correlations_by_law(task, (&gums, &figures), &linear, &mut result);
     }
-    let of_law = if task.regions.is_empty() { Vec::new() } else { linear.correlations() };
     if figures.iter().all(Option::is_none) {
         result.correlations = linear.correlations();
     }
@@ -623,7 +622,7 @@ fn evaluate_row(
     }
     if !task.regions.is_empty() {
         let trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);
-        result.regions = regions(task, &result, &of_law, &trials, control)?;
+        result.regions = regions(task, &result, &linear, &trials, control)?;
     }
     Ok(result)
 }
