@@ -538,6 +538,8 @@ fn evaluate_row(
             result.correlation_errors = finished.correlation_errors;
         }
     }
+    let constant = rounding::constant(task, row, &gums, &figures);
+    settle(&constant, &linear.estimates, (&mut figures, &mut result));
     let inherited = inherited(task, row, reaches, (&gums, &mut figures));
     if !result.correlations.is_empty() {
         correlations_by_law(task, (&gums, &figures), &linear, &mut result);
@@ -625,6 +627,33 @@ fn evaluate_row(
         result.regions = regions(task, &result, &linear, &trials, control)?;
     }
     Ok(result)
+}
+
+/// Takes away what rounding shows of outputs that do not vary: their figures are those of their value at
+/// the estimates of the inputs, and they are correlated with none.
+fn settle(
+    constant: &[bool],
+    estimates: &[f64],
+    (figures, result): (&mut [Option<MonteCarlo>], &mut RowEvaluation),
+) {
+    if !constant.contains(&true) {
+        return;
+    }
+    for ((figures, constant), estimate) in figures.iter_mut().zip(constant).zip(estimates) {
+        if let Some(figures) = figures.as_mut().filter(|_| *constant) {
+            figures.settle(*estimate);
+        }
+    }
+    let count = constant.len();
+    let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| (i, j)));
+    for (place, (i, j)) in pairs.enumerate().filter(|(_, (i, j))| constant[*i] || constant[*j]) {
+        if let Some(coefficient) = result.correlations.get_mut(place) {
+            *coefficient = f64::NAN;
+        }
+        if let Some(error) = result.correlation_errors.get_mut(place) {
+            *error = None;
+        }
+    }
 }
 
 /// What each output inherits from saved results of limited trials, which is added to the numerical
