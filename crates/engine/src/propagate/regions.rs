@@ -132,7 +132,14 @@ pub(super) fn regions(
         let validation = gum.as_ref().zip(monte_carlo.as_ref());
         let validation = validation.map(|(gum, found)| compare(gum, found, task.settings.digits));
         let outputs = region.outputs.clone();
-        Ok(RegionEvaluation { outputs, probability, gum, dof: dof.flatten(), monte_carlo, validation })
+        Ok(RegionEvaluation {
+            outputs,
+            probability,
+            gum,
+            dof: dof.flatten(),
+            monte_carlo,
+            validation,
+        })
     };
     task.regions.iter().map(evaluate).collect()
 }
@@ -300,10 +307,9 @@ fn from_trials(
         None => Err("the covariance matrix is singular: the outputs lie on a surface without a \
                      volume"
             .to_owned()),
-        Some(_) if order > smallest::MOST_OUTPUTS => Err(format!(
-            "trials tell the density of {} outputs at most",
-            smallest::MOST_OUTPUTS
-        )),
+        Some(_) if order > smallest::MOST_OUTPUTS => {
+            Err(format!("trials tell the density of {} outputs at most", smallest::MOST_OUTPUTS))
+        }
         Some(root) => smallest::smallest(&places, root, probability),
     };
     let ellipsoid_k = ellipsoid.map(|(k, _)| k);

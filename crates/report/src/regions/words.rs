@@ -4,8 +4,8 @@ use crate::number::{degrees_of_freedom, exact, significant};
 use crate::plain;
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::decimal::to_position;
-use gumption_engine::propagate::gum::Dof;
 use gumption_engine::propagate::RegionEvaluation;
+use gumption_engine::propagate::gum::Dof;
 use gumption_engine::task::Task;
 
 /// The names of the outputs.

@@ -90,8 +90,7 @@ impl GumRow {
                 *fewest = fewest.min(dof);
             }
         }
-        let common: f64 =
-            roots.values().map(|(part, dof)| 2.0 * square(part).powi(2) / dof).sum();
+        let common: f64 = roots.values().map(|(part, dof)| 2.0 * square(part).powi(2) / dof).sum();
         let order = order as f64;
         let dof = (order + order * order) / (single + joint + common);
         if dof.is_finite() { Dof::Finite(dof) } else { Dof::Infinite }

@@ -64,9 +64,8 @@ impl<'m> Density<'m> {
             values[cell] += 1.0;
         }
         let side = (REACH * width * inverse).ceil() as usize;
-        let kernel: Vec<f32> = (0..=side)
-            .map(|k| exp(-0.5 * (k as f64 / (width * inverse)).powi(2)) as f32)
-            .collect();
+        let kernel: Vec<f32> =
+            (0..=side).map(|k| exp(-0.5 * (k as f64 / (width * inverse)).powi(2)) as f32).collect();
         let mut smooth = vec![0.0; values.len()];
         let mut stride = 1;
         for _ in 0..mesh.order {
