@@ -646,7 +646,8 @@ fn settle(
     }
     let count = constant.len();
     let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| (i, j)));
-    for (place, (i, j)) in pairs.enumerate().filter(|(_, (i, j))| constant[*i] || constant[*j]) {
+    let of_constant = pairs.map(|(i, j)| constant[i] || constant[j]).enumerate();
+    for (place, _) in of_constant.filter(|(_, of_constant)| *of_constant) {
         if let Some(coefficient) = result.correlations.get_mut(place) {
             *coefficient = f64::NAN;
         }

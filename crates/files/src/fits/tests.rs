@@ -281,8 +281,8 @@ fn polar_coordinates_of_the_supplement() {
 /// JCGM 102, 9.4, resistance and reactance of the means of JCGM 100, H.2: R = 127.732(71) ohm,
 /// X = 219.847(295) ohm, Z = 254.260(236) ohm with r(R, X) = -0.588, r(R, Z) = -0.485 and
 /// r(X, Z) = 0.993. The covariance matrix of all three is singular (Z^2 = R^2 + X^2), so that only the
-/// two of them have an ellipse, of the area pi k_p^2 sqrt(det U) = 0.3197 ohm^2, which the mesh of the
-/// trials' smallest region meets to a few parts in a hundred.
+/// two of them have an ellipse, of the area pi k_p^2 sqrt(det U) = 0.3197 ohm^2, which the volume of
+/// the trials' smallest region meets to a few parts in a hundred.
 #[test]
 fn resistance_and_reactance_of_the_supplement() {
     let evaluation = run(r#"{"inputs": {
