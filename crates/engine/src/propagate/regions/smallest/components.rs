@@ -61,7 +61,7 @@ fn improved(rotation: &DMatrix<f64>, trials: &[Place]) -> Option<DMatrix<f64>> {
     let eigen = Eigen::of(&squares);
     let least = eigen.values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = eigen.values.iter().copied().fold(0.0, f64::max);
-    if !(least > 1e-12 * most) {
+    if least <= 1e-12 * most || least.is_nan() {
         return None;
     }
     let root = DMatrix::from_fn(order, order, |i, j| {

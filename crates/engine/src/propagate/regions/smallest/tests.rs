@@ -27,29 +27,39 @@ fn normals(count: usize) -> Vec<Vec<f64>> {
 
 /// The smallest region of 95 % of these columns.
 fn region(columns: &[Vec<f64>]) -> Result<SmallestRegion, String> {
-    let order = columns.len();
-    let count = columns[0].len() as f64;
-    let means: Vec<f64> = columns.iter().map(|of| of.iter().sum::<f64>() / count).collect();
-    let mut root = Vec::new();
-    for i in 0..order {
-        for j in 0..=i {
-            let products = columns[i].iter().zip(&columns[j]);
-            let sum: f64 = products.map(|(a, b)| (a - means[i]) * (b - means[j])).sum();
-            root.push(sum / count);
-        }
+    let deviations = |of: &Vec<f64>| -> Vec<f64> {
+        let mean = of.iter().sum::<f64>() / of.len() as f64;
+        of.iter().map(|x| x - mean).collect()
+    };
+    let deviations: Vec<Vec<f64>> = columns.iter().map(deviations).collect();
+    let covariance =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / a.len() as f64;
+    let mut root: Vec<f64> = Vec::new();
+    for (i, a) in deviations.iter().enumerate() {
+        root.extend(deviations[..=i].iter().map(|b| covariance(a, b)));
     }
     packed::cholesky(&mut root, 0.0).unwrap();
-    let places: Vec<Place> = (0..columns[0].len())
-        .map(|trial| {
-            let mut place = Place::default();
-            for i in 0..order {
-                place[i] = columns[i][trial] - means[i];
-            }
-            packed::solve(&root, &mut place[..order]);
-            place
-        })
-        .collect();
+    let place = |trial: usize| {
+        let mut place = Place::default();
+        for (at, of) in place.iter_mut().zip(&deviations) {
+            *at = of[trial];
+        }
+        packed::solve(&root, &mut place[..columns.len()]);
+        place
+    };
+    let places: Vec<Place> = (0..columns[0].len()).map(place).collect();
     smallest(&places, &root, 0.95)
+}
+
+/// The first column, and from each further one and what was made before it the next.
+fn chained(columns: &[Vec<f64>], next: impl Fn(f64, f64) -> f64) -> Vec<Vec<f64>> {
+    let mut made = vec![columns[0].clone()];
+    for own in &columns[1..] {
+        let pairs = own.iter().zip(&made[made.len() - 1]);
+        let column = pairs.map(|(own, before)| next(*own, *before)).collect();
+        made.push(column);
+    }
+    made
 }
 
 /// Within four of its stated errors of the volume (the trials' share of the error is normal: once in
@@ -77,13 +87,8 @@ fn normal_outputs() {
         let z = normals(order);
         let r = (2.0 * special::gamma::quantile(0.95, 0.5 * order as f64)).sqrt();
         check("normal", &z, ball(order, r), 0.02);
-        let (mut sums, mut bent) = (z.clone(), z.clone());
-        for trial in 0..TRIALS {
-            for i in 1..order {
-                sums[i][trial] = 0.5 * z[i][trial] - 2.0 * sums[i - 1][trial];
-                bent[i][trial] = z[i][trial] + 0.4 * bent[i - 1][trial] * z[0][trial];
-            }
-        }
+        let sums = chained(&z, |own, before| 0.5 * own - 2.0 * before);
+        let bent = chained(&z, |own, before| own + 0.2 * before * before);
         let determinant = 0.5_f64.powi(order as i32 - 1);
         check("correlated", &sums, determinant * ball(order, r), 0.02);
         check("bent", &bent, ball(order, r), 0.1);
@@ -109,7 +114,7 @@ fn multivariate_t() {
 /// Skew outputs: exponential ones, whose region is the simplex x + y + ... <= q with the quantile of a
 /// gamma distribution and the volume q^m/m!, and sums of those, of the same volume; lognormal ones of
 /// sigma 0.5, whose region is a ball of the logarithms (noncentral chi-squared quantile and quadrature
-/// in scipy 1.16), and gamma ones.
+/// in scipy 1.16).
 #[test]
 fn skew_outputs() {
     for (order, exponential, lognormal) in [
@@ -123,12 +128,7 @@ fn skew_outputs() {
         };
         let x = made(|u| -crate::number::elementary::ln(u));
         check("exponential", &x, exponential, 0.04);
-        let mut sums = x.clone();
-        for trial in 0..TRIALS {
-            for i in 1..order {
-                sums[i][trial] += sums[i - 1][trial];
-            }
-        }
+        let sums = chained(&x, |own, before| own + before);
         check("sums of exponentials", &sums, exponential, 0.04);
         let x = made(|u| exp(0.5 * special::normal::quantile(u)));
         check("lognormal", &x, lognormal, 0.02);
@@ -141,12 +141,7 @@ fn uniform_densities() {
     for order in 2..=4 {
         let u = uniform(order);
         check("box", &u, 0.95, 0.02);
-        let mut skew = u.clone();
-        for trial in 0..TRIALS {
-            for i in 1..order {
-                skew[i][trial] -= skew[i - 1][trial];
-            }
-        }
+        let skew = chained(&u, |own, before| own - before);
         check("skew box", &skew, 0.95, 0.03);
     }
 }
