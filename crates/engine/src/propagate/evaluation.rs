@@ -534,11 +534,12 @@ fn evaluate_row(
             result.correlation_errors = finished.correlation_errors;
         }
     }
+    let constant = rounding::constant(task, row, &gums, &figures);
+    settle(&constant, &linear.estimates, (&mut figures, &mut result));
     let inherited = inherited(task, row, reaches, (&gums, &mut figures));
     if !result.correlations.is_empty() {
         correlations_by_law(task, (&gums, &figures), &linear, &mut result);
     }
-    let of_law = if task.regions.is_empty() { Vec::new() } else { linear.correlations() };
     if figures.iter().all(Option::is_none) {
         result.correlations = linear.correlations();
     }
@@ -619,9 +620,37 @@ fn evaluate_row(
     }
     if !task.regions.is_empty() {
         let trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);
-        result.regions = regions(task, &result, &of_law, &trials, control)?;
+        result.regions = regions(task, &result, &linear, &trials, control)?;
     }
     Ok(result)
+}
+
+/// Takes away what rounding shows of outputs that do not vary: their figures are those of their value at
+/// the estimates of the inputs, and they are correlated with none.
+fn settle(
+    constant: &[bool],
+    estimates: &[f64],
+    (figures, result): (&mut [Option<MonteCarlo>], &mut RowEvaluation),
+) {
+    if !constant.contains(&true) {
+        return;
+    }
+    for ((figures, constant), estimate) in figures.iter_mut().zip(constant).zip(estimates) {
+        if let Some(figures) = figures.as_mut().filter(|_| *constant) {
+            figures.settle(*estimate);
+        }
+    }
+    let count = constant.len();
+    let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| (i, j)));
+    let of_constant = pairs.map(|(i, j)| constant[i] || constant[j]).enumerate();
+    for (place, _) in of_constant.filter(|(_, of_constant)| *of_constant) {
+        if let Some(coefficient) = result.correlations.get_mut(place) {
+            *coefficient = f64::NAN;
+        }
+        if let Some(error) = result.correlation_errors.get_mut(place) {
+            *error = None;
+        }
+    }
 }
 
 /// What each output inherits from saved results of limited trials, which is added to the numerical

@@ -203,6 +203,25 @@ impl MonteCarlo {
         }
     }
 
+    /// The figures of an output whose trials are all this value but for rounding.
+    pub(in crate::propagate) fn settle(&mut self, value: f64) {
+        let errors = NumericalError {
+            estimate: self.errors.estimate.map(|_| 0.0),
+            standard_uncertainty: self.errors.standard_uncertainty.map(|_| 0.0),
+            median: 0.0,
+            symmetric_interval: [0.0; 2],
+            shortest_interval: [0.0; 2],
+            skewness: None,
+            excess_kurtosis: None,
+        };
+        self.estimate = self.estimate.map(|_| value);
+        self.standard_uncertainty = self.standard_uncertainty.map(|_| 0.0);
+        self.median = value;
+        (self.symmetric_interval, self.shortest_interval) = ([value; 2], [value; 2]);
+        (self.shortest_exact, self.shortest_unique, self.heavy_tailed) = (true, true, false);
+        (self.skewness, self.excess_kurtosis, self.errors) = (None, None, errors);
+    }
+
     /// The standard deviation of the trials where it is a standard uncertainty: not where there is none,
     /// nor where a few of the trials carry it.
     pub fn spread(&self) -> Option<f64> {

@@ -17,6 +17,8 @@ mod tests;
 
 use crate::parallel;
 
+pub(super) use self::net::Coordinate;
+
 use self::cdf::Cdf;
 use self::pieces::Parts;
 use self::points::Inputs;
