@@ -253,13 +253,10 @@ impl ResultStatement {
             let stated = figures.stated_interval();
             let [low, high] =
                 [0, 1].map(|end| justified(stated.ends[end], ends, stated.errors[end]));
-            let estimate = match figures.estimate {
-                Some(estimate) => {
-                    let digits = u.and_then(|u| position(u, settings.digits));
-                    justified(estimate, digits, figures.errors.estimate.unwrap_or(f64::NAN))
-                }
-                None => justified(figures.median, ends, figures.errors.median),
-            };
+            let (located, error) = found.located().unwrap_or((figures.median, f64::NAN));
+            // without a standard deviation the interval tells how many digits there are
+            let place = figures.standard_uncertainty.and_then(|u| position(u, settings.digits));
+            let estimate = justified(located, place.or(ends), error);
             return Self::Interval { estimate, low, high, shortest: stated.shortest };
         }
         match gum {

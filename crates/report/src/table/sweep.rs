@@ -89,9 +89,11 @@ pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> 
         ),
         _ => limits(first),
     };
+    let decided_apart =
+        explained(rows.iter().filter_map(|row| row.outputs.get(output)), task.settings.digits);
     Some(format!(
         "Tolerance {}, {}: {} of {} rows accepted{}. Probabilities, guard bands and risks of every row: \
-         --format json.",
+         --format json.{}",
         limits,
         rule(first, task.settings.coverage),
         found.len() - rejected.len(),
@@ -100,8 +102,21 @@ pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> 
             String::new()
         } else {
             format!(", rejected: {plural} {}", row_numbers(&rejected))
-        }
+        },
+        decided_apart.map_or_else(String::new, |said| format!(" {said}"))
     ))
+}
+
+/// What the estimate that decides is, where a column shows it because it is not that of the GUM.
+pub(crate) fn explained<'a>(
+    outputs: impl Iterator<Item = &'a OutputEvaluation>,
+    digits: u32,
+) -> Option<&'static str> {
+    let mut lines = outputs.map(|output| line(Some(output), digits));
+    lines.any(|line| line.is_decided_apart).then_some(
+        "The estimate that decides is the value that is stated: where clause 8 of JCGM 101 refutes the \
+         GUM, the expectation of the output's distribution, if the distribution has a variance.",
+    )
 }
 
 /// Inputs with a column of their own, at most.
