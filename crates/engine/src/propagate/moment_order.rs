@@ -7,8 +7,9 @@
 //! thousand million, which one run of a thousand with the usual million of trials has, would change the
 //! figure on its own; and where a pole lies as near as that.
 //!
-//! The formula is followed along straight ways through the space of its inputs: each input alone, inputs
-//! that are correlated together, and all of them together along the gradient. The draws have no say in it.
+//! The formula is followed along ways through the space of its inputs: each input alone, inputs that are
+//! correlated together, and all of them along the gradient in the space of their normal scores, where
+//! several that are far out at once are as rare as one that is farther. The draws have no say in it.
 
 use std::sync::Arc;
 
@@ -17,6 +18,7 @@ use super::gum::GumRow;
 use crate::distribution::{Distribution, connected};
 use crate::model::{Node, Program};
 use crate::number::{Binary, Unary, elementary};
+use crate::special::normal;
 use crate::task::{Row, Task};
 
 /// Probabilities of the tails along a way, from the farthest to next to the median.
@@ -97,23 +99,27 @@ fn of_inputs(reach: &[bool], row: &Row) -> f64 {
 /// The points of a way.
 const POINTS: usize = 2 * MEDIAN + 1;
 
-/// The inputs of a row along their own ways.
-struct Space {
+/// Inputs that move along a way, and how far each is from its median at the points.
+type Moves = Vec<(usize, [f64; POINTS])>;
+
+/// What a row's inputs are along ways.
+struct Space<'a> {
+    distributions: &'a [Arc<Distribution>],
     /// Their medians, and the conditions behind them.
     medians: Vec<f64>,
-    /// How far each input is from its median at the points; `None` of one that cannot be followed.
-    departures: Vec<Option<[f64; POINTS]>>,
+    /// How far each input alone is from its median at the points; `None` of one that cannot be followed.
+    alone: Vec<Option<[f64; POINTS]>>,
 }
 
-impl Space {
-    fn of(row: &Row) -> Self {
+impl<'a> Space<'a> {
+    fn of(row: &'a Row) -> Self {
         let median = |of: &Distribution| match of.constant() {
             Some(value) => value,
             None if of.has_quantiles() => of.quantile(0.5),
             None => of.mean(),
         };
         let mut medians: Vec<f64> = row.distributions.iter().map(|of| median(of)).collect();
-        let departures = |(of, median): (&Arc<Distribution>, &f64)| {
+        let alone = |(of, median): (&Arc<Distribution>, &f64)| {
             let at = |point: usize| match point {
                 MEDIAN => *median,
                 lower if lower < MEDIAN => of.quantile(TAILS[lower]),
@@ -122,43 +128,62 @@ impl Space {
             let varies = of.constant().is_none() && of.has_quantiles();
             varies.then(|| std::array::from_fn(|point| at(point) - median))
         };
-        let departures = row.distributions.iter().zip(&medians).map(departures).collect();
+        let alone = row.distributions.iter().zip(&medians).map(alone).collect();
         medians.extend(&row.conditions);
-        Self { medians, departures }
+        Self { distributions: &row.distributions, medians, alone }
     }
 
     /// The inputs that can be followed.
     fn varying(&self) -> impl Iterator<Item = usize> {
-        (0..self.departures.len()).filter(|input| self.departures[*input].is_some())
+        (0..self.alone.len()).filter(|input| self.alone[*input].is_some())
     }
 
-    /// How far an input is from its median at a point of a way on which it goes this share of its own way,
-    /// the other way round where the share is negative.
-    fn departure(&self, (input, share): (usize, f64), point: usize) -> f64 {
-        let own = if share < 0.0 { 2 * MEDIAN - point } else { point };
-        self.departures[input].map_or(0.0, |of| share.abs() * of[own])
+    /// Inputs that are far out together, as those of a multivariate t are: each goes its correlation with
+    /// what they contribute of its own way, the other way round where that is negative.
+    fn together(&self, correlations: &[(usize, f64)]) -> Moves {
+        let of_input = |&(input, r): &(usize, f64)| {
+            let own = self.alone[input]?;
+            let at = |point: usize| if r < 0.0 { own[2 * MEDIAN - point] } else { own[point] };
+            Some((input, std::array::from_fn(|point| r.abs() * at(point))))
+        };
+        correlations.iter().filter_map(of_input).collect()
     }
 
-    /// The points of a way on which these inputs go these shares of their own ways.
-    fn way(&self, shares: &[(usize, f64)]) -> Vec<Vec<f64>> {
+    /// Independent inputs: each goes to the probability of its share of the normal score.
+    fn apart(&self, correlations: &[(usize, f64)]) -> Moves {
+        let of_input = |&(input, r): &(usize, f64)| {
+            let (of, median) = (&self.distributions[input], self.medians[input]);
+            let at = |point: usize| {
+                let tail = TAILS.get(point.min(2 * MEDIAN - point)).copied().unwrap_or(0.5);
+                let outward = if point < MEDIAN { -r } else { r };
+                let tail = normal::sf(outward.abs() * normal::quantile_upper(tail));
+                if outward < 0.0 { of.quantile(tail) } else { of.quantile_upper(tail) }
+            };
+            (input, std::array::from_fn(|point| at(point) - median))
+        };
+        correlations.iter().map(of_input).collect()
+    }
+
+    /// The points of a way.
+    fn points(&self, moves: &Moves) -> Vec<Vec<f64>> {
         let of_point = |point: usize| {
             let mut values = self.medians.clone();
-            shares.iter().for_each(|of| values[of.0] += self.departure(*of, point));
+            moves.iter().for_each(|(input, departures)| values[*input] += departures[point]);
             values
         };
         (0..POINTS).map(of_point).collect()
     }
 }
 
-/// The ways of the inputs one at a time, which all outputs share.
+/// The ways of the inputs one at a time, which all outputs share: the outputs at the points.
 struct Alone {
-    inputs: Vec<(usize, Vec<Vec<f64>>)>,
+    inputs: Vec<(usize, [f64; POINTS], Vec<Vec<f64>>)>,
 }
 
 impl Alone {
     fn of(
         program: &Program,
-        space: &Space,
+        space: &Space<'_>,
         (bent, reaches): (&[usize], &[Vec<bool>]),
         linear: &GumRow,
     ) -> Self {
@@ -166,8 +191,8 @@ impl Alone {
         let mut inputs: Vec<usize> = space.varying().filter(reached).collect();
         if inputs.len() > MOST_ALONE {
             let reach = |input: usize| {
-                let ends = [0, 2 * MEDIAN].map(|end| space.departure((input, 1.0), end).abs());
-                let farthest = ends[0].max(ends[1]);
+                let own = space.alone[input].unwrap_or([f64::NAN; POINTS]);
+                let farthest = own[0].abs().max(own[2 * MEDIAN].abs());
                 let moved = |output: &usize| {
                     let slope = linear.gradient(*output).map_or(f64::NAN, |of| of[input]);
                     let moved = (slope * farthest).abs();
@@ -181,10 +206,11 @@ impl Alone {
             inputs = ranked.into_iter().take(MOST_ALONE).map(|(input, _)| input).collect();
         }
         let values = |input: usize| {
-            let points = space.way(&[(input, 1.0)]);
-            (input, points.iter().map(|point| program.evaluate(point)).collect())
+            let own = space.alone[input]?;
+            let points = space.points(&vec![(input, own)]);
+            Some((input, own, points.iter().map(|point| program.evaluate(point)).collect()))
         };
-        Self { inputs: inputs.into_iter().map(values).collect() }
+        Self { inputs: inputs.into_iter().filter_map(values).collect() }
     }
 }
 
@@ -194,7 +220,7 @@ struct Along {
     values: [f64; POINTS],
     /// How far its tangent would have it at the ends of the way, if it has one.
     tangent: [f64; 2],
-    shares: Vec<(usize, f64)>,
+    moves: Moves,
 }
 
 impl Along {
@@ -248,31 +274,31 @@ impl Along {
 /// An output that is no sum of its inputs times constants.
 struct Bend<'a> {
     program: &'a Program,
-    space: &'a Space,
+    space: &'a Space<'a>,
     linear: &'a GumRow,
     output: usize,
 }
 
 impl Bend<'_> {
     fn order(&self, alone: &Alone, folded: &[Option<f64>]) -> f64 {
-        let together = self.together();
-        let linked =
-            |input: usize| together.iter().any(|shares| shares.iter().any(|of| of.0 == input));
+        let sets = self.linked();
+        let is_linked = |input: usize| sets.iter().flatten().any(|of| of.0 == input);
         let mut ways: Vec<Along> = Vec::new();
-        for (input, outputs) in alone.inputs.iter().filter(|(input, _)| !linked(*input)) {
+        for (input, own, outputs) in alone.inputs.iter().filter(|of| !is_linked(of.0)) {
             let values = std::array::from_fn(|point| outputs[point][self.output]);
-            ways.push(self.along(vec![(*input, 1.0)], values));
+            ways.push(self.along(vec![(*input, *own)], values));
         }
-        let follow = |shares: Vec<(usize, f64)>| {
-            let points = self.space.way(&shares);
+        let follow = |moves: Moves| {
+            let points = self.space.points(&moves);
             let values = std::array::from_fn(|point| self.value(&points[point]));
-            self.along(shares, values)
+            self.along(moves, values)
         };
-        ways.extend(together.into_iter().map(follow));
+        ways.extend(sets.iter().map(|set| follow(self.space.together(set))));
         let spread = ways.iter().map(|way| way.spread().powi(2)).sum::<f64>().sqrt();
         let variance = ways.iter().map(Along::variance).sum();
         if ways.len() > 1 {
-            ways.extend(self.along_gradient().map(follow));
+            let all: Vec<usize> = self.space.varying().collect();
+            ways.extend(self.correlations(&all).map(|all| follow(self.space.apart(&all))));
         }
         let tails = ways.iter().map(|way| way.order(spread, variance));
         let order = tails.fold(f64::INFINITY, f64::min);
@@ -286,16 +312,15 @@ impl Bend<'_> {
         self.program.evaluate(inputs)[self.output]
     }
 
-    fn along(&self, shares: Vec<(usize, f64)>, values: [f64; POINTS]) -> Along {
+    fn along(&self, moves: Moves, values: [f64; POINTS]) -> Along {
         let gradient = self.linear.gradient(self.output);
+        let slope = |input: usize| gradient.and_then(|of| of.get(input)).copied();
         let tangent = [0, 2 * MEDIAN].map(|end| {
-            let moved = shares.iter().map(|&(input, share)| {
-                let slope = gradient.and_then(|of| of.get(input)).copied().unwrap_or(f64::NAN);
-                slope * self.space.departure((input, share), end)
-            });
+            let moved =
+                moves.iter().map(|(input, own)| slope(*input).unwrap_or(f64::NAN) * own[end]);
             moved.sum::<f64>().abs()
         });
-        Along { values, tangent, shares }
+        Along { values, tangent, moves }
     }
 
     /// The covariance of each input with the output by the law of propagation, over the input's standard
@@ -312,9 +337,9 @@ impl Bend<'_> {
         found.iter().all(|value| value.is_finite()).then_some(found)
     }
 
-    /// The share of its own way that each of these inputs goes where they go along the gradient: its
-    /// correlation with what they contribute. `None` where they contribute nothing.
-    fn shares(&self, inputs: &[usize]) -> Option<Vec<(usize, f64)>> {
+    /// The correlation of each of these inputs with what they contribute together, of those that have one.
+    /// `None` where they contribute nothing.
+    fn correlations(&self, inputs: &[usize]) -> Option<Vec<(usize, f64)>> {
         let covariances = self.covariances()?;
         let (u, _) = self.linear.known();
         let gradient = self.linear.gradient(self.output)?;
@@ -324,24 +349,19 @@ impl Bend<'_> {
         (variance > 0.0).then(|| inputs.iter().map(of).filter(|of| of.1 != 0.0).collect())
     }
 
-    /// The sets of inputs that are correlated, each along the gradient. A set that contributes nothing is
-    /// left to its inputs one at a time.
-    fn together(&self) -> Vec<Vec<(usize, f64)>> {
+    /// The sets of inputs that coefficients link. A set that contributes nothing is left to its inputs one
+    /// at a time.
+    fn linked(&self) -> Vec<Vec<(usize, f64)>> {
         let (_, links) = self.linear.known();
+        let varies = |input: &usize| self.space.alone[*input].is_some();
         let sets = connected(links).into_iter();
-        let varies = |input: &usize| self.space.departures[*input].is_some();
         let varying = sets.map(|set| set.into_iter().filter(varies).collect());
-        varying.filter_map(|set: Vec<usize>| self.shares(&set)).collect()
-    }
-
-    /// All inputs along the gradient.
-    fn along_gradient(&self) -> Option<Vec<(usize, f64)>> {
-        self.shares(&self.space.varying().collect::<Vec<_>>())
+        varying.filter_map(|set: Vec<usize>| self.correlations(&set)).collect()
     }
 
     /// The order that the sharpest pole on a way leaves: 1/x has moments below 1, 1/sqrt(x) below 2.
     fn order_of_pole(&self, way: &Along) -> f64 {
-        let points = self.space.way(&way.shares);
+        let points = self.space.points(&way.moves);
         let heights: Vec<f64> = way.values.iter().map(|value| value.abs()).collect();
         let modulus = |place: usize, share: f64| {
             let ends = points[place].iter().zip(&points[place + 1]);
