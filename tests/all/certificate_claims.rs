@@ -111,6 +111,43 @@ fn t_rows_of_a_digital_certificate_are_read_back() {
     assert!((number(&found["expanded_uncertainty"]) / 0.033 - 1.0).abs() < 0.002, "{found}");
 }
 
+/// 10^(-pH) of three readings has no expectation: certificate, page, tables and decision have the
+/// estimate by the law of propagation, 10^-2.80 mol/L = 1.5849 mmol/L, with the interval between
+/// 10^-(2.80 +- 4.527 * 0.01/sqrt(3)) mol/L, 1.4924 to 1.6832 mmol/L, t = 4.527 being the quantile of two
+/// degrees of freedom. The certificate said 8.2 mmol/L, U = 6.7, k = 316, and rejected. The ends have
+/// numerical standard errors of 1.1 % of their distance from the middle with 200 000 trials.
+#[test]
+fn a_mean_that_does_not_exist_is_stated_nowhere() {
+    let readings = json!({"distribution": "readings", "values": [2.79, 2.81, 2.80]});
+    let file = json!({"inputs": {"pH": readings}, "equations": {"c": "10^(-pH)*1 [mol/L]"},
+        "outputs": {"c": {"unit": "mmol/L", "tolerance": {"upper": 2}}}});
+    let certificate = certificate(rows(&["c"]), json!({}));
+    let folder = folder(&[("m.json", &file), ("c.json", &certificate)]);
+    for seed in ["1", "2", "3", "4"] {
+        let options = ["--trials", "200000", "--seed", seed];
+        let row = answer(folder.path(), &[&["certificate", "c.json"], &options[..]].concat())["rows"]
+            [0]
+        .clone();
+        assert!((number(&row["value"]) - 1.584_893).abs() < 1e-6, "{row}");
+        assert!((number(&row["expanded_uncertainty"]) - 0.0972).abs() < 0.005, "{row}");
+        // U over u = ln(10) 1.5849 * 0.01/sqrt(3) = 0.021070
+        assert!((number(&row["coverage_factor"]) - 4.6).abs() < 0.3, "{row}");
+        let run = [&["run", "m.json"], &options[..]].concat();
+        let found = answer(folder.path(), &run)["outputs"]["c"].clone();
+        assert!(found["monte_carlo"]["estimate"].is_null(), "{found}");
+        assert!(found["monte_carlo"]["standard_uncertainty"].is_null(), "{found}");
+        let ends = found["monte_carlo"]["symmetric_interval"].clone();
+        assert!((number(&ends[0]) - 1.4924).abs() < 0.006, "{ends}");
+        assert!((number(&ends[1]) - 1.6832).abs() < 0.006, "{ends}");
+        let decided = &found["conformity"];
+        assert_eq!(decided["conforms"], true, "{decided}");
+        let page = output(folder.path(), &run);
+        assert!(page.starts_with("c = 1.58"), "{page}");
+        let line = page.lines().find(|line| line.trim_start().starts_with("estimate ")).unwrap();
+        assert_eq!(line.split_whitespace().nth(2), Some("-"), "{line}");
+    }
+}
+
 /// An agreed factor k = 2 of three degrees of freedom covers 2/pi (t/(sqrt 3 (1 + t^2/3)) + atan(t/sqrt
 /// 3)) = 0.8607 at t = 2; D-SI asks for the probability, and had that of a normal distribution.
 #[test]

@@ -14,11 +14,12 @@ use super::conformity::{Conformity, ErrorLaw};
 use super::exact::{self, Noiseless};
 use super::gum::{self, Gum, GumRow};
 use super::inherited::Inherited;
+use super::moment_order::moment_orders;
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
 use super::nonlinearity;
 use super::regions::{RegionEvaluation, regions};
 use super::second_order::{SecondOrder, second_order};
-use super::statement::Stated;
+use super::statement::{Stated, located};
 use super::validate::{Validation, validate};
 use super::{quasi, rounding};
 use crate::decimal::{Decimal, Direction, position, to_digits};
@@ -119,6 +120,14 @@ pub struct OutputEvaluation {
 }
 
 impl OutputEvaluation {
+    /// Where the output lies by its trials, and the numerical standard error of that (0 of what no seed
+    /// moves), in the unit of the output; `None` without trials. It is the mean of the trials where they
+    /// have a variance and it is told from the estimate by the law of propagation, and otherwise that
+    /// estimate, or without it the median.
+    pub fn located(&self) -> Option<(f64, f64)> {
+        self.monte_carlo.as_ref().map(|figures| located(figures, self.gum.as_ref()))
+    }
+
     /// The law of propagation where the trials do not refute it.
     pub(super) fn trusted(&self) -> Option<&Gum> {
         let is_trusted = self.validation.is_some_and(|v| v.gum_valid != Some(false));
@@ -519,7 +528,8 @@ fn evaluate_row(
         rounding::check(task, number, &gums)?;
         let finished = known(number).unwrap_or_else(|| {
             let mut trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);
-            decided(task, &mut trials, &gums, &drawn_dof, control)
+            let moment_order = moment_orders(task, row, reaches, &linear);
+            decided(task, &mut trials, &gums, &moment_order, control)
         });
         stopped = finished.stopped;
         if let Some(undefined) = finished.undefined {
@@ -610,7 +620,7 @@ fn evaluate_row(
                     monte_carlo::collected(&trials, count, control)
                 });
                 let values = values.as_ref()?.get(number)?.clone();
-                let law = ErrorLaw::of_trials(values, figures.location());
+                let law = ErrorLaw::of_trials(values, found.located()?.0);
                 Some(law.guard_band(risk, limits))
             });
         found.capability =
@@ -700,7 +710,7 @@ fn correlations_by_law(
         .map(|((output, gum), figures)| {
             let Some(figures) = figures else { return true };
             let jumps = |gum| branch::jump(program, output, gum, figures).is_some();
-            figures.spread().is_some() && !gum.as_ref().is_some_and(jumps)
+            figures.standard_uncertainty.is_some() && !gum.as_ref().is_some_and(jumps)
         })
         .collect();
     let of_law = if scatter.contains(&false) { linear.correlations() } else { return };
@@ -804,17 +814,17 @@ pub(super) fn decided(
     task: &Task,
     trials: &mut monte_carlo::RowTrials,
     gums: &[Option<Gum>],
-    drawn_dof: &[f64],
+    moment_order: &[f64],
     control: &Control<'_>,
 ) -> monte_carlo::Finished {
     let probability = task.settings.coverage.probability();
-    let mut finished = run(task, trials, gums, drawn_dof, control);
+    let mut finished = run(task, trials, gums, moment_order, control);
     let mut count = Settings::USUAL_TRIALS;
     while let Some(further) = goes_on(task, gums, &finished, count)
         && !control.is_stopped()
     {
         count = further;
-        let request = Request { trials: count, probability, drawn_dof };
+        let request = Request { trials: count, probability, moment_order };
         let more = monte_carlo::run(trials, request, &Control { progress: None, ..*control });
         // what was counted before is whole
         if more.stopped {
@@ -853,13 +863,13 @@ fn run(
     task: &Task,
     trials: &mut monte_carlo::RowTrials,
     gums: &[Option<Gum>],
-    drawn_dof: &[f64],
+    moment_order: &[f64],
     control: &Control<'_>,
 ) -> monte_carlo::Finished {
     let settings = &task.settings;
     let probability = settings.coverage.probability();
     if let Trials::Fixed(count) = settings.trials {
-        let request = Request { trials: count, probability, drawn_dof };
+        let request = Request { trials: count, probability, moment_order };
         return monte_carlo::run(trials, request, control);
     }
     let gum: Vec<f64> =
@@ -870,11 +880,11 @@ fn run(
         digits: settings.digits,
         strictness: if settings.for_validation { 5.0 } else { 1.0 },
         most: settings.max_trials,
-        drawn_dof,
+        moment_order,
         gum: &gum,
     };
     let (count, ends) = monte_carlo::find_trials(trials, search, control);
-    let request = Request { trials: count, probability, drawn_dof };
+    let request = Request { trials: count, probability, moment_order };
     // a search that was stopped still hands back the figures of the trials that it made
     let stopped = control.is_stopped();
     let control =
@@ -892,7 +902,7 @@ fn run(
 }
 
 /// For each output the fewest degrees of freedom among the t distributions that it depends on.
-pub(super) fn drawn_dof(reaches: &[Vec<bool>], row: &Row) -> Vec<f64> {
+fn drawn_dof(reaches: &[Vec<bool>], row: &Row) -> Vec<f64> {
     reaches.iter().map(|reach| fewest_dof(reach, row)).collect()
 }
 

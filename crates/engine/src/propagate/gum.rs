@@ -245,6 +245,11 @@ impl GumRow {
         self.gradients.get(output).map(Vec::as_slice)
     }
 
+    /// The standard uncertainties of the inputs, and what links them.
+    pub(super) fn known(&self) -> (&[f64], &[Correlation]) {
+        (&self.uncertainties, &self.links)
+    }
+
     /// Whether correlation coefficients link quantities that vary.
     pub(crate) fn is_correlated(&self) -> bool {
         !self.linked.correlations.is_empty()

@@ -15,6 +15,7 @@ pub mod gum;
 mod inherited;
 mod inherited_note;
 mod input_figures;
+mod moment_order;
 pub mod monte_carlo;
 mod naming;
 mod nonlinearity;

@@ -1,7 +1,8 @@
 //! A finished run's trials generated again: for what needs more of them than an evaluation keeps.
 
-use super::evaluation::{drawn_dof, in_pool, joint, reach};
+use super::evaluation::{in_pool, joint, reach};
 use super::gum::Gum;
+use super::moment_order::moment_orders;
 use super::monte_carlo::{self, Histogram, MonteCarlo, QuantilesAndRanks, Request, RowTrials};
 use super::{Control, Evaluation, EvaluationError, gum};
 use crate::task::Task;
@@ -136,9 +137,9 @@ pub fn convergence(
         return Ok(None);
     };
     let reaches = reach(&task.model.program, task.variables.len());
-    let drawn_dof = drawn_dof(&reaches, of);
+    let moment_order = moment_orders(task, of, &reaches, &gum::evaluate(task, of));
     let probability = task.settings.coverage.probability();
-    let request = Request { trials: count, probability, drawn_dof: &drawn_dof };
+    let request = Request { trials: count, probability, moment_order: &moment_order };
     in_pool(task, control, || {
         let trials = trials(task, row)?.filter(|_| count > 0);
         let found =

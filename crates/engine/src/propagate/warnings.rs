@@ -239,7 +239,7 @@ fn push(found: &mut Vec<Warning>, warning: Warning) {
 /// A variance that declared coefficients leave nothing of, where they are possible only within their
 /// rounding.
 fn of_rounded_correlations(name: &str, output: &OutputEvaluation) -> Option<Warning> {
-    let drawn = output.monte_carlo.as_ref()?.spread()?;
+    let drawn = output.monte_carlo.as_ref()?.standard_uncertainty?;
     let gum = output.gum.as_ref()?;
     let rounding = ROUNDING * gum.largest_contribution();
     let is_lost = gum.standard_uncertainty == 0.0 && drawn > rounding;
@@ -336,7 +336,7 @@ fn of_output(
         push(found, Warning::new("gum-undefined", name, text));
         if let Some(monte_carlo) = &output.monte_carlo {
             of_extremes(name, &at, monte_carlo, found);
-            of_heavy_tails(name, &at, monte_carlo, found);
+            of_heavy_tails((name, &at), output, monte_carlo, found);
         }
         return;
     };
@@ -359,7 +359,7 @@ fn of_output(
         return;
     };
     of_extremes(name, &at, monte_carlo, found);
-    of_heavy_tails(name, &at, monte_carlo, found);
+    of_heavy_tails((name, &at), output, monte_carlo, found);
     let spread = monte_carlo.standard_uncertainty.unwrap_or(gum.standard_uncertainty);
     of_results(name, &at, row, (gum, spread), found);
     if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive
@@ -375,11 +375,17 @@ fn of_output(
     if output.drawn_dof <= 2.0 {
         let text = format!(
             "`{name}`{at}: an input is drawn from a t distribution with {} {} of freedom, which \
-             has no {}, so the trials have no {}; the coverage intervals stand",
+             has no {}{}, so the trials have no {}; the coverage intervals stand, and the value is the \
+             estimate by the law of propagation",
             output.drawn_dof,
             if output.drawn_dof == 1.0 { "degree" } else { "degrees" },
             if output.drawn_dof > 1.0 { "variance" } else { "expectation and no variance" },
-            if output.drawn_dof > 1.0 {
+            if output.drawn_dof > 1.0 && monte_carlo.estimate.is_none() {
+                ", and through this model no expectation"
+            } else {
+                ""
+            },
+            if monte_carlo.estimate.is_some() {
                 "standard uncertainty"
             } else {
                 "estimate and no standard uncertainty"
@@ -403,7 +409,7 @@ fn of_difference(
     (gum, output, monte_carlo): (&Gum, &OutputEvaluation, &MonteCarlo),
     found: &mut Vec<Warning>,
 ) {
-    let Some(u) = monte_carlo.spread() else {
+    let Some(u) = monte_carlo.standard_uncertainty else {
         return;
     };
     let (linear, drawn) = (gum.standard_uncertainty, gum.drawn_by_dof());
@@ -533,7 +539,11 @@ fn of_correlations(
     evaluated: &OutputEvaluation,
     found: &mut Vec<Warning>,
 ) {
-    if evaluated.monte_carlo.as_ref().is_none_or(|figures| figures.spread().is_some() && !jumps) {
+    if evaluated
+        .monte_carlo
+        .as_ref()
+        .is_none_or(|figures| figures.standard_uncertainty.is_some() && !jumps)
+    {
         return;
     }
     let text = match &evaluated.gum {
@@ -558,19 +568,30 @@ fn conformity_by_propagation(name: &str) -> Warning {
     Warning::new("conformity-by-propagation", name, text)
 }
 
-/// Trials of which a few carry the standard uncertainty.
-fn of_heavy_tails(name: &str, at: &str, figures: &MonteCarlo, found: &mut Vec<Warning>) {
-    if figures.heavy_tailed {
-        let kurtosis = figures.excess_kurtosis.map(|kurtosis| significant(kurtosis, 1));
-        let kurtosis = kurtosis.map_or_else(String::new, |of| format!(" (excess kurtosis {of})"));
-        let text = format!(
-            "`{name}`{at}: a few of the {} trials carry their standard uncertainty{kurtosis}, so that its distribution may have no expectation and no standard deviation (JCGM \
-             101, 3.6, note 1): estimate and standard uncertainty of the trials are of these trials \
-             alone and have no numerical standard error; median and coverage intervals stand",
-            figures.trials
-        );
-        push(found, Warning::new("heavy-tails", name, text));
+/// Trials without a variance, though every input that is drawn as a t has one.
+fn of_heavy_tails(
+    (name, at): (&str, &str),
+    output: &OutputEvaluation,
+    figures: &MonteCarlo,
+    found: &mut Vec<Warning>,
+) {
+    if figures.standard_uncertainty.is_some() || figures.trials < 2 || output.drawn_dof <= 2.0 {
+        return;
     }
+    let missing = match figures.estimate {
+        Some(_) => "no standard deviation",
+        None => "no expectation and no standard deviation",
+    };
+    let value = match output.gum {
+        Some(_) => "the value is the estimate by the law of propagation",
+        None => "the value is the median",
+    };
+    let text = format!(
+        "`{name}`{at}: a few trials far out carry what the others do not have, so that its distribution \
+         has {missing} that trials could tell (JCGM 101, 3.6, note 1), and none is given; median and \
+         coverage intervals stand, and {value}"
+    );
+    push(found, Warning::new("heavy-tails", name, text));
 }
 
 /// Intervals from the least to the greatest trial.

@@ -223,8 +223,9 @@ pub(crate) enum Taken<'a> {
     /// An estimate with its expanded uncertainty and coverage factor, and the laboratory's capability
     /// where it is beside them.
     Expanded { estimate: f64, expanded: f64, factor: f64, beside: Option<&'a CapabilityStatement> },
-    /// The interval that is stated of the trials.
-    Interval(&'a MonteCarlo),
+    /// The interval that is stated of the trials, and the value beside it with its numerical standard
+    /// error.
+    Interval { figures: &'a MonteCarlo, located: (f64, f64) },
     /// No interval, only a standard uncertainty.
     Standard(&'a Gum),
     /// Nothing.
@@ -261,7 +262,14 @@ impl<'a> Taken<'a> {
                 let beside = beside.filter(|beside| beside.expanded_uncertainty == expanded);
                 Self::Expanded { estimate: gum.estimate, expanded, factor, beside }
             }
-            _ => trials.map(Self::Interval).or(gum.map(Self::Standard)).unwrap_or(Self::Undefined),
+            _ => match (trials, gum) {
+                (Some(figures), _) => {
+                    let located = found.located().unwrap_or((figures.median, f64::NAN));
+                    Self::Interval { figures, located }
+                }
+                (None, Some(gum)) => Self::Standard(gum),
+                (None, None) => Self::Undefined,
+            },
         }
     }
 
@@ -271,8 +279,7 @@ impl<'a> Taken<'a> {
             Self::Expanded { estimate, expanded, .. } => {
                 Some((estimate, [estimate - expanded, estimate + expanded]))
             }
-            Self::Interval(figures) => {
-                let estimate = figures.estimate.unwrap_or(figures.median);
+            Self::Interval { figures, located: (estimate, _) } => {
                 Some((estimate, figures.stated_interval().ends))
             }
             Self::Standard(_) | Self::Undefined => None,
@@ -293,20 +300,16 @@ impl ResultStatement {
                 };
                 Self::Expanded { estimate, expanded, factor }
             }
-            Taken::Interval(figures) => {
+            Taken::Interval { figures, located: (located, error) } => {
                 let u = figures.standard_uncertainty;
                 let u = u.or_else(|| gum.map(|gum| gum.standard_uncertainty));
                 let ends = place_of_ends(figures, u, settings.digits);
                 let stated = figures.stated_interval();
                 let [low, high] =
                     [0, 1].map(|end| justified(stated.ends[end], ends, stated.errors[end]));
-                let estimate = match figures.estimate {
-                    Some(estimate) => {
-                        let digits = u.and_then(|u| position(u, settings.digits));
-                        justified(estimate, digits, figures.errors.estimate.unwrap_or(f64::NAN))
-                    }
-                    None => justified(figures.median, ends, figures.errors.median),
-                };
+                // without a standard deviation the interval tells how many digits there are
+                let place = figures.standard_uncertainty.and_then(|u| position(u, settings.digits));
+                let estimate = justified(located, place.or(ends), error);
                 Self::Interval { estimate, low, high, shortest: stated.shortest }
             }
             Taken::Standard(gum) => {

@@ -77,7 +77,7 @@ pub(crate) const MORE: &str = "Budgets, shortest intervals, numerical standard e
 pub(crate) fn taken(settings: &Settings, rows: &[RowEvaluation], output: usize) -> Option<String> {
     let is_of_trials = |row: &RowEvaluation| {
         let found = row.outputs.get(output);
-        found.is_some_and(|found| matches!(Taken::of(settings, found), Taken::Interval(_)))
+        found.is_some_and(|found| matches!(Taken::of(settings, found), Taken::Interval { .. }))
     };
     let (of_trials, others): (Vec<usize>, Vec<usize>) =
         (0..rows.len()).partition(|&row| is_of_trials(&rows[row]));
@@ -120,9 +120,11 @@ pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> 
         ),
         _ => limits(first),
     };
+    let decided_apart =
+        explained(rows.iter().filter_map(|row| row.outputs.get(output)), task.settings.digits);
     Some(format!(
         "Tolerance {}, {}: {} of {} rows accepted{}. Probabilities, guard bands and risks of every row: \
-         --format json.",
+         --format json.{}",
         limits,
         rule(first, task.settings.coverage),
         found.len() - rejected.len(),
@@ -131,8 +133,21 @@ pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> 
             String::new()
         } else {
             format!(", rejected: {plural} {}", row_numbers(&rejected))
-        }
+        },
+        decided_apart.map_or_else(String::new, |said| format!(" {said}"))
     ))
+}
+
+/// What the estimate that decides is, where a column shows it because it is not that of the GUM.
+pub(crate) fn explained<'a>(
+    outputs: impl Iterator<Item = &'a OutputEvaluation>,
+    digits: u32,
+) -> Option<&'static str> {
+    let mut lines = outputs.map(|output| line(Some(output), digits));
+    lines.any(|line| line.is_decided_apart).then_some(
+        "The estimate that decides is the value that is stated: where clause 8 of JCGM 101 refutes the \
+         GUM, the expectation of the output's distribution, if the distribution has a variance.",
+    )
 }
 
 /// Shares with a column of their own, at most.

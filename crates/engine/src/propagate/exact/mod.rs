@@ -16,17 +16,18 @@ mod tests;
 #[cfg(test)]
 pub(super) use tests::task as test_task;
 
-pub(super) use existence::of_moments as moments_exist;
+pub(super) use existence::{of_moments as moments_exist, pole_order};
 
 use std::sync::Arc;
 
 use self::invert::{Decay, Inversion, Sum};
 use self::law::{Found, Law};
-use self::separate::{Group, Leaf, Outer, Separated, is_linear, separate};
+pub(super) use self::separate::is_linear;
+use self::separate::{Group, Leaf, Outer, Separated, separate};
 use self::term::{Inputs, Term};
 use crate::distribution::characteristic::Characteristic;
 use crate::distribution::{Dependence, Distribution, Joint, Normal, StudentT};
-use crate::model::{Node, Output, Tolerance, fold};
+use crate::model::{Node, Output, Program, Tolerance, fold};
 use crate::number::smallest_first;
 use crate::task::{Row, Task};
 
@@ -114,6 +115,13 @@ pub(crate) struct Problem<'a> {
     pub(crate) drawn_dof: f64,
 }
 
+/// The values of a program's nodes that do not vary in a row.
+pub(super) fn folded(program: &Program, row: &Row) -> Vec<Option<f64>> {
+    let mut bound: Vec<Option<f64>> = row.distributions.iter().map(|d| d.constant()).collect();
+    bound.extend(row.conditions.iter().map(|&value| Some(value)));
+    fold(program, &bound)
+}
+
 impl<'a> Problem<'a> {
     /// The limits of the row's output.
     pub(crate) fn tolerance(&self) -> Option<Tolerance> {
@@ -126,10 +134,7 @@ impl<'a> Problem<'a> {
 
     /// The values of the program's nodes that do not vary.
     pub(crate) fn folded(&self) -> Vec<Option<f64>> {
-        let mut bound: Vec<Option<f64>> =
-            self.row.distributions.iter().map(|d| d.constant()).collect();
-        bound.extend(self.row.conditions.iter().map(|&value| Some(value)));
-        fold(&self.task.model.program, &bound)
+        folded(&self.task.model.program, self.row)
     }
 
     /// Whether the output is a sum of inputs times constants.

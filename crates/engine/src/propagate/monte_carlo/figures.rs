@@ -11,9 +11,11 @@ pub struct MonteCarlo {
     /// Number of trials behind the figures.
     pub trials: u64,
     /// Mean of the trials; `None` if the distribution has no expectation: that of a t with one degree
-    /// of freedom, or fewer, has none (JCGM 101, 6.4.9.4).
+    /// of freedom, or fewer, has none (JCGM 101, 6.4.9.4), nor has the exponential of one; or perhaps
+    /// none ([`MonteCarlo::heavy_tailed`]).
     pub estimate: Option<f64>,
-    /// Standard deviation of the trials; `None` if the distribution has none, or of a single trial.
+    /// Standard deviation of the trials; `None` if the distribution has none, or perhaps none, or of a
+    /// single trial.
     pub standard_uncertainty: Option<f64>,
     /// Median of the trials.
     pub median: f64,
@@ -94,10 +96,11 @@ const HEAVY: f64 = 0.01;
 /// An excess kurtosis up to this is one of ordinary distributions, however few the trials.
 const ORDINARY: f64 = 30.0;
 
-/// Whether a few trials carry the sum of squares. The largest trial has at most the share
-/// sqrt(kurtosis/trials) of it, and one that has the share s brings the kurtosis to s^2 trials.
-fn is_heavy(moments: &Moments, drawn_dof: f64) -> bool {
-    drawn_dof > 2.0 && moments.excess_kurtosis > f64::max(HEAVY * moments.trials, ORDINARY)
+/// Whether a few trials carry the sum of squares, though a kurtosis should exist. The largest trial has
+/// at most the share sqrt(kurtosis/trials) of it, and one that has the share s brings the kurtosis to
+/// s^2 trials.
+fn is_heavy(moments: &Moments, moment_order: f64) -> bool {
+    moment_order > 4.0 && moments.excess_kurtosis > f64::max(HEAVY * moments.trials, ORDINARY)
 }
 
 /// The shares of the sums of third and of fourth powers from which on the farthest trial has too much
@@ -138,11 +141,10 @@ pub(crate) struct Finished {
 }
 
 impl MonteCarlo {
-    /// The figures, without the moments that do not exist for t distributions of `drawn_dof`
-    /// degrees of freedom.
+    /// The figures, without the moments of `moment_order` and above, which do not exist.
     pub(super) fn new(
         moments: &Moments,
-        drawn_dof: f64,
+        moment_order: f64,
         median: f64,
         intervals: Intervals,
         errors: NumericalError,
@@ -150,20 +152,22 @@ impl MonteCarlo {
         let spread = moments.std > 0.0;
         // a single trial does not scatter
         let several = moments.trials > 1.0;
+        let heavy_tailed = is_heavy(moments, moment_order);
+        let exists = |order: f64| moment_order > order && !heavy_tailed;
         Self {
             trials: moments.trials as u64,
-            estimate: (drawn_dof > 1.0).then_some(moments.mean),
-            standard_uncertainty: (drawn_dof > 2.0 && several).then_some(moments.std),
+            estimate: exists(1.0).then_some(moments.mean),
+            standard_uncertainty: (exists(2.0) && several).then_some(moments.std),
             median,
             symmetric_interval: intervals.symmetric,
             shortest_interval: intervals.shortest,
             shortest_exact: intervals.exact,
             shortest_unique: intervals.unique,
-            heavy_tailed: is_heavy(moments, drawn_dof),
+            heavy_tailed,
             inside: moments.inside,
             adaptive: None,
-            skewness: (drawn_dof > 3.0 && spread).then_some(moments.skewness),
-            excess_kurtosis: (drawn_dof > 4.0 && spread).then_some(moments.excess_kurtosis),
+            skewness: (exists(3.0) && spread).then_some(moments.skewness),
+            excess_kurtosis: (exists(4.0) && spread).then_some(moments.excess_kurtosis),
             errors,
         }
     }
@@ -222,15 +226,15 @@ impl MonteCarlo {
         (self.skewness, self.excess_kurtosis, self.errors) = (None, None, errors);
     }
 
-    /// The standard deviation of the trials where it is a standard uncertainty: not where there is none,
-    /// nor where a few of the trials carry it.
-    pub fn spread(&self) -> Option<f64> {
-        self.standard_uncertainty.filter(|_| !self.heavy_tailed)
+    /// Where the trials lie: their mean, or their median where they have no variance, so that their mean
+    /// settles slowly, or never.
+    pub fn location(&self) -> f64 {
+        self.settled_mean().unwrap_or(self.median)
     }
 
-    /// Where the trials lie: the estimate, or the median where there is none.
-    pub fn location(&self) -> f64 {
-        self.estimate.unwrap_or(self.median)
+    /// The mean of the trials where they have a variance.
+    pub(in crate::propagate) fn settled_mean(&self) -> Option<f64> {
+        self.estimate.filter(|_| self.standard_uncertainty.is_some())
     }
 }
 
@@ -239,22 +243,22 @@ impl NumericalError {
     /// the least and the greatest trial.
     pub(super) fn new(
         moments: &Moments,
-        drawn_dof: f64,
+        moment_order: f64,
         quantiles: [f64; 3],
         shortest_interval: [f64; 2],
         extremes: [f64; 2],
     ) -> Self {
         let [low, high, median] = quantiles;
-        let heavy = is_heavy(moments, drawn_dof);
+        let heavy = is_heavy(moments, moment_order);
         let told = tells_shape(moments, extremes);
         let shape = |order: f64, which: usize| {
-            let exists = drawn_dof > order && moments.std > 0.0 && !heavy && told[which];
+            let exists = moment_order > order && moments.std > 0.0 && !heavy && told[which];
             moments.shape_errors[which].filter(|_| exists)
         };
         let several = moments.trials > 1.0 && !heavy;
         Self {
-            estimate: (drawn_dof > 2.0 && several).then(|| moments.mean_error()),
-            standard_uncertainty: (drawn_dof > 4.0 && several).then(|| moments.std_error()),
+            estimate: (moment_order > 2.0 && several).then(|| moments.mean_error()),
+            standard_uncertainty: (moment_order > 4.0 && several).then(|| moments.std_error()),
             median,
             symmetric_interval: [low, high],
             shortest_interval,

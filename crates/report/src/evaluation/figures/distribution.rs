@@ -85,10 +85,10 @@ pub(in crate::evaluation) fn distribution(
         rows.extend(ends.map(|ends| Row { method, name, ends, estimate, colour }));
     };
     row((Some(GUM), "GUM"), gum.and_then(Gum::interval), gum.map(|gum| gum.estimate), INK);
-    let trials = figures.estimate.unwrap_or(figures.median);
+    let trials = found.located().map(|(value, _)| value);
     let (symmetric, shortest) = ("Monte Carlo, symmetric", "Monte Carlo, shortest");
-    row((Some(TRIALS), symmetric), Some(figures.symmetric_interval), Some(trials), AFTER);
-    row((Some(TRIALS), shortest), Some(figures.shortest_interval), Some(trials), AFTER);
+    row((Some(TRIALS), symmetric), Some(figures.symmetric_interval), trials, AFTER);
+    row((Some(TRIALS), shortest), Some(figures.shortest_interval), trials, AFTER);
     if let Some(conformity) = &found.conformity {
         row((None, STATED), Some(conformity.tolerance.ends()), None, BEFORE);
         let accepted = conformity.acceptance.filter(|_| conformity.is_guarded());

@@ -71,7 +71,7 @@ pub(in crate::evaluation) fn sweep(
             let x = *row.conditions.get(place)?;
             let group = groups.of(&row.conditions);
             let about = about(task, &named, row, (quantity, taken));
-            let of_trials = matches!(taken, Taken::Interval(_));
+            let of_trials = matches!(taken, Taken::Interval { .. });
             Some(Point { x, estimate, ends, of_trials, group, about })
         })
         .filter(|of| [of.x, of.estimate, of.half()].iter().all(|number| number.is_finite()))

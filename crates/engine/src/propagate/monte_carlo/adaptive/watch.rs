@@ -44,7 +44,7 @@ impl Watch {
 
     /// Whether the output has no variance, so that the ends of its interval are watched alone.
     fn has_no_variance(search: Search<'_>, output: usize) -> bool {
-        search.drawn_dof.get(output).is_some_and(|&dof| dof <= 2.0)
+        search.moment_order.get(output).is_some_and(|&dof| dof <= 2.0)
     }
 
     /// The figures that are watched.
