@@ -6,7 +6,6 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::Control;
 use super::branch::{self, Jump};
@@ -25,6 +24,7 @@ use crate::decimal::{Decimal, Direction, position, to_digits};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Distribution, Invalid, Joint};
 use crate::model::{COMPUTED_DIGITS, Capability, Output, Program};
 use crate::number::{COLUMN, Column, Shortest};
+use crate::parallel;
 use crate::task::{Coverage, MethodChoice, Row, Settings, Task, TaskError, Trials};
 
 /// The evaluation of a whole task.
@@ -258,8 +258,6 @@ pub enum EvaluationError {
         /// The sentence.
         message: String,
     },
-    /// The thread pool could not be started.
-    Threads(String),
 }
 
 impl fmt::Display for EvaluationError {
@@ -297,7 +295,6 @@ impl fmt::Display for EvaluationError {
                  of them",
                 Shortest(100.0 * share)
             ),
-            Self::Threads(error) => write!(f, "cannot start threads: {error}"),
         }
     }
 }
@@ -362,10 +359,11 @@ const MOST_COLUMNS: usize = 256 << 20;
 
 /// Runs `work` in the caller's thread pool (rayon's global one, unless the call comes from another),
 /// or, where the control asks for a number of threads, in a pool of that many, which is kept for the
-/// next call. Either way there are no more threads than have room for the columns of the task.
+/// next call. Either way there are no more threads than have room for the columns of the task; where
+/// the system gives none, the calling thread does the work ([`parallel::refused`]).
 ///
 /// # Errors
-/// A task that does not hold together; threads that cannot be started.
+/// A task that does not hold together.
 pub fn in_pool<R: Send>(
     task: &Task,
     control: &Control<'_>,
@@ -376,26 +374,12 @@ pub fn in_pool<R: Send>(
     let columns = size_of::<Column>() * (program.variables() + program.operations())
         + size_of::<[f64; BLOCK]>() * program.outputs();
     let room = (MOST_COLUMNS / columns.max(1)).max(1);
-    if control.threads == 0 && rayon::current_num_threads() <= room {
-        return Ok(work());
+    // in a pool of the caller's from here on, or in the global one
+    let pool = parallel::pool(control.threads.min(room));
+    if control.threads == 0 && rayon::current_num_threads() > room {
+        return Ok(parallel::pool(room).install(work));
     }
-    let asked = if control.threads == 0 { room } else { control.threads };
-    Ok(pool_of(asked.min(room))?.install(work))
-}
-
-/// A pool of so many threads: the last one, if it has as many. New threads begin on the processor of
-/// the one that starts them and may wait there for milliseconds, as long as a run of a million trials
-/// takes.
-fn pool_of(threads: usize) -> Result<Arc<ThreadPool>, EvaluationError> {
-    static LAST: Mutex<Option<Arc<ThreadPool>>> = Mutex::new(None);
-    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(pool) = last.as_ref().filter(|pool| pool.current_num_threads() == threads) {
-        return Ok(Arc::clone(pool));
-    }
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = Arc::new(pool.map_err(|error| EvaluationError::Threads(error.to_string()))?);
-    *last = Some(Arc::clone(&pool));
-    Ok(pool)
+    Ok(pool.install(work))
 }
 
 /// Among how many rows at most the memory for kept values is divided.
