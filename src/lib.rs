@@ -284,7 +284,7 @@ pub use gumption_units as unit;
 
 /// Threads that belong to one process.
 pub mod threads {
-    pub use gumption_engine::threads::OwnPool;
+    pub use gumption_engine::threads::OfProcess;
 }
 
 /// What is known about a quantity: probability distributions.

@@ -1,18 +1,22 @@
-//! Threads that belong to one process.
+//! What belongs to one process: pools of threads, which a forked child does not have.
 
 use std::sync::{Arc, Mutex, TryLockError};
-
-use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 /// A pool of threads that is kept from one call to the next, for the process that made it.
 ///
 /// A child that was forked inherits the memory of its parent and none of its threads: what it hands to
 /// its parent's pool waits forever. Here a child makes a pool of its own.
-#[derive(Debug, Default)]
-pub struct OwnPool(Mutex<Option<(u32, Arc<ThreadPool>)>>);
+#[derive(Debug)]
+pub struct OfProcess<P>(Mutex<Option<(u32, Arc<P>)>>);
 
-impl OwnPool {
-    /// No threads yet.
+impl<P> Default for OfProcess<P> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<P> OfProcess<P> {
+    /// No pool yet.
     pub const fn new() -> Self {
         Self(Mutex::new(None))
     }
@@ -20,18 +24,18 @@ impl OwnPool {
     /// The kept pool, if this process made it and it fits; else a new one, which is kept in its place.
     ///
     /// # Errors
-    /// Threads that cannot be started.
-    pub fn of(
+    /// Those of `make`.
+    pub fn of<E>(
         &self,
-        builder: impl FnOnce() -> ThreadPoolBuilder,
-        fits: impl FnOnce(&ThreadPool) -> bool,
-    ) -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
+        fits: impl FnOnce(&P) -> bool,
+        make: impl FnOnce() -> Result<P, E>,
+    ) -> Result<Arc<P>, E> {
         let process = std::process::id();
         // another thread may have held the lock when this process was forked: it is not waited for
         let mut kept = match self.0.try_lock() {
             Ok(kept) => kept,
             Err(TryLockError::Poisoned(kept)) => kept.into_inner(),
-            Err(TryLockError::WouldBlock) => return builder().build().map(Arc::new),
+            Err(TryLockError::WouldBlock) => return make().map(Arc::new),
         };
         if let Some((of, pool)) = &*kept
             && *of == process
@@ -39,7 +43,7 @@ impl OwnPool {
         {
             return Ok(Arc::clone(pool));
         }
-        let made = Arc::new(builder().build()?);
+        let made = Arc::new(make()?);
         if let Some((of, pool)) = kept.replace((process, Arc::clone(&made)))
             && of != process
         {
@@ -53,13 +57,14 @@ impl OwnPool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rayon::{ThreadPool, ThreadPoolBuilder};
 
     #[test]
     fn a_pool_is_kept_while_it_fits_and_belongs_to_this_process() {
-        let own = OwnPool::new();
+        let own: OfProcess<ThreadPool> = OfProcess::new();
         let of = |threads: usize| {
-            let builder = || ThreadPoolBuilder::new().num_threads(threads);
-            own.of(builder, |pool| pool.current_num_threads() == threads).unwrap()
+            let make = || ThreadPoolBuilder::new().num_threads(threads).build();
+            own.of(|pool| pool.current_num_threads() == threads, make).unwrap()
         };
         let first = of(2);
         assert!(Arc::ptr_eq(&first, &of(2)));

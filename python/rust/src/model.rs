@@ -393,10 +393,7 @@ fn evaluated(
         return Err(Failed::Python(raised));
     }
     let evaluation = evaluation.map_err(|error| {
-        Failed::Evaluation(match error {
-            gumption::propagate::EvaluationError::Threads(_) => Failure::System(error.to_string()),
-            error => Failure::Diagnostics(file.evaluation_failed(error.to_string())),
-        })
+        Failed::Evaluation(Failure::Diagnostics(file.evaluation_failed(error.to_string())))
     })?;
     let mut notes = file.warnings.clone();
     notes.extend(warnings(&task, &evaluation));

@@ -6,7 +6,7 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use gumption::threads::OwnPool;
+use gumption::threads::OfProcess;
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -19,9 +19,9 @@ const LOOK: Duration = Duration::from_millis(30);
 const PATIENCE: Duration = Duration::from_millis(60);
 
 fn pool() -> PyResult<Arc<ThreadPool>> {
-    static POOL: OwnPool = OwnPool::new();
-    let builder = || ThreadPoolBuilder::new().thread_name(|number| format!("gumption-{number}"));
-    let pool = POOL.of(builder, |_| true);
+    static POOL: OfProcess<ThreadPool> = OfProcess::new();
+    let named = |number| format!("gumption-{number}");
+    let pool = POOL.of(|_| true, || ThreadPoolBuilder::new().thread_name(named).build());
     pool.map_err(|error| PyOSError::new_err(format!("cannot start threads: {error}")))
 }
 

@@ -6,7 +6,6 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::Control;
 use super::branch::{self, Jump};
@@ -26,8 +25,8 @@ use crate::decimal::{Decimal, Direction, position, to_digits};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Distribution, Invalid, Joint};
 use crate::model::{COMPUTED_DIGITS, Capability, Output, Program};
 use crate::number::{COLUMN, Column, Shortest};
+use crate::parallel;
 use crate::task::{Coverage, MethodChoice, Row, Settings, Task, TaskError, Trials};
-use crate::threads::OwnPool;
 
 /// The evaluation of a whole task.
 #[derive(Clone, Debug)]
@@ -268,8 +267,6 @@ pub enum EvaluationError {
         /// The sentence.
         message: String,
     },
-    /// The thread pool could not be started.
-    Threads(String),
 }
 
 impl fmt::Display for EvaluationError {
@@ -307,7 +304,6 @@ impl fmt::Display for EvaluationError {
                  of them",
                 Shortest(100.0 * share)
             ),
-            Self::Threads(error) => write!(f, "cannot start threads: {error}"),
         }
     }
 }
@@ -372,10 +368,11 @@ const MOST_COLUMNS: usize = 256 << 20;
 
 /// Runs `work` in the caller's thread pool (rayon's global one, unless the call comes from another),
 /// or, where the control asks for a number of threads, in a pool of that many, which is kept for the
-/// next call. Either way there are no more threads than have room for the columns of the task.
+/// next call. Either way there are no more threads than have room for the columns of the task; where
+/// the system gives none, the calling thread does the work ([`parallel::refused`]).
 ///
 /// # Errors
-/// A task that does not hold together; threads that cannot be started.
+/// A task that does not hold together.
 pub fn in_pool<R: Send>(
     task: &Task,
     control: &Control<'_>,
@@ -386,21 +383,12 @@ pub fn in_pool<R: Send>(
     let columns = size_of::<Column>() * (program.variables() + program.operations())
         + size_of::<[f64; BLOCK]>() * program.outputs();
     let room = (MOST_COLUMNS / columns.max(1)).max(1);
-    if control.threads == 0 && rayon::current_num_threads() <= room {
-        return Ok(work());
+    // in a pool of the caller's from here on, or in the global one
+    let pool = parallel::pool(control.threads.min(room));
+    if control.threads == 0 && rayon::current_num_threads() > room {
+        return Ok(parallel::pool(room).install(work));
     }
-    let asked = if control.threads == 0 { room } else { control.threads };
-    Ok(pool_of(asked.min(room))?.install(work))
-}
-
-/// A pool of so many threads: the last one, if it has as many. New threads begin on the processor of
-/// the one that starts them and may wait there for milliseconds, as long as a run of a million trials
-/// takes.
-fn pool_of(threads: usize) -> Result<Arc<ThreadPool>, EvaluationError> {
-    static LAST: OwnPool = OwnPool::new();
-    let builder = || ThreadPoolBuilder::new().num_threads(threads);
-    let pool = LAST.of(builder, |pool| pool.current_num_threads() == threads);
-    pool.map_err(|error| EvaluationError::Threads(error.to_string()))
+    Ok(pool.install(work))
 }
 
 /// Among how many rows at most the memory for kept values is divided.

@@ -247,7 +247,7 @@ impl GumRow {
 
     /// The standard uncertainties of the inputs, and what links them.
     pub(super) fn known(&self) -> (&[f64], &[Correlation]) {
-        (&self.uncertainties, &self.links)
+        (&self.uncertainties, &self.linked.correlations)
     }
 
     /// Whether correlation coefficients link quantities that vary.

@@ -30,7 +30,7 @@ fn trials(task: &Task, row: usize) -> Result<Option<RowTrials>, EvaluationError>
 /// `None` without trials, or if stopped.
 ///
 /// # Errors
-/// Threads that cannot be started.
+/// A task that does not hold together.
 pub fn quantiles(
     task: &Task,
     evaluation: &Evaluation,
@@ -50,7 +50,7 @@ pub fn quantiles(
 /// where memory can hold them.
 ///
 /// # Errors
-/// Threads that cannot be started.
+/// A task that does not hold together.
 pub fn quantiles_and_ranks(
     task: &Task,
     evaluation: &Evaluation,
@@ -71,7 +71,7 @@ pub fn quantiles_and_ranks(
 /// vary has none. `None` without trials, or if stopped.
 ///
 /// # Errors
-/// Threads that cannot be started.
+/// A task that does not hold together.
 pub fn joint_ranks(
     task: &Task,
     evaluation: &Evaluation,
@@ -96,7 +96,7 @@ fn rows(task: &Task) -> usize {
 /// stopped.
 ///
 /// # Errors
-/// Threads that cannot be started.
+/// A task that does not hold together.
 pub fn histograms(
     task: &Task,
     evaluation: &Evaluation,
@@ -125,7 +125,7 @@ pub fn histograms(
 /// gives, with its numerical standard errors. `None` without trials, or if stopped.
 ///
 /// # Errors
-/// Threads that cannot be started.
+/// A task that does not hold together.
 pub fn convergence(
     task: &Task,
     evaluation: &Evaluation,
