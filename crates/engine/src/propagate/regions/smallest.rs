@@ -50,7 +50,7 @@ const TOGETHER: usize = 8192;
 
 /// Nets of points that a volume is integrated with, and how many points each has.
 const NETS: u64 = 4;
-const POINTS: u32 = 1 << 15;
+const POINTS: u32 = 1 << 14;
 
 /// The square of the relative noise of the density at the edge of the region that the narrowest kernel
 /// leaves; and the widest one that is narrowest.

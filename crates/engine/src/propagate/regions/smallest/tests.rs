@@ -67,7 +67,6 @@ fn chained(columns: &[Vec<f64>], next: impl Fn(f64, f64) -> f64) -> Vec<Vec<f64>
 fn check(name: &str, columns: &[Vec<f64>], volume: f64, largest: f64) {
     let found = region(columns).unwrap();
     let off = (found.volume - volume) / found.error;
-    println!("{name}: {} {} {}", found.volume / volume - 1.0, found.error / volume, off);
     assert!(off.abs() < 4.0, "{name}: {found:?} for {volume}");
     assert!(found.error < largest * volume, "{name}: {found:?} for {volume}");
 }
