@@ -587,9 +587,8 @@ fn of_heavy_tails(
         None => "the value is the median",
     };
     let text = format!(
-        "`{name}`{at}: a few trials far out carry what the others do not have, so that its distribution \
-         has {missing} that trials could tell (JCGM 101, 3.6, note 1), and none is given; median and \
-         coverage intervals stand, and {value}"
+        "`{name}`{at}: trials far out, of which a run has few or none, carry its moments, so that trials \
+         tell {missing} (JCGM 101, 3.6, note 1); median and coverage intervals stand, and {value}"
     );
     push(found, Warning::new("heavy-tails", name, text));
 }
