@@ -634,7 +634,8 @@ impl Solved<'_> {
         let length = symmetric[1][0] - symmetric[0][0];
         if is_flat || least.includes(0.5 * tail) || least.interval.length() >= length {
             let [low, high] = symmetric.map(|end| end[0]);
-            let ends = if is_flat { symmetric } else { self.balanced_errors(p, [low, high], scale)? };
+            let ends =
+                if is_flat { symmetric } else { self.balanced_errors(p, [low, high], scale)? };
             return Some((ends, least.alone && !is_flat));
         }
         let ends = least.interval.ends;
@@ -665,7 +666,8 @@ impl Solved<'_> {
         let density = |of: &[OfNet]| mean(of.iter().map(|of| of[1]))[0];
         let step = SLOPE_STEP * scale;
         let [rise, fall] = ends.map(|y| {
-            let [before, after] = [y - 0.5 * step, y + 0.5 * step].map(|y| density(&self.at(y, all)));
+            let [before, after] =
+                [y - 0.5 * step, y + 0.5 * step].map(|y| density(&self.at(y, all)));
             (after - before) / step
         });
         let [of_low, of_high] = ends.map(|y| self.at(y, all));
