@@ -377,7 +377,8 @@ impl Integrated<'_> {
                     let newton = (y - output.0[i]) / slope.0[i];
                     let end = usize::from((output.0[i] > y) == (slope.0[i] > 0.0));
                     held[i][end] = at.0[i];
-                    // far steps would leave the range where the slope says anything
+                    // far steps would leave the range where the slope says anything, and beyond the values
+                    // that were looked at the output need not be monotone
                     let limit = 8.0 * width;
                     let mut to = (at.0[i] + newton.clamp(-limit, limit)).clamp(least, most);
                     // beside a steep end steps go to and fro
