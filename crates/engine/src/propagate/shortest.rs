@@ -83,7 +83,8 @@ pub(super) struct Search<F> {
 impl<F: FnMut([f64; 2], Purpose) -> Option<Interval>> Search<F> {
     /// The interval with a probability below it, counted from 0 or, below 0, from that of all outside.
     fn find(&mut self, place: f64) -> Option<Interval> {
-        let tails = if place < 0.0 { [self.tail + place, -place] } else { [place, self.tail - place] };
+        let tails =
+            if place < 0.0 { [self.tail + place, -place] } else { [place, self.tail - place] };
         if tails[0] <= 0.0 || tails[1] <= 0.0 { None } else { (self.at)(tails, Purpose::Find) }
     }
 
@@ -92,7 +93,8 @@ impl<F: FnMut([f64; 2], Purpose) -> Option<Interval>> Search<F> {
         let looked = self.looked();
         let length = |i: usize| looked.get(i).map_or(f64::INFINITY, Interval::length);
         let is_least = |&i: &usize| {
-            length(i) <= length(i + 1) && i.checked_sub(1).is_none_or(|i_1| length(i) <= length(i_1))
+            length(i) <= length(i + 1)
+                && i.checked_sub(1).is_none_or(|i_1| length(i) <= length(i_1))
         };
         let mut places: Vec<usize> = (0..looked.len()).filter(is_least).collect();
         places.sort_by(|&a, &b| length(a).total_cmp(&length(b)));
@@ -123,14 +125,16 @@ impl<F: FnMut([f64; 2], Purpose) -> Option<Interval>> Search<F> {
         let mut share = 0.1 / f64::from(PARTS);
         while share > LEAST_SHARE && looked.first().is_some_and(|first| first.sign() > 0.0) {
             let tails = [share * tail, tail - share * tail];
-            let Some(lower) = (self.at)(tails, Purpose::Survey) else { break };
+            let lower = (self.at)(tails, Purpose::Survey);
+            let Some(lower) = lower.filter(|of| of.sign() != 0.0) else { break };
             looked.insert(0, lower);
             share *= 0.1;
         }
         let mut share = 0.1 / f64::from(PARTS);
         while share > LEAST_SHARE && looked.last().is_some_and(|last| last.sign() < 0.0) {
             let tails = [tail - share * tail, share * tail];
-            let Some(upper) = (self.at)(tails, Purpose::Survey) else { break };
+            let upper = (self.at)(tails, Purpose::Survey);
+            let Some(upper) = upper.filter(|of| of.sign() != 0.0) else { break };
             looked.push(upper);
             share *= 0.1;
         }
@@ -181,7 +185,8 @@ impl<F: FnMut([f64; 2], Purpose) -> Option<Interval>> Search<F> {
             }
             last = self.find(at)?;
             let sign = last.sign();
-            let (own, other) = if sign < 0.0 { (&mut low, &mut high) } else { (&mut high, &mut low) };
+            let (own, other) =
+                if sign < 0.0 { (&mut low, &mut high) } else { (&mut high, &mut low) };
             *own = [at, last.excess[0]];
             if sign == before {
                 other[1] *= 0.5;

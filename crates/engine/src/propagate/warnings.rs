@@ -163,7 +163,8 @@ fn of_noiseless(name: &str, evaluated: &OutputEvaluation, found: &mut Vec<Warnin
     };
     let errors = &trials.errors;
     let own = noiseless.scatter();
-    let of = |figure: &str, trials, exact, error, own| (figure.to_owned(), trials, exact, error, own);
+    let of =
+        |figure: &str, trials, exact, error, own| (figure.to_owned(), trials, exact, error, own);
     let mut figures = vec![
         of(
             "estimate",

@@ -154,9 +154,15 @@ impl Law {
     }
 
     /// The interval with these probabilities below and above it.
-    fn interval(&self, p: f64, tails: [f64; 2], purpose: Purpose) -> Option<([Found; 2], Interval)> {
+    fn interval(
+        &self,
+        p: f64,
+        tails: [f64; 2],
+        purpose: Purpose,
+    ) -> Option<([Found; 2], Interval)> {
         let [below, above] = tails;
-        if matches!(self, Self::Sum { inversion, .. } if below.min(above) < RESOLVED * inversion.error) {
+        if matches!(self, Self::Sum { inversion, .. } if below.min(above) < RESOLVED * inversion.error)
+        {
             return None;
         }
         let (low, [dense_low, off_low]) = self.end([below, p + above], purpose)?;
@@ -224,8 +230,12 @@ impl Law {
         }
         // it begins or ends where the values do
         match self.limits() {
-            [Some(limit), _] if from <= 0.0 => return Some(([limit, self.quantile(p, tail)?], unique)),
-            [_, Some(limit)] if to >= tail => return Some(([self.quantile(tail, p)?, limit], unique)),
+            [Some(limit), _] if from <= 0.0 => {
+                return Some(([limit, self.quantile(p, tail)?], unique));
+            }
+            [_, Some(limit)] if to >= tail => {
+                return Some(([self.quantile(tail, p)?, limit], unique));
+            }
             _ => {}
         }
         let tails = least.interval.tails;

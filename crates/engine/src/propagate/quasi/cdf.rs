@@ -87,11 +87,7 @@ impl Cdf {
                 let density = elementary::exp(-(half + 0.5) * libm::log1p(x * x / dof));
                 [special::student::cdf(x, dof), constant * density]
             };
-            Self {
-                location: mean,
-                scale,
-                shape: Shape::Table(Table::new(20.0, at)),
-            }
+            Self { location: mean, scale, shape: Shape::Table(Table::new(20.0, at)) }
         };
         Some(match distribution {
             Distribution::Normal(_) | Distribution::StudentT(_) => {
@@ -100,25 +96,17 @@ impl Cdf {
             Distribution::Readings(readings) => {
                 student(readings.drawn_scale(), distribution.drawn_dof())
             }
-            Distribution::Rectangular(shape) if shape.dof_is_infinite() => Self {
-                location: mean,
-                scale: u * 3f64.sqrt(),
-                shape: Shape::Rectangular,
-            },
+            Distribution::Rectangular(shape) if shape.dof_is_infinite() => {
+                Self { location: mean, scale: u * 3f64.sqrt(), shape: Shape::Rectangular }
+            }
             Distribution::Triangular(shape) => {
                 let [rise, fall] = shape.exact_sides()?;
                 let mode = mean - (fall - rise) / 3.0;
-                Self {
-                    location: mode,
-                    scale: 1.0,
-                    shape: Shape::Triangular(rise, fall),
-                }
+                Self { location: mode, scale: 1.0, shape: Shape::Triangular(rise, fall) }
             }
-            Distribution::Arcsine(_) => Self {
-                location: mean,
-                scale: u * 2f64.sqrt(),
-                shape: Shape::Arcsine,
-            },
+            Distribution::Arcsine(_) => {
+                Self { location: mean, scale: u * 2f64.sqrt(), shape: Shape::Arcsine }
+            }
             Distribution::Lognormal(shape) => {
                 let [location, scale] = shape.of_logarithm();
                 Self { location, scale, shape: Shape::Lognormal }
@@ -132,11 +120,9 @@ impl Cdf {
                     shape: Shape::LogUniform,
                 }
             }
-            Distribution::Exponential(_) => Self {
-                location: 0.0,
-                scale: mean,
-                shape: Shape::Exponential,
-            },
+            Distribution::Exponential(_) => {
+                Self { location: 0.0, scale: mean, shape: Shape::Exponential }
+            }
             _ => return None,
         })
     }

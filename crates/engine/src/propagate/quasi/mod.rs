@@ -379,7 +379,8 @@ impl Integrated<'_> {
                     let newton = (y - output.0[i]) / slope.0[i];
                     let end = usize::from((output.0[i] > y) == (slope.0[i] > 0.0));
                     held[i][end] = at.0[i];
-                    // far steps would leave the range where the slope says anything
+                    // far steps would leave the range where the slope says anything, and beyond the values
+                    // that were looked at the output need not be monotone
                     let limit = 8.0 * width;
                     let mut to = (at.0[i] + newton.clamp(-limit, limit)).clamp(least, most);
                     // beside a steep end steps go to and fro
@@ -636,7 +637,8 @@ impl Solved<'_> {
         let length = symmetric[1][0] - symmetric[0][0];
         if is_flat || least.includes(0.5 * tail) || least.interval.length() >= length {
             let [low, high] = symmetric.map(|end| end[0]);
-            let ends = if is_flat { symmetric } else { self.balanced_errors(p, [low, high], scale)? };
+            let ends =
+                if is_flat { symmetric } else { self.balanced_errors(p, [low, high], scale)? };
             return Some((ends, least.alone && !is_flat));
         }
         let ends = least.interval.ends;
@@ -667,7 +669,8 @@ impl Solved<'_> {
         let density = |of: &[OfNet]| mean(of.iter().map(|of| of[1]))[0];
         let step = SLOPE_STEP * scale;
         let [rise, fall] = ends.map(|y| {
-            let [before, after] = [y - 0.5 * step, y + 0.5 * step].map(|y| density(&self.at(y, all)));
+            let [before, after] =
+                [y - 0.5 * step, y + 0.5 * step].map(|y| density(&self.at(y, all)));
             (after - before) / step
         });
         let [of_low, of_high] = ends.map(|y| self.at(y, all));
