@@ -278,7 +278,7 @@ class Measurement:
             # the function has the results as its arguments, about which their figures are enough to know
             inputs = {name: as_alone(value, name).to_dict(self.inputs[name]) for name, value in known.items()}
             own = {key: value for key, value in file.items() if key != "correlations"}
-            alone = self._read({**own, "inputs": inputs, "equations": formulas}, held)
+            alone = self._read({**own, "inputs": inputs, "equations": formulas}, files)
         function = BlockFunction(self, Way.UNCHECKED, aliases) if self.equations is None else None
         if not self.check:
             self._warn(function, None)
