@@ -49,6 +49,7 @@ def pool() -> Iterator[ProcessPoolExecutor]:
         yield executor
 
 
+@pytest.mark.slow
 def test_the_process_pool(long_answer: bytes, pool: ProcessPoolExecutor) -> None:
     told: list[int] = []
     result = gu.load(PLANE).run(**LONG, executor=pool, progress=told.append)
@@ -57,6 +58,7 @@ def test_the_process_pool(long_answer: bytes, pool: ProcessPoolExecutor) -> None
     assert told == sorted(told) and told[-1] > 2.9 * LONG["trials"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [1, 2, 3])
 def test_threads(long_answer: bytes, workers: int) -> None:
     with ThreadPoolExecutor(workers) as executor:
@@ -69,6 +71,7 @@ def test_one_pass(program: str, pool: ProcessPoolExecutor) -> None:
     assert gu.load(PLANE).run(trials=200_000, executor=pool).to_json().encode() == expected
 
 
+@pytest.mark.slow
 def test_other_formats_and_what_is_saved(pool: ProcessPoolExecutor, tmp_path: Path) -> None:
     model = gu.load(PLANE)
     here, there = model.run(**LONG), model.run(**LONG, executor=pool, to_save=True)
@@ -152,6 +155,7 @@ class Shuffled(Executor):
             future.set_result(found)
 
 
+@pytest.mark.slow
 def test_any_order(long_answer: bytes) -> None:
     assert gu.load(PLANE).run(**LONG, executor=Shuffled()).to_json().encode() == long_answer
 
@@ -166,6 +170,7 @@ def kill_some_worker(executor: ProcessPoolExecutor, killed: list[int]) -> None:
         time.sleep(0.001)
 
 
+@pytest.mark.slow
 def test_a_killed_worker_of_the_pool(long_answer: bytes) -> None:
     killed: list[int] = []
     executor = ProcessPoolExecutor(2)
@@ -204,6 +209,7 @@ class Interrupting(ThreadPoolExecutor):
         return super().submit(fn, *args, **kwargs)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("most", [5, 40])
 def test_resume(program: str, long_answer: bytes, tmp_path: Path, most: int) -> None:
     model, folder = gu.load(PLANE), tmp_path / "parts"
@@ -292,6 +298,7 @@ def test_errors_of_workers_are_those_of_the_model(pool: ProcessPoolExecutor) -> 
 CASE = MODELS / "gap" / "sampling_rate" / "case.json"
 
 
+@pytest.mark.slow
 def test_draws_of_a_blind_check(program: str, pool: ProcessPoolExecutor) -> None:
     said = run(program, "gap-check", CASE, "--draws", 6, "--format", "json", "--quiet")
     assert said.returncode == 0, said.stderr.decode()
@@ -305,6 +312,7 @@ def test_draws_of_a_blind_check(program: str, pool: ProcessPoolExecutor) -> None
         gu.gap_check(CASE, 6, executor=pool, keep="x")
 
 
+@pytest.mark.slow
 def test_draws_in_files(program: str, tmp_path: Path) -> None:
     def check(*arguments: object) -> subprocess.CompletedProcess[bytes]:
         return run(program, "gap-check", CASE, "--draws", 4, "--quiet", *arguments)

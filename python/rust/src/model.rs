@@ -292,7 +292,8 @@ impl Model {
         let task = &self.file.task;
         let control = Control::default().with_stop(&stop);
         let found = supervised_within(py, &stop, || draws::draws(task, count, &control))?;
-        let columns = |of: Vec<Vec<f64>>| of.into_iter().map(|v| PyArray1::from_vec(py, v)).collect();
+        let columns =
+            |of: Vec<Vec<f64>>| of.into_iter().map(|v| PyArray1::from_vec(py, v)).collect();
         Ok((columns(found.variables), columns(found.outputs)))
     }
 

@@ -99,8 +99,8 @@ def checked(measurement: Measurement, model: _gumption.Model, aliases: Mapping[s
     ModelError
         If the function does not give the same values for the same arguments.
     """
-    # a whole block of draws, so that what hangs on any of them is noticed in the few that are looked at
-    variables, formulas = model.draws(BLOCK)
+    # of columns a whole block, so that what hangs on any draw of it is noticed in the few that are looked at
+    variables, formulas = model.draws(BLOCK if measurement.equations is None else DRAWS)
     rows = max(1, min(model.rows, DRAWS // 4, len(variables[0])))
     length = len(variables[0]) // rows
     # of each row the estimates and the first draws

@@ -6,6 +6,7 @@ import inspect
 import itertools
 import json
 import re
+import types
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -277,7 +278,7 @@ class Measurement:
             # the function has the results as its arguments, about which their figures are enough to know
             inputs = {name: as_alone(value, name).to_dict(self.inputs[name]) for name, value in known.items()}
             own = {key: value for key, value in file.items() if key != "correlations"}
-            alone = self._read({**own, "inputs": inputs, "equations": formulas}, held)
+            alone = self._read({**own, "inputs": inputs, "equations": formulas}, files)
         function = BlockFunction(self, Way.UNCHECKED, aliases) if self.equations is None else None
         if not self.check:
             self._warn(function, None)
@@ -306,8 +307,16 @@ class Measurement:
             if difference is not None:
                 why = f"{why} {difference};"
         how = "in blocks of values" if function.way in (Way.COLUMNS, Way.UNCHECKED) else "one draw at a time"
-        has_units = self.check_units and {*self.arguments.values(), *self.outputs.values()} != {"1"}
+        units = [*self.arguments.values(), *self.outputs.values()]
+        has_units = self.check_units and {*units} != {"1"}
         unchecked = f" Dimensions are not checked. {self._units_within()}".rstrip() if has_units else ""
+        if has_units and any(_gumption.unit_within(unit)[2] for unit in units):
+            if named := sorted(_names(getattr(self.function, "__code__", None)) & _CONVERSIONS):
+                unchecked += (
+                    f" It uses `{'`, `'.join(named)}`, but its angles are in radians already, and it gives "
+                    "them in radians: leave the conversion out, or say `check_units=False`, if that is of "
+                    "one of them."
+                )
         warnings.warn(
             f"{why} it is evaluated by Python {how}, which is slower, with sensitivities by central "
             f"differences.{unchecked}",
@@ -388,6 +397,17 @@ class Measurement:
             )  # fmt: skip
             self._budgets = unchecked(**anything, conditions=at)
         return self._budgets
+
+
+#: Functions between degrees and radians, in `math` and in NumPy.
+_CONVERSIONS = {"radians", "degrees", "deg2rad", "rad2deg"}
+
+
+def _names(code: object) -> set[str]:
+    """The names that the code of a function and of those within it uses."""
+    if not isinstance(code, types.CodeType):
+        return set()
+    return set(code.co_names).union(*map(_names, code.co_consts))
 
 
 def _again(

@@ -188,8 +188,8 @@ def as_alone(value: Any, name: str) -> Input:
     """What is known about an input, of an output of a result by its estimate and standard uncertainty."""
     if not hasattr(value, "_as_input"):
         return as_input(value, name)
-    gum = value.gum
-    found = _normal(gum.estimate, gum.standard_uncertainty)
+    u = value.gum.standard_uncertainty
+    found = _normal(value.gum.estimate, u if math.isfinite(u) else 0.0)
     return Input(found.spec, value.unit)
 
 
