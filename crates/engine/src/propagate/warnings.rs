@@ -686,7 +686,7 @@ mod tests {
             found.first().map(|warning| warning.text.clone())
         };
         assert_eq!(said(&output), None);
-        let moved: [(&str, fn(&mut crate::propagate::monte_carlo::MonteCarlo)); 8] = [
+        let moved: [(&str, fn(&mut MonteCarlo)); 8] = [
             ("its estimate by", |of| *of.estimate.as_mut().unwrap() += 0.2),
             ("its standard uncertainty by", |of| *of.standard_uncertainty.as_mut().unwrap() += 0.2),
             ("its median by", |of| of.median += 0.2),

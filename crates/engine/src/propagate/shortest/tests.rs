@@ -1,7 +1,6 @@
 //! Shortest intervals of exact and quasi-random figures against those of distribution functions that are
 //! integrated over one input after the other, without characteristic functions and without points.
 
-use super::*;
 use crate::distribution::*;
 use crate::propagate::evaluation::joint;
 use crate::propagate::exact::{self, Accuracy, Noiseless, Problem, test_task as task};
