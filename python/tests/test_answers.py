@@ -70,6 +70,7 @@ class TestSamples:
         with pytest.raises(gu.ModelError, match="needs Monte Carlo trials"):
             result.saved()
         assert math.isnan(result["a_x"].monte_carlo.estimate)
+        pytest.importorskip("matplotlib")
         assert len(result.plot("a_x").axes) == 1
 
     def test_moments(self, plane: gu.Result) -> None:
@@ -235,6 +236,7 @@ class TestCommands:
         assert dict(pickle.loads(pickle.dumps(of_model))) == dict(of_model)
         assert "Sobol" in str(of_model)
 
+    @pytest.mark.slow
     def test_gap_check(self) -> None:
         answer = gu.gap_check(MODELS / "gap" / "sampling_rate" / "case.json", draws=2)
         assert isinstance(answer, dict) and answer

@@ -299,6 +299,15 @@ class TestOneQuantity:
         self.zero(combined(p=(1.0, 0.1), q=(1.0, 0.1)).with_inputs(p=p, q=q))
         self.zero(combined(p=p, q=(1.0, 0.1)).with_inputs(q=q))
 
+    def test_twice_in_a_dictionary(self) -> None:
+        x = gu.normal(1.0, 0.3, "V")
+        file = {"equations": {"z": "p - q"}, "outputs": {"z": {"unit": "V"}}}
+        self.zero(gu.from_dict({"inputs": {"p": x, "q": x}, **file}))
+        other = {"p": gu.normal(2.0, 0.1, "V"), "q": gu.normal(2.0, 0.1, "V")}
+        model = gu.from_dict({"inputs": other, **file})
+        self.zero(model.with_inputs(p=x, q=x))
+        assert model.run(trials=0)["z"].gum.standard_uncertainty == pytest.approx(math.sqrt(0.02))
+
     def test_part_of_the_variance(self) -> None:
         """p = x + a, q = x + b: u^2(p - q) = u^2(a) + u^2(b); p + q has 4 u^2(x) more."""
         add = gu.model(inputs={"x": "V", "e": "V"}, outputs={"y": "V"})(lambda x, e: x + e)

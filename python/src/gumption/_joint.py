@@ -187,10 +187,10 @@ class Joint:
                 raise _NotTogether(f"{title} names another file `{name}`")
         known, units = model._known or {}, model.inputs
         names: dict[str, str] = {}
-        for name, entry in file["inputs"].items():
+        for name in file["inputs"]:
             value = known.get(name)
             if value is None:
-                raise _NotTogether(f"`{name}` of {title} is the text {entry!r}")
+                raise _NotTogether(f"what `{name}` of {title} is stands in its file alone")
             of_output = is_output(value)
             names[name] = self._output(value) if of_output else self._input(value, name, units[name])
         row = result.conditions

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from gumption import _gumption
 from gumption._frames import condition_file
-from gumption._joint import Joint
-from gumption._quantities import as_input, as_known, shared
+from gumption._joint import Joint, identity_of
+from gumption._quantities import as_input, as_known, shared, unit_of
 from gumption._result import Result
 
 if TYPE_CHECKING:
@@ -390,6 +390,20 @@ def take_inputs(
         held.update(joint.held)
         links += joint.links
         known.update(joint.known)
+    first: dict[object, str] = {}
+    for name, value in list(known.items()):
+        twin = first.setdefault(identity_of(value), name)
+        if twin == name:
+            continue
+        # one object for two inputs is one quantity
+        if unit_of(value) is None and units.get(twin) != units.get(name):
+            raise _gumption.ModelError(
+                f"one quantity is given for `{twin}` and for `{name}`, which are in different units, and "
+                "has no unit of its own; give it one"
+            )
+        file["inputs"].pop(name, None)
+        file["equations"] = {name: twin, **file.get("equations", {})}
+        del known[name]
     for name, value in given.items():
         if name in known:
             found = as_input(value, name)
