@@ -198,9 +198,9 @@ impl Threads {
         // a browser's program has the thread that it is called on, and no more are expected
         if let Some(reason) = parallel::refused().filter(|_| !cfg!(target_family = "wasm")) {
             SAID.call_once(|| {
-                say(&format!(
+                say_line(&format!(
                     "warning: the system gives no threads ({}): one does all, and the answer is the \
-                     same\n",
+                     same",
                     plain(reason)
                 ));
             });
