@@ -46,6 +46,11 @@ const OF_VARIANCE: f64 = 0.25;
 /// that of the input, which has the moments that its degrees of freedom tell.
 const LEFT_TANGENT: f64 = 1.5;
 
+/// An output that goes on from a probability of 1e-7 to one of 1e-9 by no more than this factor has no
+/// tail there, as a comparison or a sine has none: a tail of a power would have moments beyond the
+/// eleventh.
+const STILL: f64 = 1.5;
+
 /// Inputs that are followed one at a time, at most: those that move the output farthest.
 const MOST_ALONE: usize = 200;
 
@@ -252,11 +257,12 @@ impl Along {
 
     /// The order that the tails leave, where they leave the tangent.
     fn order(&self, spread: f64, variance: f64) -> f64 {
-        let of_end = |(point, tangent): (usize, f64)| {
+        let of_end = |((point, before), tangent): ((usize, usize), f64)| {
             let far = self.departure(point);
             // what is not defined there is in no trial
             let straight = tangent.is_finite() && far <= LEFT_TANGENT * tangent;
-            if straight || self.values[point].is_nan() {
+            let bounded = far.is_finite() && far <= STILL * self.departure(before);
+            if straight || bounded || self.values[point].is_nan() {
                 f64::INFINITY
             } else if ONE_TRIAL * far > OF_MEAN * spread {
                 1.0
@@ -266,7 +272,7 @@ impl Along {
                 f64::INFINITY
             }
         };
-        let ends = [0, 2 * MEDIAN].into_iter().zip(self.tangent);
+        let ends = [(0, 1), (2 * MEDIAN, 2 * MEDIAN - 1)].into_iter().zip(self.tangent);
         ends.map(of_end).fold(f64::INFINITY, f64::min)
     }
 }
@@ -359,12 +365,15 @@ impl Bend<'_> {
         varying.filter_map(|set: Vec<usize>| self.correlations(&set)).collect()
     }
 
-    /// The order that the sharpest pole on a way leaves: 1/x has moments below 1, 1/sqrt(x) below 2.
+    /// The order that the sharpest pole on a way leaves: 1/x has moments below 1, 1/sqrt(x) below 2. A pole
+    /// beyond a probability of 1e-7 does not count: a trial that moves the mean has to come so near to it
+    /// that no one in a thousand million does.
     fn order_of_pole(&self, way: &Along) -> f64 {
         let points = self.space.points(&way.moves);
-        let heights: Vec<f64> = way.values.iter().map(|value| value.abs()).collect();
+        let inner = &way.values[1..POINTS - 1];
+        let heights: Vec<f64> = inner.iter().map(|value| value.abs()).collect();
         let modulus = |place: usize, share: f64| {
-            let ends = points[place].iter().zip(&points[place + 1]);
+            let ends = points[place + 1].iter().zip(&points[place + 2]);
             let between: Vec<f64> = ends.map(|(from, to)| from + share * (to - from)).collect();
             self.value(&between).abs()
         };

@@ -206,7 +206,7 @@ fn of_ref_type<'d>(object: &Object<'_>, all: &[Node<'d, 'd>]) -> Option<Vec<Node
 
 /// What the quantities of one table have in common. A quantity of several values is a table; those of one
 /// value each are one where they stand beside each other, or each in a row of its own: a list without
-/// others of them, which is called as the other rows are.
+/// others of them, which is called as the other rows are; or each in a result of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Table<'d> {
     around: NodeId,
@@ -231,6 +231,23 @@ impl<'d> Table<'d> {
             None => Self { around: parent.id(), row: None, status },
         }
     }
+}
+
+/// Whether results of one value each are the rows of one table.
+fn are_rows(
+    tables: &[(Option<String>, Vec<usize>)],
+    chosen: &[Node<'_, '_>],
+    measured: &[Measured],
+) -> bool {
+    let part = |number: usize| standing::part(chosen[number]).map(|of| of.id());
+    let parts: HashSet<Option<NodeId>> =
+        tables.iter().filter_map(|(_, members)| members.first().map(|one| part(*one))).collect();
+    let of = tables.first().and_then(|(status, _)| status.as_ref());
+    parts.len() == tables.len()
+        && tables.iter().all(|(status, members)| {
+            status.as_ref() == of
+                && matches!(&members[..], [one] if measured[*one].values.len() == 1)
+        })
 }
 
 /// Whether the chosen quantities are one table; otherwise after a mistake. Those that the object lists by
@@ -272,7 +289,7 @@ pub(super) fn is_one_table<'d>(
             None => tables.push((status, vec![number])),
         }
     }
-    if tables.len() < 2 {
+    if tables.len() < 2 || are_rows(&tables, chosen, measured) {
         return true;
     }
     // how many tables have this around them

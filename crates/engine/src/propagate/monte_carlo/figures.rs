@@ -96,11 +96,24 @@ const HEAVY: f64 = 0.01;
 /// An excess kurtosis up to this is one of ordinary distributions, however few the trials.
 const ORDINARY: f64 = 30.0;
 
-/// Whether a few trials carry the sum of squares, though a kurtosis should exist. The largest trial has
+/// The share of the sum of squares from which on the farthest trial carries it with few others; the
+/// trials in which a rare event happens are as many as it says, and all as far.
+const OF_FARTHEST: f64 = 0.05;
+
+/// Whether a few trials carry the sum of squares, though a kurtosis should exist. The farthest trial has
 /// at most the share sqrt(kurtosis/trials) of it, and one that has the share s brings the kurtosis to
-/// s^2 trials.
-fn is_heavy(moments: &Moments, moment_order: f64) -> bool {
-    moment_order > 4.0 && moments.excess_kurtosis > f64::max(HEAVY * moments.trials, ORDINARY)
+/// s^2 trials. `extremes` are the least and the greatest trial.
+fn is_heavy(moments: &Moments, moment_order: f64, extremes: [f64; 2]) -> bool {
+    let share = farthest(moments, extremes).powi(2) / moments.trials;
+    moment_order > 4.0
+        && moments.excess_kurtosis > f64::max(HEAVY * moments.trials, ORDINARY)
+        && share > OF_FARTHEST
+}
+
+/// How many standard deviations the farthest trial lies from the mean.
+fn farthest(moments: &Moments, extremes: [f64; 2]) -> f64 {
+    let away = extremes.map(|x| (x - moments.mean).abs() / moments.std);
+    away[0].max(away[1])
 }
 
 /// The shares of the sums of third and of fourth powers from which on the farthest trial has too much
@@ -111,8 +124,8 @@ const TOO_FAR: [f64; 2] = [0.02, 0.04];
 /// Whether the trials tell how far skewness and excess kurtosis scatter; `extremes` are the least and
 /// the greatest trial.
 fn tells_shape(moments: &Moments, extremes: [f64; 2]) -> [bool; 2] {
-    let Moments { trials, mean, std, skewness, excess_kurtosis, .. } = *moments;
-    let farthest = extremes.into_iter().map(|x| (x - mean).abs() / std).fold(0.0, f64::max);
+    let Moments { trials, skewness, excess_kurtosis, .. } = *moments;
+    let farthest = farthest(moments, extremes);
     let cube = farthest.powi(3);
     // of a normal distribution the mean cube without its sign
     let cubes = trials * skewness.abs().max(1.6);
@@ -141,9 +154,10 @@ pub(crate) struct Finished {
 }
 
 impl MonteCarlo {
-    /// The figures, without the moments of `moment_order` and above, which do not exist.
+    /// The figures, without the moments of `moment_order` and above, which do not exist; `extremes` are
+    /// the least and the greatest trial.
     pub(super) fn new(
-        moments: &Moments,
+        (moments, extremes): (&Moments, [f64; 2]),
         moment_order: f64,
         median: f64,
         intervals: Intervals,
@@ -152,7 +166,7 @@ impl MonteCarlo {
         let spread = moments.std > 0.0;
         // a single trial does not scatter
         let several = moments.trials > 1.0;
-        let heavy_tailed = is_heavy(moments, moment_order);
+        let heavy_tailed = is_heavy(moments, moment_order, extremes);
         let exists = |order: f64| moment_order > order && !heavy_tailed;
         Self {
             trials: moments.trials as u64,
@@ -249,7 +263,7 @@ impl NumericalError {
         extremes: [f64; 2],
     ) -> Self {
         let [low, high, median] = quantiles;
-        let heavy = is_heavy(moments, moment_order);
+        let heavy = is_heavy(moments, moment_order, extremes);
         let told = tells_shape(moments, extremes);
         let shape = |order: f64, which: usize| {
             let exists = moment_order > order && moments.std > 0.0 && !heavy && told[which];

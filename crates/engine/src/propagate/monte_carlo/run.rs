@@ -315,7 +315,7 @@ fn figures(
         exact: true,
         unique: found.unique,
     };
-    Some(MonteCarlo::new(&moments, moment_order, median, intervals, errors))
+    Some(MonteCarlo::new((&moments, extremes), moment_order, median, intervals, errors))
 }
 
 /// How the shortest intervals of the first batches scatter.

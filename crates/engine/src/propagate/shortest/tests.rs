@@ -325,11 +325,12 @@ fn quasi_study(models: u64) -> f64 {
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
 
-/// With 80 correlated quotients the root mean square is within 0.3 of 1.07 but once in some thousand seeds.
+/// With 24 quotients, of which the two of a model are correlated, the root mean square is within 0.6 of
+/// 1.07 but once in some thousand seeds.
 #[test]
-fn quasi_intervals_of_forty_models() {
-    let root = quasi_study(40);
-    assert!((0.75..1.4).contains(&root), "{root}");
+fn quasi_intervals_of_twelve_models() {
+    let root = quasi_study(12);
+    assert!((0.5..1.7).contains(&root), "{root}");
 }
 
 #[test]

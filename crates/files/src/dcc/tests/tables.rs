@@ -197,19 +197,22 @@ fn quantities_of_one_value_are_joined() {
         of("A", &rows) + &of("B", &rows),
         of("A", &(row(" refType=\"a\"", "300", "0.1") + &row(" refType=\"b\"", "310", "0.2"))),
         of("A", &(column(["0.1", "0.2"]) + &column(["0.3", "0.4"]))),
-        of("A", &row("", "300", "0.1")) + &of("B", &row("", "310", "0.2")),
+        of("A", &row("", "300", "0.1"))
+            + &of("B", &(row("", "310", "0.2") + &row("", "320", "0.4"))),
     ] {
         let xml = measured("", &results);
         let error = model_in("K", &xml, &input, "").unwrap_err().to_string();
         assert!(error.contains("there are 2 tables"), "{error}");
     }
-    // who knows that they are rows lists them
+    // results of one value each, and the same by their places
     let results = of("A", &row("", "300", "0.1")) + &of("B", &row("", "310", "0.2"));
     let xml = measured("", &results);
     let conditions = r#", "conditions": {"t": {"unit": "K", "values": [305]}}"#;
-    let file = model_in("K", &xml, r#""quantity": [1, 3], "at": "t""#, conditions).unwrap();
-    let [mean, u, _] = known(&file, 0);
-    assert!((mean - 0.15).abs() < 1e-12 && (u - 0.1).abs() < 1e-12);
+    for input in [&format!(r#"{KIND}, "at": "t""#), r#""quantity": [1, 3], "at": "t""#] {
+        let file = model_in("K", &xml, input, conditions).unwrap();
+        let [mean, u, _] = known(&file, 0);
+        assert!((mean - 0.15).abs() < 1e-12 && (u - 0.1).abs() < 1e-12);
+    }
     for (places, part) in [
         ("[1, 9]", "has 4 quantities, counted from 0"),
         ("[1, 1]", "named twice"),

@@ -4,7 +4,7 @@ use super::*;
 use crate::distribution::{BLOCK, StreamKey};
 
 /// Trials of each case.
-const TRIALS: usize = 1 << 17;
+const TRIALS: usize = 1 << 15;
 
 /// Uniform columns.
 fn uniform(count: usize) -> Vec<Vec<f64>> {
@@ -85,11 +85,11 @@ fn normal_outputs() {
     for order in 2..=4 {
         let z = normals(order);
         let r = (2.0 * special::gamma::quantile(0.95, 0.5 * order as f64)).sqrt();
-        check("normal", &z, ball(order, r), 0.02);
+        check("normal", &z, ball(order, r), 0.05);
         let sums = chained(&z, |own, before| 0.5 * own - 2.0 * before);
         let bent = chained(&z, |own, before| own + 0.2 * before * before);
         let determinant = 0.5_f64.powi(order as i32 - 1);
-        check("correlated", &sums, determinant * ball(order, r), 0.02);
+        check("correlated", &sums, determinant * ball(order, r), 0.05);
         check("bent", &bent, ball(order, r), 0.1);
     }
 }
@@ -106,7 +106,7 @@ fn multivariate_t() {
         for column in &mut columns {
             column.iter_mut().zip(&factors).for_each(|(z, factor)| *z /= factor);
         }
-        check("t", &columns, volume, 0.03);
+        check("t", &columns, volume, 0.08);
     }
 }
 
@@ -126,11 +126,11 @@ fn skew_outputs() {
             u.iter().map(|column| column.iter().map(|u| of(*u)).collect()).collect()
         };
         let x = made(|u| -crate::number::elementary::ln(u));
-        check("exponential", &x, exponential, 0.04);
+        check("exponential", &x, exponential, 0.1);
         let sums = chained(&x, |own, before| own + before);
-        check("sums of exponentials", &sums, exponential, 0.04);
+        check("sums of exponentials", &sums, exponential, 0.1);
         let x = made(|u| exp(0.5 * special::normal::quantile(u)));
-        check("lognormal", &x, lognormal, 0.02);
+        check("lognormal", &x, lognormal, 0.06);
     }
 }
 
@@ -139,9 +139,9 @@ fn skew_outputs() {
 fn uniform_densities() {
     for order in 2..=4 {
         let u = uniform(order);
-        check("box", &u, 0.95, 0.02);
+        check("box", &u, 0.95, 0.05);
         let skew = chained(&u, |own, before| own - before);
-        check("skew box", &skew, 0.95, 0.03);
+        check("skew box", &skew, 0.95, 0.08);
     }
 }
 
