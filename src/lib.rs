@@ -282,6 +282,11 @@ pub use gumption_report as report;
 pub use gumption_signal as observe;
 pub use gumption_units as unit;
 
+/// Threads that belong to one process.
+pub mod threads {
+    pub use gumption_engine::threads::OfProcess;
+}
+
 /// What is known about a quantity: probability distributions.
 pub mod distribution {
     pub use gumption_engine::distribution::{

@@ -1,15 +1,20 @@
 #!/bin/sh
 # A run in N parts at the same time on this machine: the loop that any batch system needs.
 #
-#   parts.sh N MODEL DIR "ANSWER OPTIONS" [RUN OPTIONS]
+#   parts.sh N MODEL DIR ["ANSWER OPTIONS" [RUN OPTIONS]]
 #   parts.sh 8 model.json work "--format json --output answer.json" --trials 1e10
 #
 # DIR takes the parts. One that fails is made again the next time the script is started: parts that are
 # there are left as they are.
 set -eu
+if [ $# -lt 3 ]; then
+    sed -n '2,8s/^# \{0,1\}//p' "$0" >&2
+    exit 2
+fi
 gumption=${GUMPTION:-gumption}
-count=$1 model=$2 dir=$3 answer=$4
-shift 4
+count=$1 model=$2 dir=$3 answer=${4-}
+shift 3
+[ $# -eq 0 ] || shift
 mkdir -p "$dir"
 while :; do
     # parts are called after the pass that they are of

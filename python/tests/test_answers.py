@@ -70,6 +70,7 @@ class TestSamples:
         with pytest.raises(gu.ModelError, match="needs Monte Carlo trials"):
             result.saved()
         assert math.isnan(result["a_x"].monte_carlo.estimate)
+        pytest.importorskip("matplotlib")
         assert len(result.plot("a_x").axes) == 1
 
     def test_moments(self, plane: gu.Result) -> None:
@@ -235,6 +236,7 @@ class TestCommands:
         assert dict(pickle.loads(pickle.dumps(of_model))) == dict(of_model)
         assert "Sobol" in str(of_model)
 
+    @pytest.mark.slow
     def test_gap_check(self) -> None:
         answer = gu.gap_check(MODELS / "gap" / "sampling_rate" / "case.json", draws=2)
         assert isinstance(answer, dict) and answer
@@ -289,6 +291,18 @@ class TestBudgets:
             gu.budgets(self.product(), a=([1.0, 2.0], [0.1, -0.1]), b=1.0)
         with pytest.raises(gu.ModelError, match="no input or condition `c`"):
             gu.budgets(self.product(), a=1.0, b=2.0, c=3.0)
+
+    def test_the_index_of_a_frame_is_kept(self) -> None:
+        """U stands on its own row after a join, whatever the order of the frame."""
+        pandas = pytest.importorskip("pandas")
+        frame = pandas.DataFrame({"a": [3.0, 1.0, 2.0, 5.0], "u": [0.3, 0.1, 0.2, 0.5]}, index=list("wxyz"))
+        frame = frame[frame["a"] < 4].sort_values("a")
+        table = gu.budgets(self.product(), a=(frame["a"], frame["u"]), b=2.0).to_pandas()
+        assert list(table.index) == ["x", "y", "w"]
+        joined = frame.join(table)
+        assert np.allclose(joined["standard_uncertainty"], 2 * joined["u"], rtol=1e-12)
+        with pytest.raises(gu.ModelError, match="by their label"):
+            gu.budgets(self.product(), a=(frame["a"], 0.1), b=frame["a"].sort_index(ascending=False))
 
 
 def test_published_examples_are_where_they_were() -> None:

@@ -76,6 +76,7 @@ def test_a_pickled_model_has_its_certificate(tmp_path: Path) -> None:
     assert pickle.loads(pickled).run(trials=20_000).to_json() == expected
 
 
+@pytest.mark.slow
 def test_contents_in_place_of_files(monkeypatch: pytest.MonkeyPatch) -> None:
     case = "models/gap/sampling_rate/case.json"
     monkeypatch.chdir(ROOT / Path(case).parent)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import multiprocessing
 import os
 import pickle
 import random
@@ -11,6 +12,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 from collections.abc import Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
@@ -47,6 +49,7 @@ def pool() -> Iterator[ProcessPoolExecutor]:
         yield executor
 
 
+@pytest.mark.slow
 def test_the_process_pool(long_answer: bytes, pool: ProcessPoolExecutor) -> None:
     told: list[int] = []
     result = gu.load(PLANE).run(**LONG, executor=pool, progress=told.append)
@@ -55,6 +58,7 @@ def test_the_process_pool(long_answer: bytes, pool: ProcessPoolExecutor) -> None
     assert told == sorted(told) and told[-1] > 2.9 * LONG["trials"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [1, 2, 3])
 def test_threads(long_answer: bytes, workers: int) -> None:
     with ThreadPoolExecutor(workers) as executor:
@@ -67,6 +71,7 @@ def test_one_pass(program: str, pool: ProcessPoolExecutor) -> None:
     assert gu.load(PLANE).run(trials=200_000, executor=pool).to_json().encode() == expected
 
 
+@pytest.mark.slow
 def test_other_formats_and_what_is_saved(pool: ProcessPoolExecutor, tmp_path: Path) -> None:
     model = gu.load(PLANE)
     here, there = model.run(**LONG), model.run(**LONG, executor=pool, to_save=True)
@@ -111,6 +116,22 @@ def test_a_function_that_is_not_traced(pool: ProcessPoolExecutor) -> None:
         model.run(trials=50_000, executor=pool, resume="nowhere")
 
 
+@pytest.mark.parametrize("method", multiprocessing.get_all_start_methods())
+def test_pools_of_every_kind(method: str) -> None:
+    """Also of children that were forked after this process had threads of its own, with formulas and
+    with a function."""
+    context = multiprocessing.get_context(method)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gu.NotTracedWarning)
+        function = untraced(x=(1.0, 0.1))
+    for model in (gu.load(PLANE), function):
+        # both of the engine's pools have threads here: those of a number, and those of the machine
+        here = model.run(trials=100_000, threads=1)
+        assert model.run(trials=100_000).to_json() == here.to_json()
+        with ProcessPoolExecutor(2, mp_context=context) as executor:
+            assert model.run(trials=100_000, executor=executor).to_json() == here.to_json()
+
+
 class Shuffled(Executor):
     """Makes everything at once, and hands it over in an order of chance."""
 
@@ -134,6 +155,7 @@ class Shuffled(Executor):
             future.set_result(found)
 
 
+@pytest.mark.slow
 def test_any_order(long_answer: bytes) -> None:
     assert gu.load(PLANE).run(**LONG, executor=Shuffled()).to_json().encode() == long_answer
 
@@ -148,6 +170,7 @@ def kill_some_worker(executor: ProcessPoolExecutor, killed: list[int]) -> None:
         time.sleep(0.001)
 
 
+@pytest.mark.slow
 def test_a_killed_worker_of_the_pool(long_answer: bytes) -> None:
     killed: list[int] = []
     executor = ProcessPoolExecutor(2)
@@ -186,6 +209,7 @@ class Interrupting(ThreadPoolExecutor):
         return super().submit(fn, *args, **kwargs)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("most", [5, 40])
 def test_resume(program: str, long_answer: bytes, tmp_path: Path, most: int) -> None:
     model, folder = gu.load(PLANE), tmp_path / "parts"
@@ -274,6 +298,7 @@ def test_errors_of_workers_are_those_of_the_model(pool: ProcessPoolExecutor) -> 
 CASE = MODELS / "gap" / "sampling_rate" / "case.json"
 
 
+@pytest.mark.slow
 def test_draws_of_a_blind_check(program: str, pool: ProcessPoolExecutor) -> None:
     said = run(program, "gap-check", CASE, "--draws", 6, "--format", "json", "--quiet")
     assert said.returncode == 0, said.stderr.decode()
@@ -287,6 +312,7 @@ def test_draws_of_a_blind_check(program: str, pool: ProcessPoolExecutor) -> None
         gu.gap_check(CASE, 6, executor=pool, keep="x")
 
 
+@pytest.mark.slow
 def test_draws_in_files(program: str, tmp_path: Path) -> None:
     def check(*arguments: object) -> subprocess.CompletedProcess[bytes]:
         return run(program, "gap-check", CASE, "--draws", 4, "--quiet", *arguments)

@@ -143,6 +143,287 @@ def test_dimensions_are_checked() -> None:
         wrong(l=1.0, t=2.0)
 
 
+class TestAngles:
+    """Within a function angles are in radians: what converts them again is asked about."""
+
+    @pytest.mark.parametrize(
+        "function",
+        [
+            lambda a: np.sin(np.deg2rad(a)),
+            lambda a: np.sin(np.radians(a)),
+            lambda a: np.sin(a * np.pi / 180),
+            lambda a: np.sin(np.pi / 180 * a),
+            lambda a: np.sin(a / 180 * math.pi),
+            lambda a: np.sin(0.0174533 * (a + gu.quantity(1, "deg"))),
+            lambda a: np.sin(a / 57.3),
+            lambda a: np.cos(np.deg2rad(np.array([a, 2 * a]))).sum(),
+        ],
+    )
+    def test_degrees_to_radians(self, function: Any) -> None:
+        with pytest.raises(gu.ModelError, match="in radians already.*check_units=False"):
+            gu.model(inputs={"a": "deg"}, outputs={"z": "1"})(function)
+
+    @pytest.mark.parametrize(
+        "function",
+        [
+            lambda y, x: np.rad2deg(np.arctan2(y, x)),
+            lambda y, x: np.degrees(np.arctan2(y, x)) + 1,
+            lambda y, x: np.arctan(y / x) * 180 / np.pi,
+            lambda y, x: 57.29578 * np.arcsin(y / x),
+        ],
+    )
+    def test_radians_to_degrees(self, function: Any) -> None:
+        with pytest.raises(gu.ModelError, match="taken in radians.*check_units=False"):
+            gu.model(inputs={"y": "mm", "x": "mm"}, outputs={"phi": "deg"})(function)
+
+    def test_it_cannot_be_swallowed(self) -> None:
+        def caught(a: Any) -> Any:
+            try:
+                return np.sin(np.deg2rad(a))
+            except Exception:
+                return a
+
+        with pytest.raises(gu.ModelError, match="in radians already"):
+            gu.model(inputs={"a": "deg"}, outputs={"z": "1"})(caught)
+
+    def test_both_readings(self) -> None:
+        """sin 0.5 of 30 deg: without the conversion, or with the numbers of the declared units."""
+        in_radians = gu.model(inputs={"a": "deg"}, outputs={"z": "1"})(lambda a: np.sin(a))
+        declared = gu.model(inputs={"a": "deg"}, outputs={"z": "1"}, check_units=False)(
+            lambda a: np.sin(np.deg2rad(a))
+        )
+        for measurement in (in_radians, declared):
+            gum = measurement(a=(30, 0.1)).run(trials=0)["z"].gum
+            assert math.isclose(gum.estimate, 0.5, rel_tol=1e-14)
+            u = math.cos(math.pi / 6) * math.radians(0.1)
+            assert math.isclose(gum.standard_uncertainty, u, rel_tol=1e-12)
+
+    def test_what_is_right(self) -> None:
+        """Degrees as a number, of a number, and back."""
+        right = gu.model(inputs={"a": "deg", "x": "1"}, outputs={"z": "1", "phi": "deg"})(
+            lambda a, x: (
+                np.rad2deg(a) + np.sin(np.deg2rad(x)),
+                np.deg2rad(np.rad2deg(a) + x),
+            )
+        )
+        result = right(a=(30, 0.1), x=(90, 0.1)).run(trials=0)
+        assert math.isclose(result["z"].gum.estimate, 31, rel_tol=1e-14)
+        assert math.isclose(result["phi"].gum.estimate, 120, rel_tol=1e-14)
+
+    def test_other_libraries_are_told_the_units(self) -> None:
+        """`math.radians` takes a number: what it gets is in the warning."""
+        f = gu.model(inputs={"a": "deg"}, outputs={"z": "1"})(lambda a: math.sin(math.radians(a)))
+        with pytest.warns(gu.NotTracedWarning) as said:
+            f(a=(30, 0.1))
+        text = str(said[0].message)
+        assert "`a` is in rad (declared in deg)" in text and "It uses `radians`" in text
+
+
+class TestDecisions:
+    """An `if` is about numbers in coherent SI units."""
+
+    @pytest.mark.parametrize(
+        "function",
+        [
+            lambda d: d if d > 10 else 2 * d,
+            lambda d: d if 10 < d else 2 * d,
+            lambda d: max(d, 10),
+            lambda d: d if d == 12 else 2 * d,
+            lambda d: d if d - 10 > 0 else 2 * d,
+        ],
+    )
+    def test_numbers_without_a_unit(self, function: Any) -> None:
+        with pytest.raises(gu.ModelError) as raised:
+            gu.model(inputs={"d": "mm"}, outputs={"z": "mm"})(function)
+        # both readings, and how to say which
+        for word in ("`d` is in m (declared in mm)", 'quantity(..., "mm")', "check_units=False"):
+            assert word in str(raised.value)
+
+    def test_it_cannot_be_swallowed(self) -> None:
+        def caught(d: Any) -> Any:
+            try:
+                return d if d > 10 else 2 * d
+            except TypeError:
+                return 3 * d
+
+        with pytest.raises(gu.ModelError, match="cannot be compared"):
+            gu.model(inputs={"d": "mm"}, outputs={"z": "mm"})(caught)
+
+    def test_both_readings(self) -> None:
+        """12 mm is more than 10 mm."""
+        with_unit = gu.model(inputs={"d": "mm"}, outputs={"z": "mm"})(
+            lambda d: d if d > gu.quantity(10, "mm") else 2 * d
+        )
+        declared = gu.model(inputs={"d": "mm"}, outputs={"z": "mm"}, check_units=False)(
+            lambda d: d if d > 10 else 2 * d
+        )
+        with pytest.warns(gu.NotTracedWarning, match="Dimensions are not checked"):
+            assert with_unit(d=(12, 0.1)).run(trials=0)["z"].gum.estimate == pytest.approx(12)
+        with pytest.warns(gu.NotTracedWarning):
+            assert declared(d=(12, 0.1)).run(trials=0)["z"].gum.estimate == 12
+
+
+def cyl(diameter: Any, h: Any) -> Any:
+    return np.pi * diameter**2 * h / 4
+
+
+class TestArguments:
+    """Names and order are the function's own."""
+
+    def test_names_that_are_no_arguments(self) -> None:
+        with pytest.raises(TypeError, match="`d` is no argument of `cyl`; its arguments are diameter, h"):
+            gu.model(inputs={"h": "mm", "d": "mm"}, outputs={"V": "mm^3"})(cyl)
+        with pytest.raises(TypeError, match="`k` is no argument"):
+            gu.model(inputs={"diameter": "mm", "h": "mm"}, conditions={"k": "1"}, outputs={"V": "mm^3"})(cyl)
+
+    def test_arguments_without_a_name(self) -> None:
+        with pytest.raises(TypeError, match="`cyl` also takes h"):
+            gu.model(inputs={"diameter": "mm"}, outputs={"V": "mm^3"})(cyl)
+
+    @pytest.mark.parametrize("trace", [True, False])
+    def test_order(self, trace: bool) -> None:
+        """10 mm wide and 24 mm high: pi 10^2 24/4 = 1885.0 mm^3, however the dictionary is written."""
+        for inputs in ({"h": "mm", "diameter": "mm"}, {"diameter": "mm", "h": "mm"}):
+            f = gu.model(inputs=inputs, outputs={"V": "mm^3"}, trace=trace)(cyl)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", gu.NotTracedWarning)
+                models = f(10.0, 24.0), f(10.0, h=24.0), f(h=24.0, diameter=10.0)
+            for model in models:
+                assert round(model.run(trials=0)["V"].gum.estimate, 1) == 1885.0
+
+    def test_functions_of_c(self) -> None:
+        """`math.atan2(y, x, /)` and `numpy.arctan2(x1, x2, /)` have names, `math.hypot` has none."""
+        for function, names in ((math.atan2, ("x", "y")), (np.arctan2, ("x2", "x1"))):
+            f = gu.model(inputs=dict.fromkeys(names, "1"), outputs={"z": "1"}, trace=False)(function)
+            with pytest.warns(gu.NotTracedWarning):
+                gum = f(3.0, 4.0).run(trials=0)["z"].gum
+            assert math.isclose(gum.estimate, math.atan2(3, 4), rel_tol=1e-15)
+        with pytest.raises(TypeError, match="no argument of `atan2`; its arguments are y, x"):
+            gu.model(inputs={"a": "1", "b": "1"}, outputs={"z": "1"})(math.atan2)
+        hypot = gu.model(inputs={"a": "1", "b": "1"}, outputs={"z": "1"}, trace=False)(math.hypot)
+        with pytest.warns(gu.NotTracedWarning):
+            assert hypot(3.0, 4.0).run(trials=0)["z"].gum.estimate == 5
+
+    def test_a_condition_among_the_inputs(self) -> None:
+        f = gu.model(inputs={"a": "1", "b": "1"}, conditions={"t": "1"}, outputs={"z": "1"})(
+            lambda a, t, b: a * t - b
+        )
+        with pytest.raises(TypeError, match="give the others by name"):
+            f(1.0, 2.0, conditions={"t": [3.0]})
+        assert f(1.0, b=2.0, conditions={"t": [3.0]}).run(trials=0)["z"].gum.estimate == [1.0]
+
+
+SCALE = 2.0
+
+
+class TestChecked:
+    """What `test_constructs.py` does not show."""
+
+    def test_the_difference_is_said(self) -> None:
+        f = one(lambda x, y: 2 * x + y if isinstance(x, float) else 3 * x + y)
+        with pytest.warns(gu.NotTracedWarning) as said:
+            f(x=1.0, y=(2.0, 0.1))
+        text = str(said[0].message)
+        assert "`z` is 5, and one draw at a time 4, at x = 1, y = 2" in text
+
+    def test_a_global_that_changes(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        f = one(lambda x, y: SCALE * x + y)
+        model = f(x=(1.0, 0.1), y=1.0)
+        assert model.run(trials=0)["z"].gum.estimate == 3
+        monkeypatch.setitem(globals(), "SCALE", 5.0)
+        # the model that was made is no longer that of the function
+        with pytest.raises(gu.ModelError, match="same value"):
+            model.run(trials=0)
+        # and a new one is not evaluated by what was traced before
+        with pytest.warns(gu.NotTracedWarning, match="not evaluated by its formulas"):
+            assert f(x=(1.0, 0.1), y=1.0).run(trials=0)["z"].gum.estimate == 6
+
+    def test_models_that_are_made_of_it(self) -> None:
+        """Another estimate may be where the formulas do not hold."""
+
+        def f(x: Any, y: Any) -> Any:
+            return x + y if not isinstance(x, float) or x < 10 else 7 * x
+
+        model = one(f)(x=(1.0, 0.1), y=1.0)
+        assert model.set(x=5).run(trials=0)["z"].gum.estimate == 6
+        for other in (lambda: model.set(x=20), lambda: model.with_inputs(x=(20, 0.1))):
+            with pytest.raises(gu.ModelError, match="one draw at a time"):
+                other()
+
+    @pytest.mark.parametrize("limit", [3.0, 4.0])
+    def test_what_hangs_on_rare_draws(self, limit: float) -> None:
+        """Of 1024 draws one is beyond 3 standard uncertainties in 3 of 4 cases, and beyond 4 in 1 of 30:
+        that is noticed when the model is made, or in the blocks of the run."""
+        f = one(lambda x, y: y + (1 if np.any(np.asarray(x > limit)) else 0) + 0 * x)
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            model = f(x=(0.0, 1.0), y=(1.0, 0.1))
+        if "one draw at a time" not in str(said[0].message):
+            with pytest.raises(gu.ModelError, match="hangs on the others"):
+                model.run(trials=500_000)
+
+    def test_rows_of_conditions(self) -> None:
+        f = gu.model(inputs={"x": "1"}, conditions={"t": "1"}, outputs={"z": "1"})(
+            lambda x, t: np.max([x * t, 2.0])
+        )
+        with pytest.warns(gu.NotTracedWarning, match="one draw at a time"):
+            z = f(x=(1.0, 0.01), conditions={"t": [1.0, 3.0]}).run(trials=0)["z"]
+        assert list(z.gum.estimate) == [2.0, 3.0]
+
+    def test_without_the_check(self) -> None:
+        calls = []
+
+        def f(x: Any, y: Any) -> Any:
+            calls.append(x)
+            return x * y
+
+        unchecked = gu.model(inputs={"x": "1", "y": "1"}, outputs={"z": "1"}, check=False)(f)
+        model = unchecked(x=(1.0, 0.1), y=2.0)
+        model.run(trials=0)
+        # it was traced, and never called again
+        assert len(calls) == 1
+
+    def test_scales_with_zeros_of_their_own(self) -> None:
+        """20 degC is 68 degF, and 20 dBm is -10 dBW: the engine converts, which is no difference."""
+        units = {"inputs": {"t": "degC", "p": "dBm"}, "outputs": {"T": "degF", "q": "dBW"}}
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            f = gu.model(**units)(lambda t, p: (t, p))
+            result = f(t=(20, 0.1), p=(20, 0.1)).run(trials=0)
+        assert math.isclose(result["T"].gum.estimate, 68)
+        assert result["q"].gum.estimate == -10
+        # where Python computes nobody knows what is to be converted
+        by_python = gu.model(**units, trace=False)(lambda t, p: (t, p))
+        with pytest.raises(gu.ModelError, match="levels in dBm and `q` in dBW"):
+            by_python(t=(20, 0.1), p=(20, 0.1))
+
+    def test_what_nearly_cancels_is_no_difference(self) -> None:
+        """(1 - cos x)/x^2 of x = 1e-6: rounding alone is of the order of 1e-4."""
+        f = one(lambda x, y: (1 - np.cos(x)) / x**2 + y)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            f(x=(1e-6, 1e-8), y=1.0)
+
+    def test_budgets_in_columns(self) -> None:
+        f = one(lambda x, y: x + y if not isinstance(x, float) or x < 10 else 7 * x)
+        assert list(gu.budgets(f, x=([1.0, 2.0], 0.1), y=1.0).estimate) == [2, 3]
+        with pytest.raises(gu.ModelError, match="one draw at a time"):
+            gu.budgets(f, x=([1.0, 20.0], 0.1), y=1.0)
+
+    def test_what_is_pickled(self) -> None:
+        again = pickle.loads(pickle.dumps(clipped))
+        assert again is clipped
+        with pytest.warns(gu.NotTracedWarning, match="one draw at a time"):
+            model = clipped(x=(1.0, 0.1))
+        there = pickle.loads(pickle.dumps(model))
+        assert there.run(trials=2000).to_json() == model.run(trials=2000).to_json()
+
+
+@gu.model(inputs={"x": "1"}, outputs={"z": "1"})
+def clipped(x: Any) -> Any:
+    return np.min([x, 1.0])
+
+
 def test_exponents_of_quantities() -> None:
     side = gu.model(inputs={"v": "mm^3"}, outputs={"a": "mm", "b": "1/mm"})(
         lambda v: (v ** (1 / 3), np.power(v, -1 / 3))
@@ -153,9 +434,18 @@ def test_exponents_of_quantities() -> None:
 
 def test_an_object_given_twice_is_one_quantity() -> None:
     x = gu.normal(2.0, 0.1)
-    twice = one(lambda x, y: x - y)(x=x, y=x).run(trials=1000)["z"]
-    assert twice.gum.standard_uncertainty == 0
-    assert twice.monte_carlo.standard_uncertainty == 0
+    for trace in (True, False):
+        f = gu.model(inputs={"x": "1", "y": "1"}, outputs={"z": "1"}, trace=trace)(lambda x, y: x - y)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", gu.NotTracedWarning)
+            twice = f(x=x, y=x).run(trials=1000)["z"]
+        assert twice.gum.standard_uncertainty == 0
+        assert twice.monte_carlo.standard_uncertainty == 0
+    lengths = gu.model(inputs={"x": "mm", "y": "cm"}, outputs={"z": "mm"})(lambda x, y: x - y)
+    with pytest.raises(gu.ModelError, match="no unit of its own"):
+        lengths(x=x, y=x)
+    same = gu.normal(2.0, 0.1, "mm")
+    assert lengths(x=same, y=same).run(trials=0)["z"].gum.standard_uncertainty == 0
 
 
 def test_pickle() -> None:
@@ -226,8 +516,8 @@ class TestUntraced:
         def broken(x: Any, y: Any) -> Any:
             raise KeyError("no table")
 
-        with pytest.warns(gu.NotTracedWarning), pytest.raises(KeyError, match="no table"):
-            one(broken)(x=(1.0, 0.1), y=1.0).run()
+        with pytest.raises(KeyError, match="no table"):
+            one(broken)(x=(1.0, 0.1), y=1.0)
 
     def test_undefined_trials_are_counted(self) -> None:
         f = gu.model(inputs={"x": "1"}, outputs={"z": "1"}, trace=False)(np.sqrt)

@@ -23,6 +23,7 @@ import gumption as gu
 PLANE = MODELS / "inclined_plane.json"
 
 
+@pytest.mark.slow
 def test_other_threads_run_meanwhile() -> None:
     model = gu.load(PLANE)
     counted, done = 0, threading.Event()
@@ -115,6 +116,7 @@ def _resident() -> int:
         return int(file.read().split()[1]) * resource.getpagesize()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs /proc")
 def test_memory_does_not_grow() -> None:
     model = gu.load(PLANE)

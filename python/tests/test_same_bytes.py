@@ -106,11 +106,16 @@ def test_saved_results_and_samples(program: str, tmp_path: Path) -> None:
     "arguments",
     [
         ["assumptions", "models/inclined_plane.json", "--trials", "20000"],
-        ["observe", "models/recordings/rotating_table/recipe.json"],
+        pytest.param(
+            ["observe", "models/recordings/rotating_table/recipe.json"],
+            marks=pytest.mark.slow, id="observe",
+        ),
         ["certificate", "models/certificates/three_axis_accelerometer.json", "--trials", "0"],
         ["diff", "models/inclined_plane.json", "models/inclined_plane_spurious.json"],
-        ["gap", "models/gap/sampling_rate/case.json"],
-    ],
+        pytest.param(
+            ["gap", "models/gap/sampling_rate/case.json"], marks=pytest.mark.slow, id="gap"
+        ),
+    ],  # fmt: skip
     ids=lambda arguments: arguments[0],
 )
 def test_other_commands(program: str, arguments: list[str], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -22,6 +22,7 @@ def mypy(*arguments: str, cwd: Path) -> str:
     return "" if said.returncode == 0 else said.stdout + said.stderr
 
 
+@pytest.mark.slow
 @needs_mypy
 def test_strict(tmp_path: Path) -> None:
     (tmp_path / "use.py").write_text(
@@ -36,6 +37,7 @@ def test_strict(tmp_path: Path) -> None:
     assert not mypy(*options, "-p", "gumption", cwd=tmp_path)
 
 
+@pytest.mark.slow
 @needs_mypy
 def test_stubs(tmp_path: Path) -> None:
     config = tmp_path / "mypy.ini"

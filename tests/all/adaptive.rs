@@ -9,7 +9,7 @@ use gumption::propagate::validate::numerical_tolerance;
 use gumption::propagate::{Control, EvaluationError, evaluate, for_each_block};
 use gumption::task::{Coverage, StoppingRule, Task, Trials};
 
-use crate::support::announce;
+use crate::support::{announce, command};
 
 /// JCGM 101, 9.2.2: u = 2, ends of the interval at -3.92 and 3.92.
 const NORMAL_SUM: &str = r#"{
@@ -126,7 +126,7 @@ fn the_rule_is_asked_for_and_told() {
     );
     std::fs::write(folder.path().join("m.json"), &text).unwrap();
     let run = |options: &[&str]| {
-        let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_gumption"));
+        let mut command = command();
         command.current_dir(folder.path()).args(["run", "m.json"]).args(options);
         command.output().unwrap()
     };

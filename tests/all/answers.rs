@@ -6,10 +6,10 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use sha2::{Digest, Sha256};
 
+use crate::process::Command;
 use crate::support::{command, file_name, model_files, root};
 
 /// Turns the C library's kernels with fused products off, as on a processor without them.

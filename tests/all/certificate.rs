@@ -274,7 +274,58 @@ fn a_result_is_not_normal_only_where_the_digits_show_it() {
         let page = output(&["certificate", &path(folder.path(), "c.json"), "--quiet"]);
         let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
         assert_eq!(page.contains("not normally distributed"), said, "{page}");
-        assert_eq!(page.contains("the result is normally distributed"), !said, "{page}");
+        assert_eq!(page.contains("which for a normal distribution corresponds"), !said, "{page}");
+    }
+}
+
+/// A coverage factor belongs to a law; that the result has it is said nowhere, in no language: not of one
+/// rectangle of which nothing was looked at, and not of a sum of two, which is a triangle, though U prints
+/// alike to one digit.
+#[test]
+fn no_law_is_stated_that_a_result_has_not() {
+    let rectangle = json!({"distribution": "rectangular", "mean": 5, "half_width": 0.3});
+    let one = json!({"inputs": {"r": rectangle}, "equations": {"b": "r"}, "outputs": {"b": {}}});
+    let two = json!({"inputs": {"r": rectangle, "s": rectangle}, "equations": {"b": "r + s"},
+        "outputs": {"b": {}}});
+    for (model, digits, more) in [(one, 2, &["--trials", "0"][..]), (two, 1, &[])] {
+        let certificate = json!({"title": "t", "digits": digits, "coverage_factor": 2,
+            "language": ["en", "de", "fr", "it"], "rows": [{"model": "m.json", "output": "b"}]});
+        let files = [("c.json", certificate), ("m.json", model)];
+        let found = answer(&files, more);
+        assert_eq!(found["rows"][0]["basis"], "normal");
+        for (language, conditional, claims) in [
+            ("en", "for a normal distribution corresponds", ["is normally", "not normally"]),
+            ("de", "bei einer Normalverteilung", ["ist normalverteilt", "nicht normalverteilt"]),
+            ("fr", "pour une loi normale", ["suit une loi", "suit pas une loi"]),
+            ("it", "per una distribuzione normale", ["ha distribuzione", "non ha distribuzione"]),
+        ] {
+            let said = found["statements"][language].to_string();
+            assert!(said.contains(conditional), "{said}");
+            assert!(!claims.iter().any(|claim| said.contains(claim)), "{said}");
+        }
+    }
+}
+
+/// A product whose trials refute clause 8 at three digits, with U to one digit: its interval has the digits
+/// of theirs, and the digital certificate names no law that they contradict.
+#[test]
+fn the_digital_certificate_names_no_law_that_trials_contradict() {
+    for (digits, is_named) in [(1, true), (3, false)] {
+        let model = json!({"inputs": {"a": normal(10.0, 0.1), "b": normal(10.0, 0.1)},
+            "equations": {"y": "a*b"}, "outputs": {"y": {}},
+            "monte_carlo": {"trials": 1_000_000, "digits": digits}});
+        let mut file = small()[0].1.clone();
+        file["digits"] = json!(1);
+        file["rows"] = json!([{"model": "m.json", "output": "y"}]);
+        if let Some(file) = file.as_object_mut() {
+            file.remove("monte_carlo");
+        }
+        let folder = folder(&[("c.json", file), ("m.json", model)]);
+        let name = path(folder.path(), "c.json");
+        let dcc = output(&["certificate", &name, "--quiet", "--format", "dcc"]);
+        assert!(dcc.contains("<si:coverageFactorXMLList>2.00</si:coverageFactorXMLList>"), "{dcc}");
+        assert_eq!(dcc.contains("<si:distributionXMLList>normal<"), is_named, "{dcc}");
+        assert_eq!(dcc.contains("<si:distributionXMLList>"), is_named, "{dcc}");
     }
 }
 
@@ -903,7 +954,7 @@ fn every_language_stands_by_itself() {
     assert!(html.contains("<html lang=\"de\">"), "{html}");
     let foreign: Vec<&str> = html.split(" lang=\"en\">").skip(1).collect();
     for said in
-        ["is normally distributed", "Row 3: The result conforms", "a remark", "Rows that share"]
+        ["for a normal distribution", "Row 3: The result conforms", "a remark", "Rows that share"]
     {
         let begins = |part: &&str| {
             let end = part.find("</p>").or_else(|| part.find("</ul>")).unwrap_or(part.len());

@@ -111,6 +111,43 @@ fn t_rows_of_a_digital_certificate_are_read_back() {
     assert!((number(&found["expanded_uncertainty"]) / 0.033 - 1.0).abs() < 0.002, "{found}");
 }
 
+/// 10^(-pH) of three readings has no expectation: certificate, page, tables and decision have the
+/// estimate by the law of propagation, 10^-2.80 mol/L = 1.5849 mmol/L, with the interval between
+/// 10^-(2.80 +- 4.527 * 0.01/sqrt(3)) mol/L, 1.4924 to 1.6832 mmol/L, t = 4.527 being the quantile of two
+/// degrees of freedom. The certificate said 8.2 mmol/L, U = 6.7, k = 316, and rejected. The ends have
+/// numerical standard errors of 1.1 % of their distance from the middle with 200 000 trials.
+#[test]
+fn a_mean_that_does_not_exist_is_stated_nowhere() {
+    let readings = json!({"distribution": "readings", "values": [2.79, 2.81, 2.80]});
+    let file = json!({"inputs": {"pH": readings}, "equations": {"c": "10^(-pH)*1 [mol/L]"},
+        "outputs": {"c": {"unit": "mmol/L", "tolerance": {"upper": 2}}}});
+    let certificate = certificate(rows(&["c"]), json!({}));
+    let folder = folder(&[("m.json", &file), ("c.json", &certificate)]);
+    for seed in ["1", "2", "3", "4"] {
+        let options = ["--trials", "200000", "--seed", seed];
+        let certificate = [&["certificate", "c.json"], &options[..]].concat();
+        let row = answer(folder.path(), &certificate)["rows"][0].clone();
+        assert!((number(&row["value"]) - 1.584_893).abs() < 1e-6, "{row}");
+        assert!((number(&row["expanded_uncertainty"]) - 0.0972).abs() < 0.005, "{row}");
+        // U over u = ln(10) 1.5849 * 0.01/sqrt(3) = 0.021070
+        assert!((number(&row["coverage_factor"]) - 4.6).abs() < 0.3, "{row}");
+        let run = [&["run", "m.json"], &options[..]].concat();
+        let found = answer(folder.path(), &run)["outputs"]["c"].clone();
+        assert!(found["monte_carlo"]["estimate"].is_null(), "{found}");
+        assert!(found["monte_carlo"]["standard_uncertainty"].is_null(), "{found}");
+        let ends = found["monte_carlo"]["symmetric_interval"].clone();
+        assert!((number(&ends[0]) - 1.4924).abs() < 0.006, "{ends}");
+        assert!((number(&ends[1]) - 1.6832).abs() < 0.006, "{ends}");
+        let decided = &found["conformity"];
+        assert_eq!(decided["conforms"], true, "{decided}");
+        let page = output(folder.path(), &run);
+        assert!(page.contains("c           1.585"), "{page}");
+        let is_estimate = |line: &&str| line.starts_with("estimate ") && line.contains("1.58");
+        let line = page.lines().find(is_estimate).expect("the estimates side by side");
+        assert_eq!(line.split_whitespace().nth(2), Some("-"), "{line}");
+    }
+}
+
 /// An agreed factor k = 2 of three degrees of freedom covers 2/pi (t/(sqrt 3 (1 + t^2/3)) + atan(t/sqrt
 /// 3)) = 0.8607 at t = 2; D-SI asks for the probability, and had that of a normal distribution.
 #[test]
@@ -345,8 +382,8 @@ fn a_nominal_value_of_some_rows_is_in_the_digital_certificate() {
     assert_eq!(elements(&xml, "valueXMLList"), ["-1.000", "-1.25", "-1.235", "0.000"]);
     assert!(elements(&xml, "content").iter().any(|of| of == "Row 2"), "{xml}");
     fs::write(folder.path().join("d.xml"), xml).expect("a file");
-    let input = |index: u32| json!({"distribution": "dcc", "file": "d.xml", "ref_type": "basic_measuredValue", "index": index});
-    let back = json!({"inputs": {"a": input(0), "b": input(1), "c": input(2)},
+    let input = |row: &str| json!({"distribution": "dcc", "file": "d.xml", "ref_type": "basic_measuredValue", "within": row});
+    let back = json!({"inputs": {"a": input("Row 1"), "b": input("Row 2"), "c": input("z")},
         "equations": {"ab": "a - b", "bc": "b - c"},
         "outputs": {"ab": {"unit": "V"}, "bc": {"unit": "V"}}, "monte_carlo": {"trials": 0}});
     fs::write(folder.path().join("b.json"), back.to_string()).expect("a file");

@@ -3,10 +3,11 @@
 use std::fs;
 use std::io::Write;
 use std::path::Path;
-use std::process::{Child, Output, Stdio};
+use std::process::{Output, Stdio};
 
 use serde_json::Value;
 
+use crate::process::{Child, Command};
 use crate::support::{command, model_files, root};
 
 const SMALL: &str = r#"{
@@ -398,8 +399,7 @@ fn interrupted(arguments: &[&str], milliseconds: u64) -> Output {
     let mut child = start(&[&["run", "-", "--trials", "1e11"], arguments].concat());
     child.stdin.take().expect("a pipe").write_all(SMALL.as_bytes()).expect("written");
     std::thread::sleep(std::time::Duration::from_millis(milliseconds));
-    let killed =
-        std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(killed.expect("kill runs").success());
     child.wait_with_output().expect("an end")
 }
@@ -560,7 +560,7 @@ fn a_file_beyond_the_limit_of_files_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let (model, page) = (folder.path().join("m.json"), folder.path().join("x.html"));
     fs::write(&model, SMALL).unwrap();
-    let mut command = std::process::Command::new("sh");
+    let mut command = Command::new("sh");
     command.args(["-c", "ulimit -f 2; exec \"$0\" run \"$1\" --format html --output \"$2\""]);
     command.arg(env!("CARGO_BIN_EXE_gumption")).args([&model, &page]);
     let ended = command.output().unwrap();

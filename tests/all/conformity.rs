@@ -592,6 +592,7 @@ fn the_workbook_decides_with_the_estimate_that_decides() {
     assert_eq!(cells(&sweep, "decision by the estimate"), rejected);
     let (_, page, _) = run(&sweep, &[]);
     assert!(page.contains("that decides") && page.contains("0 of 3 rows accepted"), "{page}");
+    assert!(page.replace('\n', " ").contains("The estimate that decides is the value"), "{page}");
     let first = page.lines().find(|line| line.starts_with("0.005")).expect("a row");
     assert!(first.contains("0.031") && first.ends_with("rejected"), "{page}");
     // where the law of propagation decides it is live, and the page has no other estimate

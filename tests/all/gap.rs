@@ -206,7 +206,6 @@ fn long_case() -> String {
 #[cfg(unix)]
 #[test]
 fn an_interrupt_hands_back_a_whole_page() {
-    use std::io::{BufRead, BufReader};
     use std::process::Stdio;
 
     let (folder, path) = case(&long_case());
@@ -219,11 +218,10 @@ fn an_interrupt_hands_back_a_whole_page() {
         .spawn()
         .unwrap();
     // the first warning is said when the case has been read and the diagnosis is about to begin
-    let mut said = String::new();
-    BufReader::new(child.stderr.take().unwrap()).read_line(&mut said).unwrap();
+    let (said, _rest) = crate::process::first_line(child.stderr.take().unwrap());
     assert!(said.starts_with("note: effect"), "{said}");
     let id = child.id().to_string();
-    let killed = std::process::Command::new("kill").args(["-INT", &id]).status();
+    let killed = crate::process::Command::new("kill").args(["-INT", &id]).status();
     assert!(killed.unwrap().success());
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let names = std::fs::read_dir(folder.path()).unwrap();

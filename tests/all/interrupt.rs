@@ -3,11 +3,12 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::Stdio;
 use std::time::Duration;
 
 use serde_json::Value;
 
+use crate::process::{Child, Command, ending, until};
 use crate::support::command;
 
 const MODEL: &str = r#"{"inputs": {"x": {"distribution": "normal", "mean": 1, "std": 0.1}},
@@ -44,9 +45,7 @@ fn wait_for_trials(child: &Child) {
     if !cfg!(target_os = "linux") {
         return std::thread::sleep(Duration::from_secs(3));
     }
-    while used().is_some_and(|ticks| ticks < 50) {
-        std::thread::sleep(Duration::from_millis(20));
-    }
+    until("half a second of work", || used().is_none_or(|ticks| ticks >= 50));
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -70,7 +69,7 @@ fn nameless(child: &Child, folder: &Path, bytes: u64) -> Option<PathBuf> {
 /// have them.
 #[test]
 fn a_signal_gives_the_answer_of_the_trials_so_far() {
-    for (name, code) in [("-INT", 130), ("-TERM", 143), ("-HUP", 129)] {
+    for (name, code) in ending(&[("-INT", 130), ("-TERM", 143), ("-HUP", 129)]) {
         let folder = folder();
         let arguments = ["run", "m.json", "--trials", "1e12", "--format", "json"];
         let outputs = ["--output", "a.json", "--save", "r.json", "--samples", "s.csv"];
@@ -129,10 +128,10 @@ fn a_signal_while_writing_leaves_the_old_file() {
         let arguments = ["run", "m.json", "--trials", "2e7", "--samples", "s.csv", "--quiet"];
         let mut child = start(folder.path(), &arguments);
         if cfg!(target_os = "linux") {
-            while nameless(&child, folder.path(), 1_000_000).is_none() {
+            until("a file without a name", || {
                 assert!(child.try_wait().unwrap().is_none(), "it ended before");
-                std::thread::sleep(Duration::from_millis(20));
-            }
+                nameless(&child, folder.path(), 1_000_000).is_some()
+            });
         }
         signal(&child, name);
         let done = child.wait_with_output().unwrap();
@@ -156,8 +155,27 @@ fn other_commands_end_at_once() {
     let arguments = ["assumptions", "m.json", "--trials", "1e9", "--output", "a.txt"];
     let child = start(folder.path(), &arguments);
     std::thread::sleep(Duration::from_millis(1500));
-    signal(&child, "-HUP");
+    let (name, code) = ending(&[("-HUP", 129), ("-TERM", 143)])[0];
+    signal(&child, name);
     let done = child.wait_with_output().unwrap();
-    assert_eq!(done.status.code(), Some(129));
+    assert_eq!(done.status.code(), Some(code));
     assert_eq!(names(folder.path()), ["m.json"]);
+}
+
+/// `nohup` has SIGHUP ignored, which is a wish: the run goes on, until another signal comes. On Linux,
+/// where a program can tell.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_hangup_that_was_to_be_ignored_is() {
+    let folder = folder();
+    let mut shell = Command::new("sh");
+    shell.current_dir(folder.path()).args(["-c", "trap '' HUP; exec \"$0\" \"$@\""]);
+    shell.arg(command().get_program()).args(["run", "m.json", "--trials", "1e12"]);
+    let mut child = shell.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    wait_for_trials(&child);
+    signal(&child, "-HUP");
+    std::thread::sleep(Duration::from_millis(300));
+    assert!(child.try_wait().unwrap().is_none(), "it ended");
+    signal(&child, "-TERM");
+    assert_eq!(child.wait_with_output().unwrap().status.code(), Some(143));
 }

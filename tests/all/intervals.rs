@@ -190,11 +190,15 @@ fn ends_are_order_statistics(trials: u64, per_mille: u64) {
         r#", "below": "y < ({low:?})", "upto": "y <= ({high:?})",
            "inside": "(y >= ({first:?})) * (y <= ({last:?}))""#
     );
-    let counting = model(&extra, r#", "below": {}, "upto": {}, "inside": {}"#);
+    let counting = model(
+        &extra,
+        r#", "below": {"tolerance": {"lower": 0.5}}, "upto": {"tolerance": {"lower": 0.5}},
+            "inside": {"tolerance": {"lower": 0.5}}"#,
+    );
     let counts = evaluate(&task(&counting, trials, p), &Control::default());
     let counts = counts.expect("an evaluation").rows.remove(0).outputs;
     let count = |output: usize| {
-        let share = counts[output].monte_carlo.as_ref().expect("trials").location();
+        let share = counts[output].monte_carlo.as_ref().expect("trials").inside;
         (share * trials as f64).round() as u64
     };
     let q = width_in_ranks(trials, per_mille).clamp(1, trials - 1);

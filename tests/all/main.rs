@@ -50,6 +50,7 @@ mod pages;
 mod parts;
 mod phases;
 mod planning;
+mod process;
 mod published;
 mod recordings;
 mod reports;

@@ -3,8 +3,8 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
+use crate::process::Command;
 use crate::support::{output, root};
 
 /// Pages whose commands are run in an empty folder, top to bottom.

@@ -280,7 +280,12 @@ fn delays_and_corrections_are_found() {
     check(&findings["delay by cross-correlation"], 0.3 / (TAU * 5.0), of_phase / (TAU * 5.0));
     let (phase, u) = pair(&findings["phase by cross-spectrum"]);
     assert!((phase + 0.3f64.to_degrees()).abs() < 3.0 * u && u < 2.0 * of_phase.to_degrees());
-    assert!(pair(&findings["normalized error of the delays"]).0 < 1.0);
+    // of 1 - g of the coherence u is a part, 1 over the root of one less than the segments near 1
+    let (coherence, u) = pair(&findings["coherence"]);
+    assert!(u > 0.0 && (1.0 - coherence) / u < 10.0);
+    let no_u = &findings["normalized error of the delays"];
+    assert!(no_u["value"].as_f64().unwrap() < 1.0);
+    assert!(no_u["standard_uncertainty"].is_null() && no_u["dof"].is_null());
     let (rms, u) = pair(&findings["RMS"]);
     assert!((rms - (8.5f64 * 8.5 / 2.0 + 0.0004).sqrt()).abs() < 3.0 * u && u < 1e-3);
     let (after, u) = pair(&findings["RMS difference after correction"]);

@@ -3,12 +3,12 @@
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
-#[cfg(unix)]
-use std::process::Command;
 
 use serde_json::json;
 
 use crate::page_server::{PageServer, head};
+#[cfg(unix)]
+use crate::process::{Command, ending};
 use crate::support::{gumption, root};
 
 const MODEL: &str = r#"{
@@ -37,9 +37,9 @@ fn model() -> String {
 fn the_token_of_the_address_opens_the_page() {
     let folder = folder();
     let server = PageServer::start(folder.path());
-    let headers = [("Host".to_owned(), server.host())];
-    let reply = server.ask(&format!("GET /?token={}", server.token), &headers, None);
-    assert_eq!((reply.status, reply.header("location")), (303, Some("/")));
+    let reply = server.welcome();
+    let page = format!("/#{}", server.secret);
+    assert_eq!((reply.status, reply.header("location")), (303, Some(page.as_str())));
     let cookie = reply.header("set-cookie").unwrap();
     for needed in ["HttpOnly", "SameSite=Strict", "Path=/"] {
         assert!(cookie.contains(needed), "{cookie}");
@@ -246,7 +246,7 @@ fn pages_of_other_files_are_shown_in_a_sandbox() {
 #[cfg(unix)]
 #[test]
 fn signals_end_it_cleanly() {
-    for name in ["-INT", "-TERM", "-HUP"] {
+    for (name, _) in ending(&[("-INT", 0), ("-TERM", 0), ("-HUP", 0)]) {
         let folder = folder();
         let server = PageServer::start(folder.path());
         // also while a page listens

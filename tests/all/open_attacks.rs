@@ -114,13 +114,16 @@ fn without_the_token_there_is_nothing() {
     let port = server.port;
     let wrong = "0".repeat(64);
     let short = server.token[..63].to_owned();
+    let value = server.cookie.split_once('=').unwrap().1;
     let cookies = [
         String::new(),
         format!("gumption-{port}="),
         format!("gumption-{port}={wrong}"),
         format!("gumption-{port}={short}"),
-        format!("gumption-{}={}", port ^ 1, server.token),
-        format!("gumption={}", server.token),
+        format!("gumption-{}={value}", port ^ 1),
+        format!("gumption={value}"),
+        // the address's token is not the cookie's
+        format!("gumption-{port}={}", server.token),
     ];
     for cookie in &cookies {
         for request in
@@ -141,6 +144,36 @@ fn without_the_token_there_is_nothing() {
     let headers = server.own_but(&[("Cookie", "")]);
     let reply = server.ask(&format!("GET /api/hello?token={}", server.token), &headers, None);
     assert_eq!(reply.status, 401);
+}
+
+/// A browser sends the cookie to every port of the machine. Who has got it so can read the files of the
+/// page, which are the same everywhere, and nothing of the folder; and nothing that he can read has the
+/// secret that asking and writing needs.
+#[test]
+fn the_cookie_alone_asks_and_writes_nothing() {
+    let (place, server) = place();
+    let stolen = |request: &str, header: &str, body: Option<&str>| {
+        server.ask(request, &server.own_but(&[("X-Gumption", header)]), body)
+    };
+    let value = server.cookie.split_once('=').unwrap().1.to_owned();
+    let wish = json!({"path": "m.json", "text": "stolen", "version": null}).to_string();
+    for header in ["", "1", &value, &server.token, &server.secret[1..]] {
+        for path in ["files", "open", "save", "call/answer", "export", "page"] {
+            let reply = stolen(&format!("POST /api/{path}"), header, Some(&wish));
+            assert_eq!(reply.status, 403, "{path} {header}: {}", reply.text());
+            assert!(reply.text().contains("has printed"), "{}", reply.text());
+        }
+        for path in ["/", "/assets/page.js", "/api/hello", &format!("/?token={value}")] {
+            let reply = stolen(&format!("GET {path}"), header, None);
+            let all = format!("{}{}", reply.head, reply.text());
+            for secret in [&server.secret, &server.token] {
+                assert!(!all.contains(secret.as_str()), "{path}");
+            }
+        }
+    }
+    assert_eq!(server.get(&format!("/?token={value}")).status, 401);
+    assert_eq!(fs::read_to_string(place.path().join("own/m.json")).unwrap(), MODEL);
+    assert_eq!(server.post("/api/open", &json!({"path": "m.json"})).status, 200);
 }
 
 #[test]

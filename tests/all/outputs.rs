@@ -4,9 +4,10 @@
 use std::fs;
 use std::path::Path;
 #[cfg(unix)]
-use std::process::Command;
 use std::process::Output;
 
+#[cfg(unix)]
+use crate::process::Command;
 use crate::support::{command, root};
 
 const MODEL: &str = r#"{"inputs": {"x": {"distribution": "samples", "file": "x.csv"}},

@@ -2,10 +2,11 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
 use serde_json::Value;
 
+use crate::process::Command;
 use crate::support::root;
 
 /// The example's program. A run of all tests has built it; a run of these alone may have not.

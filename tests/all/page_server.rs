@@ -1,13 +1,14 @@
 //! A running `gumption open`, and a client that says exactly what it is told to.
 
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
-use std::process::{Child, ChildStdout, Stdio};
+use std::process::{ChildStdout, Stdio};
 use std::time::Duration;
 
 use serde_json::Value;
 
+use crate::process::{Child, first_line};
 use crate::support::command;
 
 /// How long a test waits for the server before it fails.
@@ -19,6 +20,10 @@ pub(crate) struct PageServer {
     _stdout: BufReader<ChildStdout>,
     pub(crate) port: u16,
     pub(crate) token: String,
+    /// Name and value.
+    pub(crate) cookie: String,
+    /// The secret of the page.
+    pub(crate) secret: String,
 }
 
 /// An answer as it came.
@@ -57,13 +62,24 @@ impl PageServer {
         program.arg("open").arg(path).arg("--no-browser").args(arguments);
         program.stdout(Stdio::piped()).stderr(Stdio::null());
         let mut child = program.spawn().expect("the program starts");
-        let mut stdout = BufReader::new(child.stdout.take().expect("its output"));
-        let mut line = String::new();
-        stdout.read_line(&mut line).expect("its address");
+        let (line, stdout) = first_line(child.stdout.take().expect("its output"));
         let address = line.trim().strip_prefix("http://127.0.0.1:").expect("an address");
         let (port, token) = address.split_once("/?token=").expect("a token");
         let (port, token) = (port.parse().expect("a port"), token.to_owned());
-        Self { child, _stdout: stdout, port, token }
+        let (cookie, secret) = (String::new(), String::new());
+        let mut server = Self { child, _stdout: stdout, port, token, cookie, secret };
+        let welcome = server.welcome();
+        let cookie = welcome.header("set-cookie").and_then(|cookie| cookie.split(';').next());
+        server.cookie = cookie.expect("a cookie").to_owned();
+        let page = welcome.header("location").and_then(|to| to.strip_prefix("/#"));
+        server.secret = page.expect("a secret").to_owned();
+        server
+    }
+
+    /// What the printed address is answered.
+    pub(crate) fn welcome(&self) -> Reply {
+        let headers = [("Host".to_owned(), self.host())];
+        self.ask(&format!("GET /?token={}", self.token), &headers, None)
     }
 
     #[cfg(unix)]
@@ -90,13 +106,13 @@ impl PageServer {
 
     /// The headers of the page's own requests.
     pub(crate) fn own(&self) -> Vec<(String, String)> {
-        let (host, port, token) = (self.host(), self.port, &self.token);
+        let host = self.host();
         [
             ("Host", host.clone()),
             ("Origin", format!("http://{host}")),
             ("Sec-Fetch-Site", "same-origin".to_owned()),
-            ("Cookie", format!("other=1; gumption-{port}={token}")),
-            ("X-Gumption", "1".to_owned()),
+            ("Cookie", format!("other=1; {}", self.cookie)),
+            ("X-Gumption", self.secret.clone()),
             ("Content-Type", "application/json".to_owned()),
         ]
         .map(|(name, value)| (name.to_owned(), value))

@@ -6,11 +6,10 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
-use std::process::Command;
 
 use serde_json::Value;
 
-use crate::support::root;
+use crate::support::{command, root};
 
 /// Trials where a value comes from them: the tolerances of those values are for so many.
 const TRIALS: &str = "200000";
@@ -65,7 +64,7 @@ fn measurement(of: &Value) -> Measurement {
 
 /// Standard output of the program in a folder.
 fn told(folder: &std::path::Path, arguments: &[&str]) -> String {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_gumption"));
+    let mut command = command();
     let said = command.args(arguments).arg("--quiet").current_dir(folder).output().expect("run");
     let error = String::from_utf8_lossy(&said.stderr);
     assert!(said.status.success(), "{arguments:?}: {error}");

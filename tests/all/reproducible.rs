@@ -217,3 +217,42 @@ fn an_input_keeps_its_draws_whatever_stands_beside_it() {
     assert_eq!(alone, interval(&[one, other]));
     assert_eq!(alone, interval(&[other, one]));
 }
+
+/// A system that gives no threads, as a container with a limit of processes: one thread does the work,
+/// with one sentence about it and the same bytes. Here every thread is to have a stack that no address
+/// space holds, so that the system refuses it.
+#[cfg(target_os = "linux")]
+#[test]
+fn without_threads_the_answer_is_the_same() {
+    let plane = ["models/inclined_plane.json", "--trials", "20000", "--format", "json"];
+    let sweep = ["models/inclined_plane_campaign.json", "--trials", "20000", "--format", "csv"];
+    let certificate = ["models/certificates/three_axis_accelerometer.json", "--trials", "20000"];
+    for (name, arguments, threads) in [
+        ("run", &plane[..], &[][..]),
+        ("run", &plane, &["--threads", "4"]),
+        ("run", &sweep, &[]),
+        ("assumptions", &plane, &[]),
+        ("certificate", &certificate, &["--threads", "1"]),
+    ] {
+        let done = |stack: &str| {
+            let mut run = command();
+            run.current_dir(root()).env("RUST_MIN_STACK", stack);
+            let run = run.arg(name).args(arguments).args(threads).arg("--quiet").output().unwrap();
+            let said = String::from_utf8_lossy(&run.stderr).into_owned();
+            assert_eq!(run.status.code(), Some(0), "{name} {arguments:?}: {said}");
+            (run.stdout, said)
+        };
+        let (usual, said) = done("2097152");
+        assert_eq!(said, "", "{name} {arguments:?}");
+        let (without, said) = done("1000000000000000");
+        assert!(usual == without && usual.len() > 500, "{name} {arguments:?}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+        assert!(said.starts_with("warning: the system gives no threads ("), "{said}");
+    }
+    let mut open = command();
+    open.current_dir(root()).args(["open", "models", "--no-browser"]);
+    let refused = open.env("RUST_MIN_STACK", "1000000000000000").output().unwrap();
+    let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert_eq!(refused.status.code(), Some(1), "{said}");
+    assert!(said.contains("the server: "), "{said}");
+}

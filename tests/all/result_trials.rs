@@ -2,10 +2,10 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use serde_json::{Value, json};
 
+use crate::process::Command;
 use crate::support::command;
 
 /// The answer of a run; `trials` are those of the run, `more` further arguments.

@@ -2,10 +2,10 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use serde_json::Value;
 
+use crate::process::Command;
 use crate::support::command;
 
 fn run(folder: &Path, arguments: &[&str]) -> Value {

@@ -3,8 +3,9 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
+use crate::process::Command;
 use crate::support::command;
 
 /// Kilobytes of address space: memory that is only reserved counts as well, so less than this is

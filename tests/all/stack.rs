@@ -4,8 +4,9 @@
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
+use crate::process::Command;
 use crate::support::{command, root};
 
 /// Kilobytes of the first thread's stack, a sixteenth of what most systems give and half of the least. What

@@ -4,7 +4,8 @@ use serde_json::Value;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+
+use crate::process::{Command, PATIENCE};
 
 /// The folder of the repository.
 pub(crate) fn root() -> &'static Path {
@@ -41,7 +42,7 @@ pub(crate) fn announce(text: &str) {
 /// The program, started in the folder of the repository, to be asserted about.
 pub(crate) fn gumption() -> assert_cmd::Command {
     let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_gumption"));
-    command.current_dir(root());
+    command.current_dir(root()).timeout(PATIENCE);
     command
 }
 

@@ -430,3 +430,24 @@ fn the_workbook_of_a_certificate_is_no_budget() {
         }
     }
 }
+
+/// A certificate of somebody else is listed, and other commands name the one that does it.
+#[test]
+fn a_digital_certificate_is_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    let certificate = root().join("tests/errors/damaged_dcc.txt");
+    fs::copy(certificate, folder.path().join("ref.xml")).unwrap();
+    let (text, said, code) = told(folder.path(), &["dcc", "ref.xml"]);
+    assert_eq!((said.as_str(), code), ("", Some(0)));
+    assert!(text.contains("0  id v\n") && text.contains("not read: `five` in `value`"), "{text}");
+    let (text, _, _) = told(folder.path(), &["dcc", "ref.xml", "--format", "json"]);
+    let answer: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(answer["results"][0]["id"], "v");
+    for command in ["run", "check"] {
+        let (_, said, code) = told(folder.path(), &[command, "ref.xml"]);
+        assert_eq!(code, Some(2));
+        let expected =
+            "this is a digital calibration certificate, whose quantities `gumption dcc` lists";
+        assert!(said.contains(expected), "{said}");
+    }
+}

@@ -430,7 +430,7 @@ await test("a day's editing", async (page, folder, _, server) => {
   const idle = await resident();
   // as the page does it, with a save after every tenth change
   const work = (from, to) => page.evaluate(async ([from, to]) => {
-    const ask = async (path, body) => (await fetch(path, { method: "POST", body: JSON.stringify(body), headers: { "X-Gumption": "1", "Content-Type": "application/json" } })).json();
+    const ask = async (path, body) => (await fetch(path, { method: "POST", body: JSON.stringify(body), headers: { "X-Gumption": localStorage.getItem("gumption"), "Content-Type": "application/json" } })).json();
     let { text, version } = await ask("api/open", { path: "power.json" });
     for (let key = from; key < to; key++) {
       const edits = [{ path: ["inputs", "voltage", "mean"], typed: `5.${1000 + key % 997}` }];
@@ -446,6 +446,23 @@ await test("a day's editing", async (page, folder, _, server) => {
   const late = await resident();
   console.log(`      memory of the server: idle ${idle.toFixed(0)} MB, after 500 edits ${early.toFixed(0)} MB, after ${500 + Number(process.env.EDITS || 1000)} ${late.toFixed(0)} MB`);
   if (late > early + 15) throw new Error(`a day's editing takes ${(late - early).toFixed(0)} MB of the server`);
+}, POWER);
+
+await test("a server that is gone", async (page, folder, _, server) => {
+  await refined(page);
+  server.stop();
+  await until(page, () => document.getElementById("results").classList.contains("stale"));
+  await page.fill('[aria-label="mean of voltage"]', "9");
+  await page.waitForTimeout(500);
+  const shown = await page.evaluate(() => ({
+    stale: document.getElementById("results").classList.contains("stale"),
+    said: document.getElementById("progress").textContent,
+    state: document.getElementById("state").textContent,
+    filter: getComputedStyle(document.getElementById("results")).filter,
+  }));
+  if (!shown.stale || shown.filter !== "grayscale(1)") throw new Error("the old result looks like a new one");
+  if (!/does not answer any more/.test(shown.said) || !/no connection/.test(shown.state)) throw new Error(JSON.stringify(shown));
+  page.errors = page.errors.filter(text => !/ERR_CONNECTION_REFUSED|ERR_EMPTY_RESPONSE|ERR_INCOMPLETE_CHUNKED|ERR_CONNECTION_RESET/.test(text));
 }, POWER);
 
 await test("opening", async page => {

@@ -14,7 +14,7 @@ use super::output::Place;
 use super::{CommandLine, Exit, Failure, output, progress, run, signals};
 use gumption_analysis::certificate::contents::{Certificate as Asked, Line};
 use gumption_analysis::certificate::{Basis, Failed, Issued, issue};
-use gumption_engine::propagate::{EvaluationError, warnings};
+use gumption_engine::propagate::warnings;
 use gumption_engine::task::{MethodChoice, Trials, Warning};
 use gumption_files::{CertificateFile, Diagnostic, DiagnosticKind, Diagnostics, FileReader};
 use gumption_report::certificate::{self as report, CertificateReport, DccVersion, ModelSource};
@@ -369,9 +369,6 @@ fn not_stated(certificate: &Asked) -> Option<Warning> {
 fn failure(file: &CertificateFile, failed: Failed) -> Failure {
     let message = failed.to_string();
     let line = match &failed {
-        Failed::Evaluation { error: EvaluationError::Threads(_), .. } => {
-            return Failure::System(message);
-        }
         Failed::Evaluation { evaluation, .. } => {
             let of = |line: &Line| line.evaluation == *evaluation;
             file.certificate.lines.iter().position(of)

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use super::surroundings::in_call;
 use super::{diagnostics, signals};
-use gumption_files::Diagnostics;
+use gumption_files::{Diagnostics, printable};
 use gumption_report::plain;
 
 /// A regular end.
@@ -74,6 +74,11 @@ impl Failure {
         }
         ExitCode::from(if matches!(self, Self::System(_)) { 1 } else { 2 })
     }
+}
+
+/// Says a sentence, in which texts of files may stand, on a line of standard error.
+pub(super) fn say_line(sentence: &str) {
+    say(&(printable(sentence) + "\n"));
 }
 
 /// Says something on standard error. Where that cannot be written, as on a full disk, it is not

@@ -101,7 +101,7 @@ impl Gap {
         let told = |share: f64| progress::tell(&bar, share);
         let options = gap::DiagnosisOptions::new(seed);
         let diagnose = || gap::diagnose_until(&file.case, at, options, &told, stop);
-        let diagnosis = self.threads.install(diagnose)?;
+        let diagnosis = self.threads.install(diagnose);
         bar.finish_and_clear();
         diagnosis.map_err(|error| Failure::System(error.to_string()))
     }

@@ -127,7 +127,7 @@ impl GapCheck {
             partial.write_with(|out| out.write_all(content.as_bytes()).map(|()| true))?;
             return Ok(Exit::Done);
         }
-        let scores = self.threads.install(|| score(&file.case, checked, seed))?;
+        let scores = self.threads.install(|| score(&file.case, checked, seed));
         let design = report::gap::check::CheckedDesign::of(&file.case, self.noise.into());
         let answer = match self.answer.format {
             Format::Table => report::gap::check::table(&design, &scores),
@@ -161,7 +161,7 @@ impl GapCheck {
                 kept.path()
             }
         };
-        self.threads.install(|| self.checked(program, file, folder, (seed, range), stop))?
+        self.threads.install(|| self.checked(program, file, folder, (seed, range), stop))
     }
 
     /// The three steps in turn: truths and data, diagnoses, comparison; `None` if they were

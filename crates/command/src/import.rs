@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::exit::say;
+use super::exit::say_line;
 use super::output::Place;
 use super::{Exit, Failure, output};
 use gumption_files::import_budget_sheet;
@@ -38,10 +38,10 @@ impl Import {
         let budget = import_budget_sheet(&self.file, self.sheet.as_deref())?;
         if !self.quiet {
             for said in &budget.understood {
-                say(&format!("understood: {said}\n"));
+                say_line(&format!("understood: {said}"));
             }
             for said in &budget.guessed {
-                say(&format!("guessed: {said}\n"));
+                say_line(&format!("guessed: {said}"));
             }
         }
         file.map_or(Place::StandardOutput, Place::File).write(&budget.text)?;

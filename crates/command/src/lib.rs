@@ -6,6 +6,7 @@ mod assumptions;
 mod certificate;
 mod check;
 mod compare;
+mod dcc;
 mod diagnostics;
 mod diff;
 mod evaluated;
@@ -92,6 +93,8 @@ enum Command {
     Check(check::Check),
     /// Compare results two by two (normalized errors), or those of many laboratories
     Compare(compare::Compare),
+    /// List what a digital calibration certificate holds, and how a model file takes it
+    Dcc(dcc::Dcc),
     /// Make a model file of a budget in a spreadsheet
     Import(import::Import),
     /// Write a model file to start from: from options, or from answers to questions
@@ -242,6 +245,7 @@ impl CommandLine {
             Command::Certificate(command) => command.execute(self),
             Command::Check(command) => command.execute(self),
             Command::Compare(command) => command.execute(),
+            Command::Dcc(command) => command.execute(),
             Command::Import(command) => command.execute(),
             Command::Models(command) => command.execute(self),
             Command::Verify(command) => command.execute(self),

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
-use super::exit::say;
+use super::exit::{say, say_line};
 use super::output::Place;
 use super::{CommandLine, Exit, Failure, output};
 use gumption_engine::model::formula::Formula;
@@ -150,7 +150,7 @@ impl New {
                 break;
             }
             if let Err(why) = draft.equation(&line) {
-                say(&format!("{why}\n"));
+                say_line(&why);
             }
         }
         if let Some((last, _)) = draft.equations.last().cloned() {
@@ -204,7 +204,7 @@ impl<R: BufRead> Questions<R> {
         loop {
             match read(&self.line(question)?) {
                 Ok(answer) => return Ok(answer),
-                Err(why) => say(&format!("{why}\n")),
+                Err(why) => say_line(&why),
             }
         }
     }

@@ -3,20 +3,21 @@
 use std::borrow::Cow;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Once};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
-use super::exit::say;
+use super::exit::say_line;
 use super::output::Place;
 use super::surroundings::{GivenFile, in_call};
 use super::{CommandLine, Failure, output};
+use gumption_engine::parallel::{self, Pool};
 use gumption_engine::propagate::Control;
 use gumption_engine::task::{Coverage, MethodChoice, Row, StoppingRule, Trials, Warning};
 use gumption_files::{CaseFile, FileReader, ModelFile, Override, bytes};
-use gumption_report::BudgetColumn;
+use gumption_report::{BudgetColumn, plain};
 
 /// The format of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -84,7 +85,7 @@ impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
     /// Sentences on standard error, unless nothing is to be said.
     pub(super) fn note<'t>(&self, texts: impl IntoIterator<Item = &'t str>) {
         for text in texts.into_iter().filter(|_| !self.quiet) {
-            say(&format!("note: {text}\n"));
+            say_line(&format!("note: {text}"));
         }
     }
 
@@ -190,19 +191,31 @@ impl Threads {
         self.threads.unwrap_or(0)
     }
 
-    /// Runs `work` on them.
-    pub(super) fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> Result<R, Failure> {
-        // a browser's program has the thread that it is called on
-        if cfg!(target_family = "wasm") {
-            return Ok(work());
+    /// Starts them; where the system gives none, that is said once.
+    fn started(&self) -> Arc<Pool> {
+        static SAID: Once = Once::new();
+        let pool = parallel::pool(self.count());
+        // a browser's program has the thread that it is called on, and no more are expected
+        if let Some(reason) = parallel::refused().filter(|_| !cfg!(target_family = "wasm")) {
+            SAID.call_once(|| {
+                say_line(&format!(
+                    "warning: the system gives no threads ({}): one does all, and the answer is the \
+                     same",
+                    plain(reason)
+                ));
+            });
         }
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.count()).build();
-        let failed = |error| Failure::System(format!("cannot start threads: {error}"));
-        Ok(pool.map_err(failed)?.install(work))
+        pool
+    }
+
+    /// Runs `work` on them.
+    pub(super) fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        self.started().install(work)
     }
 
     /// A run on them that a flag stops.
     pub(super) fn control<'s>(&self, stop: &'s AtomicBool) -> Control<'s> {
+        self.started();
         Control::default().with_threads(self.count()).with_stop(stop)
     }
 }

@@ -5,6 +5,7 @@ use std::io::IsTerminal;
 use std::time::Duration;
 
 use super::surroundings::in_call;
+use gumption_engine::parallel;
 use gumption_report::grouped;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
@@ -24,7 +25,8 @@ pub(super) fn bar(trials: Option<u64>, quiet: bool) -> ProgressBar {
     let target =
         if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr_with_hz(10) };
     let bar = ProgressBar::with_draw_target(trials, target);
-    if !hidden {
+    // its thread is missing without harm, unless it is asked for
+    if !hidden && parallel::spare_thread().is_ok() {
         // before the first of them is done, and while a long one goes on
         bar.enable_steady_tick(TICK);
     }

@@ -174,12 +174,7 @@ impl Run {
 
 /// An evaluation that failed, as a mistake with its place where it is the user's.
 pub(super) fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
-    let message = error.to_string();
-    match error {
-        EvaluationError::Threads(_) => Failure::System(message),
-        // everything else follows from what the file says
-        _ => Failure::Diagnostics(file.evaluation_failed(message)),
-    }
+    Failure::Diagnostics(file.evaluation_failed(error.to_string()))
 }
 
 /// The digests of a file and of the tables that it reads.

@@ -14,3 +14,4 @@ pub mod propagate;
 pub mod regression;
 pub mod special;
 pub mod task;
+pub mod threads;

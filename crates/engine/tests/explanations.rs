@@ -113,10 +113,11 @@ fn kinks_have_no_second_order() {
 }
 
 /// Two readings are a t with one degree of freedom, which has no expectation: no estimate, where it
-/// was 1.5, 2.3 or 2.9 by seed. Three have one, and no standard deviation.
+/// was 1.5, 2.3 or 2.9 by seed. Three have one, and no standard deviation. Either way the output lies at
+/// the mean of the readings, and its trials alone tell their median.
 #[test]
 fn two_readings_have_no_expectation() {
-    for (values, estimate) in [("1, 2", false), ("1, 2, 4", true)] {
+    for (values, mean, estimate) in [("1, 2", 1.5, false), ("1, 2, 4", 7.0 / 3.0, true)] {
         let text = format!(
             r#"{{"inputs": {{"a": {{"distribution": "readings", "values": [{values}]}}}},
             "equations": {{"y": "a"}}, "outputs": {{"y": {{}}}}}}"#
@@ -125,7 +126,9 @@ fn two_readings_have_no_expectation() {
         let figures = first(&evaluation).monte_carlo.as_ref().unwrap();
         assert_eq!(figures.estimate.is_some(), estimate);
         assert_eq!((figures.standard_uncertainty, figures.errors.estimate), (None, None));
-        assert_eq!(figures.location(), figures.estimate.unwrap_or(figures.median));
+        assert_eq!(figures.location(), figures.median);
+        let (located, error) = first(&evaluation).located().unwrap();
+        assert!((located - mean).abs() < 1e-15 && error == 0.0, "{located} {error}");
         assert!(notes.iter().any(|note| note.0 == "no-variance"));
     }
 }

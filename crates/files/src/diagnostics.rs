@@ -50,17 +50,21 @@ impl Diagnostic {
     }
 }
 
-/// A text without characters that a terminal would obey, that change the direction of the text
-/// around them, or that have no width.
-fn printable(text: &str) -> String {
+/// A text of a file on one line, with what [`is_obeyed`] as it is written in Rust: `\u{1b}`.
+pub fn printable(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
-        let is_obeyed = c.is_control()
-            || matches!(c, '\u{ad}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
-                | '\u{2060}'..='\u{2069}');
-        if is_obeyed { out.extend(c.escape_default()) } else { out.push(c) }
+        if is_obeyed(c) { out.extend(c.escape_default()) } else { out.push(c) }
     }
     out
+}
+
+/// Whether a terminal would obey a character, or it changes the direction of the text around it, or has no
+/// width.
+pub fn is_obeyed(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{ad}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{2069}')
 }
 
 /// A part of a sentence without the middle of what is longer than anything that is said.

@@ -576,6 +576,13 @@ impl<'a> Reader<'a, '_> {
             );
             self.inputs.warnings.push(Warning::new("certificate-exact", &name, text));
         }
+        if of.is_some_and(|of| of.is_before) {
+            let text = format!(
+                "`{name}`: by its status in `{file}` the value was found before an adjustment or a repair; \
+                 what holds after it stands elsewhere, if the certificate has it (`gumption dcc`)"
+            );
+            self.inputs.warnings.push(Warning::new("certificate-before-adjustment", &name, text));
+        }
         if of.is_some_and(|of| of.is_asymmetric) {
             let text = format!(
                 "`{name}`: `{file}` states a coverage interval that is not symmetric about the value; the \

@@ -88,6 +88,7 @@ mod value_text;
 mod variant;
 mod width;
 mod workbook;
+mod xml_limits;
 
 pub use carried::{CarriedModel, carried_models};
 pub use case::CaseFile;
@@ -98,8 +99,12 @@ pub use comparison::{
     ComparisonOptions, ComparisonTable, ReadComparison, read_comparison, read_comparison_text,
 };
 pub use costs::{CostFile, read_costs, read_costs_text};
+pub use dcc::{
+    CertificateListing, ListedPart, ListedQuantity, listing as certificate_listing,
+    listing_text as certificate_listing_text,
+};
 pub use diagnostic_kind::DiagnosticKind;
-pub use diagnostics::{Diagnostic, Diagnostics};
+pub use diagnostics::{Diagnostic, Diagnostics, is_obeyed, printable};
 pub use difference::difference;
 pub use either::ModelOrResult;
 pub use folder::FileSource;

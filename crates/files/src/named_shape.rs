@@ -12,6 +12,15 @@ pub(crate) enum NamedShape {
 }
 
 impl NamedShape {
+    /// What a model file calls it; `None` of one that it does not have.
+    pub(crate) fn name(self) -> Option<&'static str> {
+        match self {
+            Self::Known(name) => Some(name),
+            Self::Student => Some("t"),
+            Self::Unknown => None,
+        }
+    }
+
     /// The distribution that a text names; `None` where it names none.
     pub(crate) fn of(text: &str) -> Option<Self> {
         let words = text.trim().to_lowercase();

@@ -82,13 +82,12 @@ pub(super) fn read_changed_root<T>(
             let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
             Object::new(&log, what, &node, &whole).and_then(read)
         }
-        Err(_) if is_table_of_results(&source.text) => {
-            let header = 0..source.text.find('\n').unwrap_or(source.text.len());
-            log.report(&header, FileKind::Results.described());
-            None
-        }
         Err((span, diagnostic)) => {
-            log.report(&span, diagnostic);
+            let header = 0..source.text.find('\n').unwrap_or(source.text.len());
+            match FileKind::of_text(&source.text) {
+                Some(kind) => log.report(&header, kind.described()),
+                None => log.report(&span, diagnostic),
+            }
             None
         }
     };
@@ -129,6 +128,8 @@ pub(super) enum FileKind {
     Costs,
     /// A table of results to be compared.
     Results,
+    /// A Digital Calibration Certificate.
+    DigitalCertificate,
 }
 
 /// How quantities are taken from a certificate.
@@ -158,12 +159,31 @@ impl FileKind {
         }
     }
 
+    /// The kind of a text that is no JSON.
+    fn of_text(text: &str) -> Option<Self> {
+        let is_xml = text.trim_start_matches('\u{feff}').trim_start().starts_with('<');
+        if is_xml && text.contains("digitalCalibrationCertificate") {
+            Some(Self::DigitalCertificate)
+        } else if is_table_of_results(text) {
+            Some(Self::Results)
+        } else {
+            None
+        }
+    }
+
     /// What it is, in words, and the command that reads it.
     pub(super) fn described(self) -> DiagnosticKind {
         let (what, command) = match self {
             Self::CertificateAnswer => {
                 let reason = format!(
                     "this is the JSON answer of a certificate, for programs; {FROM_CERTIFICATES}"
+                );
+                return DiagnosticKind::Table { reason };
+            }
+            Self::DigitalCertificate => {
+                let reason = format!(
+                    "this is a digital calibration certificate, whose quantities `gumption dcc` lists; \
+                     {FROM_CERTIFICATES}"
                 );
                 return DiagnosticKind::Table { reason };
             }
@@ -195,9 +215,7 @@ pub(super) fn refuse_other_kind(root: &Object<'_>, expected: FileKind) -> bool {
 pub(super) fn no_table(source: &Arc<SourceText>) -> Option<(Range<usize>, DiagnosticKind)> {
     let place = 0..source.text.find('\n').unwrap_or(source.text.len());
     if source.text.trim_start().starts_with('<') {
-        let is_certificate = source.text.contains("digitalCalibrationCertificate");
-        let reason = format!("this is a Digital Calibration Certificate; {FROM_CERTIFICATES}");
-        return is_certificate.then_some((place, DiagnosticKind::Table { reason }));
+        return FileKind::of_text(&source.text).map(|kind| (place, kind.described()));
     }
     if !source.text.trim_start().starts_with('{') {
         return None;

@@ -19,6 +19,8 @@ use quick_xml::events::{BytesStart, Event};
 use zip::ZipArchive;
 
 use super::number_format::{Shown, last_digit};
+use super::xml_limits;
+use layout::PartsOf;
 pub(super) use layout::{Layout, Place};
 
 /// Bytes of an unpacked part, at most. A table of ten thousand rows has less than a quarter of it.
@@ -29,6 +31,9 @@ const MOST_OF_ALL: u64 = 100_000_000;
 
 /// Parts, at most.
 const MOST_PARTS: usize = 10_000;
+
+/// Sheets, at most.
+const MOST_SHEETS: usize = 256;
 
 /// Bytes of the table's text, at most: a text that is stored once may stand in any number of cells.
 const MOST_OF_TEXT: usize = 20_000_000;
@@ -100,8 +105,8 @@ pub(super) fn rows_of(bytes: Vec<u8>, sheet: Sheet<'_>) -> Result<Vec<Vec<String
 }
 
 /// Beyond it nobody keeps a budget.
-const MOST_ROWS: u32 = 10_000;
-const MOST_COLUMNS: u32 = 256;
+pub(super) const MOST_ROWS: u32 = 10_000;
+pub(super) const MOST_COLUMNS: u32 = 256;
 
 fn rows(cells: &Cells) -> Vec<Vec<String>> {
     let mut rows: Vec<Vec<String>> = Vec::new();
@@ -117,6 +122,15 @@ fn rows(cells: &Cells) -> Vec<Vec<String>> {
     rows
 }
 
+/// The first cell beyond those that [`rows`] has.
+fn beyond(cells: &Cells) -> Option<Place> {
+    let below =
+        cells.range(MOST_ROWS..).next().and_then(|(row, of)| Some((*row, *of.keys().next()?)));
+    let mut lines = cells.range(..MOST_ROWS);
+    let beside = || lines.find_map(|(row, of)| Some((*row, *of.range(MOST_COLUMNS..).next()?.0)));
+    below.or_else(beside)
+}
+
 /// A cell's text without the quotes that CSV has about it.
 fn unquoted(text: &str) -> String {
     let inside = text.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
@@ -125,7 +139,7 @@ fn unquoted(text: &str) -> String {
 
 /// A workbook of which several sheets are read.
 pub(super) struct Book {
-    bytes: Vec<u8>,
+    parts: PartsOf,
     workbook: Xlsx<Cursor<Vec<u8>>>,
     /// Bytes of the texts that were read so far.
     size: usize,
@@ -153,7 +167,8 @@ impl Book {
     /// What is wrong with the workbook, as a sentence about it.
     pub(super) fn open(bytes: Vec<u8>) -> Result<Self, String> {
         check_parts(&bytes)?;
-        Ok(Self { workbook: opened(bytes.clone())?, bytes, size: 0 })
+        let parts = PartsOf::of(bytes.clone())?;
+        Ok(Self { workbook: opened(bytes)?, parts, size: 0 })
     }
 
     /// Whether it is the workbook of a certificate of this program: its first sheet names the file that
@@ -189,7 +204,8 @@ impl Book {
     /// # Errors
     /// What is wrong with the workbook, as a sentence about it.
     pub(super) fn sheet(&mut self, of: &SheetName) -> Result<(Vec<Vec<String>>, Layout), String> {
-        let SheetTable { cells, layout } = self.table(of)?;
+        let SheetTable { cells, mut layout } = self.table(of)?;
+        layout.beyond = beyond(&cells);
         Ok((rows(&cells), layout))
     }
 
@@ -201,7 +217,7 @@ impl Book {
         let sheet = Sheet::Named(&of.name);
         let (cells, told) = cells(&mut self.workbook, sheet, &mut self.size)?;
         let Told { struck, texts, dates, last_digits } = told;
-        let layout = Layout::of(&self.bytes, of.place);
+        let layout = Layout::of(&mut self.parts, of.place);
         Ok(SheetTable { cells, layout: Layout { struck, texts, dates, last_digits, ..layout } })
     }
 }
@@ -247,6 +263,11 @@ fn check_parts(bytes: &[u8]) -> Result<(), String> {
             && text.contains("sheetData")
         {
             check_references(text).map_err(|reason| format!("its part `{name}` {reason}"))?;
+        }
+        if let Ok(text) = std::str::from_utf8(&content)
+            && let Err(excess) = xml_limits::check(text)
+        {
+            return Err(format!("its part `{name}`, byte {}: {}", excess.at, excess.reason));
         }
     }
     Ok(())
@@ -685,6 +706,35 @@ pub(super) mod tests {
             workbook(|out| out.write_all(sheet.as_bytes()), |out| out.write_all(string.as_bytes()));
         let said = first_sheet(bytes).unwrap_err();
         assert!(said.contains("hold more than 20 MB of text"), "{said}");
+    }
+
+    /// A part that many sheets name would be read for each of them, and a parser compares the attributes of
+    /// an element two by two.
+    #[test]
+    fn sheets_and_attributes_have_limits() {
+        let rows: &[&[&str]] = &[&["a", "1"]];
+        let names: Vec<String> = (0..257).map(|number| format!("s{number}")).collect();
+        let all: Vec<(&str, bool, &[&[&str]])> =
+            names.iter().map(|name| (name.as_str(), false, rows)).collect();
+        assert_eq!(Book::open(sheets(&all[..256])).unwrap().sheets().len(), 256);
+        let said = Book::open(sheets(&all)).err().unwrap();
+        assert_eq!(said, "it has 257 sheets; this version takes 256 at most");
+        let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
+        for (name, text) in PARTS {
+            let sheet = r#"<sheet name="a" sheetId="1" r:id="r1"/>"#;
+            let twice = format!("{sheet}{}", sheet.replace("\"a\"", "\"b\""));
+            zip.start_file(name, zip::write::SimpleFileOptions::default()).unwrap();
+            zip.write_all(text.replace(sheet, &twice).as_bytes()).unwrap();
+        }
+        let said = Book::open(zip.finish().unwrap().into_inner()).err().unwrap();
+        assert!(
+            said.contains("sheets 1 and 2 are both the part `xl/worksheets/sheet1.xml`"),
+            "{said}"
+        );
+        let attributes: String = (0..20_000).map(|n| format!(" a{n}=\"1\"")).collect();
+        let said = of(&format!("<row{attributes}/>")).unwrap_err();
+        assert!(said.contains("20000 attributes at one element here"), "{said}");
+        assert!(said.starts_with("its part `xl/worksheets/sheet1.xml`, byte "), "{said}");
     }
 
     #[test]

@@ -68,7 +68,7 @@ export class Answers {
         this.shown.answer(found, request);
         if (!this.wanted) this.#rest(request, found);
       } catch (error) {
-        this.shown.failed(error);
+        this.shown.unanswered(error);
       }
     }
     this.isAsking = false;

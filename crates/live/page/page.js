@@ -23,6 +23,8 @@ class Page {
     this.queue = [];
     this.kind = "model";
     this.found = null;
+    this.isLost = false;
+    this.isUnanswered = false;
     this.document = new Document(kind => this.#changed(kind));
     // before a first one is there, nothing is lost
     this.pristine = this.document.text;
@@ -39,7 +41,7 @@ class Page {
     this.#listen();
     this.form.kinds = await this.program.call("kinds", {});
     this.element("units").replaceChildren(...this.form.kinds.units.map(value => make("option", { value })));
-    this.program.watch(event => this.#onDisk(event), isLost => this.#say("state", isLost ? this.words.lost : null));
+    this.program.watch(event => this.#onDisk(event), isLost => this.#lost(isLost));
     const { open } = await this.program.ask("files", {});
     if (open) await this.#open(open);
     else await this.#begin({});
@@ -105,7 +107,7 @@ class Page {
         if (this.document.text === text) this.document.set(made.text, kind);
         else this.queue.unshift({ call, edits, request, kind });
       } catch (error) {
-        this.failed(error);
+        this.unanswered(error);
       }
     }
     this.isWorking = false;
@@ -173,8 +175,34 @@ class Page {
 
   // what is shown
 
+  /** The server is gone, or there again. */
+  #lost(isLost) {
+    if (isLost === this.isLost) return;
+    this.isLost = isLost;
+    this.#state();
+    this.#age();
+    if (!isLost) this.#ask();
+  }
+
+  /** There is no answer to what was asked about the text. */
+  unanswered(error) {
+    this.isUnanswered = true;
+    this.#age();
+    this.failed(error);
+  }
+
+  /** What is no answer to the text as it stands is old as a whole, and says why. */
+  #age() {
+    const { words } = this;
+    const why = this.isLost ? words.old_lost : this.isUnanswered ? words.old_failed : this.isBefore ? words.stale : null;
+    this.element("results").classList.toggle("stale", why !== null);
+    if (why !== null) this.element("progress").textContent = this.hasResults ? why : "";
+    if (this.isLost || this.isUnanswered) this.element("report").classList.add("stale");
+  }
+
   answer(found, request) {
     this.found = found;
+    this.isUnanswered = false;
     const force = this.force && request.text === this.document.text;
     if (force) this.force = false;
     this.kind = found.kind;
@@ -279,9 +307,9 @@ class Page {
     this.element("report").hidden = true;
     const has = found.results !== undefined;
     const results = this.element("results");
-    results.classList.toggle("stale", !has);
+    this.isBefore = !has;
     if (!has) {
-      this.element("progress").textContent = this.hasResults ? words.stale : "";
+      this.#age();
       this.element("nothing").hidden = this.hasResults;
       results.hidden = !this.hasResults;
       return;
@@ -318,6 +346,7 @@ class Page {
     const trials = String(found.trials).replace(/\B(?=(\d{3})+$)/g, "\u202f");
     const rest = found.whole ? words.done : found.full ? words.cut : words.refining;
     this.element("progress").textContent = found.trials ? words.trials(trials) + rest : "";
+    this.#age();
   }
 
   #tabs(outputs) {
@@ -460,7 +489,7 @@ class Page {
     const { path, isSaved, text } = this.document;
     this.element("path").textContent = path || this.named || words.unnamed;
     const wrong = this.diagnostics && this.diagnostics.length > 0;
-    const state = !this.program.hasFolder ? words.offline : path === null && isSaved ? "" : isSaved ? words.saved : wrong ? words.changed_mistakes : words.changed;
+    const state = this.isLost ? words.lost : !this.program.hasFolder ? words.offline : path === null && isSaved ? "" : isSaved ? words.saved : wrong ? words.changed_mistakes : words.changed;
     this.#say("state", state);
     this.element("undo").disabled = this.document.past.length === 0;
     this.element("redo").disabled = this.document.future.length === 0;
@@ -852,4 +881,4 @@ function pickLanguage(told) {
 }
 
 const page = new Page(await connect());
-await page.start();
+await page.start().catch(error => page.failed(error));

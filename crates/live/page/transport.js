@@ -9,10 +9,23 @@ export class Refused extends Error {
   }
 }
 
+/** The secret of the page, which comes behind the `#` of its address and is kept where no other port
+ * of the machine, to which the cookie goes as well, gets to see it. */
+function secretOfPage() {
+  const given = location.hash.slice(1);
+  try {
+    if (/^[0-9a-f]{64}$/.test(given)) {
+      localStorage.setItem("gumption", given);
+      history.replaceState(null, "", location.pathname + location.search);
+    }
+    return localStorage.getItem("gumption") || "";
+  } catch { return given; }
+}
+
 /** Finds out what there is. */
 export async function connect() {
   try {
-    const found = await fetch("api/hello", { headers: { "X-Gumption": "1" } });
+    const found = await fetch("api/hello");
     if (found.ok && (found.headers.get("content-type") || "").includes("json")) {
       return new Server(await found.json());
     }
@@ -21,6 +34,8 @@ export async function connect() {
 }
 
 class Server {
+  #secret = secretOfPage();
+
   constructor(hello) {
     this.hello = hello;
     this.hasFolder = true;
@@ -29,7 +44,7 @@ class Server {
   async #post(path, body, signal) {
     const answer = await fetch(`api/${path}`, {
       method: "POST", body, signal,
-      headers: { "X-Gumption": "1", "Content-Type": "application/json" },
+      headers: { "X-Gumption": this.#secret, "Content-Type": "application/json" },
     });
     if (answer.ok) return answer;
     let told = null;

@@ -41,6 +41,8 @@ export default {
   conflict: "Sie wurde auf der Platte geändert und hier ebenfalls. Welche soll bleiben? Die andere ist mit Rückgängig wiederzuhaben, solange diese Seite offen ist.",
   mine: "Meine (schreiben)", theirs: "Die auf der Platte", disk: "von der Platte übernommen",
   gone: "die Datei ist auf der Platte nicht mehr da", lost: "keine Verbindung zu gumption; läuft es noch?",
+  old_lost: "Alt, da gumption nicht mehr antwortet: Dies ist nicht das Ergebnis dessen, was jetzt hier steht.",
+  old_failed: "Alt, da auf die letzte Änderung keine Antwort kam: Dies ist nicht das Ergebnis dessen, was jetzt hier steht.",
   leave: "Nicht gespeicherte Änderungen", leave_text: "Es gibt Änderungen, die nicht gespeichert sind. Ohne sie weitermachen?", go_on: "Ohne sie weiter",
   drop_held: n => `in dieser Seite bereitgehalten: ${n}`,
   key: {

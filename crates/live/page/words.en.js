@@ -41,6 +41,8 @@ export default {
   conflict: "It was changed on the disk, and here as well. Which one shall stay? The other one can be had back with undo, as long as this page is open.",
   mine: "Mine (write it)", theirs: "The one on the disk", disk: "taken over from the disk",
   gone: "the file is gone from the disk", lost: "no connection to gumption; is it still running?",
+  old_lost: "Old, as gumption does not answer any more: this is not the result of what stands here now.",
+  old_failed: "Old, as there is no answer to the last change: this is not the result of what stands here now.",
   leave: "Unsaved changes", leave_text: "There are changes that are not saved. Go on without them?", go_on: "Go on without them",
   drop_held: n => `held in this page: ${n}`,
   key: {

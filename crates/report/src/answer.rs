@@ -7,9 +7,9 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 use serde_json::Value;
-use serde_json::ser::{Formatter, PrettyFormatter, Serializer};
+use serde_json::ser::{CompactFormatter, Formatter, PrettyFormatter, Serializer};
 
-use super::table::is_obeyed;
+use gumption_files::is_obeyed;
 
 /// An object of these keys, in their order.
 pub(crate) fn object<K: Into<String>, V: Into<Value>>(
@@ -34,8 +34,15 @@ pub(crate) fn write_pretty(answer: &impl Serialize, out: &mut dyn Write) -> serd
     answer.serialize(&mut Serializer::with_formatter(out, Printable(PrettyFormatter::new())))
 }
 
-/// Indented JSON whose texts are of printable characters.
-struct Printable<'a>(PrettyFormatter<'a>);
+/// As [`pretty`], on one line without an end.
+pub fn on_one_line(answer: &impl Serialize) -> String {
+    in_memory(|bytes| {
+        answer.serialize(&mut Serializer::with_formatter(bytes, Printable(CompactFormatter)))
+    })
+}
+
+/// JSON whose texts are of printable characters.
+struct Printable<F>(F);
 
 macro_rules! as_usual {
     ($($name:ident($($argument:ident: $kind:ty),*);)*) => {
@@ -47,7 +54,7 @@ macro_rules! as_usual {
     };
 }
 
-impl Formatter for Printable<'_> {
+impl<F: Formatter> Formatter for Printable<F> {
     as_usual! {
         begin_array();
         end_array();

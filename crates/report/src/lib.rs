@@ -31,7 +31,7 @@ mod table;
 pub mod verification;
 mod workbook;
 
-pub use answer::pretty;
+pub use answer::{on_one_line, pretty};
 pub use csv::{csv, write_csv};
 pub use evaluation::{
     MOST_RESULTS, OutputParts, PageChoice, PageParts, ResultStatement, Shown, histograms, html,

@@ -55,6 +55,8 @@ pub(crate) enum Look {
     Input,
     /// A result.
     Stressed,
+    /// Words, which may run over their neighbours.
+    Words,
 }
 
 /// A workbook that is being written.
@@ -405,6 +407,7 @@ fn format(shown: Option<&str>, look: Look) -> Format {
             format.set_background_color(Color::RGB(0x00FF_F2CC)).set_border(FormatBorder::Hair)
         }
         Look::Stressed => format.set_bold(),
+        Look::Words => format.set_bold().set_align(FormatAlign::Left),
     }
 }
 

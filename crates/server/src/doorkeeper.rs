@@ -4,7 +4,13 @@
 //! of this server and from its own pages: `Host` is another where a name of theirs leads to this
 //! machine (DNS rebinding), `Origin` and `Sec-Fetch-Site` tell other sites, and the header that
 //! every writing request has cannot be sent across sites at all. Other users of the machine have not
-//! got the token.
+//! got the token of the address.
+//!
+//! A browser sends its cookies to every port of a machine, and so to a server of another user. Hence
+//! the cookie is good for reading what the page is made of, and nothing can be had with it that is good
+//! for more: what is asked of the program or written needs the secret of the page as well. That comes
+//! with the answer to the address's token, behind the `#` of where it leads to, which browsers keep to
+//! themselves.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, PoisonError};
@@ -28,7 +34,7 @@ const POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; 
 pub(crate) const POLICY_OF_REPORTS: &str = "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'self'; \
      base-uri 'none'; form-action 'none'";
 
-/// The header of every writing request.
+/// The header of every request that is not for a part of the page: the secret of the page.
 const OWN_HEADER: &str = "x-gumption";
 
 /// Whether a connection has had a request of somebody who may ask.
@@ -83,7 +89,11 @@ impl Barred {
                 "open the address that `gumption open` has printed, with its token; that of an \
                  earlier start, or one that was used by the browser, is not taken again",
             ),
-            Self::Header => (StatusCode::FORBIDDEN, "the header `X-Gumption: 1` is missing"),
+            Self::Header => (
+                StatusCode::FORBIDDEN,
+                "this page has not got its secret (the header `X-Gumption`): open the address that \
+                 `gumption open` has printed",
+            ),
             Self::ContentType => {
                 (StatusCode::UNSUPPORTED_MEDIA_TYPE, "requests are `application/json`")
             }
@@ -128,11 +138,12 @@ fn admitted(house: &House, request: &Request) -> Result<Admitted, Barred> {
     if let Some(given) = given.filter(|_| reads && request.uri().path() == "/") {
         return if house.takes(&given) { Ok(Admitted::New) } else { Err(Barred::NoToken) };
     }
-    if !cookies(headers, &house.cookie()).any(|given| house.token.is(given)) {
+    if !cookies(headers, &house.cookie_name()).any(|given| house.cookie.is(given)) {
         return Err(Barred::NoToken);
     }
     if !reads {
-        if only(headers, &HeaderName::from_static(OWN_HEADER)) != Some("1") {
+        let secret = only(headers, &HeaderName::from_static(OWN_HEADER));
+        if !secret.is_some_and(|given| house.page.is(given)) {
             return Err(Barred::Header);
         }
         let kind = only(headers, &header::CONTENT_TYPE).unwrap_or("");
@@ -160,11 +171,12 @@ impl House {
     }
 }
 
-/// Sets the cookie, and leads to the address without the token.
+/// Sets the cookie, and leads to the address with the secret of the page in place of the token.
 fn welcome(house: &House) -> Response {
-    let (name, token) = (house.cookie(), house.token.text());
-    let cookie = format!("{name}={token}; Path=/; HttpOnly; SameSite=Strict");
-    let to = [(header::LOCATION, "/".to_owned()), (header::SET_COOKIE, cookie)];
+    let (name, value) = (house.cookie_name(), house.cookie.text());
+    let cookie = format!("{name}={value}; Path=/; HttpOnly; SameSite=Strict");
+    let page = format!("/#{}", house.page.text());
+    let to = [(header::LOCATION, page), (header::SET_COOKIE, cookie)];
     (StatusCode::SEE_OTHER, to).into_response()
 }
 

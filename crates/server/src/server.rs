@@ -108,7 +108,12 @@ impl fmt::Debug for ServerOptions {
 /// What requests have to do with.
 pub(crate) struct House {
     port: u16,
+    /// That of the address, which opens the door and is nowhere else.
     pub(crate) token: Token,
+    /// The cookie's, which every port of the machine may get to see.
+    pub(crate) cookie: Token,
+    /// The page's own, without which nothing is asked or written.
+    pub(crate) page: Token,
     /// Opens the door once, for the browser that is started.
     pub(crate) launch: Mutex<Option<Token>>,
     pub(crate) folder: OpenedFolder,
@@ -136,7 +141,7 @@ impl House {
     }
 
     /// The name of the cookie; cookies are one jar for all ports of a machine.
-    pub(crate) fn cookie(&self) -> String {
+    pub(crate) fn cookie_name(&self) -> String {
         format!("gumption-{}", self.port)
     }
 }
@@ -169,6 +174,8 @@ impl LocalServer {
         let house = House {
             port: listener.local_addr()?.port(),
             token: Token::new()?,
+            cookie: Token::new()?,
+            page: Token::new()?,
             launch: Mutex::new(Some(launch)),
             watch: Watch::new(folder.clone()),
             folder,
@@ -204,6 +211,8 @@ impl LocalServer {
     /// # Errors
     /// Threads or system resources that cannot be had.
     pub fn run(self, stop: &AtomicBool) -> io::Result<()> {
+        // tokio, where it gets no thread, would end the process in the middle of a request
+        std::thread::Builder::new().spawn(|| ())?;
         memory::return_large_arrays();
         let runtime = tokio::runtime::Builder::new_current_thread()
             .enable_io()

@@ -66,22 +66,32 @@ impl Answers for Slow {
     }
 }
 
-/// The status and the body of an answer to the page's own request.
-fn asked(address: &str, path: &str, body: &str) -> (String, String) {
-    let (host, token) = address.trim_start_matches("http://").split_once("/?token=").unwrap();
-    let port = host.split_once(':').unwrap().1;
+/// Head and body of the answer to a request.
+fn answered(host: &str, request: &str) -> (String, String) {
     let mut stream = TcpStream::connect(host).unwrap();
-    let head = format!(
-        "POST {path} HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\nConnection: close\r\n\
-         Cookie: gumption-{port}={token}\r\nX-Gumption: 1\r\nContent-Type: application/json\r\n\
-         Content-Length: {}\r\n\r\n{body}",
-        body.len()
-    );
-    stream.write_all(head.as_bytes()).unwrap();
+    stream.write_all(request.as_bytes()).unwrap();
     let mut answer = String::new();
     stream.read_to_string(&mut answer).unwrap();
     let (head, body) = answer.split_once("\r\n\r\n").unwrap();
-    (head.split(' ').nth(1).unwrap().to_owned(), body.to_owned())
+    (head.to_owned(), body.to_owned())
+}
+
+/// The status and the body of an answer to the page's own request.
+fn asked(address: &str, path: &str, body: &str) -> (String, String) {
+    let (host, query) = address.trim_start_matches("http://").split_once('/').unwrap();
+    let first = format!("GET /{query} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n");
+    let (welcome, _) = answered(host, &first);
+    let header = |name: &str| welcome.lines().find_map(|line| line.strip_prefix(name)).unwrap();
+    let (secret, cookie) = (header("location: /#"), header("set-cookie: "));
+    let cookie = cookie.split(';').next().unwrap();
+    let head = format!(
+        "POST {path} HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\nConnection: close\r\n\
+         Cookie: {cookie}\r\nX-Gumption: {secret}\r\nContent-Type: application/json\r\n\
+         Content-Length: {}\r\n\r\n{body}",
+        body.len()
+    );
+    let (head, body) = answered(host, &head);
+    (head.split(' ').nth(1).unwrap().to_owned(), body)
 }
 
 /// An answer that takes too long is what there is when its time is over; an export is refused then; work

@@ -5,17 +5,7 @@ use super::delay::{of_harmonics, of_one_recording};
 use super::rms::improvement_in;
 use super::surroundings::{Finding, Surroundings};
 use super::through::{Through, noise_of};
-use super::{CrossSpectrum, Measured, Noise, RmsOf, Signal, Unsuitable};
-
-/// A finding; without a unit it is in the channel's.
-fn finding(name: &str, unit: &str, value: Measured) -> Finding {
-    Finding { name: name.to_owned(), unit: unit.to_owned(), value }
-}
-
-/// A number without uncertainty.
-fn number(value: f64) -> Measured {
-    Measured { value, standard_uncertainty: 0.0, degrees_of_freedom: f64::INFINITY }
-}
+use super::{CrossSpectrum, Delay, Measured, Noise, RmsOf, Signal, Unsuitable};
 
 /// The root mean square about the mean, and that of the oscillation and its multiples.
 pub(super) fn rms(
@@ -26,8 +16,8 @@ pub(super) fn rms(
     let noise = noise_of(signal, surroundings.harmonics(signal), through);
     let of = of(signal, surroundings).rms_in(signal, noise.as_ref());
     let of = of.map_err(|error| error.to_string())?;
-    let mut findings = vec![finding("RMS", "", of.alternating)];
-    findings.extend(of.periodic.map(|value| finding("RMS of the multiples", "", value)));
+    let mut findings = vec![Finding::of("RMS", "", of.alternating)];
+    findings.extend(of.periodic.map(|value| Finding::of("RMS of the multiples", "", value)));
     Ok(findings)
 }
 
@@ -58,9 +48,9 @@ pub(super) fn nearer(
     };
     let Ok(found) = found else { return Vec::new() };
     vec![
-        finding("RMS difference before correction", "", found.before),
-        finding("RMS difference after correction", "", found.after),
-        finding("reduction of RMS difference", "1", found.reduction),
+        Finding::of("RMS difference before correction", "", found.before),
+        Finding::of("RMS difference after correction", "", found.after),
+        Finding::of("reduction of RMS difference", "1", found.reduction),
     ]
 }
 
@@ -75,19 +65,19 @@ pub(super) fn delay(
 ) -> Result<Vec<Finding>, String> {
     let said = |error: Unsuitable| error.to_string();
     let [reference, signal] = common(reference, signal).map_err(said)?;
-    let frequency = surroundings.frequency;
     let harmonics = surroundings.harmonics(&signal);
     let [of_reference, of_signal] = [(&reference, through[0]), (&signal, through[1])]
         .map(|(signal, through)| noise_of(signal, harmonics, through));
     let noises = [of_reference.as_ref(), of_signal.as_ref()];
     let correlated = of_harmonics(&reference, &signal, harmonics, noises).map_err(said)?;
-    let periods = 0.99 * frequency * signal.duration();
-    let segments = segments.unwrap_or((periods as usize).clamp(2, 32));
-    let spectrum = CrossSpectrum { frequency, segments };
+    let spectrum = match segments {
+        Some(segments) => CrossSpectrum { harmonics, segments },
+        None => CrossSpectrum::of_signal(harmonics, &signal).map_err(said)?,
+    };
     let crossed = spectrum.of(&reference, &signal).map_err(said)?;
-    let pair = [&reference, &signal];
     let agreed =
-        of_one_recording(pair, harmonics, segments, (&correlated, &crossed)).map_err(said)?;
+        of_one_recording([&reference, &signal], spectrum, &correlated, &crossed).map_err(said)?;
+    let Delay { delay, correlation, .. } = correlated.delay;
     let degrees = 180.0 / std::f64::consts::PI;
     let phase = Measured {
         value: crossed.phase.value * degrees,
@@ -95,12 +85,12 @@ pub(super) fn delay(
         ..crossed.phase
     };
     Ok(vec![
-        finding("delay by cross-correlation", "s", correlated.delay),
-        finding("coefficient of correlation", "1", number(correlated.correlation)),
-        finding("phase by cross-spectrum", "deg", phase),
-        finding("delay by cross-spectrum", "s", crossed.delay),
-        finding("coherence", "1", number(crossed.coherence)),
-        finding("normalized error of the delays", "1", number(agreed.normalized_error)),
+        Finding::of("delay by cross-correlation", "s", delay),
+        Finding::number("coefficient of correlation", "1", correlation),
+        Finding::of("phase by cross-spectrum", "deg", phase),
+        Finding::of("delay by cross-spectrum", "s", crossed.delay),
+        Finding::of("coherence", "1", crossed.coherence),
+        Finding::number("normalized error of the delays", "1", agreed.normalized_error),
     ])
 }
 

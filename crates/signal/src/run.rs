@@ -283,13 +283,8 @@ fn through_filter(
                     ..passage.phase
                 };
                 let name = |what: &str| format!("{what} of the {} at {hertz} Hz", step.name());
-                let unit = settings.phase.name().to_owned();
-                findings.push(Finding {
-                    name: name("gain"),
-                    unit: "1".to_owned(),
-                    value: passage.gain,
-                });
-                findings.push(Finding { name: name("phase"), unit, value: phase });
+                findings.push(Finding::of(&name("gain"), "1", passage.gain));
+                findings.push(Finding::of(&name("phase"), settings.phase.name(), phase));
             }
         }
     }
@@ -301,7 +296,7 @@ fn not_corrected(settings: &RecipeSettings, channel: usize, finding: &Finding) -
     let unit = if finding.unit == "1" { "" } else { &finding.unit };
     let text = format!(
         "`{}`: {}, {:.6} {unit}",
-        settings.channels[channel].name, finding.name, finding.value.value
+        settings.channels[channel].name, finding.name, finding.value
     );
     ("filter-not-corrected", channel, format!("{}, is not corrected", text.trim_end()))
 }

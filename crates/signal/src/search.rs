@@ -21,8 +21,7 @@ pub(super) fn rates<P: SampleSource>(
         let (value, beside) = rate(settings, frequencies, track, search)?;
         track.base.rate = value;
         track.base.beside_frequency = beside;
-        let (name, unit) = ("sampling rate".to_owned(), "Hz".to_owned());
-        findings.push((search.channel, Finding { name, unit, value }));
+        findings.push((search.channel, Finding::of("sampling rate", "Hz", value)));
     }
     Ok(findings)
 }

@@ -63,7 +63,8 @@ pub enum ChannelStep {
     /// The delay against the reference by cross-correlation and by the cross-spectrum, and their
     /// agreement; the signal stays.
     Delay {
-        /// Segments of the cross-spectrum; none: as many as there are periods, 2 to 32.
+        /// Segments of the cross-spectrum; none: those of
+        /// [`CrossSpectrum::of_signal`](crate::CrossSpectrum::of_signal).
         segments: Option<usize>,
     },
     /// The root mean square; the signal stays.

@@ -147,6 +147,16 @@ impl Errors {
         (squares.sum::<f64>() / self.errors.len() as f64).sqrt()
     }
 
+    fn mean_uncertainty(&self) -> f64 {
+        self.stated.iter().sum::<f64>() / self.stated.len() as f64
+    }
+
+    /// The root mean square of the errors over the mean standard uncertainty.
+    pub(super) fn ratio(&self) -> f64 {
+        let squares: f64 = self.errors.iter().map(|error| error * error).sum();
+        (squares / self.errors.len() as f64).sqrt() / self.mean_uncertainty()
+    }
+
     /// Passes, or says what it found; prints it for a whole study. With little noise in a
     /// converter's step, u may be too large: the distortion that rounding leaves is in the residuals,
     /// but hardly pulls a phase or a rate.
@@ -154,9 +164,7 @@ impl Errors {
         let n = self.errors.len();
         let inside = |(error, u): &(&f64, &f64)| error.abs() < 3.0 * **u;
         let beyond = n - self.errors.iter().zip(&self.stated).filter(inside).count();
-        let squares: f64 = self.errors.iter().map(|error| error * error).sum();
-        let mean = self.stated.iter().sum::<f64>() / n as f64;
-        let ratio = (squares / n as f64).sqrt() / mean;
+        let (mean, ratio) = (self.mean_uncertainty(), self.ratio());
         println!("{what}, {setting:?}: {beyond} of {n} beyond 3 u, ratio {ratio:.3}, u {mean:.3e}");
         let (most, off) = if n < 1000 { (n / 40, 0.18) } else { (n / 100, 0.1) };
         let coarse = setting.is_some_and(|s| s.bits == 8 && s.sigma() < 0.1 * s.step());

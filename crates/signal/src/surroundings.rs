@@ -22,10 +22,32 @@ pub struct Surroundings<'a> {
 pub struct Finding {
     /// What it is: `sampling rate`.
     pub name: String,
-    /// Its unit: `Hz`.
+    /// Its unit: `Hz`; empty where it is the channel's.
     pub unit: String,
     /// The value.
-    pub value: Measured,
+    pub value: f64,
+    /// Its standard uncertainty, in its unit, and the degrees of freedom of that; none where none is
+    /// known.
+    pub uncertainty: Option<(f64, f64)>,
+}
+
+impl Finding {
+    /// A value with its standard uncertainty.
+    pub fn of(name: &str, unit: &str, of: Measured) -> Self {
+        let uncertainty = Some((of.standard_uncertainty, of.degrees_of_freedom));
+        Self { uncertainty, ..Self::number(name, unit, of.value) }
+    }
+
+    /// A value of which no standard uncertainty is known.
+    pub fn number(name: &str, unit: &str, value: f64) -> Self {
+        Self { name: name.to_owned(), unit: unit.to_owned(), value, uncertainty: None }
+    }
+
+    /// The value with its standard uncertainty, where one is known.
+    pub fn measured(&self) -> Option<Measured> {
+        let (standard_uncertainty, degrees_of_freedom) = self.uncertainty?;
+        Some(Measured { value: self.value, standard_uncertainty, degrees_of_freedom })
+    }
 }
 
 impl Surroundings<'_> {

@@ -342,7 +342,7 @@ pub(super) fn noise_of(
     harmonics: Harmonics,
     through: Option<&Through>,
 ) -> Option<HarmonicNoise> {
-    let design = harmonics.design(signal).ok()?;
+    let design = harmonics.design(signal.rate, signal.values.len()).ok()?;
     let mut passes = Values(&signal.values);
     let Ok(mut fits) = design.fit(&mut passes);
     let Ok(mut left) = super::residuals::of(&design, &mut passes, &mut fits);

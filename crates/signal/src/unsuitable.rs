@@ -34,6 +34,16 @@ pub enum Unsuitable {
         /// Sampling rate of each, in hertz.
         rates: [f64; 2],
     },
+    /// A signal has fewer whole periods than the segments of a cross-spectrum need, or these are
+    /// fewer than 2.
+    Segments {
+        /// How many segments were asked for.
+        segments: usize,
+        /// Whole periods of the signal.
+        periods: usize,
+        /// Whole periods that a segment has at least.
+        least: usize,
+    },
     /// A value is not a finite number.
     NotFinite {
         /// Its place in the signal, counted from zero.
@@ -70,6 +80,25 @@ impl fmt::Display for Unsuitable {
                 "the signals are not sampled together: {} values at {} Hz and {} at {} Hz",
                 samples[0], rates[0], samples[1], rates[1]
             ),
+            Self::Segments { segments, .. } if *segments < 2 => write!(
+                out,
+                "a cross-spectrum has 2 segments or more, not {segments}: the coherence of one alone \
+                 is 1, whatever the noise"
+            ),
+            Self::Segments { segments, periods, least } => {
+                let each = if *least == 1 { "period" } else { "periods" };
+                write!(
+                    out,
+                    "a cross-spectrum of {segments} segments takes {least} whole {each} for each, \
+                     {} in all, and the signals have {periods} in common",
+                    segments.saturating_mul(*least)
+                )?;
+                match periods / least {
+                    0 | 1 if *least > 1 => out.write_str("; record more, or fit fewer harmonics"),
+                    0 | 1 => out.write_str("; record more"),
+                    most => write!(out, "; ask for {most} segments at most"),
+                }
+            }
             Self::NotFinite { sample } => write!(out, "value {sample} is not a finite number"),
             Self::Silent { frequency } => write!(out, "there is no component at {frequency} Hz"),
             Self::AtTheEnd { what, end } => {

@@ -10,6 +10,7 @@ use super::observation::{ChannelObservation, ToneComponent};
 use super::phasor::wrapped;
 use super::polar::{Polar, polar};
 use super::recipe::RecipeSettings;
+use super::residuals::variance_of_power;
 use super::surroundings::Finding;
 use super::trials::{Scatter, scatter};
 use super::unexplained::level_wanders;
@@ -378,7 +379,7 @@ fn ratio(analysed: &Analysed, tones: &[Polar], with_multiples: bool) -> Budgeted
         Some(known) => known.of_residuals,
         None => residuals.degrees_of_freedom / spread,
     };
-    let of_noise = (2.0 / freedom).sqrt() * noise / disturbance;
+    let of_noise = variance_of_power(residuals.kurtosis, freedom).sqrt() * noise / disturbance;
     // the variance of an amplitude, but for the scale, which all have in common
     let along = |polar: &Polar| {
         let own = polar.own.iter().map(|(_, u, _)| u * u).sum::<f64>();

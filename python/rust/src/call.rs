@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 use gumption::command::{Exit, Failure, GivenFile};
 use pyo3::prelude::*;
@@ -10,7 +11,7 @@ use pyo3::types::PyBytes;
 use crate::application;
 use crate::errors::{argument, failed};
 use crate::model::Model;
-use crate::supervised::supervised;
+use crate::supervised::{supervised, supervised_within};
 
 /// Runs a command and gives back what it would have printed, what it would have said on standard
 /// error, and whether its answer was "yes" where it asks something.
@@ -55,10 +56,10 @@ pub(crate) fn case_source(
     text: Option<String>,
 ) -> PyResult<(String, Vec<(String, Py<PyBytes>)>)> {
     let files = application().files();
-    let read = py.detach(|| match &text {
+    let read = supervised_within(py, &AtomicBool::new(false), || match &text {
         Some(text) => files.case_text("<stdin>", text, Path::new("")),
         None => files.case(&path),
-    });
+    })?;
     let file = read.map_err(|found| failed(py, &Failure::Diagnostics(found)))?;
     let named = file.files.iter();
     let named = named.map(|(name, bytes)| (name.clone(), PyBytes::new(py, bytes).unbind()));
@@ -89,6 +90,24 @@ pub(crate) fn unit_scale(py: Python<'_>, unit: &str) -> PyResult<(f64, f64)> {
     let parsed = gumption::unit::Unit::parse(unit);
     let parsed = parsed.map_err(|error| argument(py, format!("the unit `{unit}`: {error}")))?;
     Ok((parsed.factor(), parsed.offset()))
+}
+
+/// The unit of the number that a value in a unit is in formulas, such as `m` of `mm`; whether values
+/// are counted from a zero of their own, as of `degC` and `dBm`; and whether they are proportional to
+/// an angle, as of `deg` and `deg/s`.
+#[pyfunction]
+pub(crate) fn unit_within(py: Python<'_>, unit: &str) -> PyResult<(String, bool, bool)> {
+    let parsed = gumption::unit::Unit::parse(unit);
+    let parsed = parsed.map_err(|error| argument(py, format!("the unit `{unit}`: {error}")))?;
+    let dimension = parsed.dimension();
+    let within = match parsed.zero() {
+        Some(_) if parsed.has_reference() => parsed.text().to_owned(),
+        Some(_) => "degC".to_owned(),
+        None if dimension.is_none() && parsed.counts_angle() => "rad".to_owned(),
+        None => dimension.usual_unit(),
+    };
+    let is_angle = parsed.angle_exponent() == gumption::unit::Exponent::ONE;
+    Ok((within, parsed.zero().is_some(), is_angle))
 }
 
 /// Whether values in one unit can be converted to another.

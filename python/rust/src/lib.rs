@@ -6,6 +6,7 @@ mod arrow;
 mod budgets;
 mod call;
 mod columns;
+mod draws;
 mod errors;
 mod function;
 mod model;
@@ -38,6 +39,7 @@ fn _gumption(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(call::case_source, module)?)?;
     module.add_function(wrap_pyfunction!(call::main, module)?)?;
     module.add_function(wrap_pyfunction!(call::unit_scale, module)?)?;
+    module.add_function(wrap_pyfunction!(call::unit_within, module)?)?;
     module.add_function(wrap_pyfunction!(call::units_fit, module)?)?;
     Ok(())
 }

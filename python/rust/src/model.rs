@@ -2,21 +2,24 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use gumption::command::Failure;
 use gumption::file::{ModelFile, Override, bytes};
 use gumption::propagate::{Control, Evaluation, evaluate, warnings};
 use gumption::report::Provenance;
 use gumption::task::{Coverage, MethodChoice, SettingsChanges, StoppingRule, Task, Trials};
+use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::application;
+use crate::draws;
 use crate::errors::{argument, failed};
 use crate::function::PythonFunction;
 use crate::parts::Parts;
 use crate::run::{Ran, Run};
-use crate::supervised::{Watch, supervised};
+use crate::supervised::{Watch, supervised, supervised_within};
 
 /// What a model is read from.
 #[derive(Debug)]
@@ -179,7 +182,9 @@ impl Model {
             let files = files.holding(&source.held);
             files.model_text(&source.name, &source.text, &source.folder, &overrides)
         };
-        let file = py.detach(read).map_err(|found| failed(py, &Failure::Diagnostics(found)))?;
+        // on threads of this process: a forked child has none of its parent's
+        let read = supervised_within(py, &AtomicBool::new(false), read)?;
+        let file = read.map_err(|found| failed(py, &Failure::Diagnostics(found)))?;
         let provenance = Provenance::of(&file.source.text, &file.files);
         Ok(Self {
             source: Arc::new(source),
@@ -272,6 +277,24 @@ impl Model {
     fn warnings(&self) -> Vec<(&'static str, String, String)> {
         let told = self.file.warnings.iter();
         told.map(|w| (w.code, w.place.clone(), w.text.clone())).collect()
+    }
+
+    /// Sets of values of the variables and conditions, and what the formulas give at them: a column for
+    /// each variable, condition and output, in their units. For each of some rows they are the
+    /// estimates and then the first of its draws, `count` of all rows together or a few more.
+    #[allow(clippy::type_complexity)] // two lists of what stands in the lines above
+    fn draws<'py>(
+        &self,
+        py: Python<'py>,
+        count: usize,
+    ) -> PyResult<(Vec<Bound<'py, PyArray1<f64>>>, Vec<Bound<'py, PyArray1<f64>>>)> {
+        let stop = AtomicBool::new(false);
+        let task = &self.file.task;
+        let control = Control::default().with_stop(&stop);
+        let found = supervised_within(py, &stop, || draws::draws(task, count, &control))?;
+        let columns =
+            |of: Vec<Vec<f64>>| of.into_iter().map(|v| PyArray1::from_vec(py, v)).collect();
+        Ok((columns(found.variables), columns(found.outputs)))
     }
 
     /// Evaluates the model.
@@ -371,10 +394,7 @@ fn evaluated(
         return Err(Failed::Python(raised));
     }
     let evaluation = evaluation.map_err(|error| {
-        Failed::Evaluation(match error {
-            gumption::propagate::EvaluationError::Threads(_) => Failure::System(error.to_string()),
-            error => Failure::Diagnostics(file.evaluation_failed(error.to_string())),
-        })
+        Failed::Evaluation(Failure::Diagnostics(file.evaluation_failed(error.to_string())))
     })?;
     let mut notes = file.warnings.clone();
     notes.extend(warnings(&task, &evaluation));

@@ -6,6 +6,7 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
+use gumption::threads::OfProcess;
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -17,25 +18,11 @@ const LOOK: Duration = Duration::from_millis(30);
 /// unheard.
 const PATIENCE: Duration = Duration::from_millis(60);
 
-/// The threads, and the process that they live in: a child that was forked has none of its parent's.
-static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
-
 fn pool() -> PyResult<Arc<ThreadPool>> {
-    let mut pool = POOL.lock().unwrap_or_else(PoisonError::into_inner);
-    let process = std::process::id();
-    if let Some((of, pool)) = &*pool
-        && *of == process
-    {
-        return Ok(Arc::clone(pool));
-    }
-    let made = ThreadPoolBuilder::new()
-        .thread_name(|number| format!("gumption-{number}"))
-        .build()
-        .map_err(|error| PyOSError::new_err(format!("cannot start threads: {error}")))?;
-    let made = Arc::new(made);
-    // waiting for the end of threads that are not there would take forever
-    std::mem::forget(pool.replace((process, Arc::clone(&made))));
-    Ok(made)
+    static POOL: OfProcess<ThreadPool> = OfProcess::new();
+    let named = |number| format!("gumption-{number}");
+    let pool = POOL.of(|_| true, || ThreadPoolBuilder::new().thread_name(named).build());
+    pool.map_err(|error| PyOSError::new_err(format!("cannot start threads: {error}")))
 }
 
 /// What a computation is watched by.

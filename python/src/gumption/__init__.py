@@ -25,9 +25,10 @@ _HOME = {
         "rectangular", "result", "samples", "student_t", "trapezoidal", "triangular",
     ],
     "_model": ["Model", "from_dict", "from_json", "load"],
-    "_measurement": ["Measurement", "NotTracedWarning", "model", "quantity"],
+    "_measurement": ["Measurement", "NotTracedWarning", "model"],
     "_result": ["Budget", "Gum", "MonteCarlo", "Output", "Result"],
     "_samples": ["Samples", "SampleTable"],
+    "_trace": ["quantity"],
     "_budgets": ["OutputBudgets", "budgets"],
 }  # fmt: skip
 

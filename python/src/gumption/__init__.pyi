@@ -18,7 +18,6 @@ from gumption._measurement import (
     Measurement as Measurement,
     NotTracedWarning as NotTracedWarning,
     model as model,
-    quantity as quantity,
 )
 from gumption._model import (
     Model as Model,
@@ -56,6 +55,7 @@ from gumption._shapes import (
     trapezoidal as trapezoidal,
     triangular as triangular,
 )
+from gumption._trace import quantity as quantity
 
 __version__: str
 __all__ = [

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from gumption import _gumption
+from gumption._check import check_rows
 from gumption._measurement import Measurement
 from gumption._model import Model
 from gumption._quantities import is_pint, is_ufloat, pint_unit
@@ -30,7 +31,8 @@ class OutputBudgets:
         For each input its sensitivity coefficients and its contributions.
     """
 
-    def __init__(self, name: str, unit: str, columns: Mapping[str, Any]) -> None:
+    def __init__(self, name: str, unit: str, columns: Mapping[str, Any], index: Any = None) -> None:
+        self._index = index
         self.name = name
         self.unit = unit
         self.estimate: Column = columns["estimate"]
@@ -46,7 +48,10 @@ class OutputBudgets:
         return self.coverage_factor * self.standard_uncertainty
 
     def to_pandas(self) -> Any:
-        """The columns as a ``pandas.DataFrame``, contributions as ``u(input)``."""
+        """The columns as a ``pandas.DataFrame``, contributions as ``u(input)``.
+
+        Its index is that of the ``pandas`` columns that went in.
+        """
         import pandas
 
         own = {
@@ -57,7 +62,7 @@ class OutputBudgets:
             "expanded_uncertainty": self.expanded_uncertainty,
         }
         parts = {f"u({name})": values for name, values in self.contributions.items()}
-        return pandas.DataFrame({**own, **parts})
+        return pandas.DataFrame({**own, **parts}, index=self._index)
 
     def __len__(self) -> int:
         return len(self.estimate)
@@ -114,7 +119,8 @@ def budgets(
         For each input its estimates and standard uncertainties, in the unit of the model, as
         ``(x, u)`` or ``(x, u, dof)``: arrays of one entry a row, or numbers for all rows. An array
         alone is known exactly. An array of ``uncertainties.unumpy`` has both; what its numbers share
-        is not looked at. For each condition its values.
+        is not looked at. For each condition its values. Columns of ``pandas`` have one index, which
+        the result keeps.
 
     Returns
     -------
@@ -125,6 +131,7 @@ def budgets(
     -----
     Correlations are those that the model declares, the same in all rows.
     """
+    measurement = model if isinstance(model, Measurement) else None
     if isinstance(model, Measurement):
         missing = [n for n in [*model.inputs, *model.conditions] if n not in columns]
         if missing:
@@ -134,8 +141,12 @@ def budgets(
     given: dict[str, tuple[Any, Any, Any]] = {}
     rows: set[int] = set()
     units = {**model.inputs, **model.conditions}
+    index: Any = None
     for name, value in columns.items():
-        parts = tuple(_column(part) for part in _parts(value, units.get(name), name))
+        found_parts = _parts(value, units.get(name), name)
+        for part in found_parts:
+            index = _common_index(index, part, name)
+        parts = tuple(_column(part) for part in found_parts)
         _check(name, parts, name in model.conditions)
         rows |= {part.size for part in parts if isinstance(part, np.ndarray)}
         given[name] = (parts[0], parts[1], parts[2])
@@ -144,8 +155,25 @@ def budgets(
             f"the columns have different lengths: {', '.join(map(str, sorted(rows)))}"
         )
     found = _gumption.budgets(model._rust, given, coverage, k, real_dof)
+    if measurement is not None and measurement.check:
+        estimates = {name: parts[0] for name, parts in given.items()}
+        check_rows(measurement, model._rust, estimates, [of["estimate"] for of in found])
     outputs = model.outputs.items()
-    return _All({n: OutputBudgets(n, unit, of) for (n, unit), of in zip(outputs, found)})
+    return _All({n: OutputBudgets(n, unit, of, index) for (n, unit), of in zip(outputs, found)})
+
+
+def _common_index(index: Any, part: Any, name: str) -> Any:
+    """The index of the columns of ``pandas``, which is one."""
+    own = getattr(part, "index", None)
+    # lists and tuples have a method of that name
+    if own is None or callable(own):
+        return index
+    if index is not None and not index.equals(own):
+        raise _gumption.ModelError(
+            f"`{name}` has another index than the columns before it: rows can be meant by their place "
+            "(give `.to_numpy()`) or by their label (give `.loc[index]` or `.reindex(index)`)"
+        )
+    return own
 
 
 def _check(name: str, parts: tuple[Any, ...], is_condition: bool) -> None:

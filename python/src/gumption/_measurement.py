@@ -3,58 +3,28 @@
 from __future__ import annotations
 
 import inspect
+import itertools
 import json
+import re
+import types
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-import numpy.typing as npt
-
 from gumption import _gumption
+from gumption._arguments import Arguments
+from gumption._block import BlockFunction, Way
+from gumption._check import checked
 from gumption._frames import condition_file
-from gumption._model import Model
-from gumption._quantities import as_input, shared
+from gumption._joint import identity_of
+from gumption._model import Model, take_inputs
+from gumption._quantities import as_alone, as_known, unit_of
 from gumption._shapes import Input
-from gumption._trace import NotTraceable, Traced, equations
+from gumption._trace import NotTraceable, Traced, decision_formulas, equations
 
 
 class NotTracedWarning(UserWarning):
     """A function is evaluated by Python, which is slower, since it could not be traced."""
-
-
-def quantity(value: float, unit: str) -> Any:
-    """A quantity with a unit within a model function, as its number in coherent SI units.
-
-    Model functions compute with coherent SI units (radians for angles), so a number without a unit is
-    a number. ``gumption.quantity(20, "mm")`` is a length.
-
-    Parameters
-    ----------
-    value : float
-        The value.
-    unit : str
-        Its unit.
-    """
-    if _TRACING:
-        tape = _TRACING[-1].tape
-        return Traced(tape, f"{float(value)!r} [{unit}]")
-    factor, offset = _gumption.unit_scale(unit)
-    return float(value) * factor + offset
-
-
-# the traced arguments of the functions that are being traced now, innermost last
-_TRACING: list[Traced] = []
-
-
-def _takes(function: Callable[..., Any], names: Sequence[str]) -> bool:
-    """Whether a function takes arguments of these names."""
-    try:
-        parameters = inspect.signature(function).parameters.values()
-    except (TypeError, ValueError):
-        return False
-    named = {p.name for p in parameters if p.kind in (p.POSITIONAL_OR_KEYWORD, p.KEYWORD_ONLY)}
-    return named.issuperset(names) or any(p.kind == p.VAR_KEYWORD for p in parameters)
 
 
 class Measurement:
@@ -84,6 +54,7 @@ class Measurement:
         title: str | None = None,
         check_units: bool = True,
         trace: bool = True,
+        check: bool = True,
     ) -> None:
         self.function = function
         self.inputs = dict(inputs)
@@ -92,10 +63,15 @@ class Measurement:
         first = (inspect.getdoc(function) or "").strip().partition("\n")[0]
         self.title = title if title is not None else first or getattr(function, "__name__", "model")
         self.check_units = check_units
+        self.check = check
+        self._is_traced = trace
         self.equations: dict[str, str] | None = None
         self.why_not_traced: str | None = None
         self._budgets: Model | None = None
-        self._by_name = _takes(function, [*self.inputs, *self.conditions])
+        units = {**self.inputs, **self.conditions}
+        self._arguments = Arguments(function, list(units))
+        #: Names and units of the arguments, in the order of the function.
+        self.arguments = {name: units[name] for name in self._arguments.names}
         for attribute in ("__name__", "__qualname__", "__module__", "__doc__"):
             if hasattr(function, attribute):
                 setattr(self, attribute, getattr(function, attribute))
@@ -106,31 +82,65 @@ class Measurement:
             self.why_not_traced = "it was not to be traced"
 
     def _trace(self) -> None:
-        arguments = [*self.inputs, *self.conditions]
-
-        def called(**traced: Traced) -> Any:
-            _TRACING.append(next(iter(traced.values())))
-            try:
-                return self._called(traced)
-            finally:
-                _TRACING.pop()
-
-        if not arguments:
+        if not self.arguments:
             self.why_not_traced = "it has no arguments"
             return
         try:
             # comparisons of traced numbers with missing ones and the like are told by exceptions
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
-                self.equations = equations(called, arguments, self.outputs, self._named)
-        except NotTraceable as reason:
-            self.why_not_traced = str(reason)
+                self.equations = equations(
+                    self._call, self.arguments, self.outputs, self._named, has_units=self.check_units
+                )
+        except NotTraceable as refused:
+            self.why_not_traced = str(refused)
+            if refused.decision is not None and self.check_units:
+                self._check_decision(refused.decision)
+        except _gumption.ModelError as error:
+            raise _gumption.ModelError(f"`{self.title}`: {error}") from None
         except Exception as error:  # noqa: BLE001 - whatever a function of somebody else's says
             self.why_not_traced = f"{type(error).__name__}: {error}"
 
-    def _called(self, values: Mapping[str, Any]) -> Any:
-        """Calls the function, by names where it has them."""
-        return self.function(**values) if self._by_name else self.function(*values.values())
+    def _check_decision(self, decision: Traced) -> None:
+        """Refuses a decision by quantities of different dimensions."""
+        taken = [*self.arguments, *self.outputs]
+        name = "decision"
+        while name in taken:
+            name += "_"
+        shown, formulas = decision_formulas(decision, name, taken)
+        known = {"distribution": "constant", "value": 1}
+        file = {
+            "format": 1,
+            "inputs": {argument: {"unit": unit, **known} for argument, unit in self.arguments.items()},
+            "equations": formulas,
+            "outputs": {name: {"unit": "1"}},
+        }
+        try:
+            _gumption.Model("decision", json.dumps(file))
+        except _gumption.ModelError as error:
+            said = error.errors[0]["message"] if error.errors else str(error)
+            names = set(re.findall(r"\w+", " ".join(formulas.values())))
+            units = [unit for n, unit in self.arguments.items() if n in names and unit != "1"]
+            raise _gumption.ModelError(
+                f"`{self.title}` decides by `{shown}`: {said}. {self._units_within()} A number may be meant "
+                "in the declared unit or in the one within the function: say which with "
+                f"`gumption.quantity(..., \"{units[0] if units else '1'}\")`, or let the function compute "
+                "with the numbers of its declared units: `gumption.model(..., check_units=False)`"
+            ) from None
+
+    def _units_within(self) -> str:
+        """In which units the function computes, in words."""
+        within = {name: _gumption.unit_within(unit)[0] for name, unit in self.arguments.items()}
+        declared = self.arguments.items()
+        units = [f"`{n}` is in {within[n]} (declared in {u})" for n, u in declared if within[n] != u]
+        return f"Within the function {', '.join(units)}." if units else ""
+
+    def called(self, values: Mapping[str, Any]) -> Mapping[str, Any]:
+        """What the function gives for a value of each argument, by the names of the outputs."""
+        return self._named(self._call(values))
+
+    def _call(self, values: Mapping[str, Any]) -> Any:
+        return self._arguments.call(self.function, values)
 
     def _named(self, found: Any) -> Mapping[str, Any]:
         """Which of what the function gave is which output."""
@@ -163,6 +173,7 @@ class Measurement:
             return name
         return _again, (
             self.function, self.inputs, self.outputs, self.conditions, self.title, self.check_units,
+            self._is_traced, self.check,
         )  # fmt: skip
 
     def __call__(
@@ -202,32 +213,14 @@ class Measurement:
         Model
         """
         known = self._bound(arguments, named)
-        inputs: dict[str, dict[str, Any]] = {}
-        held: dict[str, bytes] = {}
-        aliases: dict[str, str] = {}
-        first: dict[int, str] = {}
-        twins: list[tuple[str, str, float]] = []
-        for name, value in known.items():
-            found = as_input(value, name)
-            # one object for two arguments is one quantity
-            twin = first.get(id(value)) if isinstance(value, Input) else None
-            if twin is not None and self.equations is not None:
-                if found.unit is not None or self.inputs[twin] == self.inputs[name]:
-                    aliases[name] = twin
-                    continue
-            elif twin is not None:
-                twins.append((twin, name, 1.0))
-            self._check_unit(name, found.unit)
-            first.setdefault(id(value), name)
-            inputs[name] = found.to_dict(self.inputs[name])
-            held.update(found.held)
-        links = [*correlations, *shared({n: known[n] for n in inputs}), *twins]
+        aliases = self._aliases(known)
         file: dict[str, Any] = {"format": 1, "title": title if title is not None else self.title}
         if not self.check_units:
             file["check_units"] = False
-        file["inputs"] = inputs
-        if links:
-            file["correlations"] = [list(link) for link in links]
+        file["inputs"] = dict.fromkeys(known)
+        if correlations:
+            file["correlations"] = [list(link) for link in correlations]
+        held: dict[str, bytes] = {}
         if self.conditions:
             if conditions is None:
                 raise _gumption.ModelError(
@@ -252,27 +245,104 @@ class Measurement:
             file["coverage_probability"] = coverage_probability
         if coverage_factor is not None:
             file["coverage_factor"] = coverage_factor
-        function = None
-        if self.equations is not None:
-            file["equations"] = {**aliases, **self.equations}
-        else:
-            warnings.warn(
-                f"`{self.title}` could not be traced ({self.why_not_traced}); it is evaluated by Python "
-                "in blocks of values, which is slower, with sensitivities by central differences",
-                NotTracedWarning,
-                stacklevel=2,
-            )
-            # it says which quantities there are; the function computes in its place
-            file["check_units"] = False
-            whole = " + ".join([*inputs, *self.conditions])
-            file["equations"] = {name: whole for name in self.outputs}
-            function = BlockFunction(self)
-        file["outputs"] = outputs
         if settings:
             file["monte_carlo"] = settings
+        file["outputs"] = outputs
+        return self._model(file, known, held, aliases)
+
+    def _model(
+        self,
+        file: dict[str, Any],
+        known: Mapping[str, Any],
+        held: Mapping[str, bytes],
+        aliases: Mapping[str, str],
+    ) -> Model:
+        """The model of a file that has no formulas yet, and nothing about its inputs."""
+        formulas = {**aliases, **(self.equations or {})}
+        file["equations"] = formulas
+        files, all_known = take_inputs(file, known, self.inputs, {})
+        files = {**held, **files}
+        if all_known.keys() != known.keys() and self.equations is None:
+            raise _gumption.ModelError(
+                f"`{self.title}` could not be traced ({self.why_not_traced}), so it cannot be evaluated "
+                "together with the models of results that go back to the same quantity; write one function "
+                "of what they go back to"
+            )
+        # it says which quantities there are, where the function computes in its place
+        whole = " + ".join([*known, *self.conditions])
+        by_python = {**file, "check_units": False, "equations": dict.fromkeys(self.outputs, whole)}
+        rust = self._read(file if self.equations is not None else by_python, files)
+        if all_known.keys() == known.keys():
+            alone = rust
+        else:
+            # the function has the results as its arguments, about which their figures are enough to know
+            inputs = {name: as_alone(value, name).to_dict(self.inputs[name]) for name, value in known.items()}
+            own = {key: value for key, value in file.items() if key != "correlations"}
+            alone = self._read({**own, "inputs": inputs, "equations": formulas}, files)
+        function = BlockFunction(self, Way.UNCHECKED, aliases) if self.equations is None else None
+        if not self.check:
+            self._warn(function, None)
+            return Model._of(rust, function, all_known)
+        found = checked(self, alone, aliases)
+        self._warn(found.function, found.difference)
+        if found.function is not None and self.equations is not None:
+            if alone is not rust:
+                raise _gumption.ModelError(f"`{self.title}`: {found.difference}")
+            rust = self._read(by_python, files)
+        return Model._of(rust, found.function, all_known, found.held)
+
+    def _read(self, file: Mapping[str, Any], held: Mapping[str, bytes]) -> _gumption.Model:
         name = f"<{getattr(self, '__name__', 'model')}>"
         text = json.dumps(file, indent=1, ensure_ascii=False, allow_nan=False)
-        return Model._of(_gumption.Model(name, text, "", list(held.items())), function)
+        return _gumption.Model(name, text, "", list(held.items()))
+
+    def _warn(self, function: BlockFunction | None, difference: str | None) -> None:
+        """Says that a function is evaluated by Python, and why."""
+        if function is None:
+            return
+        if self.equations is not None:
+            why = f"`{self.title}` is not evaluated by its formulas, as {difference};"
+        else:
+            why = f"`{self.title}` could not be traced ({self.why_not_traced});"
+            if difference is not None:
+                why = f"{why} {difference};"
+        how = "in blocks of values" if function.way in (Way.COLUMNS, Way.UNCHECKED) else "one draw at a time"
+        units = [*self.arguments.values(), *self.outputs.values()]
+        has_units = self.check_units and {*units} != {"1"}
+        unchecked = f" Dimensions are not checked. {self._units_within()}".rstrip() if has_units else ""
+        if has_units and any(_gumption.unit_within(unit)[2] for unit in units):
+            if named := sorted(_names(getattr(self.function, "__code__", None)) & _CONVERSIONS):
+                unchecked += (
+                    f" It uses `{'`, `'.join(named)}`, but its angles are in radians already, and it gives "
+                    "them in radians: leave the conversion out, or say `check_units=False`, if that is of "
+                    "one of them."
+                )
+        warnings.warn(
+            f"{why} it is evaluated by Python {how}, which is slower, with sensitivities by central "
+            f"differences.{unchecked}",
+            NotTracedWarning,
+            stacklevel=4,
+        )
+
+    def _aliases(self, known: dict[str, Any]) -> dict[str, str]:
+        """Takes out of what is known the inputs that are the same quantity as one before."""
+        aliases: dict[str, str] = {}
+        first: dict[object, str] = {}
+        for name, value in list(known.items()):
+            found = known[name] = as_known(value, name)
+            unit = unit_of(found)
+            self._check_unit(name, unit)
+            twin = first.setdefault(identity_of(found), name)
+            if twin == name:
+                continue
+            if unit is None and self.inputs[twin] != self.inputs[name]:
+                raise _gumption.ModelError(
+                    f"one quantity is given for `{twin}` in {self.inputs[twin]} and for `{name}` in "
+                    f"{self.inputs[name]}, and has no unit of its own; give it one"
+                )
+            aliases[name] = twin
+            del known[name]
+        return aliases
 
     def _check_unit(self, name: str, unit: str | None) -> None:
         """Whether an input may be given in that unit."""
@@ -289,10 +359,15 @@ class Measurement:
             raise _gumption.ModelError(f"`{name}` is given in {unit}, but the model takes {own}")
 
     def _bound(self, arguments: Sequence[Any], named: Mapping[str, Any]) -> dict[str, Any]:
-        names = list(self.inputs)
-        if len(arguments) > len(names):
-            raise TypeError(f"the model has {len(names)} inputs, but {len(arguments)} are given")
-        known = dict(zip(names, arguments))
+        names = [name for name in self.arguments if name in self.inputs]
+        by_position = itertools.takewhile(self.inputs.__contains__, self._arguments.positional)
+        positional = list(by_position)
+        if len(arguments) > len(positional):
+            raise TypeError(
+                f"{len(arguments)} inputs are given by position, but the function begins with "
+                f"{len(positional)} that can be ({', '.join(positional)}); give the others by name"
+            )
+        known = dict(zip(positional, arguments))
         for name, value in named.items():
             if name in known:
                 raise TypeError(f"`{name}` is given twice")
@@ -312,10 +387,27 @@ class Measurement:
                 "formulas"
             )
         if self._budgets is None:
-            anything = [Input({"distribution": "constant", "value": 1}) for _ in self.inputs]
+            known = {"distribution": "constant", "value": 1}
+            anything: dict[str, Any] = {name: Input(known) for name in self.inputs}
             at = {name: [1.0] for name in self.conditions} or None
-            self._budgets = self(*anything, conditions=at)
+            # it is checked at the values that are given
+            unchecked = Measurement(
+                self.function, self.inputs, self.outputs, conditions=self.conditions, title=self.title,
+                check_units=self.check_units, check=False,
+            )  # fmt: skip
+            self._budgets = unchecked(**anything, conditions=at)
         return self._budgets
+
+
+#: Functions between degrees and radians, in `math` and in NumPy.
+_CONVERSIONS = {"radians", "degrees", "deg2rad", "rad2deg"}
+
+
+def _names(code: object) -> set[str]:
+    """The names that the code of a function and of those within it uses."""
+    if not isinstance(code, types.CodeType):
+        return set()
+    return set(code.co_names).union(*map(_names, code.co_consts))
 
 
 def _again(
@@ -324,70 +416,13 @@ def _again(
     outputs: Mapping[str, str],
     conditions: Mapping[str, str],
     title: str,
-    check_units: bool,
+    *options: bool,
 ) -> Measurement:
+    check_units, trace, check = options
     return Measurement(
-        function, inputs, outputs, conditions=conditions, title=title, check_units=check_units
-    )
-
-
-class BlockFunction:
-    """A function that is not traced, as the engine calls it: columns in the declared units."""
-
-    def __init__(self, measurement: Measurement) -> None:
-        self.measurement = measurement
-        self._one_by_one = False
-
-    def __reduce__(self) -> Any:
-        return BlockFunction, (self.measurement,)
-
-    def of(self, model: _gumption.Model) -> Callable[[list[npt.NDArray[np.float64]]], list[Any]]:
-        """The function over the columns of the variables of a model."""
-        variables, units = model.variables, dict([*model.inputs, *model.conditions])
-        scales = {name: _gumption.unit_scale(unit) for name, unit in units.items()}
-        # components of an input are summed
-        owner = [name.partition("/")[0] for name in variables] + [n for n, _ in model.conditions]
-        outputs = [(name, _gumption.unit_scale(unit)) for name, unit in model.outputs]
-        check = self.measurement.check_units
-
-        def called(columns: list[npt.NDArray[np.float64]]) -> list[Any]:
-            sums: dict[str, Any] = {}
-            for name, column in zip(owner, columns):
-                sums[name] = sums[name] + column if name in sums else column
-            if check:
-                for name, (factor, offset) in scales.items():
-                    sums[name] = sums[name] * factor + offset
-            found = self._evaluate(sums, len(columns[0]))
-            given = []
-            for name, (factor, offset) in outputs:
-                values = np.broadcast_to(np.asarray(found[name], dtype=np.float64), len(columns[0]))
-                given.append(np.ascontiguousarray((values - offset) / factor if check else values))
-            return given
-
-        return called
-
-    def _evaluate(self, sums: Mapping[str, Any], count: int) -> Mapping[str, Any]:
-        called, named = self.measurement._called, self.measurement._named
-        names = [*self.measurement.inputs, *self.measurement.conditions]
-        sums = {name: sums[name] for name in names}
-        # what is undefined is counted, and need not be said each time
-        with np.errstate(all="ignore"):
-            if not self._one_by_one:
-                try:
-                    found = named(called(sums))
-                    if all(np.shape(value) in ((), (count,)) for value in found.values()):
-                        return found
-                except (TypeError, ValueError):
-                    pass
-                # it takes numbers and no arrays
-                self._one_by_one = True
-            rows = []
-            for i in range(count):
-                try:
-                    rows.append(named(called({name: float(v[i]) for name, v in sums.items()})))
-                except ArithmeticError:
-                    rows.append({name: np.nan for name in self.measurement.outputs})
-        return {name: [float(row[name]) for row in rows] for name in self.measurement.outputs}
+        function, inputs, outputs, conditions=conditions, title=title,
+        check_units=check_units, trace=trace, check=check,
+    )  # fmt: skip
 
 
 def model(
@@ -398,6 +433,7 @@ def model(
     title: str | None = None,
     check_units: bool = True,
     trace: bool = True,
+    check: bool = True,
 ) -> Callable[[Callable[..., Any]], Measurement]:
     """Make a measurement model of a Python function.
 
@@ -425,6 +461,11 @@ def model(
         declared units, and nothing is converted.
     trace : bool, default True
         Whether to trace the function.
+    check : bool, default True
+        Whether to hold it against itself when a model is made: it is called with 32 draws of its inputs
+        one at a time, and where what was traced, or what comes of whole columns of draws, differs from
+        that, the function is evaluated one draw at a time and a `NotTracedWarning` shows the difference.
+        A function that does not give the same value twice is refused.
 
     Returns
     -------
@@ -454,6 +495,7 @@ def model(
             title=title,
             check_units=check_units,
             trace=trace,
+            check=check,
         )
 
     return decorate

@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 from gumption import _gumption
 from gumption._frames import condition_file
-from gumption._quantities import as_input, shared
+from gumption._joint import Joint, identity_of
+from gumption._quantities import as_input, as_known, shared, unit_of
 from gumption._result import Result
 
 if TYPE_CHECKING:
-    from gumption._measurement import BlockFunction
+    from gumption._block import BlockFunction
+    from gumption._check import Held
 
 
 class Model:
@@ -24,16 +26,26 @@ class Model:
     """
 
     _rust: _gumption.Model
+    #: What computes the outputs in place of formulas.
     _function: BlockFunction | None
+    #: What is known about the inputs, where it was not a file that said it.
+    _known: Mapping[str, Any] | None
+    #: The function that the formulas are of, as it was when the model was made.
+    _held: Held | None
 
     def __init__(self) -> None:
         raise TypeError("models are made by gumption.load, from_dict, from_json or model")
 
     @classmethod
-    def _of(cls, rust: _gumption.Model, function: BlockFunction | None = None) -> Model:
+    def _of(
+        cls,
+        rust: _gumption.Model,
+        function: BlockFunction | None = None,
+        known: Mapping[str, Any] | None = None,
+        held: Held | None = None,
+    ) -> Model:
         made = object.__new__(cls)
-        made._rust = rust
-        made._function = function
+        made._rust, made._function, made._known, made._held = rust, function, known, held
         return made
 
     @property
@@ -189,7 +201,9 @@ class Model:
         return self._rust.parts(options, self._columns())
 
     def _columns(self) -> Callable[[list[Any]], list[Any]] | None:
-        """The function over columns of a model that is not traced."""
+        """The function over columns of a model that is not traced, which is to be the one it was."""
+        if self._held is not None:
+            self._held.check_unchanged()
         return None if self._function is None else self._function.of(self._rust)
 
     @contextmanager
@@ -233,7 +247,7 @@ class Model:
         named = [f"{name.replace('__', '.')}={value}" for name, value in values.items()]
         name, text, folder, held, allow, replaced, accept = self._rust.source
         all_ = [*replaced, *replacements, *named]
-        return Model._of(_gumption.Model(name, text, folder, held, allow, all_, accept))
+        return self._derived(_gumption.Model(name, text, folder, held, allow, all_, accept), self._known)
 
     def with_inputs(
         self,
@@ -254,22 +268,20 @@ class Model:
             The same as `inputs`.
         """
         self._refuse_function("with_inputs")
-        known = {**(inputs or {}), **named}
-        file, held = self.to_dict(), dict(self._rust.source[3])
         units = self.inputs
-        for name, value in known.items():
+        given = {**(inputs or {}), **named}
+        for name in given:
             if name not in units:
                 raise _gumption.ModelError(
                     f"the model has no input `{name}`; it has {', '.join(units)}"
                 )
-            found = as_input(value, name)
-            file["inputs"][name] = found.to_dict(units[name])
-            held.update(found.held)
-        links = [*(correlations if correlations is not None else file.get("correlations", []))]
-        links += shared(known)
-        if links:
-            file["correlations"] = [list(link) for link in links]
-        return self._with(file, held)
+        file = self.to_dict()
+        given = {name: as_known(value, name) for name, value in given.items()}
+        if correlations is not None:
+            file["correlations"] = [list(link) for link in correlations]
+        kept = {name: value for name, value in (self._known or {}).items() if name not in given}
+        held, known = take_inputs(file, given, units, kept)
+        return self._with(file, {**dict(self._rust.source[3]), **held}, known)
 
     def with_conditions(self, table: Any, units: Mapping[str, str] | None = None) -> Model:
         """The model in every row of a table of conditions.
@@ -289,19 +301,27 @@ class Model:
         file, held = self.to_dict(), dict(self._rust.source[3])
         file["conditions"], tables = condition_file(table, own)
         held.update(tables)
-        return self._with(file, held)
+        return self._with(file, held, self._known)
 
-    def _with(self, file: Mapping[str, Any], held: Mapping[str, bytes]) -> Model:
+    def _with(
+        self, file: Mapping[str, Any], held: Mapping[str, bytes], known: Mapping[str, Any] | None
+    ) -> Model:
         name, _, folder, _, allow, replaced, accept = self._rust.source
         text = _json(file)
         files = list(held.items())
-        return Model._of(_gumption.Model(name, text, folder, files, allow, replaced, accept))
+        made = _gumption.Model(name, text, folder, files, allow, replaced, accept)
+        return self._derived(made, known)
+
+    def _derived(self, rust: _gumption.Model, known: Mapping[str, Any] | None) -> Model:
+        """A model of the same formulas, held against the function that they are of."""
+        held = self._held.of(rust) if self._held is not None else None
+        return Model._of(rust, known=known, held=held)
 
     def _refuse_function(self, what: str) -> None:
         if self._function is not None:
             raise _gumption.ModelError(
                 f"`{what}` needs a model of formulas, but the function of `{self.title}` could not be "
-                "traced; call the function with other inputs"
+                "traced, or not rightly; call the function with other inputs"
             )
 
     def __repr__(self) -> str:
@@ -309,7 +329,9 @@ class Model:
         return f"<gumption.Model {self.title!r}: {outputs} of {inputs}>"
 
     def __reduce__(self) -> Any:
-        return _model_from, (self._rust.source, self._function)
+        # formulas were held against their function when they were made, and need it no more
+        held = self._held if self._function is not None else None
+        return _model_from, (self._rust.source, self._function, self._known, held)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Model):
@@ -320,8 +342,78 @@ class Model:
         return hash(self._rust.source[1])
 
 
-def _model_from(source: tuple[Any, ...], function: BlockFunction | None) -> Model:
-    return Model._of(_gumption.Model(*source), function)
+def _model_from(
+    source: tuple[Any, ...],
+    function: BlockFunction | None,
+    known: Mapping[str, Any] | None,
+    held: Held | None,
+) -> Model:
+    return Model._of(_gumption.Model(*source), function, known, held)
+
+
+def take_inputs(
+    file: dict[str, Any],
+    given: Mapping[str, Any],
+    units: Mapping[str, str],
+    kept: Mapping[str, Any],
+) -> tuple[dict[str, bytes], dict[str, Any]]:
+    """Writes what is known about inputs into a model file.
+
+    Results that go back to what other inputs go back to are put in as the formulas of their models.
+
+    Parameters
+    ----------
+    file : dict
+        The file, whose ``inputs``, ``equations`` and ``correlations`` are added to.
+    given, units : mapping
+        What is known about some of its inputs, and the units that hold where that has none.
+    kept : mapping
+        What is known about its other inputs.
+
+    Returns
+    -------
+    dict of str to bytes, dict of str to object
+        The files that the inputs name, and what is known about all inputs.
+    """
+    held: dict[str, bytes] = {}
+    taken = [name for key in ("inputs", "equations", "outputs", "conditions") for name in file.get(key, ())]
+    check_units = file.get("check_units", True)
+    joint = Joint.of({**kept, **given}, units, taken, check_units)
+    known = {**kept, **given}
+    links = list(file.get("correlations", []))
+    if joint is not None:
+        for name in joint.expanded:
+            file["inputs"].pop(name, None)
+            del known[name]
+        file["inputs"].update(joint.inputs)
+        file["equations"] = {**joint.equations, **file.get("equations", {})}
+        held.update(joint.held)
+        links += joint.links
+        known.update(joint.known)
+    first: dict[object, str] = {}
+    for name, value in list(known.items()):
+        twin = first.setdefault(identity_of(value), name)
+        if twin == name:
+            continue
+        # one object for two inputs is one quantity
+        if unit_of(value) is None and units.get(twin) != units.get(name):
+            raise _gumption.ModelError(
+                f"one quantity is given for `{twin}` and for `{name}`, which are in different units, and "
+                "has no unit of its own; give it one"
+            )
+        file["inputs"].pop(name, None)
+        file["equations"] = {name: twin, **file.get("equations", {})}
+        del known[name]
+    for name, value in given.items():
+        if name in known:
+            found = as_input(value, name)
+            file["inputs"][name] = found.to_dict(units[name])
+            held.update(found.held)
+    # of what was there before the file tells already
+    links += [link for link in shared(known) if not {*link[:2]} <= kept.keys()]
+    if links:
+        file["correlations"] = [list(link) for link in links]
+    return held, known
 
 
 def _json(file: Mapping[str, Any]) -> str:
@@ -440,23 +532,19 @@ def from_dict(
     """
     made: dict[str, Any] = {"format": 1, **file}
     held: dict[str, bytes] = {}
+    known: dict[str, Any] | None = None
     inputs = made.get("inputs")
     if isinstance(inputs, Mapping):
-        own = {}
-        for key, value in inputs.items():
-            if isinstance(value, (Mapping, str)):
-                own[key] = value
-                continue
-            found = as_input(value, key)
-            own[key] = found.to_dict()
-            held.update(found.held)
-        made["inputs"] = own
-        links = shared({key: value for key, value in inputs.items() if not isinstance(value, str)})
-        if links:
-            made["correlations"] = [*made.get("correlations", []), *map(list, links)]
+        # what the file says itself stays as it is
+        stated = {key: value for key, value in inputs.items() if isinstance(value, (Mapping, str))}
+        own = {key: as_input(value, key) for key, value in stated.items() if isinstance(value, Mapping)}
+        given = {key: as_known(v, key) for key, v in inputs.items() if key not in stated}
+        made["inputs"] = {key: stated.get(key) for key in inputs}
+        held, known = take_inputs(made, given, dict.fromkeys(inputs, "1"), own)
     if conditions is not None:
         asked = made.get("conditions", {})
         units = {n: of if isinstance(of, str) else of.get("unit", "1") for n, of in asked.items()}
         made["conditions"], tables = condition_file(conditions, units)
         held.update(tables)
-    return Model._of(_gumption.Model(name, _json(made), os.fspath(folder), list(held.items())))
+    rust = _gumption.Model(name, _json(made), os.fspath(folder), list(held.items()))
+    return Model._of(rust, known=known)

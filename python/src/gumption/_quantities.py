@@ -172,6 +172,36 @@ def as_input(value: Any, name: str = "the input") -> Input:
     )
 
 
+def is_number(value: Any) -> bool:
+    """Whether it is a number of a library that knows what it shares with others."""
+    inner = _inner(value)
+    return is_ufloat(inner) or is_gtc(inner)
+
+
+def as_known(value: Any, name: str) -> Any:
+    """A value that knows what it shares with others: an `Input`, an output of a result, or a number of
+    ``uncertainties`` or ``GTC``."""
+    return value if hasattr(value, "_as_input") or is_number(value) else as_input(value, name)
+
+
+def as_alone(value: Any, name: str) -> Input:
+    """What is known about an input, of an output of a result by its estimate and standard uncertainty."""
+    if not hasattr(value, "_as_input"):
+        return as_input(value, name)
+    u = value.gum.standard_uncertainty
+    found = _normal(value.gum.estimate, u if math.isfinite(u) else 0.0)
+    return Input(found.spec, value.unit)
+
+
+def unit_of(value: Any) -> str | None:
+    """The unit that a value has itself."""
+    if isinstance(value, Input) or hasattr(value, "_as_input"):
+        unit = value.unit
+        assert unit is None or isinstance(unit, str)
+        return unit
+    return pint_unit(value) if is_pint(value) else None
+
+
 def _inner(value: Any) -> Any:
     return value.magnitude if is_pint(value) else value
 

@@ -6,6 +6,7 @@ import hashlib
 import html
 import json
 import os
+import uuid
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Union
 
@@ -290,9 +291,15 @@ class Result(Mapping[str, Output]):
     """
 
     def __init__(
-        self, model: Model, options: Mapping[str, Any], run: _gumption.Run | None = None
+        self,
+        model: Model,
+        options: Mapping[str, Any],
+        run: _gumption.Run | None = None,
+        identity: str | None = None,
     ) -> None:
         self.model = model
+        #: What tells it from the results of other runs.
+        self.identity = identity if identity is not None else uuid.uuid4().hex
         self._options = dict(options)
         self._done = run
         self._answer: dict[str, Any] | None = None
@@ -460,7 +467,7 @@ class Result(Mapping[str, Output]):
         return id(self)
 
     def __reduce__(self) -> Any:
-        return Result, (self.model, {**self._options, "seed": self.seed})
+        return Result, (self.model, {**self._options, "seed": self.seed}, None, self.identity)
 
 
 def _write(path: str | os.PathLike[str], content: bytes) -> None:

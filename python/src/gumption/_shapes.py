@@ -11,6 +11,7 @@ specification such as ``"0.02 % + 2 uV"``. An estimate may be a formula of condi
 from __future__ import annotations
 
 import os
+import uuid
 from collections.abc import Iterable, Mapping
 from typing import Any, Union
 
@@ -32,23 +33,33 @@ class Input:
         The unit; that which the model asks for unless given.
     held : iterable of (str, bytes)
         Files that the keys name, by their names.
+    identity : str, optional
+        What tells the quantity from all others; a new one unless given.
+    parts : iterable of str
+        The identities of its components.
 
     Notes
     -----
-    An object that is given for two inputs is one quantity: both always have the same value.
+    An object is one quantity, wherever it is given: for two inputs of a model, which then always have
+    the same value, or in models whose results are inputs of another one. Copies and what was pickled
+    are the same quantity.
     """
 
-    __slots__ = ("held", "spec", "unit")
+    __slots__ = ("held", "identity", "parts", "spec", "unit")
 
     def __init__(
         self,
         spec: Mapping[str, Any],
         unit: str | None = None,
         held: Iterable[tuple[str, bytes]] = (),
+        identity: str | None = None,
+        parts: Iterable[str] = (),
     ) -> None:
         self.spec: dict[str, Any] = dict(spec)
         self.unit = unit
         self.held: tuple[tuple[str, bytes], ...] = tuple(held)
+        self.identity = identity if identity is not None else uuid.uuid4().hex
+        self.parts: tuple[str, ...] = tuple(parts)
 
     def to_dict(self, unit: str = "1") -> dict[str, Any]:
         """The input as it stands in a model file; `unit` holds where it has none of its own."""
@@ -58,7 +69,7 @@ class Input:
         return f"gumption.Input({self.spec!r}, unit={self.unit!r})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Input, (self.spec, self.unit, self.held)
+        return Input, (self.spec, self.unit, self.held, self.identity, self.parts)
 
 
 def plain(value: Any) -> Any:
@@ -307,7 +318,7 @@ def components(mean: Value | None, parts: Mapping[str, Input], unit: str | None 
     own = [{"name": name, **part.spec} for name, part in parts.items()]
     held = [file for part in parts.values() for file in part.held]
     found = _shape(None, unit, {"mean": mean, "components": own}, more)
-    return Input(found.spec, unit, held)
+    return Input(found.spec, unit, held, parts=[part.identity for part in parts.values()])
 
 
 def known(unit: str | None = None, **keys: Any) -> Input:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Iterable, Mapping
+from contextvars import ContextVar
 from fractions import Fraction
 from typing import Any
 
@@ -14,7 +15,18 @@ from gumption import _gumption
 
 
 class NotTraceable(TypeError):
-    """What a function does with its arguments that no formula says."""
+    """What a function does with its arguments that no formula says.
+
+    The tape that is written remembers the first one, so that no ``except`` of the function hides it.
+    """
+
+    def __init__(self, what: str, decision: Traced | None = None) -> None:
+        super().__init__(what)
+        #: The traced number that decides.
+        self.decision = decision
+        tape = _TAPE.get()
+        if tape is not None and tape.refused is None:
+            tape.refused = self
 
 
 #: How tightly the outermost operation of a formula binds.
@@ -76,15 +88,57 @@ def _is_accepted(call: str) -> bool:
 
 
 class Tape:
-    """What was done to the arguments of a function, in its order."""
+    """What was done to the arguments of a function, in its order.
 
-    def __init__(self) -> None:
+    Attributes
+    ----------
+    has_units : bool
+        Whether numbers are in coherent SI units, so that angles are in radians.
+    refused : NotTraceable or None
+        What the function did first that no formula says.
+    mistake : ModelError or None
+        What it did first that can be meant in two ways.
+    """
+
+    def __init__(self, has_units: bool) -> None:
+        self.has_units = has_units
+        self.refused: NotTraceable | None = None
+        self.mistake: _gumption.ModelError | None = None
         self._count = 0
 
     def next(self) -> int:
         """The number of what is done next."""
         self._count += 1
         return self._count
+
+
+# the tape of the function that is being traced
+_TAPE: ContextVar[Tape | None] = ContextVar("tape", default=None)
+
+
+def quantity(value: float, unit: str) -> Any:
+    """A quantity with a unit within a model function, as its number in coherent SI units.
+
+    Model functions compute with coherent SI units (radians for angles), so a number without a unit is
+    a number. ``gumption.quantity(20, "mm")`` is a length.
+
+    Parameters
+    ----------
+    value : float
+        The value.
+    unit : str
+        Its unit.
+    """
+    tape = _TAPE.get()
+    if tape is not None:
+        return Traced(tape, f"{float(value)!r} [{unit}]", angle=_angle_in(unit))
+    factor, offset = _gumption.unit_scale(unit)
+    return float(value) * factor + offset
+
+
+def _angle_in(unit: str) -> float | None:
+    """Of a unit of angle (or of angle times something, as ``deg/s``) 1."""
+    return 1.0 if _gumption.unit_within(unit)[2] else None
 
 
 class Traced:
@@ -94,17 +148,41 @@ class Traced:
     of NumPy work on it; what needs to know its value (``if``, ``float()``, ``math.sin``) does not.
     """
 
-    __slots__ = ("number", "operands", "symbol", "tape")
-    __hash__ = None  # type: ignore[assignment]
+    __slots__ = ("angle", "literal", "number", "operands", "symbol", "tape")
     # before arrays, so that they do not take it for an object of their own
     __array_priority__ = 1000.0
 
-    def __init__(self, tape: Tape, symbol: str, operands: tuple[Traced, ...] = ()) -> None:
+    def __init__(
+        self,
+        tape: Tape,
+        symbol: str,
+        operands: tuple[Traced, ...] = (),
+        *,
+        angle: float | None = None,
+        literal: float | None = None,
+    ) -> None:
         self.tape = tape
         #: An operator, the name of a function, or for what has no operands its text.
         self.symbol = symbol
         self.operands = operands
         self.number = tape.next()
+        #: The value of a number that is written out.
+        self.literal = literal
+        #: Of an angle in radians 1, of one that was multiplied by numbers their product; else `None`.
+        self.angle = (_angle_of(symbol, operands) if operands else angle) if tape.has_units else None
+        if operands and self.angle is not None and _is_about(self.angle, math.pi / 180):
+            self._refuse_conversion()
+
+    def _refuse_conversion(self) -> None:
+        tape = self.tape
+        if tape.mistake is None:
+            tape.mistake = _gumption.ModelError(
+                f"`{self._shown()}` converts an angle from degrees to radians, but within the function "
+                "angles are in radians already, whatever their unit. Leave the conversion out; or, if "
+                "the function is to compute with the numbers of its declared units, say so with "
+                "`gumption.model(..., check_units=False)`"
+            )
+        raise tape.mistake
 
     def __repr__(self) -> str:
         return f"<traced {self._shown()}>"
@@ -115,11 +193,12 @@ class Traced:
 
     # what is not known yet
 
-    def _refuse(self, what: str) -> NotTraceable:
-        return NotTraceable(f"{what} the value of `{self._shown()}`, which no formula knows")
+    def _refuse(self, what: str, decision: Traced | None = None) -> NotTraceable:
+        reason = f"{what} the value of `{self._shown()}`, which no formula knows"
+        return NotTraceable(reason, decision)
 
     def __bool__(self) -> bool:
-        raise self._refuse("it decides by")
+        raise self._refuse("it decides by", self)
 
     def __float__(self) -> float:
         raise self._refuse("it takes")
@@ -132,6 +211,20 @@ class Traced:
 
     def __complex__(self) -> complex:
         raise self._refuse("it takes")
+
+    def __hash__(self) -> int:
+        raise self._refuse("it looks up")
+
+    def __round__(self, digits: int | None = None) -> Any:
+        raise self._refuse("it rounds")
+
+    def __floordiv__(self, other: Any) -> Any:
+        raise self._refuse("it divides with a rest")
+
+    __rfloordiv__ = __divmod__ = __rdivmod__ = __floordiv__
+
+    def __format__(self, form: str) -> str:
+        raise self._refuse("it writes out")
 
     # operators
 
@@ -184,10 +277,10 @@ class Traced:
         return _binary(">=", self, other)
 
     def __eq__(self, other: object) -> bool:
-        raise self._refuse("it compares with")
+        raise self._refuse("it compares with", _compared(self, other))
 
     def __ne__(self, other: object) -> bool:
-        raise self._refuse("it compares with")
+        raise self._refuse("it compares with", _compared(self, other))
 
     def __neg__(self) -> Traced:
         return Traced(self.tape, "-", (self,))
@@ -201,8 +294,6 @@ class Traced:
     # functions of NumPy
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
-        if method == "reduce" and len(inputs) == 1:
-            return NotImplemented
         if method != "__call__" or any(value is not None for value in options.values()):
             raise NotTraceable(f"no formula does numpy.{ufunc.__name__}.{method} with these options")
         if any(isinstance(value, np.ndarray) and value.ndim for value in inputs):
@@ -220,16 +311,57 @@ class Traced:
             value, low, high = arguments
             raised = value if low is None else _call("max", [value, low])
             return raised if high is None else _call("min", [raised, high])
-        if name in ("real", "copy", "round", "around", "sum", "mean", "squeeze", "ravel"):
-            if name in ("real", "copy") and len(arguments) == 1:
-                return arguments[0]
+        if name in ("real", "copy") and len(arguments) == 1:
+            return arguments[0]
         raise NotTraceable(f"no formula does numpy.{name}")
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
         # arrays of objects call the methods that functions of NumPy are named after
         if name in _FUNCTIONS or name in _COMPOSED:
             return lambda *others: ufunc_of(getattr(np, name), (self, *others))
+        if hasattr(float, name) or isinstance(getattr(np, name, None), np.ufunc):
+            raise NotTraceable(f"no formula does `{name}` of `{self._shown()}`") from AttributeError(name)
         raise AttributeError(name)
+
+
+#: What an angle or several of them give that is one, by the place of the first that can be one.
+_KEEPING_ANGLES = {"+": 0, "-": 0, "abs": 0, "min": 0, "max": 0, "mod": 0, "if": 1}
+
+_GIVING_ANGLES = ("asin", "acos", "atan", "atan2")
+
+
+def _angle_of(symbol: str, operands: tuple[Traced, ...]) -> float | None:
+    """By what an angle in radians was multiplied, if what an operation gives is one."""
+    if symbol in _GIVING_ANGLES:
+        return 1.0
+    if symbol in _KEEPING_ANGLES:
+        own = (one.angle for one in operands[_KEEPING_ANGLES[symbol] :])
+        return next((angle for angle in own if angle is not None), None)
+    if symbol not in ("*", "/"):
+        return None
+    first, second = operands
+    if first.angle is not None and second.angle is None:
+        by = second.literal if second.literal is not None else 1.0
+        if by == 0:
+            return None
+        return first.angle * by if symbol == "*" else first.angle / by
+    if symbol == "*" and second.angle is not None and first.angle is None:
+        return second.angle * (first.literal if first.literal is not None else 1.0)
+    return None
+
+
+def _is_about(value: float, factor: float) -> bool:
+    """Whether a number is a factor, or that rounded to four digits as people write it."""
+    return math.isclose(abs(value), factor, rel_tol=4e-4)
+
+
+def _compared(first: Traced, second: object) -> Traced | None:
+    """The comparison of two things, where there is one."""
+    try:
+        found = _binary("<", first, second)
+    except NotTraceable:
+        return None
+    return found if isinstance(found, Traced) else None
 
 
 def _boxed(value: Any) -> Any:
@@ -261,8 +393,9 @@ def _literal(tape: Tape, value: float) -> Traced:
         text = repr(int(abs(value)))
     else:
         text = repr(abs(value))
-    literal = Traced(tape, text)
-    return Traced(tape, "-", (literal,)) if math.copysign(1.0, value) < 0 else literal
+    if math.copysign(1.0, value) > 0:
+        return Traced(tape, text, literal=value)
+    return Traced(tape, "-", (Traced(tape, text, literal=-value),), literal=value)
 
 
 def _operands(values: Iterable[Any]) -> tuple[Traced, ...]:
@@ -403,9 +536,11 @@ def ufunc_of(ufunc: Any, values: tuple[Any, ...]) -> Any:
 
 def equations(
     function: Callable[..., Any],
-    arguments: Iterable[str],
-    outputs: Iterable[str],
+    arguments: Mapping[str, str],
+    outputs: Mapping[str, str],
     names: Callable[[Any], Mapping[str, Any]],
+    *,
+    has_units: bool = True,
 ) -> dict[str, str]:
     """The formulas of a function.
 
@@ -413,27 +548,57 @@ def equations(
     ----------
     function : callable
         Called once, with a traced number for each argument.
-    arguments, outputs : iterable of str
-        Names of its arguments and of what it gives.
+    arguments, outputs : mapping of str to str
+        Names and units of its arguments and of what it gives.
     names : callable
         Tells which of what it gave is which output.
+    has_units : bool, default True
+        Whether its numbers are in coherent SI units, and not in the declared ones.
 
     Raises
     ------
     NotTraceable
-        Where it does what no formula says.
+        Where it does what no formula says, whether it noticed or not.
+    ModelError
+        Where it does what can be meant in two ways.
     """
-    arguments, outputs = list(arguments), list(outputs)
-    tape = Tape()
-    found = names(function(**{name: Traced(tape, name) for name in arguments}))
-    results: dict[str, Traced] = {}
-    for name in outputs:
-        value = found[name]
-        if isinstance(value, np.ndarray) and value.ndim == 0:
-            value = value[()]
-        results[name] = value if isinstance(value, Traced) else _literal(tape, _number(value))
+    tape = Tape(has_units)
+    token = _TAPE.set(tape)
+    try:
+        traced = {name: Traced(tape, name, angle=_angle_in(unit)) for name, unit in arguments.items()}
+        found = names(function(traced))
+        results: dict[str, Traced] = {}
+        for name in outputs:
+            value = found[name]
+            if isinstance(value, np.ndarray) and value.ndim == 0:
+                value = value[()]
+            results[name] = value if isinstance(value, Traced) else _literal(tape, _number(value))
+    except Exception as error:
+        # what went wrong first is the reason of what went wrong then
+        raise tape.mistake or tape.refused or error
+    finally:
+        _TAPE.reset(token)
+    for name, result in results.items():
+        if result.angle is not None and _is_about(result.angle, 180 / math.pi):
+            if tape.mistake is None and _angle_in(outputs[name]) is not None:
+                tape.mistake = _gumption.ModelError(
+                    f"`{name}` is converted from radians to degrees, but what the function gives for a "
+                    f"quantity in {outputs[name]} is taken in radians. Leave the conversion out; or, if "
+                    "the function is to compute with the numbers of its declared units, say so with "
+                    "`gumption.model(..., check_units=False)`"
+                )
+    if tape.mistake or tape.refused:
+        raise tape.mistake or tape.refused  # type: ignore[misc]
     writer = _Writer(results.values(), [*arguments, *outputs])
     formulas = {name: writer.whole(result) for name, result in results.items()}
     # an argument may be given out under its own name
     own = {name: text for name, text in formulas.items() if not (name in arguments and text == name)}
     return {**writer.equations, **own}
+
+
+def decision_formulas(decision: Traced, name: str, taken: Iterable[str]) -> tuple[str, dict[str, str]]:
+    """A decision as text, and the formulas of what it compares under a name that is not taken."""
+    if decision.symbol not in ("<", "<=", ">", ">="):
+        decision = Traced(decision.tape, "<", (decision, decision))
+    writer = _Writer([decision], [*taken, name])
+    return decision._shown(), {**writer.equations, name: writer.whole(decision)}

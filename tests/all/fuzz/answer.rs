@@ -1,7 +1,6 @@
 //! What every answer has to be.
 
 use std::path::Path;
-use std::process::Command;
 use std::sync::OnceLock;
 
 use gumption::diff;
@@ -14,6 +13,7 @@ use gumption::task::Trials;
 use serde_json::Value;
 
 use super::folder::Folder;
+use crate::process::Command;
 use crate::support::command;
 
 /// Reads the text, evaluates it if it is right, and checks what comes out. Whether it was right.

@@ -9,6 +9,7 @@ use super::files_of_page;
 use crate::diagnostics::render as rendered;
 use crate::output::Destination;
 use crate::{CommandLine, ExportedAnswer, GivenFile, NotExported};
+use gumption_engine::parallel::Pool;
 use gumption_files::{FileSource, TextKind};
 use gumption_live::LiveError;
 use gumption_server::{
@@ -22,7 +23,7 @@ const KEPT_POOLS: usize = 2;
 pub(super) struct PageAnswers {
     program: CommandLine,
     assets: Vec<ServedAsset>,
-    pools: Mutex<Vec<rayon::ThreadPool>>,
+    pools: Mutex<Vec<Pool>>,
 }
 
 impl PageAnswers {
@@ -38,12 +39,7 @@ impl PageAnswers {
     ) -> Result<R, Refusal> {
         let pools = || self.pools.lock().unwrap_or_else(PoisonError::into_inner);
         let kept = pools().pop();
-        let pool = match kept {
-            Some(pool) => pool,
-            None => rayon::ThreadPoolBuilder::new()
-                .build()
-                .map_err(|error| Refusal::Internal(format!("cannot start threads: {error}")))?,
-        };
+        let pool = kept.unwrap_or_else(|| Pool::new(0));
         let done = pool.install(work);
         let mut pools = pools();
         if pools.len() < KEPT_POOLS {

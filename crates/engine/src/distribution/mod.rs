@@ -50,7 +50,7 @@ pub use joint::Joint;
 pub use joint::Varying;
 pub use joint::paired;
 pub use joint::{Correlation, CorrelationError};
-pub(crate) use joint::{Dependence, Linked};
+pub(crate) use joint::{Dependence, Linked, connected};
 pub use log_uniform::LogUniform;
 pub use lognormal::Lognormal;
 pub use normal::Normal;

@@ -147,55 +147,82 @@ impl Program {
         let values: Vec<f64> = self.values(variables);
         let gradients = self.outputs.iter().map(|&output| {
             let mut gradient = vec![0.0; self.variables];
-            // what the output changes by with each operation's result
-            let mut slopes = vec![0.0; output + 1];
-            let mut needed = vec![false; output + 1];
-            (slopes[output], needed[output]) = (1.0, true);
-            for (index, node) in self.nodes[..=output].iter().enumerate().rev() {
-                if !needed[index] {
-                    continue;
-                }
-                let slope = slopes[index];
-                match *node {
-                    Node::Constant(_) => {}
-                    Node::Variable(v) => gradient[v] += slope,
-                    Node::Unary(operation, x) => {
-                        let [by_x] = Dual::<1>::variable(values[x], 0).unary(operation).gradient;
-                        slopes[x] += slope * by_x;
-                        needed[x] = true;
-                    }
-                    // a branch that is not taken has no say
-                    Node::Binary(Binary::When, x, y) => {
-                        if values[x] != 0.0 {
-                            (slopes[y], needed[y]) = (slopes[y] + slope, true);
-                        }
-                    }
-                    Node::Binary(Binary::Unless, x, y) => {
-                        if values[x] == 0.0 {
-                            (slopes[y], needed[y]) = (slopes[y] + slope, true);
-                        }
-                    }
-                    Node::Routine(call) => {
-                        let call = &self.routines[call];
-                        let by = call.routine.slopes(&call.values(&values), values[index]);
-                        for (&x, by) in call.operands.iter().zip(by) {
-                            slopes[x] += derivative::chain(slope, by);
-                            needed[x] = true;
-                        }
-                    }
-                    Node::Binary(operation, x, y) => {
-                        let [a, b] = [(x, 0), (y, 1)].map(|(x, i)| Dual::variable(values[x], i));
-                        let [by_x, by_y] = Dual::<2>::binary(a, operation, b).gradient;
-                        slopes[x] += slope * by_x;
-                        slopes[y] += slope * by_y;
-                        (needed[x], needed[y]) = (true, true);
-                    }
+            let slopes = self.slopes_backward(&values, output);
+            for (node, slope) in self.nodes.iter().zip(slopes).rev() {
+                if let Node::Variable(v) = *node {
+                    gradient[v] += slope;
                 }
             }
             gradient
         });
         let gradients = gradients.collect();
         (self.outputs.iter().map(|&output| values[output]).collect(), gradients)
+    }
+
+    /// What an output's node changes by with the result of each node up to it, whose values are given; 0
+    /// of those that it does not need.
+    fn slopes_backward(&self, values: &[f64], output: usize) -> Vec<f64> {
+        // what the output changes by with each operation's result
+        let mut slopes = vec![0.0; output + 1];
+        let mut needed = vec![false; output + 1];
+        (slopes[output], needed[output]) = (1.0, true);
+        for (index, node) in self.nodes[..=output].iter().enumerate().rev() {
+            if !needed[index] {
+                continue;
+            }
+            let slope = slopes[index];
+            match *node {
+                Node::Constant(_) | Node::Variable(_) => {}
+                Node::Unary(operation, x) => {
+                    let [by_x] = Dual::<1>::variable(values[x], 0).unary(operation).gradient;
+                    slopes[x] += slope * by_x;
+                    needed[x] = true;
+                }
+                // a branch that is not taken has no say
+                Node::Binary(Binary::When, x, y) => {
+                    if values[x] != 0.0 {
+                        (slopes[y], needed[y]) = (slopes[y] + slope, true);
+                    }
+                }
+                Node::Binary(Binary::Unless, x, y) => {
+                    if values[x] == 0.0 {
+                        (slopes[y], needed[y]) = (slopes[y] + slope, true);
+                    }
+                }
+                Node::Routine(call) => {
+                    let call = &self.routines[call];
+                    let by = call.routine.slopes(&call.values(values), values[index]);
+                    for (&x, by) in call.operands.iter().zip(by) {
+                        slopes[x] += derivative::chain(slope, by);
+                        needed[x] = true;
+                    }
+                }
+                Node::Binary(operation, x, y) => {
+                    let [a, b] = [(x, 0), (y, 1)].map(|(x, i)| Dual::variable(values[x], i));
+                    let [by_x, by_y] = Dual::<2>::binary(a, operation, b).gradient;
+                    slopes[x] += slope * by_x;
+                    slopes[y] += slope * by_y;
+                    (needed[x], needed[y]) = (true, true);
+                }
+            }
+        }
+        slopes
+    }
+
+    /// How far the rounding of the operations may move each output: half a spacing of the result of each
+    /// operation, times what the output changes by with it (Higham, Accuracy and Stability of Numerical
+    /// Algorithms, 3.3). What is not finite has no bound.
+    pub(crate) fn rounding(&self, variables: &[f64]) -> Vec<f64> {
+        let values: Vec<f64> = self.values(variables);
+        let of_output = |&output: &usize| {
+            let slopes = self.slopes_backward(&values, output);
+            let nodes = self.nodes.iter().zip(&values).zip(slopes);
+            let computed = nodes
+                .filter(|((node, _), _)| !matches!(node, Node::Variable(_) | Node::Constant(_)));
+            let sum: f64 = computed.map(|((_, value), slope)| (slope * value).abs()).sum();
+            0.5 * f64::EPSILON * sum
+        };
+        self.outputs.iter().map(of_output).collect()
     }
 
     /// For each output whether a product, a quotient or a power that it is computed from, of numbers that

@@ -15,7 +15,7 @@ pub(super) use turns::on_branch;
 use super::evaluation::OutputEvaluation;
 use super::gum::Gum;
 use super::monte_carlo::MonteCarlo;
-use super::statement::Stated;
+use super::statement::{Stated, located};
 use crate::decimal::position;
 use crate::distribution::Distribution;
 use crate::model::{Output, Tolerance};
@@ -27,8 +27,8 @@ use crate::task::{Settings, Trials};
 pub struct Conformity {
     /// The limits.
     pub tolerance: Tolerance,
-    /// The estimate that is decided about: the mean of the trials, or their median where there is
-    /// no mean. Of an output that comes round it is on the branch of the limits.
+    /// The estimate that is decided about: the value that is stated ([`Stated::value`]). Of an output
+    /// that comes round it is on the branch of the limits.
     pub estimate: f64,
     /// The conformance probability (JCGM 106, 7): with a prior that of the posterior distribution
     /// (6.3 and 7.1), otherwise the share of trials within the limits.
@@ -80,13 +80,14 @@ impl Conformity {
     fn of(
         output: &Output,
         figures: &MonteCarlo,
-        (u, stated): (Option<f64>, Option<Stated>),
+        (gum, stated): (Option<&Gum>, Option<Stated>),
         linear: Option<&Gum>,
         of_trials: Option<Option<f64>>,
     ) -> Option<Self> {
         let tolerance = output.tolerance?;
         let share = figures.inside;
-        let u = figures.standard_uncertainty.or(u).filter(|u| u.is_finite() && *u > 0.0);
+        let u = figures.standard_uncertainty.or(gum.map(|gum| gum.standard_uncertainty));
+        let u = u.filter(|u| u.is_finite() && *u > 0.0);
         let limits = limits_of(output, tolerance);
         let on_branch = |value| turns::at_limits(value, limits, output.period);
         let law = match (linear.filter(|gum| gum.standard_uncertainty > 0.0), u) {
@@ -107,7 +108,8 @@ impl Conformity {
         };
         let [acceptance, accepted] = [tolerance, Tolerance::between(limits)]
             .map(|limits| guard_band.and_then(|width| limits.narrowed(width)));
-        let located = on_branch(figures.location());
+        let (located, of_y) = located(figures, gum);
+        let located = on_branch(located);
         let estimate = stated.map_or(located, |stated| on_branch(stated.value));
         let global = inspection.as_ref().zip(accepted).map(|(of, to)| of.risks(to.ends()));
         let posterior = output.prior.as_deref().zip(u).map(|(prior, spread)| {
@@ -118,7 +120,6 @@ impl Conformity {
                 Inspection::new(prior, StudentLaw::normal(u), limits).conformance(y)
             };
             // the trials know both to their numerical standard errors
-            let of_y = figures.errors.estimate.unwrap_or(figures.errors.median);
             let of_u = figures.errors.standard_uncertainty.unwrap_or(0.0).min(0.5 * spread);
             let change =
                 |y: f64, u: f64| 0.5 * (at(located + y, spread + u) - at(located - y, spread - u));
@@ -163,9 +164,8 @@ impl Conformity {
         let of_trials = of_trials.and_then(|trials| {
             let place = |expanded: f64| position(expanded, settings.digits);
             let stated = Stated::of(figures, settings, place);
-            let u = gum.map(|gum| gum.standard_uncertainty);
             let guard_band = figures.guard_band_of_trials;
-            Self::of(output, trials, (u, stated), figures.trusted(), guard_band)
+            Self::of(output, trials, (gum, stated), figures.trusted(), guard_band)
         });
         let alone = gum.filter(|_| settings.trials == Trials::Fixed(0));
         of_trials.or_else(|| alone.and_then(|gum| Self::by_propagation(output, gum)))

@@ -6,7 +6,6 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::Control;
 use super::branch::{self, Jump};
@@ -14,17 +13,19 @@ use super::conformity::{Conformity, ErrorLaw};
 use super::exact::{self, Noiseless};
 use super::gum::{self, Gum, GumRow};
 use super::inherited::Inherited;
+use super::moment_order::moment_orders;
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
 use super::nonlinearity;
 use super::regions::{RegionEvaluation, regions};
 use super::second_order::{SecondOrder, second_order};
-use super::statement::Stated;
+use super::statement::{Stated, located};
 use super::validate::{Validation, validate};
 use super::{quasi, rounding};
 use crate::decimal::{Decimal, Direction, position, to_digits};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Distribution, Invalid, Joint};
 use crate::model::{COMPUTED_DIGITS, Capability, Output, Program};
 use crate::number::{COLUMN, Column, Shortest};
+use crate::parallel;
 use crate::task::{Coverage, MethodChoice, Row, Settings, Task, TaskError, Trials};
 
 /// The evaluation of a whole task.
@@ -118,6 +119,14 @@ pub struct OutputEvaluation {
 }
 
 impl OutputEvaluation {
+    /// Where the output lies by its trials, and the numerical standard error of that (0 of what no seed
+    /// moves), in the unit of the output; `None` without trials. It is the mean of the trials where they
+    /// have a variance and it is told from the estimate by the law of propagation, and otherwise that
+    /// estimate, or without it the median.
+    pub fn located(&self) -> Option<(f64, f64)> {
+        self.monte_carlo.as_ref().map(|figures| located(figures, self.gum.as_ref()))
+    }
+
     /// The law of propagation where the trials do not refute it.
     pub(super) fn trusted(&self) -> Option<&Gum> {
         let is_trusted = self.validation.is_some_and(|v| v.gum_valid != Some(false));
@@ -258,8 +267,6 @@ pub enum EvaluationError {
         /// The sentence.
         message: String,
     },
-    /// The thread pool could not be started.
-    Threads(String),
 }
 
 impl fmt::Display for EvaluationError {
@@ -297,7 +304,6 @@ impl fmt::Display for EvaluationError {
                  of them",
                 Shortest(100.0 * share)
             ),
-            Self::Threads(error) => write!(f, "cannot start threads: {error}"),
         }
     }
 }
@@ -362,10 +368,11 @@ const MOST_COLUMNS: usize = 256 << 20;
 
 /// Runs `work` in the caller's thread pool (rayon's global one, unless the call comes from another),
 /// or, where the control asks for a number of threads, in a pool of that many, which is kept for the
-/// next call. Either way there are no more threads than have room for the columns of the task.
+/// next call. Either way there are no more threads than have room for the columns of the task; where
+/// the system gives none, the calling thread does the work ([`parallel::refused`]).
 ///
 /// # Errors
-/// A task that does not hold together; threads that cannot be started.
+/// A task that does not hold together.
 pub fn in_pool<R: Send>(
     task: &Task,
     control: &Control<'_>,
@@ -376,26 +383,12 @@ pub fn in_pool<R: Send>(
     let columns = size_of::<Column>() * (program.variables() + program.operations())
         + size_of::<[f64; BLOCK]>() * program.outputs();
     let room = (MOST_COLUMNS / columns.max(1)).max(1);
-    if control.threads == 0 && rayon::current_num_threads() <= room {
-        return Ok(work());
+    // in a pool of the caller's from here on, or in the global one
+    let pool = parallel::pool(control.threads.min(room));
+    if control.threads == 0 && rayon::current_num_threads() > room {
+        return Ok(parallel::pool(room).install(work));
     }
-    let asked = if control.threads == 0 { room } else { control.threads };
-    Ok(pool_of(asked.min(room))?.install(work))
-}
-
-/// A pool of so many threads: the last one, if it has as many. New threads begin on the processor of
-/// the one that starts them and may wait there for milliseconds, as long as a run of a million trials
-/// takes.
-fn pool_of(threads: usize) -> Result<Arc<ThreadPool>, EvaluationError> {
-    static LAST: Mutex<Option<Arc<ThreadPool>>> = Mutex::new(None);
-    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(pool) = last.as_ref().filter(|pool| pool.current_num_threads() == threads) {
-        return Ok(Arc::clone(pool));
-    }
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = Arc::new(pool.map_err(|error| EvaluationError::Threads(error.to_string()))?);
-    *last = Some(Arc::clone(&pool));
-    Ok(pool)
+    Ok(pool.install(work))
 }
 
 /// Among how many rows at most the memory for kept values is divided.
@@ -523,7 +516,8 @@ fn evaluate_row(
         rounding::check(task, number, &gums)?;
         let finished = known(number).unwrap_or_else(|| {
             let mut trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);
-            decided(task, &mut trials, &gums, &drawn_dof, control)
+            let moment_order = moment_orders(task, row, reaches, &linear);
+            decided(task, &mut trials, &gums, &moment_order, control)
         });
         stopped = finished.stopped;
         if let Some(undefined) = finished.undefined {
@@ -538,11 +532,12 @@ fn evaluate_row(
             result.correlation_errors = finished.correlation_errors;
         }
     }
+    let constant = rounding::constant(task, row, &gums, &figures);
+    settle(&constant, &linear.estimates, (&mut figures, &mut result));
     let inherited = inherited(task, row, reaches, (&gums, &mut figures));
     if !result.correlations.is_empty() {
         correlations_by_law(task, (&gums, &figures), &linear, &mut result);
     }
-    let of_law = if task.regions.is_empty() { Vec::new() } else { linear.correlations() };
     if figures.iter().all(Option::is_none) {
         result.correlations = linear.correlations();
     }
@@ -613,7 +608,7 @@ fn evaluate_row(
                     monte_carlo::collected(&trials, count, control)
                 });
                 let values = values.as_ref()?.get(number)?.clone();
-                let law = ErrorLaw::of_trials(values, figures.location());
+                let law = ErrorLaw::of_trials(values, found.located()?.0);
                 Some(law.guard_band(risk, limits))
             });
         found.capability =
@@ -623,9 +618,37 @@ fn evaluate_row(
     }
     if !task.regions.is_empty() {
         let trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);
-        result.regions = regions(task, &result, &of_law, &trials, control)?;
+        result.regions = regions(task, &result, &linear, &trials, control)?;
     }
     Ok(result)
+}
+
+/// Takes away what rounding shows of outputs that do not vary: their figures are those of their value at
+/// the estimates of the inputs, and they are correlated with none.
+fn settle(
+    constant: &[bool],
+    estimates: &[f64],
+    (figures, result): (&mut [Option<MonteCarlo>], &mut RowEvaluation),
+) {
+    if !constant.contains(&true) {
+        return;
+    }
+    for ((figures, constant), estimate) in figures.iter_mut().zip(constant).zip(estimates) {
+        if let Some(figures) = figures.as_mut().filter(|_| *constant) {
+            figures.settle(*estimate);
+        }
+    }
+    let count = constant.len();
+    let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| (i, j)));
+    let of_constant = pairs.map(|(i, j)| constant[i] || constant[j]).enumerate();
+    for (place, _) in of_constant.filter(|(_, of_constant)| *of_constant) {
+        if let Some(coefficient) = result.correlations.get_mut(place) {
+            *coefficient = f64::NAN;
+        }
+        if let Some(error) = result.correlation_errors.get_mut(place) {
+            *error = None;
+        }
+    }
 }
 
 /// What each output inherits from saved results of limited trials, which is added to the numerical
@@ -675,7 +698,7 @@ fn correlations_by_law(
         .map(|((output, gum), figures)| {
             let Some(figures) = figures else { return true };
             let jumps = |gum| branch::jump(program, output, gum, figures).is_some();
-            figures.spread().is_some() && !gum.as_ref().is_some_and(jumps)
+            figures.standard_uncertainty.is_some() && !gum.as_ref().is_some_and(jumps)
         })
         .collect();
     let of_law = if scatter.contains(&false) { linear.correlations() } else { return };
@@ -779,17 +802,17 @@ pub(super) fn decided(
     task: &Task,
     trials: &mut monte_carlo::RowTrials,
     gums: &[Option<Gum>],
-    drawn_dof: &[f64],
+    moment_order: &[f64],
     control: &Control<'_>,
 ) -> monte_carlo::Finished {
     let probability = task.settings.coverage.probability();
-    let mut finished = run(task, trials, gums, drawn_dof, control);
+    let mut finished = run(task, trials, gums, moment_order, control);
     let mut count = Settings::USUAL_TRIALS;
     while let Some(further) = goes_on(task, gums, &finished, count)
         && !control.is_stopped()
     {
         count = further;
-        let request = Request { trials: count, probability, drawn_dof };
+        let request = Request { trials: count, probability, moment_order };
         let more = monte_carlo::run(trials, request, &Control { progress: None, ..*control });
         // what was counted before is whole
         if more.stopped {
@@ -828,13 +851,13 @@ fn run(
     task: &Task,
     trials: &mut monte_carlo::RowTrials,
     gums: &[Option<Gum>],
-    drawn_dof: &[f64],
+    moment_order: &[f64],
     control: &Control<'_>,
 ) -> monte_carlo::Finished {
     let settings = &task.settings;
     let probability = settings.coverage.probability();
     if let Trials::Fixed(count) = settings.trials {
-        let request = Request { trials: count, probability, drawn_dof };
+        let request = Request { trials: count, probability, moment_order };
         return monte_carlo::run(trials, request, control);
     }
     let gum: Vec<f64> =
@@ -845,11 +868,11 @@ fn run(
         digits: settings.digits,
         strictness: if settings.for_validation { 5.0 } else { 1.0 },
         most: settings.max_trials,
-        drawn_dof,
+        moment_order,
         gum: &gum,
     };
     let (count, ends) = monte_carlo::find_trials(trials, search, control);
-    let request = Request { trials: count, probability, drawn_dof };
+    let request = Request { trials: count, probability, moment_order };
     // a search that was stopped still hands back the figures of the trials that it made
     let stopped = control.is_stopped();
     let control =
@@ -867,7 +890,7 @@ fn run(
 }
 
 /// For each output the fewest degrees of freedom among the t distributions that it depends on.
-pub(super) fn drawn_dof(reaches: &[Vec<bool>], row: &Row) -> Vec<f64> {
+fn drawn_dof(reaches: &[Vec<bool>], row: &Row) -> Vec<f64> {
     reaches.iter().map(|reach| fewest_dof(reach, row)).collect()
 }
 

@@ -2,6 +2,7 @@
 
 pub mod bulk;
 mod gradients;
+mod joint_dof;
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -128,7 +129,8 @@ pub struct GumRow {
     /// For each output its sensitivity coefficients.
     gradients: Vec<Vec<f64>>,
     uncertainties: Vec<f64>,
-    links: Arc<[Correlation]>,
+    distributions: Distributions,
+    linked: Arc<Linked>,
 }
 
 /// The evaluation of the rows of a task.
@@ -189,8 +191,8 @@ impl<'a> Rows<'a> {
                 self.output(row, estimate, slopes, &linked)
             })
             .collect();
-        let links = Arc::clone(&linked.correlations);
-        GumRow { estimates, outputs, gradients, uncertainties, links }
+        let distributions = Arc::clone(&row.distributions);
+        GumRow { estimates, outputs, gradients, uncertainties, distributions, linked }
     }
 
     fn linked(&self, row: &Row) -> Arc<Linked> {
@@ -243,9 +245,14 @@ impl GumRow {
         self.gradients.get(output).map(Vec::as_slice)
     }
 
+    /// The standard uncertainties of the inputs, and what links them.
+    pub(super) fn known(&self) -> (&[f64], &[Correlation]) {
+        (&self.uncertainties, &self.linked.correlations)
+    }
+
     /// Whether correlation coefficients link quantities that vary.
     pub(crate) fn is_correlated(&self) -> bool {
-        !self.links.is_empty()
+        !self.linked.correlations.is_empty()
     }
 
     /// Correlation coefficients of the outputs i < j.
@@ -253,7 +260,7 @@ impl GumRow {
         let u = &self.uncertainties;
         let covariance = |a: &[f64], b: &[f64]| -> f64 {
             let own: f64 = (0..u.len()).map(|i| a[i] * b[i] * u[i].powi(2)).sum();
-            let joint = self.links.iter().map(|c| {
+            let joint = self.linked.correlations.iter().map(|c| {
                 let (i, j) = (c.first, c.second);
                 (a[i] * b[j] + a[j] * b[i]) * u[i] * u[j] * c.coefficient
             });
@@ -492,6 +499,13 @@ impl Factors {
     }
 }
 
+/// The degrees of freedom that a factor is taken at: the integer part of the effective ones (JCGM 100,
+/// G.4.1), below 1 the real value, or that always if asked for.
+pub(super) fn used(dof: f64, real: bool) -> f64 {
+    let whole = whole(dof);
+    if real || whole < 1.0 { dof } else { whole }
+}
+
 /// The integer part of degrees of freedom; 19 computed as 18.999999999 means 19.
 fn whole(dof: f64) -> f64 {
     (dof * (1.0 + 1e-9)).floor()
@@ -511,10 +525,9 @@ pub fn coverage_factor(coverage: Coverage, dof: Dof, real: bool) -> Option<f64> 
             .nominal_factor()
             .or_else(|| Some(special::student::two_sided_factor(probability, f64::INFINITY))),
         Dof::Finite(dof) => {
-            let whole = whole(dof);
-            let used = if real || whole < 1.0 { dof } else { whole };
             // at a thousandth of a degree of freedom it is beyond all doubles
-            Some(special::student::two_sided_factor(probability, used)).filter(|k| k.is_finite())
+            let k = special::student::two_sided_factor(probability, used(dof, real));
+            Some(k).filter(|k| k.is_finite())
         }
     }
 }

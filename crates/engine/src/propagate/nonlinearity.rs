@@ -15,7 +15,7 @@ use crate::number::{Binary, Unary};
 
 /// Whether the trials' standard deviation is noteworthily another one than that of a linear model.
 pub(super) fn differs_from_linear(gum: &Gum, figures: &MonteCarlo) -> bool {
-    let Some(u) = figures.spread() else {
+    let Some(u) = figures.standard_uncertainty else {
         return false;
     };
     let drawn = gum.drawn_uncertainty();

@@ -51,10 +51,11 @@ use crate::parallel;
 
 use super::Control;
 use super::evaluation::{
-    Evaluation, EvaluationError, ROWS_AT_A_TIME, decided, drawn_dof, evaluate_rows, goes_on,
-    in_pool, joint, of_one_row, reach,
+    Evaluation, EvaluationError, ROWS_AT_A_TIME, decided, evaluate_rows, goes_on, in_pool, joint,
+    of_one_row, reach,
 };
 use super::gum::{self, Gum, GumRow};
+use super::moment_order::moment_orders;
 use super::monte_carlo::{
     Finished, Gathered, Prepared, Reader, Request, RowOutcome, RowPass, RowTrials, Writer, share,
 };
@@ -252,7 +253,7 @@ impl SharedPass {
 struct CutRow {
     trials: RowTrials,
     gums: Vec<Option<Gum>>,
-    drawn_dof: Vec<f64>,
+    moment_order: Vec<f64>,
 }
 
 impl CutRow {
@@ -263,19 +264,20 @@ impl CutRow {
         let of_row = |(row, linear): (&Row, GumRow)| {
             let joint = joint(task, row)?;
             let trials = RowTrials::new(task, row, &linear.estimates, &joint);
-            Ok(Self { trials, gums: linear.outputs, drawn_dof: drawn_dof(&reaches, row) })
+            let moment_order = moment_orders(task, row, &reaches, &linear);
+            Ok(Self { trials, gums: linear.outputs, moment_order })
         };
         task.rows.iter().zip(linear).map(of_row).collect()
     }
 
     fn request(&self, task: &Task, trials: u64) -> Request<'_> {
         let probability = task.settings.coverage.probability();
-        Request { trials, probability, drawn_dof: &self.drawn_dof }
+        Request { trials, probability, moment_order: &self.moment_order }
     }
 
     fn prepared<'a>(self, task: &Task, control: &Control<'a>, pass: &RowPass) -> Prepared<'a> {
         let probability = task.settings.coverage.probability();
-        Prepared::new(self.trials, probability, self.drawn_dof, *control, pass.clone())
+        Prepared::new(self.trials, probability, self.moment_order, *control, pass.clone())
     }
 }
 
@@ -297,7 +299,8 @@ fn rows(
     let of_row = |(row, linear): (_, GumRow)| -> Result<Finished, EvaluationError> {
         let joint = joint(task, row)?;
         let mut trials = RowTrials::new(task, row, &linear.estimates, &joint);
-        Ok(decided(task, &mut trials, &linear.outputs, &drawn_dof(&reaches, row), control))
+        let moment_order = moment_orders(task, row, &reaches, &linear);
+        Ok(decided(task, &mut trials, &linear.outputs, &moment_order, control))
     };
     let found = parallel::map(rows.chunks(COLUMN), |rows| {
         let linear = gum.evaluate_all(rows, control.path);
@@ -543,7 +546,8 @@ fn finish_row(
     };
     if let Some(further) = goes_on(task, &gums, &finished, trials) {
         let probability = task.settings.coverage.probability();
-        let request = Request { trials: further, probability, drawn_dof: prepared.drawn_dof() };
+        let request =
+            Request { trials: further, probability, moment_order: prepared.moment_order() };
         let first = RowPass::first(prepared.trials(), request, control);
         return RowState::Open(Box::new(first));
     }

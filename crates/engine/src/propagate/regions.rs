@@ -2,16 +2,20 @@
 //!
 //! By the law of propagation the outputs are jointly normal, with the covariance matrix U: the
 //! ellipsoid (y - x)' U^-1 (y - x) <= k_p^2 has the chi-squared quantile as k_p^2 (6.5.2), and the
-//! hyper-rectangle of half-lengths k_q u(y_j) holds at least p with the k_q of Bonferroni (6.5.3). From
+//! hyper-rectangle of half-lengths k_q u(y_j) holds at least p with the k_q of Bonferroni (6.5.3). Where
+//! U has nu effective degrees of freedom the outputs have a multivariate t distribution: k_p^2 is the
+//! quantile of Hotelling's T^2, nu m/(nu - m + 1) F(m, nu - m + 1) of m outputs, as for paired readings
+//! (5.3; Hotelling, Ann. Math. Stat. 2 (1931) 360), and k_q that of a t distribution. From
 //! trials k_p and k_q are the p-quantiles of the distances and of the largest standardized deviations
-//! (7.7.2, 7.7.3), and the smallest region is made of the fullest cells of a mesh (7.7.4), whose axes
-//! here are those of the covariance matrix, so that narrow regions need no finer one.
+//! (7.7.2, 7.7.3), and the smallest region (7.7.4) lies within a level of their density.
 
-use crate::number::ascending;
-use std::collections::HashMap;
+mod smallest;
 
 use nalgebra::DMatrix;
 
+use crate::number::ascending;
+
+use super::gum::{self, Dof, GumRow};
 use super::monte_carlo::{Ranks, RowTrials, repeat};
 use super::validate::numerical_tolerance;
 use super::{Control, EvaluationError, RowEvaluation};
@@ -38,6 +42,9 @@ pub struct RegionEvaluation {
     pub probability: f64,
     /// By the law of propagation; `None` where an output has none.
     pub gum: Option<JointRegion>,
+    /// Effective degrees of freedom of the covariance matrix of the law of propagation; `None` without
+    /// one, and where it is singular.
+    pub dof: Option<Dof>,
     /// From the trials; `None` without them, or where an output has no variance.
     pub monte_carlo: Option<SampledRegion>,
     /// The comparison of the two (clause 8).
@@ -52,10 +59,11 @@ pub struct JointRegion {
     pub estimates: Vec<f64>,
     /// The covariance matrix, row by row.
     pub covariance: Vec<f64>,
-    /// k_p of the ellipsoid; `None` where the covariance matrix is singular.
+    /// k_p of the ellipsoid; `None` where the covariance matrix is singular, its degrees of freedom
+    /// undefined, or less than there are outputs.
     pub ellipsoid_k: Option<f64>,
-    /// k_q of the hyper-rectangle.
-    pub box_k: f64,
+    /// k_q of the hyper-rectangle; `None` where the degrees of freedom of an output are undefined.
+    pub box_k: Option<f64>,
 }
 
 /// The same from trials, and the smallest region.
@@ -66,25 +74,24 @@ pub struct SampledRegion {
     pub region: JointRegion,
     /// How many trials they are from.
     pub trials: u64,
-    /// The smallest region; `None` of many outputs, or where the covariance matrix is singular.
-    pub smallest: Option<SmallestRegion>,
+    /// The smallest region, or why the trials do not tell it.
+    pub smallest: Result<SmallestRegion, String>,
     /// Numerical standard error of the factor of the ellipsoid.
     pub ellipsoid_error: Option<f64>,
     /// Numerical standard error of the factor of the hyper-rectangle.
     pub box_error: f64,
-    /// Numerical standard error of the volume of the smallest region.
-    pub volume_error: Option<f64>,
     /// Some of the trials, one output after the other, for figures.
     pub sample: Vec<Vec<f64>>,
 }
 
-/// The cells of a mesh that hold the probability with the least volume.
+/// The region that holds the probability with the least volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SmallestRegion {
-    /// How many.
-    pub cells: u64,
-    /// Their volume together, in the product of the outputs' units.
+    /// Its volume, in the product of the outputs' units.
     pub volume: f64,
+    /// Numerical standard error of that, with what smoothing of the density may add.
+    pub error: f64,
 }
 
 /// Whether the law of propagation is confirmed (JCGM 102, clause 8).
@@ -104,29 +111,35 @@ pub struct RegionValidation {
 /// Trials that distances are kept of, at most: two numbers each.
 const MOST_TRIALS: u64 = 8_000_000;
 
-/// Outputs that a mesh is made for, at most.
-const MOST_DIMENSIONS: usize = 8;
-
 /// Trials of a figure.
 const SHOWN: usize = 2000;
 
-/// The regions of a row, whose figures are known; `correlations` are those of the law of propagation.
+/// The regions of a row, whose figures are known.
 pub(super) fn regions(
     task: &Task,
     row: &RowEvaluation,
-    correlations: &[f64],
+    linear: &GumRow,
     trials: &RowTrials,
     control: &Control<'_>,
 ) -> Result<Vec<RegionEvaluation>, EvaluationError> {
     let usual = task.settings.coverage.probability();
+    let correlations = linear.correlations();
     let evaluate = |region: &Region| {
         let probability = region.probability.unwrap_or(usual);
-        let gum = by_law(region, row, correlations, probability);
+        let of_law = (linear, correlations.as_slice(), task.settings.real_dof);
+        let (gum, dof) = by_law(region, row, of_law, probability).unzip();
         let monte_carlo = from_trials(region, row, trials, probability, control)?;
         let validation = gum.as_ref().zip(monte_carlo.as_ref());
         let validation = validation.map(|(gum, found)| compare(gum, found, task.settings.digits));
         let outputs = region.outputs.clone();
-        Ok(RegionEvaluation { outputs, probability, gum, monte_carlo, validation })
+        Ok(RegionEvaluation {
+            outputs,
+            probability,
+            gum,
+            dof: dof.flatten(),
+            monte_carlo,
+            validation,
+        })
     };
     task.regions.iter().map(evaluate).collect()
 }
@@ -179,21 +192,53 @@ fn root(covariance: &[f64], order: usize) -> Option<Vec<f64>> {
 fn by_law(
     region: &Region,
     row: &RowEvaluation,
-    correlations: &[f64],
+    (linear, correlations, real_dof): (&GumRow, &[f64], bool),
     probability: f64,
-) -> Option<JointRegion> {
+) -> Option<(JointRegion, Option<Dof>)> {
     let of = |output: usize| row.outputs.get(output)?.gum.as_ref();
     let estimates: Option<Vec<f64>> =
         region.outputs.iter().map(|o| Some(of(*o)?.estimate)).collect();
     let uncertainty = |output: usize| Some(of(output)?.standard_uncertainty);
     let covariance = covariance(region, row, correlations, uncertainty)?;
     let order = region.outputs.len();
-    let ellipsoid_k = root(&covariance, order)
-        .map(|_| (2.0 * special::gamma::quantile(probability, 0.5 * order as f64)).sqrt());
-    // each interval alone holds 1 - (1 - p)/m, all together at least p
-    let outside = 0.5 * (1.0 - probability) / order as f64;
-    let box_k = -special::normal::quantile(outside);
-    Some(JointRegion { estimates: estimates?, covariance, ellipsoid_k, box_k })
+    let dof = root(&covariance, order).map(|root| linear.joint_dof(&region.outputs, &root));
+    let ellipsoid_k =
+        dof.and_then(|dof| ellipsoid_factor(probability, order as f64, (dof, real_dof)));
+    let each: Vec<Dof> = region.outputs.iter().filter_map(|o| Some(of(*o)?.dof)).collect();
+    let box_k = box_factor(probability, &each, real_dof);
+    Some((JointRegion { estimates: estimates?, covariance, ellipsoid_k, box_k }, dof))
+}
+
+/// k_p of the ellipsoid of so many outputs, whose covariance matrix has these degrees of freedom.
+fn ellipsoid_factor(probability: f64, order: f64, (dof, real_dof): (Dof, bool)) -> Option<f64> {
+    match dof {
+        Dof::Undefined => None,
+        Dof::Infinite => Some((2.0 * special::gamma::quantile(probability, 0.5 * order)).sqrt()),
+        Dof::Finite(dof) => {
+            let dof = gum::used(dof, real_dof);
+            let left = dof - order + 1.0;
+            // of F = (left/order) (1 - x)/x, x has a beta distribution
+            let x = || special::beta::quantile(1.0 - probability, 0.5 * left, 0.5 * order);
+            (left > 0.0).then(|| (dof * (1.0 - x()) / x()).sqrt()).filter(|k| k.is_finite())
+        }
+    }
+}
+
+/// k_q of the hyper-rectangle of outputs with these degrees of freedom, the fewest of which decide: each
+/// interval alone holds 1 - (1 - p)/m, all together at least p.
+fn box_factor(probability: f64, each: &[Dof], real_dof: bool) -> Option<f64> {
+    let outside = 0.5 * (1.0 - probability) / each.len() as f64;
+    let fewest = each.iter().try_fold(f64::INFINITY, |fewest, dof| match dof {
+        Dof::Undefined => None,
+        Dof::Infinite => Some(fewest),
+        Dof::Finite(dof) => Some(fewest.min(gum::used(*dof, real_dof))),
+    })?;
+    let k = if fewest.is_infinite() {
+        -special::normal::quantile(outside)
+    } else {
+        -special::student::quantile(outside, fewest)
+    };
+    Some(k).filter(|k| k.is_finite())
 }
 
 fn from_trials(
@@ -220,7 +265,7 @@ fn from_trials(
     let count = made.min(MOST_TRIALS);
     let mut distances: Vec<f64> = Vec::new();
     let mut deviations: Vec<f64> = Vec::new();
-    let mut mesh = Mesh::new(order, count);
+    let mut places: Vec<smallest::Place> = Vec::new();
     let every = (count as usize).div_ceil(SHOWN).max(1);
     let mut sample = vec![Vec::new(); order];
     let mut number = 0;
@@ -243,7 +288,11 @@ fn from_trials(
             if let Some(root) = &root {
                 packed::solve(root, &mut off);
                 distances.push(off.iter().map(|z| z * z).sum::<f64>().sqrt());
-                mesh.add(&off);
+                if order <= smallest::MOST_OUTPUTS && places.len() < smallest::MOST_TRIALS {
+                    let mut place = smallest::Place::default();
+                    place[..order].copy_from_slice(&off);
+                    places.push(place);
+                }
             }
         }
         Ok::<(), EvaluationError>(())
@@ -254,18 +303,22 @@ fn from_trials(
     }
     let (box_k, box_error) = quantile(&mut deviations, probability);
     let ellipsoid = root.as_ref().map(|_| quantile(&mut distances, probability));
-    let size = root
-        .as_ref()
-        .map(|root| (0..order).map(|i| root[packed::triangle(i) + i]).product::<f64>());
-    let smallest = size.and_then(|size| mesh.smallest(probability, trials, size));
+    let smallest = match &root {
+        None => Err("the covariance matrix is singular: the outputs lie on a surface without a \
+                     volume"
+            .to_owned()),
+        Some(_) if order > smallest::MOST_OUTPUTS => {
+            Err(format!("trials tell the density of {} outputs at most", smallest::MOST_OUTPUTS))
+        }
+        Some(root) => smallest::smallest(&places, root, probability),
+    };
     let ellipsoid_k = ellipsoid.map(|(k, _)| k);
     Ok(Some(SampledRegion {
-        region: JointRegion { estimates, covariance, ellipsoid_k, box_k },
+        region: JointRegion { estimates, covariance, ellipsoid_k, box_k: Some(box_k) },
         trials,
-        smallest: smallest.map(|(smallest, _)| smallest),
+        smallest,
         ellipsoid_error: ellipsoid.map(|(_, error)| error),
         box_error,
-        volume_error: smallest.map(|(_, error)| error),
         sample,
     }))
 }
@@ -279,57 +332,6 @@ fn quantile(values: &mut [f64], probability: f64) -> (f64, f64) {
     let spread = (count as f64 * probability * (1.0 - probability)).sqrt().ceil() as usize;
     let at = |rank: usize| values[rank.clamp(1, count) - 1];
     (at(rank), 0.5 * (at(rank + spread) - at(rank.saturating_sub(spread))))
-}
-
-/// Counts of trials in cells whose axes are those in which the outputs are uncorrelated with variance
-/// 1.
-struct Mesh {
-    /// Length of a cell's edges.
-    edge: f64,
-    order: usize,
-    counts: HashMap<u128, u64>,
-}
-
-impl Mesh {
-    /// Cells shrink with the trials so that both their width and the scatter of their counts do: the
-    /// rate of a histogram's best width.
-    fn new(order: usize, trials: u64) -> Self {
-        let edge = crate::number::elementary::pow(trials as f64, -1.0 / (order as f64 + 4.0));
-        Self { edge, order, counts: HashMap::new() }
-    }
-
-    fn add(&mut self, place: &[f64]) {
-        if self.order > MOST_DIMENSIONS {
-            return;
-        }
-        let cell = place.iter().fold(0, |cell: u128, z| {
-            let along = (z / self.edge).floor().clamp(-32_000.0, 32_000.0) as i16;
-            (cell << 16) | u128::from(along as u16)
-        });
-        *self.counts.entry(cell).or_insert(0) += 1;
-    }
-
-    /// The fullest cells that hold the probability; `size` is the volume of a unit cell in the outputs'
-    /// own units.
-    fn smallest(&self, probability: f64, trials: u64, size: f64) -> Option<(SmallestRegion, f64)> {
-        let mut counts: Vec<u64> = self.counts.values().copied().collect();
-        counts.sort_unstable_by(|a, b| b.cmp(a));
-        let wanted = probability * trials as f64;
-        let (mut held, mut cells, mut last) = (0, 0, 1);
-        for count in counts {
-            if held as f64 >= wanted {
-                break;
-            }
-            held += count;
-            cells += 1;
-            last = count;
-        }
-        let cell = size * crate::number::elementary::pow(self.edge, self.order as f64);
-        // what one more standard deviation of the held count costs in cells
-        let error = (wanted * (1.0 - probability)).sqrt() / last as f64 * cell;
-        let volume = cells as f64 * cell;
-        (cells > 0).then_some((SmallestRegion { cells, volume }, error))
-    }
 }
 
 fn compare(gum: &JointRegion, found: &SampledRegion, digits: u32) -> RegionValidation {

@@ -1,7 +1,8 @@
 //! A finished run's trials generated again: for what needs more of them than an evaluation keeps.
 
-use super::evaluation::{drawn_dof, in_pool, joint, reach};
+use super::evaluation::{in_pool, joint, reach};
 use super::gum::Gum;
+use super::moment_order::moment_orders;
 use super::monte_carlo::{self, Histogram, MonteCarlo, QuantilesAndRanks, Request, RowTrials};
 use super::{Control, Evaluation, EvaluationError, gum};
 use crate::task::Task;
@@ -29,7 +30,7 @@ fn trials(task: &Task, row: usize) -> Result<Option<RowTrials>, EvaluationError>
 /// `None` without trials, or if stopped.
 ///
 /// # Errors
-/// Threads that cannot be started.
+/// A task that does not hold together.
 pub fn quantiles(
     task: &Task,
     evaluation: &Evaluation,
@@ -49,7 +50,7 @@ pub fn quantiles(
 /// where memory can hold them.
 ///
 /// # Errors
-/// Threads that cannot be started.
+/// A task that does not hold together.
 pub fn quantiles_and_ranks(
     task: &Task,
     evaluation: &Evaluation,
@@ -70,7 +71,7 @@ pub fn quantiles_and_ranks(
 /// vary has none. `None` without trials, or if stopped.
 ///
 /// # Errors
-/// Threads that cannot be started.
+/// A task that does not hold together.
 pub fn joint_ranks(
     task: &Task,
     evaluation: &Evaluation,
@@ -95,7 +96,7 @@ fn rows(task: &Task) -> usize {
 /// stopped.
 ///
 /// # Errors
-/// Threads that cannot be started.
+/// A task that does not hold together.
 pub fn histograms(
     task: &Task,
     evaluation: &Evaluation,
@@ -124,7 +125,7 @@ pub fn histograms(
 /// gives, with its numerical standard errors. `None` without trials, or if stopped.
 ///
 /// # Errors
-/// Threads that cannot be started.
+/// A task that does not hold together.
 pub fn convergence(
     task: &Task,
     evaluation: &Evaluation,
@@ -136,9 +137,9 @@ pub fn convergence(
         return Ok(None);
     };
     let reaches = reach(&task.model.program, task.variables.len());
-    let drawn_dof = drawn_dof(&reaches, of);
+    let moment_order = moment_orders(task, of, &reaches, &gum::evaluate(task, of));
     let probability = task.settings.coverage.probability();
-    let request = Request { trials: count, probability, drawn_dof: &drawn_dof };
+    let request = Request { trials: count, probability, moment_order: &moment_order };
     in_pool(task, control, || {
         let trials = trials(task, row)?.filter(|_| count > 0);
         let found =

@@ -6,10 +6,11 @@
 
 use super::evaluation::EvaluationError;
 use super::gum::{BudgetLine, Gum};
+use super::monte_carlo::MonteCarlo;
 use crate::decimal::significant;
 use crate::model::Output;
 use crate::number::Shortest;
-use crate::task::{Task, Warning};
+use crate::task::{Row, Task, Warning};
 
 /// Half of the relative spacing of numbers.
 const HALF_SPACING: f64 = f64::EPSILON / 2.0;
@@ -68,6 +69,36 @@ pub(super) fn check(task: &Task, row: usize, gums: &[Option<Gum>]) -> Result<(),
         }
     }
     Ok(())
+}
+
+/// How many times the rounding of the operations, at the estimates of the inputs, trials scatter at most
+/// where they do not vary: elementary functions are off by more than half a spacing, and trials lie on
+/// both sides of the estimates.
+const ROUNDINGS: f64 = 4.0;
+
+/// The outputs that do not vary: the law of propagation gives no uncertainty, and the trials scatter by no
+/// more than the rounding of the operations between inputs and output.
+pub(super) fn constant(
+    task: &Task,
+    row: &Row,
+    gums: &[Option<Gum>],
+    figures: &[Option<MonteCarlo>],
+) -> Vec<bool> {
+    let scatter = |(gum, figures): (&Option<Gum>, &Option<MonteCarlo>)| {
+        let scatter = figures.as_ref()?.standard_uncertainty?;
+        let u = gum.as_ref()?.standard_uncertainty;
+        // what varies at all has an uncertainty of the size of its scatter by both methods
+        (scatter > 0.0 && u < 0.5 * scatter).then_some(scatter)
+    };
+    let scatters: Vec<Option<f64>> = gums.iter().zip(figures).map(scatter).collect();
+    if task.function.is_some() || scatters.iter().all(Option::is_none) {
+        return vec![false; scatters.len()];
+    }
+    let rounding = task.model.program.rounding(&row.estimates());
+    let is_rounding = |(scatter, rounding): (Option<f64>, f64)| {
+        scatter.is_some_and(|scatter| scatter <= ROUNDINGS * rounding)
+    };
+    scatters.into_iter().zip(rounding).map(is_rounding).collect()
 }
 
 /// The note on an output whose last digits, or all, double precision does not hold.

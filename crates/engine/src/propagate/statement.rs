@@ -41,8 +41,8 @@ impl Basis {
 pub struct Stated {
     /// What they rest on.
     pub basis: Basis,
-    /// The value: the estimate by the law of propagation, or of the trials where the statement
-    /// rests on them.
+    /// The value: the estimate by the law of propagation, or the mean of the trials where the statement
+    /// rests on them and they have a variance.
     pub value: f64,
     /// Its standard uncertainty.
     pub standard_uncertainty: f64,
@@ -174,31 +174,39 @@ fn without_noise(figures: &Noiseless, gum: Option<&Gum>) -> Option<Stated> {
     let shorter = |ends: &[f64; 2]| length(*ends) < (1.0 - AS_SHORT) * length(symmetric);
     let shortest = figures.shortest_interval.filter(|_| figures.shortest_unique).filter(shorter);
     let ends = shortest.unwrap_or(symmetric);
-    let value = figures.estimate.unwrap_or(figures.median);
+    let mean = figures.estimate.filter(|_| figures.standard_uncertainty.is_some());
+    let value = mean.unwrap_or_else(|| without_mean(gum, figures.median));
     let found = by_interval(value, ends, figures.standard_uncertainty, gum)?;
     Some(Stated { without_trials: true, ..found })
 }
 
 fn by_trials(figures: &MonteCarlo, gum: Option<&Gum>) -> Option<Stated> {
     let ends = figures.stated_interval().ends;
-    by_interval(located(figures, gum), ends, figures.spread(), gum)
+    let (value, _) = located(figures, gum);
+    by_interval(value, ends, figures.standard_uncertainty, gum)
 }
 
 /// Numerical standard errors within which the mean of the trials is no other than the estimate by the
-/// law of propagation.
-const SAME_ESTIMATE: f64 = 3.0;
+/// law of propagation: normal scatter is so far out once in 500 million times.
+const SAME_ESTIMATE: f64 = 6.0;
 
-/// Where the value lies by the trials. The estimate by the law of propagation, which no seed moves,
-/// stands in its place where the trials do not tell it from theirs.
-fn located(figures: &MonteCarlo, gum: Option<&Gum>) -> f64 {
-    let of_propagation =
-        gum.map(|gum| gum.estimate).zip(figures.estimate.zip(figures.errors.estimate));
-    match of_propagation {
-        Some((linear, (mean, error))) if (linear - mean).abs() <= SAME_ESTIMATE * error => linear,
-        // a few trials far out carry the mean
-        _ if figures.heavy_tailed => figures.median,
-        _ => figures.location(),
-    }
+/// Where an output lies by its trials, and the numerical standard error of that: at their mean where they
+/// have a variance. The estimate by the law of propagation, which no seed moves, stands in its place where
+/// the trials do not tell it from theirs, and where they have no variance or no mean; without a law of
+/// propagation their median.
+pub(super) fn located(figures: &MonteCarlo, gum: Option<&Gum>) -> (f64, f64) {
+    let Some(mean) = figures.settled_mean() else {
+        let error = if gum.is_some() { 0.0 } else { figures.errors.median };
+        return (without_mean(gum, figures.median), error);
+    };
+    let error = figures.errors.estimate.unwrap_or(f64::NAN);
+    let same = gum.filter(|gum| (gum.estimate - mean).abs() <= SAME_ESTIMATE * error);
+    (same.map_or(mean, |gum| gum.estimate), error)
+}
+
+/// Where an output without a mean lies.
+fn without_mean(gum: Option<&Gum>, median: f64) -> f64 {
+    gum.map_or(median, |gum| gum.estimate)
 }
 
 /// What an interval says; few readings and quotients by what may be zero have no variance in trials,

@@ -162,39 +162,59 @@ fn of_noiseless(name: &str, evaluated: &OutputEvaluation, found: &mut Vec<Warnin
         return;
     };
     let errors = &trials.errors;
-    let [low, high] = trials.symmetric_interval;
-    let [low_error, high_error] = errors.symmetric_interval;
-    let [exact_low, exact_high] = noiseless.symmetric_interval;
     let own = noiseless.scatter();
-    let [own_low, own_high] = own.map_or([0.0; 2], |own| own.symmetric_interval);
-    let figures = [
-        (
+    let of =
+        |figure: &str, trials, exact, error, own| (figure.to_owned(), trials, exact, error, own);
+    let mut figures = vec![
+        of(
             "estimate",
-            trials.estimate.zip(noiseless.estimate),
+            trials.estimate,
+            noiseless.estimate,
             errors.estimate,
             own.and_then(|own| own.estimate),
         ),
-        (
+        of(
             "standard uncertainty",
-            trials.standard_uncertainty.zip(noiseless.standard_uncertainty),
+            trials.standard_uncertainty,
+            noiseless.standard_uncertainty,
             errors.standard_uncertainty,
             own.and_then(|own| own.standard_uncertainty),
         ),
-        (
-            "lower end of the symmetric interval",
-            Some((low, exact_low)),
-            Some(low_error),
-            Some(own_low),
+        of(
+            "median",
+            Some(trials.median),
+            Some(noiseless.median),
+            Some(errors.median),
+            own.map(|own| own.median),
         ),
-        (
-            "upper end of the symmetric interval",
-            Some((high, exact_high)),
-            Some(high_error),
-            Some(own_high),
+        of(
+            "probability within the tolerance",
+            Some(trials.inside),
+            noiseless.inside,
+            noiseless.inside.map(|inside| (inside * (1.0 - inside) / trials.trials as f64).sqrt()),
+            own.and_then(|own| own.inside),
         ),
     ];
-    let far = figures.into_iter().filter_map(|(figure, values, error, own)| {
-        let (trials, exact) = values?;
+    let both_unique = trials.shortest_unique && noiseless.shortest_unique;
+    for (place, end) in ["lower", "upper"].into_iter().enumerate() {
+        figures.push(of(
+            &format!("{end} end of the symmetric interval"),
+            Some(trials.symmetric_interval[place]),
+            Some(noiseless.symmetric_interval[place]),
+            Some(errors.symmetric_interval[place]),
+            own.map(|own| own.symmetric_interval[place]),
+        ));
+        let shortest = noiseless.shortest_interval.filter(|_| both_unique);
+        figures.push(of(
+            &format!("{end} end of the shortest interval"),
+            Some(trials.shortest_interval[place]),
+            shortest.map(|ends| ends[place]),
+            Some(errors.shortest_interval[place]),
+            own.and_then(|own| Some(own.shortest_interval?[place])),
+        ));
+    }
+    let far = figures.into_iter().filter_map(|(figure, trials, exact, error, own)| {
+        let (trials, exact) = trials.zip(exact)?;
         let error = crate::number::elementary::hypot(error?, own.unwrap_or(0.0));
         let count = (trials - exact).abs() / error;
         (error > 0.0 && count > BEYOND).then(|| format!("its {figure} by {count:.1}"))
@@ -220,7 +240,7 @@ fn push(found: &mut Vec<Warning>, warning: Warning) {
 /// A variance that declared coefficients leave nothing of, where they are possible only within their
 /// rounding.
 fn of_rounded_correlations(name: &str, output: &OutputEvaluation) -> Option<Warning> {
-    let drawn = output.monte_carlo.as_ref()?.spread()?;
+    let drawn = output.monte_carlo.as_ref()?.standard_uncertainty?;
     let gum = output.gum.as_ref()?;
     let rounding = ROUNDING * gum.largest_contribution();
     let is_lost = gum.standard_uncertainty == 0.0 && drawn > rounding;
@@ -317,7 +337,7 @@ fn of_output(
         push(found, Warning::new("gum-undefined", name, text));
         if let Some(monte_carlo) = &output.monte_carlo {
             of_extremes(name, &at, monte_carlo, found);
-            of_heavy_tails(name, &at, monte_carlo, found);
+            of_heavy_tails((name, &at), output, monte_carlo, found);
         }
         return;
     };
@@ -340,7 +360,7 @@ fn of_output(
         return;
     };
     of_extremes(name, &at, monte_carlo, found);
-    of_heavy_tails(name, &at, monte_carlo, found);
+    of_heavy_tails((name, &at), output, monte_carlo, found);
     let spread = monte_carlo.standard_uncertainty.unwrap_or(gum.standard_uncertainty);
     of_results(name, &at, row, (gum, spread), found);
     if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive
@@ -356,11 +376,17 @@ fn of_output(
     if output.drawn_dof <= 2.0 {
         let text = format!(
             "`{name}`{at}: an input is drawn from a t distribution with {} {} of freedom, which \
-             has no {}, so the trials have no {}; the coverage intervals stand",
+             has no {}{}, so the trials have no {}; the coverage intervals stand, and the value is the \
+             estimate by the law of propagation",
             output.drawn_dof,
             if output.drawn_dof == 1.0 { "degree" } else { "degrees" },
             if output.drawn_dof > 1.0 { "variance" } else { "expectation and no variance" },
-            if output.drawn_dof > 1.0 {
+            if output.drawn_dof > 1.0 && monte_carlo.estimate.is_none() {
+                ", and through this model no expectation"
+            } else {
+                ""
+            },
+            if monte_carlo.estimate.is_some() {
                 "standard uncertainty"
             } else {
                 "estimate and no standard uncertainty"
@@ -384,7 +410,7 @@ fn of_difference(
     (gum, output, monte_carlo): (&Gum, &OutputEvaluation, &MonteCarlo),
     found: &mut Vec<Warning>,
 ) {
-    let Some(u) = monte_carlo.spread() else {
+    let Some(u) = monte_carlo.standard_uncertainty else {
         return;
     };
     let (linear, drawn) = (gum.standard_uncertainty, gum.drawn_by_dof());
@@ -514,7 +540,11 @@ fn of_correlations(
     evaluated: &OutputEvaluation,
     found: &mut Vec<Warning>,
 ) {
-    if evaluated.monte_carlo.as_ref().is_none_or(|figures| figures.spread().is_some() && !jumps) {
+    if evaluated
+        .monte_carlo
+        .as_ref()
+        .is_none_or(|figures| figures.standard_uncertainty.is_some() && !jumps)
+    {
         return;
     }
     let text = match &evaluated.gum {
@@ -539,19 +569,29 @@ fn conformity_by_propagation(name: &str) -> Warning {
     Warning::new("conformity-by-propagation", name, text)
 }
 
-/// Trials of which a few carry the standard uncertainty.
-fn of_heavy_tails(name: &str, at: &str, figures: &MonteCarlo, found: &mut Vec<Warning>) {
-    if figures.heavy_tailed {
-        let kurtosis = figures.excess_kurtosis.map(|kurtosis| significant(kurtosis, 1));
-        let kurtosis = kurtosis.map_or_else(String::new, |of| format!(" (excess kurtosis {of})"));
-        let text = format!(
-            "`{name}`{at}: a few of the {} trials carry their standard uncertainty{kurtosis}, so that its distribution may have no expectation and no standard deviation (JCGM \
-             101, 3.6, note 1): estimate and standard uncertainty of the trials are of these trials \
-             alone and have no numerical standard error; median and coverage intervals stand",
-            figures.trials
-        );
-        push(found, Warning::new("heavy-tails", name, text));
+/// Trials without a variance, though every input that is drawn as a t has one.
+fn of_heavy_tails(
+    (name, at): (&str, &str),
+    output: &OutputEvaluation,
+    figures: &MonteCarlo,
+    found: &mut Vec<Warning>,
+) {
+    if figures.standard_uncertainty.is_some() || figures.trials < 2 || output.drawn_dof <= 2.0 {
+        return;
     }
+    let missing = match figures.estimate {
+        Some(_) => "no standard deviation",
+        None => "no expectation and no standard deviation",
+    };
+    let value = match output.gum {
+        Some(_) => "the value is the estimate by the law of propagation",
+        None => "the value is the median",
+    };
+    let text = format!(
+        "`{name}`{at}: trials far out, of which a run has few or none, carry its moments, so that trials \
+         tell {missing} (JCGM 101, 3.6, note 1); median and coverage intervals stand, and {value}"
+    );
+    push(found, Warning::new("heavy-tails", name, text));
 }
 
 /// Intervals from the least to the greatest trial.
@@ -617,5 +657,51 @@ fn of_results(
             gum.standard_uncertainty
         );
         push(found, Warning::new("copula-effect", name, text));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::distribution::{Gamma, Normal};
+    use crate::model::Tolerance;
+    use crate::propagate::exact::test_task;
+    use crate::task::MethodChoice;
+
+    /// Each figure of the trials that is moved by ten of its numerical standard errors is named, and none
+    /// else; with its own seed none is.
+    #[test]
+    fn every_figure_is_compared_with_that_without_noise() {
+        let inputs =
+            vec![Gamma::new(3.0, 1.0).unwrap().into(), Normal::new(0.0, 1.0).unwrap().into()];
+        let mut task = test_task(inputs, "x0 + x1", 0.95);
+        task.settings.trials = 20_000.into();
+        task.settings.method = Some(MethodChoice::Exact);
+        task.model.outputs[0].tolerance = Some(Tolerance { lower: Some(0.0), upper: Some(6.0) });
+        let run = crate::propagate::evaluate(&task, &Default::default()).unwrap();
+        let output = run.rows[0].outputs[0].clone();
+        let said = |output: &OutputEvaluation| {
+            let mut found = Vec::new();
+            of_noiseless("y", output, &mut found);
+            found.first().map(|warning| warning.text.clone())
+        };
+        assert_eq!(said(&output), None);
+        let moved: [(&str, fn(&mut MonteCarlo)); 8] = [
+            ("its estimate by", |of| *of.estimate.as_mut().unwrap() += 0.2),
+            ("its standard uncertainty by", |of| *of.standard_uncertainty.as_mut().unwrap() += 0.2),
+            ("its median by", |of| of.median += 0.2),
+            ("its lower end of the symmetric", |of| of.symmetric_interval[0] += 0.5),
+            ("its upper end of the symmetric", |of| of.symmetric_interval[1] += 0.9),
+            ("its lower end of the shortest", |of| of.shortest_interval[0] -= 1.5),
+            ("its upper end of the shortest", |of| of.shortest_interval[1] += 1.5),
+            ("its probability within the tolerance", |of| of.inside -= 0.03),
+        ];
+        for (name, moved) in moved {
+            let mut output = output.clone();
+            moved(output.monte_carlo.as_mut().unwrap());
+            let text = said(&output).unwrap_or_default();
+            let listed = text.rsplit_once("errors: ").map_or("", |(_, listed)| listed);
+            assert!(listed.starts_with(name) && !listed.contains(", "), "{name}: {text}");
+        }
     }
 }

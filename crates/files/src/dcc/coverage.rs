@@ -65,9 +65,40 @@ pub(super) fn factor(k: Written, p: Written, shape: Option<NamedShape>) -> Resul
         Some(NamedShape::Student) => reaches(k, p),
         Some(shape) if limited(Some(shape), p.value).is_some() => is_of(k, p, Some(shape)),
         Some(_) => is_of(k, p, shape) || is_approximate(k, p),
-        None => reaches(k, p) || LIMITED.iter().any(|shape| is_of(k, p, Some(*shape))),
+        None => return of_nothing_named(k, p),
     };
     if is_right { Ok(k.value) } else { Err(contradiction(k, p, shape)) }
+}
+
+/// A factor beside a probability, where no distribution is named: that of a normal or of a t distribution.
+///
+/// # Errors
+/// It is that of another one, or of several, or of none, to the digits of the factor.
+fn of_nothing_named(k: Written, p: Written) -> Result<f64, String> {
+    let exact = Written { half_digit: 0.0, ..p };
+    let is_normal = is_of(k, exact, None) || is_approximate(k, p);
+    // a whole factor is chosen, and no quantile of a t distribution
+    let is_t = !is_normal && k.value.fract() != 0.0 && k.value > factors(exact, None)[0];
+    let limited = LIMITED.iter().filter(|shape| is_of(k, exact, Some(**shape)));
+    let limited: Vec<&str> = limited.filter_map(|shape| shape.name()).collect();
+    let open = [(is_normal, "normal"), (is_t, "t")];
+    let open: Vec<&str> = open.into_iter().filter(|(is, _)| *is).map(|(_, name)| name).collect();
+    if limited.is_empty() {
+        return if open.is_empty() { Err(contradiction(k, p, None)) } else { Ok(k.value) };
+    }
+    let all: Vec<String> = open.iter().chain(&limited).map(|name| format!("`{name}`")).collect();
+    let normal = match open.as_slice() {
+        [] => format!("; a normal one has {}", rounded(of_probability_alone(None, p.value), -2)),
+        _ => String::new(),
+    };
+    Err(format!(
+        "has a coverage factor of {} and a coverage probability of {} and names no distribution: they are \
+         those of a distribution {}{normal}. Say by `\"law\"` which it is, such as `\"law\": \"{}\"`, or ask",
+        k.value,
+        p.value,
+        gumption_units::listed(&all, " or "),
+        limited[0]
+    ))
 }
 
 /// The factors of the probability of a distribution, from and to.
@@ -89,7 +120,7 @@ fn is_of(k: Written, p: Written, shape: Option<NamedShape>) -> bool {
     high >= least && low <= most
 }
 
-/// Whether the factor is that of a normal distribution, or of a t distribution, which is larger.
+/// Whether the factor is that of a t distribution, which is larger than that of a normal one, or as large.
 fn reaches(k: Written, p: Written) -> bool {
     stated(k)[1] >= factors(p, None)[0] || is_approximate(k, p)
 }

@@ -9,6 +9,7 @@ use std::ops::Range;
 use super::{agreement, definitions, relative};
 use crate::implied_dof::last_digit;
 use crate::named_shape::NamedShape;
+use crate::xml_limits;
 use gumption_units::Unit;
 use roxmltree::{Document, Node};
 
@@ -143,6 +144,7 @@ impl Measured {
 
 /// Reads a text as a certificate.
 pub(crate) fn parse(text: &str) -> Result<Document<'_>, Fault> {
+    xml_limits::check(text).map_err(|excess| (excess.at..excess.at, excess.reason))?;
     let document = Document::parse(text).map_err(|error| {
         let at = error.pos();
         let line: usize = text
@@ -193,9 +195,11 @@ pub(super) fn has_ref_type(node: Node<'_, '_>, wanted: &str) -> bool {
     node.attribute("refType").is_some_and(|all| all.split(BLANKS).any(|of| of == wanted))
 }
 
-/// The names of a quantity, in all languages.
+/// The names of an element, in all languages; they stand before what it holds, which may be very much.
 pub(super) fn names(node: Node<'_, '_>) -> Vec<String> {
-    let named = node.children().filter(|child| child.tag_name().name() == "name");
+    let is_content = |of: &Node<'_, '_>| ["quantity", "list"].contains(&of.tag_name().name());
+    let before = node.children().take_while(|child| !is_content(child));
+    let named = before.filter(|child| child.tag_name().name() == "name");
     let contents = named.flat_map(|name| name.children()).filter(Node::is_element);
     let named = contents.map(|content| content_of(content).trim().to_owned());
     named.filter(|name| !name.is_empty()).collect()
@@ -360,6 +364,7 @@ pub(super) fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Meas
         .ok_or_else(|| (tag(holder), "this has no value".to_owned()))?;
     let unit = unit_of(holder)?;
     let count = values.len();
+    lists_of(holder, count)?;
     let uncertain = uncertainty_of(holder);
     let of_constant = holder.tag_name().name() == "constant"
         && !holder.descendants().any(|of| of.tag_name().name() == "expandedUnc");
@@ -412,6 +417,30 @@ pub(super) fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Meas
         unread: if is_uncertain { None } else { unread_in(uncertain) },
         is_difference: false,
     })
+}
+
+/// Whether each list in an element has as many entries as there are values, or one for all of them: a blank
+/// within a number, `2 850`, makes two of it, and nothing else tells.
+///
+/// # Errors
+/// The list that has another length.
+fn lists_of(holder: Node<'_, '_>, count: usize) -> Result<(), Fault> {
+    let lists =
+        holder.descendants().filter(|of| is_list(*of) && of.children().all(|of| of.is_text()));
+    for list in lists {
+        let text = content_of(list);
+        let entries = text.split(BLANKS).filter(|word| !word.is_empty()).count();
+        if entries > 1 && entries != count {
+            let name = list.tag_name().name();
+            let reason = format!(
+                "`{name}` has {entries} entries for {count} value{}: one for each or one for all is to \
+                 stand here, and no blank within a number",
+                if count == 1 { "" } else { "s" }
+            );
+            return Err((tag(list), reason));
+        }
+    }
+    Ok(())
 }
 
 /// The element of this name in the list of a value.

@@ -3,8 +3,10 @@
 //! expanded uncertainty. They are no further values, and their standard uncertainties have digits that
 //! are lost in U and k, which are rounded.
 
+use std::collections::{HashMap, HashSet};
+
 use gumption_units::Unit;
-use roxmltree::Node;
+use roxmltree::{Node, NodeId};
 
 use super::document::{self, Measured};
 
@@ -20,35 +22,39 @@ pub(super) fn left_out<'d>(
     measured: Vec<Measured>,
     all: &[Node<'d, 'd>],
 ) -> (Vec<Node<'d, 'd>>, Vec<Measured>) {
-    let repeats = |node: Node<'d, 'd>, of: &Measured| {
-        let mut others = chosen.iter().zip(&measured);
-        is_interval(node)
-            && others.any(|(other, values)| {
-                !is_interval(*other)
-                    && other.parent() == node.parent()
-                    && places(of, values).is_some()
-            })
+    let list = |node: Node<'d, 'd>| node.parent().map(|of| of.id());
+    // by their lists, as there may be very many
+    let mut intervals: HashMap<Option<NodeId>, Vec<Node<'d, 'd>>> = HashMap::new();
+    for interval in all.iter().filter(|node| is_interval(**node)) {
+        intervals.entry(list(*interval)).or_default().push(*interval);
+    }
+    if intervals.is_empty() {
+        return (chosen, measured);
+    }
+    let all: HashSet<NodeId> = intervals.values().flatten().map(|node| node.id()).collect();
+    let mut others: HashMap<Option<NodeId>, Vec<&Measured>> = HashMap::new();
+    for (node, of) in chosen.iter().zip(&measured).filter(|(node, _)| !all.contains(&node.id())) {
+        others.entry(list(*node)).or_default().push(of);
+    }
+    let repeats = |(node, of): (&Node<'d, 'd>, &Measured)| {
+        let beside = others.get(&list(*node)).filter(|_| all.contains(&node.id()));
+        beside.is_some_and(|beside| beside.iter().any(|values| places(of, values).is_some()))
     };
-    let kept: Vec<bool> =
-        chosen.iter().zip(&measured).map(|(node, of)| !repeats(*node, of)).collect();
+    let kept: Vec<bool> = chosen.iter().zip(&measured).map(|pair| !repeats(pair)).collect();
     let pairs = chosen.into_iter().zip(measured).zip(kept);
     pairs
         .filter(|(_, kept)| *kept)
         .map(|((node, mut of), _)| {
-            beside(node, &mut of, all);
+            if !all.contains(&node.id()) {
+                beside(&mut of, intervals.get(&list(node)).map_or(&[], Vec::as_slice));
+            }
             (node, of)
         })
         .unzip()
 }
 
 /// Takes the standard uncertainties of the intervals in the list of a quantity.
-fn beside<'d>(node: Node<'d, 'd>, of: &mut Measured, all: &[Node<'d, 'd>]) {
-    if is_interval(node) {
-        return;
-    }
-    let intervals = all
-        .iter()
-        .filter(|other| **other != node && other.parent() == node.parent() && is_interval(**other));
+fn beside(of: &mut Measured, intervals: &[Node<'_, '_>]) {
     for interval in intervals {
         // a damaged one matters where it is wanted
         let Ok(interval) = document::measured(*interval) else { continue };

@@ -17,16 +17,16 @@ struct Row<'d> {
 }
 
 impl<'d> Row<'d> {
-    /// That of a quantity; `None` if it is no row of anything.
-    fn of(node: Node<'d, 'd>) -> Option<Self> {
+    /// That of a quantity, before which so many others stand in its element; `None` if it is no row of
+    /// anything.
+    fn of(node: Node<'d, 'd>, before: usize) -> Option<Self> {
         let parent = node.parent()?;
         let is_list = parent.tag_name().name() == "list";
         let around = if is_list { parent.parent()? } else { parent };
         let kind = node.attribute("refType");
-        let before = node.prev_siblings().skip(1);
         let place = match kind {
             Some(_) => 0,
-            None if is_list => before.filter(|of| of.tag_name().name() == "quantity").count(),
+            None if is_list => before,
             None => return None,
         };
         Some(Self { around: around.id(), kind, place })
@@ -36,8 +36,17 @@ impl<'d> Row<'d> {
 /// Which quantities of a certificate state uncertainties.
 pub(super) struct Rows<'a, 'd> {
     all: &'a [Node<'d, 'd>],
-    /// The units of those that do, by row; of nothing before it is asked for.
-    stated: Option<HashMap<Row<'d>, HashSet<String>>>,
+    /// Of nothing before it is asked for.
+    stated: Option<StatedRows<'d>>,
+}
+
+/// What is known of the rows of a certificate.
+#[derive(Default)]
+struct StatedRows<'d> {
+    /// The row of each quantity that is of one.
+    rows: HashMap<NodeId, Row<'d>>,
+    /// The units of those that state uncertainties, by row.
+    units: HashMap<Row<'d>, HashSet<String>>,
 }
 
 impl<'a, 'd> Rows<'a, 'd> {
@@ -60,21 +69,25 @@ impl<'a, 'd> Rows<'a, 'd> {
         }
         let all = self.all;
         let stated = self.stated.get_or_insert_with(|| stated(all));
-        let units = stated.get(&Row::of(node)?)?;
+        let units = stated.units.get(stated.rows.get(&node.id())?)?;
         let is_missed = units.contains(of.unit.text());
         is_missed.then_some(Lacking::Beside("those of other rows"))
     }
 }
 
-/// The units of quantities with an uncertainty.
-fn stated<'d>(all: &[Node<'d, 'd>]) -> HashMap<Row<'d>, HashSet<String>> {
-    let mut found: HashMap<Row<'d>, HashSet<String>> = HashMap::new();
+fn stated<'d>(all: &[Node<'d, 'd>]) -> StatedRows<'d> {
+    let mut found = StatedRows::default();
+    let mut before: HashMap<Option<NodeId>, usize> = HashMap::new();
     for node in all {
-        if let Some(row) = Row::of(*node)
-            && let Ok(of) = document::measured(*node)
+        let before = before.entry(node.parent().map(|of| of.id())).or_default();
+        let row = Row::of(*node, *before);
+        *before += 1;
+        let Some(row) = row else { continue };
+        found.rows.insert(node.id(), row);
+        if let Ok(of) = document::measured(*node)
             && of.uncertainty.is_some()
         {
-            found.entry(row).or_default().insert(of.unit.text().to_owned());
+            found.units.entry(row).or_default().insert(of.unit.text().to_owned());
         }
     }
     found

@@ -2,18 +2,22 @@
 //! quantity, or a table of it interpolated over a condition.
 
 mod agreement;
+mod chosen;
 mod coverage;
 mod definitions;
 mod difference;
 mod document;
 mod intervals;
 mod known;
+mod law;
+mod listing;
 mod missing;
 mod own;
 mod quantities;
 mod relative;
+mod standing;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -31,13 +35,16 @@ use gumption_engine::distribution::{
     Arcsine, Constant, Distribution, Invalid, Normal, Rectangular, Triangular,
 };
 use gumption_engine::number::{Shortest, smallest_first};
-use gumption_units::{Unit, nearest};
+use gumption_units::Unit;
 use known::{Interval, Known, known};
+pub(crate) use law::LAWS;
+pub use listing::{CertificateListing, ListedPart, ListedQuantity, listing, listing_text};
 use missing::Rows;
 pub(super) use own::Certified;
 use own::OwnCertificate;
 pub(super) use quantities::inputs;
 use roxmltree::{Document, Node};
+pub(crate) use standing::STATUSES;
 
 /// The certificates that a model file names: name, text if it could be read, content.
 #[derive(Debug, Default)]
@@ -108,6 +115,8 @@ pub(super) struct FromCertificate {
     pub(super) is_asymmetric: bool,
     /// Whether it is a difference of temperatures that the certificate gives in °C.
     pub(super) is_difference: bool,
+    /// Whether it was found before an adjustment or a repair.
+    pub(super) is_before: bool,
     temperature: TemperatureKind,
 }
 
@@ -154,10 +163,16 @@ fn parsed(
 ) -> Result<Option<FromCertificate>, Fault> {
     let document = parse(&source.text)?;
     let all = document::quantities(&document);
-    let Some(chosen) = chosen(object, &all) else { return Ok(None) };
+    let Some(found) = chosen::quantities(object, &all) else { return Ok(None) };
     let measured: Vec<Measured> =
-        chosen.iter().map(|node| document::measured(*node)).collect::<Result<_, _>>()?;
-    let (chosen, measured) = intervals::left_out(chosen, measured, &all);
+        found.iter().map(|node| document::measured(*node)).collect::<Result<_, _>>()?;
+    let (chosen, mut measured) = intervals::left_out(found, measured, &all);
+    if !chosen::is_one_table(object, &chosen, &measured, &all) {
+        return Ok(None);
+    }
+    if !law::state(object, &mut measured)? {
+        return Ok(None);
+    }
     let Some(first) = measured.first() else { return Ok(None) };
     let (unit, span) = (first.unit.clone(), first.span.clone());
     if let Some(other) = measured.iter().find(|of| of.unit.text() != unit.text()) {
@@ -194,6 +209,7 @@ fn parsed(
             is_without,
             is_asymmetric,
             is_difference,
+            is_before: standing::is_before(chosen[0]),
             temperature,
         }));
     }
@@ -245,6 +261,7 @@ fn parsed(
                 is_without,
                 is_asymmetric: Interval::of(&of, left).is_some_and(Interval::is_asymmetric),
                 is_difference,
+                is_before: standing::is_before(*node),
                 temperature,
                 taken: Taken::One(Box::new(of), left),
             }));
@@ -319,89 +336,6 @@ fn stated_elsewhere(
     Err((tag(node), reason))
 }
 
-/// The quantities that the object names; `None` where a mistake has been reported.
-fn chosen<'d>(object: &Object<'_>, all: &[Node<'d, 'd>]) -> Option<Vec<Node<'d, 'd>>> {
-    let report = |key: &str, reason: String| {
-        let place = object.get(key).map_or(object.place(), |member| &member.value.span);
-        object.log.report(place, DiagnosticKind::Certificate { reason });
-        None
-    };
-    if let (Some(_), Some(second)) = (object.get("id"), object.get("ref_type")) {
-        let diagnostic = DiagnosticKind::Exclusive { first: "id", second: "ref_type" };
-        object.log.report(&second.key_span, diagnostic);
-        return None;
-    }
-    let suggest = |wanted: &str, known: Vec<&str>| match nearest(wanted, known.iter().copied()) {
-        Some(near) => format!("; did you mean `{near}`?"),
-        None if known.is_empty() => String::new(),
-        None => format!("; there are {}", known[..known.len().min(12)].join(", ")),
-    };
-    if let Some(member) = object.get("quantity") {
-        let others = ["id", "ref_type"].into_iter().find(|key| object.get(key).is_some());
-        if let Some(first) = others {
-            let diagnostic = DiagnosticKind::Exclusive { first, second: "quantity" };
-            object.log.report(&member.key_span, diagnostic);
-            return None;
-        }
-        let place = object.whole("quantity", 0, 1 << 32)? as usize;
-        let Some(one) = all.get(place) else {
-            let reason = format!("the certificate has {} quantities, counted from 0", all.len());
-            return report("quantity", reason);
-        };
-        return Some(vec![*one]);
-    }
-    if object.get("id").is_some() {
-        let wanted = object.text("id")?;
-        let is_it = |of: &Node<'d, 'd>| of.attribute("id") == Some(wanted);
-        let is_quantity = |of: &Node<'d, 'd>| of.tag_name().name() == "quantity";
-        // quantities may stand in each other
-        let has = |node: &&Node<'d, 'd>| {
-            let mut inside = node.descendants().filter(is_it);
-            inside.any(|of| of.ancestors().find(is_quantity) == Some(**node))
-        };
-        let mut found: Vec<Node<'d, 'd>> = all.iter().filter(|of| is_it(of)).copied().collect();
-        if found.is_empty() {
-            found = all.iter().filter(has).copied().collect();
-        }
-        if found.is_empty() {
-            let known = all.iter().filter_map(|node| node.attribute("id")).collect();
-            let known = suggest(wanted, known);
-            return report("id", format!("no quantity has the id `{wanted}`{known}"));
-        }
-        return Some(found);
-    }
-    if object.get("ref_type").is_some() {
-        let wanted = object.text("ref_type")?;
-        let has = |node: &&Node<'d, 'd>| {
-            let mut around = node.ancestors().take(3);
-            around.any(|of| document::has_ref_type(of, wanted))
-        };
-        let found: Vec<Node<'d, 'd>> = all.iter().filter(has).copied().collect();
-        if found.is_empty() {
-            let mut known: Vec<&str> =
-                all.iter().filter_map(|node| node.attribute("refType")).collect();
-            known.dedup();
-            let known = suggest(wanted, known);
-            return report("ref_type", format!("no quantity has the refType `{wanted}`{known}"));
-        }
-        return Some(found);
-    }
-    match all {
-        [one] => Some(vec![*one]),
-        _ => {
-            let shown: Vec<String> = all.iter().take(8).map(|of| document::called(*of)).collect();
-            let reason = format!(
-                "the certificate has {} quantities; name one by its `id` or `ref_type`, or by its place as \
-                 `quantity`, from 0: {}{}",
-                all.len(),
-                shown.join(", "),
-                if all.len() > 8 { ", ..." } else { "" }
-            );
-            report("file", reason)
-        }
-    }
-}
-
 /// The table over the condition that `at` names.
 fn table<'d>(
     object: &Object<'_>,
@@ -414,8 +348,13 @@ fn table<'d>(
     let are_exact = measured.iter().all(|of| of.uncertainty.is_none() && of.unread.is_none());
     let mut rows = Rows::new(all);
     let mut unit: Option<Unit> = None;
+    // quantities beside each other have the same one beside them
+    let parents: HashSet<_> = chosen.iter().map(|node| node.parent().map(|of| of.id())).collect();
+    if parents.len() < chosen.len() {
+        return Err(repeated(measured));
+    }
     for (node, of) in chosen.iter().zip(measured) {
-        let Some(abscissa) = abscissa(object, *node, of, all, &condition)? else { return Ok(None) };
+        let Some(abscissa) = abscissa(object, *node, of, &condition)? else { return Ok(None) };
         let own = unit.get_or_insert_with(|| abscissa.unit.clone()).clone();
         if own.text() != abscissa.unit.text() {
             let reason = "this quantity has another unit than that of the first point".to_owned();
@@ -442,11 +381,14 @@ fn table<'d>(
     }
     smallest_first(&mut points, |point| point.x);
     if points.windows(2).any(|pair| pair[0].x == pair[1].x) {
-        let span = measured.first().map_or(0..0, |of| of.span.clone());
-        let reason = "two points of this table have the same abscissa".to_owned();
-        return Err((span, reason));
+        return Err(repeated(measured));
     }
     Ok(unit.map(|unit| Taken::Table { condition, unit: Box::new(unit), points }))
+}
+
+fn repeated(measured: &[Measured]) -> Fault {
+    let span = measured.first().map_or(0..0, |of| of.span.clone());
+    (span, "two points of this table have the same abscissa".to_owned())
 }
 
 /// The quantity that a table goes over: in the same list, equally many values; by the name of the
@@ -455,12 +397,11 @@ fn abscissa<'d>(
     object: &Object<'_>,
     node: Node<'d, 'd>,
     of: &Measured,
-    all: &[Node<'d, 'd>],
     condition: &str,
 ) -> Result<Option<Measured>, Fault> {
-    let parent = node.parent();
-    let beside: Vec<Node<'d, 'd>> =
-        all.iter().filter(|other| other.parent() == parent && **other != node).copied().collect();
+    let beside = node.parent().into_iter().flat_map(|of| of.children());
+    let beside = beside.filter(|of| of.tag_name().name() == "quantity" && *of != node);
+    let beside: Vec<Node<'d, 'd>> = beside.collect();
     let among = |is_one: &dyn Fn(Node<'d, 'd>) -> bool| {
         let found: Vec<Node<'d, 'd>> = beside.iter().copied().filter(|of| is_one(*of)).collect();
         (!found.is_empty()).then_some(found)

@@ -1,29 +1,29 @@
 //! The quantities of a certificate as inputs of a model.
 
+use std::collections::{HashMap, HashSet};
+
 use gumption_engine::model::formula::check_name;
-use roxmltree::{Document, Node};
+use roxmltree::Document;
 use serde_json::{Value, json};
 
 use super::difference;
 use super::document::{measured, names, quantities};
 use super::missing::Rows;
+use super::standing::is_result;
 
 /// The name of a quantity that has none.
 const NAMELESS: &str = "q";
-
-/// Whether a quantity is among the results, and not an influence condition or the like.
-fn in_results(node: &Node<'_, '_>) -> bool {
-    node.ancestors().any(|of| of.tag_name().name() == "results")
-}
 
 /// Name, unit and input of each value of the certificate's results (of all of it, if it has none), in a
 /// model that names the certificate as `file`; what is no real quantity is left out.
 pub(crate) fn inputs(document: &Document<'_>, file: &str) -> Vec<(String, String, Value)> {
     let all = quantities(document);
-    let some = all.iter().any(in_results);
+    let some = all.iter().any(|node| is_result(*node));
     let mut rows = Rows::new(&all);
     let mut found: Vec<(String, String, Value)> = Vec::new();
-    for (place, node) in all.iter().enumerate().filter(|(_, node)| !some || in_results(node)) {
+    // the names so far, and from which number on one may be free
+    let (mut taken, mut numbers) = (HashSet::new(), HashMap::<String, usize>::new());
+    for (place, node) in all.iter().enumerate().filter(|(_, node)| !some || is_result(**node)) {
         let Ok(of) = measured(*node) else { continue };
         let count = of.values.len();
         let lacking = rows.lacking(*node, &of);
@@ -32,11 +32,13 @@ pub(crate) fn inputs(document: &Document<'_>, file: &str) -> Vec<(String, String
         let stem = identifier(called.first().map_or("", String::as_str));
         for index in (0..count).filter(|place| fault(*place).is_none()) {
             let wanted = if count > 1 { format!("{stem}_{}", index + 1) } else { stem.clone() };
-            let taken = |name: &str| found.iter().any(|(known, ..)| known == name);
-            let name = (1..)
-                .map(|n| if n == 1 { wanted.clone() } else { format!("{wanted}_{n}") })
-                .find(|name| !taken(name));
-            let Some(name) = name else { continue };
+            let next = numbers.entry(wanted.clone()).or_insert(1);
+            let name = (*next..)
+                .map(|n| (n, if n == 1 { wanted.clone() } else { format!("{wanted}_{n}") }))
+                .find(|(_, name)| !taken.contains(name));
+            let Some((number, name)) = name else { continue };
+            *next = number + 1;
+            taken.insert(name.clone());
             let mut input = json!({ "distribution": "dcc", "file": file, "quantity": place });
             if count > 1 {
                 input["index"] = json!(index);

@@ -2,6 +2,7 @@
 
 mod difference;
 mod reading;
+mod tables;
 mod uncertainty;
 
 use super::*;

@@ -996,7 +996,7 @@ impl Header {
                         || place_of(&columns, Column::Quantity).is_some()
                             && has_numbers_alone(cells, line, place));
                 // `u` beside what is divided is the quotient
-                let mut found = match (is_estimate, column(cell)) {
+                let mut found = match (is_estimate, cells.column(cell)) {
                     (true, _) => Some(Column::Estimate),
                     // `s` of readings, which is no uncertainty of a comparison's results
                     (false, None) if is_deviation_symbol(cell) => Some(Column::Std),
@@ -1362,7 +1362,7 @@ impl Header {
             let row = cells.row(*line);
             let has_number = || row.iter().any(|cell| number_with_unit(cell, comma).is_some());
             let is_named =
-                |(place, _): &&(usize, Column)| column(cells.text(*line, *place)).is_some();
+                |(place, _): &&(usize, Column)| cells.column(cells.text(*line, *place)).is_some();
             let same = |(place, of): &&(usize, Column)| {
                 let cell = cells.text(*line, *place);
                 column(cell) == Some(*of) || plain(cell) == plain(self.heading(*place))
@@ -1718,7 +1718,7 @@ fn of_two_lines(cells: &Cells, line: usize) -> Option<Vec<String>> {
         return None;
     }
     let is_blank = |place: usize| cells.text(line - 1, place).trim().is_empty();
-    let names_column = |place: usize| column(cells.text(line, place)).is_some();
+    let names_column = |place: usize| cells.column(cells.text(line, place)).is_some();
     // an empty cell behind a heading belongs to it
     let is_together =
         |place: usize| is_blank(place) || is_blank(place + 1) && names_column(place + 1);

@@ -1,5 +1,6 @@
 //! The cells of a sheet, whatever stands in them.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -28,11 +29,23 @@ pub(super) struct Cells {
     written: HashMap<usize, String>,
     /// What a workbook says of its cells besides their values.
     layout: Layout,
+    /// What texts of cells are as headings: of many rows few have others, and all are looked at.
+    known: RefCell<HashMap<String, Option<Column>>>,
 }
 
 impl Cells {
     pub(super) fn lines(&self) -> usize {
         self.rows.len()
+    }
+
+    /// What a cell's text is as the heading of a column.
+    pub(super) fn column(&self, text: &str) -> Option<Column> {
+        if let Some(known) = self.known.borrow().get(text) {
+            return *known;
+        }
+        let found = columns::column(text);
+        self.known.borrow_mut().insert(text.to_owned(), found);
+        found
     }
 
     /// The cells of a line.

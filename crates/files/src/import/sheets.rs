@@ -6,7 +6,7 @@ use super::grid::{self, Cells};
 use crate::DiagnosticKind;
 use crate::open::FROM_CERTIFICATES;
 use crate::workbook::choice::{self, Wanted};
-use crate::workbook::{Book, Place, SheetName, letters};
+use crate::workbook::{Book, MOST_COLUMNS, MOST_ROWS, Place, SheetName, letters, reference};
 
 /// The sheet of a workbook that is read.
 pub(super) struct Chosen {
@@ -37,6 +37,14 @@ impl Chosen {
         };
         let holds = |chosen: &Self| Header::find(&chosen.cells).is_some();
         let (mut chosen, told) = choice::of(&mut book, wanted, &BUDGET, read, holds)?;
+        if let Some(cell) = chosen.cells.layout().beyond {
+            let message = format!(
+                "its cell {} holds something; of a sheet {MOST_ROWS} rows and {MOST_COLUMNS} columns are read, \
+                 and a budget has fewer",
+                reference(cell)
+            );
+            return Err(unreadable(message));
+        }
         chosen.said.splice(0..0, told);
         Ok(chosen)
     }

@@ -222,7 +222,8 @@ const STEP: &[Key] = keys![
                 .with("minItems", 1),
     "high_passes" => corners(),
     "segments" => whole(
-                "Segments of the cross-spectrum; one a period, 32 at most, unless told.",
+                "Segments of the cross-spectrum, of whole periods each (of one alone the coherence \
+                 is 1); unless told as many, 32 at most, as make its uncertainty smallest.",
                 2,
                 10_000,
             ),

@@ -180,7 +180,18 @@ pub(crate) static SHAPES: [Shape; 20] = [
         aliases: &[],
         about: "A quantity of a Digital Calibration Certificate (2.4 to 3.3): value, uncertainty, k, \
                 p, distribution and unit.",
-        fields: &["file", "id", "ref_type", "quantity", "index", "at", "difference"],
+        fields: &[
+            "file",
+            "id",
+            "ref_type",
+            "within",
+            "status",
+            "quantity",
+            "index",
+            "at",
+            "difference",
+            "law",
+        ],
         rule: Rule::All(&["file"]),
     },
     Shape {
@@ -290,11 +301,30 @@ fn field(shape: &str, key: &str) -> Value {
         ("dcc", "file") => referenced("file", "A Digital Calibration Certificate (XML)."),
         (_, "id") => text_of("The `id` of the quantity."),
         (_, "ref_type") => text_of("The `refType` of the quantity, such as `basic_measuredValue`."),
-        (_, "quantity") => described(
-            "integer",
-            "The place of the quantity among all of the certificate, counted from 0.",
+        (_, "within") => text_of(
+            "The `id`, a `refType` or a name of what the quantity stands in: a list, a result, an \
+             influence condition or all results of a measurement.",
+        ),
+        (_, "status") => described(
+            "string",
+            "Before or after what the quantity was measured: an adjustment or a repair.",
         )
-        .with("minimum", 0),
+        .with("enum", texts(crate::dcc::STATUSES)),
+        (_, "quantity") => {
+            let place = || object([("type", Value::from("integer")), ("minimum", Value::from(0))]);
+            let places = object([("type", Value::from("array")), ("items", place())]);
+            let places = places.with("minItems", 1);
+            object([
+                (
+                    "description",
+                    Value::from(
+                        "The place of the quantity among all of the certificate, counted from 0; or a \
+                         list of places, whose quantities are one table.",
+                    ),
+                ),
+                ("anyOf", Value::from(vec![place(), places])),
+            ])
+        }
         (_, "index") => {
             described("integer", "Which of several values, counted from 0.").with("minimum", 0)
         }
@@ -303,6 +333,11 @@ fn field(shape: &str, key: &str) -> Value {
             "Whether it is a difference of temperatures, such as an error or a correction, which is the \
              same in degC and in K; where the `refType` or the name of the quantity does not say so.",
         ),
+        (_, "law") => described(
+            "string",
+            "The distribution of the values, where the certificate names none that is known.",
+        )
+        .with("enum", texts(crate::dcc::LAWS)),
         (_, "at") => text_of(
             "The condition over which the quantity is a table, interpolated by straight lines: the \
              quantity of that name beside it, or its reference or nominal value.",

@@ -1,7 +1,7 @@
 //! What a sheet says of its rows and cells besides their values: hidden rows, formulas that nobody has
 //! calculated, merged and struck-through cells.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::io::{Cursor, Read};
 
 use quick_xml::events::{BytesStart, Event};
@@ -9,7 +9,8 @@ use zip::ZipArchive;
 
 use super::rich::{self, Parts};
 use super::{
-    COLUMNS, MOST_COLUMNS, MOST_OF_PART, MOST_ROWS, ROWS, attribute, date, place, reference,
+    COLUMNS, MOST_COLUMNS, MOST_OF_PART, MOST_ROWS, MOST_SHEETS, ROWS, attribute, date, place,
+    reference,
 };
 
 /// A row and a column, both counted from 0.
@@ -50,16 +51,15 @@ pub(crate) struct Layout {
     pub(crate) dates: BTreeMap<Place, String>,
     /// The power of ten of the last digit that a cell shows of its number, where its format tells.
     pub(crate) last_digits: BTreeMap<Place, i32>,
+    /// A cell that lies beyond those that are read of a budget.
+    pub(crate) beyond: Option<Place>,
 }
 
 impl Layout {
     /// That of the sheet of this number in the workbook, from 0; nothing where its part is not found.
-    pub(super) fn of(bytes: &[u8], sheet: usize) -> Self {
-        let mut parts = PartsOf::of(bytes);
-        let shared = parts.as_mut().and_then(|of| of.part("xl/sharedStrings.xml"));
-        let shared = shared.map(|text| rich::shared(&text)).unwrap_or_default();
-        let text = parts.and_then(|mut of| of.sheet(sheet));
-        text.map(|text| Self::of_text(&text, &shared)).unwrap_or_default()
+    pub(super) fn of(parts: &mut PartsOf, sheet: usize) -> Self {
+        let text = parts.sheets.get(sheet).cloned().flatten().and_then(|name| parts.part(&name));
+        text.map(|text| Self::of_text(&text, &parts.shared)).unwrap_or_default()
     }
 
     /// Why a cell holds no number though its value is one: it shows a date or a time, or a part of its text
@@ -262,44 +262,76 @@ fn hidden_columns(col: &BytesStart<'_>) -> std::ops::Range<u32> {
 }
 
 /// The parts of a workbook.
-struct PartsOf<'b>(ZipArchive<Cursor<&'b [u8]>>);
+pub(super) struct PartsOf {
+    archive: ZipArchive<Cursor<Vec<u8>>>,
+    /// The part of each sheet, in their order.
+    sheets: Vec<Option<String>>,
+    /// What is doubtful of the texts that cells share.
+    shared: Vec<Option<String>>,
+}
 
-impl<'b> PartsOf<'b> {
-    fn of(bytes: &'b [u8]) -> Option<Self> {
-        ZipArchive::new(Cursor::new(bytes)).ok().map(Self)
+impl PartsOf {
+    /// # Errors
+    /// It has too many sheets, or two of them are one part; each is read on its own.
+    pub(super) fn of(bytes: Vec<u8>) -> Result<Self, String> {
+        let archive = ZipArchive::new(Cursor::new(bytes)).map_err(super::is_none)?;
+        let mut parts = Self { archive, sheets: Vec::new(), shared: Vec::new() };
+        let shared = parts.part("xl/sharedStrings.xml");
+        parts.shared = shared.map(|text| rich::shared(&text)).unwrap_or_default();
+        parts.sheets = parts.names_of_sheets().unwrap_or_default();
+        let count = parts.sheets.len();
+        if count > MOST_SHEETS {
+            return Err(format!("it has {count} sheets; this version takes {MOST_SHEETS} at most"));
+        }
+        let mut known: HashMap<String, usize> = HashMap::new();
+        for (number, name) in parts.sheets.iter().enumerate() {
+            let Some(name) = name else { continue };
+            if let Some(first) = known.insert(name.to_lowercase(), number) {
+                return Err(format!(
+                    "its sheets {} and {} are both the part `{name}`; each sheet has a part of its own",
+                    first + 1,
+                    number + 1
+                ));
+            }
+        }
+        Ok(parts)
     }
 
     /// The text of the part of that name.
     fn part(&mut self, name: &str) -> Option<String> {
-        let of = |at: usize, archive: &mut ZipArchive<Cursor<&[u8]>>| {
-            let found = archive.by_index(at).ok()?;
-            let is_it = found.name().ok()?.replace('\\', "/").eq_ignore_ascii_case(name);
-            is_it.then_some(at)
-        };
-        let at = (0..self.0.len()).find_map(|at| of(at, &mut self.0))?;
+        let is_it = |of: &str| of.replace('\\', "/").eq_ignore_ascii_case(name);
+        let at = self.archive.file_names().position(|of| of.is_ok_and(|of| is_it(&of)))?;
         let mut text = String::new();
-        let part = self.0.by_index(at).ok()?;
+        let part = self.archive.by_index(at).ok()?;
         part.take(MOST_OF_PART).read_to_string(&mut text).ok()?;
         Some(text)
     }
 
-    /// The XML of the sheet of this number, from 0.
-    fn sheet(&mut self, sheet: usize) -> Option<String> {
+    /// The name of each sheet's part, in the order of the workbook.
+    fn names_of_sheets(&mut self) -> Option<Vec<Option<String>>> {
         let book = self.part("xl/workbook.xml")?;
         let is_sheet = |element: &BytesStart<'_>| element.local_name().as_ref() == "sheet";
-        let id = elements(&book, is_sheet, |element| {
+        let ids = elements(&book, is_sheet, |element| {
             // in whichever namespace
-            let id =
-                element.attributes().flatten().find(|of| of.key.local_name().as_ref() == "id")?;
+            let mut attributes = element.attributes().flatten();
+            let id = attributes.find(|of| of.key.local_name().as_ref() == "id")?;
             Some(id.value.into_owned())
         });
-        let id = id.into_iter().nth(sheet)??;
         let relations = self.part("xl/_rels/workbook.xml.rels")?;
-        let is_own = |element: &BytesStart<'_>| attribute(element, "Id").is_some_and(|of| of == id);
-        let targets = elements(&relations, is_own, |element| attribute(element, "Target"));
-        let target = targets.into_iter().flatten().next()?;
-        let name = target.strip_prefix('/').map_or_else(|| format!("xl/{target}"), str::to_owned);
-        self.part(&name)
+        let all = elements(
+            &relations,
+            |_| true,
+            |element| Some((attribute(element, "Id")?, attribute(element, "Target")?)),
+        );
+        let mut targets: HashMap<String, String> = HashMap::new();
+        for (id, target) in all.into_iter().flatten() {
+            targets.entry(id).or_insert(target);
+        }
+        let name = |id: String| {
+            let target = targets.get(&id)?;
+            Some(target.strip_prefix('/').map_or_else(|| format!("xl/{target}"), str::to_owned))
+        };
+        Some(ids.into_iter().map(|id| name(id?)).collect())
     }
 }
 

@@ -6,7 +6,7 @@ use plotters::style::Color;
 use super::Compare;
 use super::sheets::has_name;
 use crate::html::Drawing;
-use crate::number::with_uncertainty;
+use crate::number::{exact, with_uncertainty};
 use crate::plain;
 use crate::plot::{
     AFTER, Axis, BEFORE, EVEN, INK, STRIP_AXIS, Strip, line, px, stroke, svg_with_titles,
@@ -76,7 +76,7 @@ fn strip(bars: &[Bar], band: [f64; 2], label: &str, caption: &str) -> Drawing {
                 let y = 4.0 + ROW * (row as f64 + 0.5);
                 let colour = if *out { BEFORE } else { AFTER };
                 strip.name(area, name, y)?;
-                strip.interval(area, [value - u, value + u], y, colour)?;
+                strip.interval(area, [value - u, value + u], y, (colour, &exact))?;
                 area.draw(&Circle::new((px(strip.x(*value)), px(y)), px(3.5), colour.filled()))?;
                 let (number, expanded) = with_uncertainty(*value, *u, 2);
                 titles.at_pixels((strip.x(*value), y), &format!("{name}: {number} ± {expanded}"));

@@ -29,7 +29,11 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
     if let [row] = evaluation.rows.as_slice() {
         if row.outputs.len() > MOST_UNSUMMED {
             document.section("Results");
-            document.table(table::sweep::summary(task, row, evaluation.settings.digits));
+            let digits = evaluation.settings.digits;
+            document.table(table::sweep::summary(task, row, digits));
+            if let Some(said) = table::sweep::explained(row.outputs.iter(), digits) {
+                document.text(said);
+            }
         }
         for output in 0..row.outputs.len() {
             let folded = row.outputs.len() > MOST_UNSUMMED;

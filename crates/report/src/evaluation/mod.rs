@@ -11,6 +11,7 @@ mod workbook;
 
 pub use parts::{OutputParts, PageChoice, PageParts, input_picture, page_parts};
 pub use results::ResultStatement;
+pub(crate) use results::Taken;
 pub use terminal::histograms;
 pub use workbook::{MOST_RESULTS, xlsx};
 

@@ -3,6 +3,7 @@
 use super::Shown;
 use crate::document::{Block, Document};
 use crate::sheet::Sheet;
+use crate::table;
 use crate::table::printable;
 use crate::{EvaluationReport, plain};
 use gumption_engine::task::Trials;
@@ -43,6 +44,8 @@ pub(super) fn lines(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Vec<(St
     if !provenance.model_sha256.is_empty() {
         lines.push(("model file, SHA-256".to_owned(), provenance.model_sha256.clone()));
     }
+    // those figures do not come out again
+    lines.extend(table::stopped(evaluation).map(|said| ("this run".to_owned(), said)));
     lines.extend(shown.replaced.iter().map(|text| ("replaced".to_owned(), plain(text))));
     let digest =
         |(name, digest): &(String, String)| (format!("{}, SHA-256", plain(name)), digest.clone());

@@ -10,6 +10,8 @@ use crate::table::budget;
 use crate::table::budget::Budget;
 use crate::table::{comparison, in_unit};
 use gumption_engine::model::{Output, Quantity};
+use gumption_engine::propagate::gum::Gum;
+use gumption_engine::propagate::monte_carlo::MonteCarlo;
 use gumption_engine::propagate::{Basis, CapabilityStatement, OutputEvaluation, Stated};
 use gumption_engine::task::{Coverage, Settings};
 
@@ -214,61 +216,108 @@ pub enum ResultStatement {
     Undefined,
 }
 
-impl ResultStatement {
-    /// What is stated of an output.
-    pub fn of(settings: &Settings, found: &OutputEvaluation) -> Self {
+/// What is taken of an output as its result (JCGM 100, 7.2.4): the Monte Carlo interval where the GUM's
+/// is not valid or does not exist.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Taken<'a> {
+    /// An estimate with its expanded uncertainty and coverage factor, and the laboratory's capability
+    /// where it is beside them.
+    Expanded { estimate: f64, expanded: f64, factor: f64, beside: Option<&'a CapabilityStatement> },
+    /// The interval that is stated of the trials, and the value beside it with its numerical standard
+    /// error.
+    Interval { figures: &'a MonteCarlo, located: (f64, f64) },
+    /// No interval, only a standard uncertainty.
+    Standard(&'a Gum),
+    /// Nothing.
+    Undefined,
+}
+
+impl<'a> Taken<'a> {
+    pub(crate) fn of(settings: &Settings, found: &'a OutputEvaluation) -> Self {
         let refuted = found.validation.is_some_and(|v| v.gum_valid == Some(false));
-        let gum = found.gum.as_ref();
         if let Some(raised) = raised(found) {
-            let factor = crate::number::rounded(settings.coverage.normal_factor(), -2);
-            let (estimate, expanded) = with_capability(raised, settings.digits);
-            return Self::Expanded { estimate, expanded, factor };
+            return Self::Expanded {
+                estimate: raised.estimate,
+                expanded: raised.expanded_uncertainty,
+                factor: settings.coverage.normal_factor(),
+                beside: Some(raised),
+            };
         }
         // an agreed factor is kept, also where trials show another interval
         if let (Coverage::Factor { fixed: true, .. }, true) = (settings.coverage, refuted)
             && let Some(stated) = Stated::of(found, settings, |u| position(u, settings.digits))
         {
-            let factor = crate::number::rounded(stated.coverage_factor, -2);
-            let (estimate, expanded) =
-                with_uncertainty(stated.value, stated.expanded_uncertainty, settings.digits);
-            return Self::Expanded { estimate, expanded, factor };
-        }
-        let expanded = gum.and_then(|gum| Some((gum, gum.expanded_uncertainty()?)));
-        if let Some((gum, expanded)) = expanded.filter(|_| !refuted || found.monte_carlo.is_none())
-        {
-            let factor = gum.coverage_factor.map_or(f64::NAN, |factor| factor);
-            let factor = crate::number::rounded(factor, -2);
-            let beside = found.capability.as_deref();
-            let (estimate, expanded) =
-                match beside.filter(|beside| beside.expanded_uncertainty == expanded) {
-                    Some(beside) => with_capability(beside, settings.digits),
-                    None => with_uncertainty(gum.estimate, expanded, settings.digits),
-                };
-            return Self::Expanded { estimate, expanded, factor };
-        }
-        if let Some(figures) = &found.monte_carlo {
-            let u =
-                figures.standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty));
-            let ends = place_of_ends(figures, u, settings.digits);
-            let stated = figures.stated_interval();
-            let [low, high] =
-                [0, 1].map(|end| justified(stated.ends[end], ends, stated.errors[end]));
-            let estimate = match figures.estimate {
-                Some(estimate) => {
-                    let digits = u.and_then(|u| position(u, settings.digits));
-                    justified(estimate, digits, figures.errors.estimate.unwrap_or(f64::NAN))
-                }
-                None => justified(figures.median, ends, figures.errors.median),
+            return Self::Expanded {
+                estimate: stated.value,
+                expanded: stated.expanded_uncertainty,
+                factor: stated.coverage_factor,
+                beside: None,
             };
-            return Self::Interval { estimate, low, high, shortest: stated.shortest };
         }
-        match gum {
-            Some(gum) => {
+        let trials = found.monte_carlo.as_ref();
+        let gum = found.gum.as_ref();
+        match gum.and_then(|gum| Some((gum, gum.expanded_uncertainty()?, gum.coverage_factor?))) {
+            Some((gum, expanded, factor)) if !refuted || trials.is_none() => {
+                let beside = found.capability.as_deref();
+                let beside = beside.filter(|beside| beside.expanded_uncertainty == expanded);
+                Self::Expanded { estimate: gum.estimate, expanded, factor, beside }
+            }
+            _ => match (trials, gum) {
+                (Some(figures), _) => {
+                    let located = found.located().unwrap_or((figures.median, f64::NAN));
+                    Self::Interval { figures, located }
+                }
+                (None, Some(gum)) => Self::Standard(gum),
+                (None, None) => Self::Undefined,
+            },
+        }
+    }
+
+    /// The estimate and the ends of the interval, in the output's unit; `None` where there is none.
+    pub(crate) fn interval(&self) -> Option<(f64, [f64; 2])> {
+        match *self {
+            Self::Expanded { estimate, expanded, .. } => {
+                Some((estimate, [estimate - expanded, estimate + expanded]))
+            }
+            Self::Interval { figures, located: (estimate, _) } => {
+                Some((estimate, figures.stated_interval().ends))
+            }
+            Self::Standard(_) | Self::Undefined => None,
+        }
+    }
+}
+
+impl ResultStatement {
+    /// What is stated of an output.
+    pub fn of(settings: &Settings, found: &OutputEvaluation) -> Self {
+        let gum = found.gum.as_ref();
+        match Taken::of(settings, found) {
+            Taken::Expanded { estimate, expanded, factor, beside } => {
+                let factor = crate::number::rounded(factor, -2);
+                let (estimate, expanded) = match beside {
+                    Some(beside) => with_capability(beside, settings.digits),
+                    None => with_uncertainty(estimate, expanded, settings.digits),
+                };
+                Self::Expanded { estimate, expanded, factor }
+            }
+            Taken::Interval { figures, located: (located, error) } => {
+                let u = figures.standard_uncertainty;
+                let u = u.or_else(|| gum.map(|gum| gum.standard_uncertainty));
+                let ends = place_of_ends(figures, u, settings.digits);
+                let stated = figures.stated_interval();
+                let [low, high] =
+                    [0, 1].map(|end| justified(stated.ends[end], ends, stated.errors[end]));
+                // without a standard deviation the interval tells how many digits there are
+                let place = figures.standard_uncertainty.and_then(|u| position(u, settings.digits));
+                let estimate = justified(located, place.or(ends), error);
+                Self::Interval { estimate, low, high, shortest: stated.shortest }
+            }
+            Taken::Standard(gum) => {
                 let (estimate, uncertainty) =
                     with_uncertainty(gum.estimate, gum.standard_uncertainty, settings.digits);
                 Self::Standard { estimate, uncertainty }
             }
-            None => Self::Undefined,
+            Taken::Undefined => Self::Undefined,
         }
     }
 }

@@ -21,10 +21,12 @@ pub(super) fn sections(document: &mut Document, report: &EvaluationReport<'_>) {
             let first = table::grouped(MOST_ROWS as u64);
             document.text(format!("The first {first} of {all} rows; all of them: --format csv."));
         }
-        if let Some(said) = sweep::conformity(task, &evaluation.rows, output) {
+        let settings = &evaluation.settings;
+        let taken = sweep::taken(settings, &evaluation.rows, output);
+        for said in taken.into_iter().chain(sweep::conformity(task, &evaluation.rows, output)) {
             document.text(said);
         }
-        document.figure(figures::sweep(task, rows, output));
+        document.figure(figures::sweep(task, rows, (output, settings)));
         if let Some(sheet) = sweep::shares(task, rows, output) {
             document.text("Shares of the variance in %:");
             document.table(sheet);

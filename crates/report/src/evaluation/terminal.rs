@@ -1,6 +1,7 @@
 //! The distribution of an output in a terminal, without colours: it reads on dark and on light.
 
 use super::Shown;
+use crate::number::{position, to};
 use crate::plot::{Axis, CharacterGrid};
 use crate::table::{conditions_text, grouped, text_width, title_text};
 use crate::{EvaluationReport, wrapped};
@@ -71,17 +72,43 @@ fn histogram(output: &Quantity, found: &OutputEvaluation, counts: &Histogram) ->
     for (row, (name, interval)) in (HEIGHT + 2..).zip(&intervals) {
         let name_width = LEFT - 2;
         grid.write(0, row, &format!("{name:>name_width$}"));
-        let [from, to] = interval.map(|end| column(counts, width, end));
-        for position in from..=to {
-            let part = match position {
-                _ if position == from => '├',
-                _ if position == to => '┤',
-                _ => '─',
-            };
-            grid.put(position, row, part);
-        }
+        line(&mut grid, (counts, width), row, *interval);
     }
     wrapped(&title) + &grid.lines()
+}
+
+/// An interval: a bracket at each end that lies among the bars, an arrow with its number for each that
+/// lies beyond them.
+fn line(
+    grid: &mut CharacterGrid,
+    (counts, width): (&Histogram, usize),
+    row: usize,
+    ends: [f64; 2],
+) {
+    let [first, last] = [counts.low, counts.high()];
+    let place = position(ends[1] - ends[0], 3);
+    let beyond = |is_beyond: &dyn Fn(f64) -> bool| {
+        let numbers = ends.into_iter().filter(|end| is_beyond(*end)).map(|end| to(end, place));
+        numbers.collect::<Vec<_>>().join(" … ")
+    };
+    let [left, right] = [beyond(&|end| end < first), beyond(&|end| end > last)];
+    if ends[0] <= last && ends[1] >= first {
+        let columns = ends.map(|end| column(counts, width, end));
+        (columns[0]..=columns[1]).for_each(|position| grid.put(position, row, '─'));
+        for (end, (column, bracket)) in ends.into_iter().zip(columns.into_iter().zip(['├', '┤']))
+        {
+            if (first..=last).contains(&end) {
+                grid.put(column, row, bracket);
+            }
+        }
+    }
+    if !left.is_empty() {
+        grid.write(LEFT, row, &format!("← {left} "));
+    }
+    if !right.is_empty() {
+        let text = format!(" {right} →");
+        grid.write((LEFT + width).saturating_sub(text.chars().count()), row, &text);
+    }
 }
 
 /// The column in which a value stands; beyond the bars the nearest.

@@ -2,12 +2,12 @@
 //! them: all cells are numbers, all headings are names of quantities with their unit, which those files
 //! are held against.
 
-use super::ObservationReport;
+use super::{Figure, ObservationReport};
 use crate::csv::{number, of_records};
 
 /// The observations as comma-separated values: the conditions, the frequency in hertz, and for each
-/// figure `NAME` its value and `u_NAME`, its standard uncertainty; each with its unit, `NAME [m/s^2]`. So
-/// for the frequency where it has one.
+/// figure `NAME` its value and `u_NAME`, its standard uncertainty, where one is known; each with its
+/// unit, `NAME [m/s^2]`. So for the frequency where it has one.
 pub fn csv(observed: &ObservationReport<'_>) -> String {
     let figures = observed.figures();
     let conditions = observed.conditions.iter();
@@ -17,9 +17,11 @@ pub fn csv(observed: &ObservationReport<'_>) -> String {
     if is_uncertain {
         header.push(heading(&format!("u_{}", observed.frequency), "Hz"));
     }
-    header.extend(figures.iter().flat_map(|of| {
-        [heading(&of.name, &of.unit), heading(&format!("u_{}", of.name), &of.unit)]
-    }));
+    let is_known = |of: &Figure| of.values.iter().any(|(_, u)| u.is_some());
+    for of in &figures {
+        header.push(heading(&of.name, &of.unit));
+        header.extend(is_known(of).then(|| heading(&format!("u_{}", of.name), &of.unit)));
+    }
     of_records(|writer| {
         writer.write_record(&header)?;
         observed.lines().enumerate().try_for_each(|(line, (conditions, channels))| {
@@ -29,8 +31,9 @@ pub fn csv(observed: &ObservationReport<'_>) -> String {
             record.push(number(Some(hertz)));
             record.extend(is_uncertain.then(|| number(Some(u))));
             for figure in &figures {
-                let (value, u) = figure.values.get(line).copied().unwrap_or((f64::NAN, f64::NAN));
-                record.extend([number(Some(value)), number(Some(u))]);
+                let (value, u) = figure.values.get(line).copied().unwrap_or((f64::NAN, None));
+                record.push(number(Some(value)));
+                record.extend(is_known(figure).then(|| number(u)));
             }
             writer.write_record(&record)
         })

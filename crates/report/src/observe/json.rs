@@ -10,7 +10,8 @@ pub fn json(observed: &ObservationReport<'_>) -> String {
     let settings = observed.settings;
     let root = settings.reference.and_then(|place| settings.channels.get(place));
     let columns = observed.figures().into_iter().map(|figure| {
-        let (values, uncertainties): (Vec<f64>, Vec<f64>) = figure.values.into_iter().unzip();
+        let (values, uncertainties): (Vec<f64>, Vec<Option<f64>>) =
+            figure.values.into_iter().unzip();
         let column = object([
             ("unit", Value::from(figure.unit.as_str())),
             ("values", list(values)),
@@ -82,7 +83,7 @@ fn channel(observed: &ObservationReport<'_>, of: &ChannelObservation) -> Value {
     let findings = of
         .findings
         .iter()
-        .map(|finding| (finding.name.as_str(), plain(finding.value, &finding.unit)));
+        .map(|of| (of.name.as_str(), estimate(of.value, of.uncertainty, &of.unit)));
     object([
         ("unit", Value::from(unit)),
         ("components", list(of.components.iter().map(|c| component(c, unit, phase)))),
@@ -117,11 +118,18 @@ fn component(of: &ToneComponent, unit: &str, phase: &str) -> Value {
 }
 
 fn plain(of: Measured, unit: &str) -> Value {
+    estimate(of.value, Some((of.standard_uncertainty, of.degrees_of_freedom)), unit)
+}
+
+/// A value with its standard uncertainty and the degrees of freedom of that, `null` where none is
+/// known.
+fn estimate(value: f64, uncertainty: Option<(f64, f64)>, unit: &str) -> Value {
+    let (u, freedom) = uncertainty.unzip();
     object([
         ("unit", Value::from(unit)),
-        ("value", of.value.into()),
-        ("standard_uncertainty", of.standard_uncertainty.into()),
-        ("dof", of.degrees_of_freedom.into()),
+        ("value", value.into()),
+        ("standard_uncertainty", u.into()),
+        ("dof", freedom.into()),
     ])
 }
 
@@ -137,11 +145,14 @@ fn value(of: &gumption_signal::BudgetedValue, unit: &str) -> Value {
     let trials = of.trials.map_or(Value::Null, |u| {
         object([("standard_uncertainty", Value::from(u)), ("used", of.from_trials.into())])
     });
+    let measured = of.measured;
+    // a ratio to no noise at all is infinite, and its standard uncertainty not zero
+    let u = measured.value.is_finite().then_some(measured.standard_uncertainty);
     object([
         ("unit", Value::from(unit)),
-        ("value", of.measured.value.into()),
-        ("standard_uncertainty", of.measured.standard_uncertainty.into()),
-        ("dof", of.measured.degrees_of_freedom.into()),
+        ("value", measured.value.into()),
+        ("standard_uncertainty", u.into()),
+        ("dof", measured.degrees_of_freedom.into()),
         ("budget", list(budget)),
         ("monte_carlo", trials),
     ])

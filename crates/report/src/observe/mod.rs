@@ -55,8 +55,8 @@ pub(super) struct Figure {
     /// Its name: `a_x_amplitude`, `a_x_amplitude_rms` where amplitudes are that, `a_x_phase_2`.
     pub(super) name: String,
     pub(super) unit: String,
-    /// Value and standard uncertainty in each row.
-    pub(super) values: Vec<(f64, f64)>,
+    /// Value and standard uncertainty in each row; without the latter where none is known.
+    pub(super) values: Vec<(f64, Option<f64>)>,
 }
 
 impl ObservationReport<'_> {
@@ -81,18 +81,19 @@ impl ObservationReport<'_> {
         for (place, channel) in self.settings.channels.iter().enumerate() {
             let unit = channel.unit.text();
             let mut add = |name: String, unit: &str, of: &Take<'_>| {
-                let values: Option<Vec<(f64, f64)>> = self
+                let values: Option<Vec<(f64, Option<f64>)>> = self
                     .lines()
                     .map(|(_, channels)| of(channels.iter().find(|c| c.channel == place)?))
                     .collect();
-                let finite = |values: &Vec<(f64, f64)>| values.iter().all(|(v, _)| v.is_finite());
+                let finite =
+                    |values: &Vec<(f64, Option<f64>)>| values.iter().all(|(v, _)| v.is_finite());
                 if let Some(values) = values.filter(finite) {
                     let name = format!("{}_{name}", channel.name);
                     figures.push(Figure { name, unit: unit.to_owned(), values });
                 }
             };
             let pair =
-                |value: &BudgetedValue| (value.measured.value, value.measured.standard_uncertainty);
+                |of: &BudgetedValue| (of.measured.value, Some(of.measured.standard_uncertainty));
             for (number, multiple) in self.settings.components.iter().enumerate() {
                 let suffix = if *multiple == 1 { String::new() } else { format!("_{multiple}") };
                 let phase = self.settings.phase.name();
@@ -119,7 +120,7 @@ impl ObservationReport<'_> {
             add("snr".into(), "dB", &|of| Some(pair(&of.signal_to_noise)));
             add("sinad".into(), "dB", &|of| Some(pair(&of.sinad)));
             add("periods".into(), "1", &|of| {
-                Some((of.periods.value, of.periods.standard_uncertainty))
+                Some((of.periods.value, Some(of.periods.standard_uncertainty)))
             });
             // what steps found, as far as all lines have it
             let found = self.lines().next().and_then(|(_, channels)| {
@@ -129,7 +130,7 @@ impl ObservationReport<'_> {
                 let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
                 add(finding.name.chars().map(plain).collect(), &finding.unit, &|of| {
                     let same = of.findings.iter().find(|other| other.name == finding.name)?;
-                    Some((same.value.value, same.value.standard_uncertainty))
+                    Some((same.value, same.uncertainty.map(|(u, _)| u)))
                 });
             }
         }
@@ -137,4 +138,4 @@ impl ObservationReport<'_> {
     }
 }
 
-type Take<'t> = dyn Fn(&ChannelObservation) -> Option<(f64, f64)> + 't;
+type Take<'t> = dyn Fn(&ChannelObservation) -> Option<(f64, Option<f64>)> + 't;

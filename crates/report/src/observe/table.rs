@@ -76,13 +76,13 @@ pub(super) fn findings(
         let channel = observed.settings.channels.get(of.channel);
         let name = channel.map_or("", |channel| channel.name.as_str());
         for finding in &of.findings {
-            let (estimate, u) = (finding.value.value, finding.value.standard_uncertainty);
             let unit = if finding.unit == "1" { "" } else { &finding.unit };
-            let value = if u > 0.0 {
-                let (value, u) = with_uncertainty(estimate, u, 2);
-                format!("{value} {unit}, u = {u}")
-            } else {
-                format!("{} {unit}", significant(estimate, 6))
+            let value = match finding.uncertainty {
+                Some((u, _)) if u > 0.0 => {
+                    let (value, u) = with_uncertainty(finding.value, u, 2);
+                    format!("{value} {unit}, u = {u}")
+                }
+                _ => format!("{} {unit}", significant(finding.value, 6)),
             };
             let value = value.replace(" ,", ",");
             said.push(format!("`{name}`: {} {}", finding.name, value.trim_end()));

@@ -5,7 +5,7 @@ use plotters::style::{Color, RGBColor, ShapeStyle};
 
 use super::axis::Axis;
 use super::ink::{FAINT, INK, WEAK};
-use super::svg::{Anchor, Area, Drawn, FONT, Write, px, shortened, write};
+use super::svg::{Anchor, Area, Drawn, FONT, Write, length, px, shortened, write};
 
 /// Space that the axis with its marks and label takes, in pixels.
 pub(crate) const STRIP_AXIS: f64 = 40.0;
@@ -15,6 +15,15 @@ pub(crate) const CHROME: f64 = 0.54;
 
 /// The least distance of two marks of an axis in pixels.
 const MARK_ROOM: f64 = 62.0;
+
+/// An arrow to what lies beyond an axis: its length, half of its head's height, and what parts it from
+/// its number and that from the line, in pixels.
+const SHAFT: f64 = 12.0;
+const HEAD: f64 = 4.0;
+const APART: f64 = 3.0;
+
+/// How much wider than the usual letter digits are.
+pub(crate) const WIDER: f64 = 1.15;
 
 /// A horizontal axis between two places, in pixels.
 #[derive(Clone, Copy, Debug)]
@@ -72,18 +81,51 @@ impl<'a> Strip<'a> {
         write(area, text, Write { anchor: Anchor::Start, ..centred(at, FONT - 1.0) })
     }
 
-    /// An interval with its ends, where it has them.
+    /// Whether a value lies on the axis.
+    pub(crate) fn holds(&self, value: f64) -> bool {
+        let [first, last] = self.axis.ends();
+        (first..=last).contains(&self.axis.position(value))
+    }
+
+    /// An interval: a cap at each end that lies on the axis, and for each finite one that lies beyond
+    /// it an arrow at the edge with its number.
     pub(crate) fn interval(
         &self,
         area: &Area<'_>,
-        [low, high]: [f64; 2],
+        ends: [f64; 2],
         y: f64,
-        colour: RGBColor,
+        (colour, number): (RGBColor, &dyn Fn(f64) -> String),
     ) -> Drawn {
-        line(area, [(self.x(low), y), (self.x(high), y)], stroke(colour, 1.75))?;
-        for end in [low, high].into_iter().filter(|end| end.is_finite()) {
+        let style = stroke(colour, 1.75);
+        let [first, _] = self.axis.ends();
+        let below = |end: f64| self.axis.position(end) < first;
+        let beyond = |end: &f64| end.is_finite() && !self.holds(*end);
+        // both on one side: an arrow to both
+        let of_edge = |left: bool| {
+            let there = ends.iter().filter(|end| beyond(end) && below(**end) == left);
+            there.map(|end| number(*end)).collect::<Vec<_>>().join(" … ")
+        };
+        let texts = [of_edge(true), of_edge(false)];
+        let [mut from, mut to] = ends.map(|end| self.x(end));
+        for (text, left) in texts.iter().zip([true, false]).filter(|(text, _)| !text.is_empty()) {
+            let (edge, inwards) = if left { (self.from, 1.0) } else { (self.to, -1.0) };
+            let shaft = edge + inwards * SHAFT;
+            line(area, [(edge, y), (shaft, y)], style)?;
+            for side in [-HEAD, HEAD] {
+                line(area, [(edge, y), (edge + inwards * HEAD, y + side)], style)?;
+            }
+            let anchor = if left { Anchor::Start } else { Anchor::End };
+            let at = (shaft + inwards * APART, y);
+            write(area, text, Write { anchor, colour, ..centred(at, FONT - 1.0) })?;
+            let behind = at.0 + inwards * (WIDER * length(text, FONT - 1.0) + APART);
+            if left { from = from.max(behind) } else { to = to.min(behind) }
+        }
+        if from < to {
+            line(area, [(from, y), (to, y)], style)?;
+        }
+        for end in ends.into_iter().filter(|end| end.is_finite() && self.holds(*end)) {
             let x = self.x(end);
-            line(area, [(x, y - 4.0), (x, y + 4.0)], stroke(colour, 1.75))?;
+            line(area, [(x, y - 4.0), (x, y + 4.0)], style)?;
         }
         Ok(())
     }

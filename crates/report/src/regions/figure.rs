@@ -97,6 +97,7 @@ fn corners(of: &JointRegion) -> Vec<(f64, f64)> {
     let (&[a, b], &[aa, _, _, bb]) = (of.estimates.as_slice(), of.covariance.as_slice()) else {
         return Vec::new();
     };
-    let (da, db) = (of.box_k * aa.sqrt(), of.box_k * bb.sqrt());
+    let Some(k) = of.box_k else { return Vec::new() };
+    let (da, db) = (k * aa.sqrt(), k * bb.sqrt());
     vec![(a - da, b - db), (a + da, b - db), (a + da, b + db), (a - da, b + db), (a - da, b - db)]
 }

@@ -1,5 +1,6 @@
 //! A coverage region for programs.
 
+use gumption_engine::propagate::gum::Dof;
 use gumption_engine::propagate::{JointRegion, RegionEvaluation, RegionValidation, SampledRegion};
 use gumption_engine::task::Task;
 use serde::Serialize;
@@ -9,9 +10,18 @@ use serde::Serialize;
 pub(crate) struct RegionSide<'a> {
     outputs: Vec<&'a str>,
     probability: f64,
-    gum: Option<JointSide<'a>>,
+    gum: Option<LawSide<'a>>,
     monte_carlo: Option<SampledSide<'a>>,
     validation: Option<ValidationSide>,
+}
+
+/// By the law of propagation, with the effective degrees of freedom of the covariance matrix where they
+/// are finite.
+#[derive(Serialize)]
+struct LawSide<'a> {
+    #[serde(flatten)]
+    region: JointSide<'a>,
+    dof: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -19,7 +29,7 @@ struct JointSide<'a> {
     estimates: &'a [f64],
     covariance: Vec<&'a [f64]>,
     ellipsoid_k: Option<f64>,
-    box_k: f64,
+    box_k: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -28,12 +38,14 @@ struct SampledSide<'a> {
     #[serde(flatten)]
     region: JointSide<'a>,
     smallest: Option<SmallestSide>,
+    /// Why there is no smallest region.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_smallest: Option<&'a str>,
     numerical_standard_error: ErrorSide,
 }
 
 #[derive(Serialize)]
 struct SmallestSide {
-    cells: u64,
     volume: f64,
 }
 
@@ -61,7 +73,13 @@ impl<'a> RegionSide<'a> {
         Self {
             outputs: names.map(|output| output.quantity.name.as_str()).collect(),
             probability: region.probability,
-            gum: region.gum.as_ref().map(JointSide::of),
+            gum: region.gum.as_ref().map(|gum| LawSide {
+                region: JointSide::of(gum),
+                dof: match region.dof {
+                    Some(Dof::Finite(dof)) => Some(dof),
+                    _ => None,
+                },
+            }),
             monte_carlo: region.monte_carlo.as_ref().map(SampledSide::of),
             validation: region.validation.as_ref().map(ValidationSide::of),
         }
@@ -82,14 +100,16 @@ impl<'a> JointSide<'a> {
 
 impl<'a> SampledSide<'a> {
     fn of(found: &'a SampledRegion) -> Self {
+        let smallest = found.smallest.as_ref().ok();
         Self {
             trials: found.trials,
             region: JointSide::of(&found.region),
-            smallest: found.smallest.map(|of| SmallestSide { cells: of.cells, volume: of.volume }),
+            smallest: smallest.map(|of| SmallestSide { volume: of.volume }),
+            no_smallest: found.smallest.as_ref().err().map(String::as_str),
             numerical_standard_error: ErrorSide {
                 ellipsoid_k: found.ellipsoid_error,
                 box_k: found.box_error,
-                volume: found.volume_error,
+                volume: smallest.map(|of| of.error),
             },
         }
     }

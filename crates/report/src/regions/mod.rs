@@ -16,7 +16,7 @@ pub(crate) fn sections(document: &mut Document, task: &Task, row: &RowEvaluation
         let names: Vec<String> = words::names(task, region);
         document.section(format!("Coverage region of {}", names.join(", ")));
         document.table(words::sheet(region));
-        for said in words::sentences(task, row, region) {
+        for said in words::sentences(task, region) {
             document.text(said);
         }
         document.figure(figure::draw(task, region));

@@ -548,8 +548,8 @@ fn lines(
         end(SHORTEST_HIGH, None, shortest.map(|(ends, errors)| high(ends, errors))),
     ];
     if let Some(of) = trials {
-        lines.push(shape("skewness", of.skewness, of.errors.skewness, of));
-        lines.push(shape("excess kurtosis", of.excess_kurtosis, of.errors.excess_kurtosis, of));
+        lines.push(shape("skewness", of.skewness, of.errors.skewness));
+        lines.push(shape("excess kurtosis", of.excess_kurtosis, of.errors.excess_kurtosis));
     }
     if let Some(noiseless) = noiseless {
         for (line, texts) in lines.iter_mut().zip(noiseless_texts(noiseless, own)) {
@@ -559,14 +559,10 @@ fn lines(
     lines
 }
 
-/// Skewness and kurtosis: two decimals, fewer where the numerical standard error says so, and one
-/// digit where few trials carry them.
-fn shape(name: &'static str, value: Option<f64>, error: Option<f64>, of: &MonteCarlo) -> Line {
+/// Skewness and kurtosis: two decimals, fewer where the numerical standard error says so.
+fn shape(name: &'static str, value: Option<f64>, error: Option<f64>) -> Line {
     let missing = || MISSING.to_owned();
-    let figure = |value: f64| match error {
-        None if of.heavy_tailed => significant(value, 1),
-        _ => justified(value, Some(SHAPE_PLACE), error.unwrap_or(f64::NAN)),
-    };
+    let figure = |value: f64| justified(value, Some(SHAPE_PLACE), error.unwrap_or(f64::NAN));
     Line {
         names: [name; 2],
         gum: missing(),

@@ -54,7 +54,7 @@ pub(crate) fn found(task: &Task, row: &RowEvaluation) -> Option<Coefficients> {
     let trials = row.outputs.first()?.monte_carlo.as_ref().map(|figures| figures.trials);
     let scatters = |i: usize| {
         let figures = row.outputs.get(i).and_then(|output| output.monte_carlo.as_ref());
-        figures.is_none_or(|of| of.spread().is_some())
+        figures.is_none_or(|of| of.standard_uncertainty.is_some())
     };
     let places = (0..names.len()).flat_map(|i| (i + 1..names.len()).map(move |j| (i, j)));
     let errors = row.correlation_errors.iter().copied().chain(std::iter::repeat(None));

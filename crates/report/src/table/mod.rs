@@ -12,7 +12,7 @@ mod width;
 pub use columns::BudgetColumn;
 pub use grid::Grid;
 pub use text::{grouped, plain, wrapped};
-pub(crate) use text::{is_obeyed, one_line, printable};
+pub(crate) use text::{one_line, printable};
 use width::USUAL;
 pub use width::within_width;
 pub(crate) use width::{text_width, width};
@@ -103,20 +103,28 @@ fn heading(task: &Task, evaluation: &Evaluation) -> String {
     heading
 }
 
-/// Coverage and trials.
+/// Coverage and trials: those that were asked for, and of a run that was stopped those that were made.
 pub(super) fn settings_text(evaluation: &Evaluation) -> String {
     let Settings { coverage, trials, seed, .. } = evaluation.settings;
     let mut line = format!("coverage probability {}", coverage_text(coverage));
-    let each = if evaluation.rows.len() > 1 { " for each row" } else { "" };
-    match trials {
-        Trials::Fixed(0) => {}
-        Trials::Fixed(count) => {
-            line += &format!("; {} Monte Carlo trials{each}, seed {seed}", grouped(count));
-        }
-        Trials::Adaptive => {
-            line += &format!("; as many Monte Carlo trials{each} as are needed, seed {seed}");
-        }
-    }
+    let (each, together) = match evaluation.rows.len() {
+        0 | 1 => ("", ""),
+        _ => (" for each row", " in all rows together"),
+    };
+    let asked = match trials {
+        Trials::Fixed(0) => return line,
+        Trials::Fixed(count) => grouped(count),
+        Trials::Adaptive => "as many".to_owned(),
+    };
+    let needed = if trials == Trials::Adaptive { " as are needed" } else { "" };
+    line += &match evaluation.stopped {
+        false => format!("; {asked} Monte Carlo trials{each}{needed}, seed {seed}"),
+        true => format!(
+            "; {} Monte Carlo trials{together}, seed {seed}, as it was stopped; {asked}{needed} were asked \
+             for{each}",
+            grouped(trials_made(evaluation))
+        ),
+    };
     line
 }
 

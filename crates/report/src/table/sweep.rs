@@ -1,8 +1,11 @@
 //! A sweep over conditions: one table for each output, one line for each row.
 
+use std::collections::BTreeMap;
+
 use super::comparison::{decision, limits_text, rule};
 use super::grid::{Grid, PAGE};
 use super::{USUAL, conditions_text, row_numbers, text, title, width};
+use crate::evaluation::Taken;
 use crate::number::{
     MISSING, align, exact, justified, place_of_ends, position, rounded, significant, to,
 };
@@ -12,7 +15,7 @@ use gumption_engine::number::largest_first;
 use gumption_engine::propagate::gum::Gum;
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, StatedInterval};
 use gumption_engine::propagate::{Conformity, OutputEvaluation, RowEvaluation, naming};
-use gumption_engine::task::Task;
+use gumption_engine::task::{Settings, Task};
 
 /// The tables of all outputs, part by part, an empty line apart.
 pub(super) fn tables<'a>(
@@ -57,7 +60,9 @@ pub(super) fn tables<'a>(
             let grid = sweep.grid(output, layout, &varying, first);
             std::mem::take(&mut above) + &grid.render(width())
         });
-        pages.chain(conformity(task, rows, output).map(|said| text::wrapped(&said)))
+        let said = taken(&task.settings, rows, output).into_iter();
+        let said = said.chain(conformity(task, rows, output));
+        pages.chain(said.map(|said| text::wrapped(&said)))
     });
     let last = text::wrapped(MORE);
     unvaried.into_iter().chain(hidden).chain(by_number).chain(tables).chain([last])
@@ -66,6 +71,32 @@ pub(super) fn tables<'a>(
 /// What else there is of a sweep.
 pub(crate) const MORE: &str = "Budgets, shortest intervals, numerical standard errors and correlations of every row: \
      --format json.";
+
+/// Which rows' coverage interval is that of the trials, because clause 8 fails for the GUM's or there is
+/// none; `None` where every row has the GUM's.
+pub(crate) fn taken(settings: &Settings, rows: &[RowEvaluation], output: usize) -> Option<String> {
+    let is_of_trials = |row: &RowEvaluation| {
+        let found = row.outputs.get(output);
+        found.is_some_and(|found| matches!(Taken::of(settings, found), Taken::Interval { .. }))
+    };
+    let (of_trials, others): (Vec<usize>, Vec<usize>) =
+        (0..rows.len()).partition(|&row| is_of_trials(&rows[row]));
+    let of = |places: &[usize]| {
+        let plural = if places.len() == 1 { "row" } else { "rows" };
+        format!("{plural} {}", row_numbers(places))
+    };
+    let place = match (of_trials.is_empty(), others.is_empty()) {
+        (true, _) => return None,
+        (_, true) => "in every row".to_owned(),
+        // the shorter list says it
+        _ if of_trials.len() <= others.len() => format!("in {}", of(&of_trials)),
+        _ => format!("in all rows but {}", of(&others)),
+    };
+    Some(format!(
+        "The coverage interval to be taken is that of the Monte Carlo method, and not estimate ± U, \
+         {place}."
+    ))
+}
 
 /// The decisions about the rows of an output with a tolerance: the limits, the rule, and which rows
 /// are rejected; `None` where there is none.
@@ -89,9 +120,11 @@ pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> 
         ),
         _ => limits(first),
     };
+    let decided_apart =
+        explained(rows.iter().filter_map(|row| row.outputs.get(output)), task.settings.digits);
     Some(format!(
         "Tolerance {}, {}: {} of {} rows accepted{}. Probabilities, guard bands and risks of every row: \
-         --format json.",
+         --format json.{}",
         limits,
         rule(first, task.settings.coverage),
         found.len() - rejected.len(),
@@ -100,41 +133,82 @@ pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> 
             String::new()
         } else {
             format!(", rejected: {plural} {}", row_numbers(&rejected))
-        }
+        },
+        decided_apart.map_or_else(String::new, |said| format!(" {said}"))
     ))
 }
 
-/// Inputs with a column of their own, at most.
+/// What the estimate that decides is, where a column shows it because it is not that of the GUM.
+pub(crate) fn explained<'a>(
+    outputs: impl Iterator<Item = &'a OutputEvaluation>,
+    digits: u32,
+) -> Option<&'static str> {
+    let mut lines = outputs.map(|output| line(Some(output), digits));
+    lines.any(|line| line.is_decided_apart).then_some(
+        "The estimate that decides is the value that is stated: where clause 8 of JCGM 101 refutes the \
+         GUM, the expectation of the output's distribution, if the distribution has a variance.",
+    )
+}
+
+/// Shares with a column of their own, at most.
 const MOST_SHARES: usize = 8;
 
-/// The shares of the variance in every row in per cent, of the inputs with the largest ones; `None`
-/// where none contributes.
+/// What has a share of the variance: an input, or the correlation of two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Sharing {
+    Input(usize),
+    Correlation([usize; 2]),
+}
+
+/// All shares of a row.
+fn sharing(gum: &Gum) -> impl Iterator<Item = (Sharing, f64)> + '_ {
+    let inputs = gum.budget().map(|line| (Sharing::Input(line.variable), line.share));
+    let correlations = gum.correlations();
+    inputs.chain(correlations.map(|line| (Sharing::Correlation(line.variables), line.share)))
+}
+
+/// The shares of the variance in every row in per cent, the largest ones by themselves and the others
+/// together, so that a row adds up to 100; `None` where none contributes.
 pub(crate) fn shares(task: &Task, rows: &[RowEvaluation], output: usize) -> Option<Sheet> {
     let gums: Vec<Option<&Gum>> =
         rows.iter().map(|row| row.outputs.get(output)?.gum.as_ref()).collect();
-    let mut largest = vec![0.0_f64; task.variables.len()];
-    for line in gums.iter().flatten().flat_map(|gum| gum.budget()) {
-        if let Some(share) = largest.get_mut(line.variable) {
-            *share = share.max(line.share);
-        }
+    let mut largest: BTreeMap<Sharing, f64> = BTreeMap::new();
+    for (of, share) in gums.iter().flatten().flat_map(|gum| sharing(gum)) {
+        let known = largest.entry(of).or_default();
+        *known = share.abs().max(*known);
     }
-    let mut chosen: Vec<usize> = (0..largest.len()).filter(|&v| largest[v] > 0.0).collect();
-    largest_first(&mut chosen, |&a| largest[a]);
+    let mut chosen: Vec<(Sharing, f64)> =
+        largest.into_iter().filter(|(_, share)| *share > 0.0).collect();
+    largest_first(&mut chosen, |of| of.1);
+    let others = chosen.len().saturating_sub(MOST_SHARES);
     chosen.truncate(MOST_SHARES);
+    let mut chosen: Vec<Sharing> = chosen.into_iter().map(|(of, _)| of).collect();
     chosen.sort_unstable();
     if chosen.is_empty() {
         return None;
     }
     let mut sheet = Sheet::default();
     conditions(&mut sheet, task, rows, &shown(task, rows));
-    for variable in chosen {
+    let mut column = |header: &str, holds: &dyn Fn(Sharing) -> bool| {
         let share = |gum: &Option<&Gum>| {
-            let mut lines = gum.as_ref()?.budget();
-            lines.find(|line| line.variable == variable).map(|line| 100.0 * line.share)
+            let own = sharing((*gum)?).filter(|(of, _)| holds(*of));
+            Some(100.0 * own.map(|(_, share)| share).sum::<f64>())
         };
-        let name = task.variables.get(variable).map_or("", |variable| &variable.name);
         let cells = gums.iter().map(|gum| Figure::rounded(share(gum), |v| rounded(v, -1)));
-        sheet.figures(&text::plain(name), cells);
+        sheet.figures(header, cells);
+    };
+    let name = |variable: usize| {
+        text::plain(task.variables.get(variable).map_or("", |variable| &variable.name))
+    };
+    for &of in &chosen {
+        let header = match of {
+            Sharing::Input(variable) => name(variable),
+            Sharing::Correlation([a, b]) => format!("r({}, {})", name(a), name(b)),
+        };
+        column(&header, &|other| other == of);
+    }
+    if others > 0 {
+        column(&format!("{others} others"), &|other| !chosen.contains(&other));
     }
     Some(sheet)
 }

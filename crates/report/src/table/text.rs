@@ -2,6 +2,7 @@
 
 use super::grid::Grid;
 use super::text_width;
+use gumption_files::is_obeyed;
 
 /// Names in a list of definitions get this many characters before they wrap.
 const NAME_WIDTH: usize = 32;
@@ -31,13 +32,6 @@ pub fn plain(text: &str) -> String {
 /// A text of several lines without characters that a terminal would obey.
 pub(crate) fn printable(text: &str) -> String {
     text.chars().filter(|c| matches!(c, '\n' | '\t') || !is_obeyed(*c)).collect()
-}
-
-/// Characters that a terminal would obey, marks that change the direction of the text around them,
-/// and characters without a width.
-pub(crate) fn is_obeyed(c: char) -> bool {
-    c.is_control()
-        || matches!(c, '\u{ad}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}')
 }
 
 /// A paragraph within the width of the page, ending in a newline; nothing for an empty text.

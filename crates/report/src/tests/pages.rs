@@ -311,3 +311,117 @@ fn markdown_of_a_task_without_a_file() {
     assert!(lines.windows(2).all(|pair| !(is_heading(pair[0]) && is_heading(pair[1]))), "{page}");
     assert!(html(&report, &Shown::default()).contains("What is known about the inputs"));
 }
+
+/// The case of a model as text.
+fn case_of(text: &str) -> Case {
+    let file = read_text("file", text, Path::new(""), &[]).unwrap();
+    Case::new(file.task)
+}
+
+/// A limit that lies beyond the axis has an arrow with its number at the edge, one on the axis none; and
+/// an interval that lies beyond it as a whole has both numbers.
+#[test]
+fn a_limit_beyond_the_axis_is_an_arrow_with_its_number() {
+    let page = |limits: &str| {
+        let case = case_of(
+            &r#"{"inputs": {"R": {"distribution": "normal", "mean": 100.013, "std": 0.002}},
+            "equations": {"y": "R"}, "outputs": {"y": {"tolerance": LIMITS}},
+            "monte_carlo": {"trials": 20000}}"#
+                .replace("LIMITS", limits),
+        );
+        let [.., (_, page, _)] = pages(&case, &[]);
+        page
+    };
+    // once for a page and once for a narrow screen
+    let texts = |page: &str, text: &str| {
+        page.matches(&format!("fill=\"#D55E00\">\n{text}\n</text>")).count()
+    };
+    let inside = page(r#"{"lower": 100.005, "upper": 100.02}"#);
+    assert_eq!([texts(&inside, "100.005"), texts(&inside, "100.02")], [0, 0]);
+    let below = page(r#"{"lower": 99.873, "upper": 100.02}"#);
+    assert_eq!([texts(&below, "99.873"), texts(&below, "100.02")], [2, 0]);
+    let both = page(r#"{"lower": 101.25, "upper": 102.5}"#);
+    assert_eq!(texts(&both, "101.25 … 102.5"), 2);
+}
+
+/// Correlated inputs: the shares of a row, those of the correlations among them, add up to 100 %, to the
+/// rounding of each; and where there are more than columns, the others stand together.
+#[test]
+fn shares_of_a_sweep_add_up() {
+    let few = r#"{"inputs": {
+            "a": {"distribution": "normal", "mean": 1, "std": 0.1},
+            "b": {"distribution": "normal", "mean": 2, "std": 0.2},
+            "c": {"distribution": "normal", "mean": 3, "std": 0.1}},
+        "correlations": [["a", "b", -0.7], ["b", "c", 0.3]],
+        "conditions": {"t": {"values": [1, 2, 5]}},
+        "equations": {"y": "a + b*t + c"}, "outputs": {"y": {}}, "monte_carlo": {"trials": 0}}"#;
+    let inputs: Vec<String> = (1..=12)
+        .map(|n| format!(r#""x{n}": {{"distribution": "normal", "mean": 1, "std": 0.{n:02}}}"#))
+        .collect();
+    let sum: Vec<String> = (1..=12).map(|n| format!("x{n}")).collect();
+    let many = format!(
+        r#"{{"inputs": {{{}}}, "conditions": {{"t": {{"values": [1, 2]}}}},
+        "correlations": [["x11", "x12", 0.5]],
+        "equations": {{"y": "t*({})"}}, "outputs": {{"y": {{}}}}, "monte_carlo": {{"trials": 0}}}}"#,
+        inputs.join(", "),
+        sum.join(" + ")
+    );
+    for (text, column) in [(few, "r(a, b)"), (&many, "5 others")] {
+        let case = case_of(text);
+        let sheet = crate::table::sweep::shares(&case.task, &case.evaluation.rows, 0).unwrap();
+        let titles: Vec<String> = sheet.columns.iter().map(|column| column.title()).collect();
+        assert!(titles.iter().any(|title| title == column), "{titles:?}");
+        for row in 0..sheet.rows() {
+            let shares = sheet.columns.iter().skip(1);
+            let shares: Vec<f64> = shares.map(|of| of.cell(row).parse().unwrap()).collect();
+            let (sum, count) = (shares.iter().sum::<f64>(), shares.len() as f64);
+            assert!((sum - 100.0).abs() <= 0.05 * count, "{titles:?}: {shares:?}");
+        }
+    }
+}
+
+/// Squares about zero, which clause 8 refutes, and far from it, where it does not: a sweep says which rows
+/// have the interval of the trials, and its figure shows that.
+#[test]
+fn a_sweep_takes_the_interval_that_is_valid() {
+    let text = |means: &str| {
+        r#"{"inputs": {"x": {"distribution": "normal", "mean": 0, "std": 1}},
+        "conditions": {"t": {"values": MEANS}},
+        "equations": {"y": "(x + t)^2"}, "outputs": {"y": {}}, "monte_carlo": {"trials": 20000}}"#
+            .replace("MEANS", means)
+    };
+    let said = |means: &str| {
+        let [.., (_, page, _)] = pages(&case_of(&text(means)), &[]);
+        page
+    };
+    let taken = "The coverage interval to be taken is that of the Monte Carlo method";
+    let all = said("[0.1, 0.2]");
+    assert!(all.contains(taken) && all.contains("in every row."), "{all}");
+    assert!(all.contains("where the GUM interval is not valid (vermilion); below: half"));
+    assert!(!all.contains("with their expanded uncertainties U"));
+    let some = said("[0.1, 0.2, 5000, 6000, 7000]");
+    assert!(some.contains(taken) && some.contains("in rows 1, 2."));
+    assert!(some.contains("(vermilion); blue: estimates with their expanded uncertainties U"));
+    let none = said("[5000, 6000]");
+    assert!(!none.contains(taken) && none.contains("Above: estimates with their expanded"));
+}
+
+/// A run that was stopped says how many trials its figures are of, and not that all were made.
+#[test]
+fn a_stopped_run_says_the_trials_that_were_made() {
+    let mut case = Case::new(plane_at(35.0, 20_000));
+    case.evaluation.stopped = true;
+    case.evaluation.settings.trials = Trials::Fixed(1_000_000_000);
+    let [made, asked] = [20_000, 1_000_000_000].map(crate::grouped);
+    let table = crate::table(&case.report(), &crate::TableStyle::default());
+    let all = pages(&case, &[]).map(|(format, page, _)| (format, page));
+    for (format, page) in all.into_iter().chain([("table", table)]) {
+        let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+        let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let said = format!("; {made} Monte Carlo trials, seed 1, as it was stopped; {asked} were");
+        if format != "latex" {
+            assert!(page.contains(&words(&said)), "{format}: {page}");
+        }
+        assert!(!page.contains(&words(&format!("{asked} Monte Carlo trials"))), "{format}");
+    }
+}

@@ -358,7 +358,8 @@ fn no_gum_interval() {
     case.evaluation.stopped = true;
     insta::assert_snapshot!(page(&case), @"
     inclined-plane
-    coverage probability 95 %; 10 000 Monte Carlo trials, seed 1
+    coverage probability 95 %; 10 000 Monte Carlo trials, seed 1, as it was stopped; 10 000 were asked
+    for
 
     model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
     equation (1)
@@ -454,6 +455,9 @@ fn a_sweep_is_one_table_for_each_output() {
             45     7.071        0.010        0.020  1.96  7.052    7.090        undecided
             90    10.000        0.010        0.020  1.96  9.980   10.020        undecided
 
+        The coverage interval to be taken is that of the Monte Carlo method, and not estimate ± U, in rows
+        1, 2.
+
         a_y in m/s^2: Acceleration along the sensor's y axis, RMS.
         ══════════════════════════════════════════════════════════
 
@@ -475,6 +479,8 @@ fn a_sweep_is_one_table_for_each_output() {
             15     9.659        0.010        0.020  1.96  9.639    9.679        undecided
             45     7.071        0.010        0.020  1.96  7.052    7.090        undecided
             90     0.000        0.010        0.020  1.96  0.0004   0.0170       not valid
+
+        The coverage interval to be taken is that of the Monte Carlo method, and not estimate ± U, in row 4.
 
         Budgets, shortest intervals, numerical standard errors and correlations of every row: --format json.
         ");

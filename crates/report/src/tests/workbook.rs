@@ -184,3 +184,27 @@ fn undefined_degrees_of_freedom_have_no_expanded_uncertainty() {
     assert_eq!(gum["dof_status"], "undefined");
     assert_budget(&book, gum, "a_x");
 }
+
+/// Figures that formulas do not follow are marked by one, on every worksheet that has them: it counts the
+/// cells of the inputs that differ from what stood in them.
+#[test]
+fn figures_of_changed_inputs_are_marked() {
+    let case = Case::new(plane_at(35.0, 2000));
+    let book = Book::of(&case);
+    let at = book.row("Inputs", 4, "a_ref");
+    let reference = &case.task.rows[0].distributions[0];
+    let own = book.formula("Inputs", (at, 11));
+    for known in [reference.mean(), reference.standard_uncertainty()] {
+        assert!(own.contains(&format!("-({known:?})")), "{own}");
+    }
+    let all = book.formula("Inputs", (3, 11));
+    assert!(all.starts_with("SUM($L$6:$L$") && all.contains("-(0.95)"), "{all}");
+    let figures = book.row("Budget a_x", 3, "estimate y");
+    for (name, place) in
+        [("Results", (2, 0)), ("Budget a_x", (figures - 1, 4)), ("Correlations", (1, 0))]
+    {
+        let marked = book.formula(name, place);
+        let said = ": inputs were changed: these figures are not of these inputs\"";
+        assert!(marked.contains("$L$4>0") && marked.contains(said), "{name}: {marked}");
+    }
+}

@@ -8,10 +8,15 @@ use crate::dirichlet::sum_of_cosines;
 use crate::phasor;
 use crate::phasor::Phasor;
 use crate::quantization::{amplitude_error, quantization_variance};
+use crate::residuals::KEPT;
 use crate::sine_fit::{NoFit, Tone, ToneDesign};
+use crate::spurious;
 use crate::unsuitable::within;
 use crate::{Measured, Signal, Unsuitable, measured};
 use gumption_engine::number::elementary;
+
+/// Turns over a signal within which what is left beside a harmonic is its own.
+const OF_HARMONIC: f64 = 2.0;
 
 /// What is sought in a signal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,9 +28,9 @@ pub struct Harmonics {
 }
 
 impl Harmonics {
-    /// The design of their fit to a signal.
-    pub(crate) fn design(self, signal: &Signal) -> Result<ToneDesign, NoFit> {
-        let turns = self.frequency / signal.rate;
+    /// The design of their fit to so many samples.
+    pub(crate) fn design(self, rate: f64, samples: usize) -> Result<ToneDesign, NoFit> {
+        let turns = self.frequency / rate;
         let tone = |multiple: u32| Tone {
             cycles: turns * f64::from(multiple),
             fundamental: 0,
@@ -33,7 +38,23 @@ impl Harmonics {
             beside: false,
         };
         let tones = (1..=self.count.max(1) as u32).map(tone).collect();
-        ToneDesign::new(tones, signal.values.len() as u64)
+        ToneDesign::new(tones, samples as u64)
+    }
+
+    /// The first harmonic's phasor about the middle of so many values, and the variances of its real
+    /// and imaginary part with white noise of variance 1.
+    pub(crate) fn first_of(
+        self,
+        values: &[f64],
+        rate: f64,
+    ) -> Result<(Phasor, [f64; 2]), Unsuitable> {
+        let samples = values.len();
+        let design = self
+            .design(rate, samples)
+            .map_err(|_| Unsuitable::TooShort { samples, needed: samples + 1 })?;
+        let fit = design.fit_values(values);
+        let phasor = Phasor::new(fit.cosines[0], -fit.sines[0]);
+        Ok((phasor, [design.even[(1, 1)], design.odd[(0, 0)]]))
     }
 }
 
@@ -51,6 +72,9 @@ pub struct Harmonic {
     /// Standard uncertainty of the amplitude from what rounding to a resolution leaves in phase with
     /// the sine; zero as long as [`Periodic::rounded_to`] is not told of one.
     pub rounding: f64,
+    /// Standard uncertainty of the phasor's real and imaginary part from oscillations that are not
+    /// fitted; zero as long as [`Periodic::leaking`] has not looked for any.
+    pub leakage: f64,
 }
 
 impl Harmonic {
@@ -61,23 +85,33 @@ impl Harmonic {
         let of_noise = if value > 0.0 { along / value } else { x.max(y) };
         measured::of_parts(
             value,
-            &[(of_noise, self.degrees_of_freedom), (self.rounding, f64::INFINITY)],
+            &[
+                (of_noise, self.degrees_of_freedom),
+                (self.rounding, f64::INFINITY),
+                (self.leakage, f64::INFINITY),
+            ],
         )
     }
 
     /// The phase at the middle of the signal, in radians, in (-pi, pi].
     pub fn phase(&self) -> Measured {
-        let (square, [x, y]) = (self.phasor.norm_sqr(), self.standard_uncertainty);
-        let across = elementary::hypot(self.phasor.im * x, self.phasor.re * y);
-        Measured {
-            value: phasor::angle(self.phasor),
-            standard_uncertainty: if square > 0.0 {
-                across / square
-            } else {
-                std::f64::consts::PI / 3f64.sqrt()
-            },
-            degrees_of_freedom: self.degrees_of_freedom,
+        let value = phasor::angle(self.phasor);
+        if self.phasor.norm_sqr() == 0.0 {
+            return Measured {
+                value,
+                standard_uncertainty: std::f64::consts::PI / 3f64.sqrt(),
+                degrees_of_freedom: self.degrees_of_freedom,
+            };
         }
+        let of_noise = (self.of_phase(self.standard_uncertainty), self.degrees_of_freedom);
+        let of_leakage = self.leakage / phasor::modulus(self.phasor);
+        measured::of_parts(value, &[of_noise, (of_leakage, f64::INFINITY)])
+    }
+
+    /// What standard deviations of the phasor's real and imaginary part make of its phase, in radians.
+    pub(crate) fn of_phase(&self, [x, y]: [f64; 2]) -> f64 {
+        let across = elementary::hypot(self.phasor.im * x, self.phasor.re * y);
+        across / self.phasor.norm_sqr()
     }
 }
 
@@ -131,7 +165,7 @@ impl Periodic {
             return Err(Unsuitable::TooShort { samples, needed });
         }
         let design = harmonics
-            .design(signal)
+            .design(signal.rate, samples)
             .map_err(|_| Unsuitable::TooShort { samples, needed: samples + needed })?;
         let fit = design.fit_values(&signal.values);
         let freedom = (samples - 2 * count - 1) as f64;
@@ -148,6 +182,7 @@ impl Periodic {
                     standard_uncertainty: [0.0; 2],
                     degrees_of_freedom: freedom,
                     rounding: 0.0,
+                    leakage: 0.0,
                 })
                 .collect(),
             middle: signal.instant((samples - 1) as f64 / 2.0),
@@ -216,6 +251,25 @@ impl Periodic {
             let part = &mut self.parts[0];
             let amplitude = phasor::modulus(part.phasor);
             part.rounding = amplitude_error(resolution, amplitude, noise.max(0.0).sqrt());
+        }
+        self
+    }
+
+    /// The same, with what oscillations that are not fitted do to the harmonics: those that stand out
+    /// of the spectrum of what is left, two turns over the signal or more from each harmonic. What is
+    /// nearer is left of the harmonic itself where the frequency is a little off.
+    pub fn leaking(mut self, signal: &Signal) -> Self {
+        let mut left = self.without(signal);
+        left.truncate(KEPT);
+        let mut beside = spurious::found(&left);
+        beside.retain(|of| {
+            let turns = |part: &Harmonic| part.frequency / self.rate * left.len() as f64;
+            let at = of.cycles * left.len() as f64;
+            self.parts.iter().all(|part| (turns(part) - at).abs() >= OF_HARMONIC)
+        });
+        for part in &mut self.parts {
+            part.leakage =
+                spurious::leakage(&beside, part.frequency / self.rate, self.samples as f64);
         }
         self
     }

@@ -7,7 +7,8 @@ use crate::analysed::{Analysed, Fundamental, local, shares, speed};
 use crate::budget::UncertaintySource;
 use crate::phasor::{angle, modulus};
 use crate::recipe::Channel;
-use gumption_engine::number::elementary::{atan2, exp, hypot, sin};
+use crate::spurious::leakage;
+use gumption_engine::number::elementary::{atan2, exp, hypot};
 
 /// A tone of a channel as A cos(2 pi f t + phi).
 #[derive(Clone, Debug)]
@@ -98,7 +99,7 @@ pub(crate) fn polar(
     let even = exp(-blur * blur);
     let (fore, aside) =
         if multiple == 1 { (1.0 - even / 2.0, 1.0 + even / 2.0) } else { (1.0, 1.0) };
-    let leakage = leakage(analysed, tone);
+    let leakage = leakage(&analysed.spurious, design.tones[tone].cycles, samples);
     let slope = design.slope(fit, fundamental);
     let (sa, sb) = (slope.cosines[tone], slope.sines[tone]);
     let phase_slope = (b * sa - a * sb) / (size * size);
@@ -190,21 +191,4 @@ pub(crate) fn polar(
         blur: kept,
         of,
     })
-}
-
-/// The standard deviation of what the oscillations that are not fitted do to the factors of a tone,
-/// for unknown phases: of each the envelope of the Dirichlet kernel at the two frequencies' difference
-/// and sum.
-fn leakage(analysed: &Analysed, tone: usize) -> f64 {
-    let cycles = analysed.design.tones[tone].cycles;
-    let samples = analysed.design.samples as f64;
-    let envelope = |apart: f64| {
-        let size = sin(PI * apart).abs() * samples;
-        if size > 1.0 { 1.0 / size } else { 1.0 }
-    };
-    let of = |spurious: &crate::spurious::Spurious| {
-        let (near, far) = (envelope(spurious.cycles - cycles), envelope(spurious.cycles + cycles));
-        spurious.amplitude * spurious.amplitude * (near * near + far * far) / 4.0
-    };
-    analysed.spurious.iter().map(of).sum::<f64>().sqrt()
 }

@@ -1,6 +1,9 @@
 //! Oscillations that a fit does not have: found in the spectrum of its residuals.
 
+use std::f64::consts::PI;
+
 use crate::frequency::{between, windowed};
+use gumption_engine::number::elementary::sin;
 use gumption_engine::number::{largest_first, median};
 
 /// The power of a bin over the median that noise alone exceeds in less than one record in a
@@ -25,6 +28,21 @@ pub struct Spurious {
     pub amplitude: f64,
     /// Whether it is fitted with the frequencies that the recipe names.
     pub fitted: bool,
+}
+
+/// The standard deviation of what oscillations that are not fitted do to the cosine's and to the
+/// sine's factor of a tone over so many samples, for unknown phases: of each the envelope of the
+/// Dirichlet kernel at the two frequencies' difference and sum.
+pub(crate) fn leakage(of: &[Spurious], cycles: f64, samples: f64) -> f64 {
+    let envelope = |apart: f64| {
+        let size = sin(PI * apart).abs() * samples;
+        if size > 1.0 { 1.0 / size } else { 1.0 }
+    };
+    let square = |of: &Spurious| {
+        let (near, far) = (envelope(of.cycles - cycles), envelope(of.cycles + cycles));
+        of.amplitude * of.amplitude * (near * near + far * far) / 4.0
+    };
+    of.iter().map(square).sum::<f64>().sqrt()
 }
 
 /// The oscillations that stand out of the spectrum of residuals, strongest first.
@@ -118,7 +136,7 @@ mod tests {
     fn a_hum_is_found_with_its_amplitude() {
         let of = |i: u32| {
             let noise = (f64::from(i * 7919 % 1009) / 1009.0 - 0.5) * 0.2;
-            0.3 * (2.0 * std::f64::consts::PI * 0.0503 * f64::from(i)).cos() + noise
+            0.3 * (2.0 * PI * 0.0503 * f64::from(i)).cos() + noise
         };
         let found = found(&(0..4096).map(of).collect::<Vec<f64>>());
         // the bin is within half of 1/4096; the scalloping of three bins below 3 %
@@ -132,7 +150,7 @@ mod tests {
             let i = u64::from(i);
             ((i * i * 7919 % 10_007) as f64 / 10_007.0 - 0.5) * 0.02
         };
-        let tone = |i: u32| (2.0 * std::f64::consts::PI * 0.0051 * f64::from(i)).cos() + noise(i);
+        let tone = |i: u32| (2.0 * PI * 0.0051 * f64::from(i)).cos() + noise(i);
         let still: Vec<f64> = (0..4096).map(tone).collect();
         assert!(is_level_still(&still, &found(&still)));
         // a drift of a tenth of its amplitude beside it

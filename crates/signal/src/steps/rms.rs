@@ -2,6 +2,7 @@
 
 use crate::noise::{Noise, density};
 use crate::periodic::{HarmonicNoise, Harmonics, Periodic};
+use crate::residuals::{kurtosis, variance_of_power};
 use crate::{Measured, Signal, Unsuitable, measured};
 
 /// Frequencies from which the density of squares at zero is taken: 64 degrees of freedom.
@@ -35,7 +36,7 @@ impl RmsOf {
     ///
     /// With harmonics the signal is a periodic part, whose mean square is that of whole periods
     /// whatever the length, and noise. Their uncertainties: those of the amplitudes, and of the
-    /// noise's variance 2 sigma^4 over its degrees of freedom in white noise, or the squared
+    /// noise's variance (kurtosis - 1) sigma^4 over its degrees of freedom in white noise, or the squared
     /// residuals' spectral density at zero over the number of values. Without harmonics the signal
     /// is taken for noise and the uncertainty is of the latter kind; of a sine it then lacks the
     /// effect of a partial period, up to 1 / (4 pi) of the mean square over the number of periods.
@@ -80,7 +81,8 @@ fn rms(
     let freedom = (n - 1 - 2 * fitted.parts.len()) as f64;
     let mut rest = mean_of_squares(&left, freedom, noise);
     if let Some(known) = known {
-        rest.standard_uncertainty = rest.value * (2.0 / known.of_residuals).sqrt();
+        let relative = variance_of_power(kurtosis(&left), known.of_residuals);
+        rest.standard_uncertainty = rest.value * relative.sqrt();
         rest.degrees_of_freedom = known.of_residuals;
     }
     let mut square = 0.0;
@@ -106,7 +108,7 @@ fn mean_of_squares(left: &[f64], freedom: f64, noise: Noise) -> Measured {
     match noise {
         Noise::White => Measured {
             value,
-            standard_uncertainty: value * (2.0 / freedom).sqrt(),
+            standard_uncertainty: value * variance_of_power(kurtosis(left), freedom).sqrt(),
             degrees_of_freedom: freedom,
         },
         Noise::Near(_) => {

@@ -12,12 +12,17 @@ use gumption_units::Unit;
 
 /// Normal numbers, a function of the seed and the name.
 pub(crate) fn normals(seed: u64, name: &str, count: usize) -> Vec<f64> {
+    numbers(seed, name, count, normal::quantile)
+}
+
+/// Numbers whose distribution has this quantile, a function of the seed and the name.
+fn numbers(seed: u64, name: &str, count: usize, quantile: fn(f64) -> f64) -> Vec<f64> {
     let key = StreamKey::new(seed, name);
     let mut numbers = Vec::with_capacity(count + BLOCK);
     for block in 0..count.div_ceil(BLOCK) {
         let mut uniform = [0.0; BLOCK];
         key.block(block as u64).uniform(&mut uniform);
-        numbers.extend(uniform.map(normal::quantile));
+        numbers.extend(uniform.map(quantile));
     }
     numbers.truncate(count);
     numbers
@@ -33,6 +38,8 @@ pub(super) struct Bench {
     pub(super) channels: Vec<Vec<(f64, f64)>>,
     pub(super) offset: f64,
     pub(super) noise: f64,
+    /// The quantile of its distribution, whose variance is 1.
+    pub(super) shape: fn(f64) -> f64,
     /// Each value of noise is this much of the one before, and as much more new; at 1 a random walk
     /// from zero, whose steps have the standard deviation `noise`.
     pub(super) memory: f64,
@@ -65,6 +72,7 @@ impl Default for Bench {
             channels: vec![vec![(1.0, 0.3), (0.02, 1.0)], vec![(0.5, -1.2), (0.01, 0.4)]],
             offset: 0.7,
             noise: 0.01,
+            shape: normal::quantile,
             memory: 0.0,
             common: 0.0,
             resolution: 0.0,
@@ -116,7 +124,7 @@ impl Bench {
         let rate = self.rate + self.rate_uncertainty * errors[1];
         let own = self.channels.iter().enumerate().map(|(number, _)| {
             // one value more: the state before the first sample
-            normals(seed, ["a", "b", "c"][number], self.samples + 1)
+            numbers(seed, ["a", "b", "c"][number], self.samples + 1, self.shape)
         });
         let own: Vec<Vec<f64>> = own.collect();
         let channels = self.channels.iter().enumerate().map(|(number, tones)| {

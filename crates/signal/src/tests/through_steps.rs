@@ -62,10 +62,11 @@ fn figures(bench: &Bench, seed: u64) -> Vec<(String, Measured)> {
         ("SNR".to_owned(), of.signal_to_noise.measured),
         ("SINAD".to_owned(), of.sinad.measured),
     ];
-    figures.extend(of.findings.iter().map(|of| {
+    figures.extend(of.findings.iter().filter_map(|of| {
         let late = -apart / (2.0 * PI) * period;
-        let value = if of.unit == "s" { less(of.value, late, period) } else { of.value };
-        (of.name.clone(), value)
+        let value = of.measured()?;
+        let value = if of.unit == "s" { less(value, late, period) } else { value };
+        Some((of.name.clone(), value))
     }));
     figures
 }

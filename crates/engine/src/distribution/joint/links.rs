@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::Correlation;
 
 /// The sets of quantities that coefficients link, each in order.
-pub(super) fn connected(correlations: &[Correlation]) -> Vec<Vec<usize>> {
+pub(crate) fn connected(correlations: &[Correlation]) -> Vec<Vec<usize>> {
     let last = correlations.iter().map(|c| c.first.max(c.second)).max();
     // each quantity points to an earlier one of its set, the first of a set to itself
     let mut earlier: Vec<usize> = (0..last.map_or(0, |last| last + 1)).collect();

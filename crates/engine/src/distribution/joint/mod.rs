@@ -38,6 +38,7 @@ pub use draws::Varying;
 pub use error::CorrelationError;
 pub use fits::Fits;
 pub(crate) use linked::{Dependence, Linked};
+pub(crate) use links::connected;
 use profile::Table;
 use profiles::{Profiled, Profiles};
 use rank_sample::{RankSample, rank_samples};
@@ -182,7 +183,7 @@ impl Joint {
                 dof: dof.filter(|dof| dof.is_finite()),
             });
         }
-        let linked = links::connected(&active);
+        let linked = connected(&active);
         joint.rank_samples = rank_samples(distributions);
         // a link to another quantity takes all of them out
         joint.rank_samples.retain(|set| {
@@ -252,7 +253,7 @@ impl Joint {
     ) -> Result<Self, CorrelationError> {
         let active = active(distributions, correlations);
         let mut joint = Self { undrawn: true, ..Self::default() };
-        for members in links::connected(&active) {
+        for members in connected(&active) {
             let decimals = decimals::decimals(&members, &active, distributions);
             joint.possible(&members, &active, decimals)?;
         }

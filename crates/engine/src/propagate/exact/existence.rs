@@ -21,24 +21,22 @@ const DISTANCES: [f64; 2] = [1e-6, 1e-9];
 /// What the order of a pole may be off by.
 const OF_ORDER: f64 = 0.02;
 
-/// The order of the sharpest pole of a function between quantiles of its argument, 1 for 1/x; that of a
-/// function without one is about 0.
-fn order(distribution: &Distribution, modulus: impl Fn(f64) -> f64) -> f64 {
-    let nodes = distribution.quantiles_about_median(&NODES);
-    let heights: Vec<f64> = nodes.iter().map(|&node| modulus(node)).collect();
+/// The order of the sharpest pole of a function along points of its argument, 1 for 1/x; that of a
+/// function without one is about 0. `heights` are its moduli at the points, `modulus` that at a share of
+/// the way from a point to the next one.
+pub(crate) fn pole_order(heights: &[f64], modulus: impl Fn(usize, f64) -> f64) -> f64 {
     let mut most: f64 = 0.0;
-    for (place, pair) in nodes.windows(2).enumerate() {
-        // a pole lies beside the higher of two nodes, and its other side is no higher
+    for place in 0..heights.len().saturating_sub(1) {
+        // a pole lies beside the higher of two points, and its other side is no higher
         let from = place.saturating_sub(1);
-        let to = (place + 2).min(nodes.len() - 1);
+        let to = (place + 2).min(heights.len() - 1);
         let highest = heights[from..=to].iter().copied().fold(0.0, f64::max);
         if heights[place].max(heights[place + 1]) < highest {
             continue;
         }
-        let width = pair[1] - pair[0];
-        let at = golden_section::least([pair[0], pair[1]], SECTIONS, |x| -modulus(x));
+        let at = golden_section::least([0.0, 1.0], SECTIONS, |share| -modulus(place, share));
         for side in [-1.0, 1.0] {
-            let [far, near] = DISTANCES.map(|share| modulus(at + side * share * width));
+            let [far, near] = DISTANCES.map(|distance| modulus(place, at + side * distance));
             let own = elementary::ln(near / far) / elementary::ln(DISTANCES[0] / DISTANCES[1]);
             if own.is_finite() {
                 most = most.max(own);
@@ -46,6 +44,15 @@ fn order(distribution: &Distribution, modulus: impl Fn(f64) -> f64) -> f64 {
         }
     }
     most
+}
+
+/// The order of the sharpest pole of a function between quantiles of its argument.
+fn order(distribution: &Distribution, modulus: impl Fn(f64) -> f64) -> f64 {
+    let nodes = distribution.quantiles_about_median(&NODES);
+    let heights: Vec<f64> = nodes.iter().map(|&node| modulus(node)).collect();
+    pole_order(&heights, |place, share| {
+        modulus(nodes[place] + share * (nodes[place + 1] - nodes[place]))
+    })
 }
 
 /// Whether the expectation of the output exists, and that of its square: with the other inputs at their

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::invert::{At, Inversion};
 use super::separate::Outer;
 use crate::distribution::Distribution;
+use crate::propagate::shortest::{Interval, Purpose, Search};
 
 /// The distribution of an output.
 pub(super) enum Law {
@@ -33,6 +34,16 @@ pub(super) struct Found {
 /// The rounding of the special functions behind quantiles of one quantity, relative to their spread.
 const SPECIAL: f64 = 2e-14;
 
+/// The share of the smaller probability at a quantile over which the slope there is taken.
+const OF_SLOPE: f64 = 0.01;
+
+/// Probabilities below so many errors of the distribution function are not told from none.
+const RESOLVED: f64 = 1e4;
+
+/// A shortest interval that may have anything from a range of probabilities below it that is a larger share
+/// of the probability outside is one of many.
+const FLAT: f64 = 0.01;
+
 impl Law {
     /// The value below which the output lies with probability `p`; `q` is 1 - `p` with its own digits.
     pub(super) fn quantile(&self, p: f64, q: f64) -> Option<Found> {
@@ -46,17 +57,25 @@ impl Law {
                 let bound = SPECIAL * (value - middle).abs() + 8.0 * f64::EPSILON * value.abs();
                 value.is_finite().then_some(Found { value, bound })
             }
-            Self::Sum { inversion, mean, outer, last, .. } => {
+            Self::Sum { inversion, outer, last, .. } => {
                 let p = if rises(outer) { p } else { q };
                 let (x, at) = solved(inversion, p, last)?;
-                let value = transformed(outer, mean + x);
-                let sum = mean + x;
-                let slope = slope(outer, sum);
-                let bound = 1.01 * slope * (inversion.error + 2e-16) / at.density
-                    + 4.0 * f64::EPSILON * (slope * (sum.abs() + mean.abs()) + value.abs());
-                (value.is_finite() && bound.is_finite()).then_some(Found { value, bound })
+                self.of_sum(x, at)
             }
         }
+    }
+
+    /// The output where the sum is `x` from its mean.
+    fn of_sum(&self, x: f64, at: At) -> Option<Found> {
+        let Self::Sum { inversion, mean, outer, .. } = self else {
+            return None;
+        };
+        let sum = mean + x;
+        let value = transformed(outer, sum);
+        let slope = slope(outer, sum);
+        let bound = 1.01 * slope * (inversion.error + 2e-16) / at.density
+            + 4.0 * f64::EPSILON * (slope * (sum.abs() + mean.abs()) + value.abs());
+        (value.is_finite() && bound.is_finite()).then_some(Found { value, bound })
     }
 
     /// The probability of values up to `y`.
@@ -95,125 +114,143 @@ impl Law {
         }
     }
 
-    /// The density at the quantile of `p`, and how far it may be off; the steepness of the density
-    /// there.
-    fn density(&self, p: f64) -> Option<[f64; 2]> {
+    /// A quantile, and the density there with how far that may be off; to see where about something is
+    /// that need not be what is known best.
+    fn end(&self, [p, q]: [f64; 2], purpose: Purpose) -> Option<(Found, [f64; 2])> {
         match self {
             Self::Sum { inversion, mean, outer, last, .. } => {
-                let p = if rises(outer) { p } else { 1.0 - p };
-                let (x, _) = solved(inversion, p, last)?;
+                let (x, at) = solved(inversion, if rises(outer) { p } else { q }, last)?;
+                let density = match purpose {
+                    Purpose::Survey => [at.density, inversion.density_error],
+                    Purpose::Find => inversion.density(x),
+                };
                 let slope = slope(outer, mean + x);
-                Some([inversion.at(x).density / slope, inversion.density_error / slope])
+                Some((self.of_sum(x, at)?, density.map(|density| density / slope)))
             }
             Self::One { .. } => {
-                // the slope of the quantile function, by differences of fourth order
-                let step = 1e-3 * p.min(1.0 - p);
-                let at = |k: f64| Some(self.quantile(p + k * step, 1.0 - p - k * step)?.value);
-                let near = at(1.0)? - at(-1.0)?;
-                let far = at(2.0)? - at(-2.0)?;
-                let slope = (8.0 * near - far) / (12.0 * step);
-                (slope > 0.0).then(|| [1.0 / slope, 1e-9 / slope])
+                // the slope of the quantile function, by differences of sixth order
+                let step = OF_SLOPE * p.min(q);
+                let at = |k: f64| self.quantile(p + k * step, q - k * step);
+                let mut differences = [0.0; 3];
+                let mut off: f64 = 0.0;
+                for (difference, k) in differences.iter_mut().zip([1.0, 2.0, 3.0]) {
+                    let (after, before) = (at(k)?, at(-k)?);
+                    *difference = after.value - before.value;
+                    off = off.max(after.bound + before.bound);
+                }
+                let [near, far, farther] = differences;
+                let slope = (45.0 * near - 9.0 * far + farther) / (60.0 * step);
+                let of_fourth = (8.0 * near - far) / (12.0 * step);
+                let off = off / step + (slope - of_fourth).abs();
+                (slope > 0.0).then_some(())?;
+                Some((self.quantile(p, q)?, [1.0 / slope, off / (slope * slope)]))
             }
         }
     }
 
     /// Whether the density is known to be symmetric and to fall from its middle.
     fn is_symmetric(&self) -> bool {
-        match self {
-            Self::Sum { symmetric, outer, .. } => *symmetric && *outer == Outer::Sum,
-            Self::One { .. } => false,
-        }
+        matches!(self, Self::Sum { symmetric: true, outer: Outer::Sum, .. })
     }
 
-    /// Whether quantiles of equal probabilities of both sides are equally far from the median, as far
-    /// as they are known.
-    fn has_equal_sides(&self) -> bool {
-        let Some(median) = self.quantile(0.5, 0.5) else { return false };
-        [1e-4, 1e-3, 0.01, 0.05, 0.15, 0.3, 0.45].into_iter().all(|p| {
-            let ends = self.quantile(p, 1.0 - p).zip(self.quantile(1.0 - p, p));
-            ends.is_some_and(|(low, high)| {
-                let off = low.bound + high.bound + 2.0 * median.bound;
-                (low.value + high.value - 2.0 * median.value).abs() <= off
-            })
-        })
-    }
-
-    /// The shortest interval of probability `p`, with what its ends may be off, and whether there is
-    /// one; `symmetric` is the probabilistically symmetric one.
-    pub(super) fn shortest(&self, p: f64, symmetric: [Found; 2]) -> Option<([Found; 2], bool)> {
-        if self.is_symmetric() {
-            return Some((symmetric, true));
-        }
-        let tail = 1.0 - p;
-        let ends =
-            |low: f64| Some([self.quantile(low, 1.0 - low)?, self.quantile(low + p, tail - low)?]);
-        let length = |low: f64| ends(low).map(|[a, b]| b.value - a.value);
-        // coarse places, and the edges themselves
-        const PARTS: usize = 8;
-        let edge = 1e-12 * tail;
-        let place = |k: usize| (tail * k as f64 / PARTS as f64).clamp(edge, tail - edge);
-        let lengths: Vec<f64> =
-            (0..=PARTS).map(|k| length(place(k)).unwrap_or(f64::INFINITY)).collect();
-        let best = (0..=PARTS).min_by(|&a, &b| {
-            let off = |k: usize| (2 * k).abs_diff(PARTS);
-            lengths[a].total_cmp(&lengths[b]).then(off(a).cmp(&off(b)))
-        })?;
-        let is_flat = |other: usize| lengths[other] <= lengths[best] * (1.0 + 1e-7);
-        let neighbours = [best.checked_sub(1), (best < PARTS).then_some(best + 1)];
-        if neighbours.into_iter().flatten().any(is_flat)
-            || (0..=PARTS).any(|k| k.abs_diff(best) > 1 && is_flat(k))
+    /// The interval with these probabilities below and above it.
+    fn interval(
+        &self,
+        p: f64,
+        tails: [f64; 2],
+        purpose: Purpose,
+    ) -> Option<([Found; 2], Interval)> {
+        let [below, above] = tails;
+        if matches!(self, Self::Sum { inversion, .. } if below.min(above) < RESOLVED * inversion.error)
         {
-            let flat = symmetric[1].value - symmetric[0].value <= lengths[best] * (1.0 + 1e-7);
-            return if flat { Some((symmetric, false)) } else { Some((ends(place(best))?, false)) };
+            return None;
         }
-        // the best of the places is then the middle one, where the slopes of both ends are the same but
-        // for what differences leave of them
-        if 2 * best == PARTS && self.has_equal_sides() {
-            return Some((symmetric, true));
-        }
-        // the density is the same at both ends
-        let excess = |low: f64| {
-            let ([a, a_off], [b, b_off]) = (self.density(low)?, self.density(low + p)?);
-            Some([a - b, a_off + b_off])
+        let (low, [dense_low, off_low]) = self.end([below, p + above], purpose)?;
+        let (high, [dense_high, off_high]) = self.end([p + below, above], purpose)?;
+        let interval = Interval {
+            tails,
+            ends: [low.value, high.value],
+            off: low.bound + high.bound,
+            excess: [dense_low - dense_high, off_low + off_high],
         };
-        let (mut low, mut high) = (place(best.saturating_sub(1)), place((best + 1).min(PARTS)));
-        // the shortest one starts or ends at a limit of the values
-        let at_edge = best == 0 || best == PARTS;
-        let (Some(mut at_low), Some(mut at_high)) = (excess(low), excess(high)) else {
-            return Some((ends(place(best))?, at_edge));
+        Some(([low, high], interval))
+    }
+
+    /// Where the values begin and end, as far as it is known.
+    fn limits(&self) -> [Option<Found>; 2] {
+        match self {
+            Self::One { .. } => {
+                let least = f64::MIN_POSITIVE;
+                [self.quantile(least, 1.0), self.quantile(1.0, least)]
+            }
+            Self::Sum { outer: Outer::Sum, .. } => [None; 2],
+            Self::Sum { outer: Outer::Product { factor, shift }, .. } => {
+                let limit = Some(Found { value: *shift, bound: 0.0 });
+                if *factor > 0.0 { [limit, None] } else { [None, limit] }
+            }
+        }
+    }
+
+    /// What the least length of an interval is that reaches beyond the places that are known.
+    fn beyond(&self, p: f64) -> Option<f64> {
+        let Self::Sum { inversion, mean, outer, .. } = self else {
+            return Some(f64::INFINITY);
         };
-        if at_low[0] >= 0.0 || at_high[0] <= 0.0 {
-            return at_edge.then_some((ends(place(best))?, true));
+        if inversion.known.is_infinite() {
+            return Some(f64::INFINITY);
         }
-        let mut at = 0.5 * (low + high);
-        for _ in 0..80 {
-            // regula falsi of Illinois, halvings where it stalls
-            at = low - at_low[0] * (high - low) / (at_high[0] - at_low[0]);
-            if !(at > low && at < high) {
-                at = 0.5 * (low + high);
+        let ends = [-1.0, 1.0].map(|sign| transformed(outer, mean + sign * inversion.known));
+        let [least, most] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        let (from, to) = (self.quantile(1.0 - p, p)?, self.quantile(p, 1.0 - p)?);
+        Some(f64::min(to.value - least, most - from.value))
+    }
+
+    /// The shortest interval of probability `p`, with what its ends may be off, and whether it is the
+    /// only one; `symmetric` is the probabilistically symmetric one.
+    pub(super) fn shortest(&self, p: f64, symmetric: [Found; 2]) -> Option<([Found; 2], bool)> {
+        let tail = 1.0 - p;
+        let center = 0.5 * tail;
+        let at = |tails: [f64; 2], purpose| Some(self.interval(p, tails, purpose)?.1);
+        let mut search = Search { tail, at };
+        let is_symmetric = self.is_symmetric();
+        let least = if is_symmetric {
+            search.about(at([center, center], Purpose::Find)?)
+        } else {
+            search.least()?
+        };
+        if least.interval.length() > self.beyond(p)? {
+            return None;
+        }
+        let [from, to] = least.range;
+        let is_flat = to - from > FLAT * tail;
+        let unique = least.alone && !is_flat;
+        let length = symmetric[1].value - symmetric[0].value;
+        if is_symmetric || is_flat && least.includes(center) {
+            return Some((symmetric, unique));
+        }
+        // it begins or ends where the values do
+        match self.limits() {
+            [Some(limit), _] if from <= 0.0 => {
+                return Some(([limit, self.quantile(p, tail)?], unique));
             }
-            let here = excess(at)?;
-            if here[0].abs() <= here[1] || high - low <= 1e-15 * tail {
-                break;
+            [_, Some(limit)] if to >= tail => {
+                return Some(([self.quantile(tail, p)?, limit], unique));
             }
-            if here[0] < 0.0 {
-                if at_low[0] < 0.0 {
-                    at_high[0] *= 0.5;
-                }
-                (low, at_low) = (at, here);
-            } else {
-                (high, at_high) = (at, here);
-                at_low[0] *= 0.5;
+            _ => {}
+        }
+        let tails = least.interval.tails;
+        let mut ends = self.interval(p, tails, Purpose::Find)?.0;
+        if least.includes(center) || least.interval.length() >= length {
+            ends = symmetric;
+        }
+        if !is_flat {
+            let [low, high] = [[tails[0], p + tails[1]], [p + tails[0], tails[1]]];
+            for (end, of) in ends.iter_mut().zip([low, high]) {
+                let (_, [density, _]) = self.end(of, Purpose::Find)?;
+                end.bound += f64::max(tails[0] - from, to - tails[0]) / density;
             }
         }
-        let step = 1e-3 * tail.min(at.max(edge)).min((tail - at).max(edge));
-        let (after, before) = (excess(at + step)?, excess(at - step)?);
-        let steepness = (after[0] - before[0]) / (2.0 * step);
-        let off = 2.0 * excess(at)?[1] / steepness;
-        let [mut a, mut b] = ends(at)?;
-        a.bound += (off / self.density(at)?[0]).abs();
-        b.bound += (off / self.density(at + p)?[0]).abs();
-        Some(([a, b], true))
+        Some((ends, unique))
     }
 }
 
@@ -276,7 +313,11 @@ fn solve(inversion: &Inversion, p: f64, start: f64) -> Option<(f64, At)> {
             // beyond everything there was, farther each time
             far *= 2.0;
             x + far.copysign(short)
-        };
+        }
+        .clamp(-inversion.known, inversion.known);
+        if next == x && x.abs() == inversion.known {
+            return None;
+        }
         let moved = (next - x).abs();
         if moved <= 4e-16 * (x.abs() + inversion.width) || high - low <= 4e-16 * x.abs() {
             return (at.density > 0.0).then_some((x, at));

@@ -16,17 +16,18 @@ mod tests;
 #[cfg(test)]
 pub(super) use tests::task as test_task;
 
-pub(super) use existence::of_moments as moments_exist;
+pub(super) use existence::{of_moments as moments_exist, pole_order};
 
 use std::sync::Arc;
 
 use self::invert::{Decay, Inversion, Sum};
 use self::law::{Found, Law};
-use self::separate::{Group, Leaf, Outer, Separated, is_linear, separate};
+pub(super) use self::separate::is_linear;
+use self::separate::{Group, Leaf, Outer, Separated, separate};
 use self::term::{Inputs, Term};
 use crate::distribution::characteristic::Characteristic;
 use crate::distribution::{Dependence, Distribution, Joint, Normal, StudentT};
-use crate::model::{Node, Output, Tolerance, fold};
+use crate::model::{Node, Output, Program, Tolerance, fold};
 use crate::number::smallest_first;
 use crate::task::{Row, Task};
 
@@ -42,9 +43,11 @@ pub struct Noiseless {
     pub median: f64,
     /// Probabilistically symmetric coverage interval.
     pub symmetric_interval: [f64; 2],
-    /// Shortest coverage interval; `None` where it is not found to as many digits as the rest.
+    /// Shortest coverage interval, never longer than the symmetric one; `None` where its ends are not known
+    /// to a millionth of the standard uncertainty.
     pub shortest_interval: Option<[f64; 2]>,
-    /// Whether there is one shortest interval.
+    /// Whether there is one shortest interval: where the density is flat, or two intervals are as short,
+    /// there is not, and one of them is given.
     pub shortest_unique: bool,
     /// The probability of values within the output's tolerance limits, where it has such.
     pub inside: Option<f64>,
@@ -97,6 +100,10 @@ pub struct Scatter {
 /// Bounds beyond this share of the standard uncertainty are not exact.
 const EXACT: f64 = 1e-9;
 
+/// The same of the ends of a shortest interval, which are less certain than its length: that hardly changes
+/// where they move together.
+const OF_SHORTEST: f64 = 1e-6;
+
 /// What an evaluation of one output needs.
 pub(crate) struct Problem<'a> {
     pub(crate) task: &'a Task,
@@ -106,6 +113,13 @@ pub(crate) struct Problem<'a> {
     pub(crate) output: usize,
     /// The fewest degrees of freedom among the t distributions that it depends on.
     pub(crate) drawn_dof: f64,
+}
+
+/// The values of a program's nodes that do not vary in a row.
+pub(super) fn folded(program: &Program, row: &Row) -> Vec<Option<f64>> {
+    let mut bound: Vec<Option<f64>> = row.distributions.iter().map(|d| d.constant()).collect();
+    bound.extend(row.conditions.iter().map(|&value| Some(value)));
+    fold(program, &bound)
 }
 
 impl<'a> Problem<'a> {
@@ -120,10 +134,7 @@ impl<'a> Problem<'a> {
 
     /// The values of the program's nodes that do not vary.
     pub(crate) fn folded(&self) -> Vec<Option<f64>> {
-        let mut bound: Vec<Option<f64>> =
-            self.row.distributions.iter().map(|d| d.constant()).collect();
-        bound.extend(self.row.conditions.iter().map(|&value| Some(value)));
-        fold(&self.task.model.program, &bound)
+        folded(&self.task.model.program, self.row)
     }
 
     /// Whether the output is a sum of inputs times constants.
@@ -425,10 +436,11 @@ fn figures(problem: &Problem<'_>, law: &Law, moments: Moments) -> Result<Noisele
         bound = bound.max(off);
     }
     let shortest = law.shortest(p, symmetric);
-    let exact = |ends: &[Found; 2]| ends.iter().all(|end| end.bound <= EXACT * scale);
-    let shortest = shortest.filter(|(ends, _)| exact(ends));
-    if let Some((ends, _)) = &shortest {
-        bound = bound.max(ends[0].bound).max(ends[1].bound);
+    let unique = shortest.is_some_and(|(_, unique)| unique);
+    let known = |ends: &[Found; 2]| ends.iter().all(|end| end.bound <= OF_SHORTEST * scale);
+    let shortest = shortest.map(|(ends, _)| ends).filter(known);
+    if let Some([low, high]) = &shortest {
+        bound = bound.max(low.bound).max(high.bound);
     }
     let inside = problem.tolerance().map(|tolerance| {
         let [low, high] = tolerance.ends();
@@ -439,8 +451,8 @@ fn figures(problem: &Problem<'_>, law: &Law, moments: Moments) -> Result<Noisele
         standard_uncertainty: (problem.drawn_dof > 2.0 && std.is_finite()).then_some(std),
         median: median.value,
         symmetric_interval: symmetric.map(|end| end.value),
-        shortest_interval: shortest.map(|(ends, _)| ends.map(|end| end.value)),
-        shortest_unique: shortest.is_some_and(|(_, unique)| unique),
+        shortest_interval: shortest.map(|ends| ends.map(|end| end.value)),
+        shortest_unique: unique,
         inside,
         accuracy: Accuracy::Bound(bound),
     })

@@ -243,7 +243,11 @@ fn independent(group: &Group, linked: &[Linked]) -> usize {
 }
 
 /// Whether a node is a sum of variables times constants.
-pub(super) fn is_linear(program: &Program, folded: &[Option<f64>], node: usize) -> bool {
+pub(in crate::propagate) fn is_linear(
+    program: &Program,
+    folded: &[Option<f64>],
+    node: usize,
+) -> bool {
     let mut parts = Parts::new(program, folded);
     parts.add_by_nodes(node, false);
     let is_variable = |leaf: &Leaf| matches!(program.nodes[leaf.node], Node::Variable(_));

@@ -281,7 +281,7 @@ mod tests {
         let path = control.path;
         let row = &task.rows[0];
         let mut trials = RowTrials::new(&task, row, &[1.0, 1.5], &joint(&task, row).unwrap());
-        let request = |trials| Request { trials, probability: 0.95, drawn_dof: &[] };
+        let request = |trials| Request { trials, probability: 0.95, moment_order: &[] };
         let own = plans_of_any_length(&trials, request(10_000_000), &control);
         let mut condensed = Condensed::new(own.clone());
         condensed.extend(condense(&trials, &control, &own, 0..70, 10_000).unwrap(), usize::MAX);

@@ -11,9 +11,11 @@ pub struct MonteCarlo {
     /// Number of trials behind the figures.
     pub trials: u64,
     /// Mean of the trials; `None` if the distribution has no expectation: that of a t with one degree
-    /// of freedom, or fewer, has none (JCGM 101, 6.4.9.4).
+    /// of freedom, or fewer, has none (JCGM 101, 6.4.9.4), nor has the exponential of one; or perhaps
+    /// none ([`MonteCarlo::heavy_tailed`]).
     pub estimate: Option<f64>,
-    /// Standard deviation of the trials; `None` if the distribution has none, or of a single trial.
+    /// Standard deviation of the trials; `None` if the distribution has none, or perhaps none, or of a
+    /// single trial.
     pub standard_uncertainty: Option<f64>,
     /// Median of the trials.
     pub median: f64,
@@ -94,10 +96,24 @@ const HEAVY: f64 = 0.01;
 /// An excess kurtosis up to this is one of ordinary distributions, however few the trials.
 const ORDINARY: f64 = 30.0;
 
-/// Whether a few trials carry the sum of squares. The largest trial has at most the share
-/// sqrt(kurtosis/trials) of it, and one that has the share s brings the kurtosis to s^2 trials.
-fn is_heavy(moments: &Moments, drawn_dof: f64) -> bool {
-    drawn_dof > 2.0 && moments.excess_kurtosis > f64::max(HEAVY * moments.trials, ORDINARY)
+/// The share of the sum of squares from which on the farthest trial carries it with few others; the
+/// trials in which a rare event happens are as many as it says, and all as far.
+const OF_FARTHEST: f64 = 0.05;
+
+/// Whether a few trials carry the sum of squares, though a kurtosis should exist. The farthest trial has
+/// at most the share sqrt(kurtosis/trials) of it, and one that has the share s brings the kurtosis to
+/// s^2 trials. `extremes` are the least and the greatest trial.
+fn is_heavy(moments: &Moments, moment_order: f64, extremes: [f64; 2]) -> bool {
+    let share = farthest(moments, extremes).powi(2) / moments.trials;
+    moment_order > 4.0
+        && moments.excess_kurtosis > f64::max(HEAVY * moments.trials, ORDINARY)
+        && share > OF_FARTHEST
+}
+
+/// How many standard deviations the farthest trial lies from the mean.
+fn farthest(moments: &Moments, extremes: [f64; 2]) -> f64 {
+    let away = extremes.map(|x| (x - moments.mean).abs() / moments.std);
+    away[0].max(away[1])
 }
 
 /// The shares of the sums of third and of fourth powers from which on the farthest trial has too much
@@ -108,8 +124,8 @@ const TOO_FAR: [f64; 2] = [0.02, 0.04];
 /// Whether the trials tell how far skewness and excess kurtosis scatter; `extremes` are the least and
 /// the greatest trial.
 fn tells_shape(moments: &Moments, extremes: [f64; 2]) -> [bool; 2] {
-    let Moments { trials, mean, std, skewness, excess_kurtosis, .. } = *moments;
-    let farthest = extremes.into_iter().map(|x| (x - mean).abs() / std).fold(0.0, f64::max);
+    let Moments { trials, skewness, excess_kurtosis, .. } = *moments;
+    let farthest = farthest(moments, extremes);
     let cube = farthest.powi(3);
     // of a normal distribution the mean cube without its sign
     let cubes = trials * skewness.abs().max(1.6);
@@ -138,11 +154,11 @@ pub(crate) struct Finished {
 }
 
 impl MonteCarlo {
-    /// The figures, without the moments that do not exist for t distributions of `drawn_dof`
-    /// degrees of freedom.
+    /// The figures, without the moments of `moment_order` and above, which do not exist; `extremes` are
+    /// the least and the greatest trial.
     pub(super) fn new(
-        moments: &Moments,
-        drawn_dof: f64,
+        (moments, extremes): (&Moments, [f64; 2]),
+        moment_order: f64,
         median: f64,
         intervals: Intervals,
         errors: NumericalError,
@@ -150,20 +166,22 @@ impl MonteCarlo {
         let spread = moments.std > 0.0;
         // a single trial does not scatter
         let several = moments.trials > 1.0;
+        let heavy_tailed = is_heavy(moments, moment_order, extremes);
+        let exists = |order: f64| moment_order > order && !heavy_tailed;
         Self {
             trials: moments.trials as u64,
-            estimate: (drawn_dof > 1.0).then_some(moments.mean),
-            standard_uncertainty: (drawn_dof > 2.0 && several).then_some(moments.std),
+            estimate: exists(1.0).then_some(moments.mean),
+            standard_uncertainty: (exists(2.0) && several).then_some(moments.std),
             median,
             symmetric_interval: intervals.symmetric,
             shortest_interval: intervals.shortest,
             shortest_exact: intervals.exact,
             shortest_unique: intervals.unique,
-            heavy_tailed: is_heavy(moments, drawn_dof),
+            heavy_tailed,
             inside: moments.inside,
             adaptive: None,
-            skewness: (drawn_dof > 3.0 && spread).then_some(moments.skewness),
-            excess_kurtosis: (drawn_dof > 4.0 && spread).then_some(moments.excess_kurtosis),
+            skewness: (exists(3.0) && spread).then_some(moments.skewness),
+            excess_kurtosis: (exists(4.0) && spread).then_some(moments.excess_kurtosis),
             errors,
         }
     }
@@ -203,15 +221,34 @@ impl MonteCarlo {
         }
     }
 
-    /// The standard deviation of the trials where it is a standard uncertainty: not where there is none,
-    /// nor where a few of the trials carry it.
-    pub fn spread(&self) -> Option<f64> {
-        self.standard_uncertainty.filter(|_| !self.heavy_tailed)
+    /// The figures of an output whose trials are all this value but for rounding.
+    pub(in crate::propagate) fn settle(&mut self, value: f64) {
+        let errors = NumericalError {
+            estimate: self.errors.estimate.map(|_| 0.0),
+            standard_uncertainty: self.errors.standard_uncertainty.map(|_| 0.0),
+            median: 0.0,
+            symmetric_interval: [0.0; 2],
+            shortest_interval: [0.0; 2],
+            skewness: None,
+            excess_kurtosis: None,
+        };
+        self.estimate = self.estimate.map(|_| value);
+        self.standard_uncertainty = self.standard_uncertainty.map(|_| 0.0);
+        self.median = value;
+        (self.symmetric_interval, self.shortest_interval) = ([value; 2], [value; 2]);
+        (self.shortest_exact, self.shortest_unique, self.heavy_tailed) = (true, true, false);
+        (self.skewness, self.excess_kurtosis, self.errors) = (None, None, errors);
     }
 
-    /// Where the trials lie: the estimate, or the median where there is none.
+    /// Where the trials lie: their mean, or their median where they have no variance, so that their mean
+    /// settles slowly, or never.
     pub fn location(&self) -> f64 {
-        self.estimate.unwrap_or(self.median)
+        self.settled_mean().unwrap_or(self.median)
+    }
+
+    /// The mean of the trials where they have a variance.
+    pub(in crate::propagate) fn settled_mean(&self) -> Option<f64> {
+        self.estimate.filter(|_| self.standard_uncertainty.is_some())
     }
 }
 
@@ -220,22 +257,22 @@ impl NumericalError {
     /// the least and the greatest trial.
     pub(super) fn new(
         moments: &Moments,
-        drawn_dof: f64,
+        moment_order: f64,
         quantiles: [f64; 3],
         shortest_interval: [f64; 2],
         extremes: [f64; 2],
     ) -> Self {
         let [low, high, median] = quantiles;
-        let heavy = is_heavy(moments, drawn_dof);
+        let heavy = is_heavy(moments, moment_order, extremes);
         let told = tells_shape(moments, extremes);
         let shape = |order: f64, which: usize| {
-            let exists = drawn_dof > order && moments.std > 0.0 && !heavy && told[which];
+            let exists = moment_order > order && moments.std > 0.0 && !heavy && told[which];
             moments.shape_errors[which].filter(|_| exists)
         };
         let several = moments.trials > 1.0 && !heavy;
         Self {
-            estimate: (drawn_dof > 2.0 && several).then(|| moments.mean_error()),
-            standard_uncertainty: (drawn_dof > 4.0 && several).then(|| moments.std_error()),
+            estimate: (moment_order > 2.0 && several).then(|| moments.mean_error()),
+            standard_uncertainty: (moment_order > 4.0 && several).then(|| moments.std_error()),
             median,
             symmetric_interval: [low, high],
             shortest_interval,

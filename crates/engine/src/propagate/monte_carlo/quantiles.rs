@@ -93,7 +93,7 @@ fn of_cells(
 
 /// Where the outputs' values lie.
 pub(super) fn quantile_plans(trials: &RowTrials, count: u64, control: &Control<'_>) -> Vec<Plan> {
-    let request = Request { trials: count, probability: 0.5, drawn_dof: &[] };
+    let request = Request { trials: count, probability: 0.5, moment_order: &[] };
     plans(trials, request, control, 1.0)
 }
 

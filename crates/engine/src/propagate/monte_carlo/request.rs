@@ -9,9 +9,9 @@ pub(crate) struct Request<'a> {
     pub(crate) trials: u64,
     /// Coverage probability.
     pub(crate) probability: f64,
-    /// For each output the fewest degrees of freedom among the t distributions that it depends on:
-    /// moments of that order and above do not exist.
-    pub(crate) drawn_dof: &'a [f64],
+    /// For each output the order from which on moments of its trials do not exist
+    /// ([`moment_orders`](crate::propagate::moment_order::moment_orders)).
+    pub(crate) moment_order: &'a [f64],
 }
 
 /// How many of the first `trials` trials lie in a block.

@@ -248,7 +248,7 @@ pub(super) fn finish(
         .enumerate()
         .zip(scatters)
         .map(|((o, chunks), scatter)| {
-            let dof = request.drawn_dof.get(o).copied().unwrap_or(f64::INFINITY);
+            let dof = request.moment_order.get(o).copied().unwrap_or(f64::INFINITY);
             let (p, windows) = (request.probability, &plans[o].windows);
             figures(path, (moments[o], dof), (p, windows), chunks, scatter)
         })
@@ -281,7 +281,7 @@ fn order_of(path: CodePath, batches: &[Batch], windows: &Windows) -> Order {
 
 fn figures(
     path: CodePath,
-    (moments, drawn_dof): (Moments, f64),
+    (moments, moment_order): (Moments, f64),
     (probability, windows): (f64, &Windows),
     chunks: Vec<Batch>,
     scatter: &mut Option<ShortestScatter>,
@@ -308,14 +308,14 @@ fn figures(
     let shortest_error = if few { [f64::NAN; 2] } else { found.errors };
     let extremes = [order.get(1)?, order.get(order.trials)?];
     let errors =
-        NumericalError::new(&moments, drawn_dof, quantile_errors, shortest_error, extremes);
+        NumericalError::new(&moments, moment_order, quantile_errors, shortest_error, extremes);
     let intervals = Intervals {
         symmetric: symmetric_interval,
         shortest: shortest_interval,
         exact: true,
         unique: found.unique,
     };
-    Some(MonteCarlo::new(&moments, drawn_dof, median, intervals, errors))
+    Some(MonteCarlo::new((&moments, extremes), moment_order, median, intervals, errors))
 }
 
 /// How the shortest intervals of the first batches scatter.

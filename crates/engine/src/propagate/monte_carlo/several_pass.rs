@@ -222,7 +222,7 @@ impl Passes {
             .filter_map(|(output, ((found, bounds), plan))| {
                 let found = found.or(bounds)?;
                 let moments = &whole.totals.moments(output, plan.reference);
-                let dof = request.drawn_dof.get(output).copied().unwrap_or(f64::INFINITY);
+                let dof = request.moment_order.get(output).copied().unwrap_or(f64::INFINITY);
                 let scatter = scatters.get(output).copied();
                 let shortest_error = scatter.map_or([f64::NAN; 2], |scatter| scatter.errors);
                 let errors =
@@ -234,7 +234,7 @@ impl Passes {
                     exact: found.exact,
                     unique: scatter.is_none_or(|scatter| scatter.unique),
                 };
-                Some(MonteCarlo::new(moments, dof, median, intervals, errors))
+                Some(MonteCarlo::new((moments, found.extremes), dof, median, intervals, errors))
             })
             .collect();
         let trials = if outputs.len() == plans.len() { whole.trials } else { 0 };

@@ -11,8 +11,6 @@ pub(super) struct Cdf {
     location: f64,
     scale: f64,
     shape: Shape,
-    /// How far values are from the location, in scales, where anything is there.
-    pub(super) limits: [f64; 2],
 }
 
 enum Shape {
@@ -74,14 +72,12 @@ impl Cdf {
     pub(super) fn of(distribution: &Distribution) -> Option<Self> {
         let mean = distribution.mean();
         let u = distribution.standard_uncertainty();
-        let unlimited = [f64::NEG_INFINITY, f64::INFINITY];
         let student = |scale: f64, dof: f64| {
             if dof >= 1e9 {
                 return Self {
                     location: mean,
                     scale,
                     shape: Shape::Table(Table::new(9.0, normal)),
-                    limits: unlimited,
                 };
             }
             let half = 0.5 * dof;
@@ -91,12 +87,7 @@ impl Cdf {
                 let density = elementary::exp(-(half + 0.5) * libm::log1p(x * x / dof));
                 [special::student::cdf(x, dof), constant * density]
             };
-            Self {
-                location: mean,
-                scale,
-                shape: Shape::Table(Table::new(20.0, at)),
-                limits: unlimited,
-            }
+            Self { location: mean, scale, shape: Shape::Table(Table::new(20.0, at)) }
         };
         Some(match distribution {
             Distribution::Normal(_) | Distribution::StudentT(_) => {
@@ -105,31 +96,20 @@ impl Cdf {
             Distribution::Readings(readings) => {
                 student(readings.drawn_scale(), distribution.drawn_dof())
             }
-            Distribution::Rectangular(shape) if shape.dof_is_infinite() => Self {
-                location: mean,
-                scale: u * 3f64.sqrt(),
-                shape: Shape::Rectangular,
-                limits: [-1.0, 1.0],
-            },
+            Distribution::Rectangular(shape) if shape.dof_is_infinite() => {
+                Self { location: mean, scale: u * 3f64.sqrt(), shape: Shape::Rectangular }
+            }
             Distribution::Triangular(shape) => {
                 let [rise, fall] = shape.exact_sides()?;
                 let mode = mean - (fall - rise) / 3.0;
-                Self {
-                    location: mode,
-                    scale: 1.0,
-                    shape: Shape::Triangular(rise, fall),
-                    limits: [-rise, fall],
-                }
+                Self { location: mode, scale: 1.0, shape: Shape::Triangular(rise, fall) }
             }
-            Distribution::Arcsine(_) => Self {
-                location: mean,
-                scale: u * 2f64.sqrt(),
-                shape: Shape::Arcsine,
-                limits: [-1.0, 1.0],
-            },
+            Distribution::Arcsine(_) => {
+                Self { location: mean, scale: u * 2f64.sqrt(), shape: Shape::Arcsine }
+            }
             Distribution::Lognormal(shape) => {
                 let [location, scale] = shape.of_logarithm();
-                Self { location, scale, shape: Shape::Lognormal, limits: [0.0, f64::INFINITY] }
+                Self { location, scale, shape: Shape::Lognormal }
             }
             Distribution::LogUniform(_) => {
                 let ends = [distribution.quantile(1e-300), distribution.quantile_upper(1e-300)];
@@ -138,15 +118,11 @@ impl Cdf {
                     location: 0.5 * (low + high),
                     scale: 0.5 * (high - low),
                     shape: Shape::LogUniform,
-                    limits: ends,
                 }
             }
-            Distribution::Exponential(_) => Self {
-                location: 0.0,
-                scale: mean,
-                shape: Shape::Exponential,
-                limits: [0.0, f64::INFINITY],
-            },
+            Distribution::Exponential(_) => {
+                Self { location: 0.0, scale: mean, shape: Shape::Exponential }
+            }
             _ => return None,
         })
     }
@@ -205,14 +181,6 @@ impl Cdf {
                 of([-libm::expm1(-s), left])
             }
             Shape::Lognormal | Shape::LogUniform | Shape::Exponential => [0.0, 0.0],
-        }
-    }
-
-    /// The values between which everything is, as far as there are such.
-    pub(super) fn ends(&self) -> [f64; 2] {
-        match self.shape {
-            Shape::Lognormal | Shape::LogUniform => self.limits,
-            _ => self.limits.map(|limit| self.location + self.scale * limit),
         }
     }
 }

@@ -17,10 +17,13 @@ mod tests;
 
 use crate::parallel;
 
+pub(super) use self::net::Coordinate;
+
 use self::cdf::Cdf;
 use self::pieces::Parts;
 use self::points::Inputs;
 use super::exact::{Accuracy, Noiseless, Problem, Scatter, moments_exist};
+use super::shortest::{Interval, Purpose, Search};
 use crate::model::{Program, Schedule, ScheduledOutput};
 use crate::number::{COLUMN, CodePath, Column, largest_first};
 
@@ -256,6 +259,8 @@ struct Solved<'s> {
     nets: Vec<SolvedNet>,
     /// A width of the integrated input.
     width: f64,
+    /// Between which of its values the output was looked at.
+    looked: [f64; 2],
 }
 
 struct SolvedNet {
@@ -314,14 +319,16 @@ impl<'s> Solved<'s> {
             };
             SolvedNet { net, way, registers }
         });
-        Self { setup, place, cdf, nets, width }
+        let [least, .., most] = LOOKED;
+        let looked = [distribution.quantile(least), distribution.quantile_upper(1.0 - most)];
+        Self { setup, place, cdf, nets, width, looked }
     }
 
     /// Distribution function and density at `y` by each randomization, of which only the first
     /// `columns` columns of points are used.
     fn at(&mut self, y: f64, columns: usize) -> Vec<OfNet> {
-        let Self { setup, place, ref cdf, ref mut nets, width } = *self;
-        let integrated = Integrated { setup, place, cdf, width };
+        let Self { setup, place, ref cdf, ref mut nets, width, looked } = *self;
+        let integrated = Integrated { setup, place, cdf, width, looked };
         let of = |SolvedNet { net, way, registers }: &mut SolvedNet| match way {
             Way::Whole(last) => integrated.whole(net, last, registers, y, columns),
             Way::Parts(parts) => integrated.in_parts(net, parts, registers, y, columns),
@@ -337,12 +344,13 @@ const STEPS: u32 = 60;
 /// is its square.
 const ENDED: f64 = 1e-7;
 
-/// What is integrated, and how wide it is.
+/// What is integrated, how wide it is, and between which values the output was looked at.
 struct Integrated<'a> {
     setup: &'a Setup,
     place: usize,
     cdf: &'a Cdf,
     width: f64,
+    looked: [f64; 2],
 }
 
 impl Integrated<'_> {
@@ -356,15 +364,12 @@ impl Integrated<'_> {
         y: f64,
         columns: usize,
     ) -> OfNet {
-        let Self { setup, place, cdf, width } = *self;
-        let [low, high] = cdf.ends();
+        let Self { setup, place, cdf, width, looked: [least, most] } = *self;
         let (mut sums, mut count) = ([0.0; 2], 0.0);
         for (column, last) in net.columns.iter().zip(last).take(columns) {
             registers[..column.len()].clone_from_slice(column);
             let [at, output, slope] = last;
             let mut out = Column::ZERO;
-            // what lies beyond the limits of the input, or as far as no value is
-            let (least, most) = (low.max(-1e300), high.min(1e300));
             // what the places that were looked at leave
             let mut held = [[f64::NEG_INFINITY, f64::INFINITY]; COLUMN];
             for step in 0..STEPS {
@@ -374,7 +379,8 @@ impl Integrated<'_> {
                     let newton = (y - output.0[i]) / slope.0[i];
                     let end = usize::from((output.0[i] > y) == (slope.0[i] > 0.0));
                     held[i][end] = at.0[i];
-                    // far steps would leave the range where the slope says anything
+                    // far steps would leave the range where the slope says anything, and beyond the values
+                    // that were looked at the output need not be monotone
                     let limit = 8.0 * width;
                     let mut to = (at.0[i] + newton.clamp(-limit, limit)).clamp(least, most);
                     // beside a steep end steps go to and fro
@@ -433,22 +439,41 @@ type Figure = [f64; 2];
 /// The distance, in widths of the output, over which the slope of its density is taken.
 const SLOPE_STEP: f64 = 0.05;
 
-/// Newton's steps towards the shortest interval at most.
-const MOST_NEWTON: u32 = 8;
+/// The share of its standard error up to which a difference of densities is none.
+const SAME: f64 = 0.1;
+
+/// The share of a density that the search for a quantile may change it by.
+const SEARCHED: f64 = 1e-6;
+
+/// The least probability outside whose quantile the points tell.
+const RESOLVED: f64 = 1e-6;
+
+/// A shortest interval that may have anything from a range of probabilities below it that is a larger share
+/// of the probability outside is one of many.
+const FLAT: f64 = 0.1;
+
+/// Steps towards a quantile at most.
+const MOST_STEPS: u32 = 60;
 
 /// So many standard errors of a count of independent points a quantile may be off by that count; the nets
 /// scatter less.
 const AGREES: f64 = 6.0;
 
-/// A last step of Newton's that is longer than this share of the width has not found the interval.
-const NEARLY: f64 = 1e-3;
-
 impl Solved<'_> {
     /// The quantile of `p`, and its standard error.
-    fn quantile(&mut self, p: f64, start: f64, scale: f64, columns: usize) -> Option<Figure> {
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn quantile(
+        &mut self,
+        p: f64,
+        start: f64,
+        scale: f64,
+        columns: usize,
+    ) -> Result<Figure, String> {
         let mut y = start;
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        for _ in 0..60 {
+        for _ in 0..MOST_STEPS {
             let found = self.at(y, columns);
             let [cdf, error] = mean(found.iter().map(|of| of[0]));
             let [density, _] = mean(found.iter().map(|of| of[1]));
@@ -464,11 +489,15 @@ impl Solved<'_> {
                 next = if low.is_finite() && high.is_finite() { 0.5 * (low + high) } else { next };
             }
             if (next - y).abs() <= 1e-7 * scale {
-                return (density > 0.0).then_some([next, error / density]);
+                return if density > 0.0 {
+                    Ok([next, error / density])
+                } else {
+                    Err(format!("the density is nearly zero at the quantile of {p:?}"))
+                };
             }
             y = next;
         }
-        None
+        Err(format!("the quantile of {p:?} was not found in {MOST_STEPS} steps"))
     }
 
     fn figures(
@@ -507,12 +536,10 @@ impl Solved<'_> {
         sorted.sort_unstable_by(f64::total_cmp);
         let rank = |p: f64| sorted[((p * sorted.len() as f64) as usize).min(sorted.len() - 1)];
         let scale = 0.5 * (rank(0.84) - rank(0.16));
-        let missing = || "the density is nearly zero at an end of the interval or at the median";
         let all = usize::MAX;
         let starts = [0.5, tail, 1.0 - tail].map(|p| (p, rank(p)));
         let [median, low, high] = starts.map(|(p, start)| self.quantile(p, start, scale, all));
-        let median = median.ok_or_else(missing)?;
-        let (low, high) = (low.ok_or_else(missing)?, high.ok_or_else(missing)?);
+        let (median, low, high) = (median?, low?, high?);
         for (p, [found, _]) in [(0.5, median), (tail, low), (1.0 - tail, high)] {
             let below = sorted.partition_point(|&y| y <= found) as f64 / sorted.len() as f64;
             let error = (p * (1.0 - p) / sorted.len() as f64).sqrt();
@@ -545,15 +572,15 @@ impl Solved<'_> {
             standard_uncertainty: has_deviation.then_some(u),
             median: median[0],
             symmetric_interval: [low[0], high[0]],
-            shortest_interval: shortest.map(|ends| ends.map(|end| end[0])),
-            shortest_unique: shortest.is_some(),
+            shortest_interval: shortest.map(|(ends, _)| ends.map(|end| end[0])),
+            shortest_unique: shortest.is_some_and(|(_, unique)| unique),
             inside: inside.map(|inside| inside[0].clamp(0.0, 1.0)),
             accuracy: Accuracy::Scatter(Box::new(Scatter {
                 estimate: has_deviation.then_some(shift_error),
                 standard_uncertainty: (has_deviation && problem.drawn_dof > 4.0).then_some(u_error),
                 median: median[1],
                 symmetric_interval: [low[1], high[1]],
-                shortest_interval: shortest.map(|ends| ends.map(|end| end[1])),
+                shortest_interval: shortest.map(|(ends, _)| ends.map(|end| end[1])),
                 inside: inside.map(|inside| inside[1]),
                 points,
                 randomizations: RANDOMIZATIONS,
@@ -562,93 +589,109 @@ impl Solved<'_> {
         })
     }
 
-    /// The shortest interval of probability `p`, where its ends have the same density; `None` where
-    /// there is no such interval beside the symmetric one.
-    fn shortest(&mut self, p: f64, symmetric: [Figure; 2], scale: f64) -> Option<[Figure; 2]> {
-        let ends = self.nearly_shortest(p, symmetric.map(|end| end[0]), scale)?;
-        // from there with all points: F(high) - F(low) = p, and the same density at both
-        let all = usize::MAX;
-        let [mut low, mut high] = ends;
-        let density = |of: &[OfNet]| mean(of.iter().map(|of| of[1]))[0];
-        let step = SLOPE_STEP * scale;
-        let steepness = |this: &mut Self, y: f64| {
-            let [before, after] =
-                [y - 0.5 * step, y + 0.5 * step].map(|y| density(&this.at(y, all)));
-            (after - before) / step
-        };
-        let (rise, fall) = (steepness(self, low), steepness(self, high));
-        // where a longer interval is not less dense at both ends there is no shortest one here
-        if rise.is_nan() || fall.is_nan() || rise <= fall {
+    /// The interval with these probabilities below and above it; to see where about something is from a few of
+    /// the points.
+    fn interval(
+        &mut self,
+        tails: [f64; 2],
+        starts: [f64; 2],
+        scale: f64,
+        purpose: Purpose,
+    ) -> Option<Interval> {
+        if tails[0].min(tails[1]) < RESOLVED {
             return None;
         }
-        let mut found = None;
-        for _ in 0..MOST_NEWTON {
-            let (of_low, of_high) = (self.at(low, all), self.at(high, all));
-            let (dense_low, dense_high) = (density(&of_low), density(&of_high));
-            let determinant = dense_low * fall - dense_high * rise;
-            // what each randomization moves the ends by
-            let moves = of_low.iter().zip(&of_high).map(|(l, h)| {
-                let (missing, excess) = (p - (h[0] - l[0]), l[1] - h[1]);
-                [
-                    (excess * dense_high - missing * fall) / determinant,
-                    (excess * dense_low - missing * rise) / determinant,
-                ]
-            });
-            let moves: Vec<[f64; 2]> = moves.collect();
-            let [of_low, of_high] = [0, 1].map(|end| mean(moves.iter().map(|of| of[end])));
-            low += of_low[0].clamp(-scale, scale);
-            high += of_high[0].clamp(-scale, scale);
-            let moved = of_low[0].abs().max(of_high[0].abs());
-            if moved.is_nan() {
-                return None;
-            }
-            // what the last step leaves is far less than itself
-            let error = |end: Figure| crate::number::elementary::hypot(end[1], moved);
-            found =
-                (moved <= NEARLY * scale).then(|| [[low, error(of_low)], [high, error(of_high)]]);
-            if moved <= 0.1 * of_low[1].min(of_high[1]) {
-                break;
-            }
-        }
-        found
+        let columns = match purpose {
+            Purpose::Survey => self.nets.first().map_or(1, |of| of.net.columns.len().div_ceil(16)),
+            Purpose::Find => usize::MAX,
+        };
+        let low = self.quantile(tails[0], starts[0], scale, columns).ok()?;
+        let high = self.quantile(1.0 - tails[1], starts[1], scale, columns).ok()?;
+        let ends = [low[0], high[0]];
+        let [of_low, of_high] = ends.map(|y| self.at(y, columns));
+        let excesses = of_low.iter().zip(&of_high).map(|(low, high)| low[1] - high[1]);
+        let [excess, error] = mean(excesses);
+        let [density, _] = mean(of_low.iter().map(|of| of[1]));
+        // far below the scatter of the randomizations, and above what the search for quantiles leaves
+        let off = f64::max(SAME * error, SEARCHED * density);
+        let of_length = crate::number::elementary::hypot(low[1], high[1]);
+        Some(Interval { tails, ends, off: of_length, excess: [excess, off] })
     }
 
-    /// The same from a few of the points, to a hundredth of the probability outside.
-    fn nearly_shortest(&mut self, p: f64, symmetric: [f64; 2], scale: f64) -> Option<[f64; 2]> {
+    /// The shortest interval of probability `p`, and whether it is the only one.
+    fn shortest(
+        &mut self,
+        p: f64,
+        symmetric: [Figure; 2],
+        scale: f64,
+    ) -> Option<([Figure; 2], bool)> {
         let tail = 1.0 - p;
-        let few = self.nets.first().map_or(1, |of| of.net.columns.len().div_ceil(16));
-        let mut ends = symmetric;
-        let mut excess = |share: f64| -> Option<(f64, [f64; 2])> {
-            let low = self.quantile(share * tail, ends[0], scale, few)?[0];
-            let high = self.quantile(share * tail + p, ends[1], scale, few)?[0];
-            ends = [low, high];
-            let [at_low, at_high] = ends.map(|y| mean(self.at(y, few).iter().map(|of| of[1]))[0]);
-            Some((at_low - at_high, ends))
+        let mut starts = symmetric.map(|end| end[0]);
+        let at = |tails: [f64; 2], purpose| {
+            let found = self.interval(tails, starts, scale, purpose)?;
+            starts = found.ends;
+            Some(found)
         };
-        let (mut a, mut b) = (0.02, 0.98);
-        let (mut at_a, mut at_b) = (excess(a)?.0, excess(b)?.0);
-        if at_a >= 0.0 || at_b <= 0.0 {
-            return None;
+        let least = Search { tail, at }.least()?;
+        let is_flat = least.range[1] - least.range[0] > FLAT * tail;
+        let length = symmetric[1][0] - symmetric[0][0];
+        if is_flat || least.includes(0.5 * tail) || least.interval.length() >= length {
+            let [low, high] = symmetric.map(|end| end[0]);
+            let ends =
+                if is_flat { symmetric } else { self.balanced_errors(p, [low, high], scale)? };
+            return Some((ends, least.alone && !is_flat));
         }
-        let (mut share, mut nearly) = (0.5, symmetric);
-        for _ in 0..24 {
-            let (here, found) = excess(share)?;
-            if here < 0.0 {
-                if at_a < 0.0 && share > a {
-                    at_b *= 0.5;
-                }
-                (a, at_a) = (share, here);
-            } else {
-                (b, at_b) = (share, here);
-                at_a *= 0.5;
+        let ends = least.interval.ends;
+        let found = if least.range[0] <= 0.0 || least.range[1] >= tail {
+            // it begins or ends where the values do, no farther away than the density takes to hold
+            // what is beyond
+            let probabilities = [least.interval.tails[0], 1.0 - least.interval.tails[1]];
+            let mut found = [[0.0; 2]; 2];
+            for (place, (end, p)) in ends.into_iter().zip(probabilities).enumerate() {
+                let of = self.at(end, usize::MAX);
+                let [_, error] = mean(of.iter().map(|of| of[0]));
+                let [density, _] = mean(of.iter().map(|of| of[1]));
+                let is_limit = (place == 0) == (least.range[0] <= 0.0);
+                let beyond = if is_limit { p.min(1.0 - p) } else { 0.0 };
+                found[place] = [end, (error + beyond) / density];
             }
-            let next = a - at_a * (b - a) / (at_b - at_a);
-            nearly = found;
-            if (next - share).abs() < 0.01 {
-                break;
-            }
-            share = next;
-        }
-        Some(nearly)
+            found
+        } else {
+            self.balanced_errors(p, ends, scale)?
+        };
+        Some((found, least.alone))
+    }
+
+    /// The ends of an interval at which the density is the same, and their standard errors: each
+    /// randomization would move them to F(high) - F(low) = p, and the same density at both.
+    fn balanced_errors(&mut self, p: f64, ends: [f64; 2], scale: f64) -> Option<[Figure; 2]> {
+        let all = usize::MAX;
+        let density = |of: &[OfNet]| mean(of.iter().map(|of| of[1]))[0];
+        let step = SLOPE_STEP * scale;
+        let [rise, fall] = ends.map(|y| {
+            let [before, after] =
+                [y - 0.5 * step, y + 0.5 * step].map(|y| density(&self.at(y, all)));
+            (after - before) / step
+        });
+        let [of_low, of_high] = ends.map(|y| self.at(y, all));
+        let (dense_low, dense_high) = (density(&of_low), density(&of_high));
+        let determinant = dense_high * rise - dense_low * fall;
+        let moves: Vec<[f64; 2]> = of_low
+            .iter()
+            .zip(&of_high)
+            .map(|(l, h)| {
+                let (missing, excess) = (p - (h[0] - l[0]), l[1] - h[1]);
+                [
+                    (missing * fall - excess * dense_high) / determinant,
+                    (missing * rise - excess * dense_low) / determinant,
+                ]
+            })
+            .collect();
+        (determinant > 0.0).then(|| {
+            [0, 1].map(|end| {
+                let [moved, error] = mean(moves.iter().map(|of| of[end]));
+                [ends[end], crate::number::elementary::hypot(error, moved)]
+            })
+        })
     }
 }

@@ -48,7 +48,7 @@ fn directions(dimension: usize) -> [u32; 32] {
 
 /// One coordinate of a scrambled net.
 #[derive(Clone, Debug)]
-pub(super) struct Coordinate {
+pub(in crate::propagate) struct Coordinate {
     /// `None` beyond the dimensions of the table, where numbers are random.
     directions: Option<[u32; 32]>,
     seed: u64,
@@ -56,7 +56,7 @@ pub(super) struct Coordinate {
 
 impl Coordinate {
     /// The coordinate of a dimension in a randomization.
-    pub(super) fn new(dimension: usize, seed: u64) -> Self {
+    pub(in crate::propagate) fn new(dimension: usize, seed: u64) -> Self {
         let known = dimension <= DIRECTIONS.len();
         Self {
             directions: known.then(|| directions(dimension)),
@@ -65,7 +65,7 @@ impl Coordinate {
     }
 
     /// The coordinate of a point, in (0, 1).
-    pub(super) fn at(&self, point: u32) -> f64 {
+    pub(in crate::propagate) fn at(&self, point: u32) -> f64 {
         let bits = match &self.directions {
             Some(directions) => self.scrambled(sobol(directions, point)),
             None => hash(self.seed, u64::from(point)),

@@ -135,8 +135,10 @@ fn lists_stand_in_each_other_to_a_depth() {
             quantity(&format!("{open}{value}{close}"))
         };
         near(known(&accepted(&nested(60), ""), 0), [10.0, 0.5]);
-        let error = refused(&nested(5000), "");
+        let error = refused(&nested(100), "");
         assert!(error.contains("in each other more than 64 deep"), "{error}");
+        let error = refused(&nested(5000), "");
+        assert!(error.contains("257 elements in each other here"), "{error}");
     }
 }
 

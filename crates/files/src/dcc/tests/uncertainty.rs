@@ -279,6 +279,8 @@ fn factors_and_probabilities_belong_together() {
         ("2", "0.99", "normal"),
         ("2", "0.9973", ""),
         ("1", "0.95", ""),
+        ("3", "0.95", ""),
+        ("1.93", "0.95", ""),
         ("2", "0.95", "uniform"),
         ("3", "0.95", "uniform"),
         ("1.73", "0.95", "rectangular"),
@@ -305,7 +307,7 @@ fn factors_and_probabilities_belong_together() {
         ("3", "0.99", "normal"),
         ("3", "0.997", ""),
         ("3", "0.9973", "normal"),
-        ("1.65", "0.95", ""),
+        ("1.65", "0.90", ""),
         ("1.65", "0.95", "uniform"),
         ("1.9", "0.95", "triangular"),
         ("2", "0.95", "t"),
@@ -316,6 +318,62 @@ fn factors_and_probabilities_belong_together() {
     }
     // table G.2 of JCGM 100: 2.57 is of 5 degrees of freedom
     assert_eq!(known(&accepted(&of("2.57", "0.95", ""), ""), 0)[2], 5.0);
+}
+
+/// Without a name a factor is that of a normal or of a t distribution, or it is asked: 1.65 and 1.9 are those
+/// of a rectangular (0.95 sqrt(3) = 1.645) and of a triangular distribution ((1 - sqrt(0.05)) sqrt(6) = 1.902)
+/// at 95 %; 1.18 at 68 % is that of a rectangular one (1.178) and of t with 3 degrees of freedom (1.19).
+#[test]
+fn factors_of_no_normal_distribution_are_asked() {
+    let of = |k: &str, p: &str, law: &str| {
+        quantity(&real("10", r"\volt", &expanded(["1.1", k, p, law])))
+    };
+    for (k, p, names, law, shape) in [
+        (
+            "1.65",
+            "0.95",
+            "a distribution `rectangular`; a normal one has 1.96",
+            "rectangular",
+            "rectangular",
+        ),
+        (
+            "1.9",
+            "0.95",
+            "a distribution `triangular`; a normal one has 1.96",
+            "triangular",
+            "triangular",
+        ),
+        ("1.41", "0.95", "a distribution `arcsine`; a normal one has 1.96", "arcsine", "arcsine"),
+        ("1.18", "0.68", "a distribution `t` or `rectangular`", "t", "t"),
+        ("1.6", "0.90", "a distribution `normal` or `rectangular`", "normal", "normal"),
+    ] {
+        let error = refused(&of(k, p, ""), "");
+        let said = format!(
+            "has a coverage factor of {k} and a coverage probability of {p} and names no distribution"
+        )
+        .replace("0.90", "0.9");
+        assert!(error.contains(&said) && error.contains(names), "{error}");
+        assert!(error.contains("`\"law\": \""), "{error}");
+        let file = accepted(&of(k, p, ""), &format!(r#", "law": "{law}""#));
+        let drawn = &file.task.rows[0].distributions[0];
+        let shape = if shape == "t" { "normal" } else { shape };
+        assert_eq!(drawn.name(), shape, "{k}");
+        let [_, u, dof] = known(&file, 0);
+        assert!((u * k.parse::<f64>().unwrap() / 1.1 - 1.0).abs() < 1e-12, "{k}");
+        assert_eq!(dof.is_finite(), law == "t", "{k} {dof}");
+    }
+    // what is named otherwise, or by a name that is not known
+    let error = refused(&of("2", "0.95", "normal"), r#", "law": "rectangular""#);
+    assert!(error.contains("is called `normal` (normal)"), "{error}");
+    let file = accepted(&of("1.65", "0.95", "of its own"), r#", "law": "rectangular""#);
+    assert_eq!(file.task.rows[0].distributions[0].name(), "rectangular");
+    assert!(!has_note(&file, "certificate-distribution"));
+    let error = refused(&of("2", "0.95", ""), r#", "law": "lognormal""#);
+    assert!(error.contains("rectangular"), "{error}");
+    let error = refused(&of("1.9", "0.95", ""), r#", "law": "rectangular""#);
+    assert!(error.contains("which do not belong together"), "{error}");
+    let error = refused(&quantity(&real("10", r"\volt", "")), r#", "law": "normal""#);
+    assert!(error.contains("states no uncertainty here"), "{error}");
 }
 
 /// All of a distribution with limits may lie within U, and of no other one.

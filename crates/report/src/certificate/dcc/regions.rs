@@ -26,7 +26,7 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
         let Some(joint) = of.joint() else { continue };
         let factors: Vec<Form> = [
             joint.ellipsoid_k.map(|k| ("si:ellipsoidalRegion", (|w: &Words| w.ellipsoid) as _, k)),
-            Some(("si:rectangularRegion", (|w: &Words| w.cuboid) as _, joint.box_k)),
+            joint.box_k.map(|k| ("si:rectangularRegion", (|w: &Words| w.cuboid) as _, k)),
         ]
         .into_iter()
         .flatten()
@@ -59,7 +59,7 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
 fn about(report: &CertificateReport<'_>, of: &Covered<'_>, language: Language) -> String {
     let mut said: Vec<String> = of.rows.iter().map(|row| named(report, row, language)).collect();
     let found = of.region.monte_carlo.as_ref();
-    if let Some(smallest) = found.and_then(|found| found.smallest) {
+    if let Some(smallest) = found.and_then(|found| found.smallest.as_ref().ok()) {
         let units = of.rows.iter().map(|row| printed(&row.quantity.unit).text().trim().to_owned());
         let units: Vec<String> = units.filter(|unit| !matches!(unit.as_str(), "" | "1")).collect();
         let number = Said::by_itself(report, language).in_marks(&significant(smallest.volume, 3));

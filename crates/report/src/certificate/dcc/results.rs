@@ -233,7 +233,10 @@ fn measured(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
                 let factors = texts(|row| row.factor().text);
                 xml.leaf("si:coverageFactorXMLList", &factors.join(" "));
                 xml.leaf("si:coverageProbabilityXMLList", &texts(probability).join(" "));
-                xml.leaf("si:distributionXMLList", &texts(distribution).join(" "));
+                let laws: Option<Vec<&str>> = rows.iter().map(distribution).collect();
+                if let Some(laws) = laws {
+                    xml.leaf("si:distributionXMLList", &laws.join(" "));
+                }
             });
         });
         explained(xml, &first.quantity.unit);
@@ -251,14 +254,17 @@ fn probability(row: &Stated<'_>) -> String {
     }
 }
 
-fn distribution(row: &Stated<'_>) -> String {
+/// The law that the factor belongs to; `None` where the trials contradict it, though its interval has
+/// the same digits as theirs.
+fn distribution(row: &Stated<'_>) -> Option<&'static str> {
+    let is_contradicted = row.found.validation.is_some_and(|v| v.gum_valid == Some(false));
     match row.statement.basis {
-        Basis::Normal => "normal",
-        Basis::Student => "t",
-        Basis::Fixed if row.reached().is_some() && !row.is_raised() => "t",
-        Basis::Fixed | Basis::Shortest => "other",
+        Basis::Normal | Basis::Student if is_contradicted && !row.is_raised() => None,
+        Basis::Normal => Some("normal"),
+        Basis::Student => Some("t"),
+        Basis::Fixed if row.reached().is_some() && !row.is_raised() => Some("t"),
+        Basis::Fixed | Basis::Shortest => Some("other"),
     }
-    .to_owned()
 }
 
 /// What a quantity of coverage intervals is called: the good practice of the DKD has no reference type
@@ -294,7 +300,8 @@ fn intervals(
                 xml.leaf("si:intervalMinXMLList", &texts(&|_, ends| ends[0].clone()));
                 xml.leaf("si:intervalMaxXMLList", &texts(&|_, ends| ends[1].clone()));
                 xml.leaf("si:coverageProbabilityXMLList", &texts(&|row, _| probability(row)));
-                xml.leaf("si:distributionXMLList", &texts(&|row, _| distribution(row)));
+                let law = texts(&|row, _| distribution(row).unwrap_or("other").to_owned());
+                xml.leaf("si:distributionXMLList", &law);
             });
         });
         explained(xml, &first.quantity.unit);

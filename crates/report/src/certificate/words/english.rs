@@ -48,11 +48,10 @@ pub(super) const WORDS: Words = Words {
     rows: ["Row {rows}: ", "Rows {rows}: "],
     and: " and ",
     normal: "The expanded uncertainty U is the standard uncertainty multiplied by the coverage factor \
-        k = {k}; the result is normally distributed, so that the interval from value - U to value + U \
-        has a coverage probability of {p}.",
+        k = {k}, which for a normal distribution corresponds to a coverage probability of {p}.",
     student: "The expanded uncertainty U is the standard uncertainty multiplied by the coverage \
-        factor k stated with it. The result follows a t distribution with the effective degrees \
-        of freedom ν_eff, and k is chosen so that the coverage probability is {p}.",
+        factor k stated with it, which for a t distribution with the effective degrees of freedom \
+        ν_eff corresponds to a coverage probability of {p}.",
     fixed: "The expanded uncertainty U is the standard uncertainty multiplied by the agreed coverage \
         factor k = {k}. No distribution is supposed, so that no coverage probability is stated.",
     agreed: "The expanded uncertainty U is the standard uncertainty multiplied by the agreed \

@@ -48,12 +48,10 @@ pub(super) const WORDS: Words = Words {
     rows: ["Ligne {rows} : ", "Lignes {rows} : "],
     and: " et ",
     normal: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur d'élargissement \
-        k = {k} ; le résultat suit une loi normale, de sorte que l'intervalle de valeur - U à valeur + U a \
-        une probabilité de couverture de {p}.",
+        k = {k} qui, pour une loi normale, correspond à une probabilité de couverture de {p}.",
     student: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur \
-        d'élargissement k déclaré avec elle. Le résultat suit une loi de Student avec les degrés \
-        de liberté effectifs ν_eff, et k est choisi de façon que la probabilité de couverture \
-        soit {p}.",
+        d'élargissement k déclaré avec elle qui, pour une loi de Student avec les degrés de liberté \
+        effectifs ν_eff, correspond à une probabilité de couverture de {p}.",
     fixed: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur d'élargissement convenu \
         k = {k}. Aucune loi n'est supposée, et aucune probabilité de couverture n'est donc déclarée.",
     agreed: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur \

@@ -48,12 +48,11 @@ pub(super) const WORDS: Words = Words {
     rows: ["Zeile {rows}: ", "Zeilen {rows}: "],
     and: " und ",
     normal: "Die erweiterte Messunsicherheit U ist die Standardmessunsicherheit, multipliziert mit dem \
-        Erweiterungsfaktor k = {k}; das Ergebnis ist normalverteilt, sodass das Intervall von Wert - U \
-        bis Wert + U eine Überdeckungswahrscheinlichkeit von {p} hat.",
+        Erweiterungsfaktor k = {k}, der bei einer Normalverteilung einer \
+        Überdeckungswahrscheinlichkeit von {p} entspricht.",
     student: "Die erweiterte Messunsicherheit U ist die Standardmessunsicherheit, multipliziert \
-        mit dem jeweils angegebenen Erweiterungsfaktor k. Das Ergebnis folgt einer t-Verteilung \
-        mit den effektiven Freiheitsgraden ν_eff, und k ist so gewählt, dass die \
-        Überdeckungswahrscheinlichkeit {p} beträgt.",
+        mit dem jeweils angegebenen Erweiterungsfaktor k, der bei einer t-Verteilung mit den \
+        effektiven Freiheitsgraden ν_eff einer Überdeckungswahrscheinlichkeit von {p} entspricht.",
     fixed: "Die erweiterte Messunsicherheit U ist die Standardmessunsicherheit, multipliziert mit dem \
         vereinbarten Erweiterungsfaktor k = {k}. Es wird keine Verteilung vorausgesetzt und daher keine \
         Überdeckungswahrscheinlichkeit angegeben.",

@@ -47,12 +47,11 @@ pub(super) const WORDS: Words = Words {
     uncertainty: "Incertezza di misura",
     rows: ["Riga {rows}: ", "Righe {rows}: "],
     and: " e ",
-    normal: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura k = {k}; \
-        il risultato ha distribuzione normale, sicché l'intervallo da valore - U a valore + U ha una \
-        probabilità di copertura di {p}.",
+    normal: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura k = {k}, \
+        che per una distribuzione normale corrisponde a una probabilità di copertura di {p}.",
     student: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura \
-        k dichiarato con essa. Il risultato segue una distribuzione t con i gradi di libertà \
-        effettivi ν_eff, e k è scelto in modo che la probabilità di copertura sia {p}.",
+        k dichiarato con essa, che per una distribuzione t con i gradi di libertà effettivi ν_eff \
+        corrisponde a una probabilità di copertura di {p}.",
     fixed: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura concordato \
         k = {k}. Non si suppone alcuna distribuzione, perciò non si dichiara una probabilità di copertura.",
     agreed: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura \

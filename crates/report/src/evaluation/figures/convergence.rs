@@ -44,7 +44,7 @@ pub(in crate::evaluation) fn convergence(
     let last = stages.last().filter(|_| stages.len() > 1)?;
     let shortest = last.stated_interval().shortest;
     // without a standard deviation half of the interval says what is large
-    let (size, unit) = match last.spread() {
+    let (size, unit) = match last.standard_uncertainty {
         Some(u) => (u, "u"),
         None => {
             let [low, high] = last.stated_interval().ends;

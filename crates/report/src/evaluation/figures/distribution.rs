@@ -23,6 +23,9 @@ use gumption_units::Unit;
 const GUM: &str = "GUM";
 const TRIALS: &str = "Monte Carlo";
 
+/// The row of what the file states.
+const STATED: &str = "tolerance";
+
 /// Heights in pixels: of the densities, and of a row with an interval.
 const TALL: f64 = 230.0;
 const ROW: f64 = 22.0;
@@ -82,12 +85,12 @@ pub(in crate::evaluation) fn distribution(
         rows.extend(ends.map(|ends| Row { method, name, ends, estimate, colour }));
     };
     row((Some(GUM), "GUM"), gum.and_then(Gum::interval), gum.map(|gum| gum.estimate), INK);
-    let trials = figures.estimate.unwrap_or(figures.median);
+    let trials = found.located().map(|(value, _)| value);
     let (symmetric, shortest) = ("Monte Carlo, symmetric", "Monte Carlo, shortest");
-    row((Some(TRIALS), symmetric), Some(figures.symmetric_interval), Some(trials), AFTER);
-    row((Some(TRIALS), shortest), Some(figures.shortest_interval), Some(trials), AFTER);
+    row((Some(TRIALS), symmetric), Some(figures.symmetric_interval), trials, AFTER);
+    row((Some(TRIALS), shortest), Some(figures.shortest_interval), trials, AFTER);
     if let Some(conformity) = &found.conformity {
-        row((None, "tolerance"), Some(conformity.tolerance.ends()), None, BEFORE);
+        row((None, STATED), Some(conformity.tolerance.ends()), None, BEFORE);
         let accepted = conformity.acceptance.filter(|_| conformity.is_guarded());
         row((None, "acceptance"), accepted.map(|limits| limits.ends()), None, BEFORE);
     }
@@ -182,14 +185,21 @@ impl Row {
         at: f64,
     ) -> Drawn {
         strip.name(area, self.name, at)?;
-        strip.interval(area, self.ends, at, self.colour)?;
+        // what the file states is shown as it is stated, the rest to what can be told apart here
+        let [first, last] = strip.axis.ends();
+        let place = position(last - first, 3);
+        let number = |end: f64| if self.name == STATED { exact(end) } else { to(end, place) };
+        strip.interval(area, self.ends, at, (self.colour, &number))?;
         let said = format!("{}: {}", self.name, range(self.ends, unit));
         for end in self.ends.into_iter().filter(|end| end.is_finite()) {
             let x = strip.x(end);
-            line(area, [(x, at), (x, 0.35 * TALL)], faded(self.colour, 0.55, 0.75))?;
+            if strip.holds(end) {
+                line(area, [(x, at), (x, 0.35 * TALL)], faded(self.colour, 0.55, 0.75))?;
+            }
             titles.at_pixels((x, at), &said);
         }
-        if let Some(estimate) = self.estimate {
+        // the estimate of an interval beyond an end is beyond it as well
+        if let Some(estimate) = self.estimate.filter(|estimate| strip.holds(*estimate)) {
             let place = (px(strip.x(estimate)), px(at));
             area.draw(&Circle::new(place, px(3.5), self.colour.filled()))?;
             titles.at_pixels((strip.x(estimate), at), &said);

@@ -1,16 +1,21 @@
-//! A sweep: estimates with expanded uncertainties over a condition, and the uncertainties alone.
+//! A sweep: estimates with the intervals that are to be taken over a condition, and their half-lengths
+//! alone.
 
 use gumption_engine::number::ascending;
 use plotters::element::PathElement;
+use plotters::style::RGBColor;
 
+use crate::evaluation::Taken;
 use crate::html::Drawing;
-use crate::number::{exact, with_uncertainty};
+use crate::number::{exact, position, to, with_uncertainty};
 use crate::plain;
-use crate::plot::{AFTER, Axis, Fill, Groups, INK, Panel, mark, px, stroke, svg_with_titles};
+use crate::plot::{
+    AFTER, Axis, BEFORE, Fill, Groups, INK, Panel, mark, px, stroke, svg_with_titles,
+};
 use crate::table::{conditions_text, in_unit};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::{RowEvaluation, naming};
-use gumption_engine::task::Task;
+use gumption_engine::task::{Settings, Task};
 
 /// Height of a panel in pixels.
 const TALL: f64 = 210.0;
@@ -23,7 +28,10 @@ struct Point {
     /// The condition's value.
     x: f64,
     estimate: f64,
-    expanded: f64,
+    /// The interval that is to be taken.
+    ends: [f64; 2],
+    /// Whether it is that of the trials.
+    of_trials: bool,
     group: usize,
     /// What it is, in words.
     about: String,
@@ -34,7 +42,7 @@ struct Point {
 pub(in crate::evaluation) fn sweep(
     task: &Task,
     rows: &[RowEvaluation],
-    output: usize,
+    (output, settings): (usize, &Settings),
 ) -> Option<Drawing> {
     let levels = |place: usize| -> Vec<f64> {
         let mut values: Vec<f64> =
@@ -58,23 +66,24 @@ pub(in crate::evaluation) fn sweep(
         .iter()
         .take(MOST)
         .filter_map(|row| {
-            let gum = row.outputs.get(output)?.gum.as_ref()?;
-            let (x, expanded) = (*row.conditions.get(place)?, gum.expanded_uncertainty()?);
+            let taken = Taken::of(settings, row.outputs.get(output)?);
+            let (estimate, ends) = taken.interval()?;
+            let x = *row.conditions.get(place)?;
             let group = groups.of(&row.conditions);
-            let about = about(task, &named, row, (quantity, gum.estimate, expanded));
-            Some(Point { x, estimate: gum.estimate, expanded, group, about })
+            let about = about(task, &named, row, (quantity, taken));
+            let of_trials = matches!(taken, Taken::Interval { .. });
+            Some(Point { x, estimate, ends, of_trials, group, about })
         })
-        .filter(|of| [of.x, of.estimate, of.expanded].iter().all(|number| number.is_finite()))
+        .filter(|of| [of.x, of.estimate, of.half()].iter().all(|number| number.is_finite()))
         .collect();
     if points.is_empty() {
         return None;
     }
     let x = Axis::over(points.iter().map(|point| point.x));
-    let values = Axis::around(
-        points.iter().flat_map(|of| [of.estimate - of.expanded, of.estimate + of.expanded]),
-    )?;
-    let most = points.iter().map(|point| point.expanded).fold(0.0, f64::max);
+    let values = Axis::around(points.iter().flat_map(|of| of.ends))?;
+    let most = points.iter().map(Point::half).fold(0.0, f64::max);
     let widths = Axis::linear(0.0, if most > 0.0 { 1.08 * most } else { 1.0 });
+    let trials = points.iter().filter(|of| of.of_trials).count();
     let drawn = |width: f64| {
         svg_with_titles(width, 2.0 * TALL, |area, titles| {
             let (top, bottom) = area.split_vertically(px(TALL));
@@ -87,30 +96,57 @@ pub(in crate::evaluation) fn sweep(
             let upper = over(axis(quantity), &values).draw(&top)?;
             for of in &points {
                 let at = x.position(of.x);
-                let ends = [of.estimate - of.expanded, of.estimate + of.expanded];
-                let bar = PathElement::new(ends.map(|end| (at, end)).to_vec(), stroke(AFTER, 1.5));
+                let ends = of.ends.map(|end| (at, end));
+                let bar = PathElement::new(ends.to_vec(), stroke(of.colour(), 1.5));
                 upper.plotting_area().draw(&bar)?;
                 mark(&upper, of.group, (at, of.estimate), 2.75, (INK, Fill::Full))?;
                 titles.at(&upper, (at, of.estimate), &of.about);
             }
-            let name = format!("U({})", quantity.name);
+            let name = match trials {
+                0 => format!("U({})", quantity.name),
+                _ => format!("half of the interval of {}", quantity.name),
+            };
             let label = axis(&Quantity { name, ..quantity.clone() });
             let lower = over(label, &widths).draw(&bottom)?;
             for of in &points {
-                let place = (x.position(of.x), of.expanded);
-                mark(&lower, of.group, place, 2.75, (AFTER, Fill::Full))?;
+                let place = (x.position(of.x), of.half());
+                mark(&lower, of.group, place, 2.75, (of.colour(), Fill::Full))?;
                 titles.at(&lower, place, &of.about);
             }
             Ok(())
         })
     };
     let left_out = if rows.len() > MOST { ", the first rows" } else { "" };
+    let propagated = "estimates with their expanded uncertainties U by the law of propagation";
+    let [what, below] = match points.len() - trials {
+        _ if trials == 0 => [propagated.to_owned(), "U alone".to_owned()],
+        rest => {
+            let of_trials = "estimates with their coverage intervals by the Monte Carlo method, where \
+                             the GUM interval is not valid";
+            let others = format!("; blue: {propagated}");
+            let others = if rest == 0 { "" } else { &others };
+            [
+                format!("{of_trials} (vermilion){others}"),
+                "half of the length of the interval alone".to_owned(),
+            ]
+        }
+    };
     let caption = format!(
-        "Above: estimates with their expanded uncertainties U by the law of propagation{left_out}; \
-         below: U alone.{}",
+        "Above: {what}{left_out}; below: {below}.{}",
         groups.caption(&plain(&condition.name))
     );
     Some(Drawing::new(caption, drawn))
+}
+
+impl Point {
+    /// Half of the length of the interval: U, where it lies about the estimate.
+    fn half(&self) -> f64 {
+        0.5 * (self.ends[1] - self.ends[0])
+    }
+
+    fn colour(&self) -> RGBColor {
+        if self.of_trials { BEFORE } else { AFTER }
+    }
 }
 
 /// Rows told apart by a condition.
@@ -131,14 +167,25 @@ fn about(
     task: &Task,
     named: &[usize],
     row: &RowEvaluation,
-    (quantity, estimate, expanded): (&Quantity, f64, f64),
+    (quantity, taken): (&Quantity, Taken<'_>),
 ) -> String {
     let of = |place: &usize| {
         Some((task.model.conditions.get(*place)?.clone(), *row.conditions.get(*place)?))
     };
     let (conditions, at): (Vec<Quantity>, Vec<f64>) = named.iter().filter_map(of).unzip();
-    let (estimate, expanded) = with_uncertainty(estimate, expanded, 2);
-    let result = in_unit(&format!("({estimate} ± {expanded})"), &quantity.unit);
+    let result = match (taken, taken.interval()) {
+        (Taken::Expanded { estimate, expanded, .. }, _) => {
+            let (estimate, expanded) = with_uncertainty(estimate, expanded, 2);
+            format!("({estimate} ± {expanded})")
+        }
+        (_, Some((estimate, [low, high]))) => {
+            let place = position(0.5 * (high - low), 2);
+            let [estimate, low, high] = [estimate, low, high].map(|value| to(value, place));
+            format!("{estimate}, from {low} to {high}")
+        }
+        (_, None) => String::new(),
+    };
+    let result = in_unit(&result, &quantity.unit);
     format!("{}: {} = {result}", conditions_text(&conditions, &at), plain(&quantity.name))
 }
 

@@ -152,7 +152,7 @@ pub(super) fn write(
         block.sums(leaf)?;
         block.coefficients(leaf, report)?;
         let figures = block.figures(leaf, output, model)?;
-        block.as_evaluated(leaf, found, output)?;
+        block.as_evaluated(leaf, (found, output), live.inputs)?;
         at = block.below() + FIGURES.len() as u32 + 3;
         totals.push(Some(figures));
         if number == 0 && !task.swept {
@@ -506,8 +506,8 @@ impl Block<'_> {
     fn as_evaluated(
         &self,
         leaf: &mut Leaf,
-        found: &RowEvaluation,
-        output: usize,
+        (found, output): (&RowEvaluation, usize),
+        inputs: &Places,
     ) -> Result<(), XlsxError> {
         let first = self.below();
         leaf.text(first - 1, 2, "as evaluated")?;
@@ -541,7 +541,7 @@ impl Block<'_> {
         }
         let figures = found.outputs.get(output).and_then(|output| output.monte_carlo.as_ref());
         let Some(figures) = figures else { return Ok(()) };
-        leaf.text(first - 1, 4, "Monte Carlo")?;
+        inputs.marked(leaf, (first - 1, 4), "Monte Carlo")?;
         let values = [
             (0, figures.estimate),
             (1, figures.standard_uncertainty),

@@ -4,6 +4,7 @@
 use rust_xlsxwriter::{Chart, ChartType, XlsxError};
 
 use super::Shown;
+use super::inputs::Places;
 use crate::number::position;
 use crate::workbook::{Leaf, Look};
 use crate::{EvaluationReport, plain};
@@ -24,6 +25,7 @@ pub(super) fn write(
     leaf: &mut Leaf,
     report: &EvaluationReport<'_>,
     shown: &Shown<'_>,
+    inputs: &Places,
 ) -> Result<bool, XlsxError> {
     let EvaluationReport { task, evaluation, .. } = *report;
     let Some(row) = evaluation.rows.first() else { return Ok(false) };
@@ -74,6 +76,9 @@ pub(super) fn write(
         chart.set_width(SIZE.0).set_height(SIZE.1);
         leaf.chart((TOP, first + 4), &chart)?;
         first += WIDE + 3;
+    }
+    if first > 0 {
+        inputs.marked(leaf, (0, 0), "Distributions")?;
     }
     Ok(first > 0)
 }

@@ -12,6 +12,7 @@ use std::io;
 
 use rust_xlsxwriter::XlsxError;
 
+use self::inputs::Places;
 use self::tape::Tape;
 use super::{Shown, repeat};
 use crate::document::{Block, Document};
@@ -46,7 +47,7 @@ fn write(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, Xl
     let mut results = book.leaf("Results")?;
     let measurement = measurement(&mut book, task)?;
     if lines(report) > MOST_LINES {
-        results::write(&mut results, report, &[])?;
+        results::write(&mut results, report, (&Places::default(), &[]))?;
         book.push(results)?;
         measurement.into_iter().try_for_each(|leaf| book.push(leaf))?;
         return about(book, report, shown);
@@ -70,7 +71,7 @@ fn write(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, Xl
         totals.push(budget::write(&mut leaf, report, output, &live)?);
         budgets.push(leaf);
     }
-    results::write(&mut results, report, &totals)?;
+    results::write(&mut results, report, (&places, &totals))?;
     for leaf in [results].into_iter().chain(measurement).chain([inputs]).chain(budgets).chain(steps)
     {
         book.push(leaf)?;
@@ -80,33 +81,44 @@ fn write(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, Xl
     {
         let mut leaf = book.leaf("Correlations")?;
         leaf.title(0, "Correlation of the outputs")?;
+        places.marked(&mut leaf, (1, 0), "Of the inputs as evaluated")?;
         leaf.table(2, &sheet)?;
         book.push(leaf)?;
     }
     let mut leaf = book.leaf("Distributions")?;
-    if distribution::write(&mut leaf, report, shown)? {
+    if distribution::write(&mut leaf, report, shown, &places)? {
         book.push(leaf)?;
     }
     let settings = &report.evaluation.settings;
     let mut functions = Document::default();
     let curves = task.curves.iter().map(|curve| &**curve);
     fits::sections(&mut functions, curves, settings.coverage, settings.digits);
-    worksheet(&mut book, "Calibration functions", &functions)?;
+    worksheet(&mut book, "Calibration functions", &functions, None)?;
     if let [row] = report.evaluation.rows.as_slice() {
         let mut found = Document::default();
         regions::sections(&mut found, task, row);
-        worksheet(&mut book, "Regions", &found)?;
+        worksheet(&mut book, "Regions", &found, Some(&places))?;
     }
     about(book, report, shown)
 }
 
-/// A worksheet of sections, without their figures; none where there is nothing.
-fn worksheet(book: &mut Book, name: &str, document: &Document) -> Result<(), XlsxError> {
+/// A worksheet of sections, without their figures; none where there is nothing. Figures of inputs that
+/// may be changed are marked.
+fn worksheet(
+    book: &mut Book,
+    name: &str,
+    document: &Document,
+    inputs: Option<&Places>,
+) -> Result<(), XlsxError> {
     if document.blocks.is_empty() {
         return Ok(());
     }
     let mut leaf = book.leaf(name)?;
     let mut row = 0;
+    if let Some(inputs) = inputs {
+        inputs.marked(&mut leaf, (row, 0), "Of the inputs as evaluated")?;
+        row += 1;
+    }
     for block in &document.blocks {
         match block {
             Block::Section(title) => {
@@ -198,10 +210,6 @@ fn about(
     let mut leaf = book.leaf("About")?;
     leaf.title(0, "To repeat this")?;
     let mut row = 2;
-    if let Some(said) = table::stopped(report.evaluation) {
-        leaf.line(row, &said)?;
-        row += 1;
-    }
     for (name, value) in repeat::lines(report, shown) {
         leaf.text(row, 0, &name)?;
         // a seed may have more digits than a spreadsheet keeps

@@ -4,6 +4,7 @@
 use rust_xlsxwriter::XlsxError;
 
 use super::budget::Totals;
+use super::inputs::Places;
 use crate::number::{place_of_ends, position};
 use crate::workbook::{Cached, Leaf, Look, PERCENT, here};
 use crate::{EvaluationReport, plain, table};
@@ -87,11 +88,14 @@ impl Line {
 pub(super) fn write(
     leaf: &mut Leaf,
     report: &EvaluationReport<'_>,
-    totals: &[Totals],
+    (places, totals): (&Places, &[Totals]),
 ) -> Result<(), XlsxError> {
     let EvaluationReport { task, evaluation, .. } = *report;
     leaf.title(0, &plain(&task.title))?;
     leaf.line(1, &table::settings_text(evaluation))?;
+    if evaluation.rows.iter().flat_map(|row| &row.outputs).any(|of| of.monte_carlo.is_some()) {
+        places.marked(leaf, (2, 0), "Monte Carlo, of the inputs as evaluated")?;
+    }
     let tolerances = task.model.outputs.iter().any(|output| output.tolerance.is_some());
     let further = if tolerances { CONFORMITY.as_slice() } else { &[] };
     let capabilities = task.model.outputs.iter().any(|output| output.capability.is_some());

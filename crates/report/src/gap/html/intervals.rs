@@ -5,6 +5,7 @@ use plotters::style::Color;
 
 use super::super::{digits, sheets, words};
 use super::Drawing;
+use crate::number::exact;
 use crate::plot::{
     AFTER, Anchor, Axis, FONT, INK, STRIP_AXIS, Strip, WEAK, Write, centred, px, svg, write,
 };
@@ -73,7 +74,7 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
                     let y = top + TITLE + ROW * (row as f64 + 0.5);
                     let colour = if row == 0 { AFTER } else { WEAK };
                     strip.name(area, name, y)?;
-                    strip.interval(area, parameter.interval, y, colour)?;
+                    strip.interval(area, parameter.interval, y, (colour, &exact))?;
                     let place = (px(strip.x(parameter.estimate)), px(y));
                     area.draw(&Circle::new(
                         place,

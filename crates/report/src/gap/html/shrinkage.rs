@@ -5,17 +5,15 @@ use plotters::style::Color;
 
 use super::super::{digits, words};
 use super::Drawing;
+use crate::number::significant;
 use crate::plain;
 use crate::plot::{
-    AFTER, Axis, BEFORE, CHROME, FONT, INK, STRIP_AXIS, Strip, length, line, px, stroke, svg,
+    AFTER, Axis, BEFORE, CHROME, FONT, INK, STRIP_AXIS, Strip, WIDER, length, line, px, stroke, svg,
 };
 use gumption_gap::{Diagnosis, NamedQuantity, Shrunk};
 
 const ROW: f64 = 30.0;
 const LEFT: f64 = 150.0;
-
-/// How much wider than the usual letter digits and arrows are.
-const WIDER: f64 = 1.15;
 
 /// What parts the names from the strip.
 const BEFORE_STRIP: f64 = 16.0;
@@ -91,7 +89,7 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
                 strip.name(area, name, y)?;
                 let [before, after, low, high] = ratios(entry);
                 if interval.is_some() {
-                    strip.interval(area, [low, high], y, AFTER)?;
+                    strip.interval(area, [low, high], y, (AFTER, &|end| significant(end, 2)))?;
                 }
                 let x = strip.x(before);
                 let corners = [(px(x - MARK), px(y - MARK)), (px(x + MARK), px(y + MARK))];

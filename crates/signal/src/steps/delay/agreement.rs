@@ -2,9 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use crate::{
-    CrossCorrelation, CrossPhase, Delay, Harmonics, Measured, Periodic, Signal, Unsuitable, phasor,
-};
+use super::correlation::HarmonicDelay;
+use crate::{CrossPhase, CrossSpectrum, Measured, Signal, Unsuitable};
 use gumption_engine::special::student;
 
 /// The difference of two values of one quantity.
@@ -31,45 +30,58 @@ pub fn agreement(first: Measured, second: Measured, period: Option<f64>) -> Dela
     DelayAgreement { difference, normalized_error }
 }
 
-/// Compares the two delays of one pair of signals. Both come from the same samples, so that nearly all
-/// of their errors are one and the same: what their difference may be is its scatter over the segments
-/// of the cross-spectrum, with the coverage factor of 95.45 % for one degree of freedom less than
-/// there are segments.
+/// Compares the two delays of one pair of signals. Both come from the same values, so that nearly all
+/// of their errors are one and the same. By the law of propagation their difference has what is left:
+///
+/// - the phases of the harmonics, as far as they pull the two differently;
+/// - what the fits of the segments, of which the values after the last one are no part, scatter more
+///   than the fit of all values, which has the least variance: the difference of both variances;
+/// - the product of the noise of both signals, which the cross-spectrum has from each segment;
+/// - leakage, as if that of all values and that of the segments were independent.
+///
+/// The coverage factor is that of 95.45 % for the degrees of freedom of the noise.
 ///
 /// # Errors
-/// A segment in which one of the two cannot be found.
+/// As [`CrossSpectrum::of`].
 pub(crate) fn of_one_recording(
-    [reference, signal]: [&Signal; 2],
-    harmonics: Harmonics,
-    segments: usize,
-    (correlated, crossed): (&Delay, &CrossPhase),
+    signals: [&Signal; 2],
+    spectrum: CrossSpectrum,
+    correlated: &HarmonicDelay,
+    crossed: &CrossPhase,
 ) -> Result<DelayAgreement, Unsuitable> {
+    let harmonics = spectrum.harmonics;
     let period = 1.0 / harmonics.frequency;
     let near_zero = |delay: f64| delay - period * (delay / period).round();
-    let length = reference.values.len() / segments;
-    let single = Harmonics { count: 1, ..harmonics };
-    let differences = (0..segments).map(|segment| {
-        let part = |signal: &Signal| {
-            let values = signal.values[segment * length..(segment + 1) * length].to_vec();
-            Signal { values, start: 0.0, ..*signal }
-        };
-        let (reference, signal) = (part(reference), part(signal));
-        let by_correlation = CrossCorrelation::Periodic(harmonics).of(&reference, &signal)?;
-        let [of_reference, of_signal] =
-            [Periodic::fit(&reference, single)?, Periodic::fit(&signal, single)?];
-        let turned = of_reference.parts[0].phasor.conj() * of_signal.parts[0].phasor;
-        let by_phase = -phasor::angle(turned) / (TAU * harmonics.frequency);
-        Ok(near_zero(by_correlation.delay.value - by_phase))
-    });
-    let differences = differences.collect::<Result<Vec<f64>, Unsuitable>>()?;
-    let count = segments as f64;
-    let mean = differences.iter().sum::<f64>() / count;
-    let squares: f64 = differences.iter().map(|d| (d - mean) * (d - mean)).sum();
-    let u = (squares / (count * (count - 1.0))).sqrt();
-    let difference = near_zero(correlated.delay.value - crossed.delay.value);
+    let count = spectrum.segments as f64;
+    let square = |of: f64| of * of;
+    // variances of the phase of the first harmonic, in radians squared, but for those of all phases
+    let (mut own, mut product) = (0.0, 2.0 / count);
+    for (signal, fit) in signals.into_iter().zip(&correlated.fits) {
+        let first = &fit.parts[0];
+        let segments = spectrum.cut(signal)?;
+        let (_, of_whole) = harmonics.first_of(&signal.values, signal.rate)?;
+        let of_noise = square(first.of_phase(first.standard_uncertainty));
+        let white = square(first.of_phase(of_whole.map(f64::sqrt))) * first.phasor.norm_sqr();
+        let in_segment = of_noise * segments.of_phase / white;
+        own += (in_segment / count - of_noise).max(0.0);
+        let share = signal.values.len() as f64 / segments.used as f64;
+        own += square(first.leakage) / first.phasor.norm_sqr() * (1.0 + share * share);
+        product *= in_segment;
+    }
+    let seconds = period / TAU; // a radian
+    let mut variance = seconds * seconds * (own + product);
+    for (place, pull) in correlated.pulls.iter().enumerate() {
+        let apart = if place == 0 { pull - seconds } else { *pull };
+        for fit in &correlated.fits {
+            let u = apart * fit.parts[place].phase().standard_uncertainty;
+            variance += u * u;
+        }
+    }
+    let Measured { value, degrees_of_freedom, .. } = correlated.delay.delay;
+    let difference = near_zero(value - crossed.delay.value);
     // delays that differ by the rounding of double precision are equal
     let rounding = 1e-12 * period;
-    let expanded = student::two_sided_factor(0.9545, count - 1.0) * u;
+    let expanded = student::two_sided_factor(0.9545, degrees_of_freedom) * variance.sqrt();
     let normalized_error =
         if difference.abs() <= rounding { 0.0 } else { difference.abs() / expanded.max(rounding) };
     Ok(DelayAgreement { difference, normalized_error })

@@ -51,7 +51,8 @@ impl CrossCorrelation {
     /// The delay of a channel against a reference, both sampled together.
     ///
     /// To first order in the noise of both signals. Of periodic signals it is the law of
-    /// propagation from the harmonics' phases, with white noise. Otherwise the variance of the sum
+    /// propagation from the harmonics' phases, with white noise, independent in the two signals, and
+    /// the leakage of oscillations that are not fitted. Otherwise the variance of the sum
     /// whose zero is the maximum is taken from the spectral density of its terms, which holds for
     /// noise of any colour; 64 degrees of freedom. It lacks what the ends of the window cost, some
     /// 1e-5 of a sample over a few thousand values, which counts above about 70 dB.
@@ -64,7 +65,7 @@ impl CrossCorrelation {
         let late = channel.start - reference.start;
         let mut found = match *self {
             Self::Periodic(harmonics) => {
-                return of_harmonics(reference, channel, harmonics, [None, None]);
+                return Ok(of_harmonics(reference, channel, harmonics, [None, None])?.delay);
             }
             Self::Band { longest, between } => {
                 let mut found = in_band(reference, channel, longest, between)?;
@@ -77,6 +78,16 @@ impl CrossCorrelation {
     }
 }
 
+/// The delay of one periodic signal against another, and what it comes from.
+#[derive(Clone, Debug)]
+pub(crate) struct HarmonicDelay {
+    pub(crate) delay: Delay,
+    /// The fits of the two, in the noise that is known of them.
+    pub(super) fits: [Periodic; 2],
+    /// How far the delay moves with the phase of each harmonic of either, in seconds for a radian.
+    pub(super) pulls: Vec<f64>,
+}
+
 /// The delay of one periodic signal against another in the noise that is known of the two: the law of
 /// propagation from the harmonics' phases.
 pub(crate) fn of_harmonics(
@@ -84,14 +95,14 @@ pub(crate) fn of_harmonics(
     channel: &Signal,
     harmonics: Harmonics,
     known: [Option<&HarmonicNoise>; 2],
-) -> Result<Delay, Unsuitable> {
+) -> Result<HarmonicDelay, Unsuitable> {
     together(reference, channel)?;
     let late = channel.start - reference.start;
     let [x, y] = [Periodic::fit(reference, harmonics)?, Periodic::fit(channel, harmonics)?];
     let [of_x, of_y] = known;
-    let fits = [x.in_known(of_x), y.in_known(of_y)];
+    let fits = [x.in_known(of_x).leaking(reference), y.in_known(of_y).leaking(channel)];
     let mut found = periodic([reference, channel], fits, harmonics, late)?;
-    found.correlation = found.correlation.clamp(-1.0, 1.0);
+    found.delay.correlation = found.delay.correlation.clamp(-1.0, 1.0);
     Ok(found)
 }
 
@@ -136,7 +147,7 @@ fn periodic(
     [x, y]: [Periodic; 2],
     harmonics: Harmonics,
     late: f64,
-) -> Result<Delay, Unsuitable> {
+) -> Result<HarmonicDelay, Unsuitable> {
     let turned =
         |part: &Harmonic| (part.frequency, part.phasor * phasor::at_turns(-part.frequency * late));
     let terms: Vec<(f64, Phasor)> = x
@@ -157,33 +168,29 @@ fn periodic(
     if power(&x) * power(&y) == 0.0 || bend >= 0.0 {
         return Err(Unsuitable::Silent { frequency: harmonics.frequency });
     }
-    let variance: f64 = x
-        .parts
-        .iter()
-        .zip(&y.parts)
+    let pairs = || x.parts.iter().zip(&y.parts);
+    let pulls: Vec<f64> = pairs()
         .map(|(x, y)| {
-            let of = |part: &Harmonic, other: &Harmonic| {
-                let u = part.phase().standard_uncertainty;
-                let pull = TAU
-                    * part.frequency
-                    * phasor::modulus(part.phasor)
-                    * phasor::modulus(other.phasor)
-                    * u;
-                pull * pull
-            };
-            of(x, y) + of(y, x)
+            let sizes = phasor::modulus(x.phasor) * phasor::modulus(y.phasor);
+            TAU * x.frequency * sizes / -bend
         })
+        .collect();
+    let variance: f64 = pairs()
+        .zip(&pulls)
+        .flat_map(|((x, y), pull)| [x, y].map(|part| pull * part.phase().standard_uncertainty))
+        .map(|u| u * u)
         .sum();
     let freedom = x.parts[0].degrees_of_freedom.min(y.parts[0].degrees_of_freedom);
-    Ok(Delay {
+    let delay = Delay {
         delay: Measured {
             value: time - period * (time / period).round(),
-            standard_uncertainty: variance.sqrt() / -bend,
+            standard_uncertainty: variance.sqrt(),
             degrees_of_freedom: freedom,
         },
         correlation: with_noise(signals, [&x, &y], value, time - late),
         period: Some(period),
-    })
+    };
+    Ok(HarmonicDelay { delay, fits: [x, y], pulls })
 }
 
 /// The coefficient of correlation of two signals where `value` is the sum of the products of their

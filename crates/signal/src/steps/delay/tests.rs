@@ -1,11 +1,19 @@
 use std::f64::consts::TAU;
 
 use super::*;
-use crate::study::{COARSE, Noises, SETTINGS, Setting, study};
+use crate::study::{COARSE, Errors, Noises, SETTINGS, Setting, study};
 use crate::{Harmonics, Measured, Signal, Unsuitable, wrapped};
 
+fn harmonics(setting: Setting, count: usize) -> Harmonics {
+    Harmonics { frequency: setting.frequency, count }
+}
+
 fn fundamental(setting: Setting) -> CrossCorrelation {
-    CrossCorrelation::Periodic(Harmonics { frequency: setting.frequency, count: 1 })
+    CrossCorrelation::Periodic(harmonics(setting, 1))
+}
+
+fn spectrum(setting: Setting, segments: usize) -> CrossSpectrum {
+    CrossSpectrum { harmonics: harmonics(setting, 1), segments }
 }
 
 /// A reference and a channel of 0.8 of its amplitude that comes `delay` later.
@@ -103,15 +111,14 @@ fn starts_count_and_a_signal_is_not_late_against_itself() {
     let reference = setting.record(&mut noise, &wave);
     let mut later = reference.clone();
     later.start = 0.02;
-    let harmonics = fundamental(setting);
-    let spectrum = CrossSpectrum { frequency: setting.frequency, segments: 10 };
+    let (harmonics, spectrum) = (fundamental(setting), spectrum(setting, 10));
     for (channel, delay) in [(&reference, 0.0), (&later, 0.02)] {
         let close = |found: f64| assert!((found - delay).abs() < 1e-12, "{found}");
         close(BAND.of(&reference, channel).unwrap().delay.value);
         close(harmonics.of(&reference, channel).unwrap().delay.value);
         let found = spectrum.of(&reference, channel).unwrap();
         close(found.delay.value);
-        assert!((found.coherence - 1.0).abs() < 1e-12);
+        assert!((found.coherence.value - 1.0).abs() < 1e-12);
     }
 }
 
@@ -125,7 +132,7 @@ fn correlation_and_spectrum_agree() {
         let mut noise = Noises::new("agreement", seed);
         let [x, y] = pair(setting, &mut noise, 15.0 / 360.0 / 0.5);
         let correlation = fundamental(setting).of(&x, &y).unwrap();
-        let spectrum = CrossSpectrum { frequency: 0.5, segments: 20 }.of(&x, &y).unwrap();
+        let spectrum = spectrum(setting, 20).of(&x, &y).unwrap();
         let found = agreement(correlation.delay, spectrum.delay, correlation.period);
         assert!(found.normalized_error <= 1.0, "{found:?}");
         assert!((found.difference * 0.5 * 360.0).abs() < 1.0);
@@ -162,7 +169,7 @@ fn judge_noise(setting: Setting, recordings: usize) {
 fn judge_spectrum(setting: Setting, recordings: usize) {
     // of fewer segments u has so few degrees of freedom that 3 u are not 99 %
     let segments = (setting.periods as usize).min(40);
-    let spectrum = CrossSpectrum { frequency: setting.frequency, segments };
+    let spectrum = spectrum(setting, segments);
     for of_gain in [false, true] {
         // rounding with little noise distorts both amplitudes, which no coherence tells
         if of_gain && setting.sigma() < 0.3 * setting.step() {
@@ -223,38 +230,150 @@ fn impossible_searches_are_refused() {
     );
     let cut = Signal { values: x.values[1..].to_vec(), ..x.clone() };
     assert!(matches!(BAND.of(&x, &cut), Err(Unsuitable::NotTogether { .. })));
-    let one = CrossSpectrum { frequency: 10.0, segments: 1 };
-    assert!(matches!(one.of(&x, &y), Err(Unsuitable::Outside { .. })));
-    let many = CrossSpectrum { frequency: 10.0, segments: 100 };
-    assert!(matches!(many.of(&x, &y), Err(Unsuitable::TooShort { .. })));
+    // 37.5 periods
+    let refused = |segments| spectrum(setting, segments).of(&x, &y).unwrap_err();
+    assert_eq!(refused(1), Unsuitable::Segments { segments: 1, periods: 37, least: 1 });
+    assert!(
+        refused(1).to_string().ends_with("the coherence of one alone is 1, whatever the noise")
+    );
+    assert_eq!(
+        refused(100).to_string(),
+        "a cross-spectrum of 100 segments takes 1 whole period for each, 100 in all, and the signals \
+         have 37 in common; ask for 37 segments at most"
+    );
+    let short = Setting { periods: 1.9, ..setting };
+    let [x, _] = pair(short, &mut noise, 0.0);
+    assert_eq!(
+        CrossSpectrum::of_signal(harmonics(short, 5), &x).unwrap_err().to_string(),
+        "a cross-spectrum of 2 segments takes 1 whole period for each, 2 in all, and the signals have 1 \
+         in common; record more"
+    );
 }
 
-/// The difference of the delays of one recording over its standard uncertainty: 200 recordings, whose
-/// root mean square has a standard deviation of 5 %; t with 19 degrees of freedom has 1.06.
-#[test]
-fn delays_of_one_recording_agree_by_their_scatter() {
-    // segments of two whole periods: part periods of a third harmonic pull a single sine
-    let setting = Setting { rate: 1600.0, frequency: 5.0, periods: 40.0, snr: 40.0, bits: 24 };
-    let (mut squares, mut beyond) = (0.0, 0);
-    for i in 0..200 {
-        let mut noise = Noises::new("one recording", i);
-        let turn = noise.uniform();
-        let wave = |t: f64| {
-            (TAU * (5.0 * t + turn)).cos() + 0.3 * (TAU * (15.0 * t + 3.0 * turn) + 1.0).cos()
-        };
-        let x = setting.record(&mut noise, wave);
-        let y = setting.record(&mut noise, |t| wave(t - 0.011));
-        let harmonics = Harmonics { frequency: 5.0, count: 3 };
-        let correlated = CrossCorrelation::Periodic(harmonics).of(&x, &y).unwrap();
-        let crossed = CrossSpectrum { frequency: 5.0, segments: 20 }.of(&x, &y).unwrap();
-        let both = (&correlated, &crossed);
-        let found = of_one_recording([&x, &y], harmonics, 20, both).unwrap();
-        let k = gumption_engine::special::student::two_sided_factor(0.9545, 19.0);
-        squares += found.normalized_error * found.normalized_error * k * k;
-        beyond += u32::from(found.normalized_error > 1.0);
+/// How a recording is made whose two delays are compared.
+#[derive(Clone, Copy, Debug)]
+struct Pair {
+    setting: Setting,
+    /// Amplitude of the second multiple in the channel, of that of the first.
+    second: f64,
+    /// The multiples that are fitted.
+    count: usize,
+}
+
+/// What so many recordings of a kind give: the root mean square of the difference of the two delays
+/// over its standard uncertainty, the share of normalized errors above 1, and the errors of both delays.
+struct Judged {
+    score: f64,
+    beyond: f64,
+    errors: [Errors; 2],
+}
+
+impl Pair {
+    fn judge(self, recordings: u64) -> Judged {
+        let Self { setting, second, count } = self;
+        let harmonics = harmonics(setting, count);
+        let mut judged = Judged { score: 0.0, beyond: 0.0, errors: Default::default() };
+        for i in 0..recordings {
+            let mut noise = Noises::new(&format!("{self:?}"), i);
+            let delay = 0.05 * (noise.uniform() - 0.5) / setting.frequency;
+            let wave = setting.sine(6.0 * noise.uniform());
+            let turn = noise.uniform();
+            let multiple = |t: f64| (TAU * (2.0 * setting.frequency * t + turn)).cos();
+            let x = setting.record(&mut noise, &wave);
+            let y = setting.record(&mut noise, |t| 0.8 * (wave(t - delay) + second * multiple(t)));
+            let correlated = of_harmonics(&x, &y, harmonics, [None, None]).unwrap();
+            let spectrum = CrossSpectrum::of_signal(harmonics, &x).unwrap();
+            let crossed = spectrum.of(&x, &y).unwrap();
+            let found = of_one_recording([&x, &y], spectrum, &correlated, &crossed).unwrap();
+            let k = gumption_engine::special::student::two_sided_factor(
+                0.9545,
+                correlated.delay.delay.degrees_of_freedom,
+            );
+            let z = k * found.normalized_error;
+            judged.score += z * z / recordings as f64;
+            judged.beyond += f64::from(u8::from(found.normalized_error > 1.0)) / recordings as f64;
+            for (errors, found) in
+                judged.errors.iter_mut().zip([correlated.delay.delay, crossed.delay])
+            {
+                errors.add(found, delay);
+            }
+        }
+        judged.score = judged.score.sqrt();
+        let scores = judged.errors.each_ref().map(Errors::score);
+        println!("{self:?}: {:.2}, {:.3} beyond, errors {scores:.2?}", judged.score, judged.beyond);
+        judged
     }
-    let score = (squares / 200.0).sqrt();
-    assert!((0.85..1.25).contains(&score), "{score}");
-    // 4.55 % of 200 are 9; above 20 one in 1500
-    assert!(beyond <= 20, "{beyond}");
+}
+
+/// Whole numbers of periods and others, of 50.375 samples; segments of one period and of more.
+const PERIODS: [f64; 6] = [3.3, 14.6, 20.0, 31.4, 33.0, 40.0];
+
+fn judge_agreement(recordings: u64, snr: &[f64], second: &[f64]) {
+    let mut beyond = Vec::new();
+    let all = PERIODS.iter().flat_map(|periods| {
+        snr.iter().flat_map(move |snr| second.iter().map(move |second| (*periods, *snr, *second)))
+    });
+    for (periods, snr, second) in all {
+        // the multiple is fitted, and it is not
+        for count in [5, 1] {
+            let setting = Setting { rate: 403.0, frequency: 8.0, periods, snr, bits: 24 };
+            let kind = Pair { setting, second, count };
+            let judged = kind.judge(recordings);
+            beyond.push(judged.beyond);
+            let scores = judged.errors.each_ref().map(Errors::score);
+            let [correlated, crossed] = scores;
+            // leakage is bounded by an envelope, which scores need not reach
+            let least = if count == 1 && second > 0.0 { 0.0 } else { 1.0 };
+            let is_right = |score: f64| (0.6 * least..1.4).contains(&score);
+            assert!(is_right(judged.score), "{kind:?}: {}", judged.score);
+            assert!(is_right(correlated), "{kind:?}: {scores:?}");
+            // with two segments more u has so few degrees of freedom that a score has no variance
+            assert!(periods < 10.0 || is_right(crossed), "{kind:?}: {scores:?}");
+        }
+    }
+    let beyond = beyond.iter().sum::<f64>() / beyond.len() as f64;
+    println!("{beyond:.4} beyond");
+    assert!(beyond <= 0.05, "{beyond}");
+}
+
+/// The difference of the two delays of one recording against what is left of it by the law of
+/// propagation, and the errors of both, with a second multiple in one channel that is fitted and that
+/// is not. Of 100 recordings a root mean square has a standard deviation of 7 %, and up to 10 % where
+/// the product of two noises counts; the limits are four of them. 4.55 % of normalized errors are
+/// above 1 where noise makes them and none where leakage does: of 3600 recordings 3 % with a standard
+/// deviation of 0.3 %.
+#[test]
+fn two_delays_of_one_recording_agree() {
+    judge_agreement(100, &[20.0, 60.0, 100.0], &[0.02]);
+}
+
+/// Without leakage among them 4.55 % with a standard deviation of 0.08 %.
+#[test]
+#[ignore = "the whole study: 500 recordings a kind"]
+fn two_delays_of_one_recording_agree_whole() {
+    judge_agreement(500, &[20.0, 40.0, 60.0, 100.0], &[0.0, 0.02, 0.05]);
+}
+
+/// The coherence of a sine in noise whose power is that of the sine over one segment, a tenth of it and
+/// a hundred-thousandth, which 400 recordings of 4 and of 20 segments have: 1/((1 + a) (1 + b)) with
+/// the noise's share a and b of the power of either at the frequency, that of each part of a phasor
+/// being 2 sigma^2/n. The ratio has a standard deviation of 4 % to 8 %, and the law of propagation is
+/// 7 % off at most with as few segments.
+#[test]
+fn uncertainty_of_a_coherence_is_right() {
+    for (segments, snr) in [(4, 40.0), (4, -10.0), (20, 40.0), (20, -10.0), (20, -20.0)] {
+        let periods = segments as f64;
+        let setting = Setting { rate: 1600.0, frequency: 8.0, periods, snr, bits: 24 };
+        let [a, b] = [1.0, 0.64].map(|power| 4.0 * setting.sigma().powi(2) / (200.0 * power));
+        let errors = study("coherence", 400, |noise| {
+            let [x, y] = pair(setting, noise, 0.01);
+            (
+                spectrum(setting, segments).of(&x, &y).unwrap().coherence,
+                1.0 / ((1.0 + a) * (1.0 + b)),
+            )
+        });
+        let ratio = errors.ratio();
+        println!("{segments} segments, {snr} dB: {ratio:.3}");
+        assert!((0.8..1.2).contains(&ratio), "{segments} segments, {snr} dB: {ratio}");
+    }
 }

@@ -81,7 +81,7 @@ pub(crate) struct Search<'a> {
     /// The largest number of trials.
     pub(crate) most: u64,
     /// For each output the fewest degrees of freedom among the t distributions that it depends on.
-    pub(crate) drawn_dof: &'a [f64],
+    pub(crate) moment_order: &'a [f64],
     /// For each output the standard uncertainty by the law of propagation: it sets the tolerance
     /// where the trials have none.
     pub(crate) gum: &'a [f64],
@@ -164,7 +164,7 @@ impl Blocks<'_> {
         let request = Request {
             trials: *most * *size,
             probability: search.probability,
-            drawn_dof: search.drawn_dof,
+            moment_order: search.moment_order,
         };
         if *most < 2 {
             return;

@@ -44,7 +44,7 @@ impl Watch {
 
     /// Whether the output has no variance, so that the ends of its interval are watched alone.
     fn has_no_variance(search: Search<'_>, output: usize) -> bool {
-        search.drawn_dof.get(output).is_some_and(|&dof| dof <= 2.0)
+        search.moment_order.get(output).is_some_and(|&dof| dof <= 2.0)
     }
 
     /// The figures that are watched.
@@ -53,13 +53,21 @@ impl Watch {
     }
 
     /// The tolerance from the standard deviation of all trials so far (7.9.4 i and j); from that of
-    /// the law of propagation where there is none, or where there are no trials.
+    /// the law of propagation where there is none, or where there are no trials; and from a quarter of
+    /// the interval, about that of a normal distribution, where the law has none either.
     pub(super) fn tolerance(&self, search: Search<'_>, output: usize) -> f64 {
         let size = self.trials / self.blocks;
         let all = ((self.within + size * self.scatter(0)) / (self.trials - 1.0)).sqrt();
         let by_gum = Self::has_no_variance(search, output) || self.blocks == 0.0;
-        let u = if by_gum { search.gum.get(output).copied().unwrap_or(all) } else { all };
+        let of_law = search.gum.get(output).copied().filter(|u| *u > 0.0);
+        let u = if by_gum { of_law.unwrap_or_else(|| self.quarter()) } else { all };
         numerical_tolerance(u, search.digits) / search.strictness
+    }
+
+    /// A quarter of the mean interval of the blocks; 0 without any.
+    fn quarter(&self) -> f64 {
+        let mean = |figure: usize| self.origin[figure] + self.sums[figure] / self.blocks;
+        if self.blocks > 0.0 { 0.25 * (mean(3) - mean(2)) } else { 0.0 }
     }
 
     /// Whether twice the standard deviation of the mean of every figure is within the tolerance

@@ -78,7 +78,7 @@ enum Made {
 pub(crate) struct Prepared<'a> {
     trials: RowTrials,
     probability: f64,
-    drawn_dof: Vec<f64>,
+    moment_order: Vec<f64>,
     control: Control<'a>,
     pass: RowPass,
     plans: Vec<Plan>,
@@ -157,22 +157,22 @@ impl RowPass {
 }
 
 impl<'a> Prepared<'a> {
-    /// Of a row's run with this coverage; `drawn_dof` as in [`Request`].
+    /// Of a row's run with this coverage; `moment_order` as in [`Request`].
     pub(crate) fn new(
         trials: RowTrials,
         probability: f64,
-        drawn_dof: Vec<f64>,
+        moment_order: Vec<f64>,
         control: Control<'a>,
         pass: RowPass,
     ) -> Self {
-        let request = Request { trials: pass.trials, probability, drawn_dof: &drawn_dof };
+        let request = Request { trials: pass.trials, probability, moment_order: &moment_order };
         let plans = plans(&trials, request, &control, pass.margin);
-        Self { trials, probability, drawn_dof, control, pass, plans }
+        Self { trials, probability, moment_order, control, pass, plans }
     }
 
     fn request(&self) -> Request<'_> {
         let (trials, probability) = (self.pass.trials, self.probability);
-        Request { trials, probability, drawn_dof: &self.drawn_dof }
+        Request { trials, probability, moment_order: &self.moment_order }
     }
 
     /// What a pass in cells looks at.
@@ -239,8 +239,8 @@ impl<'a> Prepared<'a> {
 
     /// The figures, or the next pass. Quantiles are at these scores.
     pub(crate) fn finish(&mut self, gathered: Gathered, scores: &[f64]) -> RowOutcome {
-        let Self { trials, probability, drawn_dof, control, pass, plans } = self;
-        let request = Request { trials: pass.trials, probability: *probability, drawn_dof };
+        let Self { trials, probability, moment_order, control, pass, plans } = self;
+        let request = Request { trials: pass.trials, probability: *probability, moment_order };
         let budget = kept_budget(plans, control);
         let next =
             |pass: &RowPass, step| RowOutcome::Next(Box::new(RowPass { step, ..pass.clone() }));
@@ -302,8 +302,8 @@ impl<'a> Prepared<'a> {
     }
 
     /// The fewest degrees of freedom of the t distributions that each output depends on.
-    pub(crate) fn drawn_dof(&self) -> &[f64] {
-        &self.drawn_dof
+    pub(crate) fn moment_order(&self) -> &[f64] {
+        &self.moment_order
     }
 }
 
