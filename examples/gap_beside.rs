@@ -111,7 +111,10 @@ const BENCHES: [Bench; 6] = [
         name: "Hall sensor",
         inputs: &[("s", 1.0, 0.0005), ("z", 0.0, 0.0003)],
         conditions: ["B", "t"],
-        values: [&[-1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0], &[10.0, 20.0, 30.0, 40.0, 50.0]],
+        values: [
+            &[-1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0],
+            &[10.0, 20.0, 30.0, 40.0, 50.0],
+        ],
         equations: &[("V", "s*B + z")],
         output: "V",
         u: [0.002, 0.0],
@@ -173,8 +176,11 @@ const BENCHES: [Bench; 6] = [
             // 1 + r (1/R + i f (C + Cp))
             let (real, imaginary) = (1.0 + c[1] * load[0], c[1] * c[0] * (x[0] + load[1]));
             let q = c[0] / 9.0;
-            let follower =
-                if acts[1] { 1.0 / ((1.0 - q * q).powi(2) + (1.2 * q).powi(2)).sqrt() } else { 1.0 };
+            let follower = if acts[1] {
+                1.0 / ((1.0 - q * q).powi(2) + (1.2 * q).powi(2)).sqrt()
+            } else {
+                1.0
+            };
             x[1] / real.hypot(imaginary) * follower
         },
         effects: [
@@ -192,10 +198,7 @@ const BENCHES: [Bench; 6] = [
         name: "robot joint",
         inputs: &[("k", 1.0, 0.0002), ("z", 0.0, 0.005)],
         conditions: ["y", "d"],
-        values: [
-            &[0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0],
-            &[-1.0, 1.0],
-        ],
+        values: [&[0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0], &[-1.0, 1.0]],
         equations: &[("x", "k*y + z")],
         output: "x",
         u: [0.004, 0.0],
@@ -261,7 +264,8 @@ impl Bench {
             (at, value)
         });
         let outside = outside.collect();
-        let normal = |mean: f64, std: f64| json!({"distribution": "normal", "mean": mean, "std": std});
+        let normal =
+            |mean: f64, std: f64| json!({"distribution": "normal", "mean": mean, "std": std});
         let named = |pairs: Vec<(&str, Value)>| -> Value {
             let pairs = pairs.into_iter().map(|(name, of)| (name.to_owned(), of));
             pairs.collect::<Map<String, Value>>().into()

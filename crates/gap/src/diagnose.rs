@@ -477,8 +477,8 @@ fn noise(
     };
     (0..outputs)
         .map(|output| {
-            let estimated = (!stated(output))
-                .then(|| estimated_noise(setup, variances, winner, output));
+            let estimated =
+                (!stated(output)).then(|| estimated_noise(setup, variances, winner, output));
             let factor = weighed.factor(output, coverage);
             let with_output = weighed.correlations.iter().filter(|of| of.outputs.contains(&output));
             let correlations = with_output.map(|of| OutputCorrelation {

@@ -150,8 +150,11 @@ fn departures(
     let rows: Vec<_> = places.iter().map(|place| place.row.clone()).collect();
     let composed = compositions.predictions(setup, &rows).into_iter();
     let part = |(share, normals): (f64, predict::Normals)| {
-        (share * departs > LEAST_PROBABILITY)
-            .then(|| DeparturePart { effects: None, probability: share * departs, normals })
+        (share * departs > LEAST_PROBABILITY).then(|| DeparturePart {
+            effects: None,
+            probability: share * departs,
+            normals,
+        })
     };
     let mut parts: Vec<DeparturePart> = composed.filter_map(part).collect();
     let composed = parts.len();

@@ -105,7 +105,8 @@ impl<'c> Weighed<'c> {
         let explained = total(&posterior, best) >= posterior.probability;
         let named = &posterior.hypotheses[best];
         let wide_priors = explained && hidden.contains(&named.effects);
-        let departs = !explained || posterior.probability_beside(&named.effects) > named.probability;
+        let departs =
+            !explained || posterior.probability_beside(&named.effects) > named.probability;
         let correction = if departs {
             Correction::Departure(compositions.clone())
         } else {
@@ -396,9 +397,6 @@ fn most_probable(
             .iter()
             .map(|&h| setup.effect_names(&posterior.hypotheses[h].effects))
             .collect(),
-        indistinguishable_probability: group
-            .iter()
-            .map(|&h| total(posterior, h))
-            .sum(),
+        indistinguishable_probability: group.iter().map(|&h| total(posterior, h)).sum(),
     }
 }

@@ -19,8 +19,9 @@ use gumption_engine::special;
 
 use super::discrepancy::{Base, Discrepancy, Unexplained, Weighted, amplitude_steps};
 use super::evidence::EvidenceEstimate;
+use super::over_noises::converted_point;
 use super::posterior::{Before, Effort, HOPELESS, Posterior, WeighedHypothesis, ln_weight};
-use super::search::Mode;
+use super::search::{self, Mode};
 use super::setup::Setup;
 use crate::{Case, Prior};
 
@@ -74,6 +75,7 @@ impl Beside {
         starts: &[Mode],
         (key, effort, floor): (StreamKey, Effort<'_>, f64),
     ) -> Option<Self> {
+        let starts = &starts[..starts.len().min(HANDED_ON)];
         let mut base = Arc::new(Base::at(setup, effects, starts.first()?)?);
         let mut departure = discrepancy.evidence_beside(setup, &base, floor);
         let mut points: Vec<Vec<f64>> = starts.iter().map(|mode| mode.scores.clone()).collect();
@@ -124,6 +126,21 @@ impl Beside {
     }
 }
 
+/// The modes that effects have beside a departure with another noise, as points here; `None` where they
+/// were not tried so.
+fn modes_before(
+    setup: &Setup<'_>,
+    effects: &[usize],
+    (other, before): Before<'_, '_>,
+) -> Option<Vec<Mode>> {
+    let evidence = &before.beside(effects)?.named.evidence;
+    let (likelihood, from) = (setup.likelihood(effects), other.likelihood(effects).roles);
+    let modes = evidence.modes.iter().take(HANDED_ON);
+    let points: Vec<Vec<f64>> =
+        modes.filter_map(|mode| converted_point(&mode.scores, &from, &likelihood.roles)).collect();
+    (!points.is_empty()).then(|| search::at_points(&likelihood, &points))
+}
+
 impl Posterior {
     /// The hypotheses that are tried with a departure beside them, best first: those that leave more
     /// than the noise, in the order of what they explain with one. Those are left out that with their
@@ -140,12 +157,10 @@ impl Posterior {
             // as with the noise as it is stated; without that those that explain most alone
             let known = before.map_or(&[][..], |(_, before)| &before.beside);
             let share = self.share();
-            let place = |h: &&WeighedHypothesis| {
-                known.iter().position(|of| of.named.effects == h.effects)
-            };
-            let mut tried: Vec<&WeighedHypothesis> = named
-                .filter(|h| place(h).is_some() || h.probability * share > PROBABLE)
-                .collect();
+            let place =
+                |h: &&WeighedHypothesis| known.iter().position(|of| of.named.effects == h.effects);
+            let mut tried: Vec<&WeighedHypothesis> =
+                named.filter(|h| place(h).is_some() || h.probability * share > PROBABLE).collect();
             largest_first(&mut tried, |h| h.ln_weight());
             tried.sort_by_key(|h| place(h).unwrap_or(usize::MAX));
             return tried;
@@ -190,10 +205,11 @@ impl Posterior {
         let fitted = parallel::map(tried, |hypothesis| {
             let names = setup.effect_names(&hypothesis.effects).join("+");
             let key = StreamKey::new(seed, &format!("gap/{names}/beside"));
-            let modes = &hypothesis.evidence.modes;
-            let modes = &modes[..modes.len().min(HANDED_ON)];
-            let with = (key, effort, floor);
-            Beside::fitted(setup, discrepancy, &hypothesis.effects, modes, with)
+            let known = before.and_then(|before| modes_before(setup, &hypothesis.effects, before));
+            let starts = if known.is_some() { 0 } else { effort.starts };
+            let modes = known.unwrap_or_else(|| hypothesis.evidence.modes.clone());
+            let with = (key, Effort { starts, ..effort }, floor);
+            Beside::fitted(setup, discrepancy, &hypothesis.effects, &modes, with)
         });
         let worth = |of: &Beside| ln_weight(prior, of.departure.ln_evidence) > leads - HOPELESS;
         self.beside = fitted.into_iter().flatten().filter(worth).collect();
@@ -223,7 +239,8 @@ impl Posterior {
         let beside = self.beside.iter().map(|of| (of.named.probability, &of.departure));
         let all = std::iter::once((self.probability, &self.unexplained)).chain(beside);
         let weigh = |(share, of): (f64, &Unexplained)| {
-            let weigh = move |kind: &Weighted| Weighted { weight: share * kind.weight, ..kind.clone() };
+            let weigh =
+                move |kind: &Weighted| Weighted { weight: share * kind.weight, ..kind.clone() };
             of.kinds.iter().map(weigh).collect::<Vec<_>>()
         };
         let mut kinds: Vec<Weighted> = all.flat_map(weigh).collect();

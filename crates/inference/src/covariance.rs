@@ -229,10 +229,12 @@ impl Covariance {
     pub(crate) fn products(&self, whitened: &[DVector<f64>]) -> Vec<f64> {
         let projected: Vec<Vec<f64>> =
             whitened.iter().map(|white| self.project(white.as_slice())).collect();
-        let product = |i: usize, j: usize| {
-            whitened[i].dot(&whitened[j]) - dot(&projected[i], &projected[j])
-        };
-        (0..whitened.len()).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| product(i, j)).collect()
+        let product =
+            |i: usize, j: usize| whitened[i].dot(&whitened[j]) - dot(&projected[i], &projected[j]);
+        (0..whitened.len())
+            .flat_map(|i| (0..=i).map(move |j| (i, j)))
+            .map(|(i, j)| product(i, j))
+            .collect()
     }
 
     /// The squared length of an x, whitened by the blocks, in the metric of V.

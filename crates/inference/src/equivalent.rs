@@ -79,11 +79,8 @@ pub fn groups(
             .filter(|&h| {
                 let hypothesis = &posterior.hypotheses[h];
                 let count = hypothesis.effects.len();
-                let wanted = if several {
-                    count > 1 && probability(h) > LEADING
-                } else {
-                    count == 1
-                };
+                let wanted =
+                    if several { count > 1 && probability(h) > LEADING } else { count == 1 };
                 wanted && !hypothesis.evidence.modes.is_empty() && hypothesis.evidence.has_draws()
             })
             .collect();

@@ -174,8 +174,8 @@ pub(crate) fn posterior(
     progress(0.2);
     let residuals = by_rows(&setup.data.nominal_residuals());
     let unexplained_prior = prior.unexplained * (1.0 - BESIDE_EFFECTS);
-    let floor = leading(&hypotheses, rivals)
-        - elementary::ln(unexplained_prior.max(f64::MIN_POSITIVE));
+    let floor =
+        leading(&hypotheses, rivals) - elementary::ln(unexplained_prior.max(f64::MIN_POSITIVE));
     let unexplained = discrepancy.evidence(setup, &residuals, floor);
     progress(0.3);
     if prior.two > 0.0 && !effort.is_stopped() {

@@ -115,6 +115,10 @@ pub struct Base {
     ln_prior: f64,
 }
 
+/// What a function adds to the variance of the residuals in some direction, over that of the noise, is left
+/// out below this: it changes the logarithm of an evidence by half of it.
+const LEAST_SHOWN: f64 = 1e-4;
+
 /// Half the step of differences in the scores.
 const STEP: f64 = 1e-3;
 
@@ -168,9 +172,9 @@ impl Base {
         values.into_iter().flatten().filter_map(|draws| draws.first().copied()).collect()
     }
 
-    /// What the slopes make of the scores of the point, by value.
-    pub(crate) fn linear_part(&self, slopes: &[Vec<f64>]) -> Vec<f64> {
-        let mut sum = vec![0.0; slopes.first().map_or(0, Vec::len)];
+    /// What slopes make of the scores of the point, for so many values.
+    pub(crate) fn linear_part(&self, slopes: &[Vec<f64>], values: usize) -> Vec<f64> {
+        let mut sum = vec![0.0; values];
         for (slope, score) in slopes.iter().zip(&self.scores[self.shared..]) {
             sum.iter_mut().zip(slope).for_each(|(sum, slope)| *sum += slope * score);
         }
@@ -188,7 +192,7 @@ impl Base {
 
     /// What is left of them before what the parameters do, which are linear and standard normal.
     pub fn residuals(&self, setup: &Setup<'_>) -> Vec<f64> {
-        let linear = self.linear_part(&self.slopes);
+        let linear = self.linear_part(&self.slopes, self.values.len());
         self.left(setup).iter().zip(linear).map(|(left, linear)| left + linear).collect()
     }
 }
@@ -228,13 +232,19 @@ impl Discrepancy {
         if forms.is_empty() { Self::new(part) } else { Self { axes, forms } }
     }
 
-    /// A departure's functions at the data's values: columns whose factors are standard normal.
-    pub fn columns(&self, setup: &Setup<'_>, kind: &Weighted) -> Vec<Vec<f64>> {
-        let features = self.forms[kind.form].features(setup, &self.axes);
-        let scaled = |column: nalgebra::DVectorView<'_, f64>| {
-            column.iter().map(|x| kind.multiplier * x).collect()
-        };
-        features.column_iter().map(scaled).collect()
+    /// A departure's functions at the data's values: columns whose factors are standard normal, as few as
+    /// leave out nothing that shows beside the noise.
+    pub(crate) fn columns(&self, setup: &Setup<'_>, kind: &Weighted) -> Vec<Vec<f64>> {
+        let features = kind.multiplier * self.forms[kind.form].features(setup, &self.axes).as_ref();
+        let variances = kind.variances.as_deref().unwrap_or(&setup.linear.variances);
+        let mut white = features.clone();
+        for (mut row, variance) in white.row_iter_mut().zip(variances) {
+            row /= variance.max(f64::MIN_POSITIVE).sqrt();
+        }
+        let eigen = white.tr_mul(&white).symmetric_eigen();
+        let shows = |&k: &usize| eigen.eigenvalues[k] > LEAST_SHOWN;
+        let kept = (0..features.ncols()).filter(shows);
+        kept.map(|k| (&features * eigen.eigenvectors.column(k)).as_slice().to_vec()).collect()
     }
 
     /// The evidence of residuals (row by row, outputs fastest) of a setup's data. What lies far below

@@ -1,5 +1,7 @@
 //! What "unexplained" says at any conditions: a Gaussian process conditioned on the data.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::features::{Coordinates, Site};
@@ -8,6 +10,52 @@ use crate::data::by_rows;
 use crate::predict::Normals;
 use crate::setup::Setup;
 use gumption_engine::task::Row;
+
+/// What the model says, or effects that act beside a discrepancy, without what is linear in their
+/// parameters.
+struct InRows {
+    base: Option<Arc<Base>>,
+    /// What is left of the data, by value.
+    residuals: Vec<f64>,
+    /// What is said in the rows, by value.
+    sims: Vec<f64>,
+    /// The derivatives by the parameters' scores, in the data and in the rows.
+    slopes: Vec<Vec<f64>>,
+    slopes_there: Vec<Vec<f64>>,
+}
+
+impl InRows {
+    fn of(
+        setup: &Setup<'_>,
+        base: Option<&Arc<Base>>,
+        rows: &[Row],
+        nominals: &[(Vec<f64>, Vec<Vec<f64>>)],
+    ) -> Self {
+        let Some(base) = base else {
+            let sims = nominals.iter().flat_map(|(sim, _)| sim.clone()).collect();
+            let residuals = by_rows(&setup.data.nominal_residuals());
+            let (slopes, slopes_there) = (Vec::new(), Vec::new());
+            return Self { base: None, residuals, sims, slopes, slopes_there };
+        };
+        let (values, slopes_there) = base.in_rows(setup, rows);
+        let linear = base.linear_part(&slopes_there, values.len());
+        Self {
+            base: Some(Arc::clone(base)),
+            residuals: base.residuals(setup),
+            sims: values.iter().zip(linear).map(|(value, of)| value - of).collect(),
+            slopes: base.slopes.clone(),
+            slopes_there,
+        }
+    }
+
+    fn is_of(&self, base: Option<&Arc<Base>>) -> bool {
+        match (&self.base, base) {
+            (None, None) => true,
+            (Some(own), Some(base)) => Arc::ptr_eq(own, base),
+            _ => false,
+        }
+    }
+}
 
 impl Discrepancy {
     /// What "unexplained" says in these rows: the model at the inputs' estimates, corrected by what the
@@ -23,7 +71,6 @@ impl Discrepancy {
         growth: &[f64],
     ) -> Normals {
         let outputs = setup.data.outputs.len();
-        let plain = by_rows(&setup.data.nominal_residuals());
         let nominals: Vec<(Vec<f64>, Vec<Vec<f64>>)> =
             rows.iter().map(|row| nominal(setup, row)).collect();
         let sites: Vec<Site> = rows
@@ -37,23 +84,17 @@ impl Discrepancy {
         let gradients: Vec<Vec<Vec<f64>>> =
             nominals.iter().map(|(_, gradients)| gradients.clone()).collect();
         let total: f64 = kinds.iter().map(|kind| kind.weight).sum();
+        let mut bases: Vec<InRows> = Vec::new();
         let mut sums = vec![vec![(0.0, 0.0); outputs]; rows.len()];
         for kind in kinds {
             let form = &self.forms[kind.form];
             let share = kind.weight / total;
-            // the model, or the effects that act beside the discrepancy, without what is linear in
-            // their parameters
-            let plain = (plain.clone(), nominals.iter().flat_map(|(sim, _)| sim.clone()).collect());
-            let of_base = kind.base.as_ref().map(|base| (base, base.in_rows(setup, rows)));
-            let ((residuals, sims), slopes, slopes_there) = match &of_base {
-                None => (plain, &[][..], &[][..]),
-                Some((base, (values, slopes))) => {
-                    let linear = base.linear_part(slopes);
-                    let sims: Vec<f64> =
-                        values.iter().zip(linear).map(|(value, of)| value - of).collect();
-                    ((base.residuals(setup), sims), &base.slopes[..], &slopes[..])
-                }
-            };
+            let known = bases.iter().position(|known| known.is_of(kind.base.as_ref()));
+            let place = known.unwrap_or_else(|| {
+                bases.push(InRows::of(setup, kind.base.as_ref(), rows, &nominals));
+                bases.len() - 1
+            });
+            let InRows { residuals, sims, slopes, slopes_there, .. } = &bases[place];
             let variances = kind.variances.as_deref().unwrap_or(&setup.linear.variances);
             let coordinates = Coordinates::new(&form.term, &self.axes, &sites, outputs);
             let roots = coordinates.roots(&form.term, form.length, &form.nodes);
@@ -65,7 +106,7 @@ impl Discrepancy {
             let Some(found) = conditioned(
                 setup,
                 variances,
-                &residuals,
+                residuals,
                 &beside(slopes, kind.multiplier * features.as_ref()),
                 rows,
                 &gradients,
@@ -101,19 +142,22 @@ impl Discrepancy {
     ) -> Option<Parts> {
         let rows = setup.all_rows();
         let features = match departure {
-            Some(kind) => kind.multiplier * self.forms[kind.form].features(setup, &self.axes).as_ref(),
+            Some(kind) => {
+                kind.multiplier * self.forms[kind.form].features(setup, &self.axes).as_ref()
+            }
             None => DMatrix::zeros(setup.data.len(), 0),
         };
         let gradients: Vec<Vec<Vec<f64>>> =
             setup.data.point_of.iter().map(|&of| setup.data.points[of].gradients.clone()).collect();
-        let nothing: Vec<Vec<Vec<f64>>> =
-            gradients.iter().map(|row| row.iter().map(|of| vec![0.0; of.len()]).collect()).collect();
+        let nothing: Vec<Vec<Vec<f64>>> = gradients
+            .iter()
+            .map(|row| row.iter().map(|of| vec![0.0; of.len()]).collect())
+            .collect();
         let residuals = base.residuals(setup);
         let zeros = vec![vec![0.0; setup.data.len()]; base.slopes.len()];
         let with = beside(&base.slopes, features.clone());
         let mean = |gradients: &[Vec<Vec<f64>>], there: &DMatrix<f64>| {
-            let found =
-                conditioned(setup, variances, &residuals, &with, &rows, gradients, there)?;
+            let found = conditioned(setup, variances, &residuals, &with, &rows, gradients, there)?;
             Some(found.into_iter().map(|(mean, _)| mean).collect::<Vec<f64>>())
         };
         Some(Parts {

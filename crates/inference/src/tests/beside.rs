@@ -100,7 +100,8 @@ fn no_departure_is_surer_farther_from_the_data() {
     let rows: Vec<Row> = places.iter().map(|&x| at(x)).collect();
     for (place, form) in discrepancy.forms.iter().enumerate() {
         for multiplier in [3.0, 30.0] {
-            let kind = Weighted { form: place, multiplier, weight: 1.0, base: None, variances: None };
+            let kind =
+                Weighted { form: place, multiplier, weight: 1.0, base: None, variances: None };
             let said = discrepancy.predict(&setup, &[kind], &rows, &[]);
             let u = |row: usize, output: usize| said[row][output].1.sqrt();
             for &output in &form.term.outputs {

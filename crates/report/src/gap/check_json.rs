@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::answer::pretty;
-use gumption_gap::check::{BesideScores, BlindCheckScores, BlindDraw, CheckedNoise, SmallestEffect};
+use gumption_gap::check::{
+    BesideScores, BlindCheckScores, BlindDraw, CheckedNoise, SmallestEffect,
+};
 
 #[derive(Serialize)]
 struct Answer<'r> {

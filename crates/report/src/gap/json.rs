@@ -205,8 +205,7 @@ fn shrinks(diagnosis: &Diagnosis) -> Value {
         })
     });
     let shares = shrinkage.shares.iter();
-    let shares = shares
-        .map(|of| json!({"what": of.what.name(), "share_of_gap": of.share_of_gap}));
+    let shares = shares.map(|of| json!({"what": of.what.name(), "share_of_gap": of.share_of_gap}));
     json!({
         "rms_before": all.rms_before,
         "rms_after": all.rms_after,

@@ -7,8 +7,8 @@ use crate::plain;
 use crate::statement::Measurement;
 use gumption_gap::{
     Diagnosis, GapPart, GapRegion, Hypothesis, HypothesisKind, LeftBeside, NamedQuantity,
-    NoiseEstimate, PriorConflict,
-    ProposalKind, ProposedMeasurement, SettingError, Shrunk, UncertaintyFactor,
+    NoiseEstimate, PriorConflict, ProposalKind, ProposedMeasurement, SettingError, Shrunk,
+    UncertaintyFactor,
 };
 use gumption_units::listed;
 
