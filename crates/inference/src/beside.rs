@@ -43,6 +43,9 @@ const PROBABLE: f64 = 1e-3;
 /// How often the mode of the effects and the heaviest form of the departure are looked for in turn.
 const ROUNDS: usize = 4;
 
+/// Amplitudes of one form that differ by less than this factor have the same mode of the effects.
+const ALIKE: f64 = 1.25;
+
 /// Modes that the next search begins from.
 const HANDED_ON: usize = 3;
 
@@ -79,13 +82,14 @@ impl Beside {
         let mut base = Arc::new(Base::at(setup, effects, starts.first()?)?);
         let mut departure = discrepancy.evidence_beside(setup, &base, floor);
         let mut points: Vec<Vec<f64>> = starts.iter().map(|mode| mode.scores.clone()).collect();
-        let is = |of: &Weighted, other: &Weighted| {
-            (of.form, of.multiplier) == (other.form, other.multiplier)
-        };
         let mut last: Option<(Weighted, EvidenceEstimate)> = None;
         for _ in 0..ROUNDS {
             let heaviest = departure.kinds.first()?;
-            if last.as_ref().is_some_and(|(before, _)| is(heaviest, before)) {
+            let is_like = |before: &Weighted| {
+                let ratio = heaviest.multiplier / before.multiplier;
+                heaviest.form == before.form && ratio < ALIKE && ratio * ALIKE > 1.0
+            };
+            if last.as_ref().is_some_and(|(before, _)| is_like(before)) {
                 break;
             }
             let with = setup.with_functions(&discrepancy.columns(setup, heaviest));
@@ -112,7 +116,9 @@ impl Beside {
         }
         // the exact integral beside the heaviest form, over that with effects linear in their parameters;
         // where the noise is estimated the departure's size follows it, and is not the same in both
-        let own = departure.kinds.iter().find(|kind| is(kind, &heaviest));
+        let is_it =
+            |kind: &&Weighted| (kind.form, kind.multiplier) == (heaviest.form, heaviest.multiplier);
+        let own = departure.kinds.iter().find(is_it);
         if let Some(own) = own.filter(|_| !setup.linear.fitted) {
             let ln_form = discrepancy.forms[own.form].ln_weight;
             let ln_step = -elementary::ln(amplitude_steps(false) as f64);
@@ -141,6 +147,16 @@ fn modes_before(
     (!points.is_empty()).then(|| search::at_points(&likelihood, &points))
 }
 
+/// A hypothesis at its best mode, if it leaves more there than the noise, which is known; `None` where it has
+/// none.
+fn doubtful(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Option<Base> {
+    let base = Base::at(setup, &hypothesis.effects, hypothesis.evidence.modes.first()?)?;
+    let left = setup.linear.whiten_blocks(&base.left(setup));
+    let (chi2, dof) = (setup.linear.square(&left), left.len() as f64);
+    let ln_p = special::gamma::ln_sf(0.5 * chi2, 0.5 * dof);
+    (ln_p <= elementary::ln(DOUBTFUL)).then_some(base)
+}
+
 impl Posterior {
     /// The hypotheses that are tried with a departure beside them, best first: those that leave more
     /// than the noise, in the order of what they explain with one. Those are left out that with their
@@ -165,18 +181,22 @@ impl Posterior {
             tried.sort_by_key(|h| place(h).unwrap_or(usize::MAX));
             return tried;
         }
+        // what fits and leads lacks nothing
+        let unexplained = ln_weight(self.prior, self.unexplained.ln_evidence);
+        let leads = self.leading().filter(|h| h.ln_weight() >= unexplained);
+        if leads.is_some_and(|h| doubtful(setup, h).is_none()) {
+            return Vec::new();
+        }
         let explained = |h: &WeighedHypothesis| -> Option<f64> {
-            let base = Base::at(setup, &h.effects, h.evidence.modes.first()?)?;
-            let left = setup.linear.whiten_blocks(&base.left(setup));
-            let chi2 = setup.linear.square(&left);
-            let dof = 0.5 * left.len() as f64;
-            if special::gamma::ln_sf(0.5 * chi2, dof) > elementary::ln(DOUBTFUL) {
-                return None;
-            }
-            let base = Arc::new(base);
+            let base = Arc::new(doubtful(setup, h)?);
             Some(discrepancy.evidence_beside(setup, &base, f64::NEG_INFINITY).ln_evidence)
         };
-        let named: Vec<&WeighedHypothesis> = named.collect();
+        let mut named: Vec<&WeighedHypothesis> = named.collect();
+        // of much data the forms are factored anew for every hypothesis
+        if !discrepancy.is_kept() {
+            largest_first(&mut named, |h| h.ln_weight());
+            named.truncate(MOST);
+        }
         let ranks = parallel::map(&named, |h| explained(h));
         let mut ranked: Vec<(f64, &WeighedHypothesis)> =
             ranks.into_iter().zip(named).filter_map(|(rank, h)| Some((rank?, h))).collect();

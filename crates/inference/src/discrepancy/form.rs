@@ -151,6 +151,11 @@ pub(crate) fn forms(
 }
 
 impl Form {
+    /// Whether the features of the data's values are kept.
+    pub(crate) fn is_kept(&self) -> bool {
+        self.features.is_some()
+    }
+
     /// The features of the data's values, a row each, times the scale.
     pub fn features(&self, setup: &Setup<'_>, axes: &Axes) -> Cow<'_, DMatrix<f64>> {
         if let Some(features) = &self.features {

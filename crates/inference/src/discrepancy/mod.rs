@@ -221,6 +221,11 @@ impl Discrepancy {
         Self { axes, forms }
     }
 
+    /// Whether its forms are kept factored, so that more evidences with them cost little.
+    pub(crate) fn is_kept(&self) -> bool {
+        self.forms.iter().all(Form::is_kept)
+    }
+
     /// For a part of the data: the forms that all of them leave probable.
     pub fn for_part(&self, part: &Setup<'_>, found: &[Weighted]) -> Self {
         let axes = Axes::new(part.case, &part.data);
