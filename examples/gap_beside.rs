@@ -63,7 +63,7 @@ const BENCHES: [Bench; 6] = [
                 t = c[0] + if acts[0] { 180.0 * power } else { 0.0 };
             }
             let r = platinum(t);
-            let shunt = 2.2e6 * (-c[0] / 45.0).exp();
+            let shunt = 3e7 * (-c[0] / 45.0).exp();
             if acts[1] { r * shunt / (r + shunt) } else { r }
         },
         effects: [
