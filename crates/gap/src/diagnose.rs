@@ -333,6 +333,11 @@ fn described(candidate: &Candidate) -> DescribedEffect {
     }
 }
 
+/// Number of parameters of effects.
+fn parameter_count(setup: &Setup<'_>, effects: &[usize]) -> usize {
+    effects.iter().map(|&effect| setup.case.candidates[effect].priors.len()).sum()
+}
+
 /// All hypotheses, most probable first.
 pub(crate) fn hypotheses(
     setup: &Setup<'_>,
@@ -357,7 +362,7 @@ pub(crate) fn hypotheses(
                 .iter()
                 .map(gumption_inference::search::Mode::ln_likelihood)
                 .fold(f64::NEG_INFINITY, f64::max),
-            fitted: hypothesis.evidence.unknowns() - setup.roles.len(),
+            fitted: parameter_count(setup, &hypothesis.effects),
             parameters: parameters(setup, &hypothesis, probability),
         })
         .collect();
