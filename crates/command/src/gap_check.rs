@@ -207,9 +207,7 @@ impl GapCheck {
             let (truth, measured) = drawn.map_err(impossible)?;
             let own = folder.join(format!("{number:05}"));
             make(&own)?;
-            let withheld = (truth.kind == gap::check::TruthKind::Withheld)
-                .then(|| truth.effects.first().map(|name| file.case.listed_name(name)))
-                .flatten();
+            let withheld = truth.withheld().map(|name| file.case.listed_name(name));
             let files = file.variant(&measured, withheld);
             for (name, bytes) in files.map_err(|error| Failure::Argument(error.0))? {
                 let path = own.join(name);

@@ -1,5 +1,5 @@
-//! What "unexplained" knows of the departure: the posterior over the forms of the discrepancy, and
-//! what the discrepancy looks like.
+//! What is known of a departure that no effect of the list makes, beside some of them or by itself: the
+//! posterior over the forms of the discrepancy, and what the discrepancy looks like.
 
 use super::diagnosis::{DepartureForm, DepartureKind, DepartureOver, DepartureShape};
 use super::shrink;
@@ -7,13 +7,12 @@ use gumption_engine::number::{elementary, largest_first, smallest_first};
 use gumption_engine::task::Row;
 use gumption_inference::discrepancy::{Of, Term, Weighted};
 use gumption_inference::noise_model::Weighing;
-use gumption_inference::posterior::Posterior;
 use gumption_inference::shared_noise::Setting;
 
-/// Forms are told where "unexplained" has more than this probability.
+/// Forms are told where a departure has more than this probability.
 pub(crate) const WORTH_TELLING: f64 = 0.05;
 
-/// Forms below this share of "unexplained" are left out.
+/// Forms below this share of that are left out.
 const LEAST_SHARE: f64 = 0.01;
 
 /// A turn of the departure of less than this share of its range is a wiggle.
@@ -22,20 +21,20 @@ const WIGGLE: f64 = 0.2;
 /// The departure jumps where so much of its change lies within so much of the range.
 const JUMP: [f64; 2] = [0.75, 0.12];
 
-/// The probability of "unexplained" over all noises.
-fn unexplained(weighings: &[Weighing<'_>]) -> f64 {
-    weighings.iter().map(|w| w.probability * w.posterior.probability).sum()
+/// The probability of a departure over all noises, beside effects of the list or not.
+fn departs(weighings: &[Weighing<'_>]) -> f64 {
+    weighings.iter().map(|w| w.probability * w.posterior.departs()).sum()
 }
 
-/// The probability of "unexplained" over all noises, of what has a pattern.
+/// The probability of a departure over all noises, of what has a pattern.
 pub(crate) fn probability(weighings: &[Weighing<'_>]) -> f64 {
     weighings.iter().map(share).sum()
 }
 
-/// The probability of a noise with "unexplained", and with a pattern in what is.
+/// The probability of a noise with a departure that has a pattern.
 fn share(weighing: &Weighing<'_>) -> f64 {
-    let Posterior { probability, of_settings, .. } = weighing.posterior;
-    weighing.probability * (probability - of_settings).max(0.0)
+    let posterior = &weighing.posterior;
+    weighing.probability * (posterior.departs() - posterior.of_settings).max(0.0)
 }
 
 /// The probability that the departure is an error of each setting.
@@ -43,16 +42,16 @@ fn of_settings(weighing: &Weighing<'_>) -> f64 {
     weighing.probability * weighing.posterior.of_settings
 }
 
-/// The place of the noise with which "unexplained" is most probable.
+/// The place of the noise with which such a departure is most probable.
 pub(crate) fn leading(weighings: &[Weighing<'_>]) -> usize {
     let all = 0..weighings.len();
     all.max_by(|&a, &b| share(&weighings[a]).total_cmp(&share(&weighings[b]))).unwrap_or(0)
 }
 
-/// The forms, most probable first; their probabilities sum to that of "unexplained", of which those
-/// that are left out have no part.
+/// The forms, most probable first; their probabilities sum to that of a departure, of which those that
+/// are left out have no part.
 pub(crate) fn forms(weighings: &[Weighing<'_>]) -> Vec<DepartureForm> {
-    let in_all = unexplained(weighings);
+    let in_all = departs(weighings);
     if in_all <= WORTH_TELLING {
         return Vec::new();
     }
@@ -111,7 +110,7 @@ fn errors_of_settings(weighings: &[Weighing<'_>]) -> Vec<DepartureForm> {
         };
         forms.push((shared.setting, form));
     }
-    let total = unexplained(weighings);
+    let total = departs(weighings);
     forms
         .into_iter()
         .map(|(_, form)| form)
@@ -121,9 +120,9 @@ fn errors_of_settings(weighings: &[Weighing<'_>]) -> Vec<DepartureForm> {
 
 /// Those that are functions of the conditions or of the sim.
 fn with_pattern(weighings: &[Weighing<'_>]) -> Vec<DepartureForm> {
-    let unexplained = probability(weighings);
+    let departs = probability(weighings);
     let Some(weighing) = weighings.get(leading(weighings)) else { return Vec::new() };
-    let kinds = &weighing.posterior.unexplained.kinds;
+    let kinds = &weighing.posterior.kinds();
     let total: f64 = kinds.iter().map(|kind| kind.weight).sum();
     let mut groups: Vec<Vec<&Weighted>> = Vec::new();
     for kind in kinds {
@@ -139,7 +138,7 @@ fn with_pattern(weighings: &[Weighing<'_>]) -> Vec<DepartureForm> {
     }
     let weight = |group: &[&Weighted]| group.iter().map(|kind| kind.weight).sum::<f64>() / total;
     groups.retain(|group| weight(group) >= LEAST_SHARE);
-    groups.iter().map(|group| form(weighing, group, unexplained * weight(group))).collect()
+    groups.iter().map(|group| form(weighing, group, departs * weight(group))).collect()
 }
 
 fn term<'w>(weighing: &'w Weighing<'_>, kind: &Weighted) -> &'w Term {
@@ -222,7 +221,7 @@ fn departures(weighing: &Weighing<'_>, group: &[&Weighted], term: &Term) -> Vec<
     let rows: Vec<Row> = ids.iter().map(|&row| setup.row(row).clone()).collect();
     let mut kinds: Vec<Weighted> = group.iter().map(|kind| (*kind).clone()).collect();
     largest_first(&mut kinds, |a| a.weight);
-    let predicted = discrepancy.predict(setup, shrink::top(&kinds), &rows, false);
+    let predicted = discrepancy.predict(setup, shrink::top(&kinds), &rows, &[]);
     let mut found: Vec<(f64, f64)> = Vec::new();
     for ((row, of), &id) in rows.iter().zip(&predicted).zip(&ids) {
         let nominal = setup.data.points[setup.data.point_of[id]].nominal[output];

@@ -1,10 +1,11 @@
-//! What "unexplained" predicts: smooth departures and composed ones together, and less sure outside
+//! What a departure without a name predicts: smooth departures and composed ones together, and less sure outside
 //! of the data's box.
 //!
 //! Within the box of the data's conditions each has the weight that the data give it. Outside of it
 //! the data say little of which function goes on how: there weights are the square roots of those (as
 //! if of half of the data), composed departures have at most a weight of 0.7, and the uncertainty of
-//! smooth ones grows with the distance. The change is gradual over a tenth of the range.
+//! smooth ones grows with the distance: what the data determine of them by a factor, and what they do not,
+//! which farther than its length away is all of it, to the square of its amplitude. The change is gradual over a tenth of the range.
 
 use super::composed::Compositions;
 use super::shrink;
@@ -26,24 +27,30 @@ const MOST_COMPOSED: f64 = 0.7;
 /// Kinds of smooth departures that count outside of the box, at most.
 const MOST_KINDS: usize = 40;
 
-/// How far rows are from the box of the data, in ranges of the conditions.
-fn distances(setup: &Setup<'_>, rows: &[Row]) -> Vec<f64> {
-    let boxes: Vec<(f64, f64)> = (0..setup.case.measured())
-        .map(|c| {
-            let values = (0..setup.data.rows()).map(|row| setup.row(row).conditions[c]);
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
-        })
-        .collect();
-    let distance = |row: &Row| {
-        let each = boxes.iter().zip(&row.conditions).map(|(&(low, high), &x)| {
-            let out = (low - x).max(x - high).max(0.0);
-            // a condition that does not vary in the data has no range to count in
-            let range = if high > low { high - low } else { low.abs().max(f64::MIN_POSITIVE) };
-            out / range
-        });
-        each.fold(0.0, f64::max)
+/// The least and the greatest value of each condition in the data.
+fn boxes(setup: &Setup<'_>) -> Vec<(f64, f64)> {
+    let ends = |c: usize| {
+        let values = (0..setup.data.rows()).map(|row| setup.row(row).conditions[c]);
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
     };
-    rows.iter().map(distance).collect()
+    (0..setup.case.measured()).map(ends).collect()
+}
+
+/// How far a row is from the box of the data, in ranges of the conditions.
+fn distance(boxes: &[(f64, f64)], row: &Row) -> f64 {
+    let each = boxes.iter().zip(&row.conditions).map(|(&(low, high), &x)| {
+        let out = (low - x).max(x - high).max(0.0);
+        // a condition that does not vary in the data has no range to count in
+        let range = if high > low { high - low } else { low.abs().max(f64::MIN_POSITIVE) };
+        out / range
+    });
+    each.fold(0.0, f64::max)
+}
+
+/// How far rows are from the box of the data.
+fn distances(setup: &Setup<'_>, rows: &[Row]) -> Vec<f64> {
+    let boxes = boxes(setup);
+    rows.iter().map(|row| distance(&boxes, row)).collect()
 }
 
 /// How many of these rows are outside of the box of the data.
@@ -51,7 +58,27 @@ pub(crate) fn outside(setup: &Setup<'_>, rows: &[Row]) -> usize {
     distances(setup, rows).into_iter().filter(|distance| *distance > 0.0).count()
 }
 
-/// What "unexplained" says in rows that count as within the box of the data, as a block of conditions
+/// Distances at which it is asked on the way to a row how uncertain a departure is, in ranges: the least,
+/// and how much farther each next one is.
+const FIRST_STEP: f64 = 0.005;
+const FARTHER: f64 = 1.35;
+
+/// Places on the way from the box of the data to a row outside, the row itself last.
+fn way(boxes: &[(f64, f64)], row: &Row) -> Vec<Row> {
+    let whole = distance(boxes, row);
+    let steps = std::iter::successors(Some(FIRST_STEP), |step| Some(step * FARTHER));
+    let at = |step: f64| {
+        let mut on_the_way = row.clone();
+        for (x, &(low, high)) in on_the_way.conditions.iter_mut().zip(boxes) {
+            let nearest = x.clamp(low, high);
+            *x = nearest + (*x - nearest) * step / whole;
+        }
+        on_the_way
+    };
+    steps.take_while(|step| *step < whole).map(at).chain([row.clone()]).collect()
+}
+
+/// What a departure says in rows that count as within the box of the data, as a block of conditions
 /// does that was left out.
 pub(crate) fn within(
     setup: &Setup<'_>,
@@ -60,12 +87,49 @@ pub(crate) fn within(
     compositions: &Compositions,
     rows: &[Row],
 ) -> Normals {
-    let process = discrepancy.predict(setup, shrink::top(kinds), rows, false);
+    let process = discrepancy.predict(setup, shrink::top(kinds), rows, &[]);
     joined(process, &compositions.predictions(setup, rows), &vec![0.0; rows.len()])
 }
 
-/// What "unexplained" says in rows: means and variances of the outputs.
-pub(crate) fn unexplained(
+/// What a departure says in rows, beside effects or not: means and variances of the outputs. Outside of
+/// the box it is nowhere surer than on the way there.
+pub(crate) fn departure(
+    setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
+    kinds: &[Weighted],
+    compositions: &Compositions,
+    rows: &[Row],
+) -> Normals {
+    let boxes = boxes(setup);
+    let (mut all, mut last): (Vec<Row>, Vec<usize>) = (Vec::new(), Vec::new());
+    for row in rows {
+        if distance(&boxes, row) > 0.0 {
+            all.extend(way(&boxes, row));
+        } else {
+            all.push(row.clone());
+        }
+        last.push(all.len() - 1);
+    }
+    let said = at_distances(setup, discrepancy, kinds, compositions, &all);
+    let firsts = std::iter::once(0).chain(last.iter().map(|last| last + 1));
+    let of_row = |(first, &last): (usize, &usize)| -> Vec<(f64, f64)> {
+        let greatest = |output: usize| {
+            let variances = said[first..=last].iter().map(|outputs| outputs[output].1);
+            // where there is none at the row itself, there is none
+            variances.fold(said[last][output].1, f64::max)
+        };
+        let outputs = said[last].iter().enumerate();
+        outputs
+            .map(|(output, &(mean, own))| {
+                (mean, if own.is_finite() { greatest(output) } else { own })
+            })
+            .collect()
+    };
+    firsts.zip(&last).map(of_row).collect()
+}
+
+/// The same with nothing but the rows themselves looked at.
+fn at_distances(
     setup: &Setup<'_>,
     discrepancy: &Discrepancy,
     kinds: &[Weighted],
@@ -73,19 +137,20 @@ pub(crate) fn unexplained(
     rows: &[Row],
 ) -> Normals {
     let distances = distances(setup, rows);
-    let mut process = discrepancy.predict(setup, shrink::top(kinds), rows, false);
+    let mut process = discrepancy.predict(setup, shrink::top(kinds), rows, &[]);
     let outside: Vec<usize> = (0..rows.len()).filter(|&row| distances[row] > 0.0).collect();
     if !outside.is_empty() {
         let of_rows: Vec<Row> = outside.iter().map(|&row| rows[row].clone()).collect();
         let mut tempered: Vec<Weighted> = kinds.to_vec();
         tempered.iter_mut().for_each(|kind| kind.weight = kind.weight.sqrt());
         tempered.truncate(MOST_KINDS);
-        let there = discrepancy.predict(setup, &tempered, &of_rows, true);
+        let growth = outside.iter().map(|&row| (1.0 + GROWTH * distances[row]).powi(2));
+        let growth: Vec<f64> = growth.collect();
+        let there = discrepancy.predict(setup, &tempered, &of_rows, &growth);
         for (place, of_row) in outside.iter().zip(there) {
             let share = (distances[*place] / GRADUAL).min(1.0);
-            let growth = (1.0 + GROWTH * distances[*place]).powi(2);
             for (own, other) in process[*place].iter_mut().zip(of_row) {
-                *own = mixed(&[(1.0 - share, *own), (share, (other.0, other.1 * growth))]);
+                *own = mixed(&[(1.0 - share, *own), (share, other)]);
             }
         }
     }

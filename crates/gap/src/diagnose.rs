@@ -26,7 +26,7 @@ use gumption_engine::task::{Coverage, Row};
 use gumption_inference::discrepancy::Discrepancy;
 use gumption_inference::latent::Role;
 use gumption_inference::noise_model::NoiseModel;
-use gumption_inference::posterior::{Effort, Posterior};
+use gumption_inference::posterior::{Effort, Posterior, WeighedHypothesis};
 use gumption_inference::prior_widths::{self, OtherPriors};
 use gumption_inference::setup::Setup;
 use gumption_inference::shape::ComposedForm;
@@ -106,7 +106,8 @@ fn diagnosed(
     let effort = Effort { stop, ..Effort::FULL };
     let weighed = Weighed::new(case, &others, seed, effort, &|share| progress(0.6 * share));
     let group = weighed.indistinguishable();
-    let verdict = weighed.most_probable(&group);
+    let shares = weighed.shares();
+    let verdict = weighed.most_probable(&group, &shares);
     let Weighed {
         wide_priors,
         prior_conflicts,
@@ -124,12 +125,13 @@ fn diagnosed(
         variances,
         ..
     } = weighed;
+    let winner = posterior.together(&posterior.hypotheses[best]);
     let with_rows = plus_rows(&setup, &variances);
     let regions =
         if effort.is_stopped() { Vec::new() } else { scan::regions(&setup, &with_rows, seed) };
     progress(0.7);
     let probability = coverage(case);
-    let (shrinkage, rows) = shrink::shrinkage(
+    let (mut shrinkage, rows) = shrink::shrinkage(
         &setup,
         &discrepancy,
         &posterior,
@@ -138,6 +140,7 @@ fn diagnosed(
         probability,
         (seed, stop),
     );
+    shrinkage.shares = shares;
     progress(0.85);
     let periodic = periodic_residuals::found(&rows, case.measured());
     // a wave that was composed says it already
@@ -156,7 +159,7 @@ fn diagnosed(
     };
     let interrupted = effort.is_stopped();
     progress(0.95);
-    let noise = noise(&setup, &variances, &posterior, best, (&weighed_noise, probability), &rows);
+    let noise = noise(&setup, &variances, &winner, (&weighed_noise, probability), &rows);
     let strength = match verdict.kind {
         HypothesisKind::None => Vec::new(),
         _ => strength::along(&setup, &rows),
@@ -177,7 +180,7 @@ fn diagnosed(
     } else {
         gap(&Setup::new(case), verdict.kind)
     };
-    let mut notes = notes(&setup, &posterior, &verdict, &shrinkage, &gap, &noise, best);
+    let mut notes = notes(&setup, &posterior, &verdict, &shrinkage, &gap, &noise, &winner);
     notes.extend(periodic.filter(|_| !is_composed).map(|of| DiagnosisNote {
         code: "periodic-residuals",
         text: periodic_text(case, &setup, of),
@@ -264,7 +267,7 @@ fn extrapolated(
     at: &[Row],
 ) -> Option<DiagnosisNote> {
     let outside = departure_prediction::outside(setup, at);
-    let reason = if posterior.probability > departure::WORTH_TELLING {
+    let reason = if posterior.departs() > departure::WORTH_TELLING {
         "No effect of the list says how the departure goes on there: smooth and composed departures \
          are averaged with less regard to their probabilities, and the standard uncertainty is \
          enlarged with the distance."
@@ -331,6 +334,11 @@ fn described(candidate: &Candidate) -> DescribedEffect {
     }
 }
 
+/// Number of parameters of effects.
+fn parameter_count(setup: &Setup<'_>, effects: &[usize]) -> usize {
+    effects.iter().map(|&effect| setup.case.candidates[effect].priors.len()).sum()
+}
+
 /// All hypotheses, most probable first.
 pub(crate) fn hypotheses(
     setup: &Setup<'_>,
@@ -340,8 +348,10 @@ pub(crate) fn hypotheses(
     let mut all: Vec<Hypothesis> = posterior
         .hypotheses
         .iter()
-        .map(|hypothesis| Hypothesis {
+        .map(|alone| (alone.probability, posterior.together(alone)))
+        .map(|(alone, hypothesis)| Hypothesis {
             effects: Some(setup.effect_names(&hypothesis.effects)),
+            beside: hypothesis.probability > 2.0 * alone,
             prior: hypothesis.prior,
             probability: hypothesis.probability,
             log_evidence: hypothesis.evidence.ln_evidence,
@@ -353,12 +363,13 @@ pub(crate) fn hypotheses(
                 .iter()
                 .map(gumption_inference::search::Mode::ln_likelihood)
                 .fold(f64::NEG_INFINITY, f64::max),
-            fitted: hypothesis.evidence.unknowns() - setup.roles.len(),
-            parameters: parameters(setup, hypothesis, probability),
+            fitted: parameter_count(setup, &hypothesis.effects),
+            parameters: parameters(setup, &hypothesis, probability),
         })
         .collect();
     all.push(Hypothesis {
         effects: None,
+        beside: false,
         prior: posterior.prior,
         probability: posterior.probability,
         log_evidence: posterior.unexplained.ln_evidence,
@@ -414,11 +425,11 @@ pub(crate) fn prediction(
         let values = predict::values(setup, &hypothesis.effects, &draws, rows);
         add(hypothesis.probability, &shrink::moments(&values));
     }
-    if posterior.probability > LEAST_SHARE {
-        let kinds = &posterior.unexplained.kinds;
+    if posterior.departs() > LEAST_SHARE {
+        let kinds = &posterior.kinds();
         let normals =
-            departure_prediction::unexplained(setup, discrepancy, kinds, compositions, rows);
-        add(posterior.probability, &normals);
+            departure_prediction::departure(setup, discrepancy, kinds, compositions, rows);
+        add(posterior.departs(), &normals);
     }
     let is_partly = |sums: &&Vec<(f64, f64, f64)>| {
         sums.iter().any(|(_, _, share)| *share < (1.0 - LEAST_SHARE) * total)
@@ -459,8 +470,7 @@ fn enlarge(rows: &mut [Predicted], variances: &[f64]) {
 fn noise(
     setup: &Setup<'_>,
     variances: &[f64],
-    posterior: &Posterior,
-    best: usize,
+    winner: &WeighedHypothesis,
     of: (&WeighedNoise, f64),
     rows: &[RowGap],
 ) -> Vec<NoiseEstimate> {
@@ -473,8 +483,8 @@ fn noise(
     };
     (0..outputs)
         .map(|output| {
-            let estimated = (!stated(output))
-                .then(|| estimated_noise(setup, variances, posterior, best, output));
+            let estimated =
+                (!stated(output)).then(|| estimated_noise(setup, variances, winner, output));
             let factor = weighed.factor(output, coverage);
             let with_output = weighed.correlations.iter().filter(|of| of.outputs.contains(&output));
             let correlations = with_output.map(|of| OutputCorrelation {
@@ -523,12 +533,11 @@ fn noise(
 fn estimated_noise(
     setup: &Setup<'_>,
     variances: &[f64],
-    posterior: &Posterior,
-    best: usize,
+    winner: &WeighedHypothesis,
     output: usize,
 ) -> EstimatedNoise {
     let outputs = setup.data.outputs.len();
-    let mode = posterior.hypotheses.get(best).and_then(|h| h.evidence.modes.first());
+    let mode = winner.evidence.modes.first();
     let own: Vec<f64> = (output..variances.len())
         .step_by(outputs)
         .filter(|&value| setup.data.noise.stretch(setup.data.ids[value / outputs], output) == 1.0)

@@ -54,11 +54,11 @@ pub struct Diagnosis {
     pub replication: Option<ReplicatedEffects>,
     /// Effects whose priors the data contradict, most probable first.
     pub prior_conflicts: Vec<PriorConflict>,
-    /// What is known of a departure that no candidate makes, most probable form first; empty where
-    /// "unexplained" has at most the probability 0.05.
+    /// What is known of a departure that no candidate makes, by itself or beside some of them, most
+    /// probable form first; empty where that has at most the probability 0.05.
     pub departure: Vec<DepartureForm>,
     /// Effects that would explain it, composed and not from the list, most probable first; empty where
-    /// "unexplained" has at most the probability 0.05.
+    /// that has at most the probability 0.05.
     pub composed: Vec<ComposedEffect>,
     /// Effects that ship with the program and are not listed, and that would explain it, most probable
     /// first.
@@ -182,12 +182,25 @@ pub struct MostProbable {
     pub effects: Vec<String>,
     /// Whether the named effect has a size that contradicts its prior.
     pub prior_conflict: bool,
-    /// Posterior probability of exactly these.
+    /// Posterior probability of exactly these, with something without a name beside them or not.
     pub probability: f64,
+    /// What is left beside the effects, where it is more probable that something is than not.
+    pub beside: Option<LeftBeside>,
     /// The verdict and its look-alikes, each a list of effects.
     pub indistinguishable: Vec<Vec<String>>,
     /// The sum of their probabilities.
     pub indistinguishable_probability: f64,
+}
+
+/// A departure that none of the list makes, beside the effects of the verdict.
+#[derive(Clone, Debug)]
+pub struct LeftBeside {
+    /// Posterior probability that these effects act and something else does beside them.
+    pub probability: f64,
+    /// Its most probable form.
+    pub form: DepartureForm,
+    /// Its share of the gap's mean square.
+    pub share_of_gap: f64,
 }
 
 /// A hypothesis with its posterior probability.
@@ -197,7 +210,10 @@ pub struct Hypothesis {
     pub effects: Option<Vec<String>>,
     /// Prior probability.
     pub prior: f64,
-    /// Posterior probability.
+    /// Whether it is more probable that a departure which none of the list makes acts beside the effects
+    /// than that none does.
+    pub beside: bool,
+    /// Posterior probability, with such a departure or without.
     pub probability: f64,
     /// Natural logarithm of the evidence (density of the data in the outputs' units).
     pub log_evidence: f64,
@@ -241,6 +257,9 @@ pub struct Shrinkage {
     pub claimed_fraction: f64,
     /// Whether the gap is large enough (3 standard uncertainties) for a fraction to mean something.
     pub meaningful: bool,
+    /// What makes how much of the gap, first what makes most of it; the noise last. Empty where there is
+    /// none.
+    pub shares: Vec<GapShare>,
     /// Chi-square per degree of freedom before and after.
     pub chi2_per_dof: [f64; 2],
     /// Share of values with |En| at most 1, before and after.
@@ -252,6 +271,38 @@ pub struct Shrinkage {
     pub blocks: usize,
     /// How many values were measured.
     pub values: usize,
+}
+
+/// By how much the mean square of the residuals (in standard uncertainties, the inputs at what the data say
+/// of them) falls once a part of the verdict is taken out of the data, after those before it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GapShare {
+    /// Which part.
+    pub what: GapPart,
+    /// That fall over the mean square with none taken out; for the noise what is left. They sum to 1.
+    pub share_of_gap: f64,
+}
+
+/// A part of the gap.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum GapPart {
+    /// An effect of the list.
+    Effect(String),
+    /// A departure that none of them makes.
+    Departure,
+    /// What is left.
+    Noise,
+}
+
+impl GapPart {
+    /// The effect's name, `departure` or `noise`.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Effect(name) => name,
+            Self::Departure => "departure",
+            Self::Noise => "noise",
+        }
+    }
 }
 
 /// Root mean squares before and after a correction.
@@ -630,7 +681,7 @@ pub struct ReplicatedEffect {
     pub spread: Option<EffectParameter>,
 }
 
-/// A form of the departure that "unexplained" stands for.
+/// A form of a departure that no candidate makes.
 #[derive(Clone, Debug)]
 pub struct DepartureForm {
     /// The outputs that it acts on.
@@ -657,7 +708,7 @@ pub struct DepartureForm {
     pub unit: String,
     /// The effects of the list that act beside it.
     pub beside: Vec<String>,
-    /// Posterior probability; over all forms they sum to that of "unexplained".
+    /// Posterior probability; over all forms they sum to that of a departure.
     pub probability: f64,
 }
 

@@ -20,6 +20,7 @@ mod prior_conflict;
 mod replication;
 mod row_drift;
 mod selection;
+mod shares;
 mod shrink;
 mod strength;
 mod turns;
@@ -32,11 +33,12 @@ pub use composed::{ComposedEffect, ComposedParameter, ComposedPrior, ComposedTer
 pub use diagnose::{DiagnosisOptions, diagnose, diagnose_until};
 pub use diagnosis::{
     DepartureForm, DepartureKind, DepartureOver, DepartureShape, DescribedEffect, Diagnosis,
-    DiagnosisNote, EffectParameter, EstimatedNoise, GapStrength, GapTest, Hypothesis,
-    HypothesisKind, MostProbable, NamedQuantity, NextMeasurements, NoiseEstimate,
-    OutputCorrelation, Predicted, PresentEffect, PriorConflict, ProposalKind, ProposedMeasurement,
-    ReplicatedEffect, ReplicatedEffects, RowGap, SerialCorrelation, SettingError, Shrinkage,
-    Shrunk, StrengthPart, SuspectValue, UncertaintyFactor, UnlistedEffect, ValueGap,
+    DiagnosisNote, EffectParameter, EstimatedNoise, GapPart, GapShare, GapStrength, GapTest,
+    Hypothesis, HypothesisKind, LeftBeside, MostProbable, NamedQuantity, NextMeasurements,
+    NoiseEstimate, OutputCorrelation, Predicted, PresentEffect, PriorConflict, ProposalKind,
+    ProposedMeasurement, ReplicatedEffect, ReplicatedEffects, RowGap, SerialCorrelation,
+    SettingError, Shrinkage, Shrunk, StrengthPart, SuspectValue, UncertaintyFactor, UnlistedEffect,
+    ValueGap,
 };
 pub use gumption_inference::scan::GapRegion;
 pub use gumption_inference::shape::ComposedForm;

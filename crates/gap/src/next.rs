@@ -13,7 +13,8 @@ use super::shrink;
 use gumption_engine::number::{elementary, largest_first, median, smallest_first};
 use gumption_engine::special::normal;
 use gumption_engine::task::Sharing;
-use gumption_inference::discrepancy::Discrepancy;
+use gumption_inference::beside::Beside;
+use gumption_inference::discrepancy::{Discrepancy, Unexplained};
 use gumption_inference::equivalent;
 use gumption_inference::expected_entropy::{Detail, Normals, Outlook, expected_loss, ln_odds};
 use gumption_inference::posterior::Posterior;
@@ -55,7 +56,7 @@ const MOST_OTHERS: usize = 3;
 
 /// A hypothesis as what it says of measurements not yet made.
 pub(crate) struct PredictiveHypothesis {
-    /// Its effects; `None` for a part of "unexplained".
+    /// Its effects; `None` for a departure without any.
     pub(crate) effects: Option<Vec<String>>,
     /// Its probability.
     pub(crate) probability: f64,
@@ -87,13 +88,18 @@ pub(crate) fn next(
         })
     });
     let places = reachable::places(setup);
-    let (unexplained, composed) = unexplained(setup, discrepancy, posterior, compositions, &places);
-    let shares = unexplained.iter().map(|(share, _)| *share);
-    let entropy = entropy_of(posterior) + posterior.probability * entropy_of_parts(shares);
+    let (departures, composed) = departures(setup, discrepancy, posterior, compositions, &places);
+    let entropy = match &departures[..] {
+        [] => entropy_of(posterior),
+        parts => {
+            let alone = posterior.hypotheses.iter().map(|h| h.probability);
+            entropy_of_parts(alone.chain(parts.iter().map(|part| part.probability)))
+        }
+    };
     let equivalent = equivalent::groups(setup, posterior, &places, variances);
     let mut proposals = Vec::new();
     if entropy > DECIDED && !places.is_empty() {
-        let hypotheses = predictive(setup, posterior, unexplained, &places);
+        let hypotheses = predictive(setup, posterior, departures, &places);
         let same = separates.as_ref().is_some_and(|pair| {
             let of = |one: &Option<Vec<String>>| {
                 equivalent.iter().position(|group| one.as_ref().is_some_and(|e| group.contains(e)))
@@ -110,7 +116,7 @@ pub(crate) fn next(
 
 /// Entropy of the probabilities of all hypotheses, in nats; what is composed is not told apart.
 pub(crate) fn entropy_of(posterior: &Posterior) -> f64 {
-    let probabilities = posterior.hypotheses.iter().map(|h| h.probability);
+    let probabilities = posterior.named().map(|h| h.probability);
     entropy_of_parts(probabilities.chain([posterior.probability]))
 }
 
@@ -118,27 +124,51 @@ fn entropy_of_parts(probabilities: impl Iterator<Item = f64>) -> f64 {
     probabilities.map(|p| if p > 0.0 { -p * elementary::ln(p) } else { 0.0 }).sum()
 }
 
-/// What "unexplained" stands for, each part with its share of it and what it says at the places:
-/// the composed departures one by one, of which the number is given as well, and then all that is only
-/// known to be smooth.
-fn unexplained(
+/// A part of what a departure without a name may be.
+struct DeparturePart {
+    /// The effects that it acts beside; `None` where there are none.
+    effects: Option<Vec<String>>,
+    probability: f64,
+    /// What it says at the places.
+    normals: predict::Normals,
+}
+
+/// What a departure without a name may be: the composed ones one by one, of which the number is given as
+/// well, and then all that is only known to be smooth, without effects and beside those that it acts
+/// beside.
+fn departures(
     setup: &Setup<'_>,
     discrepancy: &Discrepancy,
     posterior: &Posterior,
     compositions: &Compositions,
     places: &[Place],
-) -> (Vec<(f64, predict::Normals)>, usize) {
-    if posterior.probability <= LEAST_PROBABILITY {
+) -> (Vec<DeparturePart>, usize) {
+    let departs = posterior.departs();
+    if departs <= LEAST_PROBABILITY {
         return (Vec::new(), 0);
     }
     let rows: Vec<_> = places.iter().map(|place| place.row.clone()).collect();
-    let mut parts = compositions.predictions(setup, &rows);
-    parts.retain(|(share, _)| share * posterior.probability > LEAST_PROBABILITY);
+    let composed = compositions.predictions(setup, &rows).into_iter();
+    let part = |(share, normals): (f64, predict::Normals)| {
+        (share * departs > LEAST_PROBABILITY).then(|| DeparturePart {
+            effects: None,
+            probability: share * departs,
+            normals,
+        })
+    };
+    let mut parts: Vec<DeparturePart> = composed.filter_map(part).collect();
     let composed = parts.len();
-    let rest = 1.0 - parts.iter().map(|(share, _)| share).sum::<f64>();
-    if rest * posterior.probability > LEAST_PROBABILITY {
-        let kinds = shrink::top(&posterior.unexplained.kinds);
-        parts.push((rest, discrepancy.predict(setup, kinds, &rows, false)));
+    let smooth = 1.0 - parts.iter().map(|part| part.probability).sum::<f64>() / departs;
+    let beside = posterior.beside.iter().map(|Beside { named, departure }| {
+        (Some(setup.effect_names(&named.effects)), named.probability, departure)
+    });
+    let alone = (None, posterior.probability, &posterior.unexplained);
+    for (effects, probability, Unexplained { kinds, .. }) in [alone].into_iter().chain(beside) {
+        let probability = smooth * probability;
+        if probability > LEAST_PROBABILITY && !kinds.is_empty() {
+            let normals = discrepancy.predict(setup, shrink::top(kinds), &rows, &[]);
+            parts.push(DeparturePart { effects, probability, normals });
+        }
     }
     (parts, composed)
 }
@@ -149,11 +179,11 @@ fn unobserved(setup: &Setup<'_>) -> Vec<usize> {
     observed.filter(|(_, of)| of.is_none()).map(|(output, _)| output).collect()
 }
 
-/// The hypotheses of a posterior, and the parts of "unexplained", with what they say at some places.
+/// The hypotheses of a posterior, and the departures without a name, with what they say at some places.
 fn predictive(
     setup: &Setup<'_>,
     posterior: &Posterior,
-    unexplained: Vec<(f64, predict::Normals)>,
+    departures: Vec<DeparturePart>,
     places: &[Place],
 ) -> Vec<PredictiveHypothesis> {
     let rows: Vec<_> = places.iter().map(|place| place.row.clone()).collect();
@@ -186,10 +216,10 @@ fn predictive(
     let draws = |&(mean, variance): &(f64, f64)| -> Vec<f64> {
         scores.iter().map(|score| mean + variance.sqrt() * score).collect()
     };
-    hypotheses.extend(unexplained.into_iter().map(|(share, normals)| PredictiveHypothesis {
-        effects: None,
-        probability: posterior.probability * share,
-        values: normals.iter().map(|row| row.iter().map(draws).collect()).collect(),
+    hypotheses.extend(departures.into_iter().map(|part| PredictiveHypothesis {
+        effects: part.effects,
+        probability: part.probability,
+        values: part.normals.iter().map(|row| row.iter().map(draws).collect()).collect(),
         unobserved: None,
         // what a departure says of inputs is no more than was known of them
         inputs: vec![scores.clone(); setup.unknown_inputs.len()],
@@ -483,18 +513,9 @@ fn named(name: &str, unit: &gumption_units::Unit) -> NamedQuantity {
 /// The noise of the observed outputs at a place: that of the nearest measured points, and of inputs
 /// that are not unknown quantities of their own.
 fn noise_at(setup: &Setup<'_>, place: &Place, variances: &[f64]) -> NoiseAt {
-    let data = &setup.data;
-    let outputs = data.outputs.len();
-    let typical = |output: usize| {
-        let rows = place.near.iter().flat_map(|&point| &data.points[point].rows);
-        let of = |&row: &usize| {
-            let stretch = data.noise.stretch(data.ids[row], output);
-            variances[row * outputs + output] / (stretch * stretch)
-        };
-        median(rows.map(of).collect()).unwrap_or(f64::NAN)
-    };
-    let NoiseAt { own, shared } = of_inputs(setup, place, &data.outputs);
-    let own = own.into_iter().enumerate().map(|(output, own)| own + typical(output)).collect();
+    let NoiseAt { own, shared } = of_inputs(setup, place, &setup.data.outputs);
+    let of_rows = |output: usize| place.noise(setup, variances, output);
+    let own = own.into_iter().enumerate().map(|(output, own)| own + of_rows(output)).collect();
     NoiseAt { own, shared }
 }
 

@@ -12,7 +12,7 @@ use gumption_engine::decimal::significant;
 use gumption_engine::number::Shortest;
 use gumption_inference::copies::Copies;
 use gumption_inference::evidence::DISAGREE;
-use gumption_inference::posterior::Posterior;
+use gumption_inference::posterior::{Posterior, WeighedHypothesis};
 use gumption_inference::resolution::Rounding;
 use gumption_inference::setup::Setup;
 use gumption_inference::shared_noise;
@@ -24,7 +24,7 @@ pub(crate) fn notes(
     shrinkage: &Shrinkage,
     gap: &GapTest,
     noise: &[NoiseEstimate],
-    best: usize,
+    winner: &WeighedHypothesis,
 ) -> Vec<DiagnosisNote> {
     let quantity = |output: usize| {
         let output = setup.data.outputs[output];
@@ -64,7 +64,6 @@ pub(crate) fn notes(
             ),
         );
     }
-    let winner = &posterior.hypotheses[best];
     if let Some(alike) = shared_noise::not_weighed(setup, winner) {
         note(
             "many-settings",
@@ -124,7 +123,7 @@ pub(crate) fn notes(
     if let Some(text) = turns::note(setup) {
         note("whole-turns", text);
     }
-    let worth = posterior.hypotheses.iter().filter(|h| h.probability > WORTH_A_NOTE);
+    let worth = posterior.named().filter(|h| h.probability > WORTH_A_NOTE);
     let apart = worth.map(|h| h.evidence.disagreement).fold(0.0, f64::max);
     if apart > DISAGREE {
         note(

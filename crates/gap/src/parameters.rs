@@ -19,7 +19,7 @@ pub(crate) fn present(
     let mut present: Vec<PresentEffect> = (0..setup.case.candidates.len())
         .map(|effect| {
             let holding: Vec<&WeighedHypothesis> =
-                posterior.hypotheses.iter().filter(|h| h.effects.contains(&effect)).collect();
+                posterior.named().filter(|h| h.effects.contains(&effect)).collect();
             let probability = holding.iter().map(|h| h.probability).sum();
             let candidate = &setup.case.candidates[effect];
             // what differs between devices is reported by itself

@@ -22,7 +22,8 @@ pub(crate) fn conflicts(
     let mut found = Vec::new();
     for weighing in weighings {
         let Some(widened) = weighing.widths.widened() else { continue };
-        for hypothesis in &weighing.posterior.hypotheses {
+        for alone in &weighing.posterior.hypotheses {
+            let hypothesis = weighing.posterior.together(alone);
             let probability = hypothesis.probability * weighing.probability;
             if probability < LEAST {
                 continue;
@@ -31,7 +32,7 @@ pub(crate) fn conflicts(
             let candidates = hypothesis.effects.iter().map(|&effect| &case.candidates[effect]);
             let priors =
                 candidates.flat_map(|of| of.priors.iter().map(|prior| (&of.effect, prior)));
-            let of = parameters(&weighing.setup, hypothesis, coverage);
+            let of = parameters(&weighing.setup, &hypothesis, coverage);
             for (parameter, (effect, prior)) in of.into_iter().zip(priors) {
                 let (prior_distance, bounded) = distance(prior, parameter.estimate);
                 if prior_distance > if bounded { 0.0 } else { FAR } {

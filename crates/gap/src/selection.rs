@@ -63,7 +63,7 @@ pub fn select_model(case: &Case, seed: u64) -> Result<ModelSelection, OverrideEr
     let rows: Vec<Row> = case.task.rows.clone();
     let group = weighed.indistinguishable();
     Ok(ModelSelection {
-        most_probable: weighed.most_probable(&group),
+        most_probable: weighed.most_probable(&group, &weighed.shares()),
         hypotheses: hypotheses(&weighed.setup, &weighed.posterior, super::diagnose::coverage(case)),
         predicted: prediction(
             &weighed.setup,

@@ -10,11 +10,12 @@ use super::diagnosis::{RowGap, Shrinkage, Shrunk, ValueGap};
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::{ascending, elementary};
 use gumption_engine::task::Row;
+use gumption_inference::beside::Beside;
 use gumption_inference::data::{Data, by_rows, within_half_a_turn};
-use gumption_inference::discrepancy::{Base, Discrepancy, Weighted};
+use gumption_inference::discrepancy::{Discrepancy, Weighted};
 use gumption_inference::evidence::EvidenceEstimate;
 use gumption_inference::logarithm::{HALF_LN_TWO_PI, ln_sum};
-use gumption_inference::posterior::Posterior;
+use gumption_inference::posterior::{Effort, Posterior};
 use gumption_inference::predict::{self, Normals, Values};
 use gumption_inference::setup::Setup;
 use gumption_inference::shared_noise::SharedNoise;
@@ -33,8 +34,8 @@ const MEANINGFUL: f64 = 3.0;
 pub(crate) enum Correction {
     /// Effects, or none of them.
     Effects(Vec<usize>),
-    /// A discrepancy, smooth or composed.
-    Unexplained(Compositions),
+    /// A discrepancy, smooth or composed, beside effects or not.
+    Departure(Compositions),
 }
 
 /// Shrinkage, and the data row by row. `variances` are those of the noise by value.
@@ -162,6 +163,7 @@ pub(crate) fn shrinkage(
         held as f64 / n
     };
     let shrinkage = Shrinkage {
+        shares: Vec::new(),
         rms_after_interval: interval(&after2, probability, seed),
         meaningful: all.rms_before * all.rms_before - 1.0 >= MEANINGFUL * MEANINGFUL,
         claimed_fraction: claimed,
@@ -257,9 +259,9 @@ fn in_sample(
                 moments(&predict::values(setup, effects, &draws, rows))
             })
         }
-        Correction::Unexplained(compositions) => {
-            let kinds = &posterior.unexplained.kinds;
-            departure_prediction::unexplained(setup, discrepancy, kinds, compositions, rows)
+        Correction::Departure(compositions) => {
+            let kinds = &posterior.kinds();
+            departure_prediction::departure(setup, discrepancy, kinds, compositions, rows)
         }
     }
 }
@@ -402,30 +404,24 @@ fn fold(
                 base: Density::of(&none),
             }
         }
-        Correction::Unexplained(compositions) => {
-            let discrepancy = discrepancy.for_part(&part, &posterior.unexplained);
-            // an effect that acts beside the discrepancy is fitted anew as well
-            let base = posterior.unexplained.kinds.first().and_then(|kind| kind.base.as_ref());
-            let base = base.and_then(|base| {
-                let seeds: Vec<Vec<f64>> = posterior
-                    .hypotheses
-                    .iter()
-                    .filter(|h| h.effects == base.effects)
-                    .flat_map(|h| h.evidence.modes.iter().map(|mode| mode.scores.clone()))
-                    .collect();
-                let likelihood = part.likelihood(&base.effects);
+        Correction::Departure(compositions) => {
+            let all = posterior.kinds();
+            let discrepancy = discrepancy.for_part(&part, &all);
+            // an effect that acts beside the discrepancy is fitted anew with it
+            let beside = all.first().and_then(|kind| kind.base.as_ref()).and_then(|base| {
+                let modes = &posterior.beside(&base.effects)?.named.evidence.modes;
                 let key = StreamKey::new(seed, "gap/without a block");
-                let evidence = EvidenceEstimate::begin(&likelihood, key, &seeds, 0);
-                Base::at(&part, &base.effects, evidence.modes.first()?)
+                let effort = Effort { starts: 0, ..Effort::QUICK };
+                let with = (key, effort, f64::NEG_INFINITY);
+                Beside::fitted(&part, &discrepancy, &base.effects, modes, with)
             });
-            let residuals = match &base {
-                Some(base) => base.residuals(&part),
-                None => by_rows(&part.data.nominal_residuals()),
+            let found = match beside {
+                Some(beside) => beside.departure,
+                None => {
+                    let residuals = by_rows(&part.data.nominal_residuals());
+                    discrepancy.evidence(&part, &residuals, f64::NEG_INFINITY)
+                }
             };
-            let mut found = discrepancy.evidence(&part, &residuals, f64::NEG_INFINITY);
-            if let Some(base) = base {
-                found = found.beside(base);
-            }
             // the composed functions and their weights are those of all data; their sizes are not
             let compositions = compositions.for_part(setup, &part);
             let predicted = departure_prediction::within(

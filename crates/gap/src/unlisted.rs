@@ -42,7 +42,7 @@ pub(crate) fn explaining(
     let ln_each = -elementary::ln(other.candidates.len() as f64);
     let tried = singles(&setup, seed, Effort::QUICK);
     let effects: Vec<_> = tried.into_iter().filter(|h| !h.effects.is_empty()).collect();
-    let departures = weighing.posterior.unexplained.ln_evidence;
+    let departures = weighing.posterior.departures().ln_evidence;
     let total =
         effects.iter().fold(departures, |sum, h| ln_add(sum, ln_each + h.evidence.ln_evidence));
     let mut found: Vec<UnlistedEffect> = effects

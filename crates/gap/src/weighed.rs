@@ -1,25 +1,29 @@
 //! The hypotheses of a case weighed against its data: the most probable one, and those that the data
 //! cannot tell from it.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::composed::{self, ComposedEffect, Compositions};
 use super::departure;
 use super::diagnosis::{
-    DepartureForm, HypothesisKind, MostProbable, PriorConflict, UnlistedEffect,
+    DepartureForm, GapPart, GapShare, HypothesisKind, LeftBeside, MostProbable, PriorConflict,
+    UnlistedEffect,
 };
 use super::prior_conflict;
-use super::shrink::Correction;
+use super::shares::shares;
+use super::shrink::{self, Correction};
 use super::unlisted;
 use super::weighed_noise::WeighedNoise;
 use crate::Case;
 use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::task::Row;
+use gumption_inference::beside::Beside;
 use gumption_inference::discrepancy::Discrepancy;
 use gumption_inference::latent::Role;
 use gumption_inference::noise_model::{self, Weighing};
 use gumption_inference::over_noises;
-use gumption_inference::posterior::{Effort, Posterior};
+use gumption_inference::posterior::{Effort, Posterior, WeighedHypothesis};
 use gumption_inference::predict;
 use gumption_inference::prior_widths::{self, OtherPriors};
 use gumption_inference::resolution::Rounding;
@@ -69,6 +73,12 @@ pub(crate) struct Weighed<'c> {
     pub(crate) variances: Vec<f64>,
 }
 
+/// The probability of a hypothesis, with a departure beside its effects or without.
+fn total(posterior: &Posterior, place: usize) -> f64 {
+    let alone = &posterior.hypotheses[place];
+    alone.probability + posterior.probability_beside(&alone.effects)
+}
+
 impl<'c> Weighed<'c> {
     /// `others` is the case with priors of other widths.
     pub(crate) fn new(
@@ -89,17 +99,18 @@ impl<'c> Weighed<'c> {
         let coverage = super::diagnose::coverage(case);
         let unlisted = unlisted::explaining(case, &weighings, seed, coverage);
         let (setup, discrepancy, posterior) = over_noises::summed(weighings);
-        let best = (0..posterior.hypotheses.len())
-            .max_by(|&a, &b| {
-                posterior.hypotheses[a].probability.total_cmp(&posterior.hypotheses[b].probability)
-            })
-            .unwrap_or(0);
-        let explained = posterior.hypotheses[best].probability >= posterior.probability;
-        let wide_priors = explained && hidden.contains(&posterior.hypotheses[best].effects);
-        let correction = if explained {
-            Correction::Effects(posterior.hypotheses[best].effects.clone())
+        let places = 0..posterior.hypotheses.len();
+        let best = places.max_by(|&a, &b| total(&posterior, a).total_cmp(&total(&posterior, b)));
+        let best = best.unwrap_or(0);
+        let explained = total(&posterior, best) >= posterior.probability;
+        let named = &posterior.hypotheses[best];
+        let wide_priors = explained && hidden.contains(&named.effects);
+        let departs =
+            !explained || posterior.probability_beside(&named.effects) > named.probability;
+        let correction = if departs {
+            Correction::Departure(compositions.clone())
         } else {
-            Correction::Unexplained(compositions.clone())
+            Correction::Effects(named.effects.clone())
         };
         let variances = noise_variances(&setup, &posterior, best, explained);
         Self {
@@ -123,7 +134,7 @@ impl<'c> Weighed<'c> {
 
     /// The verdict and what these data cannot tell from it, as places of hypotheses.
     pub(crate) fn indistinguishable(&self) -> Vec<usize> {
-        let modes = best_predictions(&self.setup, &self.posterior);
+        let modes = best_predictions(&self.setup, &self.discrepancy, &self.posterior);
         indistinguishable(
             &self.setup,
             &self.posterior,
@@ -134,9 +145,44 @@ impl<'c> Weighed<'c> {
         )
     }
 
-    pub(crate) fn most_probable(&self, group: &[usize]) -> MostProbable {
+    /// The best of the named hypotheses, with a departure beside its effects or without.
+    pub(crate) fn winner(&self) -> Cow<'_, WeighedHypothesis> {
+        self.posterior.together(&self.posterior.hypotheses[self.best])
+    }
+
+    /// What makes how much of the gap; empty where there is none.
+    pub(crate) fn shares(&self) -> Vec<GapShare> {
+        let Self { setup, discrepancy, posterior, correction, variances, .. } = self;
+        let winner = self.winner();
+        let departs = matches!(correction, Correction::Departure(_));
+        let named = &winner.effects[..];
+        let effects = if self.explained { named } else { &[] };
+        let departure = match posterior.beside(effects).filter(|_| self.explained) {
+            Some(of) => &of.departure,
+            None => &posterior.unexplained,
+        };
+        let departure = departure.kinds.first().filter(|_| departs);
+        let acting = posterior.hypotheses.iter().find(|h| h.effects == effects);
+        let at = if self.explained { Some(&*winner) } else { acting };
+        let mode = at.and_then(|at| at.evidence.modes.first());
+        let Some(mode) = mode.filter(|_| departs || !effects.is_empty()) else { return Vec::new() };
+        shares(setup, discrepancy, (effects, mode), departure, variances)
+    }
+
+    /// The verdict, and what is left beside its effects; `group` are its look-alikes.
+    pub(crate) fn most_probable(&self, group: &[usize], shares: &[GapShare]) -> MostProbable {
         let mut verdict =
             most_probable(&self.setup, &self.posterior, self.best, self.explained, group);
+        if self.explained && matches!(self.correction, Correction::Departure(_)) {
+            let own = self.departure.iter().find(|form| form.beside == verdict.effects);
+            let share = shares.iter().find(|share| share.what == GapPart::Departure);
+            let effects = &self.posterior.hypotheses[self.best].effects;
+            verdict.beside = own.or(self.departure.first()).map(|form| LeftBeside {
+                probability: self.posterior.probability_beside(effects),
+                form: form.clone(),
+                share_of_gap: share.map_or(f64::NAN, |share| share.share_of_gap),
+            });
+        }
         verdict.prior_conflict = self.prior_conflict
             && self.prior_conflicts.iter().any(|of| verdict.effects == of.effects);
         verdict
@@ -192,7 +238,7 @@ fn noise_variances(
     {
         return variances.to_vec();
     }
-    let evidence = &posterior.hypotheses[best].evidence;
+    let evidence = &posterior.together(&posterior.hypotheses[best]).evidence;
     let draws = evidence.resampled(128);
     let mut sums = vec![0.0; data.len()];
     for draw in &draws {
@@ -219,8 +265,13 @@ fn noise_variances(
     with_rounding(setup, own)
 }
 
-/// What every hypothesis says at its most probable point, by value.
-fn best_predictions(setup: &Setup<'_>, posterior: &Posterior) -> Vec<Option<Vec<f64>>> {
+/// What every hypothesis says at its most probable point, by value; with a departure beside its effects
+/// where that is more probable.
+fn best_predictions(
+    setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
+    posterior: &Posterior,
+) -> Vec<Option<Vec<f64>>> {
     let rows: Vec<Row> = setup
         .data
         .points
@@ -228,13 +279,22 @@ fn best_predictions(setup: &Setup<'_>, posterior: &Posterior) -> Vec<Option<Vec<
         .filter_map(|point| point.rows.first())
         .map(|&row| setup.row(row).clone())
         .collect();
-    let most = posterior.hypotheses.iter().map(|h| h.probability).fold(0.0, f64::max);
+    let totals = (0..posterior.hypotheses.len()).map(|place| total(posterior, place));
+    let most = totals.fold(0.0, f64::max);
     posterior
         .hypotheses
         .iter()
-        .map(|hypothesis| {
-            if hypothesis.probability < 1e-3 * WORTH_A_NAME * most {
+        .enumerate()
+        .map(|(place, hypothesis)| {
+            if total(posterior, place) < 1e-3 * WORTH_A_NAME * most {
                 return None;
+            }
+            let beside = posterior.beside(&hypothesis.effects);
+            let beside = beside.filter(|of| of.named.probability > hypothesis.probability);
+            if let Some(Beside { departure, .. }) = beside {
+                let kinds = shrink::top(&departure.kinds);
+                let said = discrepancy.predict(setup, kinds, &rows, &[]);
+                return Some(said.into_iter().flatten().map(|(mean, _)| mean).collect());
             }
             let mode = hypothesis.evidence.modes.first()?.scores.clone();
             let values = predict::values(setup, &hypothesis.effects, &[mode], &rows);
@@ -270,12 +330,12 @@ fn indistinguishable(
         }
         squares.sqrt()
     };
-    let least = WORTH_A_NAME * posterior.hypotheses[best].probability;
+    let least = WORTH_A_NAME * total(posterior, best);
     let mut alike: Vec<usize> = (0..predictions.len())
-        .filter(|&place| place != best && posterior.hypotheses[place].probability >= least)
+        .filter(|&place| place != best && total(posterior, place) >= least)
         .filter(|&place| predictions[place].as_ref().is_some_and(|other| distance(other) < ALIKE))
         .collect();
-    largest_first(&mut alike, |&a| posterior.hypotheses[a].probability);
+    largest_first(&mut alike, |&a| total(posterior, a));
     let mut group = vec![best];
     group.extend(alike);
     group
@@ -290,7 +350,7 @@ pub(crate) fn rival(posterior: &Posterior, best: usize, group: &[usize]) -> Opti
         let effects = &posterior.hypotheses[place].effects;
         own.iter().all(|effect| effects.contains(effect))
     };
-    let probability = |place: usize| posterior.hypotheses[place].probability;
+    let probability = |place: usize| total(posterior, place);
     let others = || {
         (0..posterior.hypotheses.len())
             .filter(|&place| place != best && probability(place) > RIVAL)
@@ -316,6 +376,7 @@ fn most_probable(
             kind: HypothesisKind::Unexplained,
             effects: Vec::new(),
             prior_conflict: false,
+            beside: None,
             probability: posterior.probability,
             indistinguishable: Vec::new(),
             indistinguishable_probability: posterior.probability,
@@ -330,14 +391,12 @@ fn most_probable(
         },
         effects: setup.effect_names(&winner.effects),
         prior_conflict: false,
-        probability: winner.probability,
+        beside: None,
+        probability: total(posterior, best),
         indistinguishable: group
             .iter()
             .map(|&h| setup.effect_names(&posterior.hypotheses[h].effects))
             .collect(),
-        indistinguishable_probability: group
-            .iter()
-            .map(|&h| posterior.hypotheses[h].probability)
-            .sum(),
+        indistinguishable_probability: group.iter().map(|&h| total(posterior, h)).sum(),
     }
 }

@@ -3,7 +3,7 @@
 //!
 //! It is a block for each row of the data plus a matrix of low rank, and is never formed.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::correlated;
 use super::data::{Data, Spread};
@@ -171,17 +171,25 @@ impl Covariance {
         self.roots = blocks;
         let basis = std::mem::take(&mut self.basis);
         self.basis = basis.into_iter().map(|column| self.whiten_blocks(&column)).collect();
-        let k = self.basis.len();
-        let mut inner = Vec::with_capacity(triangle(k));
-        for i in 0..k {
-            inner.extend((0..=i).map(|j| dot(&self.basis[i], &self.basis[j])));
-            inner[triangle(i) + i] += 1.0;
-        }
-        packed::cholesky_of_definite(&mut inner);
+        let inner = inner_root(&self.basis);
         let of_lag = |lag: &f64| 0.5 * outputs as f64 * elementary::ln(1.0 - lag * lag);
         half_ln_det += self.lags.iter().map(of_lag).sum::<f64>();
         self.half_ln_det = half_ln_det + packed::ln_diagonal(&inner);
         self.inner = inner;
+    }
+
+    /// The same with more that is integrated out: columns of values whose factors are standard normal.
+    pub(crate) fn with(&self, columns: &[Vec<f64>]) -> Self {
+        let mut with = self.clone();
+        with.raw_basis.extend_from_slice(columns);
+        if self.fitted {
+            with.basis.extend_from_slice(columns);
+            return with;
+        }
+        with.basis.extend(columns.iter().map(|column| self.whiten_blocks(column)));
+        with.inner = inner_root(&with.basis);
+        with.half_ln_det += packed::ln_diagonal(&with.inner) - packed::ln_diagonal(&self.inner);
+        with
     }
 
     /// inv(root of B) x, for x row by row with outputs fastest.
@@ -217,11 +225,34 @@ impl Covariance {
         products
     }
 
+    /// The products of vectors that are whitened by the blocks, in the metric of V: the lower triangle.
+    pub(crate) fn products(&self, whitened: &[DVector<f64>]) -> Vec<f64> {
+        let projected: Vec<Vec<f64>> =
+            whitened.iter().map(|white| self.project(white.as_slice())).collect();
+        let product =
+            |i: usize, j: usize| whitened[i].dot(&whitened[j]) - dot(&projected[i], &projected[j]);
+        (0..whitened.len())
+            .flat_map(|i| (0..=i).map(move |j| (i, j)))
+            .map(|(i, j)| product(i, j))
+            .collect()
+    }
+
     /// The squared length of an x, whitened by the blocks, in the metric of V.
     pub fn square(&self, whitened: &[f64]) -> f64 {
         let projected = self.project(whitened);
         dot(whitened, whitened) - dot(&projected, &projected)
     }
+}
+
+/// The lower Cholesky root of I + L' L, for the columns of L, row by row of the triangle.
+pub(crate) fn inner_root(basis: &[Vec<f64>]) -> Vec<f64> {
+    let mut inner = Vec::with_capacity(triangle(basis.len()));
+    for (i, column) in basis.iter().enumerate() {
+        inner.extend(basis[..=i].iter().map(|other| dot(column, other)));
+        inner[triangle(i) + i] += 1.0;
+    }
+    packed::cholesky_of_definite(&mut inner);
+    inner
 }
 
 /// Columns whose outer products sum to a covariance matrix; what rounding leaves below zero is

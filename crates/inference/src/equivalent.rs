@@ -50,6 +50,7 @@ const DIFFERENCE: f64 = 1e-4;
 struct Surface<'s> {
     effects: Vec<String>,
     predictor: Predictor<'s>,
+    /// The standard deviation of the noise at each place, of each output.
     scales: Vec<f64>,
     /// Scores of all unknown quantities at draws of the posterior, the inputs at their estimates.
     draws: Vec<Vec<f64>>,
@@ -67,32 +68,33 @@ pub fn groups(
     places: &[Place],
     variances: &[f64],
 ) -> Vec<Vec<Vec<String>>> {
-    let rows = spread(places);
+    let places = spread(places);
+    let rows: Vec<Row> = places.iter().map(|place| place.row.clone()).collect();
+    let probability = |h: usize| {
+        let alone = &posterior.hypotheses[h];
+        alone.probability + posterior.probability_beside(&alone.effects)
+    };
     let of = |several: bool| {
         let mut chosen: Vec<usize> = (0..posterior.hypotheses.len())
             .filter(|&h| {
                 let hypothesis = &posterior.hypotheses[h];
                 let count = hypothesis.effects.len();
-                let wanted = if several {
-                    count > 1 && hypothesis.probability > LEADING
-                } else {
-                    count == 1
-                };
+                let wanted =
+                    if several { count > 1 && probability(h) > LEADING } else { count == 1 };
                 wanted && !hypothesis.evidence.modes.is_empty() && hypothesis.evidence.has_draws()
             })
             .collect();
-        largest_first(&mut chosen, |&a| posterior.hypotheses[a].probability);
+        largest_first(&mut chosen, |&a| probability(a));
         chosen.truncate(if several { MOST_SEVERAL } else { MOST_SINGLE });
         chosen
     };
     let chosen: Vec<usize> = [of(false), of(true)].concat();
     let outputs = setup.data.outputs.len();
-    let scales: Vec<f64> = (0..outputs)
-        .map(|output| {
-            let own: Vec<f64> = variances.iter().skip(output).step_by(outputs).copied().collect();
-            (own.iter().sum::<f64>() / own.len().max(1) as f64).sqrt().max(f64::MIN_POSITIVE)
-        })
-        .collect();
+    let of_place = |place: &&Place| -> Vec<f64> {
+        let noise = |output: usize| place.noise(setup, variances, output);
+        (0..outputs).map(|output| noise(output).sqrt().max(f64::MIN_POSITIVE)).collect()
+    };
+    let scales: Vec<f64> = places.iter().flat_map(of_place).collect();
     let surfaces: Vec<Surface<'_>> = parallel::map(chosen, |h| {
         let hypothesis = &posterior.hypotheses[h];
         let inputs = 0..setup.unknown_inputs.len();
@@ -138,17 +140,17 @@ pub fn groups(
 }
 
 /// Places spread over all of them, the ends among them.
-fn spread(places: &[Place]) -> Vec<Row> {
+fn spread(places: &[Place]) -> Vec<&Place> {
     let count = places.len().min(MOST_PLACES);
     if count == places.len() {
-        return places.iter().map(|place| place.row.clone()).collect();
+        return places.iter().collect();
     }
     // steps of the golden section, so that no axis of a grid is left out
     let step = (places.len() as f64 * 0.618_033_988_749_894_9) as usize;
     let step = (step..).find(|step| gcd(*step, places.len()) == 1).unwrap_or(1);
     let ends = [0, places.len() - 1];
     let inner = (1..count - 1).map(|n| n * step % places.len());
-    ends.into_iter().chain(inner).map(|place| places[place].row.clone()).collect()
+    ends.into_iter().chain(inner).map(|place| &places[place]).collect()
 }
 
 fn gcd(a: usize, b: usize) -> usize {
@@ -161,10 +163,8 @@ fn first(values: &crate::predict::Values, scales: &[f64]) -> Vec<f64> {
 }
 
 fn column(values: &crate::predict::Values, scales: &[f64], draw: usize) -> Vec<f64> {
-    values
-        .iter()
-        .flat_map(|row| row.iter().zip(scales).map(|(draws, scale)| draws[draw] / scale))
-        .collect()
+    let of_output = |(draws, scale): (&Vec<f64>, &f64)| draws[draw] / scale;
+    values.iter().flatten().zip(scales).map(of_output).collect()
 }
 
 impl Surface<'_> {

@@ -9,6 +9,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 #![allow(clippy::needless_range_loop)] // lanes and small matrices read best by their places
 
+pub mod beside;
 mod beside_departure;
 mod case;
 mod case_check;

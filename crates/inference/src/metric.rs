@@ -1,9 +1,10 @@
 //! Products of vectors of values in the metric of the residuals' covariance, the noise being known or
 //! estimated before.
 
+use crate::covariance::inner_root;
 use crate::setup::Setup;
 use gumption_engine::linalg::dot;
-use gumption_engine::linalg::packed::{self, triangle};
+use gumption_engine::linalg::packed;
 
 /// The covariance B + L L' of the residuals, with B in blocks of the outputs of a row.
 #[derive(Clone, Debug)]
@@ -51,13 +52,7 @@ impl<'s> Metric<'s> {
     pub fn with(&self, columns: &[Vec<f64>]) -> Self {
         let mut basis = self.basis.clone();
         basis.extend(columns.iter().map(|column| self.whiten(column)));
-        let k = basis.len();
-        let mut inner = Vec::with_capacity(triangle(k));
-        for i in 0..k {
-            inner.extend((0..=i).map(|j| dot(&basis[i], &basis[j])));
-            inner[triangle(i) + i] += 1.0;
-        }
-        packed::cholesky_of_definite(&mut inner);
+        let inner = inner_root(&basis);
         Self { setup: self.setup, weights: self.weights.clone(), basis, inner }
     }
 

@@ -6,7 +6,7 @@
 use super::beside_departure::ln_departure;
 use super::noise_model::{Suspect, Weighing};
 
-/// The probability of "unexplained", with the values that are off, from which on it is asked which of
+/// The probability of a departure, with the values that are off, from which on it is asked which of
 /// them it needs.
 const LEADS: f64 = 0.5;
 
@@ -16,7 +16,7 @@ pub(crate) fn without_needless(weighings: &[Weighing<'_>]) -> Option<Vec<Suspect
     let suspects = |of: &Weighing<'_>| of.setup.data.noise.suspects.clone();
     let own = weighings.iter().filter(|w| !w.setup.data.noise.suspects.is_empty());
     let best = own.max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()))?;
-    if best.posterior.probability < LEADS {
+    if best.posterior.departs() < LEADS {
         return None;
     }
     let mut needed = suspects(best);

@@ -6,7 +6,8 @@
 
 use std::sync::Arc;
 
-use super::discrepancy::Discrepancy;
+use super::beside::{self, Beside};
+use super::discrepancy::{Discrepancy, Unexplained};
 use super::evidence::EvidenceEstimate;
 use super::latent::Role;
 use super::noise_model::{NoiseModel, Weighing, most_probable};
@@ -53,45 +54,80 @@ pub fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Arc<Discrepancy>,
             _ => scale(stated.three, own.three),
         };
     }
-    posterior.prior = stated.unexplained;
+    posterior.prior *= scale(stated.unexplained, own.unexplained);
     for hypothesis in &mut posterior.hypotheses {
-        let own = hypothesis.probability * own_share;
-        hypothesis.probability = own;
-        let others: Vec<(f64, &Weighing<'_>, &WeighedHypothesis)> = weighings
-            .iter()
-            .filter_map(|w| Some((w, w.posterior.of(&hypothesis.effects)?)))
-            .map(|(w, theirs)| (w.probability * theirs.probability, w, theirs))
-            .collect();
-        hypothesis.probability += others.iter().map(|(p, ..)| p).sum::<f64>();
-        // sums to one but for the bits
-        hypothesis.probability = hypothesis.probability.min(1.0);
-        let all = hypothesis.probability;
-        if all < LEAST || !hypothesis.evidence.has_draws() {
-            continue;
+        let effects = hypothesis.effects.clone();
+        let has_draws = hypothesis.evidence.has_draws();
+        sum(&setup, hypothesis, (own_share, has_draws), &weighings, &|w| w.posterior.of(&effects));
+    }
+    // a departure that another noise has is one of the forms there
+    for other in weighings.iter().flat_map(|w| &w.posterior.beside) {
+        if posterior.beside(&other.named.effects).is_none() {
+            let kinds = Vec::new();
+            posterior.beside.push(Beside {
+                named: WeighedHypothesis {
+                    probability: 0.0,
+                    evidence: other.named.evidence.clone().without_draws(),
+                    ..other.named.clone()
+                },
+                departure: Unexplained { kinds, ..other.departure },
+            });
         }
-        let roles = setup.likelihood(&hypothesis.effects).roles;
-        let parts: Vec<(f64, Vec<Vec<Column>>, &EvidenceEstimate)> = others
-            .into_iter()
-            .filter(|(p, _, theirs)| p / all > LEAST_SHARE && theirs.evidence.has_draws())
-            .filter_map(|(p, weighing, theirs)| {
-                let from = weighing.setup.likelihood(&theirs.effects).roles;
-                let columns = theirs.evidence.columns.iter();
-                let converted = columns.map(|scores| converted(scores, &from, &roles));
-                Some((p, converted.collect::<Option<_>>()?, &theirs.evidence))
-            })
-            .collect();
-        let evidence = &mut hypothesis.evidence;
-        evidence.scale_weights(own);
-        for (p, columns, theirs) in parts {
-            evidence.append(p, columns, &theirs.weights);
-        }
-        let sum: f64 = evidence.weights.iter().sum();
-        evidence.scale_weights(sum.recip());
+    }
+    for of in &mut posterior.beside {
+        of.named.prior = beside::prior(setup.case, &stated);
+        let effects = of.named.effects.clone();
+        sum(&setup, &mut of.named, (own_share, true), &weighings, &|w| {
+            Some(&w.posterior.beside(&effects)?.named)
+        });
     }
     let unexplained = |w: &Weighing<'_>| w.probability * w.posterior.probability;
     let others = weighings.iter().map(unexplained).sum::<f64>();
     posterior.probability = (posterior.probability * own_share + others).min(1.0);
     (setup, discrepancy, posterior)
+}
+
+/// Adds to a hypothesis what it is with every other noise, `theirs`: the probabilities, and the draws as
+/// those of a setup if these are wanted. `own_share` is the probability of its own noise.
+fn sum<'w, 'c: 'w>(
+    setup: &Setup<'_>,
+    hypothesis: &mut WeighedHypothesis,
+    (own_share, with_draws): (f64, bool),
+    weighings: &'w [Weighing<'c>],
+    theirs: &dyn Fn(&'w Weighing<'c>) -> Option<&'w WeighedHypothesis>,
+) {
+    let own = hypothesis.probability * own_share;
+    let others: Vec<(f64, &Weighing<'_>, &WeighedHypothesis)> = weighings
+        .iter()
+        .filter_map(|w| Some((w, theirs(w)?)))
+        .map(|(w, theirs)| (w.probability * theirs.probability, w, theirs))
+        .collect();
+    let all = own + others.iter().map(|(p, ..)| p).sum::<f64>();
+    // sums to one but for the bits
+    hypothesis.probability = all.min(1.0);
+    if all < LEAST || !with_draws {
+        return;
+    }
+    let roles = setup.likelihood(&hypothesis.effects).roles;
+    let parts: Vec<(f64, Vec<Vec<Column>>, &EvidenceEstimate)> = others
+        .into_iter()
+        .filter(|(p, _, theirs)| p / all > LEAST_SHARE && theirs.evidence.has_draws())
+        .filter_map(|(p, weighing, theirs)| {
+            let from = weighing.setup.likelihood(&theirs.effects).roles;
+            let columns = theirs.evidence.columns.iter();
+            let converted = columns.map(|scores| converted(scores, &from, &roles));
+            Some((p, converted.collect::<Option<_>>()?, &theirs.evidence))
+        })
+        .collect();
+    let evidence = &mut hypothesis.evidence;
+    evidence.scale_weights(own);
+    for (p, columns, theirs) in parts {
+        evidence.append(p, columns, &theirs.weights);
+    }
+    let sum: f64 = evidence.weights.iter().sum();
+    if sum > 0.0 {
+        evidence.scale_weights(sum.recip());
+    }
 }
 
 /// Scores of the unknown quantities `from` as those of `to`; `None` where a quantity has a prior from

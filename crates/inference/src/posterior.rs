@@ -1,12 +1,12 @@
 //! The posterior probabilities of all hypotheses.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use gumption_engine::parallel;
 
+use super::beside::{BESIDE_EFFECTS, Beside};
 use super::data::by_rows;
-use super::discrepancy::{Base, Discrepancy, Unexplained};
+use super::discrepancy::{Discrepancy, Unexplained};
 use super::evidence::EvidenceEstimate;
 use super::evidence_error;
 use super::exploration::Exploration;
@@ -14,11 +14,10 @@ use super::latent::{AT_BOUND, EDGE, Map};
 use super::likelihood::Likelihood;
 use super::logarithm::ln_add;
 use super::setup::Setup;
-use gumption_engine::number::{elementary, largest_first};
-use gumption_engine::special;
+use gumption_engine::number::elementary;
 
 /// A hypothesis that effects explain the data: none of them, or one or more together.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct WeighedHypothesis {
     /// Places of the candidates that act.
     pub effects: Vec<usize>,
@@ -35,7 +34,9 @@ pub struct WeighedHypothesis {
 pub struct Posterior {
     /// All that were tried.
     pub hypotheses: Vec<WeighedHypothesis>,
-    /// A departure that none of the effects explains.
+    /// Those with a departure beside the effects that none of them makes.
+    pub beside: Vec<Beside>,
+    /// "Unexplained": a departure without any of the effects.
     pub unexplained: Unexplained,
     /// Prior probability of "unexplained".
     pub prior: f64,
@@ -172,7 +173,9 @@ pub(crate) fn posterior(
     let Beginnings { singles: mut hypotheses, pairs, before } = beginnings;
     progress(0.2);
     let residuals = by_rows(&setup.data.nominal_residuals());
-    let floor = floor(&hypotheses, prior.unexplained, rivals);
+    let unexplained_prior = prior.unexplained * (1.0 - BESIDE_EFFECTS);
+    let floor =
+        leading(&hypotheses, rivals) - elementary::ln(unexplained_prior.max(f64::MIN_POSITIVE));
     let unexplained = discrepancy.evidence(setup, &residuals, floor);
     progress(0.3);
     if prior.two > 0.0 && !effort.is_stopped() {
@@ -188,8 +191,9 @@ pub(crate) fn posterior(
     progress(0.6);
     let mut posterior = Posterior {
         hypotheses,
+        beside: Vec::new(),
         unexplained,
-        prior: prior.unexplained,
+        prior: unexplained_prior,
         probability: 0.0,
         of_settings: 0.0,
         ln_evidence: f64::NEG_INFINITY,
@@ -239,7 +243,8 @@ pub(crate) fn posterior(
     });
     posterior.weigh();
     if !effort.is_stopped() {
-        posterior.guard(setup, discrepancy);
+        posterior.weigh_beside(setup, discrepancy, before, (seed, effort));
+        posterior.weigh();
     }
     // what is reported in detail deserves smooth intervals
     for _ in 0..effort.rounds {
@@ -316,75 +321,14 @@ fn leading(hypotheses: &[WeighedHypothesis], rivals: f64) -> f64 {
     hypotheses.iter().map(WeighedHypothesis::ln_weight).fold(rivals, f64::max)
 }
 
-/// The evidence of "unexplained" that would make it as probable as the leading hypothesis, or as what
-/// else may be true.
-fn floor(hypotheses: &[WeighedHypothesis], prior: f64, rivals: f64) -> f64 {
-    leading(hypotheses, rivals) - elementary::ln(prior.max(f64::MIN_POSITIVE))
-}
-
 /// Hypotheses that are less probable than what leads by this factor's logarithm, with the best modes
 /// that they had with another noise, are not explored anew with this one.
 pub(crate) const HOPELESS: f64 = 12.0;
-
-/// Share of "unexplained" in which an effect of the catalogue acts as well.
-const BESIDE_AN_EFFECT: f64 = 0.2;
-
-/// Hypotheses that are tried with a discrepancy beside them, at most.
-const MOST_GUARDED: usize = 4;
-
-/// A hypothesis is tried with a discrepancy beside it if its most probable point leaves residuals as
-/// large as these with less than this probability.
-const DOUBTFUL: f64 = 0.02;
 
 impl Posterior {
     /// The hypothesis with the greatest prior times evidence.
     pub fn leading(&self) -> Option<&WeighedHypothesis> {
         self.hypotheses.iter().max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()))
-    }
-
-    /// The posterior predictive check: where the leading hypotheses fit badly, each is tried with a
-    /// discrepancy beside it, which counts as "unexplained". Without it the least bad name would
-    /// win, however badly it fits.
-    fn guard(&mut self, setup: &Setup<'_>, discrepancy: &Discrepancy) {
-        // a name that is improbable beside what else may be true does not win
-        let share = self.share();
-        let mut leading: Vec<usize> = (0..self.hypotheses.len())
-            .filter(|&h| {
-                let hypothesis = &self.hypotheses[h];
-                !hypothesis.effects.is_empty() && hypothesis.probability * share > 1e-3
-            })
-            .collect();
-        largest_first(&mut leading, |&a| self.hypotheses[a].probability);
-        leading.truncate(MOST_GUARDED);
-        let all = setup.case.candidates.len() + setup.case.pairs().len();
-        let ln_share = elementary::ln(BESIDE_AN_EFFECT / all.max(1) as f64);
-        let floor = floor(&self.hypotheses, self.prior, self.rivals);
-        let others: Vec<(f64, Arc<Base>, Unexplained)> = leading
-            .into_iter()
-            .filter_map(|h| {
-                let hypothesis = &self.hypotheses[h];
-                let mode = hypothesis.evidence.modes.first()?;
-                let base = Base::at(setup, &hypothesis.effects, mode)?;
-                let residuals = base.residuals(setup);
-                if !setup.linear.fitted {
-                    let whitened = setup.linear.whiten_blocks(&residuals);
-                    let chi2 = setup.linear.square(&whitened);
-                    let dof = 0.5 * whitened.len() as f64;
-                    if special::gamma::ln_sf(0.5 * chi2, dof) > elementary::ln(DOUBTFUL) {
-                        return None;
-                    }
-                }
-                let ln = ln_share + mode.ln_occam(setup.roles.len());
-                let own = discrepancy.evidence(setup, &residuals, floor - ln);
-                Some((ln, Arc::new(base), own))
-            })
-            .collect();
-        let alone = std::mem::replace(
-            &mut self.unexplained,
-            Unexplained { ln_evidence: f64::NEG_INFINITY, kinds: Vec::new() },
-        );
-        self.unexplained = alone.joined(others, 1.0 - BESIDE_AN_EFFECT);
-        self.weigh();
     }
 
     /// Counts the hypothesis without effects as "unexplained", with errors of each setting that nothing
@@ -395,24 +339,37 @@ impl Posterior {
         self.probability += self.of_settings;
     }
 
+    /// All hypotheses of effects, without a departure beside them and with one.
+    pub fn named(&self) -> impl Iterator<Item = &WeighedHypothesis> {
+        self.hypotheses.iter().chain(self.beside.iter().map(|of| &of.named))
+    }
+
+    pub(crate) fn named_mut(&mut self) -> impl Iterator<Item = &mut WeighedHypothesis> {
+        self.hypotheses.iter_mut().chain(self.beside.iter_mut().map(|of| &mut of.named))
+    }
+
     /// The hypothesis with these effects.
     pub(crate) fn of(&self, effects: &[usize]) -> Option<&WeighedHypothesis> {
         self.hypotheses.iter().find(|hypothesis| hypothesis.effects == effects)
     }
 
+    /// The logarithm of prior times evidence of what leads, or of what else may be true.
+    pub(crate) fn ln_leading(&self) -> f64 {
+        let unexplained = ln_weight(self.prior, self.unexplained.ln_evidence);
+        leading(&self.hypotheses, self.rivals).max(unexplained)
+    }
+
     /// The probability of all hypotheses together beside what else may be true.
-    fn share(&self) -> f64 {
+    pub(crate) fn share(&self) -> f64 {
         elementary::exp(self.ln_evidence - ln_add(self.ln_evidence, self.rivals))
     }
 
     /// Probabilities from priors and evidences.
     fn weigh(&mut self) {
         let unexplained = ln_weight(self.prior, self.unexplained.ln_evidence);
-        let total = self
-            .hypotheses
-            .iter()
-            .fold(unexplained, |sum, hypothesis| ln_add(sum, hypothesis.ln_weight()));
-        for hypothesis in &mut self.hypotheses {
+        let total =
+            self.named().fold(unexplained, |sum, hypothesis| ln_add(sum, hypothesis.ln_weight()));
+        for hypothesis in self.named_mut() {
             hypothesis.probability = elementary::exp(hypothesis.ln_weight() - total);
         }
         self.probability = elementary::exp(unexplained - total);
@@ -427,7 +384,7 @@ impl Posterior {
             effective_sample_size: evidence.effective_sample_size,
         };
         let mut all: Vec<evidence_error::LnWeight> =
-            self.hypotheses.iter().map(|h| known(h.prior, &h.evidence)).collect();
+            self.named().map(|h| known(h.prior, &h.evidence)).collect();
         // the evidence of "unexplained" is exact
         all.push(evidence_error::LnWeight {
             ln: ln_weight(self.prior, self.unexplained.ln_evidence),
@@ -436,8 +393,8 @@ impl Posterior {
         });
         let averaged = evidence_error::averaged(&all, self.share(), seed);
         let mut averaged = averaged.into_iter();
-        for (hypothesis, own) in self.hypotheses.iter_mut().zip(&mut averaged) {
-            hypothesis.probability = own;
+        for hypothesis in self.named_mut() {
+            hypothesis.probability = averaged.next().unwrap_or(0.0);
         }
         self.probability = averaged.next().unwrap_or(0.0);
     }

@@ -180,7 +180,7 @@ fn alone<'c>(
 fn ln_held_back(weighings: &[Weighing<'_>]) -> f64 {
     ln_sum(weighings, |Weighing { setup, posterior, .. }| {
         let held = posterior.hypotheses.iter().filter(|h| h.is_held_back(setup));
-        posterior.probability + held.map(|h| h.probability).sum::<f64>()
+        posterior.departs() + held.map(|h| h.probability).sum::<f64>()
     })
 }
 
@@ -204,7 +204,7 @@ fn narrower<'c>(
 ) -> Option<Begun<'c>> {
     let first = weighings.first()?;
     let total = ln_total(weighings);
-    let unexplained = ln_sum(weighings, |weighing| weighing.posterior.probability);
+    let unexplained = ln_sum(weighings, |weighing| weighing.posterior.departs());
     if unexplained - total < elementary::ln(WORTH_PAIRS) {
         return None;
     }
@@ -242,10 +242,10 @@ pub fn hidden(weighings: &[Weighing<'_>]) -> Vec<Vec<usize>> {
         let stated = weighings.iter().filter(|w| !is_narrower(w));
         stated.map(|w| w.probability * share(&w.posterior)).sum()
     };
-    let unexplained = of_stated(&|posterior| posterior.probability);
+    let unexplained = of_stated(&Posterior::departs);
     let hypotheses = narrower.posterior.hypotheses.iter();
     hypotheses
-        .filter(|h| !h.effects.is_empty() && h.probability > narrower.posterior.probability)
+        .filter(|h| !h.effects.is_empty() && h.probability > narrower.posterior.departs())
         .filter(|h| of_stated(&|of| of.of(&h.effects).map_or(0.0, |h| h.probability)) < unexplained)
         .map(|h| h.effects.clone())
         .collect()

@@ -2,7 +2,7 @@
 //! case says that they can be reached.
 
 use crate::setup::Setup;
-use gumption_engine::number::{ascending, elementary, smallest_first};
+use gumption_engine::number::{ascending, elementary, median, smallest_first};
 use gumption_engine::task::Row;
 
 /// Places that are tried, at most.
@@ -23,6 +23,21 @@ pub struct Place {
     pub outside: bool,
     /// Places in the data's points of those that are nearest.
     pub near: Vec<usize>,
+}
+
+impl Place {
+    /// The variance of a row's noise there: that of the nearest rows, of an observed output. `variances` are
+    /// those of the data by value.
+    pub fn noise(&self, setup: &Setup<'_>, variances: &[f64], output: usize) -> f64 {
+        let data = &setup.data;
+        let rows = self.near.iter().flat_map(|&point| &data.points[point].rows);
+        let of = |&row: &usize| {
+            // what is wrong with a value that is off is not there again
+            let stretch = data.noise.stretch(data.ids[row], output);
+            variances[row * data.outputs.len() + output] / (stretch * stretch)
+        };
+        median(rows.map(of).collect()).unwrap_or(f64::NAN)
+    }
 }
 
 /// The conditions of the measurement that say no range.

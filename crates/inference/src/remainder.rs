@@ -3,6 +3,7 @@
 use gumption_engine::linalg::{dot, packed};
 use gumption_engine::number::elementary;
 
+use super::covariance::inner_root;
 use super::posterior::WeighedHypothesis;
 use super::setup::Setup;
 use super::shared_noise::root_mean_square;
@@ -40,12 +41,7 @@ impl Remainder {
                 column.iter_mut().zip(&deviations).for_each(|(value, of)| *value /= of);
             }
         }
-        let mut inner = Vec::new();
-        for (i, column) in basis.iter().enumerate() {
-            inner.extend(basis[..i].iter().map(|other| dot(column, other)));
-            inner.push(1.0 + dot(column, column));
-        }
-        packed::cholesky_of_definite(&mut inner);
+        let inner = inner_root(&basis);
         let mut sizes: Vec<f64> = basis.iter().map(|column| dot(column, &residuals)).collect();
         packed::solve(&inner, &mut sizes);
         packed::solve_transposed(&inner, &mut sizes);

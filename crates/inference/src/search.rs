@@ -62,14 +62,6 @@ impl Mode {
     pub(crate) fn ln_evidence(&self) -> f64 {
         -self.cost - 0.5 * ln_det(self.information.clone())
     }
-
-    /// The logarithm of the share of the prior of the quantities after the first `shared` ones that
-    /// the data leave, in the Gaussian approximation.
-    pub(crate) fn ln_occam(&self, shared: usize) -> f64 {
-        let own: f64 = self.scores.iter().skip(shared).map(|score| score * score).sum();
-        let first = self.information.view((0, 0), (shared, shared)).into_owned();
-        -0.5 * (own + ln_det(self.information.clone()) - ln_det(first))
-    }
 }
 
 /// The logarithm of the determinant of an information: the prior adds the identity, so that it is

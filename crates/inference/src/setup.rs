@@ -129,6 +129,23 @@ impl<'c> Setup<'c> {
         }
     }
 
+    /// The same with functions of unknown size integrated out: columns of values, in the outputs' units,
+    /// whose factors are standard normal.
+    pub(crate) fn with_functions(&self, columns: &[Vec<f64>]) -> Self {
+        Self {
+            case: self.case,
+            data: self.data.clone(),
+            spread: self.spread.clone(),
+            covariance: self.covariance.with(columns),
+            linear: self.linear.with(columns),
+            unknown_inputs: self.unknown_inputs.clone(),
+            roles: self.roles.clone(),
+            mixing: self.mixing.clone(),
+            ln_sizes: self.ln_sizes.clone(),
+            evaluators: Arc::clone(&self.evaluators),
+        }
+    }
+
     /// The conditions and inputs of a row of the data.
     pub fn row(&self, row: usize) -> &'c Row {
         &self.case.task.rows[self.data.ids[row]]

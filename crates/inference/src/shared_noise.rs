@@ -316,7 +316,7 @@ pub(crate) fn worth_trying(weighings: &[Weighing<'_>]) -> Vec<SharedNoise> {
         .take(MOST_MODELS)
         .collect();
     // a departure beside such errors is in none of these estimates
-    let is_unexplained = posterior.probability > UNEXPLAINED;
+    let is_unexplained = posterior.departs() > UNEXPLAINED;
     if let Some((_, fewer)) = leading.filter(|(ln, _)| is_worth(*ln) || is_unexplained) {
         let more: Vec<SharedNoise> = fewer.into_iter().filter(|of| !found.contains(of)).collect();
         found.extend(more);

@@ -6,7 +6,9 @@ mod score;
 mod truth;
 
 pub use drawn_noise::CheckedNoise;
-pub use score::{BlindCheckScores, BlindDraw, Confusion, Reliability, SmallestEffect, score};
+pub use score::{
+    BesideScores, BlindCheckScores, BlindDraw, Confusion, Reliability, SmallestEffect, score,
+};
 #[cfg(test)]
 pub(crate) use truth::truth_with;
 pub use truth::{Truth, TruthKind, truth};

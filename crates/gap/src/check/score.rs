@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::truth::{Truth, TruthKind};
 use crate::Case;
 use crate::ModelSelection;
-use crate::diagnosis::HypothesisKind;
+use crate::diagnosis::{Hypothesis, HypothesisKind};
 use gumption_engine::number::{ascending, elementary, median};
 
 /// A correction is within the uncertainties if its errors are, in the root mean square.
@@ -20,10 +20,14 @@ const MEANINGFUL: f64 = 3.0;
 /// The result of one blind draw.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BlindDraw {
-    /// The true label: effects joined by `+`, `none`, or `unexplained` where the effect was withheld.
+    /// The true label: effects joined by `+`, without one that was withheld; `none`, or `unexplained` where
+    /// the only one was withheld.
     pub truth: String,
     /// The effect that was withheld.
     pub withheld: Option<String>,
+    /// Where another effect was not withheld, the probability that it was given to be there.
+    #[serde(default)]
+    pub listed_present: Option<f64>,
     /// The label of the verdict.
     pub said: String,
     /// Probability of the verdict.
@@ -35,8 +39,8 @@ pub struct BlindDraw {
     /// Whether the verdict is the truth, or (where the effect was withheld) a name that predicts
     /// within the uncertainties.
     pub right: bool,
-    /// For each parameter of the truth, where the verdict names exactly its effects, whether the
-    /// interval holds the true value.
+    /// For each parameter of the truth, where the verdict names exactly its effects that were not withheld,
+    /// whether the interval holds the true value.
     pub held: Vec<bool>,
     /// Root mean square of what the effects change, in standard uncertainties.
     pub gap: f64,
@@ -133,8 +137,40 @@ pub struct BlindCheckScores {
     pub claim_bias: f64,
     /// For each parameter the smallest size that is found.
     pub smallest: Vec<SmallestEffect>,
+    /// Truths of two effects of which one was withheld.
+    pub beside: BesideScores,
     /// Every draw.
     pub checked: Vec<BlindDraw>,
+}
+
+/// What was said of an effect beside another one that had been taken out of the list.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct BesideScores {
+    /// How many such truths were drawn.
+    pub drawn: usize,
+    /// In how many of them the verdict names the effect that is in the list.
+    pub listed_effect_named: usize,
+    /// In how many it is given a probability below 0.01.
+    pub lost: usize,
+}
+
+/// An effect with less than this probability is lost.
+const LOST: f64 = 0.01;
+
+impl BesideScores {
+    fn of(checked: &[BlindDraw]) -> Self {
+        let drawn: Vec<(&BlindDraw, f64)> =
+            checked.iter().filter_map(|one| Some((one, one.listed_present?))).collect();
+        let named = |one: &BlindDraw| {
+            let listed = |name: &&String| one.withheld.as_ref() != Some(*name);
+            one.effects.iter().filter(listed).all(|name| one.named.contains(name))
+        };
+        Self {
+            drawn: drawn.len(),
+            listed_effect_named: drawn.iter().filter(|(one, _)| named(one)).count(),
+            lost: drawn.iter().filter(|(_, present)| *present < LOST).count(),
+        }
+    }
 }
 
 impl BlindCheckScores {
@@ -168,9 +204,12 @@ impl BlindDraw {
         sim: &[Vec<f64>],
         noise: &[Vec<f64>],
     ) -> Self {
+        let withheld = truth.withheld();
+        let listed: Vec<String> =
+            truth.effects.iter().filter(|name| Some(name.as_str()) != withheld).cloned().collect();
         let of_truth = match truth.kind {
             TruthKind::Withheld => "unexplained".to_owned(),
-            _ => label(&truth.effects),
+            _ => label(&listed),
         };
         let said = match selected.most_probable.kind {
             HypothesisKind::Unexplained => "unexplained".to_owned(),
@@ -201,8 +240,8 @@ impl BlindDraw {
         }
         let n = count.max(1) as f64;
         let within = (normalized / n).sqrt() <= WITHIN;
-        let right = said == of_truth || truth.kind == TruthKind::Withheld && within;
-        let held = if said == of_truth && truth.kind == TruthKind::Catalogue {
+        let right = said == of_truth || withheld.is_some() && within;
+        let held = if said == of_truth && !listed.is_empty() {
             let own = selected.hypotheses.iter().find(|h| name(&h.effects) == of_truth);
             let interval = |parameter: &String| {
                 own?.parameters.iter().find(|p| p.name == *parameter).map(|p| p.interval)
@@ -219,7 +258,15 @@ impl BlindDraw {
         };
         let large = before / n >= MEANINGFUL * MEANINGFUL && truth.kind != TruthKind::None;
         Self {
-            withheld: (truth.kind == TruthKind::Withheld).then(|| label(&truth.effects)),
+            withheld: withheld.map(str::to_owned),
+            listed_present: (truth.kind == TruthKind::Beside).then(|| {
+                let holds = |h: &&Hypothesis| {
+                    let own = h.effects.as_ref();
+                    own.is_some_and(|own| listed.iter().all(|name| own.contains(name)))
+                };
+                let holding = selected.hypotheses.iter().filter(holds);
+                holding.map(|h| h.probability).sum::<f64>().min(1.0)
+            }),
             truth: of_truth,
             said,
             probability: selected.most_probable.probability,
@@ -283,6 +330,7 @@ pub fn score(case: &Case, checked: Vec<BlindDraw>, seed: u64) -> BlindCheckScore
         worse_than_none: mean(&mut with_gap.iter().map(|c| f64::from(u8::from(c.left > 1.0)))),
         claim_bias: mean(&mut checked.iter().filter_map(|c| c.fractions).map(|[a, b]| a - b)),
         smallest: smallest(case, &checked),
+        beside: BesideScores::of(&checked),
         confusion,
         checked,
     }

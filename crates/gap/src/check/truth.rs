@@ -22,6 +22,8 @@ pub enum TruthKind {
     Catalogue,
     /// An effect that is then taken out of the catalogue.
     Withheld,
+    /// Two effects, of which the second is then taken out of the catalogue.
+    Beside,
 }
 
 /// A sealed truth.
@@ -40,6 +42,16 @@ pub struct Truth {
     /// What the noise is, in words.
     #[serde(default)]
     pub noise: String,
+}
+
+impl Truth {
+    /// The effect that is taken out of the catalogue, if one is.
+    pub fn withheld(&self) -> Option<&str> {
+        match self.kind {
+            TruthKind::None | TruthKind::Catalogue => None,
+            TruthKind::Withheld | TruthKind::Beside => self.effects.last().map(String::as_str),
+        }
+    }
 }
 
 /// Normal scores, one at a time.
@@ -170,20 +182,26 @@ fn drawn(map: &Map, normal: f64) -> f64 {
 /// The hypothesis that is true.
 fn choose(case: &Case, prior: Prior, scores: &mut Scores) -> (TruthKind, Vec<usize>) {
     let count = case.candidates.len();
-    let place = scores.uniform() * (prior.none + prior.one + prior.two + prior.unexplained);
+    let explained = prior.none + prior.one + prior.two;
+    let place = scores.uniform() * (explained + prior.unexplained);
     let one = scores.choice(count);
     let two = scores.choice(count.saturating_sub(1));
+    let other = if two >= one { two + 1 } else { two };
     if count == 0 || place < prior.none {
         (TruthKind::None, Vec::new())
     } else if place < prior.none + prior.one {
         (TruthKind::Catalogue, vec![one])
-    } else if place < prior.none + prior.one + prior.two && count > 1 {
-        let other = if two >= one { two + 1 } else { two };
+    } else if place < explained && count > 1 {
         (TruthKind::Catalogue, vec![one.min(other), one.max(other)])
-    } else {
+    } else if place < explained + (1.0 - BESIDE) * prior.unexplained || count < 2 {
         (TruthKind::Withheld, vec![one])
+    } else {
+        (TruthKind::Beside, vec![one, other])
     }
 }
+
+/// Of truths with an effect that is taken out so many have another one that is not.
+const BESIDE: f64 = 0.5;
 
 /// The inputs' true values in every row.
 fn inputs(case: &Case, data: &Data, spread: &Spread, scores: &mut Scores) -> Vec<Vec<f64>> {

@@ -34,9 +34,6 @@ const KEPT: usize = 12;
 /// One term does not do where it leaves residuals as large as these with less than this probability.
 const DOUBTFUL: f64 = 0.01;
 
-/// Half the step of differences in the scores.
-const STEP: f64 = 1e-3;
-
 impl Search<'_> {
     /// Whether the best of the terms leaves more than the noise.
     pub(super) fn misfits(
@@ -259,40 +256,21 @@ impl Search<'_> {
             posterior.hypotheses.iter().filter(|h| h.effects.len() == 1).collect();
         largest_first(&mut listed, |a| a.ln_weight());
         let ln_effect = -elementary::ln(listed.len().max(1) as f64);
-        listed.truncate(FIRST);
+        // first those that a departure of any form goes with, as they are beside it
+        let mut beside: Vec<&WeighedHypothesis> =
+            posterior.beside.iter().map(|of| &of.named).collect();
+        largest_first(&mut beside, |a| a.ln_weight());
+        listed.retain(|h| posterior.beside(&h.effects).is_none());
+        beside.extend(listed);
+        beside.truncate(FIRST);
         let white = metric.white(residuals);
         let square = white.dot(&white);
-        let beside = |hypothesis: &WeighedHypothesis| {
-            let setup = self.setup;
+        let of_effects = |hypothesis: &WeighedHypothesis| {
+            // as if the effects were linear about their best point, their scores standard normal
             let mode = hypothesis.evidence.modes.first()?;
-            let at = |moved: Option<(usize, f64)>| {
-                let mut mode = mode.clone();
-                if let Some((place, step)) = moved {
-                    mode.scores[place] += step;
-                }
-                Base::at(setup, &hypothesis.effects, &mode)
-            };
-            let mut left = at(None)?.residuals(setup);
-            let mut columns = Vec::new();
-            for place in setup.roles.len()..mode.scores.len() {
-                let (up, down) = (at(Some((place, STEP)))?, at(Some((place, -STEP)))?);
-                let column: Vec<f64> = up
-                    .values
-                    .iter()
-                    .zip(&down.values)
-                    .map(|(up, down)| (up - down) / (2.0 * STEP))
-                    .collect();
-                if column.iter().any(|x| !x.is_finite()) {
-                    return None;
-                }
-                // as if the effect were linear about its best point, its scores standard normal
-                for (left, x) in left.iter_mut().zip(&column) {
-                    *left += x * mode.scores[place];
-                }
-                columns.push(column);
-            }
-            let with = metric.with(&columns);
-            let again = with.white(&left);
+            let base = Base::at(self.setup, &hypothesis.effects, mode)?;
+            let with = metric.with(&base.slopes);
+            let again = with.white(&base.residuals(self.setup));
             let gain =
                 0.5 * (square - again.dot(&again)) - (with.half_ln_det() - metric.half_ln_det());
             let mut others = self.singles(&with, &again, REFINED);
@@ -304,7 +282,7 @@ impl Search<'_> {
             }
             Some(others)
         };
-        parallel::map(listed, beside).into_iter().flatten().flatten().collect()
+        parallel::map(beside, of_effects).into_iter().flatten().flatten().collect()
     }
 }
 

@@ -72,7 +72,7 @@ pub(crate) struct Composition {
     ln_weight: f64,
     /// The same with the parameters of the functions at their best values.
     best: f64,
-    /// Posterior share among all that "unexplained" stands for.
+    /// Posterior share among all departures.
     pub(crate) share: f64,
 }
 
@@ -121,17 +121,17 @@ fn tabulated(values: &Values) -> Vec<Tabulated> {
     })
 }
 
-/// Composes departures for data of a setup that "unexplained" is probable for.
+/// Composes departures for data of a setup that a departure without a name is probable for.
 pub(crate) fn compose(
     setup: &Setup<'_>,
     discrepancy: &Discrepancy,
     posterior: &Posterior,
 ) -> Compositions {
-    let unexplained = &posterior.unexplained;
+    let departures = posterior.departures();
     if setup.data.len() > MOST_VALUES {
         return Compositions::default();
     }
-    let variances = unexplained.kinds.first().and_then(|kind| kind.variances.clone());
+    let variances = departures.kinds.first().and_then(|kind| kind.variances.clone());
     let variances = variances.map(|variances| variances.to_vec());
     let metric = Metric::new(setup, variances.as_deref());
     let residuals = by_rows(&setup.data.nominal_residuals());
@@ -140,7 +140,7 @@ pub(crate) fn compose(
     let responses: Vec<Response> = parallel::map(&targets, |target| target.in_data(setup));
     let search = Search { setup, targets: &targets, responses: &responses };
     let mut found = search.singles(&metric, &white, REFINED);
-    let of_process = of_process(setup, discrepancy, unexplained, &metric, &residuals);
+    let of_process = of_process(setup, discrepancy, &departures, &metric, &residuals);
     let best = found.iter().map(|of| of.ln_weight).fold(f64::NEG_INFINITY, f64::max);
     if best < of_process || search.misfits(&metric, &residuals, &found) {
         let more = search.joint(&metric, &residuals, &found, posterior);
@@ -162,11 +162,11 @@ struct Search<'s> {
 fn of_process(
     setup: &Setup<'_>,
     discrepancy: &Discrepancy,
-    unexplained: &Unexplained,
+    departures: &Unexplained,
     metric: &Metric<'_>,
     residuals: &[f64],
 ) -> f64 {
-    let known = unexplained.kinds.iter().find(|kind| kind.base.is_none());
+    let known = departures.kinds.iter().find(|kind| kind.base.is_none());
     if let (true, Some(kind)) = (setup.linear.fitted, known) {
         // of the heaviest form, with the noise as it is taken here, and its share of all
         let form = &discrepancy.forms[kind.form];
@@ -180,7 +180,7 @@ fn of_process(
         return gain + form.ln_weight - elementary::ln(steps) - elementary::ln(kind.weight);
     }
     let whitened = setup.linear.whiten_blocks(residuals);
-    unexplained.ln_evidence - gumption_inference::discrepancy::ln_normal(setup, &whitened)
+    departures.ln_evidence - gumption_inference::discrepancy::ln_normal(setup, &whitened)
 }
 
 /// By how much the logarithm of the density of residuals is higher in one metric than in another with

@@ -1,5 +1,6 @@
 //! The statistics of the diagnosis against exact values and independent computations.
 
+mod beside;
 mod by_hand;
 #[path = "../../../inference/src/tests/cases.rs"]
 pub(crate) mod cases;

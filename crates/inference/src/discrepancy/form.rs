@@ -70,11 +70,14 @@ impl Factored {
         Some(Self { white, cross, eigenvalues, eigenvectors: eigen.eigenvectors })
     }
 
-    /// The scores of residuals, whitened by the blocks, along the eigenvectors.
-    fn scores(&self, setup: &Setup<'_>, whitened: &DVector<f64>) -> DVector<f64> {
-        let projected = setup.linear.project(whitened.as_slice());
+    /// The scores of columns of values, whitened by the blocks, along the eigenvectors.
+    fn scores(&self, setup: &Setup<'_>, whitened: &DMatrix<f64>) -> DMatrix<f64> {
+        let project = |column: nalgebra::DVectorView<'_, f64>| {
+            DVector::from_vec(setup.linear.project(column.as_slice()))
+        };
+        let projected: Vec<DVector<f64>> = whitened.column_iter().map(project).collect();
         let products =
-            self.white.tr_mul(whitened) - self.cross.tr_mul(&DVector::from_vec(projected));
+            self.white.tr_mul(whitened) - self.cross.tr_mul(&DMatrix::from_columns(&projected));
         self.eigenvectors.tr_mul(&products)
     }
 }
@@ -159,6 +162,11 @@ pub(crate) fn forms(
 }
 
 impl Form {
+    /// Whether the features of the data's values are kept.
+    pub(crate) fn is_kept(&self) -> bool {
+        self.features.is_some()
+    }
+
     /// The features of the data's values, a row each, times the scale.
     pub fn features(&self, setup: &Setup<'_>, axes: &Axes) -> Cow<'_, DMatrix<f64>> {
         if let Some(features) = &self.features {
@@ -170,20 +178,21 @@ impl Form {
         Cow::Owned(coordinates.features(&roots, setup.data.len()) * self.scale)
     }
 
-    /// Eigenvalues, and the scores of residuals that are whitened by the blocks.
+    /// Eigenvalues, and the scores of columns of values that are whitened by the blocks: a row for each
+    /// eigenvalue.
     pub(crate) fn scores(
         &self,
         setup: &Setup<'_>,
         axes: &Axes,
-        whitened: &DVector<f64>,
-    ) -> (Vec<f64>, DVector<f64>) {
+        whitened: &DMatrix<f64>,
+    ) -> (Vec<f64>, DMatrix<f64>) {
         let of = |factored: &Factored| factored.scores(setup, whitened);
         if let Some(factored) = &self.factored {
             return (factored.eigenvalues.clone(), of(factored));
         }
         match Factored::new(setup, &self.features(setup, axes)) {
             Some(factored) => (factored.eigenvalues.clone(), of(&factored)),
-            None => (Vec::new(), DVector::zeros(0)),
+            None => (Vec::new(), DMatrix::zeros(0, whitened.ncols())),
         }
     }
 }

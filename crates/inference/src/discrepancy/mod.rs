@@ -20,13 +20,16 @@ pub use prediction::{conditioned, nominal};
 use std::sync::Arc;
 
 use gumption_engine::parallel;
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
+use super::latent::LN_BOUNDED;
 use super::predict;
 use super::search::Mode;
 use super::setup::Setup;
 use crate::logarithm::{HALF_LN_TWO_PI, ln_add};
+use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::{elementary, largest_first};
+use gumption_engine::task::Row;
 
 /// The lengths over which a smooth discrepancy varies, as shares of the range of what it is a
 /// function of.
@@ -61,6 +64,15 @@ pub struct Discrepancy {
     pub forms: Vec<Form>,
 }
 
+/// What parts of a hypothesis add to the sim at the data, by value: their expectations.
+#[derive(Clone, Debug)]
+pub struct Parts {
+    /// The inputs, away from their estimates.
+    pub inputs: Vec<f64>,
+    /// The discrepancy.
+    pub function: Vec<f64>,
+}
+
 /// What data say of the discrepancy.
 #[derive(Clone, Debug)]
 pub struct Unexplained {
@@ -86,61 +98,115 @@ pub struct Weighted {
     pub variances: Option<Arc<Vec<f64>>>,
 }
 
-/// Effects that a discrepancy comes on top of.
+/// Effects that a discrepancy comes on top of, as if they were linear in their parameters about a point:
+/// these are integrated out together with the discrepancy.
 #[derive(Clone, Debug)]
 pub struct Base {
     /// Places of the candidates.
     pub effects: Vec<usize>,
     /// Scores of all unknown quantities, those of the inputs and the noise at 0.
-    pub(crate) scores: Vec<f64>,
+    scores: Vec<f64>,
+    /// How many of them are not parameters of the effects.
+    shared: usize,
     /// What is said of the data, row by row.
     pub values: Vec<f64>,
+    /// For each parameter the derivatives of these by its score.
+    pub slopes: Vec<Vec<f64>>,
+    /// The logarithm of the prior density of the parameters over that of standard normal scores.
+    ln_prior: f64,
 }
 
+/// What a function adds to the variance of the residuals in some direction, over that of the noise, is left
+/// out below this: it changes the logarithm of an evidence by half of it.
+const LEAST_SHOWN: f64 = 1e-4;
+
+/// Half the step of differences in the scores.
+const STEP: f64 = 1e-3;
+
 impl Base {
-    /// The effects of a hypothesis at one of its modes, the inputs at their estimates.
+    /// The effects of a hypothesis at one of its modes, the inputs at their estimates. `None` where they
+    /// have no value or no derivative.
     pub fn at(setup: &Setup<'_>, effects: &[usize], mode: &Mode) -> Option<Self> {
+        let shared = setup.roles.len();
         let mut scores = mode.scores.clone();
-        scores.iter_mut().take(setup.roles.len()).for_each(|score| *score = 0.0);
-        let rows = setup.all_rows();
-        let values = predict::values(setup, effects, &[scores.clone()], &rows);
-        let first = |draws: Vec<f64>| draws.first().copied();
-        let values: Option<Vec<f64>> = values.into_iter().flatten().map(first).collect();
-        Some(Self { effects: effects.to_vec(), scores, values: values? })
+        scores.iter_mut().take(shared).for_each(|score| *score = 0.0);
+        let bounded = setup.likelihood(effects).bounded();
+        let ln_prior = (bounded.iter().zip(&scores).skip(shared))
+            .filter(|(bounded, _)| **bounded)
+            .map(|(_, score)| LN_BOUNDED + 0.5 * score * score)
+            .sum();
+        let effects = effects.to_vec();
+        let (values, slopes) = (Vec::new(), Vec::new());
+        let mut base = Self { effects, scores, shared, values, slopes, ln_prior };
+        (base.values, base.slopes) = base.in_rows(setup, &setup.all_rows());
+        let mut all = base.values.iter().chain(base.slopes.iter().flatten());
+        all.all(|value| value.is_finite()).then_some(base)
+    }
+
+    /// What is said in rows, row by row, and for each parameter its derivatives by the score.
+    pub(crate) fn in_rows(&self, setup: &Setup<'_>, rows: &[Row]) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let mut points = vec![self.scores.clone()];
+        for place in self.shared..self.scores.len() {
+            for step in [STEP, -STEP] {
+                let mut moved = self.scores.clone();
+                moved[place] += step;
+                points.push(moved);
+            }
+        }
+        let values = predict::values(setup, &self.effects, &points, rows);
+        let values: Vec<Vec<f64>> = values.into_iter().flatten().collect();
+        let of = |point: usize| values.iter().map(move |draws| draws[point]);
+        let slope = |parameter: usize| -> Vec<f64> {
+            let sides = of(2 * parameter + 1).zip(of(2 * parameter + 2));
+            sides.map(|(up, down)| (up - down) / (2.0 * STEP)).collect()
+        };
+        (of(0).collect(), (0..self.scores.len() - self.shared).map(slope).collect())
+    }
+
+    /// What is said of the data where only some of the effects act, at the same point.
+    pub fn with(&self, setup: &Setup<'_>, acting: &[usize]) -> Vec<f64> {
+        let mut scores = self.scores[..self.shared].to_vec();
+        for &effect in acting {
+            scores.extend_from_slice(&self.scores[setup.parameters(&self.effects, effect)]);
+        }
+        let values = predict::values(setup, acting, &[scores], &setup.all_rows());
+        values.into_iter().flatten().filter_map(|draws| draws.first().copied()).collect()
+    }
+
+    /// What slopes make of the scores of the point, for so many values.
+    pub(crate) fn linear_part(&self, slopes: &[Vec<f64>], values: usize) -> Vec<f64> {
+        let mut sum = vec![0.0; values];
+        for (slope, score) in slopes.iter().zip(&self.scores[self.shared..]) {
+            sum.iter_mut().zip(slope).for_each(|(sum, slope)| *sum += slope * score);
+        }
+        sum
     }
 
     /// What is left of the data of a setup, row by row.
-    pub fn residuals(&self, setup: &Setup<'_>) -> Vec<f64> {
+    pub fn left(&self, setup: &Setup<'_>) -> Vec<f64> {
         let outputs = setup.data.outputs.len();
         let of = |(value, sim): (usize, &f64)| {
             setup.data.residual(value % outputs, value / outputs, *sim)
         };
         self.values.iter().enumerate().map(of).collect()
     }
+
+    /// What is left of them before what the parameters do, which are linear and standard normal.
+    pub fn residuals(&self, setup: &Setup<'_>) -> Vec<f64> {
+        let linear = self.linear_part(&self.slopes, self.values.len());
+        self.left(setup).iter().zip(linear).map(|(left, linear)| left + linear).collect()
+    }
 }
 
 impl Unexplained {
-    /// The same beside effects.
-    pub fn beside(mut self, base: Base) -> Self {
-        let base = Arc::new(base);
-        for kind in &mut self.kinds {
-            kind.base = Some(base.clone());
-        }
-        self
-    }
-
-    /// Adds other forms, whose evidence has this prior share; those here have the rest.
-    pub(crate) fn joined(self, others: Vec<(f64, Arc<Base>, Self)>, rest: f64) -> Self {
+    /// Those of several, each with the logarithm of its share of the evidence.
+    pub(crate) fn joined<'u>(of: impl Iterator<Item = (f64, &'u Self)>) -> Self {
         let mut parts: Vec<(f64, Weighted)> = Vec::new();
-        let mut add = |ln: f64, base: Option<&Arc<Base>>, kinds: Vec<Weighted>| {
-            for kind in kinds {
-                let own = ln + elementary::ln(kind.weight.max(f64::MIN_POSITIVE));
-                parts.push((own, Weighted { base: base.cloned(), ..kind }));
-            }
-        };
-        add(elementary::ln(rest) + self.ln_evidence, None, self.kinds);
-        for (ln_share, base, other) in others {
-            add(ln_share + other.ln_evidence, Some(&base), other.kinds);
+        for (ln_share, own) in of {
+            let ln = |kind: &Weighted| {
+                ln_share + own.ln_evidence + elementary::ln(kind.weight.max(f64::MIN_POSITIVE))
+            };
+            parts.extend(own.kinds.iter().map(|kind| (ln(kind), kind.clone())));
         }
         weigh(parts)
     }
@@ -156,15 +222,35 @@ impl Discrepancy {
         Self { axes, forms }
     }
 
+    /// Whether its forms are kept factored, so that more evidences with them cost little.
+    pub(crate) fn is_kept(&self) -> bool {
+        self.forms.iter().all(Form::is_kept)
+    }
+
     /// For a part of the data: the forms that all of them leave probable.
-    pub fn for_part(&self, part: &Setup<'_>, found: &Unexplained) -> Self {
+    pub fn for_part(&self, part: &Setup<'_>, found: &[Weighted]) -> Self {
         let axes = Axes::new(part.case, &part.data);
-        let own: Vec<&Form> = found.kinds.iter().map(|kind| &self.forms[kind.form]).collect();
+        let own: Vec<&Form> = found.iter().map(|kind| &self.forms[kind.form]).collect();
         let wanted = |term: &Term, length: f64, _: &features::Coordinates| {
             own.iter().any(|f| f.term == *term && f.length == length)
         };
         let forms = forms(part, &axes, &wanted);
         if forms.is_empty() { Self::new(part) } else { Self { axes, forms } }
+    }
+
+    /// A departure's functions at the data's values: columns whose factors are standard normal, as few as
+    /// leave out nothing that shows beside the noise.
+    pub(crate) fn columns(&self, setup: &Setup<'_>, kind: &Weighted) -> Vec<Vec<f64>> {
+        let features = kind.multiplier * self.forms[kind.form].features(setup, &self.axes).as_ref();
+        let variances = kind.variances.as_deref().unwrap_or(&setup.linear.variances);
+        let mut white = features.clone();
+        for (mut row, variance) in white.row_iter_mut().zip(variances) {
+            row /= variance.max(f64::MIN_POSITIVE).sqrt();
+        }
+        let eigen = white.tr_mul(&white).symmetric_eigen();
+        let shows = |&k: &usize| eigen.eigenvalues[k] > LEAST_SHOWN;
+        let kept = (0..features.ncols()).filter(shows);
+        kept.map(|k| (&features * eigen.eigenvectors.column(k)).as_slice().to_vec()).collect()
     }
 
     /// The evidence of residuals (row by row, outputs fastest) of a setup's data. What lies far below
@@ -173,20 +259,60 @@ impl Discrepancy {
         if setup.linear.fitted {
             return fitted::evidence(self, setup, residuals, floor);
         }
+        self.evidence_beside_columns(setup, residuals, &[])
+    }
+
+    /// The evidence of a setup's data with effects whose parameters are integrated out as well, each
+    /// with its prior. What lies far below `floor` need not be known well.
+    pub fn evidence_beside(&self, setup: &Setup<'_>, base: &Arc<Base>, floor: f64) -> Unexplained {
+        let residuals = base.residuals(setup);
+        let mut found = if setup.linear.fitted {
+            let with = setup.with_functions(&base.slopes);
+            fitted::evidence(self, &with, &residuals, floor - base.ln_prior)
+        } else {
+            self.evidence_beside_columns(setup, &residuals, &base.slopes)
+        };
+        found.ln_evidence += base.ln_prior;
+        found.kinds.iter_mut().for_each(|kind| kind.base = Some(Arc::clone(base)));
+        found
+    }
+
+    /// The evidence where the noise is known, with functions whose factors are standard normal
+    /// integrated out: columns of values.
+    fn evidence_beside_columns(
+        &self,
+        setup: &Setup<'_>,
+        residuals: &[f64],
+        columns: &[Vec<f64>],
+    ) -> Unexplained {
         let whitened = setup.linear.whiten_blocks(residuals);
         let base = ln_normal(setup, &whitened);
-        let whitened = DVector::from_column_slice(&whitened);
+        // the residuals last
+        let all: Vec<DVector<f64>> = (columns.iter().map(|of| setup.linear.whiten_blocks(of)))
+            .chain([whitened])
+            .map(DVector::from_vec)
+            .collect();
+        let products = setup.linear.products(&all);
+        let all = DMatrix::from_columns(&all);
         let ln_amplitude = -elementary::ln(AMPLITUDE_STEPS as f64);
         let of_form = |(place, form): (usize, &Form)| {
-            let (eigenvalues, scores) = form.scores(setup, &self.axes, &whitened);
+            let (eigenvalues, scores) = form.scores(setup, &self.axes, &all);
             let mut parts: Vec<(f64, Weighted)> = Vec::with_capacity(AMPLITUDE_STEPS);
             for amplitude in amplitudes() {
                 let a = amplitude * amplitude;
                 let mut ln = base + form.ln_weight + ln_amplitude;
-                for (eigenvalue, score) in eigenvalues.iter().zip(scores.iter()) {
+                let mut left = products.clone();
+                for (k, eigenvalue) in eigenvalues.iter().enumerate() {
                     let growth = 1.0 + a * eigenvalue;
-                    ln += 0.5 * (a * score * score / growth - elementary::ln(growth));
+                    ln -= 0.5 * elementary::ln(growth);
+                    for i in 0..=columns.len() {
+                        let own = a / growth * scores[(k, i)];
+                        for j in 0..=i {
+                            left[triangle(i) + j] -= own * scores[(k, j)];
+                        }
+                    }
                 }
+                ln += gain_of_columns(products[products.len() - 1], left, columns.len());
                 let kind = Weighted {
                     form: place,
                     multiplier: amplitude,
@@ -201,6 +327,21 @@ impl Discrepancy {
         let parts = parallel::map(self.forms.iter().enumerate(), of_form);
         weigh(parts.into_iter().flatten().collect())
     }
+}
+
+/// By how much the logarithm of the density of residuals rises with a function, where columns with
+/// standard normal factors are integrated out in both: `square` are the residuals without it, `left` the
+/// products of columns and residuals (the last row) in the metric with it.
+fn gain_of_columns(square: f64, mut left: Vec<f64>, columns: usize) -> f64 {
+    let (gram, last) = left.split_at_mut(triangle(columns));
+    for i in 0..columns {
+        gram[triangle(i) + i] += 1.0;
+    }
+    packed::cholesky_of_definite(gram);
+    let (products, own) = last.split_at_mut(columns);
+    packed::solve(gram, products);
+    let explained: f64 = products.iter().map(|y| y * y).sum();
+    0.5 * (square - own[0] + explained) - packed::ln_diagonal(gram)
 }
 
 /// Normalizes kinds given with the logarithms of their evidence.

@@ -1,28 +1,76 @@
 //! What "unexplained" says at any conditions: a Gaussian process conditioned on the data.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::features::{Coordinates, Site};
-use super::{Discrepancy, Weighted};
+use super::{Base, Discrepancy, Parts, Weighted};
 use crate::data::by_rows;
-use crate::predict::{self, Normals};
+use crate::predict::Normals;
 use crate::setup::Setup;
 use gumption_engine::task::Row;
+
+/// What the model says, or effects that act beside a discrepancy, without what is linear in their
+/// parameters.
+struct InRows {
+    base: Option<Arc<Base>>,
+    /// What is left of the data, by value.
+    residuals: Vec<f64>,
+    /// What is said in the rows, by value.
+    sims: Vec<f64>,
+    /// The derivatives by the parameters' scores, in the data and in the rows.
+    slopes: Vec<Vec<f64>>,
+    slopes_there: Vec<Vec<f64>>,
+}
+
+impl InRows {
+    fn of(
+        setup: &Setup<'_>,
+        base: Option<&Arc<Base>>,
+        rows: &[Row],
+        nominals: &[(Vec<f64>, Vec<Vec<f64>>)],
+    ) -> Self {
+        let Some(base) = base else {
+            let sims = nominals.iter().flat_map(|(sim, _)| sim.clone()).collect();
+            let residuals = by_rows(&setup.data.nominal_residuals());
+            let (slopes, slopes_there) = (Vec::new(), Vec::new());
+            return Self { base: None, residuals, sims, slopes, slopes_there };
+        };
+        let (values, slopes_there) = base.in_rows(setup, rows);
+        let linear = base.linear_part(&slopes_there, values.len());
+        Self {
+            base: Some(Arc::clone(base)),
+            residuals: base.residuals(setup),
+            sims: values.iter().zip(linear).map(|(value, of)| value - of).collect(),
+            slopes: base.slopes.clone(),
+            slopes_there,
+        }
+    }
+
+    fn is_of(&self, base: Option<&Arc<Base>>) -> bool {
+        match (&self.base, base) {
+            (None, None) => true,
+            (Some(own), Some(base)) => Arc::ptr_eq(own, base),
+            _ => false,
+        }
+    }
+}
 
 impl Discrepancy {
     /// What "unexplained" says in these rows: the model at the inputs' estimates, corrected by what the
     /// data say of shared inputs and of the discrepancy (a Gaussian process conditioned on the data).
-    /// `beyond` says that rows are outside of the data and the caller enlarges the variances of smooth
-    /// functions with their distance.
+    /// `growth` is what the variances of what the data determine are multiplied by in each row, 1 where it
+    /// is empty; what they do not determine of a function has its prior variance, the square of its
+    /// amplitude, whatever the row.
     pub fn predict(
         &self,
         setup: &Setup<'_>,
         kinds: &[Weighted],
         rows: &[Row],
-        beyond: bool,
+        growth: &[f64],
     ) -> Normals {
         let outputs = setup.data.outputs.len();
-        let plain = by_rows(&setup.data.nominal_residuals());
         let nominals: Vec<(Vec<f64>, Vec<Vec<f64>>)> =
             rows.iter().map(|row| nominal(setup, row)).collect();
         let sites: Vec<Site> = rows
@@ -36,52 +84,40 @@ impl Discrepancy {
         let gradients: Vec<Vec<Vec<f64>>> =
             nominals.iter().map(|(_, gradients)| gradients.clone()).collect();
         let total: f64 = kinds.iter().map(|kind| kind.weight).sum();
+        let mut bases: Vec<InRows> = Vec::new();
         let mut sums = vec![vec![(0.0, 0.0); outputs]; rows.len()];
         for kind in kinds {
             let form = &self.forms[kind.form];
             let share = kind.weight / total;
-            // the model, or the effects that act beside the discrepancy
-            let (residuals, sims) = match &kind.base {
-                None => (plain.clone(), nominals.iter().flat_map(|(sim, _)| sim.clone()).collect()),
-                Some(base) => {
-                    let residuals = base.residuals(setup);
-                    let there_too = predict::values(
-                        setup,
-                        &base.effects,
-                        std::slice::from_ref(&base.scores),
-                        rows,
-                    );
-                    let first = |draws: Vec<f64>| draws.first().copied();
-                    let sims: Vec<f64> =
-                        there_too.into_iter().flatten().filter_map(first).collect();
-                    (residuals, sims)
-                }
-            };
+            let known = bases.iter().position(|known| known.is_of(kind.base.as_ref()));
+            let place = known.unwrap_or_else(|| {
+                bases.push(InRows::of(setup, kind.base.as_ref(), rows, &nominals));
+                bases.len() - 1
+            });
+            let InRows { residuals, sims, slopes, slopes_there, .. } = &bases[place];
             let variances = kind.variances.as_deref().unwrap_or(&setup.linear.variances);
             let coordinates = Coordinates::new(&form.term, &self.axes, &sites, outputs);
             let roots = coordinates.roots(&form.term, form.length, &form.nodes);
             let there = coordinates.features(&roots, rows.len() * outputs) * form.scale;
             // what the nodes do not determine of the function is left at its prior variance
-            let undetermined = match form.term.is_smooth() && beyond {
-                true => vec![0.0; rows.len() * outputs],
-                false => coordinates.undetermined(&roots, rows.len() * outputs),
-            };
+            let undetermined = coordinates.undetermined(&roots, rows.len() * outputs);
             let size = kind.multiplier * form.scale;
             let features = form.features(setup, &self.axes);
             let Some(found) = conditioned(
                 setup,
                 variances,
-                &residuals,
-                &(kind.multiplier * features.as_ref()),
+                residuals,
+                &beside(slopes, kind.multiplier * features.as_ref()),
                 rows,
                 &gradients,
-                &(kind.multiplier * there),
+                &beside(slopes_there, kind.multiplier * there),
             ) else {
                 continue;
             };
             for (value, (shift, variance)) in found.into_iter().enumerate() {
                 let mean = sims[value] + shift;
-                let variance = variance + size * size * undetermined[value];
+                let growth = growth.get(value / outputs).copied().unwrap_or(1.0);
+                let variance = growth * variance + size * size * undetermined[value];
                 let sum = &mut sums[value / outputs][value % outputs];
                 sum.0 += share * mean;
                 sum.1 += share * (variance + mean * mean);
@@ -94,6 +130,50 @@ impl Discrepancy {
         }
         sums
     }
+
+    /// What the inputs and a departure add to the data, beside effects whose parameters are integrated out.
+    /// `variances` are those of the noise by value. `None` where their covariance has no root.
+    pub fn parts(
+        &self,
+        setup: &Setup<'_>,
+        base: &Base,
+        departure: Option<&Weighted>,
+        variances: &[f64],
+    ) -> Option<Parts> {
+        let rows = setup.all_rows();
+        let features = match departure {
+            Some(kind) => {
+                kind.multiplier * self.forms[kind.form].features(setup, &self.axes).as_ref()
+            }
+            None => DMatrix::zeros(setup.data.len(), 0),
+        };
+        let gradients: Vec<Vec<Vec<f64>>> =
+            setup.data.point_of.iter().map(|&of| setup.data.points[of].gradients.clone()).collect();
+        let nothing: Vec<Vec<Vec<f64>>> = gradients
+            .iter()
+            .map(|row| row.iter().map(|of| vec![0.0; of.len()]).collect())
+            .collect();
+        let residuals = base.residuals(setup);
+        let zeros = vec![vec![0.0; setup.data.len()]; base.slopes.len()];
+        let with = beside(&base.slopes, features.clone());
+        let mean = |gradients: &[Vec<Vec<f64>>], there: &DMatrix<f64>| {
+            let found = conditioned(setup, variances, &residuals, &with, &rows, gradients, there)?;
+            Some(found.into_iter().map(|(mean, _)| mean).collect::<Vec<f64>>())
+        };
+        Some(Parts {
+            inputs: mean(&gradients, &(0.0 * &with))?,
+            function: mean(&nothing, &beside(&zeros, features))?,
+        })
+    }
+}
+
+/// Columns before those of a matrix.
+fn beside(columns: &[Vec<f64>], matrix: DMatrix<f64>) -> DMatrix<f64> {
+    let mut all = matrix.insert_columns(0, columns.len(), 0.0);
+    for (place, column) in columns.iter().enumerate() {
+        all.set_column(place, &DVector::from_column_slice(column));
+    }
+    all
 }
 
 /// What shared inputs and functions, whose factors are standard normal, add to the model in rows after

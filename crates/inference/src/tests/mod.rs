@@ -1,5 +1,6 @@
 //! The posterior against exact values and independent computations.
 
+mod beside;
 pub(crate) mod cases;
 mod discrepancy;
 mod evidence;

@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::answer::pretty;
-use gumption_gap::check::{BlindCheckScores, BlindDraw, CheckedNoise, SmallestEffect};
+use gumption_gap::check::{
+    BesideScores, BlindCheckScores, BlindDraw, CheckedNoise, SmallestEffect,
+};
 
 #[derive(Serialize)]
 struct Answer<'r> {
@@ -29,6 +31,7 @@ struct Answer<'r> {
     worse_than_none: f64,
     claim_bias: f64,
     smallest_effect: BTreeMap<&'r str, Smallest<'r>>,
+    beside: BesideScores,
     cases: &'r [BlindDraw],
     version: &'static str,
 }
@@ -86,6 +89,7 @@ pub fn check_json(title: &str, noise: CheckedNoise, report: &BlindCheckScores) -
             .iter()
             .map(|effect| (effect.parameter.as_str(), Smallest::of(effect)))
             .collect(),
+        beside: report.beside,
         cases: &report.checked,
         version: env!("CARGO_PKG_VERSION"),
     };

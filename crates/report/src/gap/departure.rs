@@ -8,7 +8,8 @@ use crate::answer::list;
 use crate::number::significant;
 use crate::plain;
 use gumption_gap::{
-    DepartureForm, DepartureKind, DepartureOver, DepartureShape, Diagnosis, NamedQuantity,
+    DepartureForm, DepartureKind, DepartureOver, DepartureShape, Diagnosis, LeftBeside,
+    NamedQuantity,
 };
 use gumption_units::listed;
 
@@ -38,6 +39,28 @@ pub(super) fn departure(diagnosis: &Diagnosis) -> Value {
             "words": words(form, &diagnosis.conditions),
         })
     }))
+}
+
+/// What is left beside the effects of the verdict; null where nothing is.
+pub(super) fn beside(diagnosis: &Diagnosis) -> Value {
+    let Some(left) = &diagnosis.most_probable.beside else { return Value::Null };
+    json!({
+        "probability": left.probability,
+        "outputs": left.form.outputs,
+        "kind": left.form.kind.name(),
+        "over": left.form.over.name(),
+        "shape": left.form.shape.name(),
+        "at": at(left.form.shape),
+        "size": left.form.size,
+        "size_unit": left.form.unit,
+        "words": words(&left.form, &diagnosis.conditions),
+        "share_of_gap": left.share_of_gap,
+    })
+}
+
+/// What is left beside the effects of the verdict, in words.
+pub(super) fn left_beside(diagnosis: &Diagnosis, left: &LeftBeside) -> String {
+    words(&DepartureForm { beside: Vec::new(), ..left.form.clone() }, &diagnosis.conditions)
 }
 
 fn at(shape: DepartureShape) -> Option<f64> {

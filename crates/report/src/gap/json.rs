@@ -35,6 +35,7 @@ pub fn json(diagnosis: &Diagnosis) -> String {
                 "effects": verdict.effects,
                 "prior_conflict": verdict.prior_conflict,
                 "probability": verdict.probability,
+                "beside": departure::beside(diagnosis),
                 "group": verdict.indistinguishable,
                 "group_probability": verdict.indistinguishable_probability,
             }),
@@ -180,6 +181,7 @@ fn prior_conflict(of: &PriorConflict) -> Value {
 fn hypothesis(of: &Hypothesis) -> Value {
     json!({
         "effects": of.effects,
+        "beside": of.beside,
         "probability": of.probability,
         "prior": of.prior,
         "log_evidence": of.log_evidence,
@@ -202,6 +204,8 @@ fn shrinks(diagnosis: &Diagnosis) -> Value {
             "removed_fraction": shrunk.removed_fraction,
         })
     });
+    let shares = shrinkage.shares.iter();
+    let shares = shares.map(|of| json!({"what": of.what.name(), "share_of_gap": of.share_of_gap}));
     json!({
         "rms_before": all.rms_before,
         "rms_after": all.rms_after,
@@ -216,6 +220,7 @@ fn shrinks(diagnosis: &Diagnosis) -> Value {
         "within_after": shrinkage.within[1],
         "log_density_gain": shrinkage.log_density_gain,
         "blocks": shrinkage.blocks,
+        "shares": list(shares),
         "outputs": named(&diagnosis.outputs, outputs),
     })
 }

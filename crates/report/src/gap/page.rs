@@ -74,6 +74,7 @@ pub(super) fn document(diagnosis: &Diagnosis, provenance: &Provenance) -> Docume
     page.table(sheets::shrinkage(diagnosis));
     words::shrinkage(diagnosis).into_iter().for_each(|said| page.text(said));
     words::noise(diagnosis).into_iter().for_each(|said| page.text(said));
+    page.figure(html::shares(diagnosis));
     page.figure(html::shrinkage(diagnosis));
     for output in 0..diagnosis.outputs.len() {
         page.figure(html::residuals(diagnosis, output));

@@ -105,7 +105,7 @@ pub(super) fn hypotheses(diagnosis: &Diagnosis) -> Sheet {
     let evidence: Vec<[String; 3]> = shown.iter().map(evidence).collect();
     let column = |position: usize| evidence.iter().map(move |cells| cells[position].clone());
     let mut sheet = Sheet::default();
-    sheet.text("hypothesis", shown.iter().map(|h| words::hypothesis(h.effects.as_deref())));
+    sheet.text("hypothesis", shown.iter().map(words::tabled));
     sheet.numbers("prior", shown.iter().map(|h| significant(h.prior, 2)));
     sheet.numbers("probability", shown.iter().map(|h| probability(h.probability)));
     let first = shown.first().map_or(0.0, |first| first.probability);

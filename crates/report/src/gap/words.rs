@@ -1,12 +1,14 @@
 //! The answer in sentences.
 
-use super::digits::{self, condition, p_equals, percent, probability, share, tenths};
+use super::departure;
+use super::digits::{self, condition, p_equals, percent, percent_of, probability, share, tenths};
 use crate::number::{degrees_of_freedom, exact, position, rounded, significant, with_uncertainty};
 use crate::plain;
 use crate::statement::Measurement;
 use gumption_gap::{
-    Diagnosis, GapRegion, Hypothesis, HypothesisKind, NamedQuantity, NoiseEstimate, PriorConflict,
-    ProposalKind, ProposedMeasurement, SettingError, Shrunk, UncertaintyFactor,
+    Diagnosis, GapPart, GapRegion, Hypothesis, HypothesisKind, LeftBeside, NamedQuantity,
+    NoiseEstimate, PriorConflict, ProposalKind, ProposedMeasurement, SettingError, Shrunk,
+    UncertaintyFactor,
 };
 use gumption_units::listed;
 
@@ -17,6 +19,12 @@ pub(super) fn hypothesis(effects: Option<&[String]>) -> String {
         Some([]) => "none".to_owned(),
         Some(effects) => effects.iter().map(|name| plain(name)).collect::<Vec<_>>().join(" + "),
     }
+}
+
+/// A hypothesis in a table, with what may act beside its effects.
+pub(super) fn tabled(hypothesis: &Hypothesis) -> String {
+    let beside = if hypothesis.beside { ", and something beside" } else { "" };
+    self::hypothesis(hypothesis.effects.as_deref()) + beside
 }
 
 /// A hypothesis in a list of several.
@@ -78,6 +86,9 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
         }
         HypothesisKind::Explained => {
             let names: Vec<String> = verdict.effects.iter().map(|name| plain(name)).collect();
+            if let Some(left) = &verdict.beside {
+                return with_something_beside(diagnosis, &names, left);
+            }
             match names.as_slice() {
                 [name] => format!("There is a gap, and {name} explains it {how_sure}."),
                 names => format!(
@@ -89,6 +100,58 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
     }
 }
 
+/// The verdict where effects are there and something without a name is left beside them.
+fn with_something_beside(diagnosis: &Diagnosis, names: &[String], left: &LeftBeside) -> String {
+    let effects = &diagnosis.most_probable.effects;
+    let holds = |of: &&Hypothesis| {
+        let own = of.effects.as_ref();
+        own.is_some_and(|own| effects.iter().all(|name| own.contains(name)))
+    };
+    let there: f64 = diagnosis.hypotheses.iter().filter(holds).map(|of| of.probability).sum();
+    let shares = diagnosis.shrinkage.shares.iter();
+    let own = shares.filter(|of| matches!(of.what, GapPart::Effect(_)));
+    let share = percent_of(own.map(|of| of.share_of_gap).sum());
+    let (are, make, them) =
+        if names.len() > 1 { ("are", "make", "them") } else { ("is", "makes", "it") };
+    let given = left.probability / diagnosis.most_probable.probability;
+    let probably = if given >= SURE { "" } else { "probably " };
+    format!(
+        "There is a gap: {} {are} there (probability {}) and {make} {share} of it; something else is \
+         {probably}left beside {them} (probability {}, {} of the gap): {}.",
+        listed(names, " and "),
+        probability(there.min(1.0)),
+        probability(left.probability),
+        percent_of(left.share_of_gap),
+        departure::left_beside(diagnosis, left)
+    )
+}
+
+/// What makes how much of the gap; `None` where there is none.
+pub(super) fn shares(diagnosis: &Diagnosis) -> Option<String> {
+    let parts: Vec<String> = diagnosis
+        .shrinkage
+        .shares
+        .iter()
+        .map(|of| format!("{} {}", part(&of.what), percent_of(of.share_of_gap)))
+        .collect();
+    (!parts.is_empty()).then(|| {
+        format!(
+            "Of the mean square of the residuals, in standard uncertainties, with the inputs at what the \
+             data say of them: {}.",
+            parts.join(", ")
+        )
+    })
+}
+
+/// A part of the gap in a list.
+pub(super) fn part(what: &GapPart) -> String {
+    match what {
+        GapPart::Effect(name) => plain(name),
+        GapPart::Departure => "what has no name".to_owned(),
+        GapPart::Noise => "noise".to_owned(),
+    }
+}
+
 /// The verdict where all other hypotheses together are more probable, with those that come next.
 fn most_probable_of_several(diagnosis: &Diagnosis) -> String {
     let verdict = &diagnosis.most_probable;
@@ -97,7 +160,17 @@ fn most_probable_of_several(diagnosis: &Diagnosis) -> String {
         None => "no candidate effect".to_owned(),
         Some(effects) => quoted(effects),
     };
-    let start = if 1.0 - no_gap(diagnosis) >= SURE {
+    let sure = diagnosis.present.iter().filter(|of| of.probability >= SURE);
+    let sure: Vec<String> = sure.map(|of| plain(&of.effect)).collect();
+    let start = if !sure.is_empty() {
+        format!(
+            "There is a gap, and {} {} there; what else acts is not decided: {} is only the most probable \
+             of several explanations",
+            listed(&sure, " and "),
+            if sure.len() > 1 { "are" } else { "is" },
+            quoted(&verdict.effects)
+        )
+    } else if 1.0 - no_gap(diagnosis) >= SURE {
         format!(
             "There is a gap, but what explains it is not decided: {} is only the most probable of \
              several explanations",
@@ -511,6 +584,13 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
                 .to_owned(),
         );
     }
+    said.extend(shares(diagnosis));
+    if diagnosis.most_probable.beside.is_some() {
+        said.push(
+            "The correction is the effects with a discrepancy beside them, fitted to the data together."
+                .to_owned(),
+        );
+    }
     if diagnosis.most_probable.kind == HypothesisKind::Unexplained {
         said.push(
             "The correction is a discrepancy fitted to the data, since no effect explains the gap."
@@ -618,7 +698,7 @@ pub(super) fn next(diagnosis: &Diagnosis) -> Vec<String> {
         "Most is expected of this: {}. It takes {} of what is left open between all {} (the entropy \
          of their probabilities, {} nats).",
         proposal(diagnosis, best),
-        digits::percent_of(part),
+        percent_of(part),
         if next.composed > 0 { "hypotheses and composed effects" } else { "hypotheses" },
         significant(next.entropy, 2)
     ));

@@ -24,7 +24,10 @@ pub fn html(design: &CheckedDesign, report: &BlindCheckScores, provenance: &Prov
     let body = html! {
         h1 { (title) }
         p.settings { (words::settings(report)) }
-        div.verdict { p { strong { (words::verdict(report)) } } }
+        div.verdict {
+            p { strong { (words::verdict(report)) } }
+            @if let Some(said) = words::beside(report) { p { (said) } }
+        }
         h2 { "What was done" }
         p { (words::done(design, report)) }
         h2 { "Scores" }

@@ -19,12 +19,14 @@ pub(super) enum Label {
 }
 
 impl Label {
-    /// The truth of a draw.
+    /// The truth of a draw, without an effect that was taken out of the list.
     pub(super) fn truth(checked: &BlindDraw) -> Self {
-        if checked.withheld.is_some() {
+        let listed = |name: &&String| checked.withheld.as_ref() != Some(*name);
+        let listed: Vec<String> = checked.effects.iter().filter(listed).cloned().collect();
+        if checked.withheld.is_some() && listed.is_empty() {
             return Self::Unexplained;
         }
-        Self::of(&checked.effects)
+        Self::of(&listed)
     }
 
     /// The verdict on a draw.

@@ -31,7 +31,8 @@ pub fn table(design: &CheckedDesign, report: &BlindCheckScores) -> String {
 /// Title, settings and how often the verdict was right.
 fn heading(design: &CheckedDesign, report: &BlindCheckScores) -> String {
     let heading = wrapped(&words::title(design)) + &wrapped(&words::settings(report));
-    heading + "\n" + &wrapped(&words::verdict(report))
+    let beside = words::beside(report).map(|said| wrapped(&said)).unwrap_or_default();
+    heading + "\n" + &wrapped(&words::verdict(report)) + &beside
 }
 
 fn wrong(report: &BlindCheckScores) -> String {

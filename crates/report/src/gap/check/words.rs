@@ -48,11 +48,24 @@ pub(super) fn verdict(report: &BlindCheckScores) -> String {
     said
 }
 
+/// How often an effect was found beside one that was taken out of the list; `None` without such draws.
+pub(super) fn beside(report: &BlindCheckScores) -> Option<String> {
+    let of = report.beside;
+    (of.drawn > 0).then(|| {
+        format!(
+            "Where one of two effects had been taken out of the list, the verdict named the other one in {} \
+             of {} data sets; in {} it had a probability below 0.01.",
+            of.listed_effect_named, of.drawn, of.lost
+        )
+    })
+}
+
 /// What was done.
 pub(super) fn done(design: &CheckedDesign, report: &BlindCheckScores) -> String {
-    let mut drawn = [0usize; 4];
+    let mut drawn = [0usize; 5];
     for one in &report.checked {
         let place = match Label::truth(one) {
+            _ if one.listed_present.is_some() => 4,
             Label::None => 0,
             Label::One(_) => 1,
             Label::Several(_) | Label::Together => 2,
@@ -60,7 +73,7 @@ pub(super) fn done(design: &CheckedDesign, report: &BlindCheckScores) -> String 
         };
         drawn[place] += 1;
     }
-    let [none, one, two, withheld] = drawn;
+    let [none, one, two, withheld, beside] = drawn;
     let outputs: Vec<String> = design.outputs.iter().map(|name| plain(name)).collect();
     let rows = if design.rows == 1 { "row" } else { "rows" };
     let effects = if design.effects == 1 { "effect" } else { "effects" };
@@ -74,7 +87,7 @@ pub(super) fn done(design: &CheckedDesign, report: &BlindCheckScores) -> String 
     format!(
         "Truths were drawn from the case's own prior and its list of {} candidate {effects}: {none} \
          without a gap, {one} with one effect, {two} with two, {withheld} with an effect that was then \
-         taken out of the list. Each made data with {noise} at the case's design: {} {rows} of {}{}. \
+         taken out of the list, {beside} with two of which one was. Each made data with {noise} at the case's design: {} {rows} of {}{}. \
          The data were diagnosed without the truths, which were opened afterwards.",
         design.effects,
         design.rows,
@@ -99,7 +112,8 @@ fn over(design: &CheckedDesign) -> String {
 /// When a verdict is right.
 pub(super) const RIGHT: &str = "A verdict is right if it names just the effects that were drawn. Where the effect had been \
      taken out of the list it is right if it is \"unexplained\", or if it names something that \
-     predicts within the uncertainties.";
+     predicts within the uncertainties; where one of two had been, if it names the other one, with \
+     something beside it or not, or predicts within the uncertainties.";
 
 /// What the scores are.
 pub(super) const SCORES: &str = "Brier score: sum of the squared errors of all hypotheses' probabilities, 0 is best. ln \

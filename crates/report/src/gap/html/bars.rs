@@ -45,7 +45,7 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Drawing {
                 let prior = strip.x(hypothesis.prior);
                 let ends = [(prior, y - 0.5 * PRIOR), (prior, y + 0.5 * PRIOR)];
                 line(area, ends, stroke(INK, 1.75))?;
-                strip.name(area, &words::hypothesis(hypothesis.effects.as_deref()), y)?;
+                strip.name(area, &words::tabled(hypothesis), y)?;
                 let text = digits::probability(hypothesis.probability);
                 strip.beside(area, &text, hypothesis.probability.max(hypothesis.prior), y)?;
             }

@@ -5,6 +5,7 @@ mod intervals;
 mod overlay;
 mod predictions;
 mod residuals;
+mod shares;
 mod shrinkage;
 mod where_map;
 
@@ -15,6 +16,7 @@ pub(super) use intervals::draw as intervals;
 pub(super) use overlay::draw as overlay;
 pub(super) use predictions::draw as predictions;
 pub(super) use residuals::draw as residuals;
+pub(super) use shares::draw as shares;
 pub(super) use shrinkage::draw as shrinkage;
 pub(super) use where_map::draw as where_map;
 

@@ -8,7 +8,7 @@ use super::super::check_json;
 use super::html::{SVG, assert_inside, parsed, text, with_body};
 use super::{assert_rounded, named, provenance, strings};
 use gumption_gap::check::{
-    BlindCheckScores, BlindDraw, CheckedNoise, Confusion, Reliability, SmallestEffect,
+    BesideScores, BlindCheckScores, BlindDraw, CheckedNoise, Confusion, Reliability, SmallestEffect,
 };
 
 fn design() -> CheckedDesign {
@@ -37,6 +37,7 @@ fn draw(effects: &[&str], named: &[&str], probability: f64, right: bool) -> Blin
     BlindDraw {
         truth: label(effects),
         withheld: withheld.then(|| "radius-offset".to_owned()),
+        listed_present: None,
         said: label(named),
         probability,
         of_truth: if right { probability } else { 0.01 },
@@ -99,6 +100,7 @@ fn scores(checked: Vec<BlindDraw>) -> BlindCheckScores {
             smallest("low-pass/fc", "Hz", None, Some(3.456_789)),
             smallest("gain/k", "", None, None),
         ],
+        beside: BesideScores { drawn: 5, listed_effect_named: 4, lost: 1 },
         checked,
     }
 }

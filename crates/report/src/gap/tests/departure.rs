@@ -1,6 +1,6 @@
 //! A departure that no candidate makes, in words and in JSON.
 
-use super::{diagnosis, json, unexplained};
+use super::{diagnosis, json, unexplained, with_something_beside};
 
 #[test]
 fn a_departure_is_told_in_words() {
@@ -30,4 +30,36 @@ fn a_departure_is_in_the_answer() {
     assert_eq!(answer["departure"][1]["over"], "value");
     // where everything is explained nothing is said
     assert!(json(&diagnosis()).get("departure").is_none());
+}
+
+#[test]
+fn what_is_left_beside_the_effects_is_in_the_headline() {
+    let page = crate::gap::table(&with_something_beside()).replace('\n', " ");
+    for wanted in [
+        "There is a gap: low-pass and delay are there (probability 0.988) and make 97 % of it; something \
+         else is left beside them (probability 0.977, 2 % of the gap): a_x and ratio depart by what is \
+         added to the sim, rising with the sim's own value",
+        "low-pass 91 %, delay 6 %, what has no name 2 %, noise 1 %.",
+        "low-pass + delay, and something beside",
+    ] {
+        assert!(page.contains(wanted), "{wanted}\n{page}");
+    }
+}
+
+#[test]
+fn what_is_left_beside_the_effects_is_in_the_answer() {
+    let answer = json(&with_something_beside());
+    let beside = &answer["verdict"]["beside"];
+    assert_eq!(answer["verdict"]["kind"], "explained");
+    assert_eq!(beside["probability"], 0.976_543);
+    assert_eq!(beside["over"], "value");
+    assert_eq!(beside["shape"], "rising");
+    assert_eq!(beside["share_of_gap"], 0.023_456);
+    assert!(beside["words"].as_str().unwrap().ends_with("beside low-pass and delay"));
+    assert_eq!(answer["hypotheses"][0]["beside"], false);
+    assert_eq!(answer["hypotheses"][1]["beside"], true);
+    let shares = answer["shrinks"]["shares"].as_array().unwrap();
+    let names: Vec<&str> = shares.iter().map(|of| of["what"].as_str().unwrap()).collect();
+    assert_eq!(names, ["low-pass", "delay", "departure", "noise"]);
+    assert!(json(&diagnosis())["verdict"]["beside"].is_null());
 }

@@ -103,7 +103,7 @@ fn drawings_have_the_numbers_of_the_tables() {
 
 #[test]
 fn nothing_is_drawn_outside() {
-    for diagnosis in [diagnosis(), many(), hostile(), unexplained()] {
+    for diagnosis in [diagnosis(), many(), hostile(), unexplained(), with_something_beside()] {
         assert_inside(&page(&diagnosis).1);
     }
 }

@@ -12,10 +12,11 @@ use crate::Provenance;
 use gumption_engine::task::ModelStatement;
 use gumption_gap::{
     DepartureForm, DepartureKind, DepartureOver, DepartureShape, DescribedEffect, Diagnosis,
-    DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis, HypothesisKind,
-    MostProbable, NamedQuantity, NextMeasurements, NoiseEstimate, Predicted, PresentEffect,
-    PriorConflict, ProposalKind, ProposedMeasurement, ReplicatedEffect, ReplicatedEffects, RowGap,
-    SerialCorrelation, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor, ValueGap,
+    DiagnosisNote, EffectParameter, EstimatedNoise, GapPart, GapRegion, GapShare, GapTest,
+    Hypothesis, HypothesisKind, LeftBeside, MostProbable, NamedQuantity, NextMeasurements,
+    NoiseEstimate, Predicted, PresentEffect, PriorConflict, ProposalKind, ProposedMeasurement,
+    ReplicatedEffect, ReplicatedEffects, RowGap, SerialCorrelation, Shrinkage, Shrunk,
+    SuspectValue, UncertaintyFactor, ValueGap,
 };
 
 fn named(name: &str, unit: &str) -> NamedQuantity {
@@ -45,6 +46,7 @@ fn hypothesis(
     let effects = effects.map(strings);
     Hypothesis {
         effects,
+        beside: false,
         prior,
         probability,
         log_evidence,
@@ -190,6 +192,7 @@ fn diagnosis() -> Diagnosis {
             kind: HypothesisKind::Explained,
             effects: strings(&["low-pass"]),
             prior_conflict: true,
+            beside: None,
             probability: 0.877_777_86,
             indistinguishable: vec![strings(&["low-pass"]), strings(&["low-pass", "delay"])],
             indistinguishable_probability: 0.987_777_86,
@@ -223,6 +226,7 @@ fn diagnosis() -> Diagnosis {
             log_density_gain: 162.715_87,
             blocks: 6,
             values: 40_000,
+            shares: Vec::new(),
         },
         next: next(),
         prediction: Some(vec![
@@ -331,6 +335,7 @@ fn bare() -> Diagnosis {
     bare.gap = GapTest { present: false, p_value: None, chi2: f64::NAN, dof: 0.0 };
     bare.most_probable = MostProbable {
         prior_conflict: false,
+        beside: None,
         kind: HypothesisKind::None,
         effects: Vec::new(),
         probability: 1.0,
@@ -367,6 +372,7 @@ fn unexplained() -> Diagnosis {
     let mut unexplained = diagnosis();
     unexplained.most_probable = MostProbable {
         prior_conflict: false,
+        beside: None,
         kind: HypothesisKind::Unexplained,
         effects: Vec::new(),
         probability: 0.99,
@@ -405,6 +411,38 @@ fn unexplained() -> Diagnosis {
         },
     ];
     unexplained
+}
+
+/// Low-pass and delay with something left beside them.
+fn with_something_beside() -> Diagnosis {
+    let mut beside = diagnosis();
+    let form = unexplained().departure.remove(1);
+    beside.departure = vec![DepartureForm { beside: strings(&["low-pass", "delay"]), ..form }];
+    let share = |what: GapPart, share_of_gap: f64| GapShare { what, share_of_gap };
+    beside.shrinkage.shares = vec![
+        share(GapPart::Effect("low-pass".to_owned()), 0.912_345),
+        share(GapPart::Effect("delay".to_owned()), 0.056_789),
+        share(GapPart::Departure, 0.023_456),
+        share(GapPart::Noise, 0.007_41),
+    ];
+    beside.most_probable = MostProbable {
+        kind: HypothesisKind::Explained,
+        effects: strings(&["low-pass", "delay"]),
+        prior_conflict: false,
+        probability: 0.987_654,
+        beside: Some(LeftBeside {
+            probability: 0.976_543,
+            form: beside.departure[0].clone(),
+            share_of_gap: 0.023_456,
+        }),
+        indistinguishable: vec![strings(&["low-pass", "delay"])],
+        indistinguishable_probability: 0.987_654,
+    };
+    for (of, probability) in beside.hypotheses.iter_mut().zip([0.01, 0.987_654]) {
+        of.probability = probability;
+        of.beside = probability > 0.5;
+    }
+    beside
 }
 
 /// A record of many rows.
