@@ -25,9 +25,12 @@ use super::search::{self, Mode};
 use super::setup::Setup;
 use crate::{Case, Prior};
 
-/// Share of the prior of a departure in which effects of the list act as well, all of them and all pairs
-/// equally probable.
-pub(crate) const BESIDE_EFFECTS: f64 = 0.2;
+/// Share of the prior of a departure in which effects of the list act as well. Nobody's list is complete:
+/// what is not on it is as often there with effects of the list as without them.
+pub(crate) const BESIDE_EFFECTS: f64 = 0.5;
+
+/// What part of that share single effects have, all of them equally probable; pairs have the rest.
+const OF_SINGLES: f64 = 0.5;
 
 /// Hypotheses that are tried with a departure beside them, at most.
 const MOST: usize = 4;
@@ -52,11 +55,29 @@ const HANDED_ON: usize = 3;
 /// Refinements of an integral at most.
 const REFINED: usize = 8;
 
-/// The prior probability of each effect and each pair of a case with a departure beside it, where `all`
-/// are those of all hypotheses.
-pub(crate) fn prior(case: &Case, all: &Prior) -> f64 {
-    let count = case.candidates.len() + case.pairs().len();
-    all.unexplained * BESIDE_EFFECTS / count.max(1) as f64
+/// The prior probability of these effects of a case with a departure beside them, where `all` are the
+/// priors of all hypotheses. More than two effects have none.
+pub(crate) fn prior(case: &Case, all: &Prior, effects: &[usize]) -> f64 {
+    let pairs = if all.two > 0.0 { case.pairs().len() } else { 0 };
+    let of_singles = if pairs == 0 { 1.0 } else { OF_SINGLES };
+    let (share, count) = match effects.len() {
+        1 => (of_singles, case.candidates.len()),
+        2 => (1.0 - of_singles, pairs),
+        _ => return 0.0,
+    };
+    all.unexplained * BESIDE_EFFECTS * share / count.max(1) as f64
+}
+
+/// The logarithm of prior times evidence of effects with a departure beside them and their parameters near
+/// those without it; `None` where they leave no more than the noise.
+pub(crate) fn ln_near_alone(
+    setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
+    hypothesis: &WeighedHypothesis,
+) -> Option<f64> {
+    let base = Arc::new(doubtful(setup, hypothesis)?);
+    let found = discrepancy.evidence_beside(setup, &base, f64::NEG_INFINITY);
+    Some(ln_weight(prior(setup.case, &setup.prior(), &hypothesis.effects), found.ln_evidence))
 }
 
 /// Effects with a departure beside them.
@@ -160,7 +181,8 @@ fn doubtful(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Option<Base> {
 impl Posterior {
     /// The hypotheses that are tried with a departure beside them, best first: those that leave more
     /// than the noise, in the order of what they explain with one. Those are left out that with their
-    /// parameters near those without a departure have an evidence below `least`, as a logarithm.
+    /// parameters near those without a departure have a prior times evidence below `least`, as a
+    /// logarithm.
     fn to_be_tried(
         &self,
         setup: &Setup<'_>,
@@ -168,7 +190,10 @@ impl Posterior {
         before: Option<Before<'_, '_>>,
         least: f64,
     ) -> Vec<&WeighedHypothesis> {
-        let named = self.hypotheses.iter().filter(|h| !h.effects.is_empty() && h.prior > 0.0);
+        let all = setup.prior();
+        let has_prior =
+            |h: &&WeighedHypothesis| h.prior > 0.0 && prior(setup.case, &all, &h.effects) > 0.0;
+        let named = self.hypotheses.iter().filter(has_prior);
         if setup.linear.fitted {
             // as with the noise as it is stated; without that those that explain most alone
             let known = before.map_or(&[][..], |(_, before)| &before.beside);
@@ -187,17 +212,13 @@ impl Posterior {
         if leads.is_some_and(|h| doubtful(setup, h).is_none()) {
             return Vec::new();
         }
-        let explained = |h: &WeighedHypothesis| -> Option<f64> {
-            let base = Arc::new(doubtful(setup, h)?);
-            Some(discrepancy.evidence_beside(setup, &base, f64::NEG_INFINITY).ln_evidence)
-        };
         let mut named: Vec<&WeighedHypothesis> = named.collect();
         // of much data the forms are factored anew for every hypothesis
         if !discrepancy.is_kept() {
             largest_first(&mut named, |h| h.ln_weight());
             named.truncate(MOST);
         }
-        let ranks = parallel::map(&named, |h| explained(h));
+        let ranks = parallel::map(&named, |h| ln_near_alone(setup, discrepancy, h));
         let mut ranked: Vec<(f64, &WeighedHypothesis)> =
             ranks.into_iter().zip(named).filter_map(|(rank, h)| Some((rank?, h))).collect();
         ranked.retain(|(rank, _)| *rank > least);
@@ -214,13 +235,13 @@ impl Posterior {
         before: Option<Before<'_, '_>>,
         (seed, effort): (u64, Effort<'_>),
     ) {
-        let prior = prior(setup.case, &setup.prior());
-        if prior == 0.0 {
+        let all = setup.prior();
+        let prior = |of: &[usize]| prior(setup.case, &all, of);
+        if all.unexplained == 0.0 {
             return;
         }
         let leads = self.ln_leading();
-        let floor = leads - elementary::ln(prior);
-        let mut tried = self.to_be_tried(setup, discrepancy, before, floor - 2.0 * HOPELESS);
+        let mut tried = self.to_be_tried(setup, discrepancy, before, leads - 2.0 * HOPELESS);
         tried.truncate(MOST);
         let fitted = parallel::map(tried, |hypothesis| {
             let names = setup.effect_names(&hypothesis.effects).join("+");
@@ -228,12 +249,13 @@ impl Posterior {
             let known = before.and_then(|before| modes_before(setup, &hypothesis.effects, before));
             let starts = if known.is_some() { 0 } else { effort.starts };
             let modes = known.unwrap_or_else(|| hypothesis.evidence.modes.clone());
+            let floor = leads - elementary::ln(prior(&hypothesis.effects));
             let with = (key, Effort { starts, ..effort }, floor);
             Beside::fitted(setup, discrepancy, &hypothesis.effects, &modes, with)
         });
-        let worth = |of: &Beside| ln_weight(prior, of.departure.ln_evidence) > leads - HOPELESS;
-        self.beside = fitted.into_iter().flatten().filter(worth).collect();
-        self.beside.iter_mut().for_each(|of| of.named.prior = prior);
+        self.beside = fitted.into_iter().flatten().collect();
+        self.beside.iter_mut().for_each(|of| of.named.prior = prior(&of.named.effects));
+        self.beside.retain(|of| of.named.ln_weight() > leads - HOPELESS);
     }
 
     /// The probability of a departure that none of the list makes, beside effects of the list or not.

@@ -75,8 +75,8 @@ pub fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Arc<Discrepancy>,
         }
     }
     for of in &mut posterior.beside {
-        of.named.prior = beside::prior(setup.case, &stated);
         let effects = of.named.effects.clone();
+        of.named.prior = beside::prior(setup.case, &stated, &effects);
         sum(&setup, &mut of.named, (own_share, true), &weighings, &|w| {
             Some(&w.posterior.beside(&effects)?.named)
         });

@@ -6,6 +6,7 @@
 //! effect that made it (Lindley 1957, Biometrika 44, 187). Priors of other widths are therefore
 //! weighed beside the stated ones, with a small probability of their own.
 
+use super::beside;
 use super::logarithm::ln_add;
 use super::noise_model::{WORTH_TRYING, Weighing, ln_total};
 use super::posterior::{self, Effort, Posterior, WeighedHypothesis};
@@ -13,6 +14,7 @@ use super::setup::Setup;
 use crate::Case;
 use gumption_engine::distribution::{Distribution, LogUniform, Normal, Rectangular, Truncated};
 use gumption_engine::number::{elementary, largest_first};
+use gumption_engine::parallel;
 use gumption_units::{Turn, Unit};
 use std::f64::consts::TAU;
 
@@ -31,7 +33,7 @@ const PRIOR_WIDEST: f64 = 0.005;
 const PRIOR_NARROWER: f64 = 0.15;
 
 /// The widest priors are tried where what no effect within its prior explains has more than this
-/// probability, with wider priors as well.
+/// probability, with wider priors as well; and others with a departure beside an effect where one has.
 const WORTH_WIDEST: f64 = 0.5;
 
 /// Pairs with wider priors are tried where what no effect within its prior explains has more than
@@ -160,7 +162,8 @@ fn widest<'c>(
 }
 
 /// No gap and every effect alone with the priors of `case`, which have this prior probability, and the
-/// logarithm of that times the evidences of the effects, summed.
+/// logarithm of that times what the effects come to, summed: their evidences, and where what no effect
+/// explains is probable those with a departure beside them as well.
 fn alone<'c>(
     case: &'c Case,
     weighings: &[Weighing<'_>],
@@ -168,10 +171,18 @@ fn alone<'c>(
     seed: u64,
     effort: Effort<'_>,
 ) -> Option<(Setup<'c>, Vec<WeighedHypothesis>, f64)> {
-    let setup = Setup::new(case).sharing(&weighings.first()?.setup);
+    let first = weighings.first()?;
+    let setup = Setup::new(case).sharing(&first.setup);
     let singles = posterior::singles(&setup, seed, effort);
-    let effects = singles.iter().filter(|h| !h.effects.is_empty());
-    let own = effects.map(WeighedHypothesis::ln_weight).fold(f64::NEG_INFINITY, ln_add);
+    let departs = ln_sum(weighings, |weighing| weighing.posterior.departs());
+    let with_departure = departs - ln_total(weighings) > elementary::ln(WORTH_WIDEST);
+    let effects: Vec<&WeighedHypothesis> =
+        singles.iter().filter(|h| !h.effects.is_empty()).collect();
+    let ln_weights = parallel::map(effects, |h| {
+        let beside = with_departure.then(|| beside::ln_near_alone(&setup, &first.discrepancy, h));
+        beside.flatten().map_or(h.ln_weight(), |ln| ln_add(ln, h.ln_weight()))
+    });
+    let own = ln_weights.into_iter().fold(f64::NEG_INFINITY, ln_add);
     Some((setup, singles, own + elementary::ln(prior)))
 }
 
