@@ -66,6 +66,7 @@ fn a_gap_case_of_data_in_memory() {
             simulation_covariance: None,
         })],
         simulated: 0,
+        history: Vec::new(),
         reachable: Vec::new(),
         candidates: vec![
             candidate(effect("offset", "o", "V", "y + o"), 0.05),

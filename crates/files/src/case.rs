@@ -42,7 +42,7 @@ pub(super) fn read_at(
 ) -> Result<Vec<Row>, Diagnostics> {
     let options = ModelOptions { at: Some(conditions), ..ModelOptions::with(files) };
     read_with(name, text, folder, options, |reader| {
-        reader.found().map(|found| found.file.task.rows)
+        reader.found_with_history().map(|found| found.file.task.rows)
     })
 }
 
@@ -58,7 +58,13 @@ pub(super) fn read_text(
 
 impl Found {
     fn for_effects(&self) -> EffectContext<'_> {
-        EffectContext { sim: &self.sim, task: &self.file.task, observed: &self.observed }
+        EffectContext {
+            sim: &self.sim,
+            task: &self.file.task,
+            observed: &self.observed,
+            history: &self.history,
+            clock: self.clock,
+        }
     }
 }
 
@@ -75,7 +81,7 @@ impl ModelReader<'_> {
 
     /// The case, unless the file has mistakes.
     fn case(&self) -> Option<CaseFile> {
-        let found = self.found();
+        let found = self.found_with_history();
         let prior = prior::read(&self.root);
         if self.root.get("observations").is_none() {
             let what = "a case of the gap diagnosis";
@@ -100,7 +106,7 @@ impl ModelReader<'_> {
         }
         shipped.filter(|()| complete)?;
         let unlisted = catalogue::unlisted(&read, &results, &placed);
-        let Found { file, sim, observed, simulated, reachable, replication, .. } = found?;
+        let Found { file, sim, observed, simulated, history, reachable, replication, .. } = found?;
         let of = |name: String| sim.conditions.iter().position(|condition| condition.name == name);
         let groups = replication.and_then(of);
         let by_effects: HashSet<&str> = placed
@@ -120,6 +126,7 @@ impl ModelReader<'_> {
             model: sim,
             observed,
             simulated,
+            history: history.into_iter().map(|(_, history)| history).collect(),
             reachable,
             candidates,
             shipped: unlisted,

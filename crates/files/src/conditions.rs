@@ -14,6 +14,7 @@ use super::value_text::ValueOf;
 use super::{DiagnosticKind, column_heading};
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{Formula, FormulaError, Scope};
+use gumption_gap::History;
 use gumption_units::Unit;
 
 /// At most so many rows: a sweep of a million.
@@ -33,6 +34,11 @@ pub(super) struct Conditions {
     pub(super) without_unit: Vec<String>,
     /// Names of those of which no unit is said, so that they are plain numbers.
     pub(super) unstated: Vec<String>,
+    /// Those that follow from the order of the rows, and how many stand before them.
+    pub(super) history: Vec<History>,
+    pub(super) measured: usize,
+    /// The place of the one that says when each row was taken.
+    pub(super) clock: Option<usize>,
     /// Whether the rows could not be read, so that nothing is known of the conditions.
     pub(super) unreadable: bool,
 }
@@ -46,6 +52,11 @@ impl Conditions {
     /// The rows of a table, without any condition.
     pub(super) fn rows_of(table: &Table) -> Self {
         Self { rows: vec![Vec::new(); table.rows.len()], ..Self::default() }
+    }
+
+    /// Whether a condition follows from the order of the rows.
+    pub(super) fn is_history(&self, place: usize) -> bool {
+        place.checked_sub(self.measured).is_some_and(|place| place < self.history.len())
     }
 
     /// A column of the data as a condition.
@@ -316,7 +327,6 @@ fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<
     let places = vec![file.value.span.clone(); table.columns.len()];
     let (rows, files) = (table.rows, vec![(name.to_owned(), bytes)]);
     let reachable = vec![None; places.len()];
-    let unreadable = false;
     Some(Conditions {
         quantities,
         places,
@@ -325,7 +335,7 @@ fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<
         files,
         without_unit,
         unstated,
-        unreadable,
+        ..Conditions::default()
     })
 }
 

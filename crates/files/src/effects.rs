@@ -122,19 +122,10 @@ impl Reader<'_> {
         }
         let parameters = object.required("parameters");
         let overrides = object.required("overrides");
-        let inputs = match parameters {
-            Some(of) if matches!(&of.value.value, Json::Object(members) if members.is_empty()) => {
-                let reason = "has no parameters; its size must be a quantity with a prior \
-                              distribution, or the data could not tell how large it is";
-                self.log.report(&of.value.span, diagnostic(reason));
-                None
-            }
-            Some(of) => {
-                // parameters are always drawn
-                inputs::read(self.log, of, &NoConditions, &[], self.results, Trials::Adaptive)
-            }
-            None => None,
-        };
+        // parameters are always drawn; an effect of known size has none
+        let inputs = parameters.and_then(|of| {
+            inputs::read(self.log, of, &NoConditions, &[], self.results, Trials::Adaptive)
+        });
         let overrides = Object::new(self.log, "`overrides`", &overrides?.value, &member.key_span)?;
         if overrides.members().is_empty() {
             overrides.report(diagnostic("overrides nothing"));
@@ -167,7 +158,7 @@ impl Reader<'_> {
         })
     }
 
-    /// What parameters must be beyond inputs: one unknown value each, and not all of them known.
+    /// What parameters must be beyond inputs: one value each.
     fn parameters(
         &self,
         written: Option<&Member>,
@@ -200,13 +191,6 @@ impl Reader<'_> {
                     self.log.report(&field.key_span, diagnostic(&reason));
                 }
             }
-        }
-        let mut priors = priors(inputs).peekable();
-        let known = priors.peek().is_some() && priors.all(|prior| prior.constant().is_some());
-        if let (true, Some(place)) = (known, inputs.quantity_places.first()) {
-            let reason = "has only constant parameters; its size must be a quantity with a prior \
-                          distribution, or the data could not tell how large it is";
-            self.log.report(place, diagnostic(reason));
         }
     }
 

@@ -33,6 +33,7 @@ mod either;
 mod fits;
 mod folder;
 mod formula_notes;
+mod history;
 mod implied_dof;
 mod import;
 mod input_set;

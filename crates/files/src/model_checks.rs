@@ -64,8 +64,9 @@ pub(super) fn check_names(root: &Object<'_>, of: &Quantities, body: &Option<Mode
             .collect(),
         _ => Vec::new(),
     };
-    let swept = conditions.quantities.iter().zip(&conditions.places);
-    named.extend(swept.map(|(quantity, place)| (1, quantity.name.as_str(), place)));
+    let swept = conditions.quantities.iter().zip(&conditions.places).enumerate();
+    let swept = swept.filter(|(number, _)| !conditions.is_history(*number));
+    named.extend(swept.map(|(_, (quantity, place))| (1, quantity.name.as_str(), place)));
     if let Some(ModelBody::Equations(equations)) = body {
         let written = equations.iter().filter_map(|(_, member, _)| *member);
         named.extend(written.map(|m| (2, m.key.as_str(), &m.key_span)));

@@ -52,7 +52,7 @@ use super::scopes::{ConditionSet, number_form, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
 use super::table::{self, Table};
-use super::{DiagnosticKind, correlations, inputs, keys, notation, regions, settings};
+use super::{DiagnosticKind, correlations, history, inputs, keys, notation, regions, settings};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::{Formula, constants};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
@@ -60,7 +60,7 @@ use gumption_engine::model::{Model, Output, Quantity, Tolerance, typed};
 use gumption_engine::number::Shortest;
 use gumption_engine::regression::CurveFunction;
 use gumption_engine::task::{ModelStatement, Row, Settings, Task, Trials, Warning};
-use gumption_gap::{ModelForm, ObservedOutput, OverridableModel};
+use gumption_gap::{History, ModelForm, ObservedOutput, OverridableModel};
 use gumption_units::Unit;
 use gumption_units::nearest;
 
@@ -91,6 +91,10 @@ pub(super) struct Found {
     pub(super) observed: Vec<Option<ObservedOutput>>,
     /// How many of the last conditions are columns of somebody else's simulation.
     pub(super) simulated: usize,
+    /// Conditions that follow from the order of the rows, with their places.
+    pub(super) history: Vec<(usize, History)>,
+    /// The place of the condition that says when each row was taken.
+    pub(super) clock: Option<usize>,
     /// Between which values each condition can be set, where the file says so.
     pub(super) reachable: Vec<Option<[f64; 2]>>,
     /// The condition that tells devices or days apart.
@@ -169,6 +173,15 @@ pub(super) fn read_with<T>(
 impl<'a> ModelReader<'a> {
     /// All that the file holds, unless it has mistakes.
     pub(super) fn found(&self) -> Option<Found> {
+        self.found_with(false)
+    }
+
+    /// The same with conditions that follow from the order of the rows.
+    pub(super) fn found_with_history(&self) -> Option<Found> {
+        self.found_with(true)
+    }
+
+    fn found_with(&self, history: bool) -> Option<Found> {
         let root = &self.root;
         if refuse_other_kind(root, FileKind::Model) {
             return None;
@@ -182,7 +195,7 @@ impl<'a> ModelReader<'a> {
         let mut settings = settings::read(root);
         settings.method = settings::method(root);
 
-        let Data { mut observations, conditions, simulated } = self.data()?;
+        let Data { mut observations, conditions, simulated } = self.data(history)?;
         let fits = self.fits(check_units)?;
         let body = self.body(&simulated, &fits.curves);
         let results = Results::new(self.folder, self.options.files).with_curves(&fits.curves);
@@ -216,6 +229,8 @@ impl<'a> ModelReader<'a> {
         occasions::tell(&mut of.inputs, &files, self.options.overrides, are_swept);
 
         let reachable = std::mem::take(&mut of.conditions.reachable);
+        let history = (of.conditions.measured..).zip(std::mem::take(&mut of.conditions.history));
+        let (history, clock) = (history.collect(), of.conditions.clock);
         let swept = root.get("conditions").is_some() || observations.is_some();
         let output_places = std::mem::take(&mut of.outputs.places);
         let evidence = std::mem::take(&mut of.inputs.evidence);
@@ -236,7 +251,7 @@ impl<'a> ModelReader<'a> {
             Some(of) => (Some(of.table), of.replication.map(|(name, _)| name)),
             None => (None, None),
         };
-        Some(Found { file, sim, observed, simulated, reachable, replication, data })
+        Some(Found { file, sim, observed, simulated, history, clock, reachable, replication, data })
     }
 
     /// Whether units are checked. Where formulas are built in, their quantities have units of their own.
@@ -263,7 +278,7 @@ impl<'a> ModelReader<'a> {
     }
 
     /// The table of the data and the rows of conditions.
-    fn data(&self) -> Option<Data> {
+    fn data(&self, history: bool) -> Option<Data> {
         let (root, log) = (&self.root, self.root.log);
         // columns that nothing names may hold remarks
         let named = ["observations", "conditions"].into_iter().filter_map(|key| root.get(key));
@@ -293,6 +308,9 @@ impl<'a> ModelReader<'a> {
         let of_rows = table.zip(observations.as_ref().and_then(|of| of.replication.as_ref()));
         if let Some((table, (name, place))) = of_rows {
             replication_column(log, &mut conditions, table, name, place);
+        }
+        if let Some(of) = observations.as_ref().filter(|_| history && !conditions.unreadable) {
+            history::add(root, of, at.as_ref(), &mut conditions);
         }
         let simulated = match &observations {
             Some(of) => simulated(root, of, table.unwrap_or(&of.table), &mut conditions),

@@ -24,8 +24,18 @@ pub(super) struct Observations {
     pub(super) columns: Vec<Column>,
     /// The column that tells devices or days apart, and where it is named.
     pub(super) replication: Option<(String, Range<usize>)>,
+    /// The column that says in which order the rows were taken.
+    pub(super) order: Option<OrderColumn>,
     /// The content of the tables read, by name.
     pub(super) files: Vec<(String, Vec<u8>)>,
+}
+
+/// The column that says in which order the rows were taken, or when, and where it is named.
+#[derive(Debug)]
+pub(super) struct OrderColumn {
+    pub(super) name: String,
+    pub(super) place: Range<usize>,
+    pub(super) is_time: bool,
 }
 
 /// What the table says of one output.
@@ -110,7 +120,30 @@ pub(super) fn read(
         Some(member) => Some((replication(&object, &table)?, member.value.span.clone())),
         None => None,
     };
-    Some(Observations { table, columns: read, replication, files })
+    let order = order(&object, &table)?;
+    Some(Observations { table, columns: read, replication, order, files })
+}
+
+/// The column that says in which order the rows were taken, or when; none where no key names one.
+fn order(object: &Object<'_>, table: &Table) -> Option<Option<OrderColumn>> {
+    let [first, second] = ["order", "time"];
+    let member = match [first, second].map(|key| object.get(key)) {
+        [Some(_), Some(other)] => {
+            let diagnostic = DiagnosticKind::Exclusive { first, second };
+            object.log.report(&other.key_span, diagnostic);
+            return None;
+        }
+        [one, other] => one.or(other),
+    };
+    let Some(member) = member else { return Some(None) };
+    let name = object.text(&member.key)?;
+    if table.column(name).is_none() {
+        let reason = table.no_column(name);
+        object.log.report(&member.value.span, DiagnosticKind::Table { reason });
+        return None;
+    }
+    let (name, place) = (name.to_owned(), member.value.span.clone());
+    Some(Some(OrderColumn { name, place, is_time: member.key == second }))
 }
 
 /// The column that tells devices or days apart.

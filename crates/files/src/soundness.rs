@@ -10,6 +10,10 @@ use gumption_gap::Effect;
 /// Checks a case that was read.
 pub(super) fn check(log: &Collector, read: &EffectContext<'_>, placed: &[Placed], data: &Table) {
     enough(log, read, placed, data);
+    // what could not be read of an effect is left out of it
+    if log.is_clean() {
+        placed.iter().for_each(|placed| changes_an_observed_output(log, read, placed));
+    }
     if defined(log, read, data) {
         for placed in placed {
             defined_with(log, read, placed, data);
@@ -41,6 +45,34 @@ fn enough(log: &Collector, read: &EffectContext<'_>, placed: &[Placed], data: &T
             .to_owned();
         log.report_at(data.place(0, 0), DiagnosticKind::Observation { reason });
     }
+}
+
+/// An effect that no observed output depends on can be neither found nor excluded.
+fn changes_an_observed_output(log: &Collector, read: &EffectContext<'_>, placed: &Placed) {
+    let effect = &placed.candidate.effect;
+    if read.is_changed_by(effect) {
+        return;
+    }
+    let quoted = |names: Vec<&str>| {
+        names.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    };
+    let overridden = quoted(effect.overrides.iter().map(|(name, _)| name.as_str()).collect());
+    let outputs = read.sim.outputs.iter().zip(read.observed);
+    let observed: Vec<&str> = outputs
+        .filter(|(_, observed)| observed.is_some())
+        .map(|(output, _)| output.quantity.name.as_str())
+        .collect();
+    let reason = format!(
+        "changes no observed output: {} not computed from {overridden}; override a quantity that \
+         they are computed from, or the output itself (the only way where `sim` names a column of \
+         the data)",
+        match observed.as_slice() {
+            [one] => format!("`{one}` is"),
+            _ => format!("{} are", quoted(observed)),
+        }
+    );
+    let name = effect.name.clone();
+    log.report(&placed.place, DiagnosticKind::Effect { name, reason });
 }
 
 /// Whether the sim has a value for every measured one.

@@ -72,31 +72,32 @@ impl CaseFile {
     fn without(&self, root: &Node, name: Option<&str>) -> String {
         let text = &self.source.text;
         let Some(name) = name else { return text.clone() };
-        let cut = |all: Vec<std::ops::Range<usize>>, place: usize| {
-            // with the comma before, or the one after the first
-            let own = all[place].clone();
-            let range = match (place.checked_sub(1).and_then(|p| all.get(p)), all.get(place + 1)) {
-                (Some(before), _) => before.end..own.end,
-                (None, Some(after)) => own.start..after.start,
-                (None, None) => own,
-            };
-            let mut cut = text.clone();
-            cut.replace_range(range, "");
-            cut
+        let own: &[Member] = match member(root, "effects").map(|m| &m.value.value) {
+            Some(Json::Object(members)) => members,
+            _ => &[],
         };
-        if let Some(Json::Object(members)) = member(root, "effects").map(|m| &m.value.value)
-            && let Some(place) = members.iter().position(|member| member.key == name)
-        {
-            let spans = members.iter().map(|m| m.key_span.start..m.value.span.end).collect();
-            return cut(spans, place);
+        let mut cut = text.clone();
+        if let Some(place) = own.iter().position(|member| member.key == name) {
+            let span = |member: &Member| member.key_span.start..member.value.span.end;
+            // with the comma before, or the one after the first
+            let range = match (place.checked_sub(1).and_then(|p| own.get(p)), own.get(place + 1)) {
+                (Some(before), _) => span(before).end..span(&own[place]).end,
+                (None, Some(after)) => span(&own[place]).start..span(after).start,
+                (None, None) => span(&own[place]),
+            };
+            cut.replace_range(range, "");
+        } else if let Some(catalogue) = member(root, "catalogue") {
+            let all = self.case.candidates.iter().map(|of| self.case.listed_name(&of.effect.name));
+            let shipped = all.filter(|of| own.iter().all(|member| member.key != **of));
+            let mut names: Vec<String> = Vec::new();
+            for other in shipped.filter(|of| *of != name).map(|of| format!("{of:?}")) {
+                if !names.contains(&other) {
+                    names.push(other);
+                }
+            }
+            cut.replace_range(catalogue.value.span.clone(), &format!("[{}]", names.join(", ")));
         }
-        if let Some(Json::List(names)) = member(root, "catalogue").map(|m| &m.value.value)
-            && let Some(place) =
-                names.iter().position(|n| matches!(&n.value, Json::Text(text) if text == name))
-        {
-            return cut(names.iter().map(|node| node.span.clone()).collect(), place);
-        }
-        text.clone()
+        cut
     }
 }
 

@@ -158,7 +158,7 @@ fn form(weighing: &Weighing<'_>, group: &[&Weighted], probability: f64) -> Depar
     let output = |place: usize| &case.model.outputs[setup.data.outputs[place]].quantity;
     let over = match term.of {
         Of::Constant => DepartureOver::Nothing,
-        Of::Condition(c) | Of::Level(c) => {
+        Of::Condition(c) | Of::Level(c) | Of::WithHistory(_, c) => {
             DepartureOver::Condition(case.model.conditions[c].name.clone())
         }
         Of::Sim => DepartureOver::Value,
@@ -174,7 +174,7 @@ fn form(weighing: &Weighing<'_>, group: &[&Weighted], probability: f64) -> Depar
     let scale = match term.of {
         Of::Condition(c) => Some(discrepancy.axes.length(c, length)),
         Of::Sim => Some((discrepancy.axes.sim_length(&term.outputs, length), false)),
-        Of::Constant | Of::Level(_) | Of::Together => None,
+        Of::Constant | Of::Level(_) | Of::WithHistory(..) | Of::Together => None,
     };
     let departures = departures(weighing, group, term);
     let squares = departures.iter().map(|(_, d)| d * d);
@@ -198,6 +198,7 @@ fn form(weighing: &Weighing<'_>, group: &[&Weighted], probability: f64) -> Depar
             Of::Constant => DepartureShape::Constant,
             Of::Level(_) => DepartureShape::Levels,
             Of::Together => DepartureShape::Varying,
+            Of::WithHistory(..) => DepartureShape::Loop,
             Of::Condition(_) | Of::Sim => shape(&departures),
         },
         scale: scale.map(|(scale, _)| scale),
@@ -233,6 +234,8 @@ fn departures(weighing: &Weighing<'_>, group: &[&Weighted], term: &Term) -> Vec<
         let departure = if term.relative { departure / sim } else { departure };
         let coordinate = match term.of {
             Of::Condition(c) | Of::Level(c) => row.conditions[c],
+            // up and down a loop are no mean of each other
+            Of::WithHistory(..) => id as f64,
             _ => nominal,
         };
         if departure.is_finite() {

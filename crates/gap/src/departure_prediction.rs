@@ -28,9 +28,7 @@ const MOST_KINDS: usize = 40;
 
 /// How far rows are from the box of the data, in ranges of the conditions.
 fn distances(setup: &Setup<'_>, rows: &[Row]) -> Vec<f64> {
-    let case = setup.case;
-    let measured = case.model.conditions.len() - case.simulated;
-    let boxes: Vec<(f64, f64)> = (0..measured)
+    let boxes: Vec<(f64, f64)> = (0..setup.case.measured())
         .map(|c| {
             let values = (0..setup.data.rows()).map(|row| setup.row(row).conditions[c]);
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))

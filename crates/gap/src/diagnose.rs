@@ -139,7 +139,7 @@ fn diagnosed(
         (seed, stop),
     );
     progress(0.85);
-    let periodic = periodic_residuals::found(&rows, case.model.conditions.len());
+    let periodic = periodic_residuals::found(&rows, case.measured());
     // a wave that was composed says it already
     let is_composed = composed
         .first()
@@ -228,6 +228,7 @@ fn diagnosed(
             .map(|quantity| named(&quantity.name, &quantity.unit))
             .collect(),
         conditions: case.model.conditions.iter().map(|c| named(&c.name, &c.unit)).collect(),
+        history: case.measured()..case.described(),
         gap,
         candidates: case.candidates.iter().map(described).collect(),
         interrupted,

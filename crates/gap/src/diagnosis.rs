@@ -1,5 +1,7 @@
 //! What a diagnosis says.
 
+use std::ops::Range;
+
 use super::composed::ComposedEffect;
 use gumption_engine::task::ModelStatement;
 use gumption_inference::scan::GapRegion;
@@ -18,6 +20,8 @@ pub struct Diagnosis {
     pub outputs: Vec<NamedQuantity>,
     /// The conditions with their units.
     pub conditions: Vec<NamedQuantity>,
+    /// The places of those that follow from the order of the rows.
+    pub history: Range<usize>,
     /// Whether there is a gap.
     pub gap: GapTest,
     /// The candidate effects, in the order of the case.
@@ -731,6 +735,8 @@ pub enum DepartureShape {
         /// The place.
         at: f64,
     },
+    /// A function of a condition that depends on what follows from the order of the rows.
+    Loop,
     /// Anything else.
     Varying,
 }
@@ -747,6 +753,7 @@ impl DepartureShape {
             Self::Step { .. } => "step",
             Self::Peak { .. } => "peak",
             Self::Dip { .. } => "dip",
+            Self::Loop => "loop",
             Self::Varying => "varying",
         }
     }

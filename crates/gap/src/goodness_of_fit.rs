@@ -32,17 +32,17 @@ pub(crate) fn gap(setup: &Setup<'_>, kind: HypothesisKind) -> GapTest {
 /// fit), the shared inputs being free.
 fn lack_of_fit(setup: &Setup<'_>, present: bool) -> GapTest {
     let data = &setup.data;
+    let repeated = data.repeats(setup.case);
     let residuals = data.nominal_residuals();
     let (mut within, mut between, mut repeats, mut means) = (0.0, 0.0, 0usize, 0usize);
     let mut variances = Vec::new();
     for residuals in &residuals {
         let mut squares = 0.0;
         let mut count = 0;
-        for point in data.points.iter().filter(|point| point.rows.len() > 1) {
-            let mean =
-                point.rows.iter().map(|&row| residuals[row]).sum::<f64>() / point.rows.len() as f64;
-            squares += point.rows.iter().map(|&row| (residuals[row] - mean).powi(2)).sum::<f64>();
-            count += point.rows.len() - 1;
+        for rows in repeated.iter().filter(|rows| rows.len() > 1) {
+            let mean = rows.iter().map(|&row| residuals[row]).sum::<f64>() / rows.len() as f64;
+            squares += rows.iter().map(|&row| (residuals[row] - mean).powi(2)).sum::<f64>();
+            count += rows.len() - 1;
         }
         variances.push((squares, count));
     }
@@ -53,9 +53,9 @@ fn lack_of_fit(setup: &Setup<'_>, present: bool) -> GapTest {
         let variance = squares / *count as f64;
         within += squares / variance;
         repeats += count;
-        for point in &data.points {
-            let n = point.rows.len() as f64;
-            let mean = point.rows.iter().map(|&row| residuals[row]).sum::<f64>() / n;
+        for rows in &repeated {
+            let n = rows.len() as f64;
+            let mean = rows.iter().map(|&row| residuals[row]).sum::<f64>() / n;
             between += n * mean * mean / variance;
             means += 1;
         }

@@ -41,8 +41,8 @@ pub use diagnosis::{
 pub use gumption_inference::scan::GapRegion;
 pub use gumption_inference::shape::ComposedForm;
 pub use gumption_inference::{
-    Candidate, Case, Effect, MOST_GROUPS, ModelForm, ObservedOutput, OverridableModel,
-    OverrideError, OwnSizes, Prior, Replication,
+    Candidate, Case, Effect, History, HistoryKind, MOST_GROUPS, ModelForm, ObservedOutput,
+    OverridableModel, OverrideError, OwnSizes, Prior, Replication,
 };
 pub use selection::{ModelSelection, noise, nominal, select_model};
 

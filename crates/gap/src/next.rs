@@ -440,7 +440,11 @@ impl<'p> Prospects<'p> {
     }
 
     fn kind(&self, target: Target, count: usize) -> Option<ProposalKind> {
-        let conditions = |place: usize| self.places[place].row.conditions.clone();
+        let measured = self.setup.case.measured();
+        let conditions = |place: usize| {
+            let of_row = self.places[place].row.conditions.iter();
+            of_row.take(measured).copied().collect::<Vec<f64>>()
+        };
         Some(match target {
             Target::Place(place) if self.places[place].outside => {
                 ProposalKind::Outside { conditions: conditions(place) }

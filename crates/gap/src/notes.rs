@@ -33,7 +33,7 @@ pub(crate) fn notes(
     let mut notes = Vec::new();
     let mut note = |code: &'static str, text: String| notes.push(DiagnosisNote { code, text });
     if noise.iter().any(|of| of.estimated.is_some()) {
-        let repeats = setup.data.points.iter().any(|point| point.rows.len() > 1);
+        let repeats = setup.data.repeats(setup.case).iter().any(|rows| rows.len() > 1);
         note(
             "estimated-noise",
             if repeats {
@@ -244,8 +244,9 @@ pub(crate) fn notes(
     if let Some(text) = Copies::of(setup.case).note(setup.case) {
         note("copied-rows", text);
     }
-    if setup.data.points.len() < 8 {
-        let said = match setup.data.points.len() {
+    let settings = setup.data.repeats(setup.case).len();
+    if settings < 8 {
+        let said = match settings {
             1 => "There is only one condition".to_owned(),
             count => format!("There are only {count} different conditions"),
         };

@@ -28,12 +28,12 @@ pub(crate) fn drift(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Option
     if rows < LEAST_ROWS {
         return None;
     }
-    let conditions = setup.case.model.conditions.len();
     let of_condition =
         |c: usize| -> Vec<f64> { (0..rows).map(|row| setup.row(row).conditions[c]).collect() };
     // the order, and what of it the conditions do not have
     let mut known: Vec<Vec<f64>> = vec![unit(vec![1.0; rows])?];
-    known.extend((0..conditions).filter_map(|c| rest(of_condition(c), &[]).and_then(unit)));
+    let conditions = setup.case.set_conditions();
+    known.extend(conditions.filter_map(|c| rest(of_condition(c), &[]).and_then(unit)));
     let known = orthonormal(known);
     let order: Vec<f64> = setup.data.ids.iter().map(|&id| id as f64).collect();
     let whole = rest(order.clone(), &known[..1])?;

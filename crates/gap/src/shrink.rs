@@ -449,7 +449,7 @@ pub(crate) fn blocks(setup: &Setup<'_>) -> Vec<Vec<usize>> {
     if rows < 2 {
         return Vec::new();
     }
-    let conditions = setup.case.model.conditions.len() - setup.case.simulated;
+    let conditions = setup.case.measured();
     let value = |row: usize, condition: usize| setup.row(row).conditions[condition];
     let levels = |condition: usize| {
         let mut values: Vec<f64> = (0..rows).map(|row| value(row, condition)).collect();

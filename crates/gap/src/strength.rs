@@ -10,9 +10,8 @@ const MOST_PARTS: usize = 8;
 /// For each output and each condition that varies the share of the gap and the mean residual along it.
 pub(crate) fn along(setup: &Setup<'_>, rows: &[RowGap]) -> Vec<GapStrength> {
     let case = setup.case;
-    let conditions = case.model.conditions.len() - case.simulated;
     let outputs = setup.data.outputs.len();
-    let all = (0..outputs).flat_map(|output| (0..conditions).map(move |c| (output, c)));
+    let all = (0..outputs).flat_map(|output| (0..case.measured()).map(move |c| (output, c)));
     all.filter_map(|(output, condition)| {
         let parts = parts(rows, output, condition)?;
         Some(GapStrength { output, condition, parts })

@@ -44,10 +44,10 @@ pub(crate) fn note(setup: &Setup<'_>) -> Option<String> {
 /// Whether residuals of rows that follow each other along one condition, all others being equal,
 /// differ by more than `far`.
 fn jumps(setup: &Setup<'_>, residuals: &[f64], far: f64) -> bool {
-    let conditions = setup.case.model.conditions.len();
+    let conditions: Vec<usize> = setup.case.set_conditions().collect();
     let value = |row: usize, condition: usize| setup.row(row).conditions[condition];
-    (0..conditions).any(|along| {
-        let others = || (0..conditions).filter(move |&condition| condition != along);
+    conditions.iter().any(|&along| {
+        let others = || conditions.iter().copied().filter(move |&condition| condition != along);
         let mut rows: Vec<usize> = (0..residuals.len()).collect();
         // each pass keeps the order of the one before
         for condition in std::iter::once(along).chain(others()) {

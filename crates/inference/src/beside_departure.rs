@@ -56,8 +56,8 @@ pub(crate) fn beside_departure(last: &Weighing<'_>, enough: f64) -> Option<Vec<S
 /// median of their output.
 fn standing_out(setup: &Setup<'_>) -> Vec<(f64, usize, usize)> {
     let rows = setup.data.rows();
-    let conditions = setup.case.model.conditions.len();
-    let orders: Vec<Vec<usize>> = (0..conditions).map(|of| setup.rows_along(of)).collect();
+    let conditions = setup.case.set_conditions();
+    let orders: Vec<Vec<usize>> = conditions.map(|of| setup.rows_along(of)).collect();
     let mut found = Vec::new();
     for (output, residuals) in setup.data.nominal_residuals().into_iter().enumerate() {
         let scaled = |row: usize| match &setup.data.uncertainties[output] {

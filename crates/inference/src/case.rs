@@ -1,6 +1,6 @@
 //! A case of the gap diagnosis: a model, what was measured, and the effects that may be missing.
 
-use crate::{Effect, OverridableModel, OverrideError, Replication};
+use crate::{Effect, History, OverridableModel, OverrideError, Replication};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::model::Program;
 use gumption_engine::task::Task;
@@ -19,6 +19,8 @@ pub struct Case {
     /// How many of the last conditions are columns of somebody else's simulation rather than
     /// conditions of the measurement.
     pub simulated: usize,
+    /// The conditions before those that follow from the order of the rows, in their places.
+    pub history: Vec<History>,
     /// Between which values each condition can be set, in its unit; `None` where that is not known,
     /// or none at all, so that measurements are proposed among the values of the data.
     pub reachable: Vec<Option<[f64; 2]>>,

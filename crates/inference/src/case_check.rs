@@ -33,10 +33,11 @@ impl Case {
                 return Err(refused(format!("`{}`: {fault}", output.quantity.name)));
             }
         }
-        if self.simulated > conditions {
-            let simulated = self.simulated;
+        let (simulated, derived) = (self.simulated, self.history.len());
+        if simulated.saturating_add(derived) > conditions {
             return Err(refused(format!(
-                "{simulated} of the conditions are said to be simulated, and there are {conditions}"
+                "{simulated} of the conditions are said to be simulated and {derived} to follow from the \
+                 order of the rows, and there are {conditions}"
             )));
         }
         let is_range = |[low, high]: &[f64; 2]| low <= high && low.is_finite() && high.is_finite();

@@ -55,7 +55,7 @@ impl Copies {
                 let u = of.standard_uncertainties.as_ref().map_or(0.0, |u| u[row]);
                 [of.values[row].to_bits(), u.to_bits()]
             };
-            let conditions = case.task.rows[row].conditions.iter().map(|value| value.to_bits());
+            let conditions = case.setting(row).into_iter();
             let key = conditions.chain(observed.iter().flat_map(of_output)).collect();
             match known.get(&key) {
                 Some(&first) => pairs.push((first, row)),
@@ -148,9 +148,8 @@ impl Copies {
 fn places(case: &Case) -> Vec<Vec<usize>> {
     let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
     let mut places: Vec<Vec<usize>> = Vec::new();
-    for (number, row) in case.task.rows.iter().enumerate() {
-        let key = row.conditions.iter().map(|value| value.to_bits()).collect();
-        let place = *known.entry(key).or_insert(places.len());
+    for number in 0..case.task.rows.len() {
+        let place = *known.entry(case.setting(number)).or_insert(places.len());
         if place == places.len() {
             places.push(Vec::new());
         }

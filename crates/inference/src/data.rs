@@ -136,6 +136,24 @@ impl Data {
         }
     }
 
+    /// For each row the number of its setting: rows have the same one where their conditions are the
+    /// same but for those that follow from the order of the rows.
+    pub(crate) fn settings(&self, case: &Case) -> Vec<usize> {
+        numbered(self.ids.iter().map(|&id| case.setting(id)))
+    }
+
+    /// The rows of each setting, in the order in which they first appear.
+    pub fn repeats(&self, case: &Case) -> Vec<Vec<usize>> {
+        let mut rows: Vec<Vec<usize>> = Vec::new();
+        for (row, setting) in self.settings(case).into_iter().enumerate() {
+            if setting == rows.len() {
+                rows.push(Vec::new());
+            }
+            rows[setting].push(row);
+        }
+        rows
+    }
+
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.point_of.len()

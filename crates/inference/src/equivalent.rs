@@ -205,6 +205,10 @@ impl Surface<'_> {
             if most(&own) <= tolerance {
                 return within;
             }
+            // an effect of known size says what it says
+            if unknowns.is_empty() {
+                return false;
+            }
             let slopes = DMatrix::from_columns(&slopes());
             if !square.is_finite() || slopes.iter().any(|slope| !slope.is_finite()) {
                 return false;

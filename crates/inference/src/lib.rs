@@ -25,6 +25,7 @@ pub mod evidence;
 mod evidence_error;
 pub mod expected_entropy;
 mod exploration;
+mod history;
 mod influence;
 pub mod latent;
 pub mod likelihood;
@@ -55,6 +56,7 @@ pub mod term_evidence;
 mod whitened;
 
 pub use case::{Candidate, Case, ObservedOutput, Prior};
+pub use history::{History, HistoryKind};
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use replication::{MOST_GROUPS, OwnSizes, Replication};
 

@@ -134,8 +134,33 @@ impl OverridableModel {
     /// Overrides that need each other's results, names that nothing computes, wrong formulas.
     pub fn program(&self, effects: &[&Effect]) -> Result<Program, OverrideError> {
         let recorder = Recorder::default();
-        let first = variables(&self.inputs, &self.conditions);
-        let mut next = first;
+        let results = self.record(&recorder, effects)?;
+        let parameters: usize = effects.iter().map(|effect| effect.parameters.len()).sum();
+        let variables = variables(&self.inputs, &self.conditions) + parameters;
+        Ok(recorder.program(variables, &results))
+    }
+
+    /// For each output whether other operations compute it once the effect acts.
+    ///
+    /// # Errors
+    /// As [`OverridableModel::program`].
+    pub fn changed_by(&self, effect: &Effect) -> Result<Vec<bool>, OverrideError> {
+        // equal operations on equal operands stand only once in what one recorder records
+        let recorder = Recorder::default();
+        let mut results = self.record(&recorder, &[])?;
+        results.extend(self.record(&recorder, &[effect])?);
+        let program = recorder.program(0, &results);
+        let (without, with) = program.outputs.split_at(self.outputs.len());
+        Ok(without.iter().zip(with).map(|(without, with)| without != with).collect())
+    }
+
+    /// The outputs with these effects, in their own units.
+    fn record<'r>(
+        &self,
+        recorder: &'r Recorder,
+        effects: &[&Effect],
+    ) -> Result<Vec<Traced<'r>>, OverrideError> {
+        let mut next = variables(&self.inputs, &self.conditions);
         let parameters = effects
             .iter()
             .map(|effect| {
@@ -148,10 +173,10 @@ impl OverridableModel {
                 named.collect()
             })
             .collect();
-        let given = recorded_values(&recorder, &self.inputs, &self.conditions, self.numbers);
+        let given = recorded_values(recorder, &self.inputs, &self.conditions, self.numbers);
         let given = with_complex(given, &self.inputs, self.numbers);
         let outputs = Making::new(self, effects, parameters, given).results()?;
-        let results: Vec<Traced<'_>> = self
+        let results = self
             .outputs
             .iter()
             .zip(outputs)
@@ -165,7 +190,7 @@ impl OverridableModel {
                 numbers.given(value.re, unit, self.scope.get(name).unwrap_or(Typing::ANY))
             })
             .collect();
-        Ok(recorder.program(next, &results))
+        Ok(results)
     }
 }
 

@@ -28,16 +28,15 @@ pub struct Place {
 /// The conditions of the measurement that say no range.
 pub fn without_range(setup: &Setup<'_>) -> Vec<usize> {
     let case = setup.case;
-    let conditions = case.model.conditions.len().saturating_sub(case.simulated);
     let groups = case.replication.as_ref().map(|of| of.condition);
     let stated = |condition: usize| case.reachable.get(condition).copied().flatten().is_some();
-    (0..conditions).filter(|&c| !stated(c) && Some(c) != groups).collect()
+    (0..case.measured()).filter(|&c| !stated(c) && Some(c) != groups).collect()
 }
 
 /// All places. What is known about inputs that differ from row to row is known in the data's own rows
 /// only, so such cases stay there.
 pub fn places(setup: &Setup<'_>) -> Vec<Place> {
-    let conditions = setup.case.model.conditions.len();
+    let conditions = setup.case.measured();
     let measured: Vec<&Row> = setup
         .data
         .points
@@ -55,19 +54,6 @@ pub fn places(setup: &Setup<'_>) -> Vec<Place> {
             values
         })
         .collect();
-    let same = measured.iter().all(|row| row.distributions == template.distributions);
-    let rows: Vec<Row> = if same && setup.case.simulated == 0 && conditions > 0 {
-        let reachable = |condition: usize| setup.case.reachable.get(condition).copied().flatten();
-        let groups = setup.case.replication.as_ref().map(|of| of.condition);
-        let at = |conditions: Vec<f64>| Row {
-            conditions,
-            distributions: template.distributions.clone(),
-        };
-        combinations(axes(&design, &reachable, groups)).into_iter().map(at).collect()
-    } else {
-        let step = measured.len().div_ceil(MOST_PLACES).max(1);
-        measured.iter().step_by(step).map(|row| (*row).clone()).collect()
-    };
     let spans: Vec<[f64; 2]> = design
         .iter()
         .map(|values| {
@@ -75,6 +61,25 @@ pub fn places(setup: &Setup<'_>) -> Vec<Place> {
             [ends[0], ends[1]]
         })
         .collect();
+    let same = measured.iter().all(|row| row.distributions == template.distributions);
+    let rows: Vec<Row> = if same && setup.case.simulated == 0 && conditions > 0 {
+        let reachable = |condition: usize| setup.case.reachable.get(condition).copied().flatten();
+        let groups = setup.case.replication.as_ref().map(|of| of.condition);
+        // what the order of the rows tells is as in the nearest row of the data
+        let at = |conditions: Vec<f64>| {
+            let mut row = Row { conditions, distributions: template.distributions.clone() };
+            let nearest = nearest(&row, &measured, &spans);
+            let nearest = nearest.first().and_then(|&place| measured.get(place));
+            let history =
+                nearest.and_then(|nearest| nearest.conditions.get(row.conditions.len()..));
+            row.conditions.extend(history.unwrap_or_default());
+            row
+        };
+        combinations(axes(&design, &reachable, groups)).into_iter().map(at).collect()
+    } else {
+        let step = measured.len().div_ceil(MOST_PLACES).max(1);
+        measured.iter().step_by(step).map(|row| (*row).clone()).collect()
+    };
     rows.into_iter()
         .map(|row: Row| {
             let outside = |(value, [low, high]): (&f64, &[f64; 2])| value < low || value > high;

@@ -94,11 +94,7 @@ impl Rounding {
 /// For each row the number of its set point: that of its conditions, or where no row has those of another
 /// one, as with the time of each reading beside them, that of what the sim says.
 fn set_points(case: &Case, data: &Data, output: usize) -> Vec<usize> {
-    let conditions = |&id: &usize| {
-        let conditions = case.task.rows[id].conditions.iter();
-        conditions.map(|value| value.to_bits()).collect()
-    };
-    let numbers = numbered(data.ids.iter().map(conditions));
+    let numbers = data.settings(case);
     if numbers.iter().max().map_or(0, |most| most + 1) < numbers.len() {
         return numbers;
     }

@@ -139,7 +139,6 @@ impl Design {
             .iter()
             .map(|column| column.iter().zip(variances).map(|(c, v)| c / v.sqrt()).collect())
             .collect();
-        let conditions = setup.case.model.conditions.len() - setup.case.simulated;
         let mut outputs: Vec<Option<usize>> = (0..count).map(Some).collect();
         if count > 1 {
             outputs.push(None);
@@ -147,7 +146,7 @@ impl Design {
         let mut design = Self { values, shared: basis.len(), basis, axes: Vec::new() };
         for &output in &outputs {
             let mut any = false;
-            for condition in 0..conditions {
+            for condition in 0..setup.case.described() {
                 let bins = bins(setup, condition);
                 if bins.len() < 2 {
                     continue;

@@ -190,9 +190,8 @@ impl Setting {
     /// The settings that rows of a case may share errors of, of several rows, and how many errors
     /// that are.
     fn candidates(case: &Case) -> Vec<(Self, usize)> {
-        let conditions = case.model.conditions.len().saturating_sub(case.simulated);
         let outputs = case.observed.iter().flatten().count();
-        let each = (0..conditions).map(Self::Condition).chain([Self::All]);
+        let each = (0..case.measured()).map(Self::Condition).chain([Self::All]);
         let mut found: Vec<(Self, Vec<usize>)> = Vec::new();
         for setting in each {
             let rows = setting.of_rows(case);

@@ -241,8 +241,7 @@ fn is_departure(last: &Weighing<'_>, influence: &Influence, set: &[(usize, usize
         let is = |row: usize| off(row).is_some_and(|place| (errors[place] > 0.0) == side);
         (0..setup.data.rows()).map(is).collect()
     };
-    let conditions = 0..setup.case.model.conditions.len();
-    conditions.into_iter().any(|condition| {
+    setup.case.set_conditions().any(|condition| {
         let at = |row: &usize| setup.row(*row).conditions[condition];
         let order = setup.rows_along(condition);
         (0..outputs).flat_map(|output| [sides(output, false), sides(output, true)]).any(|off| {

@@ -49,7 +49,10 @@ pub(super) fn page(listing: &EffectListing) -> String {
         "A case names the effects that it wants after its own: \"catalogue\": [\"lateral-mode\"]. Of \
          several entries of one name that is taken which acts on most quantities of the sim, those of \
          a bench before those of any. {amplitude} and {phase} stand for each observed output of that \
-         kind, {unit} for its unit.",
+         kind, {unit} for its unit. {condition} stands for each condition of which the order of the rows \
+         tells what the formula reads: the {direction} of its last change; its {previous} value, its \
+         {share} of its range and the time {since} it changed, as numbers up to 1, as {passed}, the time \
+         since the first row, is.",
     ));
     text.push_str("\n\n");
     let names = listing.names.iter().map(|(name, alternatives)| {

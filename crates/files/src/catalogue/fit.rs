@@ -30,7 +30,7 @@ impl Misfit {
         2 * self.missing.len() + 2 * usize::from(!self.acts) + usize::from(self.bench != ANY_BENCH)
     }
 
-    /// What is missing and what would be needed, after "the effect `x`".
+    /// What is missing and what would be needed, after "it".
     pub(super) fn reason(&self, shipped: &Catalogue, sim: &OverridableModel) -> String {
         let called = |name: &str| {
             let quoted = shipped.alternatives(name).into_iter().map(|name| format!("`{name}`"));
@@ -41,7 +41,7 @@ impl Misfit {
         let overrides: Vec<String> =
             self.overrides.iter().map(|name| kind_in_words(name).unwrap_or(called(name))).collect();
         let overrides = overrides.join(", ");
-        let mut reason = "of the catalogue does not fit this sim".to_owned();
+        let mut reason = "does not fit this sim".to_owned();
         let mut needs = Vec::new();
         if !self.reads.is_empty() {
             needs.push(format!("needs {}", all(&self.reads)));
@@ -209,7 +209,7 @@ fn one_if_empty(unit: &str) -> &str {
 }
 
 /// The member with all its texts rewritten.
-fn written(member: &Member, text: &impl Fn(&str) -> String) -> Member {
+pub(super) fn written(member: &Member, text: &impl Fn(&str) -> String) -> Member {
     let value = match &member.value.value {
         Json::Text(value) => Json::Text(text(value)),
         Json::Object(members) => {

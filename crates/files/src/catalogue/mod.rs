@@ -4,9 +4,11 @@
 //! several times, for sims that name their quantities differently; those for any bench come last.
 //! `names` says what a quantity may be called in a sim. A key with `{amplitude}` or `{phase}` stands
 //! for one such key for each observed output of that kind, and a number of a prior may be a multiple
-//! of what was measured ([`Measured`](measured::Measured)).
+//! of what was measured ([`Measured`](measured::Measured)). What an effect of what came before may read
+//! stands in [`history`].
 
 mod fit;
+mod history;
 mod listing;
 mod measured;
 #[cfg(test)]
@@ -45,6 +47,8 @@ struct Catalogue {
 #[derive(Clone, Debug)]
 struct Entry {
     name: String,
+    /// The name that the catalogue has for it.
+    listed: String,
     bench: String,
     /// Its members: parameters, overrides, about, source.
     members: Vec<Member>,
@@ -56,6 +60,15 @@ impl Entry {
             Some(Json::Text(text)) => text,
             _ => "",
         }
+    }
+
+    /// What it overrides, with the formulas.
+    fn overrides(&self) -> impl Iterator<Item = (&str, String)> {
+        let formula = |member: &Member| match &member.value.value {
+            Json::Text(text) => text.clone(),
+            _ => String::new(),
+        };
+        self.object("overrides").iter().map(move |member| (member.key.as_str(), formula(member)))
     }
 
     /// The members of one of its objects.
@@ -117,10 +130,18 @@ fn texts(node: &Node) -> Vec<String> {
 }
 
 fn entry(node: Node) -> Option<Entry> {
-    let mut entry = Entry { name: String::new(), bench: String::new(), members: Vec::new() };
+    let mut entry = Entry {
+        name: String::new(),
+        listed: String::new(),
+        bench: String::new(),
+        members: Vec::new(),
+    };
     for member in members(Some(node.value)) {
         match (member.key.as_str(), &member.value.value) {
-            ("name", Json::Text(text)) => entry.name.clone_from(text),
+            ("name", Json::Text(text)) => {
+                entry.name.clone_from(text);
+                entry.listed.clone_from(text);
+            }
             ("bench", Json::Text(text)) => entry.bench.clone_from(text),
             _ => entry.members.push(member),
         }
@@ -138,8 +159,15 @@ pub fn catalogue() -> EffectListing {
     EffectListing::of(&Catalogue::shipped())
 }
 
-/// Adds the effects that a case asks for after its own. Without a sim, because the model has mistakes,
-/// only their names are checked.
+/// The value of `catalogue` that stands for every effect that can act on the sim.
+const ALL: &str = "all";
+
+/// Why an effect of what came before does not fit.
+const NO_HISTORY: &str = "does not fit these data: the order of their rows does not tell what it needs \
+                          apart from the conditions, as where a condition only rises";
+
+/// Adds the effects that a case asks for after its own; one that does not fit the sim is left out with
+/// a note. Without a sim, because the model has mistakes, only their names are checked.
 pub(super) fn read(
     log: &Collector,
     root: &Object<'_>,
@@ -148,11 +176,23 @@ pub(super) fn read(
     own: &mut Vec<Placed>,
     warnings: &mut Vec<Warning>,
 ) -> Option<()> {
-    if root.get("catalogue").is_none() {
+    let Some(member) = root.get("catalogue") else { return Some(()) };
+    if let Json::Text(text) = &member.value.value {
+        let place = &member.value.span;
+        if text != ALL {
+            let expected =
+                "a list of names of effects, or \"all\" for each that can act on the model";
+            let (what, found) = ("`catalogue`".to_owned(), member.value.value.kind());
+            log.report(place, DiagnosticKind::WrongType { what, found, expected });
+            return None;
+        }
+        let fitting = sim.map(|sim| unlisted(&sim, results, own)).unwrap_or_default();
+        own.extend(fitting.into_iter().map(|candidate| Placed { candidate, place: place.clone() }));
         return Some(());
     }
     let shipped = Catalogue::shipped();
-    let mut clean = true;
+    let here = sim.as_ref().map(|sim| Catalogue::shipped().with_history(sim));
+    let (mut clean, mut notes) = (true, Vec::new());
     for node in root.list("catalogue")? {
         let Json::Text(name) = &node.value else {
             let what = "an element of `catalogue`".to_owned();
@@ -161,8 +201,9 @@ pub(super) fn read(
             clean = false;
             continue;
         };
-        let diagnostic = |reason: String| DiagnosticKind::Effect { name: name.clone(), reason };
-        if !shipped.entries.iter().any(|entry| entry.name == *name) {
+        let is_named = |entry: &&Entry| entry.name == *name || entry.listed == *name;
+        let all = shipped.entries.iter().chain(here.iter().flat_map(|here| &here.entries));
+        if !all.into_iter().any(|entry| is_named(&entry)) {
             let known = shipped.entries.iter().map(|entry| entry.name.as_str());
             let nearest = nearest(name, known).map(str::to_owned);
             log.report(&node.span, DiagnosticKind::UnknownEffect { name: name.clone(), nearest });
@@ -170,18 +211,29 @@ pub(super) fn read(
         } else if own.iter().any(|other| other.candidate.effect.name == *name) {
             let reason = "is there already: in `effects`, or a second time in `catalogue`; give \
                           the own effect another name, or take one of them out";
-            log.report(&node.span, diagnostic(reason.to_owned()));
+            let (name, reason) = (name.clone(), reason.to_owned());
+            log.report(&node.span, DiagnosticKind::Effect { name, reason });
             clean = false;
-        } else if let Some(sim) = &sim {
-            match one(&shipped, name, sim, results, warnings) {
-                Ok(candidate) => own.push(Placed { candidate, place: node.span.clone() }),
-                Err(reason) => {
-                    log.report(&node.span, diagnostic(reason));
-                    clean = false;
+        } else if let (Some(sim), Some(here)) = (&sim, &here) {
+            let mut left_out = |reason: &str| {
+                let text = format!("the effect `{name}` is left out: it {reason}");
+                warnings.push(Warning::new("effect-misfit", name, text));
+            };
+            let mut names: Vec<&str> =
+                here.entries.iter().filter(is_named).map(|of| &*of.name).collect();
+            names.dedup();
+            if names.is_empty() {
+                left_out(NO_HISTORY);
+            }
+            for name in names {
+                match one(here, name, sim, results, &mut notes) {
+                    Ok(candidate) => own.push(Placed { candidate, place: node.span.clone() }),
+                    Err(reason) => left_out(&reason),
                 }
             }
         }
     }
+    warnings.extend(notes);
     clean.then_some(())
 }
 
@@ -191,7 +243,7 @@ pub(super) fn unlisted(
     results: &Results<'_>,
     own: &[Placed],
 ) -> Vec<gumption_gap::Candidate> {
-    let shipped = Catalogue::shipped();
+    let shipped = Catalogue::shipped().with_history(sim);
     let mut names: Vec<&str> = Vec::new();
     for entry in &shipped.entries {
         let listed = own.iter().any(|other| other.candidate.effect.name == entry.name);
@@ -216,11 +268,14 @@ fn one(
     let log = Collector::new(shipped.source.clone());
     let read = effects::read_one(&log, &member, Some(sim.sim), results, warnings);
     match read.filter(|_| log.is_clean()) {
+        Some(placed) if !sim.is_changed_by(&placed.candidate.effect) => {
+            Err("changes no observed output".to_owned())
+        }
         Some(placed) => Ok(placed.candidate),
         None => {
             let diagnostics = log.into_diagnostics();
             let first = diagnostics.0.first().map(|diagnostic| diagnostic.kind.to_string());
-            Err(format!("of the catalogue cannot act on this sim: {}", first.unwrap_or_default()))
+            Err(format!("cannot act on this sim: {}", first.unwrap_or_default()))
         }
     }
 }

@@ -7,6 +7,7 @@ use super::super::{CaseFile, DiagnosticKind, FileReader};
 use super::{ANY_BENCH, Catalogue, TEXT, catalogue, fit};
 use gumption_engine::model::formula::is_name;
 use gumption_engine::task::Warning;
+use gumption_gap::{History, HistoryKind};
 
 /// A sim of a bench: its file without the last brace, and two rows of data.
 struct Bench {
@@ -123,15 +124,41 @@ const OTHER: Bench = Bench {
     data: "frequency,a,b,p\n0.1,2000,4,0.1\n10,2000,-4.5,0.2\n",
 };
 
-const BENCHES: [Bench; 9] =
-    [PLANE, PLANE_TYPED, TABLE, TABLE_TYPED, TABLE_CORRECTED, CHAIN, CHAIN_TYPED, SIGNAL, OTHER];
+/// Loads up and down, each read twice.
+const LOOP: Bench = Bench {
+    name: ANY_BENCH,
+    file: r#"{"inputs": {"c": {"distribution": "normal", "mean": 2, "std": 0.01}},
+      "conditions": {"m": {"unit": "kg"}},
+      "equations": {"y": "c*m/[kg]"},
+      "outputs": {"y": {"unit": "1"}},
+      "observations": {"file": "data.csv", "columns": {"y": {"value": "y"}}}"#,
+    data: "m,y\n1,2\n1,2.1\n3,6.2\n3,6\n5,9.9\n5,10\n3,6.1\n3,6.2\n1,2\n1,1.9\n\
+           3,6.1\n3,6.2\n5,10.1\n5,9.8\n3,6.1\n3,6\n1,2\n1,2.2\n",
+};
+
+const BENCHES: [Bench; 10] = [
+    PLANE,
+    PLANE_TYPED,
+    TABLE,
+    TABLE_TYPED,
+    TABLE_CORRECTED,
+    CHAIN,
+    CHAIN_TYPED,
+    SIGNAL,
+    OTHER,
+    LOOP,
+];
 
 impl Bench {
     fn read(&self, effects: &[&str]) -> Result<CaseFile, Vec<DiagnosticKind>> {
+        let names: Vec<String> = effects.iter().map(|name| format!("{name:?}")).collect();
+        self.read_catalogue(&format!("[{}]", names.join(", ")))
+    }
+
+    fn read_catalogue(&self, catalogue: &str) -> Result<CaseFile, Vec<DiagnosticKind>> {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("data.csv"), self.data).unwrap();
-        let names: Vec<String> = effects.iter().map(|name| format!("{name:?}")).collect();
-        let text = format!("{}, \"catalogue\": [{}]}}", self.file, names.join(", "));
+        let text = format!("{}, \"catalogue\": {catalogue}}}", self.file);
         let read = FileReader::default().case_text("case.json", &text, folder.path());
         read.map_err(|diagnostics| {
             diagnostics.0.into_iter().map(|diagnostic| diagnostic.kind).collect()
@@ -182,13 +209,22 @@ fn every_effect_fits_its_bench_without_a_warning() {
     let mut taken = BTreeSet::new();
     for bench in &BENCHES {
         let plain = bench.read(&[]).unwrap();
-        let observed = &plain.case.observed;
-        let read = EffectContext { sim: &plain.case.model, task: &plain.case.task, observed };
-        for entry in &shipped.entries {
+        let case = &plain.case;
+        let history: Vec<_> = (case.measured()..).zip(case.history.iter().copied()).collect();
+        let is_order = |of: &&(usize, History)| of.1.kind == HistoryKind::Order;
+        let read = EffectContext {
+            sim: &case.model,
+            task: &case.task,
+            observed: &case.observed,
+            history: &history,
+            clock: history.iter().find(is_order).map(|(place, _)| *place),
+        };
+        let here = Catalogue::shipped().with_history(&read);
+        for entry in &here.entries {
             if entry.bench != bench.name && entry.bench != ANY_BENCH {
                 continue;
             }
-            let Ok(chosen) = super::chosen(&shipped, &entry.name, &read) else { continue };
+            let Ok(chosen) = super::chosen(&here, &entry.name, &read) else { continue };
             taken.insert(chosen.key_span.start);
             let file = bench.read(&[&entry.name]).unwrap_or_else(|kinds| {
                 panic!("{} on {}: {kinds:?}", entry.name, bench.name);
@@ -496,9 +532,11 @@ fn priors_that_follow_the_data() {
 
 #[test]
 fn an_effect_that_does_not_fit_says_what_it_needs() {
-    let says = |bench: &Bench, name: &str| match bench.read(&[name]) {
-        Err(kinds) => kinds.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
-        Ok(_) => panic!("{name} was taken"),
+    let says = |bench: &Bench, name: &str| {
+        let file = bench.read(&[name]).unwrap();
+        assert!(file.case.candidates.is_empty(), "{name} was taken");
+        let notes = file.warnings.into_iter().filter(|note| note.code == "effect-misfit");
+        notes.map(|note| note.text).collect::<Vec<_>>().join("\n")
     };
     let text = says(&CHAIN, "lateral-mode");
     for needed in
@@ -528,6 +566,63 @@ fn an_effect_that_does_not_fit_says_what_it_needs() {
     assert!(text.contains("the condition `radius` is set and known"), "{text}");
 }
 
+/// `"all"` is every effect that would be read if a list named it alone.
+#[test]
+fn all_are_those_that_fit_one_by_one() {
+    for bench in [&PLANE, &TABLE, &CHAIN, &SIGNAL, &OTHER, &LOOP] {
+        let file = bench.read_catalogue("\"all\"").unwrap();
+        let all: Vec<&str> =
+            file.case.candidates.iter().map(|of| of.effect.name.as_str()).collect();
+        let names: BTreeSet<String> =
+            catalogue().effects.iter().map(|effect| effect.name.clone()).collect();
+        let fits = |name: &str| !bench.read(&[name]).unwrap().case.candidates.is_empty();
+        let fitting: BTreeSet<&str> =
+            names.iter().map(String::as_str).filter(|name| fits(name)).collect();
+        assert!(!fitting.is_empty() && fitting.len() < names.len());
+        assert_eq!(all.iter().copied().collect::<BTreeSet<_>>(), fitting, "{}", bench.name);
+        assert!(file.case.shipped.is_empty());
+        assert!(file.warnings.iter().all(|note| note.code != "effect-misfit"));
+    }
+}
+
+/// A loop at 3 of 1 to 5 kg is whole, and closed at 1 kg; what came before is counted by the largest.
+#[test]
+fn effects_of_what_came_before() {
+    let file = LOOP.read(&[]).unwrap();
+    let (case, names) = (&file.case, ["direction(m)", "previous(m)", "since(m)", "order"]);
+    let known: Vec<&str> =
+        case.model.conditions.iter().skip(1).map(|condition| condition.name.as_str()).collect();
+    assert!(names.iter().all(|name| known.contains(name)), "{known:?}");
+    let row = |number: usize| case.task.rows[number].conditions.as_slice();
+    // 3 kg the first time: up from 1 kg, just put on, the third of 18 rows
+    let third = |effect: &str, parameters: &[f64]| with(&LOOP, effect, parameters, row(2));
+    assert_close("hysteresis", &third("hysteresis", &[0.5, 0.3]), &[6.5]);
+    assert_close("creep", &third("creep", &[3.0, 0.5]), &[6.0]);
+    assert_close("memory", &third("memory", &[0.5]), &[6.0 + 0.5 / 5.0]);
+    assert_close("drift", &third("drift", &[0.5]), &[6.0 + 0.5 * 2.0 / 17.0]);
+    // exp(-2/17/0.25)
+    assert_close(
+        "warm-up",
+        &third("warm-up", &[0.5, 0.25]),
+        &[6.0 + 0.5 * 0.624_634_728_000_274_4],
+    );
+    // 3 kg on the way down, the second reading: 1 - exp(-2)
+    let later = |effect: &str, parameters: &[f64]| with(&LOOP, effect, parameters, row(7));
+    assert_close("hysteresis", &later("hysteresis", &[0.5, 0.3]), &[5.5]);
+    assert_close(
+        "creep",
+        &later("creep", &[3.0, 0.5]),
+        &[6.0 * (1.0 + 0.03 * 0.864_664_716_763_387_3)],
+    );
+    // closed where it turns round
+    assert_close("hysteresis", &with(&LOOP, "hysteresis", &[0.5, 0.3], row(8)), &[2.0]);
+    let note = |bench: &Bench, name: &str| {
+        let file = bench.read(&[name]).unwrap();
+        file.warnings.into_iter().find(|note| note.code == "effect-misfit").map(|note| note.text)
+    };
+    assert!(note(&OTHER, "hysteresis").unwrap().contains("only rises"));
+}
+
 /// Overrides of outputs that a sim does not have are left out.
 #[test]
 fn a_part_of_the_outputs_is_enough() {
@@ -545,7 +640,13 @@ fn a_part_of_the_outputs_is_enough() {
     let case = fewer.read(&["lateral-mode"]).unwrap().case;
     assert_eq!(case.candidates[0].effect.overrides.len(), 1);
     let shipped = Catalogue::shipped();
-    let read = EffectContext { sim: &case.model, task: &case.task, observed: &case.observed };
+    let read = EffectContext {
+        sim: &case.model,
+        task: &case.task,
+        observed: &case.observed,
+        history: &[],
+        clock: None,
+    };
     let count = |name: &str| {
         let entry = shipped.entries.iter().find(|entry| entry.name == name).unwrap();
         fit::fit(&shipped, entry, &read).map(|(count, _)| count).ok()

@@ -32,6 +32,13 @@ pub(crate) const OBSERVATIONS: &[Key] = keys![
                  outputs in their units.",
             ),
     "columns" => observed_columns(),
+    "order" => text_of(
+                "The column that says in which order the rows were taken, as a number. Without it and \
+                 `time` they were taken in the order of the file.",
+            ),
+    "time" => text_of(
+                "The column that says when each row was taken, as a number in the unit of its heading.",
+            ),
     "replication" => text_of(
                 "The column that says which device, day or other unit of replication a row belongs to, \
                  as a number: effects are tried with one size for all of them and with one of each \
@@ -54,6 +61,7 @@ fn observations() -> Value {
         ),
     ]);
     closed("Measured data of a gap case.", OBSERVATIONS, &["file", "columns"])
+        .with("not", object([("required", texts(["order", "time"]))]))
         .with("examples", vec![example])
 }
 
@@ -109,11 +117,10 @@ fn effects() -> Value {
 
 fn parameters() -> Value {
     named(
-        "The effect's unknown quantities with their prior distributions. A parameter hides a \
-         quantity of the same name.",
+        "The effect's unknown quantities with their prior distributions; `{}` for an effect of \
+         known size. A parameter hides a quantity of the same name.",
         reference("input"),
     )
-    .with("minProperties", 1)
 }
 
 fn overrides() -> Value {
@@ -175,9 +182,11 @@ fn effect() -> Value {
 
 fn catalogue(effects: &BTreeSet<String>) -> Value {
     let name = object([("enum", texts(effects.iter().map(String::as_str)))]);
-    described("array", "Ready-made effects, added after the own: `gumption models --effects`.")
-        .with("items", name)
-        .with("uniqueItems", true)
+    let list = described("array", "Their names.").with("items", name).with("uniqueItems", true);
+    let all = object([("const", Value::from("all"))]);
+    let about = "Ready-made effects, added after the own: names of `gumption models --effects`, or \
+                 `\"all\"` for every one that can act on the model.";
+    object([("description", Value::from(about)), ("anyOf", Value::from(vec![list, all]))])
         .with("examples", vec![texts(["lateral-mode"])])
 }
 

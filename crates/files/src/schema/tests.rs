@@ -121,7 +121,6 @@ fn wrong_files_are_not_valid() {
             "observations",
             json!({"file": "x.csv", "columns": {"y": {"value": "y", "sim_covariance": "c.csv"}}}),
         ),
-        ("effects", json!({"e": {"parameters": {}, "overrides": {"y": "y"}}})),
         ("effects", json!({"e": {"overrides": {"y": "y"}}})),
         (
             "effects",
@@ -130,6 +129,7 @@ fn wrong_files_are_not_valid() {
         ),
         ("catalogue", json!(["warp"])),
         ("catalogue", json!(["offset", "offset"])),
+        ("catalogue", json!("every")),
         ("prior", json!({"none": -0.1})),
         ("prior", json!({"nothing": 1})),
     ];

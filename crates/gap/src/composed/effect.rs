@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, DVector};
 use super::target::{fresh, of_differences};
 use super::term::{Argument, Term};
 use super::{Composition, Compositions, MOST};
-use crate::OverridableModel;
 use crate::diagnosis::{DepartureKind, DepartureOver, Shrunk};
+use crate::{HistoryKind, OverridableModel};
 use gumption_engine::decimal::to_digits;
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{NumberForm, Quantity};
@@ -263,7 +263,18 @@ impl Composition {
     }
 
     fn name(&self, setup: &Setup<'_>) -> String {
+        // a loop is one whatever its shape
+        let history = |term: &&Term| term.argument.history(setup).is_some();
+        if self.product
+            && let Some(term) = self.terms.iter().find(history)
+            && let Some(name) = term.cause(setup)
+        {
+            return name;
+        }
         let of = |term: &Term| {
+            if let Some(name) = term.cause(setup) {
+                return name;
+            }
             let form = term.shape.form().name();
             let quantity = term.target.names.join("-");
             match term.argument.over(setup) {
@@ -279,6 +290,20 @@ impl Composition {
 }
 
 impl Term {
+    /// The name of what does this on benches, of a function of the order of the rows.
+    fn cause(&self, setup: &Setup<'_>) -> Option<String> {
+        let history = self.argument.history(setup)?;
+        let name = match (history.kind, self.shape.form()) {
+            (HistoryKind::Direction | HistoryKind::Extreme, _) => "hysteresis",
+            (HistoryKind::Since, _) => "creep",
+            (HistoryKind::Previous, _) => "memory",
+            (HistoryKind::Order, ComposedForm::Exponential | ComposedForm::FirstOrder) => "warm-up",
+            (HistoryKind::Order, ComposedForm::Slope) => "drift",
+            (HistoryKind::Order | HistoryKind::Repetition, _) => return None,
+        };
+        Some(format!("{}-{name}", self.target.names.join("-")))
+    }
+
     pub(super) fn described(&self, setup: &Setup<'_>) -> ComposedTerm {
         ComposedTerm {
             quantities: self.target.names.clone(),
@@ -453,7 +478,10 @@ impl Written<'_> {
                 _ => term.widths[n] * range.slope(share).abs(),
             };
             let wanted = match range.of {
-                RangeOf::Place => format!("{argument}_{}", range.name),
+                RangeOf::Place => {
+                    let stem = argument.trim_end_matches(')').replace('(', "_");
+                    format!("{stem}_{}", range.name)
+                }
                 RangeOf::Width | RangeOf::Number => range.name.to_owned(),
             };
             let name = self.add(&wanted, &own, prior, [range.value(share), width]);

@@ -3,15 +3,17 @@
 
 use gumption_engine::parallel;
 
-use super::term::Argument;
+use super::term::{self, Argument};
 use super::{Composition, Search, Term};
+use crate::HistoryKind;
 use gumption_engine::linalg::dot;
 use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::special;
 use gumption_inference::discrepancy::Base;
 use gumption_inference::metric::{Metric, White};
 use gumption_inference::posterior::{Posterior, WeighedHypothesis};
-use gumption_inference::term_evidence::solved;
+use gumption_inference::shape::{Function, Shape};
+use gumption_inference::term_evidence::{Frame, solved};
 use nalgebra::{DMatrix, DVector};
 
 /// Prior share of two at once, where one term does not do.
@@ -160,7 +162,7 @@ impl Search<'_> {
                 leading.push(of);
             }
         }
-        let mut found = Vec::new();
+        let mut found = self.loops(metric, white, &leading, ln_share);
         for (number, first) in leading.iter().enumerate() {
             for second in &leading[number + 1..] {
                 let (one, other) = (&first.terms[0], &second.terms[0]);
@@ -187,6 +189,61 @@ impl Search<'_> {
             }
         }
         found
+    }
+
+    /// Functions of a condition that have one sign while it rises and the other while it falls, of
+    /// leading terms that are proportional to its direction.
+    fn loops(
+        &self,
+        metric: &Metric<'_>,
+        white: &White,
+        leading: &[&&Composition],
+        ln_share: f64,
+    ) -> Vec<Composition> {
+        let setup = self.setup;
+        let of_direction = |of: &&Composition| {
+            let Term { argument, shape, .. } = &of.terms[0];
+            let history = argument.history(setup);
+            history.is_some_and(|of| of.kind == HistoryKind::Direction)
+                && shape.function == Function::Linear
+        };
+        let of_first = |first: &Composition| {
+            let direction = &first.terms[0];
+            let condition = Argument::Condition(direction.argument.history(setup)?.of?);
+            let conditions = term::conditions(setup);
+            let (_, values) = conditions.iter().find(|(argument, _)| *argument == condition)?;
+            let column = first.in_data(setup, &first.shares()).swap_remove(0);
+            let frame = Frame::new(metric, setup, &column, white)?;
+            let mut shapes = Shape::all(values);
+            shapes.retain(|shape| shape.count() == 1);
+            let ln_shape = -elementary::ln(shapes.len().max(1) as f64);
+            let of_shape = |shape: Shape| {
+                let at = |shares: Vec<f64>| {
+                    let columns = shape.columns(&values.at, &shape.parameters(&shares));
+                    (shares, columns)
+                };
+                let grid: Vec<_> = shape.grid().into_iter().map(at).collect();
+                let on_grid = frame.on_grid(&grid)?;
+                let found = frame.refined(&shape, &values.at, on_grid);
+                let term = Term {
+                    argument: condition,
+                    shape,
+                    shares: found.shares,
+                    widths: found.widths,
+                    ..direction.clone()
+                };
+                let terms = vec![term, direction.clone()];
+                // that it is a function of the direction has been weighed with the first term
+                let prior = first.best - first.gain_at(setup, metric, white);
+                let ln_prior = ln_share + ln_shape + prior;
+                let (ln_weight, best) = (ln_prior + found.ln_evidence, ln_prior + found.best);
+                let product = true;
+                Some(Composition { terms, product, ln_weight, best, ..first.clone() })
+            };
+            Some(parallel::map(shapes, of_shape).into_iter().flatten().collect::<Vec<_>>())
+        };
+        let leading = leading.iter().map(|of| **of);
+        leading.filter(of_direction).filter_map(of_first).flatten().collect()
     }
 
     /// A term beside the leading effects of the list, each with its parameters free about its best

@@ -44,6 +44,9 @@ const REFINED: usize = 300;
 const OWN_VALUE: f64 = 0.5;
 const OWN_VALUE_WITHIN: f64 = 0.1;
 
+/// That of all conditions together that follow from the order of the rows.
+const HISTORY: f64 = 1.0;
+
 /// Composed effects that are handed over, at most.
 const MOST: usize = 8;
 
@@ -201,6 +204,9 @@ impl Search<'_> {
             .map(|(argument, values)| (*argument, values, tabulated(values)))
             .collect();
         let ln_way = -elementary::ln(ways.len().max(1) as f64);
+        // all that follows from the order of the rows together is so much of one condition
+        let is_history = |(argument, _): &&(Argument, Values)| argument.history(setup).is_some();
+        let history = HISTORY / conditions.iter().filter(is_history).count().max(1) as f64;
         let of_way = |(number, way): (usize, &Way<'_>)| {
             let own = way.value.as_ref().filter(|_| way.kind == DepartureKind::Additive);
             let own = own.map(|values| {
@@ -215,11 +221,14 @@ impl Search<'_> {
                 (Some(_), false) => OWN_VALUE,
                 (Some(_), true) => OWN_VALUE_WITHIN,
             };
-            let arguments = 1.0 + tables.len() as f64 + own_weight;
-            let ln_of = |argument: Argument| {
-                let weight = if argument == Argument::Value { own_weight } else { 1.0 };
-                ln_way + elementary::ln(weight / arguments)
+            let weight = |argument: Argument| match argument {
+                Argument::Value => own_weight,
+                Argument::Condition(c) if setup.case.history_of(c).is_some() => history,
+                Argument::Nothing | Argument::Condition(_) => 1.0,
             };
+            let of_conditions: f64 = tables.iter().map(|(argument, ..)| weight(*argument)).sum();
+            let arguments = 1.0 + of_conditions + own_weight;
+            let ln_of = |argument: Argument| ln_way + elementary::ln(weight(argument) / arguments);
             let constant = Shape::constant();
             let points = setup.data.points.len();
             let grid = vec![(Vec::new(), constant.columns(&vec![0.0; points], &[]))];

@@ -2,6 +2,7 @@
 //! something.
 
 use super::target::Target;
+use crate::History;
 use crate::diagnosis::{DepartureKind, DepartureOver};
 use gumption_engine::task::Row;
 use gumption_inference::setup::Setup;
@@ -16,6 +17,14 @@ pub(super) enum Argument {
 }
 
 impl Argument {
+    /// What of the order of the rows it is.
+    pub(super) fn history(self, setup: &Setup<'_>) -> Option<History> {
+        match self {
+            Self::Condition(c) => setup.case.history_of(c),
+            Self::Nothing | Self::Value => None,
+        }
+    }
+
     pub(super) fn over(self, setup: &Setup<'_>) -> DepartureOver {
         match self {
             Self::Nothing => DepartureOver::Nothing,
@@ -31,8 +40,7 @@ impl Argument {
 /// Celsius, with their values by point.
 pub(super) fn conditions(setup: &Setup<'_>) -> Vec<(Argument, Values)> {
     let case = setup.case;
-    let measured = case.model.conditions.len() - case.simulated;
-    (0..measured)
+    (0..case.described())
         .filter(|&c| !case.model.conditions[c].unit.has_reference())
         .filter_map(|c| {
             let rows = setup.data.points.iter().map(|point| {

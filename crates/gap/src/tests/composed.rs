@@ -87,6 +87,7 @@ fn case_of(bench: &Bench, simulated: &Simulated) -> Case {
         model: sim,
         task,
         simulated: 0,
+        history: Vec::new(),
         shipped: Vec::new(),
         reachable: Vec::new(),
         replication: None,

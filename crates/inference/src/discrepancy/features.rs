@@ -90,6 +90,8 @@ impl Axis {
 #[derive(Clone, Debug)]
 pub struct Axes {
     conditions: Vec<Axis>,
+    /// How many of them do not follow from the order of the rows.
+    measured: usize,
     sims: Vec<Axis>,
 }
 
@@ -103,7 +105,7 @@ pub(crate) struct Site {
 
 impl Axes {
     pub(crate) fn new(case: &Case, data: &Data) -> Self {
-        let conditions = (0..case.model.conditions.len() - case.simulated).map(|condition| {
+        let conditions = (0..case.described()).map(|condition| {
             let values = data.ids.iter().map(|&id| case.task.rows[id].conditions[condition]);
             Axis::spaced(values.collect())
         });
@@ -111,7 +113,8 @@ impl Axes {
             let values: Vec<f64> = data.points.iter().map(|point| point.nominal[output]).collect();
             Axis::linear(&values)
         });
-        Self { conditions: conditions.collect(), sims: sims.collect() }
+        let measured = case.measured();
+        Self { conditions: conditions.collect(), measured, sims: sims.collect() }
     }
 
     /// A length over a condition in its unit, or the factor where the condition is placed by its
@@ -153,12 +156,16 @@ impl Coordinates {
                     Of::Constant => Vec::new(),
                     Of::Condition(c) => vec![axes.conditions[c].place(site.conditions[c])],
                     Of::Level(c) => vec![site.conditions[c]],
+                    Of::WithHistory(c, history) => [c, history]
+                        .map(|of| axes.conditions[of].place(site.conditions[of]))
+                        .to_vec(),
                     Of::Sim if term.common => vec![site.nominal[output] / widest],
                     Of::Sim => vec![axes.sims[output].place(site.nominal[output])],
                     Of::Together => axes
                         .conditions
                         .iter()
                         .zip(&site.conditions)
+                        .take(axes.measured)
                         .map(|(axis, value)| axis.place(*value))
                         .collect(),
                 };

@@ -16,6 +16,9 @@ use gumption_engine::number::elementary;
 /// Data with more values than this have their features computed when they are needed and not kept.
 const MOST_KEPT: usize = 4000;
 
+/// The share of all weight that functions of the order of the rows have, where there are any.
+pub const HISTORY: f64 = 0.2;
+
 /// A term with a length.
 #[derive(Debug)]
 pub struct Form {
@@ -83,7 +86,15 @@ pub(crate) fn forms(
     wanted: &(dyn Fn(&Term, f64, &Coordinates) -> bool + Sync),
 ) -> Vec<Form> {
     let terms = terms(setup.case, &setup.data);
-    let ln_term = -elementary::ln(terms.len() as f64);
+    let of_history = terms.iter().filter(|term| term.is_of_history(setup.case)).count();
+    let share = if of_history > 0 { HISTORY } else { 0.0 };
+    let ln_weight_of = |term: &Term| {
+        let (share, count) = match term.is_of_history(setup.case) {
+            true => (share, of_history),
+            false => (1.0 - share, terms.len() - of_history),
+        };
+        elementary::ln(share / count as f64)
+    };
     let sites = sites(setup.case, &setup.data);
     let outputs = setup.data.outputs.len();
     let of_term = |term| -> Vec<(&Term, Coordinates, f64, f64)> {
@@ -91,7 +102,7 @@ pub(crate) fn forms(
         let lengths = if term.is_smooth() { &LENGTHS[..] } else { &LENGTHS[..1] };
         let lengths: Vec<f64> =
             lengths.iter().copied().filter(|&length| wanted(term, length, &coordinates)).collect();
-        let ln_weight = ln_term - elementary::ln(lengths.len().max(1) as f64);
+        let ln_weight = ln_weight_of(term) - elementary::ln(lengths.len().max(1) as f64);
         let of_length = |length| (term, coordinates.clone(), length, ln_weight);
         lengths.into_iter().map(of_length).collect()
     };

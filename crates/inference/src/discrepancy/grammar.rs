@@ -1,7 +1,7 @@
 //! The forms that an unknown discrepancy may have: a small grammar of terms of equal weight.
 
-use crate::Case;
 use crate::data::Data;
+use crate::{Case, HistoryKind};
 
 /// Conditions with at most so many levels may have an effect by level.
 const MOST_LEVELS: usize = 5;
@@ -20,7 +20,9 @@ pub enum Of {
     Level(usize),
     /// What the model says.
     Sim,
-    /// All conditions together, smoothly.
+    /// A condition together with one that follows from it in the order of the rows, smoothly.
+    WithHistory(usize, usize),
+    /// All conditions together but those that follow from the order of the rows, smoothly.
     Together,
 }
 
@@ -38,17 +40,25 @@ pub struct Term {
 }
 
 impl Term {
+    /// Whether it is a function of what follows from the order of the rows.
+    pub(crate) fn is_of_history(&self, case: &Case) -> bool {
+        match self.of {
+            Of::Condition(c) | Of::Level(c) => case.history_of(c).is_some(),
+            Of::WithHistory(..) => true,
+            Of::Constant | Of::Sim | Of::Together => false,
+        }
+    }
+
     /// Whether the function has a length over which it varies.
     pub(crate) fn is_smooth(&self) -> bool {
-        matches!(self.of, Of::Condition(_) | Of::Sim | Of::Together)
+        matches!(self.of, Of::Condition(_) | Of::Sim | Of::WithHistory(..) | Of::Together)
     }
 }
 
 /// All terms for a case.
 pub(crate) fn terms(case: &Case, data: &Data) -> Vec<Term> {
-    let conditions: Vec<usize> = (0..case.model.conditions.len() - case.simulated)
-        .filter(|&condition| levels(case, data, condition) > 1)
-        .collect();
+    let conditions: Vec<usize> =
+        (0..case.described()).filter(|&condition| levels(case, data, condition) > 1).collect();
     let mut of = vec![Of::Constant];
     of.extend(conditions.iter().map(|&condition| Of::Condition(condition)));
     let few = |condition: &&usize| {
@@ -56,8 +66,13 @@ pub(crate) fn terms(case: &Case, data: &Data) -> Vec<Term> {
         levels <= MOST_LEVELS && levels < data.rows()
     };
     of.extend(conditions.iter().filter(few).map(|&condition| Of::Level(condition)));
+    of.extend(conditions.iter().filter_map(|&condition| {
+        let history = case.history_of(condition)?;
+        let shapes = [HistoryKind::Direction, HistoryKind::Extreme];
+        shapes.contains(&history.kind).then_some(Of::WithHistory(history.of?, condition))
+    }));
     of.push(Of::Sim);
-    if conditions.len() > 1 {
+    if conditions.iter().filter(|&&condition| condition < case.measured()).count() > 1 {
         of.push(Of::Together);
     }
     let varies = |output: usize| {

@@ -11,6 +11,7 @@ mod grammar;
 mod prediction;
 
 pub use features::Axes;
+pub use form::HISTORY;
 pub(crate) use form::{Form, forms};
 pub(crate) use grammar::levels;
 pub use grammar::{Of, Term};

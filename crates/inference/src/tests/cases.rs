@@ -69,6 +69,7 @@ pub(crate) fn case(
         model: sim,
         observed,
         simulated: 0,
+        history: Vec::new(),
         reachable: Vec::new(),
         candidates,
         shipped: Vec::new(),

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::cases::line;
+use super::cases::{formulas, line};
 use super::ln_normal;
 use crate::data::by_rows;
 use crate::discrepancy::Discrepancy;
@@ -10,6 +10,7 @@ use crate::evidence::EvidenceEstimate;
 use crate::noise_model::{Factor, NoiseModel};
 use crate::posterior::{Before, Beginnings, Effort, posterior, singles, singles_again};
 use crate::setup::Setup;
+use crate::{Candidate, Effect};
 use gumption_engine::distribution::StreamKey;
 
 /// The exact evidence with effects: mean and covariance of the data before they are seen.
@@ -55,6 +56,47 @@ fn linear_evidences_are_exact() {
         assert!(
             (evidence.ln_evidence - exact).abs() < 5.0 * evidence.standard_error,
             "{effects:?}: {} +- {}, exact {exact}",
+            evidence.ln_evidence,
+            evidence.standard_error
+        );
+    }
+}
+
+/// The evidence of an effect of known size is the density of the data about what it predicts.
+#[test]
+fn evidences_of_effects_of_known_size_are_exact() {
+    let mut case = line();
+    let offset = |name: &str, size: &str| {
+        let formula = format!("y + {size}");
+        let overrides = formulas(&[("y", &formula)]);
+        let effect = Effect { name: name.to_owned(), parameters: Vec::new(), overrides };
+        Candidate { effect, priors: Vec::new(), about: String::new(), source: String::new() }
+    };
+    case.candidates.extend([offset("small", "0.1"), offset("large", "0.3")]);
+    let setup = Setup::new(&case);
+    let residuals = by_rows(&setup.data.nominal_residuals());
+    for (number, size) in [(2, 0.1), (3, 0.3)] {
+        let likelihood = setup.likelihood(&[number]);
+        let mut evidence = EvidenceEstimate::begin(&likelihood, StreamKey::new(5, "test"), &[], 8);
+        for _ in 0..6 {
+            evidence.refine(&likelihood, 4);
+        }
+        let u = [0.1f64, 0.1, 0.12, 0.1, 0.2, 0.1];
+        let of_y = |v: usize| v.is_multiple_of(2);
+        let shifted =
+            residuals.iter().enumerate().map(|(v, r)| if of_y(v) { r - size } else { *r });
+        // the input `a` = 1 +- 0.3 acts on y as 1 and on z as x
+        let slope = |v: usize| 0.3 * if of_y(v) { 1.0 } else { (v / 2) as f64 };
+        let covariance = DMatrix::from_fn(12, 12, |i, j| {
+            let noise = if i == j { u[i / 2] * u[i / 2] } else { 0.0 };
+            noise + slope(i) * slope(j)
+        });
+        let exact = ln_normal(&DVector::from_iterator(12, shifted), &covariance);
+        // five standard errors; the seed is fixed, so that this fails always or never
+        assert!(evidence.standard_error < 0.02, "{}", evidence.standard_error);
+        assert!(
+            (evidence.ln_evidence - exact).abs() < 5.0 * evidence.standard_error + 1e-9,
+            "{size}: {} +- {}, exact {exact}",
             evidence.ln_evidence,
             evidence.standard_error
         );

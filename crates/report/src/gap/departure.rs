@@ -101,6 +101,9 @@ fn words(form: &DepartureForm, conditions: &[NamedQuantity]) -> String {
             format!("with a maximum over {what} near {}", place(at))
         }
         (_, DepartureShape::Dip { at }) => format!("with a minimum over {what} near {}", place(at)),
+        (_, DepartureShape::Loop) => {
+            format!("varying with the condition in another way for each {what}")
+        }
         (_, DepartureShape::Varying) => format!("varying with {what} more than once up or down"),
     };
     let mut said = format!("{all} departs by what is {kind}, {function}");

@@ -1,4 +1,4 @@
-//! Rows of the data told apart by a second condition.
+//! Rows of the data told apart by a second condition, or by what came before.
 
 use super::{digits, residuals, words};
 use crate::plot::Groups;
@@ -9,8 +9,10 @@ pub(super) fn groups(diagnosis: &Diagnosis, over: residuals::Over) -> Groups {
     let others = residuals::varying(diagnosis).into_iter();
     let others = others.filter(|&other| over != residuals::Over::Condition(other));
     let levels = |condition: usize| residuals::levels(diagnosis, condition);
-    // the one with the fewest levels; of equals the first
-    let Some(condition) = others.min_by_key(|&other| levels(other).len()) else {
+    // the one with the fewest levels, of equals the first; what came before where there is none
+    let fewest = others.min_by_key(|&other| levels(other).len());
+    let history = || diagnosis.history.clone().min_by_key(|&other| levels(other).len());
+    let Some(condition) = fewest.or_else(history) else {
         return Groups::default();
     };
     let named = &diagnosis.conditions[condition];

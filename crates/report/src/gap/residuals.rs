@@ -61,9 +61,10 @@ pub(super) fn levels(diagnosis: &Diagnosis, condition: usize) -> Vec<f64> {
     levels
 }
 
-/// The conditions that vary.
+/// The conditions that vary and do not follow from the order of the rows.
 pub(super) fn varying(diagnosis: &Diagnosis) -> Vec<usize> {
     let conditions = 0..diagnosis.conditions.len();
+    let conditions = conditions.filter(|condition| !diagnosis.history.contains(condition));
     conditions.filter(|&condition| levels(diagnosis, condition).len() > 1).collect()
 }
 

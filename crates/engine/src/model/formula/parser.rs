@@ -19,6 +19,7 @@
 //!            | "inverse" "(" calibration function "," truth ")"
 //! number     = ( digits [ "." [ digits ] ] | "." digits ) [ ( "e" | "E" ) [ "+" | "-" ] digits ]
 //! name       = a letter or "_", then letters, digits and "_" [ "." the same ]
+//!            | ( "direction" | "previous" | "extreme" | "since" ) "(" name ")"   without white space
 //! ```
 //!
 //! `-` may be the minus sign `−` and `*` one of `·`, `⋅`, `×`. White space is allowed between
@@ -33,6 +34,7 @@ use super::error::{FormulaError, NumberFault};
 use super::function::Function;
 use super::lexer::{Lexer, Token, TokenKind};
 use super::message::excerpt;
+use super::name::is_name;
 use super::syntax::{Joint, Kind, NEGATION, Node, Operator, TableCall, Tree};
 use crate::model::InterpolationMethod;
 use crate::regression::CurveFunction;
@@ -48,6 +50,9 @@ const OPERAND: &str = "a number, a name, a function or `(`";
 
 /// The call that turns a calibration function round.
 const INVERSE: &str = "inverse";
+
+/// What a condition was before, as the name of a quantity: `direction(m)` of the condition `m`.
+const HISTORY: [&str; 4] = ["direction", "previous", "extreme", "since"];
 
 /// A constant in brackets is no unit behind a number.
 const HOUR: &str = "[hour]";
@@ -349,6 +354,12 @@ impl Parser<'_> {
                 return self.inverse(&name_span);
             }
         }
+        if let Some(end) = self.end_of_history(&name_span) {
+            while self.token.span.start < end {
+                self.advance()?;
+            }
+            return Ok(self.push(Kind::Name, name_span.start..end));
+        }
         self.open()?;
         if let Some(function @ (Function::Table | Function::Solve)) = function {
             return self.special(function, name_span);
@@ -467,6 +478,14 @@ impl Parser<'_> {
             return Err(self.unexpected(expected));
         }
         self.advance()
+    }
+
+    /// Where a name such as `direction(m)` ends, of which the first word was read.
+    fn end_of_history(&self, word: &Range<usize>) -> Option<usize> {
+        let behind = self.text.get(word.end..)?.strip_prefix('(')?;
+        let (of, _) = behind.split_once(')')?;
+        let is_one = HISTORY.contains(&self.slice(word)) && is_name(of);
+        is_one.then_some(word.end + of.len() + 2)
     }
 
     fn curve(&self, name: &str) -> Option<Arc<CurveFunction>> {

@@ -38,7 +38,8 @@ pub(in crate::gap) fn draw(
         values.dedup();
         values
     };
-    let finest = (0..diagnosis.conditions.len()).rev().max_by_key(|&c| values(c).len())?;
+    let set = (0..diagnosis.conditions.len()).filter(|place| !diagnosis.history.contains(place));
+    let finest = set.rev().max_by_key(|&c| values(c).len())?;
     let levels = values(finest);
     if levels.len() < 2 || rows.len() > MOST {
         return None;

@@ -165,6 +165,7 @@ fn diagnosis() -> Diagnosis {
         ]),
         outputs: vec![named("a_x", "m/s^2"), named("ratio", "")],
         conditions: vec![named("f", "Hz"), named("tilt", "deg")],
+        history: 0..0,
         gap: GapTest { present: true, p_value: Some(8.836_58e-47), chi2: 346.237_98, dof: 40.0 },
         candidates: candidates(),
         interrupted: false,
