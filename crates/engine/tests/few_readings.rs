@@ -57,7 +57,8 @@ fn one_quantity_is_stated_by_the_law_of_propagation_and_its_interval() {
     type Function = fn(f64) -> f64;
     let square: Function = |x| x * x;
     let exp: Function = |x| x.exp();
-    let cases: [(&[f64], &str, &dyn Fn(f64) -> f64); 10] = [
+    type Case<'a> = (&'a [f64], &'a str, &'a dyn Fn(f64) -> f64);
+    let cases: [Case<'_>; 10] = [
         (&[2.79, 2.81, 2.80], "10^(-x)", &ph),
         (&[20.1, 20.3, 19.9], "10^(x/20)", &level),
         (&[1.0, 1.2, 0.8], "x^2", &square),

@@ -686,7 +686,8 @@ mod tests {
             found.first().map(|warning| warning.text.clone())
         };
         assert_eq!(said(&output), None);
-        let moved: [(&str, fn(&mut MonteCarlo)); 8] = [
+        type Change = fn(&mut MonteCarlo);
+        let moved: [(&str, Change); 8] = [
             ("its estimate by", |of| *of.estimate.as_mut().unwrap() += 0.2),
             ("its standard uncertainty by", |of| *of.standard_uncertainty.as_mut().unwrap() += 0.2),
             ("its median by", |of| of.median += 0.2),

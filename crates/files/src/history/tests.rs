@@ -203,7 +203,7 @@ fn as_it_stands(of: &ComposedEffect) -> String {
 
 /// Up, down, up, down in steps of 1 kg.
 fn loops() -> Vec<f64> {
-    let leg = |n: u32| if n / 10 % 2 == 0 { n % 10 } else { 10 - n % 10 };
+    let leg = |n: u32| if (n / 10).is_multiple_of(2) { n % 10 } else { 10 - n % 10 };
     (0..=40).map(|n| f64::from(leg(n))).collect()
 }
 
@@ -266,7 +266,9 @@ fn effects_of_what_came_before_have_names() {
     let warm_up = |n: usize| 0.012 * elementary::exp(-(n as f64) / 8.0);
     let memory = |n: usize| 0.0012 * mixed[n.saturating_sub(1)];
     let drift = |n: usize| 0.008 * n as f64 / 40.0;
-    let cases: [(&str, &[f64], &dyn Fn(usize) -> f64); 5] = [
+    /// The name of an effect, the loads of the rows, and the effect on each row.
+    type Acting<'a> = (&'a str, &'a [f64], &'a dyn Fn(usize) -> f64);
+    let cases: [Acting<'_>; 5] = [
         ("hysteresis", &sweeps, &hysteresis),
         ("creep", &held, &creep),
         ("warm-up", &sweeps, &warm_up),

@@ -158,7 +158,8 @@ fn uncertainties_are_those_of_1000_recordings() {
 /// standard deviation of 4 % for normal noise and of some 6 % for the t-distribution.
 #[test]
 fn power_of_noise_is_known_by_its_kurtosis() {
-    let shapes: [(&str, fn(f64) -> f64); 3] = [
+    type Shape = fn(f64) -> f64;
+    let shapes: [(&str, Shape); 3] = [
         ("uniform", |p| 12f64.sqrt() * (p - 0.5)),
         ("normal", normal::quantile),
         ("t, 5", |p| 0.6f64.sqrt() * student::quantile(p, 5.0)),

@@ -101,7 +101,7 @@ fn multivariate_t() {
     let last = uniform(5).pop().unwrap();
     let factor = |u: f64| (2.0 * special::gamma::quantile(u, 2.5) / 5.0).sqrt();
     let factors: Vec<f64> = last.into_iter().map(factor).collect();
-    for (order, volume) in [(2, 36.355_358_69), (3, 273.842_163), (4, 2128.566_226)] {
+    for (order, volume) in [(2, 36.355_358_69), (3, 273.842_163), (4, 2_128.566_226)] {
         let mut columns = normals(order);
         for column in &mut columns {
             column.iter_mut().zip(&factors).for_each(|(z, factor)| *z /= factor);
