@@ -7,6 +7,7 @@
 //! `cargo run --release --example gap_beside [data sets of each bench [seed]]` from the project's folder;
 //! with seed 1 it writes `reports/gap-beside.md`.
 #![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
+#![allow(clippy::print_stdout)] // rows as they come
 
 use std::error::Error;
 use std::f64::consts::PI;

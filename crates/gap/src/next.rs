@@ -150,7 +150,7 @@ fn departures(
     let rows: Vec<_> = places.iter().map(|place| place.row.clone()).collect();
     let composed = compositions.predictions(setup, &rows).into_iter();
     let part = |(share, normals): (f64, predict::Normals)| {
-        (share * departs > LEAST_PROBABILITY).then(|| DeparturePart {
+        (share * departs > LEAST_PROBABILITY).then_some(DeparturePart {
             effects: None,
             probability: share * departs,
             normals,

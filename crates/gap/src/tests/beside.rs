@@ -90,7 +90,7 @@ fn nothing_is_left_beside_an_effect_that_explains_the_data() {
 /// never falls again.
 #[test]
 fn a_forecast_is_never_surer_farther_ahead() {
-    let square = |x: f64| if (x / 7.0) as usize % 2 == 0 { 0.3 } else { -0.3 };
+    let square = |x: f64| if ((x / 7.0) as usize).is_multiple_of(2) { 0.3 } else { -0.3 };
     let case = with_left(square, 0.02, 4);
     let ahead = [59.0, 60.0, 61.0, 62.0, 64.0, 67.0, 71.0, 76.0, 85.0, 100.0, 150.0, 400.0];
     let at = |x: f64| Row { conditions: vec![x], ..case.task.rows[0].clone() };
