@@ -8,7 +8,7 @@
 //! effects drawn from their lists. Where the diagnosis leaves the effect open, rows are added, once as
 //! the first proposal of the diagnosis says and once spread evenly over the whole reachable range (a
 //! Halton sequence), with the same truth and the same noise, and the entropy of the answers is
-//! compared. SETS is the number of undecided data sets of each bench (3 unless told).
+//! compared, and the logarithm of the probability of what is true. SETS is the number of undecided data sets of each bench (3 unless told).
 #![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
 #![allow(clippy::print_stdout)] // rows as they come
 #![allow(clippy::needless_range_loop)] // several sums go side by side
@@ -17,7 +17,7 @@ use std::error::Error;
 use std::fmt::Write as _;
 
 use gumption::file::FileReader;
-use gumption::gap::check::{CheckedNoise, TruthKind, truth};
+use gumption::gap::check::{CheckedNoise, Truth, truth};
 use gumption::gap::{Case, Diagnosis, DiagnosisOptions, diagnose};
 use gumption::task::Row;
 use serde_json::{Value, json};
@@ -173,7 +173,7 @@ fn measured(
     case: &Case,
     more: &[Vec<f64>],
     number: u64,
-) -> Result<(TruthKind, Case), Box<dyn Error>> {
+) -> Result<(Truth, Case), Box<dyn Error>> {
     let mut case = case.clone();
     let template = case.task.rows[0].clone();
     case.task
@@ -186,7 +186,7 @@ fn measured(
     let (truth, values) = truth(&case, &[vec![bench.u; rows]], CheckedNoise::AsStated, 1, number)?;
     let of = case.observed[0].as_mut().ok_or("an observed output")?;
     of.values.clone_from(&values[0]);
-    Ok((truth.kind, case))
+    Ok((truth, case))
 }
 
 fn diagnosed(case: &Case) -> Result<Diagnosis, Box<dyn Error>> {
@@ -217,35 +217,55 @@ fn proposed(diagnosis: &Diagnosis) -> Option<Vec<f64>> {
     diagnosis.next.proposals.iter().find_map(|p| p.kind.conditions().map(<[f64]>::to_vec))
 }
 
-/// Entropies after so many added rows.
-type Entropies = [f64; ADDED.len()];
+/// The probability that a diagnosis gives exactly the effects that are true, no less than one in a million,
+/// as a logarithm.
+fn ln_of_truth(found: &Diagnosis, truth: &Truth) -> f64 {
+    let is_it = |names: &[String]| {
+        names.len() == truth.effects.len() && names.iter().all(|of| truth.effects.contains(of))
+    };
+    let own = found.hypotheses.iter().filter(|of| of.effects.as_deref().is_some_and(is_it));
+    own.map(|of| of.probability).sum::<f64>().max(1e-6).ln()
+}
+
+/// Means after so many added rows.
+type AfterRows = [f64; ADDED.len()];
+
+/// Sums over data sets: before, and after rows as proposed and spread evenly.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    before: f64,
+    after: [AfterRows; 2],
+}
+
+impl Sums {
+    fn add(&mut self, other: &Self) {
+        self.before += other.before;
+        for (own, others) in self.after.iter_mut().flatten().zip(other.after.iter().flatten()) {
+            *own += others;
+        }
+    }
+}
 
 fn main() -> Result<(), Box<dyn Error>> {
     let sets: usize = std::env::args().nth(1).map_or(Ok(3), |text| text.parse())?;
-    let mut report = String::from(
-        "# What the next measurement is worth\n\n\
-         Entropy of the probabilities of all hypotheses in nats (mean over the undecided data sets of \
-         a bench) once rows have been added, where the first proposal of the diagnosis says (asked \
-         again after each of these numbers of rows) and spread evenly over the same range (a Halton \
-         sequence). Written by `cargo run --release --example gap_next`.\n\n",
-    );
-    let _ = writeln!(
-        report,
-        "| bench | sets | rows | before |{} rows that halve it |",
+    let heads = format!(
+        "| bench | sets | rows | before |{}",
         ADDED.map(|n| format!(" {n} more |")).concat()
     );
-    let _ = writeln!(report, "|---|---|---|---|{}---|", "---|".repeat(ADDED.len()));
-    let mut totals = (0, 0.0, [0.0; ADDED.len()], [0.0; ADDED.len()]);
+    let rule = "---|".repeat(ADDED.len());
+    let mut entropies = format!("{heads} rows that halve it |\n|---|---|---|---|{rule}---|\n");
+    let mut truths = format!("{heads}\n|---|---|---|---|{rule}\n");
+    let (mut all_sets, mut of_all) = (0, [Sums::default(); 2]);
     for bench in &BENCHES {
         let case = case(bench)?;
-        let (mut count, mut before) = (0, 0.0);
-        let mut sums: [Entropies; 2] = [[0.0; ADDED.len()]; 2];
+        let mut count = 0;
+        let mut of_bench = [Sums::default(); 2];
         for number in 0.. {
             if count == sets || number > 100 * sets as u64 {
                 break;
             }
-            let (kind, plain) = measured(bench, &case, &[], number)?;
-            if kind == TruthKind::Withheld {
+            let (truth, plain) = measured(bench, &case, &[], number)?;
+            if truth.withheld().is_some() {
                 continue;
             }
             let first = diagnosed(&plain)?;
@@ -253,7 +273,9 @@ fn main() -> Result<(), Box<dyn Error>> {
                 continue;
             }
             count += 1;
-            before += first.next.entropy;
+            let [entropy, of_truth] = &mut of_bench;
+            entropy.before += first.next.entropy;
+            of_truth.before += ln_of_truth(&first, &truth);
             let mut rows: Vec<Vec<f64>> = Vec::new();
             let mut at = first.clone();
             let mut line = format!("{} {number}: {:.2};", bench.name, first.next.entropy);
@@ -261,41 +283,53 @@ fn main() -> Result<(), Box<dyn Error>> {
                 let conditions = proposed(&at).unwrap_or_else(|| even(bench, rows.len()));
                 rows.resize(added, conditions);
                 at = diagnosed(&measured(bench, &case, &rows, number)?.1)?;
-                sums[0][place] += at.next.entropy;
                 let spread: Vec<Vec<f64>> = (0..added).map(|n| even(bench, n)).collect();
                 let spread = diagnosed(&measured(bench, &case, &spread, number)?.1)?;
-                sums[1][place] += spread.next.entropy;
+                for (way, found) in [&at, &spread].into_iter().enumerate() {
+                    entropy.after[way][place] += found.next.entropy;
+                    of_truth.after[way][place] += ln_of_truth(found, &truth);
+                }
                 let _ = write!(line, " {:.2}/{:.2}", at.next.entropy, spread.next.entropy);
             }
             println!("{line} {:?}", rows.first());
         }
-        write_rows(&mut report, bench.name, count, before, sums);
-        totals.0 += count;
-        totals.1 += before;
-        for place in 0..ADDED.len() {
-            totals.2[place] += sums[0][place];
-            totals.3[place] += sums[1][place];
-        }
+        write_rows(&mut entropies, bench.name, count, &of_bench[0], true);
+        write_rows(&mut truths, bench.name, count, &of_bench[1], false);
+        all_sets += count;
+        of_all.iter_mut().zip(&of_bench).for_each(|(all, own)| all.add(own));
     }
-    write_rows(&mut report, "all", totals.0, totals.1, [totals.2, totals.3]);
+    write_rows(&mut entropies, "all", all_sets, &of_all[0], true);
+    write_rows(&mut truths, "all", all_sets, &of_all[1], false);
+    let report = format!(
+        "# What the next measurement is worth\n\n\
+         Rows are added where the first proposal of the diagnosis says (asked again after each of these \
+         numbers of rows), and spread evenly over the same range (a Halton sequence). Written by \
+         `cargo run --release --example gap_next`.\n\n\
+         Entropy of the probabilities of all hypotheses in nats, mean over the undecided data sets of a \
+         bench:\n\n{entropies}\n\
+         Logarithm of the probability of exactly the effects that are true, no less than that of 1e-6, mean \
+         over the same data sets:\n\n{truths}"
+    );
     println!("{report}");
     std::fs::write("reports/gap-next.md", report)?;
     Ok(())
 }
 
-/// Two lines of the table, from sums over data sets.
-fn write_rows(report: &mut String, name: &str, count: usize, before: f64, sums: [Entropies; 2]) {
+/// Two lines of a table, from sums over data sets; those of entropies with the number of rows that halve
+/// them.
+fn write_rows(report: &mut String, name: &str, count: usize, sums: &Sums, halves: bool) {
     let n = count.max(1) as f64;
-    for (words, sums) in ["proposed", "spread evenly"].into_iter().zip(sums) {
+    let before = sums.before / n;
+    for (words, sums) in ["proposed", "spread evenly"].into_iter().zip(sums.after) {
         let means = sums.map(|sum| sum / n);
-        let halved = ADDED.iter().zip(means).find(|(_, mean)| *mean <= 0.5 * before / n);
-        let halved =
-            halved.map_or_else(|| format!("more than {}", ADDED[6]), |(n, _)| n.to_string());
-        let _ = writeln!(
-            report,
-            "| {name} | {count} | {words} | {:.2} |{} {halved} |",
-            before / n,
-            means.map(|mean| format!(" {mean:.2} |")).concat()
-        );
+        let cells = means.map(|mean| format!(" {mean:.2} |")).concat();
+        let _ = write!(report, "| {name} | {count} | {words} | {before:.2} |{cells}");
+        if halves {
+            let halved = ADDED.iter().zip(means).find(|(_, mean)| *mean <= 0.5 * before);
+            let halved =
+                halved.map_or_else(|| format!("more than {}", ADDED[6]), |(n, _)| n.to_string());
+            let _ = write!(report, " {halved} |");
+        }
+        report.push('\n');
     }
 }

@@ -27,7 +27,7 @@ use crate::{Case, Prior};
 
 /// Share of the prior of a departure in which effects of the list act as well. Nobody's list is complete:
 /// what is not on it is as often there with effects of the list as without them.
-pub(crate) const BESIDE_EFFECTS: f64 = 0.5;
+const BESIDE_EFFECTS: f64 = 0.5;
 
 /// What part of that share single effects have, all of them equally probable; pairs have the rest.
 const OF_SINGLES: f64 = 0.5;
@@ -55,17 +55,27 @@ const HANDED_ON: usize = 3;
 /// Refinements of an integral at most.
 const REFINED: usize = 8;
 
-/// The prior probability of these effects of a case with a departure beside them, where `all` are the
-/// priors of all hypotheses. More than two effects have none.
+/// The prior probability of a departure without effects of a case, where `all` are those of all hypotheses.
+pub(crate) fn prior_alone(case: &Case, all: &Prior) -> f64 {
+    let can_act = !case.candidates.is_empty() && all.one + all.two > 0.0;
+    all.unexplained * if can_act { 1.0 - BESIDE_EFFECTS } else { 1.0 }
+}
+
+/// The prior probability of these effects with a departure beside them. More than two effects have none.
 pub(crate) fn prior(case: &Case, all: &Prior, effects: &[usize]) -> f64 {
     let pairs = if all.two > 0.0 { case.pairs().len() } else { 0 };
-    let of_singles = if pairs == 0 { 1.0 } else { OF_SINGLES };
+    let of_singles = match (all.one > 0.0, pairs > 0) {
+        (true, true) => OF_SINGLES,
+        (true, false) => 1.0,
+        (false, _) => 0.0,
+    };
     let (share, count) = match effects.len() {
         1 => (of_singles, case.candidates.len()),
         2 => (1.0 - of_singles, pairs),
         _ => return 0.0,
     };
-    all.unexplained * BESIDE_EFFECTS * share / count.max(1) as f64
+    let beside_effects = all.unexplained - prior_alone(case, all);
+    if count > 0 { beside_effects * share / count as f64 } else { 0.0 }
 }
 
 /// The logarithm of prior times evidence of effects with a departure beside them and their parameters near
@@ -268,10 +278,9 @@ impl Posterior {
     /// All departures together, beside effects of the list or not, with their evidence as a share of the
     /// prior of all of them.
     pub fn departures(&self) -> Unexplained {
-        let alone = 1.0 - BESIDE_EFFECTS;
-        let share = |of: &Beside| of.named.prior * alone / self.prior;
-        let beside = self.beside.iter().map(|of| (share(of), &of.departure));
-        let all = std::iter::once((alone, &self.unexplained)).chain(beside);
+        let share = |prior: f64| prior / self.departure_prior;
+        let beside = self.beside.iter().map(|of| (share(of.named.prior), &of.departure));
+        let all = std::iter::once((share(self.prior), &self.unexplained)).chain(beside);
         Unexplained::joined(all.map(|(share, of)| (elementary::ln(share), of)))
     }
 

@@ -55,6 +55,7 @@ pub fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Arc<Discrepancy>,
         };
     }
     posterior.prior *= scale(stated.unexplained, own.unexplained);
+    posterior.departure_prior *= scale(stated.unexplained, own.unexplained);
     for hypothesis in &mut posterior.hypotheses {
         let effects = hypothesis.effects.clone();
         let has_draws = hypothesis.evidence.has_draws();

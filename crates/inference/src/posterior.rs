@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use gumption_engine::parallel;
 
-use super::beside::{BESIDE_EFFECTS, Beside};
+use super::beside::{Beside, prior_alone};
 use super::data::by_rows;
 use super::discrepancy::{Discrepancy, Unexplained};
 use super::evidence::EvidenceEstimate;
@@ -40,6 +40,8 @@ pub struct Posterior {
     pub unexplained: Unexplained,
     /// Prior probability of "unexplained".
     pub prior: f64,
+    /// Prior probability of a departure, beside effects or not.
+    pub(crate) departure_prior: f64,
     /// Posterior probability of "unexplained".
     pub probability: f64,
     /// What of it is that of errors of each setting, without an effect and without a pattern.
@@ -173,7 +175,7 @@ pub(crate) fn posterior(
     let Beginnings { singles: mut hypotheses, pairs, before } = beginnings;
     progress(0.2);
     let residuals = by_rows(&setup.data.nominal_residuals());
-    let unexplained_prior = prior.unexplained * (1.0 - BESIDE_EFFECTS);
+    let unexplained_prior = prior_alone(setup.case, &prior);
     let floor =
         leading(&hypotheses, rivals) - elementary::ln(unexplained_prior.max(f64::MIN_POSITIVE));
     let unexplained = discrepancy.evidence(setup, &residuals, floor);
@@ -194,6 +196,7 @@ pub(crate) fn posterior(
         beside: Vec::new(),
         unexplained,
         prior: unexplained_prior,
+        departure_prior: prior.unexplained,
         probability: 0.0,
         of_settings: 0.0,
         ln_evidence: f64::NEG_INFINITY,

@@ -12,6 +12,10 @@
 //! without a gap (a scan statistic with a Monte Carlo reference, as Kulldorff 1997, Communications in
 //! Statistics: Theory and Methods 26, 1481, has it). Sums of products over the bins of a condition are
 //! cumulated once, so that every interval costs a difference and a small Cholesky factorization.
+//!
+//! An interval that leaves out what does not depart by chance is always a little more surprising than
+//! the whole. A region therefore counts with a weight: all outputs everywhere, each output everywhere and
+//! the intervals of conditions have equal shares, so that a condition is named where it matters.
 
 use gumption_engine::parallel;
 
@@ -53,6 +57,7 @@ pub struct GapRegion {
 /// The regions of a design.
 struct Design {
     values: usize,
+    outputs: usize,
     /// Number of shared unknowns.
     shared: usize,
     /// For each value the products that region sums need: those of the basis with itself.
@@ -80,52 +85,89 @@ pub fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<GapRegion
     let design = Design::new(setup, variances);
     let of_block = |block| -> Vec<f64> {
         let drawn = design.simulated(StreamKey::new(seed, "gap/where"), block as u64);
-        let surprise = |best: Option<Best>| best.map_or(0.0, |best| best.surprise);
-        design.scan(&drawn, &[]).into_iter().map(surprise).collect()
+        let surprise = |best: Option<Best>| best.map_or(f64::NEG_INFINITY, |best| best.surprise);
+        design.scan(&drawn, &[], &Axis::intervals).into_iter().map(surprise).collect()
     };
     let null = parallel::map(0..SIMULATED / COLUMN, of_block).concat();
     let mut found: Vec<GapRegion> = Vec::new();
     let mut taken: Vec<usize> = Vec::new();
     let total: f64 = white.iter().map(|z| z * z).sum::<f64>() - white.len() as f64;
+    let best_of = |taken: &[usize], wanted: &dyn Fn(&Axis) -> Vec<(usize, usize)>| {
+        design.scan(std::slice::from_ref(&white), taken, wanted).pop().flatten()
+    };
     while found.len() < MOST_REGIONS {
-        let own = design.scan(std::slice::from_ref(&white), &taken).pop().flatten();
-        let Some(best) = own else { break };
+        let Some(best) = best_of(&taken, &Axis::intervals) else { break };
         let beyond = null.iter().filter(|surprise| **surprise >= best.surprise).count();
         let by_rank = (1 + beyond) as f64 / (1 + null.len()) as f64;
         // beyond all simulated sets the bound of all regions together tells more
-        let bound = design.regions() as f64 * elementary::exp(-best.surprise);
+        let bound = elementary::exp(-best.surprise);
         let p_value = if beyond == 0 { by_rank.min(bound) } else { by_rank };
         if p_value > NAMED {
             break;
         }
-        let axis = &design.axes[best.axis];
-        let values: Vec<usize> = axis.bins[best.from..=best.to].iter().flatten().copied().collect();
-        let own: f64 = values.iter().map(|&v| white[v] * white[v] - 1.0).sum();
-        let whole = best.from == 0 && best.to + 1 == axis.bins.len();
-        found.push(GapRegion {
-            output: axis.output,
-            range: axis
-                .condition
-                .filter(|_| !whole)
-                .map(|condition| (condition, [axis.ranges[best.from][0], axis.ranges[best.to][1]])),
-            p_value,
-            share_of_gap: if total > 0.0 { (own / total).clamp(0.0, 1.0) } else { 0.0 },
-            mean_z: values.iter().map(|&v| white[v]).sum::<f64>() / values.len().max(1) as f64,
+        let named = design.those_that_depart(&best, |of| {
+            let same = |axis: &Axis| {
+                let is_it = axis.output == Some(of) && axis.condition == best.condition(&design);
+                if is_it { vec![(best.from, best.to)] } else { Vec::new() }
+            };
+            best_of(&taken, &same)
         });
-        taken.extend(values);
-        if whole && axis.output.is_none() {
+        let is_everything = named.len() == 1 && named[0].is_everything(&design);
+        for best in named {
+            let axis = &design.axes[best.axis];
+            let values: Vec<usize> =
+                axis.bins[best.from..=best.to].iter().flatten().copied().collect();
+            let own: f64 = values.iter().map(|&v| white[v] * white[v] - 1.0).sum();
+            found.push(GapRegion {
+                output: axis.output,
+                range: axis.condition.filter(|_| !axis.is_whole(best.from, best.to)).map(
+                    |condition| (condition, [axis.ranges[best.from][0], axis.ranges[best.to][1]]),
+                ),
+                p_value,
+                share_of_gap: if total > 0.0 { (own / total).clamp(0.0, 1.0) } else { 0.0 },
+                mean_z: values.iter().map(|&v| white[v]).sum::<f64>() / values.len().max(1) as f64,
+            });
+            taken.extend(values);
+        }
+        if is_everything {
             break;
         }
     }
     found
 }
 
+impl Axis {
+    /// Whether an interval is all of it.
+    fn is_whole(&self, from: usize, to: usize) -> bool {
+        from == 0 && to + 1 == self.bins.len()
+    }
+
+    /// All its intervals.
+    fn intervals(&self) -> Vec<(usize, usize)> {
+        let bins = self.bins.len();
+        (0..bins).flat_map(|from| (from..bins).map(move |to| (from, to))).collect()
+    }
+}
+
+impl Best {
+    fn condition(&self, design: &Design) -> Option<usize> {
+        design.axes[self.axis].condition
+    }
+
+    /// Whether it is all outputs everywhere.
+    fn is_everything(&self, design: &Design) -> bool {
+        let axis = &design.axes[self.axis];
+        axis.output.is_none() && axis.is_whole(self.from, self.to)
+    }
+}
+
 /// The most surprising region of some data.
+#[derive(Clone)]
 struct Best {
     axis: usize,
     from: usize,
     to: usize,
-    /// Minus the logarithm of the region's own probability.
+    /// Minus the logarithm of the region's own probability, over its weight.
     surprise: f64,
 }
 
@@ -139,11 +181,12 @@ impl Design {
             .iter()
             .map(|column| column.iter().zip(variances).map(|(c, v)| c / v.sqrt()).collect())
             .collect();
-        let mut outputs: Vec<Option<usize>> = (0..count).map(Some).collect();
+        let mut outputs: Vec<Option<usize>> = vec![None];
         if count > 1 {
-            outputs.push(None);
+            outputs.extend((0..count).map(Some));
         }
-        let mut design = Self { values, shared: basis.len(), basis, axes: Vec::new() };
+        let mut design =
+            Self { values, outputs: count, shared: basis.len(), basis, axes: Vec::new() };
         for &output in &outputs {
             let mut any = false;
             for condition in 0..setup.case.described() {
@@ -193,9 +236,36 @@ impl Design {
         self.axes.push(Axis { output, condition, bins, ranges, products, counts });
     }
 
-    /// Number of regions.
-    fn regions(&self) -> usize {
-        self.axes.iter().map(|axis| triangle(axis.bins.len())).sum()
+    /// The logarithm of the weight of the regions of an axis: of all of it, and of its other intervals.
+    /// Those of all different regions sum to 1 at most.
+    fn ln_weights(&self, axis: &Axis) -> [f64; 2] {
+        let intervals: usize = self.axes.iter().map(|axis| triangle(axis.bins.len())).sum();
+        let share = if self.outputs > 1 { 1.0 / 3.0 } else { 0.5 };
+        let whole = match axis.output {
+            Some(_) => share / self.outputs as f64,
+            None => share,
+        };
+        [elementary::ln(whole), elementary::ln(share / intervals as f64)]
+    }
+
+    /// A region of all outputs as regions of those outputs that depart there by themselves, where
+    /// others do not; `of_output` is the region of one output.
+    fn those_that_depart(
+        &self,
+        best: &Best,
+        of_output: impl Fn(usize) -> Option<Best>,
+    ) -> Vec<Best> {
+        let all = vec![best.clone()];
+        if self.axes[best.axis].output.is_some() || self.outputs < 2 {
+            return all;
+        }
+        let departs = |own: &Best| elementary::exp(-own.surprise) <= NAMED;
+        let mut own: Vec<Best> = (0..self.outputs).filter_map(of_output).filter(departs).collect();
+        if own.is_empty() || own.len() == self.outputs {
+            return all;
+        }
+        own.sort_by(|a, b| b.surprise.total_cmp(&a.surprise));
+        own
     }
 
     /// Whitened residuals of data without a gap.
@@ -220,9 +290,15 @@ impl Design {
         draws
     }
 
-    /// For each of some whitened residuals the most surprising region; values that are `taken` count as
-    /// left out already. What a region leaves of the basis is factored once for all of them.
-    fn scan(&self, whites: &[Vec<f64>], taken: &[usize]) -> Vec<Option<Best>> {
+    /// For each of some whitened residuals the most surprising region of those that are `wanted`, as
+    /// intervals of an axis; values that are `taken` count as left out already. What a region leaves of the
+    /// basis is factored once for all of them.
+    fn scan(
+        &self,
+        whites: &[Vec<f64>],
+        taken: &[usize],
+        wanted: &dyn Fn(&Axis) -> Vec<(usize, usize)>,
+    ) -> Vec<Option<Best>> {
         let k = self.shared;
         let mut out = vec![false; self.values];
         for &value in taken {
@@ -243,42 +319,46 @@ impl Design {
         let mut best: Vec<Option<Best>> = whites.iter().map(|_| None).collect();
         let mut rest_inner = vec![0.0; triangle(k)];
         for (number, axis) in self.axes.iter().enumerate() {
-            let bins = axis.bins.len();
+            let intervals = wanted(axis);
+            if intervals.is_empty() {
+                continue;
+            }
+            let [ln_whole, ln_interval] = self.ln_weights(axis);
             let (counts, products) = self.without(axis, &out);
             let cumulated: Vec<Vec<Sums>> =
                 whites.iter().map(|white| self.cumulated(axis, white, &out)).collect();
-            for from in 0..bins {
-                for to in from..bins {
-                    let count = counts[to + 1] - counts[from];
-                    // what is named once is not named again as a part of something larger
-                    let whole = axis.counts[to + 1] - axis.counts[from];
-                    if count == 0 || count < whole {
+            for (from, to) in intervals {
+                let count = counts[to + 1] - counts[from];
+                // what is named once is not named again as a part of something larger
+                let whole = axis.counts[to + 1] - axis.counts[from];
+                if count == 0 || count < whole {
+                    continue;
+                }
+                let ln_weight = if axis.is_whole(from, to) { ln_whole } else { ln_interval };
+                for (rest, ((all, up), low)) in rest_inner
+                    .iter_mut()
+                    .zip(inner.iter().zip(&products[to + 1]).zip(&products[from]))
+                {
+                    *rest = all - (up - low);
+                }
+                explained.with(&rest_inner, |n, place| {
+                    let [up, low] = [&cumulated[n][to + 1], &cumulated[n][from]];
+                    all[n].cross[place] - (up.cross[place] - low.cross[place])
+                });
+                for (n, best) in best.iter_mut().enumerate() {
+                    let [up, low] = [&cumulated[n][to + 1], &cumulated[n][from]];
+                    let square = all[n].square - (up.square - low.square);
+                    let gone = (lengths[n] - (square - explained.squares[n])).max(0.0);
+                    // a cheap bound spares most regions the tail of the chi-square distribution
+                    let bounded = count > 1
+                        && best.as_ref().is_some_and(|best| 0.5 * gone + ln_weight < best.surprise);
+                    if bounded {
                         continue;
                     }
-                    for (rest, ((all, up), low)) in rest_inner
-                        .iter_mut()
-                        .zip(inner.iter().zip(&products[to + 1]).zip(&products[from]))
-                    {
-                        *rest = all - (up - low);
-                    }
-                    explained.with(&rest_inner, |n, place| {
-                        let [up, low] = [&cumulated[n][to + 1], &cumulated[n][from]];
-                        all[n].cross[place] - (up.cross[place] - low.cross[place])
-                    });
-                    for (n, best) in best.iter_mut().enumerate() {
-                        let [up, low] = [&cumulated[n][to + 1], &cumulated[n][from]];
-                        let square = all[n].square - (up.square - low.square);
-                        let gone = (lengths[n] - (square - explained.squares[n])).max(0.0);
-                        // a cheap bound spares most regions the tail of the chi-square distribution
-                        let bounded = count > 1
-                            && best.as_ref().is_some_and(|best| 0.5 * gone < best.surprise);
-                        if bounded {
-                            continue;
-                        }
-                        let surprise = -special::gamma::ln_sf(0.5 * gone, 0.5 * count as f64);
-                        if best.as_ref().is_none_or(|best| surprise > best.surprise) {
-                            *best = Some(Best { axis: number, from, to, surprise });
-                        }
+                    let surprise =
+                        ln_weight - special::gamma::ln_sf(0.5 * gone, 0.5 * count as f64);
+                    if best.as_ref().is_none_or(|best| surprise > best.surprise) {
+                        *best = Some(Best { axis: number, from, to, surprise });
                     }
                 }
             }

@@ -227,7 +227,9 @@ fn a_loop_is_hysteresis_without_a_column_that_says_so() {
     let case = cell(folder.path(), &readings(&loads, 7, effect), "", nonlinear);
     let found = diagnosed(&case);
     assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained);
-    assert!(found.most_probable.probability > 0.9, "{}", found.most_probable.probability);
+    // with the non-linearity or without it
+    let departs: f64 = found.departure.iter().map(|form| form.probability).sum();
+    assert!(departs > 0.99, "{departs}");
     // both names of it: of the catalogue and composed
     let unlisted = found.unlisted.first().unwrap();
     assert_eq!(unlisted.effect, "hysteresis");

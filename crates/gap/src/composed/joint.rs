@@ -129,7 +129,20 @@ impl Search<'_> {
             });
             joined.collect::<Vec<Composition>>()
         };
-        parallel::map(leading, of_first).concat()
+        let mut found = parallel::map(leading, of_first).concat();
+        // the same two terms are found from either of them
+        largest_first(&mut found, |of| of.ln_weight);
+        let mut distinct: Vec<Composition> = Vec::new();
+        for of in found {
+            let [one, other] = [&of.terms[0], &of.terms[1]];
+            let same = |known: &Composition| {
+                known.terms[0].is_same_as(other) && known.terms[1].is_same_as(one)
+            };
+            if !distinct.iter().any(same) {
+                distinct.push(of);
+            }
+        }
+        distinct
     }
 
     /// Products of functions of two conditions.

@@ -203,7 +203,7 @@ impl Search<'_> {
             .iter()
             .map(|(argument, values)| (*argument, values, tabulated(values)))
             .collect();
-        let ln_way = -elementary::ln(ways.len().max(1) as f64);
+        let weights: f64 = ways.iter().map(|way| targets[way.target].weight).sum();
         // all that follows from the order of the rows together is so much of one condition
         let is_history = |(argument, _): &&(Argument, Values)| argument.history(setup).is_some();
         let history = HISTORY / conditions.iter().filter(is_history).count().max(1) as f64;
@@ -228,6 +228,7 @@ impl Search<'_> {
             };
             let of_conditions: f64 = tables.iter().map(|(argument, ..)| weight(*argument)).sum();
             let arguments = 1.0 + of_conditions + own_weight;
+            let ln_way = elementary::ln(targets[way.target].weight / weights);
             let ln_of = |argument: Argument| ln_way + elementary::ln(weight(argument) / arguments);
             let constant = Shape::constant();
             let points = setup.data.points.len();

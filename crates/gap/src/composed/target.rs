@@ -5,15 +5,13 @@ use crate::{Case, OverridableModel};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{NumberForm, Output, Program, Quantity};
 use gumption_engine::task::Row;
+use gumption_inference::discrepancy::OutputSet;
 use gumption_inference::model::{Effect, ModelForm};
 use gumption_inference::setup::Setup;
 use gumption_units::{Unit, Zero};
 
 /// At most so many quantities that equations compute are looked at.
 const MOST_QUANTITIES: usize = 24;
-
-/// With at most so many observed outputs every set of them may depart together; of more, all of them.
-const MOST_FOR_SETS: usize = 3;
 
 /// A quantity of the sim, or outputs that depart alike.
 #[derive(Clone, Debug)]
@@ -24,6 +22,8 @@ pub(super) struct Target {
     pub(super) outputs: Vec<usize>,
     /// The unit that a departure which is added is given in.
     pub(super) unit: Unit,
+    /// Its prior weight, over that of a single output.
+    pub(super) weight: f64,
     /// Whether one departure can be added to all of them.
     pub(super) addable: bool,
     /// Of an intermediate quantity: the model with what is added to it as its last variable, and the
@@ -74,16 +74,7 @@ pub(super) fn of_differences(unit: &Unit) -> Unit {
 pub(super) fn targets(setup: &Setup<'_>) -> Vec<Target> {
     let (case, data) = (setup.case, &setup.data);
     let quantity = |output: usize| &case.model.outputs[data.outputs[output]].quantity;
-    let count = data.outputs.len();
-    let mut sets: Vec<Vec<usize>> = (0..count).map(|output| vec![output]).collect();
-    if count <= MOST_FOR_SETS {
-        let all = (1..1usize << count)
-            .map(|set| (0..count).filter(|output| set >> output & 1 == 1).collect::<Vec<usize>>());
-        sets.extend(all.filter(|set| set.len() > 1));
-    } else {
-        sets.push((0..count).collect());
-    }
-    let of_outputs = sets.into_iter().map(|outputs| {
+    let of_outputs = OutputSet::all(data).into_iter().map(|OutputSet { outputs, weight }| {
         let first = quantity(outputs[0]);
         Target {
             names: outputs.iter().map(|&output| quantity(output).name.clone()).collect(),
@@ -92,6 +83,7 @@ pub(super) fn targets(setup: &Setup<'_>) -> Vec<Target> {
                 .all(|&output| quantity(output).unit.text() == first.unit.text()),
             unit: first.unit.clone(),
             programs: None,
+            weight,
             outputs,
         }
     });
@@ -139,6 +131,7 @@ fn inner_quantity(sim: &OverridableModel, name: &str) -> Option<Target> {
     Some(Target {
         names: vec![name.to_owned()],
         outputs: Vec::new(),
+        weight: 1.0,
         unit,
         addable: true,
         programs: Some((with_shift, value)),

@@ -44,12 +44,13 @@ fn an_effect_is_there_though_something_is_left_beside_it() {
     let verdict = &found.most_probable;
     assert_eq!(verdict.kind, HypothesisKind::Explained, "{verdict:?}");
     assert_eq!(verdict.effects, ["cubic"]);
-    assert!(verdict.probability > 0.9 && present(&found, "cubic") > 0.99, "{verdict:?}");
+    // pairs of it with what does not act have a part
+    assert!(verdict.probability > 0.8 && present(&found, "cubic") > 0.99, "{verdict:?}");
     for other in ["quadratic", "step", "offset"] {
         assert!(present(&found, other) < 0.3, "{other}: {}", present(&found, other));
     }
     let beside = verdict.beside.as_ref().unwrap();
-    assert!(beside.probability > 0.9, "{beside:?}");
+    assert_eq!(beside.probability, verdict.probability, "{beside:?}");
     assert_eq!(beside.form.over.name(), Some("x"));
     // the root mean square of a sine of 0.15
     assert!((beside.form.size - 0.106).abs() < 0.02, "{beside:?}");

@@ -197,6 +197,11 @@ fn pairs_are_composed() {
     assert_eq!(over, wanted.iter().collect::<Vec<_>>(), "{:?}", first.terms);
     assert!(!first.product, "{first:?}");
     assert!(first.shrunk.removed_fraction > 0.95, "{:?}", first.shrunk);
+    // and no two terms in both orders
+    let turned = |of: &ComposedEffect| of.terms.iter().rev().cloned().collect::<Vec<_>>();
+    for of in found.composed.iter().filter(|of| of.terms.len() == 2) {
+        assert!(found.composed.iter().all(|other| other.terms != turned(of)), "{}", of.name);
+    }
 }
 
 /// A departure that is a product of functions of two conditions is named as one: a non-linearity that

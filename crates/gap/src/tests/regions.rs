@@ -51,3 +51,32 @@ fn a_local_effect_is_found_where_it_is() {
     assert!(found[0].p_value < 1e-6);
     assert!(found[0].mean_z > 5.0);
 }
+
+/// A whole output departs, with signs in turn so that no input makes it: no condition is named, which
+/// would be idle, and not the other output.
+#[test]
+fn what_departs_everywhere_has_no_condition() {
+    let mut case = line();
+    for (row, value) in case.observed[0].iter_mut().flat_map(|of| &mut of.values).enumerate() {
+        *value += if row.is_multiple_of(2) { 0.5 } else { -0.5 };
+    }
+    let setup = Setup::new(&case);
+    let found = regions(&setup, &setup.linear.variances.clone(), 1);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!((found[0].output, found[0].range), (Some(0), None));
+}
+
+/// Where both outputs depart they are one region.
+#[test]
+fn outputs_that_depart_together_are_one_region() {
+    let mut case = line();
+    for values in case.observed.iter_mut().flatten().map(|of| &mut of.values) {
+        for (row, value) in values.iter_mut().enumerate() {
+            *value += if row.is_multiple_of(2) { 0.6 } else { -0.6 };
+        }
+    }
+    let setup = Setup::new(&case);
+    let found = regions(&setup, &setup.linear.variances.clone(), 1);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!((found[0].output, found[0].range), (None, None));
+}

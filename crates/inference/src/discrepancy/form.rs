@@ -9,6 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use super::LENGTHS;
 use super::features::{Axes, Coordinates, Nodes, sites};
 use super::grammar::{Term, terms};
+use super::output_sets::OutputSet;
 use crate::setup::Setup;
 use gumption_engine::linalg::{dot, packed};
 use gumption_engine::number::elementary;
@@ -82,34 +83,39 @@ impl Factored {
     }
 }
 
-/// The forms for a design that are `wanted`.
+/// The forms for a design in which these sets of outputs may depart, those that are `wanted`.
 pub(crate) fn forms(
     setup: &Setup<'_>,
     axes: &Axes,
+    sets: &[OutputSet],
     wanted: &(dyn Fn(&Term, f64, &Coordinates) -> bool + Sync),
 ) -> Vec<Form> {
-    let terms = terms(setup.case, &setup.data);
-    let of_history = terms.iter().filter(|term| term.is_of_history(setup.case)).count();
-    let share = if of_history > 0 { HISTORY } else { 0.0 };
-    let ln_weight_of = |term: &Term| {
-        let (share, count) = match term.is_of_history(setup.case) {
-            true => (share, of_history),
-            false => (1.0 - share, terms.len() - of_history),
+    let terms = terms(setup.case, &setup.data, sets);
+    let weight_of = |of_history: bool| -> f64 {
+        let all = terms.iter().filter(|(term, _)| term.is_of_history(setup.case) == of_history);
+        all.map(|(_, weight)| weight).sum()
+    };
+    let weights = [weight_of(false), weight_of(true)];
+    let share = if weights[1] > 0.0 { HISTORY } else { 0.0 };
+    let ln_weight_of = |term: &Term, weight: f64| {
+        let (share, all) = match term.is_of_history(setup.case) {
+            true => (share, weights[1]),
+            false => (1.0 - share, weights[0]),
         };
-        elementary::ln(share / count as f64)
+        elementary::ln(share * weight / all)
     };
     let sites = sites(setup.case, &setup.data);
     let outputs = setup.data.outputs.len();
-    let of_term = |term| -> Vec<(&Term, Coordinates, f64, f64)> {
+    let of_term = |(term, weight): &(Term, f64)| -> Vec<(Term, Coordinates, f64, f64)> {
         let coordinates = Coordinates::new(term, axes, &sites, outputs);
         let lengths = if term.is_smooth() { &LENGTHS[..] } else { &LENGTHS[..1] };
         let lengths: Vec<f64> =
             lengths.iter().copied().filter(|&length| wanted(term, length, &coordinates)).collect();
-        let ln_weight = ln_weight_of(term) - elementary::ln(lengths.len().max(1) as f64);
-        let of_length = |length| (term, coordinates.clone(), length, ln_weight);
+        let ln_weight = ln_weight_of(term, *weight) - elementary::ln(lengths.len().max(1) as f64);
+        let of_length = |length| (term.clone(), coordinates.clone(), length, ln_weight);
         lengths.into_iter().map(of_length).collect()
     };
-    let with_lengths: Vec<(&Term, Coordinates, f64, f64)> =
+    let with_lengths: Vec<(Term, Coordinates, f64, f64)> =
         parallel::map(&terms, of_term).into_iter().flatten().collect();
     // terms that are functions of the same at the same places have their nodes in common
     let mut distinct: Vec<usize> = Vec::new();
@@ -134,7 +140,7 @@ pub(crate) fn forms(
         Some((of, nodes.iter().find(|(other, _)| *other == place)?.1.clone()))
     });
     parallel::map(with_nodes, |((term, coordinates, length, ln_weight), nodes)| {
-        let roots = coordinates.roots(term, length, &nodes);
+        let roots = coordinates.roots(&term, length, &nodes);
         let features = coordinates.features(&roots, setup.data.len());
         let touched: Vec<usize> = coordinates.touched().collect();
         let mut scale = 1.0;
@@ -148,7 +154,7 @@ pub(crate) fn forms(
         let features = features * scale;
         let keep = setup.data.len() <= MOST_KEPT;
         Form {
-            term: term.clone(),
+            term,
             length,
             ln_weight,
             nodes,

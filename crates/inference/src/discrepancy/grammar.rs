@@ -1,13 +1,11 @@
-//! The forms that an unknown discrepancy may have: a small grammar of terms of equal weight.
+//! The forms that an unknown discrepancy may have: a small grammar of terms.
 
+use super::output_sets::OutputSet;
 use crate::data::Data;
 use crate::{Case, HistoryKind};
 
 /// Conditions with at most so many levels may have an effect by level.
 const MOST_LEVELS: usize = 5;
-
-/// With at most so many outputs every subset of them is a form of its own.
-const MOST_FOR_SUBSETS: usize = 3;
 
 /// What a discrepancy is a function of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,8 +53,8 @@ impl Term {
     }
 }
 
-/// All terms for a case.
-pub(crate) fn terms(case: &Case, data: &Data) -> Vec<Term> {
+/// All terms for a case in which these sets of outputs may depart, each with its weight.
+pub(crate) fn terms(case: &Case, data: &Data, sets: &[OutputSet]) -> Vec<(Term, f64)> {
     let conditions: Vec<usize> =
         (0..case.described()).filter(|&condition| levels(case, data, condition) > 1).collect();
     let mut of = vec![Of::Constant];
@@ -84,7 +82,7 @@ pub(crate) fn terms(case: &Case, data: &Data) -> Vec<Term> {
     };
     let unit = |output: usize| &case.model.outputs[data.outputs[output]].quantity.unit;
     let mut terms = Vec::new();
-    for outputs in subsets(data.outputs.len()) {
+    for OutputSet { outputs, weight } in sets {
         for relative in [false, true] {
             if relative && !outputs.iter().all(|&output| has_size(output)) {
                 continue;
@@ -99,7 +97,7 @@ pub(crate) fn terms(case: &Case, data: &Data) -> Vec<Term> {
                     if of == Of::Sim && !outputs.iter().all(|&output| varies(output)) {
                         continue;
                     }
-                    terms.push(Term { outputs: outputs.clone(), relative, common, of });
+                    terms.push((Term { outputs: outputs.clone(), relative, common, of }, *weight));
                 }
             }
         }
@@ -118,20 +116,4 @@ pub(crate) fn levels(case: &Case, data: &Data, condition: usize) -> usize {
     values.sort_unstable();
     values.dedup();
     values.len()
-}
-
-/// The sets of outputs that a discrepancy may act on: all subsets of a few, of more each alone and
-/// all together.
-fn subsets(count: usize) -> Vec<Vec<usize>> {
-    let mut subsets: Vec<Vec<usize>> = if count <= MOST_FOR_SUBSETS {
-        (1..1usize << count)
-            .map(|set| (0..count).filter(|output| set >> output & 1 == 1).collect())
-            .collect()
-    } else {
-        let mut sets: Vec<Vec<usize>> = (0..count).map(|output| vec![output]).collect();
-        sets.push((0..count).collect());
-        sets
-    };
-    subsets.sort_by_key(|subset| (subset.len(), subset.clone()));
-    subsets
 }

@@ -1,6 +1,6 @@
 //! The hypothesis "unexplained": the model plus a random discrepancy that no candidate makes.
 //!
-//! The discrepancy is one term of a small grammar (`grammar`), all of equal weight; its amplitude
+//! The discrepancy is one term of a small grammar (`grammar`); its amplitude
 //! is log-uniform from 3 to 300 standard uncertainties. Each term is a Gaussian process, so that its
 //! evidence is exact.
 
@@ -8,6 +8,7 @@ mod features;
 mod fitted;
 mod form;
 mod grammar;
+mod output_sets;
 mod prediction;
 
 pub use features::Axes;
@@ -15,6 +16,7 @@ pub use form::HISTORY;
 pub(crate) use form::{Form, forms};
 pub(crate) use grammar::levels;
 pub use grammar::{Of, Term};
+pub use output_sets::OutputSet;
 pub use prediction::{conditioned, nominal};
 
 use std::sync::Arc;
@@ -62,6 +64,8 @@ pub struct Discrepancy {
     pub axes: Axes,
     /// Every form, each with its prior weight.
     pub forms: Vec<Form>,
+    /// The outputs that may depart alike.
+    sets: Vec<OutputSet>,
 }
 
 /// What parts of a hypothesis add to the sim at the data, by value: their expectations.
@@ -216,10 +220,11 @@ impl Discrepancy {
     pub(crate) fn new(setup: &Setup<'_>) -> Self {
         let axes = Axes::new(setup.case, &setup.data);
         let longest = LENGTHS[LENGTHS.len() - 1];
-        let forms = forms(setup, &axes, &|term, length, coordinates| {
+        let sets = OutputSet::all(&setup.data);
+        let forms = forms(setup, &axes, &sets, &|term, length, coordinates| {
             !term.is_smooth() || length >= coordinates.shortest_length().min(longest)
         });
-        Self { axes, forms }
+        Self { axes, forms, sets }
     }
 
     /// Whether its forms are kept factored, so that more evidences with them cost little.
@@ -234,8 +239,9 @@ impl Discrepancy {
         let wanted = |term: &Term, length: f64, _: &features::Coordinates| {
             own.iter().any(|f| f.term == *term && f.length == length)
         };
-        let forms = forms(part, &axes, &wanted);
-        if forms.is_empty() { Self::new(part) } else { Self { axes, forms } }
+        let sets = self.sets.clone();
+        let forms = forms(part, &axes, &sets, &wanted);
+        if forms.is_empty() { Self::new(part) } else { Self { axes, forms, sets } }
     }
 
     /// A departure's functions at the data's values: columns whose factors are standard normal, as few as

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::cases::{case, line, normal, observed};
 use super::ln_normal;
 use crate::data::by_rows;
-use crate::discrepancy::Discrepancy;
+use crate::discrepancy::{Discrepancy, OutputSet};
 use crate::setup::Setup;
 use gumption_engine::task::Sharing;
 
@@ -113,4 +113,31 @@ fn estimated_noise_is_integrated_out() {
     // Laplace's method on the logarithm of a standard deviation from ten values is good to a few
     // hundredths where one form and amplitude dominates
     assert!((found.ln_evidence - ln_total).abs() < 0.1, "{} {ln_total}", found.ln_evidence);
+}
+
+/// Of five outputs the two that depart are a set, with the weight of one of ten that have that of five
+/// single ones; so are three and four of them.
+#[test]
+fn of_many_outputs_those_that_depart_most_are_a_set() {
+    let names = ["p", "q", "r", "s", "t"];
+    let equations = names.map(|name| (name, "a + x"));
+    let u = [0.1; 4];
+    let of = |shift: f64| observed(&[1.0 + shift, 2.0 - shift, 3.0 + shift, 4.0], Some(&u));
+    let data = [0.01, 0.5, 0.03, 0.8, 0.02].map(of).to_vec();
+    let case = case(normal(1.0, 0.01), Sharing::All, &equations, data, Vec::new());
+    let sets = OutputSet::all(&Setup::new(&case).data);
+    let found: Vec<(&[usize], f64)> =
+        sets.iter().map(|set| (set.outputs.as_slice(), set.weight)).collect();
+    let wanted: [(&[usize], f64); 9] = [
+        (&[0], 1.0),
+        (&[1], 1.0),
+        (&[2], 1.0),
+        (&[3], 1.0),
+        (&[4], 1.0),
+        (&[1, 3], 5.0 / 10.0),
+        (&[1, 2, 3], 5.0 / 10.0),
+        (&[1, 2, 3, 4], 5.0 / 5.0),
+        (&[0, 1, 2, 3, 4], 1.0),
+    ];
+    assert_eq!(found, wanted);
 }

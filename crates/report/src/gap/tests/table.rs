@@ -144,6 +144,7 @@ fn a_headline_below_one_half_says_that_it_is_not_decided() {
     let mut unsure = diagnosis();
     unsure.most_probable.effects = strings(&["offset"]);
     unsure.most_probable.probability = 0.247;
+    unsure.present.clear();
     let of = |effects: Option<&[&str]>, p| hypothesis(effects, [0.2, p, 0.0, 0.0, 100.0], vec![]);
     let mut with = |none: f64| {
         unsure.hypotheses = vec![
