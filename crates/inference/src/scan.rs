@@ -181,9 +181,9 @@ impl Design {
             .iter()
             .map(|column| column.iter().zip(variances).map(|(c, v)| c / v.sqrt()).collect())
             .collect();
-        let mut outputs: Vec<Option<usize>> = vec![None];
+        let mut outputs: Vec<Option<usize>> = (0..count).map(Some).collect();
         if count > 1 {
-            outputs.extend((0..count).map(Some));
+            outputs.push(None);
         }
         let mut design =
             Self { values, outputs: count, shared: basis.len(), basis, axes: Vec::new() };
