@@ -14,8 +14,8 @@ use super::results::Results;
 use super::value_text::ValueOf;
 use super::width::{Width, is_bare_share, terms, without_plus_minus};
 use gumption_engine::distribution::{
-    Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, Fitted, Gamma,
-    Invalid, LogUniform, Lognormal, Normal, PoissonCount, Quantiles, Readings, Rectangular,
+    Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, External, Fitted,
+    Gamma, Invalid, LogUniform, Lognormal, Normal, PoissonCount, Quantiles, Readings, Rectangular,
     Samples, SplitNormal, StudentT, Trapezoidal, Triangular, Truncated,
 };
 use gumption_engine::model::formula::Formula;
@@ -270,8 +270,7 @@ impl<'a> Fields<'a> {
             },
             "curvilinear-trapezoid" => {
                 let (lower, upper) = (self.limit("lower"), self.limit("upper"));
-                self.object.required("inexactness")?;
-                let inexactness = self.object.value("inexactness", self.unit, ValueOf::Difference);
+                let inexactness = self.difference("inexactness");
                 self.moved(CurvilinearTrapezoid::new(lower?, upper?, inexactness?))
             }
             "t" => {
@@ -315,6 +314,28 @@ impl<'a> Fields<'a> {
             "poisson-count" => {
                 self.object.required("count")?;
                 self.moved(PoissonCount::new(self.object.whole("count", 0, MOST_COUNT)?))
+            }
+            "weibull" => {
+                let (shape, scale) = (self.number("shape"), self.limit("scale"));
+                self.moved(External::weibull(shape?, scale?))
+            }
+            "gumbel" => {
+                let (location, scale) = (self.limit("location"), self.difference("scale"));
+                self.moved(External::gumbel(location?, scale?))
+            }
+            "pareto" => {
+                let (shape, scale) = (self.number("shape"), self.limit("scale"));
+                self.moved(External::pareto(shape?, scale?))
+            }
+            "chi-squared" => self.moved(External::chi_squared(self.number("dof")?)),
+            "binomial" => {
+                let (trials, probability) = (self.counted("trials"), self.number("probability"));
+                self.moved(External::binomial(trials?, probability?))
+            }
+            "hypergeometric" => {
+                let [population, marked, draws] =
+                    ["population", "marked", "draws"].map(|key| self.counted(key));
+                self.moved(External::hypergeometric(population?, marked?, draws?))
             }
             "samples" => self.moved(Ok(self.samples?.clone())),
             "result" => {
@@ -504,6 +525,18 @@ impl<'a> Fields<'a> {
     fn limit(&self, key: &'static str) -> Option<f64> {
         self.object.required(key)?;
         self.object.value(key, self.unit, self.of())
+    }
+
+    /// A value that is a difference of two.
+    fn difference(&self, key: &'static str) -> Option<f64> {
+        self.object.required(key)?;
+        self.object.value(key, self.unit, ValueOf::Difference)
+    }
+
+    /// A whole number above 0.
+    fn counted(&self, key: &'static str) -> Option<u64> {
+        self.object.required(key)?;
+        self.object.whole(key, 1, MOST_COUNT)
     }
 
     /// A value that may be left out.

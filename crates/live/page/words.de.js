@@ -59,6 +59,8 @@ export default {
     constant: "konstant", normal: "normal", rectangular: "rechteckig", triangular: "dreieckig", trapezoidal: "trapezförmig",
     "curvilinear-trapezoid": "krummliniges Trapez", arcsine: "Arkussinus", t: "t", readings: "Messreihe", exponential: "exponentiell",
     gamma: "Gamma", lognormal: "log-normal", beta: "Beta", "log-uniform": "log-gleichverteilt", "poisson-count": "Poisson-Zählung",
+    weibull: "Weibull", gumbel: "Gumbel", pareto: "Pareto", "chi-squared": "Chi-Quadrat", binomial: "binomial",
+    hypergeometric: "hypergeometrisch",
     samples: "Stichprobe", "split-normal": "geteilt normal", quantiles: "Quantile", dcc: "DCC", result: "Ergebnisdatei",
   },
 };

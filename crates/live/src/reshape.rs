@@ -77,6 +77,13 @@ pub(crate) fn needed(name: &str) -> &'static [(&'static str, Role)] {
         "beta" => &[("alpha", Number(2.0)), ("beta", Number(2.0))],
         "log-uniform" => &[("lower", Lower), ("upper", Upper)],
         "poisson-count" => &[("count", Centre)],
+        "weibull" | "pareto" => &[("shape", Number(3.0)), ("scale", Centre)],
+        "gumbel" => &[("location", Centre), ("scale", Width)],
+        "chi-squared" => &[("dof", Number(9.0))],
+        "binomial" => &[("trials", Number(100.0)), ("probability", Number(0.5))],
+        "hypergeometric" => {
+            &[("population", Number(100.0)), ("marked", Number(50.0)), ("draws", Number(10.0))]
+        }
         "split-normal" => &[("mode", Centre), ("std_low", Width), ("std_high", Width)],
         "quantiles" => &[("probabilities", List), ("values", List)],
         "dcc" => &[("file", Text), ("id", Text)],

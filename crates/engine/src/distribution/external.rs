@@ -16,8 +16,8 @@ const MOST_ERRORS: f64 = 20.0;
 /// The kurtosis of draws above which their variance does not tell that of the distribution.
 const LONG_TAILS: f64 = 50.0;
 
-type Draw = dyn Fn(&mut StreamRng) -> f64 + Send + Sync;
-type Quantile = dyn Fn(f64) -> f64 + Send + Sync;
+pub(super) type Draw = dyn Fn(&mut StreamRng) -> f64 + Send + Sync;
+pub(super) type Quantile = dyn Fn(f64) -> f64 + Send + Sync;
 
 /// A distribution that another crate draws from, with its mean and its standard deviation.
 ///
@@ -43,13 +43,13 @@ type Quantile = dyn Fn(f64) -> f64 + Send + Sync;
 /// density is not drawn on pages.
 #[derive(Clone)]
 pub struct External {
-    name: &'static str,
-    mean: f64,
-    std: f64,
+    pub(super) name: &'static str,
+    pub(super) mean: f64,
+    pub(super) std: f64,
     /// What is added to what is drawn.
-    shift: f64,
-    draw: Arc<Draw>,
-    quantile: Option<Arc<Quantile>>,
+    pub(super) shift: f64,
+    pub(super) draw: Arc<Draw>,
+    pub(super) quantile: Option<Arc<Quantile>>,
 }
 
 impl External {
@@ -125,7 +125,6 @@ impl External {
     /// # Errors
     /// As [`External::new`] and [`External::with_quantile`]; a law without mean or standard
     /// deviation.
-    #[cfg(feature = "statrs")]
     pub fn of_law<L>(
         name: &'static str,
         law: L,

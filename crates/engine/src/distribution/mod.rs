@@ -16,6 +16,7 @@ mod gamma;
 mod inexact_width;
 mod input;
 mod joint;
+mod laws;
 mod log_uniform;
 mod lognormal;
 mod normal;

@@ -32,7 +32,7 @@ enum Rule {
 }
 
 /// The distributions in the order of JCGM 101, Table 1, then the others.
-pub(crate) static SHAPES: [Shape; 20] = [
+pub(crate) static SHAPES: [Shape; 26] = [
     Shape {
         name: "constant",
         aliases: &[],
@@ -154,6 +154,49 @@ pub(crate) static SHAPES: [Shape; 20] = [
         rule: Rule::All(&["count"]),
     },
     Shape {
+        name: "weibull",
+        aliases: &[],
+        about: "Weibull, as of strengths and lifetimes; 1 - 1/e of it lies below `scale`.",
+        fields: &["shape", "scale"],
+        rule: Rule::All(&["shape", "scale"]),
+    },
+    Shape {
+        name: "gumbel",
+        aliases: &[],
+        about: "Gumbel, as of the largest of many values; `location` is the most probable value.",
+        fields: &["location", "scale"],
+        rule: Rule::All(&["location", "scale"]),
+    },
+    Shape {
+        name: "pareto",
+        aliases: &[],
+        about: "Pareto: nothing below `scale`, and above x the share (scale/x)^shape; `shape` above 2.",
+        fields: &["shape", "scale"],
+        rule: Rule::All(&["shape", "scale"]),
+    },
+    Shape {
+        name: "chi-squared",
+        aliases: &[],
+        about: "Chi-squared: the sum of `dof` squared standard normal quantities.",
+        fields: &["dof"],
+        rule: Rule::All(&["dof"]),
+    },
+    Shape {
+        name: "binomial",
+        aliases: &[],
+        about: "The number of successes among `trials`, each with `probability`.",
+        fields: &["trials", "probability"],
+        rule: Rule::All(&["trials", "probability"]),
+    },
+    Shape {
+        name: "hypergeometric",
+        aliases: &[],
+        about: "The number of marked ones among `draws` from a `population` with `marked` ones, without \
+                putting back.",
+        fields: &["population", "marked", "draws"],
+        rule: Rule::All(&["population", "marked", "draws"]),
+    },
+    Shape {
         name: "samples",
         aliases: &[],
         about: "An empirical distribution: values that are drawn with replacement.",
@@ -215,7 +258,7 @@ fn field(shape: &str, key: &str) -> Value {
         (_, "expanded") => referenced("width", "Expanded uncertainty U = k u."),
         (_, "k") => referenced("positive", "Coverage factor of `expanded`."),
         (_, "p") => referenced("probability", "Coverage probability of `expanded`."),
-        ("t", "dof") => referenced("positive", "Degrees of freedom."),
+        ("t" | "chi-squared", "dof") => referenced("positive", "Degrees of freedom."),
         (_, "dof") => object([
             (
                 "description",
@@ -237,7 +280,18 @@ fn field(shape: &str, key: &str) -> Value {
         (_, "inexactness") => {
             referenced("width", "Half of the length of the interval in which each limit lies.")
         }
+        ("gumbel", "location") => referenced("value", "The most probable value."),
+        ("weibull", "scale") => referenced("value", "The value below which 1 - 1/e lies, above 0."),
+        ("pareto", "scale") => referenced("value", "The least value, above 0."),
+        ("gumbel", "scale") => {
+            referenced("value", "The scale: the standard uncertainty is 1.28 times it.")
+        }
         (_, "scale") => referenced("width", "Scale of the t."),
+        (_, "probability") => referenced("probability", "The probability of a success."),
+        (_, "trials") => described("integer", "The number of trials.").with("minimum", 1),
+        (_, "population") => described("integer", "The number of all.").with("minimum", 1),
+        (_, "marked") => described("integer", "The number of marked ones.").with("minimum", 1),
+        (_, "draws") => described("integer", "The number of those drawn.").with("minimum", 1),
         ("trapezoidal", "beta") => described("number", "Ratio of the top's width to the base's.")
             .with("minimum", 0)
             .with("maximum", 1),

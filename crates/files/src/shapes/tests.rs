@@ -19,7 +19,7 @@ fn read(fields: &str, set: &[&str]) -> Result<Distribution, String> {
 }
 
 /// Fields of an example of each shape, its estimate and standard uncertainty.
-const EXAMPLES: [(&str, &str, f64, f64); 20] = [
+const EXAMPLES: [(&str, &str, f64, f64); 26] = [
     ("constant", "\"value\": 2", 2.0, 0.0),
     ("normal", "\"mean\": 2, \"std\": 0.5", 2.0, 0.5),
     ("rectangular", "\"mean\": 2, \"half_width\": 3", 2.0, 1.732_050_807_568_877_2),
@@ -49,6 +49,21 @@ const EXAMPLES: [(&str, &str, f64, f64); 20] = [
     ("log-uniform", "\"lower\": 1, \"upper\": 8", 3.366_288_428_740_914_7, 1.953_560_888_188_320_4),
     ("poisson-count", "\"count\": 3", 4.0, 2.0),
     ("split-normal", "\"mode\": 5, \"std_low\": 0.1, \"std_high\": 0.1", 5.0, 0.1),
+    // Gamma(1 + 1/2) and sqrt(Gamma(2) - Gamma(1.5)^2)
+    ("weibull", "\"shape\": 2, \"scale\": 1", 0.886_226_925_452_758, 0.463_251_375_176_104_2),
+    // 1 + 2*0.5772156649015329 and 2*pi/sqrt(6)
+    ("gumbel", "\"location\": 1, \"scale\": 2", 2.154_431_329_803_065_8, 2.565_099_660_323_728),
+    // 5/4*2, and 2/4*sqrt(5/3)
+    ("pareto", "\"shape\": 5, \"scale\": 2", 2.5, 0.645_497_224_367_902_8),
+    ("chi-squared", "\"dof\": 8", 8.0, 4.0),
+    ("binomial", "\"trials\": 100, \"probability\": 0.2", 20.0, 4.0),
+    // 10*20/50, and sqrt(10*0.4*0.6*40/49)
+    (
+        "hypergeometric",
+        "\"population\": 50, \"marked\": 20, \"draws\": 10",
+        4.0,
+        1.399_708_424_447_530_7,
+    ),
     ("samples", "\"values\": [1, 2, 3, 6]", 3.0, 1.870_828_693_386_970_7),
 ];
 
@@ -97,6 +112,16 @@ fn missing_and_impossible_fields_are_named() {
         ("\"distribution\": \"lognormal\", \"mean\": -1, \"std\": 1", "mean is -1"),
         ("\"distribution\": \"poisson-count\", \"count\": 2.5", "whole number"),
         ("\"distribution\": \"poisson-count\", \"count\": -1", "whole number"),
+        ("\"distribution\": \"weibull\", \"shape\": 2", "`scale`"),
+        ("\"distribution\": \"weibull\", \"shape\": -2, \"scale\": 1", "shape is -2"),
+        ("\"distribution\": \"pareto\", \"shape\": 2, \"scale\": 1", "above 2"),
+        ("\"distribution\": \"gumbel\", \"location\": 2, \"scale\": 0", "scale is 0"),
+        ("\"distribution\": \"binomial\", \"trials\": 10, \"probability\": 1", "between 0 and 1"),
+        ("\"distribution\": \"binomial\", \"trials\": 0, \"probability\": 0.5", "whole number"),
+        (
+            "\"distribution\": \"hypergeometric\", \"population\": 5, \"marked\": 6, \"draws\": 2",
+            "at most the population",
+        ),
         ("\"distribution\": \"samples\"", "no values"),
         ("\"distribution\": \"samples\", \"values\": [1]", "at least two samples"),
         ("\"distribution\": \"samples\", \"values\": [1], \"file\": \"a\"", "take one of them out"),

@@ -1,9 +1,9 @@
 //! The distributions: keys, standard uncertainty, divisor.
 
 use gumption_engine::distribution::{
-    Arcsine, Beta, CurvilinearTrapezoid, Distribution, Exponential, Gamma, Invalid, LogUniform,
-    Lognormal, Normal, PoissonCount, Readings, Rectangular, SplitNormal, StudentT, Trapezoidal,
-    Triangular,
+    Arcsine, Beta, CurvilinearTrapezoid, Distribution, Exponential, External, Gamma, Invalid,
+    LogUniform, Lognormal, Normal, PoissonCount, Readings, Rectangular, SplitNormal, StudentT,
+    Trapezoidal, Triangular,
 };
 use gumption_files::schema;
 use serde_json::Value;
@@ -35,6 +35,15 @@ pub(super) fn uncertainty(name: &str) -> Option<(&'static str, &'static str)> {
             "",
         ),
         "poisson-count" => ("sqrt(count + 1)", ""),
+        "weibull" => ("scale*sqrt(Γ(1 + 2/shape) - Γ(1 + 1/shape)^2)", ""),
+        "gumbel" => ("pi*scale/sqrt(6)", ""),
+        "pareto" => ("scale/(shape - 1)*sqrt(shape/(shape - 2))", ""),
+        "chi-squared" => ("sqrt(2*dof)", ""),
+        "binomial" => ("sqrt(trials*probability*(1 - probability))", ""),
+        "hypergeometric" => (
+            "sqrt(draws*p*(1 - p)*(population - draws)/(population - 1)), p = marked/population",
+            "",
+        ),
         "samples" => ("the standard deviation of the values", ""),
         "split-normal" => ("sqrt((1 - 2/pi)*(std_high - std_low)^2 + std_high*std_low)", ""),
         "quantiles" => ("the standard deviation of the interpolated quantiles", ""),
@@ -62,6 +71,10 @@ fn drawn(name: &str) -> Option<Distribution> {
         "beta" => Beta::new(2.0, 4.0).map(Into::into),
         "log-uniform" => LogUniform::new(1.0, 6.0).map(Into::into),
         "poisson-count" => PoissonCount::new(3).map(Into::into),
+        "weibull" => External::weibull(2.0, 1.0).map(Into::into),
+        "gumbel" => External::gumbel(0.0, 1.0).map(Into::into),
+        "pareto" => External::pareto(3.0, 1.0).map(Into::into),
+        "chi-squared" => External::chi_squared(4.0).map(Into::into),
         "split-normal" => SplitNormal::new(0.0, 0.5, 1.5).map(Into::into),
         _ => return None,
     };
