@@ -4,17 +4,16 @@ use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::diagnostics::Diagnostics;
 use super::effect_context::EffectContext;
 use super::effects;
 use super::formula_notes::UNUSED_INPUT;
 use super::model_reader::{Found, ModelOptions, ModelReader, read_with};
 use super::reader::FileReader;
 use super::results::Results;
-use super::source::SourceText;
-use super::{DiagnosticKind, catalogue, prior, soundness};
+use super::{catalogue, prior, soundness};
 use gumption_engine::task::{Row, Warning};
 use gumption_gap::Case;
+use gumption_text::{DiagnosticKind, Diagnostics, SourceText};
 
 /// The keys that only cases have; a file with one of them is meant as a case.
 pub(super) const KEYS: [&str; 4] = ["observations", "effects", "catalogue", "prior"];

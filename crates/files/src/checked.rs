@@ -4,15 +4,14 @@ use std::path::Path;
 
 use super::certificate;
 use super::costs;
-use super::diagnostics::Diagnostics;
-use super::json::{self, Json};
 use super::model_reader::{ModelOptions, read_with};
 use super::open::is_table_of_results;
 use super::reader::FileReader;
 use super::recipe;
 use super::result_file;
-use super::source::SourceText;
 use gumption_engine::task::Warning;
+use gumption_text::json::{self, Json};
+use gumption_text::{Diagnostics, SourceText};
 
 /// What a file is, as its keys or its header tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use super::diagnostics::{Diagnostic, Diagnostics};
-use super::json::{self, Json};
 use super::model_file::ModelFile;
 use super::reader::FileReader;
 use super::result_file::ResultFile;
-use super::{DiagnosticKind, SourceText};
 use gumption_engine::task::Warning;
+use gumption_text::json::{self, Json};
+use gumption_text::{Diagnostic, DiagnosticKind, Diagnostics, SourceText};
 
 /// A model file or a result file that was read and found right.
 #[derive(Debug)]

@@ -4,13 +4,11 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::DiagnosticKind;
-use super::diagnostics::{Diagnostic, Diagnostics};
 use super::model_reader::{ModelOptions, read_with};
 use super::overrides::Override;
 use super::reader::FileReader;
-use super::source::SourceText;
 use gumption_engine::task::{Evidence, Task, Warning};
+use gumption_text::{Diagnostic, DiagnosticKind, Diagnostics, SourceText};
 
 /// A model file that was read and found right.
 #[derive(Debug)]

@@ -23,23 +23,18 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::column_heading;
 use super::conditions::{self, Conditions};
 use super::constant_inputs::ConstantInputs;
 use super::counted_twice;
-use super::diagnostics::{Collector, Diagnostics};
 use super::fits::{self, FitSet};
-use super::folder::Folder;
 use super::formula_notes;
 use super::input_set::InputSet;
 use super::interpolated;
-use super::json::{Json, Member, Node};
 use super::model_checks::{
     Quantities, check_equations, check_formula_outputs, check_names, check_typed,
     imaginary_unit_hidden, units_not_checked, unknown_output,
 };
 use super::model_file::ModelFile;
-use super::object::Object;
 use super::observations::{self, Observations};
 use super::occasions;
 use super::open::{FileKind, check_format, read_changed_root, refuse_other_kind};
@@ -51,8 +46,7 @@ use super::results::Results;
 use super::scopes::{ConditionSet, number_form, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
-use super::table::{self, Table};
-use super::{DiagnosticKind, correlations, history, inputs, keys, notation, regions, settings};
+use super::{correlations, history, inputs, keys, regions, settings};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::{Formula, constants};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
@@ -61,6 +55,10 @@ use gumption_engine::number::Shortest;
 use gumption_engine::regression::CurveFunction;
 use gumption_engine::task::{ModelStatement, Row, Settings, Task, Trials, Warning};
 use gumption_gap::{History, ModelForm, ObservedOutput, OverridableModel};
+use gumption_text::json::{Json, Member, Node};
+use gumption_text::object::Object;
+use gumption_text::table::{self, Table};
+use gumption_text::{Collector, DiagnosticKind, Diagnostics, Folder, column_heading, notation};
 use gumption_units::Unit;
 use gumption_units::nearest;
 
@@ -186,7 +184,7 @@ impl<'a> ModelReader<'a> {
         if refuse_other_kind(root, FileKind::Model) {
             return None;
         }
-        root.check_keys(keys::MODEL);
+        keys::check(root, keys::MODEL);
         check_format(root, 2.0);
         own_units(root);
         let title = root.text("title").unwrap_or("").to_owned();

@@ -5,9 +5,7 @@ use std::path::{Path, PathBuf};
 use super::case::{self, CaseFile};
 use super::certificate::{self, CertificateFile};
 use super::checked;
-use super::diagnostics::Diagnostics;
 use super::either::{self, ModelOrResult};
-use super::folder::{FileSource, Folder};
 use super::model_file::{self, ModelFile};
 use super::open::open;
 use super::overrides::Override;
@@ -15,6 +13,7 @@ use super::recipe::{self, RecipeFile};
 use super::result_file::{self, ResultFile};
 use gumption_engine::model::typed::Catalogue;
 use gumption_engine::task::{Row, Trials, Warning};
+use gumption_text::{Diagnostics, FileSource, Folder};
 
 /// Reads files that may name the typed measurements of a catalogue: the built-in ones
 /// ([`FileReader::default`]), or those of one's own as well.

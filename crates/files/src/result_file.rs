@@ -5,16 +5,11 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
-use super::DiagnosticKind;
 use super::conditions::unit;
-use super::diagnostics::{Collector, Diagnostics};
-use super::json::{Json, Node};
-use super::object::Object;
 use super::open::{check_format, read_root};
 use super::reader::FileReader;
 use super::result_consistency::{self, Stated};
 use super::result_outputs;
-use super::source::SourceText;
 use gumption_analysis::diff::ByTrials;
 use gumption_analysis::integrity;
 use gumption_engine::distribution::{
@@ -22,6 +17,9 @@ use gumption_engine::distribution::{
     SavedResult, Scores,
 };
 use gumption_engine::task::Warning;
+use gumption_text::json::{Json, Node};
+use gumption_text::object::Object;
+use gumption_text::{Collector, DiagnosticKind, Diagnostics, SourceText};
 use gumption_units::Unit;
 
 /// At most so many quantiles of an output.

@@ -5,18 +5,15 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::dcc::{self, Certificates, FromCertificate};
-use super::diagnostics::{Collector, Diagnostics};
-use super::folder::Folder;
-use super::json::Node;
-use super::object::Object;
 use super::open::is_no_object;
 use super::reader::FileReader;
 use super::result_file::{ResultFile, SavedOutput};
-use super::source::Place;
-use super::{DiagnosticKind, bytes};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::regression::CurveFunction;
 use gumption_engine::task::Warning;
+use gumption_text::json::Node;
+use gumption_text::object::Object;
+use gumption_text::{Collector, DiagnosticKind, Diagnostics, Folder, Place, bytes};
 use gumption_units::Unit;
 use gumption_units::nearest;
 
