@@ -19,7 +19,7 @@ use gumption_engine::special;
 
 use super::discrepancy::{Base, Discrepancy, Unexplained, Weighted, amplitude_steps};
 use super::evidence::EvidenceEstimate;
-use super::over_noises::converted_point;
+use super::latent::converted_point;
 use super::posterior::{Before, Effort, HOPELESS, Posterior, WeighedHypothesis, ln_weight};
 use super::search::{self, Mode};
 use super::setup::Setup;

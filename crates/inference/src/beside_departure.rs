@@ -6,7 +6,8 @@
 
 use super::data::by_rows;
 use super::discrepancy::Discrepancy;
-use super::noise_model::{NoiseModel, STILL_OFF, SUSPECT_SIZES, Suspect, Weighing};
+use super::noise_model::{NoiseModel, STILL_OFF, SUSPECT_SIZES, Suspect};
+use super::weighing::{Weighing};
 use super::posterior::ln_weight;
 use super::setup::Setup;
 use gumption_engine::number::{elementary, largest_first, median};

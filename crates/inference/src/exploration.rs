@@ -10,7 +10,7 @@ use gumption_engine::parallel;
 
 use super::evidence::{DISAGREE, EvidenceEstimate};
 use super::likelihood::Likelihood;
-use super::over_noises::converted_point;
+use super::latent::converted_point;
 use super::posterior::{Before, Effort, HOPELESS, MANY_VALUES, WeighedHypothesis};
 use super::response_scan;
 use super::search::Mode;

@@ -4,7 +4,8 @@
 //! the data, a departure that does may need fewer: those that it does not need are taken out again.
 
 use super::beside_departure::ln_departure;
-use super::noise_model::{Suspect, Weighing};
+use super::noise_model::{Suspect};
+use super::weighing::{Weighing};
 
 /// The probability of a departure, with the values that are off, from which on it is asked which of
 /// them it needs.

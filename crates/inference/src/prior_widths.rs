@@ -8,7 +8,8 @@
 
 use super::beside;
 use super::logarithm::ln_add;
-use super::noise_model::{WORTH_TRYING, Weighing, ln_total};
+use super::noise_model::{WORTH_TRYING};
+use super::weighing::{Weighing, ln_total};
 use super::posterior::{self, Effort, Posterior, WeighedHypothesis};
 use super::setup::Setup;
 use crate::Case;

@@ -12,10 +12,8 @@ use gumption_engine::parallel;
 use super::beside_departure::beside_departure;
 use super::influence::{Influence, SizeGains, suspect};
 use super::logarithm::ln_add;
-use super::noise_model::{
-    MOST_SUSPECTS, NoiseModel, STILL_OFF, SUSPECT_SIZES, Suspect, WORTH_TRYING, Weighing, ln_total,
-    ln_weight_at_mode,
-};
+use super::noise_model::{MOST_SUSPECTS, NoiseModel, STILL_OFF, SUSPECT_SIZES, Suspect, WORTH_TRYING};
+use super::weighing::{Weighing, ln_total, ln_weight_at_mode};
 use super::posterior::{self, Effort, WeighedHypothesis};
 use super::prior_widths::PriorWidths;
 use super::remainder::Remainder;
