@@ -4,11 +4,11 @@ use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::context::Context;
 use super::effect_context::EffectContext;
 use super::effects;
 use super::formula_notes::UNUSED_INPUT;
 use super::model_reader::{Found, ModelOptions, ModelReader, read_with};
-use super::context::Context;
 use super::results::Results;
 use super::{catalogue, prior, soundness};
 use gumption_engine::task::{Row, Warning};

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::certificate;
+use super::context::Context;
 use super::costs;
 use super::model_reader::{ModelOptions, read_with};
 use super::open::is_table_of_results;
-use super::context::Context;
 use super::recipe;
 use super::result_file;
 use gumption_engine::task::Warning;

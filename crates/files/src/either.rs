@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::model_file::{self, ModelFile};
 use super::context::Context;
+use super::model_file::{self, ModelFile};
 use super::result_file::{self, ResultFile};
 use gumption_engine::task::Warning;
 use gumption_text::json::{self, Json};

@@ -4,10 +4,10 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::context::Context;
 use super::model_reader::{ModelOptions, read_with};
 use super::open::open;
 use super::overrides::Override;
-use super::context::Context;
 use gumption_engine::task::{Evidence, Task, Warning};
 use gumption_text::{Diagnostic, DiagnosticKind, Diagnostics, SourceText};
 

@@ -25,6 +25,7 @@ use std::sync::Arc;
 
 use super::conditions::{self, Conditions};
 use super::constant_inputs::ConstantInputs;
+use super::context::Context;
 use super::counted_twice;
 use super::fits::{self, FitSet};
 use super::formula_notes;
@@ -41,7 +42,6 @@ use super::open::{FileKind, check_format, read_changed_root, refuse_other_kind};
 use super::output_limits;
 use super::outputs::{self, Outputs};
 use super::overrides::{self, Override};
-use super::context::Context;
 use super::results::Results;
 use super::scopes::{ConditionSet, number_form, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use serde_json::{Map, Value};
 
 use super::conditions::unit;
-use super::open::{check_format, read_root};
 use super::context::Context;
+use super::open::{check_format, read_root};
 use super::result_consistency::{self, Stated};
 use super::result_outputs;
 use gumption_analysis::diff::ByTrials;

@@ -4,9 +4,9 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::context::Context;
 use super::dcc::{self, Certificates, FromCertificate};
 use super::open::is_no_object;
-use super::context::Context;
 use super::result_file::{self, ResultFile, SavedOutput};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::regression::CurveFunction;

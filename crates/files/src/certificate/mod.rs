@@ -8,9 +8,9 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::context::Context;
 use super::keys;
 use super::open::{FileKind, check_format, read_root, refuse_other_kind};
-use super::context::Context;
 use super::settings;
 use gumption_analysis::certificate::contents::{Certificate, DecimalMark, Language, Rounding};
 use gumption_engine::task::{Coverage, Settings, Warning};

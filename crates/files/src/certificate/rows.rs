@@ -6,11 +6,11 @@ use std::path::Path;
 
 use super::super::conditions::Conditions;
 use super::super::constant_inputs::ConstantInputs;
+use super::super::context::Context;
 use super::super::keys;
 use super::super::model_file::{self, ModelFile};
 use super::super::output_limits;
 use super::super::overrides::Override;
-use super::super::context::Context;
 use super::super::scopes::ConditionSet;
 use super::administrative::localized;
 use super::{Asking, CertifiedModel};

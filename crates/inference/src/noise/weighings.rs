@@ -5,17 +5,17 @@ use std::sync::Arc;
 use gumption_engine::number::elementary;
 use gumption_engine::parallel;
 
-use super::discrepancy::Discrepancy;
-use super::logarithm::ln_add;
-use super::needless::without_needless;
-use super::noise_model::{Factor, NoiseModel, SERIAL, Suspect, WORTH_TRYING, lag};
-use super::posterior::{self, Beginnings, Effort, MANY_VALUES};
-use super::prior_widths::{self, Begun, OtherPriors, PriorWidths};
-use super::setup::Setup;
-use super::suspects::more_suspects;
-use super::weighing::{Weighing, ln_total, ln_weight_at_mode};
-use super::{common_noise_search, shared_noise_search};
 use crate::Case;
+use crate::discrepancy::Discrepancy;
+use crate::logarithm::ln_add;
+use crate::noise::needless::without_needless;
+use crate::noise::noise_model::{Factor, NoiseModel, SERIAL, Suspect, WORTH_TRYING, lag};
+use crate::noise::prior_widths::{self, Begun, OtherPriors, PriorWidths};
+use crate::noise::suspects::more_suspects;
+use crate::noise::weighing::{Weighing, ln_total, ln_weight_at_mode};
+use crate::noise::{common_noise_search, shared_noise_search};
+use crate::posterior::{self, Beginnings, Effort, MANY_VALUES};
+use crate::setup::Setup;
 
 /// A serial correlation is tried although its evidence at the modes without it is lower by this
 /// factor's logarithm: modes move with it.

@@ -4,16 +4,16 @@ use gumption_engine::linalg::dot;
 use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::parallel;
 
-use super::data::Data;
-use super::discrepancy::levels;
-use super::logarithm::ln_add;
-use super::noise_model::{NoiseModel, WORTH_TRYING};
-use super::posterior::WeighedHypothesis;
-use super::remainder::Remainder;
-use super::setup::Setup;
-use super::shared_noise::{RATIOS, Setting, SharedNoise, count_of, most_errors};
-use super::weighing::{Weighing, ln_total, ln_weight_at_mode};
 use crate::Case;
+use crate::data::Data;
+use crate::discrepancy::levels;
+use crate::logarithm::ln_add;
+use crate::noise::noise_model::{NoiseModel, WORTH_TRYING};
+use crate::noise::remainder::Remainder;
+use crate::noise::shared_noise::{DEPARTURE, RATIOS, Setting, SharedNoise, count_of, most_errors};
+use crate::noise::weighing::{Weighing, ln_total, ln_weight_at_mode};
+use crate::posterior::WeighedHypothesis;
+use crate::setup::Setup;
 
 /// Standard deviations are tried that are as probable as the best by a factor of this logarithm.
 const NEAR: f64 = 4.0;

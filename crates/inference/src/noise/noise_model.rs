@@ -8,9 +8,9 @@
 //! those of one setting share, or with single values off by many standard uncertainties.
 //! Probabilities of effects are summed over it.
 
-use super::common_noise::CommonNoise;
-use super::latent::{Map, Role};
-use super::shared_noise::SharedNoise;
+use crate::latent::{Map, Role};
+use crate::noise::common_noise::CommonNoise;
+use crate::noise::shared_noise::SharedNoise;
 use crate::{Case, Prior};
 use gumption_engine::number::elementary;
 

@@ -6,15 +6,15 @@
 
 use std::sync::Arc;
 
-use super::beside::{self, Beside};
-use super::discrepancy::{Discrepancy, Unexplained};
-use super::evidence::EvidenceEstimate;
-use super::latent::{Role, score_as, score_of_none};
-use super::noise_model::NoiseModel;
-use super::posterior::{Posterior, WeighedHypothesis};
-use super::prior_widths::PriorWidths;
-use super::setup::Setup;
-use super::weighing::{Weighing, most_probable};
+use crate::beside::{self, Beside};
+use crate::discrepancy::{Discrepancy, Unexplained};
+use crate::integral::evidence::EvidenceEstimate;
+use crate::latent::{Role, score_as, score_of_none};
+use crate::noise::noise_model::NoiseModel;
+use crate::noise::prior_widths::PriorWidths;
+use crate::noise::weighing::{Weighing, most_probable};
+use crate::posterior::{Posterior, WeighedHypothesis};
+use crate::setup::Setup;
 use gumption_engine::number::Column;
 
 /// A hypothesis below this probability is not worth more draws.

@@ -10,8 +10,8 @@
 use gumption_engine::linalg::dot;
 use gumption_engine::number::elementary;
 
-use super::data::Data;
-use super::latent::Role;
+use crate::data::Data;
+use crate::latent::Role;
 use crate::{Case, ObservedOutput};
 
 /// The standard deviations of the shared error that are weighed, in stated uncertainties.
@@ -22,7 +22,7 @@ pub const LIMITS: [f64; 2] = [0.5, 256.0];
 pub const RATIOS: [f64; 10] = [LIMITS[0], 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, LIMITS[1]];
 
 /// From this standard deviation on, in stated uncertainties, errors are a gap.
-const DEPARTURE: f64 = 2.0;
+pub(crate) const DEPARTURE: f64 = 2.0;
 
 /// The prior probability that an output has no such error where some output has.
 const NONE: f64 = 0.5;

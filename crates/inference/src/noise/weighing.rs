@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use super::discrepancy::Discrepancy;
-use super::latent::{AT_BOUND, EDGE, Role};
-use super::logarithm::ln_add;
-use super::noise_model::NoiseModel;
-use super::posterior::{Before, Posterior, WeighedHypothesis};
-use super::prior_widths::PriorWidths;
-use super::setup::Setup;
+use crate::discrepancy::Discrepancy;
+use crate::latent::{AT_BOUND, EDGE, Role};
+use crate::logarithm::ln_add;
+use crate::noise::noise_model::NoiseModel;
+use crate::noise::prior_widths::PriorWidths;
+use crate::posterior::{Before, Posterior, WeighedHypothesis};
+use crate::setup::Setup;
 use gumption_engine::number::elementary;
 
 /// The hypotheses weighed with one noise model.

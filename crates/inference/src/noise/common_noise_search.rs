@@ -5,12 +5,12 @@ use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::parallel;
 
-use super::logarithm::{HALF_LN_TWO_PI, ln_add};
-use super::common_noise::CommonNoise;
-use super::noise_model::{FACTORS, NoiseModel, WORTH_TRYING};
-use super::remainder::Remainder;
-use super::setup::Setup;
-use super::weighing::{Weighing, ln_total, ln_weight_at_mode};
+use crate::logarithm::{HALF_LN_TWO_PI, ln_add};
+use crate::noise::common_noise::CommonNoise;
+use crate::noise::noise_model::{FACTORS, NoiseModel, WORTH_TRYING};
+use crate::noise::remainder::Remainder;
+use crate::noise::weighing::{Weighing, ln_total, ln_weight_at_mode};
+use crate::setup::Setup;
 
 /// Fewer rows say nothing of a correlation.
 const LEAST_ROWS: usize = 8;
