@@ -274,13 +274,36 @@ pub use templates::catalogue;
 pub use gumption_analysis::{certificate, compare, diff, plan};
 pub use gumption_assumptions as assumptions;
 pub use gumption_engine::{decimal, measurement};
-pub use gumption_files as file;
 pub use gumption_files::schema;
 pub use gumption_gap as gap;
 pub use gumption_measurements as measurements;
 pub use gumption_report as report;
 pub use gumption_signal as observe;
 pub use gumption_units as unit;
+
+/// User files: read, validated, turned into tasks. Every mistake is a [`Diagnostic`](file::Diagnostic)
+/// with its place.
+pub mod file {
+    pub use gumption_files::{
+        CarriedModel, CaseFile, CertificateFile, CertificateListing, CertifiedModel, CostFile,
+        EffectListing, FileReader, ListedEffect, ListedParameter, ListedPart, ListedQuantity,
+        ModelFile, ModelOrResult, NotCopied, OpenedRow, Override, Overrides, RecipeCondition,
+        RecipeFile, RecipeRow, Recording, ResultFile, SavedOutput, SharedFileError,
+        SharedFileHeader, SharedFileKind, SharedModelError, SharedRun, TextKind, carried_models,
+        catalogue, certificate_listing, certificate_listing_text, check, check_text, difference,
+        named_in, read, read_case, read_certificate, read_costs, read_costs_text, read_drift,
+        read_recipe, read_recipe_text, read_result, read_target, read_text, schema, shared_file,
+        shared_file_bytes,
+    };
+    pub use gumption_foreign::{
+        ComparisonOptions, ComparisonTable, ImportedBudget, ReadComparison, import_budget,
+        import_budget_bytes, import_budget_sheet, read_comparison, read_comparison_text,
+    };
+    pub use gumption_text::{
+        Diagnostic, DiagnosticKind, Diagnostics, FileSource, SourceText, bytes, is_obeyed,
+        printable,
+    };
+}
 
 /// Threads that belong to one process.
 pub mod threads {

@@ -16,8 +16,9 @@ use gumption_analysis::certificate::contents::{Certificate as Asked, Line};
 use gumption_analysis::certificate::{Basis, Failed, Issued, issue};
 use gumption_engine::propagate::warnings;
 use gumption_engine::task::{MethodChoice, Trials, Warning};
-use gumption_files::{CertificateFile, Diagnostic, DiagnosticKind, Diagnostics, FileReader};
+use gumption_files::{CertificateFile, FileReader};
 use gumption_report::certificate::{self as report, CertificateReport, DccVersion, ModelSource};
+use gumption_text::{Diagnostic, DiagnosticKind, Diagnostics};
 
 /// Make a calibration certificate.
 #[derive(Debug, Args)]

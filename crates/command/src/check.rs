@@ -9,8 +9,8 @@ use super::exit::say;
 use super::options::{self, Answer, Format, Trust};
 use super::{CommandLine, Exit, Failure, diagnostics};
 use gumption_engine::task::Warning;
-use gumption_files::{Diagnostic, Diagnostics};
 use gumption_report::{plain, pretty};
+use gumption_text::{Diagnostic, Diagnostics};
 
 /// Check a file.
 #[derive(Debug, Args)]

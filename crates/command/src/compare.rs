@@ -7,8 +7,7 @@ use clap::{Args, ValueEnum};
 use super::options::{self, Answer, Interactive};
 use super::{Exit, Failure};
 use gumption_analysis::compare::{Estimator, Impossible, ResultPair, laboratories};
-use gumption_files as file;
-use gumption_files::{ComparisonOptions, ComparisonTable, ReadComparison};
+use gumption_foreign::{ComparisonOptions, ComparisonTable, ReadComparison};
 use gumption_report::compare::{self as report, Compare as ComparedPair};
 use gumption_units::nearest;
 
@@ -82,8 +81,10 @@ impl Compare {
             correlations: self.correlations.as_deref(),
             sheet: self.sheet.as_deref(),
         };
-        let text = |text: &str| file::read_comparison_text("<stdin>", text, options);
-        let table = options::given(&self.table, text, |path| file::read_comparison(path, options));
+        let text = |text: &str| gumption_foreign::read_comparison_text("<stdin>", text, options);
+        let table = options::given(&self.table, text, |path| {
+            gumption_foreign::read_comparison(path, options)
+        });
         let ReadComparison { table, units, warnings } = table??;
         let read = [Some(&self.table), self.against.as_ref(), self.correlations.as_ref()];
         let read: Vec<PathBuf> = read.into_iter().flatten().cloned().collect();

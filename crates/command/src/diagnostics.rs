@@ -2,7 +2,7 @@
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use gumption_files::{Diagnostic, DiagnosticKind, Diagnostics};
+use gumption_text::{Diagnostic, DiagnosticKind, Diagnostics};
 
 /// Longer lines are cut around the place.
 const LONGEST: usize = 160;

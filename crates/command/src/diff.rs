@@ -9,8 +9,9 @@ use super::exit::say;
 use super::options::{self, Answer, CoverageOption, Interactive, Threads, Trust};
 use super::{CommandLine, Exit, Failure, signals};
 use gumption_files as file;
-use gumption_files::{Diagnostics, ModelOrResult};
+use gumption_files::ModelOrResult;
 use gumption_report as report;
+use gumption_text::Diagnostics;
 
 /// Compare two model files, two saved results, or one with the other.
 #[derive(Debug, Args)]

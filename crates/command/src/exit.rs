@@ -6,8 +6,8 @@ use std::process::ExitCode;
 
 use super::surroundings::in_call;
 use super::{diagnostics, signals};
-use gumption_files::{Diagnostics, printable};
 use gumption_report::plain;
+use gumption_text::{Diagnostics, printable};
 
 /// A regular end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

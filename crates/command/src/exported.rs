@@ -7,7 +7,8 @@ use std::sync::atomic::AtomicBool;
 
 use super::{CommandLine, Exit, Failure, GivenFile};
 use gumption_engine::task::{Task, Trials};
-use gumption_files::{Diagnostics, TextKind};
+use gumption_files::TextKind;
+use gumption_text::Diagnostics;
 
 /// Trials in all rows that are made while somebody waits, at most: minutes on a usual machine.
 const MOST_TRIALS: u64 = 2_000_000_000;

@@ -7,7 +7,7 @@ use clap::Args;
 use super::exit::say_line;
 use super::output::Place;
 use super::{Exit, Failure, output};
-use gumption_files::import_budget_sheet;
+use gumption_foreign::import_budget_sheet;
 
 /// Make a model file of a budget in a spreadsheet (CSV, or the sheet of an XLSX file that holds one), or of a
 /// suncal project (YAML).

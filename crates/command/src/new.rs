@@ -10,8 +10,9 @@ use super::exit::{say, say_line};
 use super::output::Place;
 use super::{CommandLine, Exit, Failure, output};
 use gumption_engine::model::formula::Formula;
-use gumption_files::{DiagnosticKind, schema};
+use gumption_files::schema;
 use gumption_report::plain;
+use gumption_text::DiagnosticKind;
 use gumption_units::{Unit, nearest};
 
 /// Write a model file to start from. Without --equation the measurement is asked for.

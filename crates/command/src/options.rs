@@ -16,8 +16,9 @@ use super::{CommandLine, Failure, output};
 use gumption_engine::parallel::{self, Pool};
 use gumption_engine::propagate::Control;
 use gumption_engine::task::{Coverage, MethodChoice, Row, StoppingRule, Trials, Warning};
-use gumption_files::{CaseFile, FileReader, ModelFile, Override, bytes};
+use gumption_files::{CaseFile, FileReader, ModelFile, Override};
 use gumption_report::{BudgetColumn, plain};
+use gumption_text::bytes;
 
 /// The format of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

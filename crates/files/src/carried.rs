@@ -10,10 +10,8 @@ use roxmltree::Node;
 use serde_json::{Map, Value, json};
 
 use super::dcc;
-use super::diagnostics::{Collector, Diagnostics};
 use super::loose_files::named_in;
-use super::source::SourceText;
-use super::{DiagnosticKind, bytes, workbook};
+use gumption_text::{Collector, DiagnosticKind, Diagnostics, SourceText, bytes, workbook};
 
 /// A model that another file carries.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,7 +58,7 @@ pub fn carried_models(path: &Path) -> Result<Vec<CarriedModel>, Diagnostics> {
 }
 
 /// The model file on a workbook's last sheet.
-pub(super) fn of_workbook(content: Vec<u8>) -> Result<String, String> {
+pub fn of_workbook(content: Vec<u8>) -> Result<String, String> {
     let rows = workbook::rows_of(content, workbook::Sheet::Last)?;
     let first = |row: &Vec<String>| row.first().cloned().unwrap_or_default();
     let mut lines = rows.iter().map(first).skip_while(|line| line != "The model file");

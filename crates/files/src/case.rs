@@ -4,17 +4,16 @@ use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::diagnostics::Diagnostics;
+use super::context::Context;
 use super::effect_context::EffectContext;
 use super::effects;
 use super::formula_notes::UNUSED_INPUT;
 use super::model_reader::{Found, ModelOptions, ModelReader, read_with};
-use super::reader::FileReader;
 use super::results::Results;
-use super::source::SourceText;
-use super::{DiagnosticKind, catalogue, prior, soundness};
+use super::{catalogue, prior, soundness};
 use gumption_engine::task::{Row, Warning};
 use gumption_gap::Case;
+use gumption_text::{DiagnosticKind, Diagnostics, SourceText};
 
 /// The keys that only cases have; a file with one of them is meant as a case.
 pub(super) const KEYS: [&str; 4] = ["observations", "effects", "catalogue", "prior"];
@@ -34,7 +33,7 @@ pub struct CaseFile {
 
 /// What a case's sim has in the rows of a table of conditions, which stands in the current folder.
 pub(super) fn read_at(
-    files: FileReader<'_>,
+    files: Context<'_>,
     name: &str,
     text: &str,
     folder: &Path,
@@ -48,7 +47,7 @@ pub(super) fn read_at(
 
 /// Reads and checks a case's text.
 pub(super) fn read_text(
-    files: FileReader<'_>,
+    files: Context<'_>,
     name: &str,
     text: &str,
     folder: &Path,

@@ -2,11 +2,11 @@
 
 use std::fmt::Debug;
 
-use super::DiagnosticKind;
 use gumption_engine::model::formula::Formula;
+use gumption_text::DiagnosticKind;
 use gumption_units::Unit;
 
-use super::value_text::ValueOf;
+use gumption_text::value_text::ValueOf;
 
 /// The conditions' values in one row, by name; and how formulas of them are checked.
 pub(super) trait ConditionValues: Debug {

@@ -3,18 +3,16 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::diagnostics::Collector;
-use super::folder::Folder;
-use super::json::{Json, Member};
 use super::keys;
 use super::numbers_alone;
-use super::object::Object;
-use super::table::{self, Table};
-use super::value_text::ValueOf;
-use super::{DiagnosticKind, column_heading};
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{Formula, FormulaError, Scope};
 use gumption_gap::History;
+use gumption_text::json::{Json, Member};
+use gumption_text::object::Object;
+use gumption_text::table::{self, Table};
+use gumption_text::value_text::ValueOf;
+use gumption_text::{Collector, DiagnosticKind, Folder, column_heading};
 use gumption_units::Unit;
 
 /// At most so many rows: a sweep of a million.
@@ -155,7 +153,7 @@ fn columns_of(object: &Object<'_>, data: &Table) -> Option<Conditions> {
         else {
             continue;
         };
-        condition.check_keys(keys::CONDITION);
+        keys::check(&condition, keys::CONDITION);
         if let Some(values) = condition.get("values") {
             let reason = format!(
                 "the condition `{}` has values of its own, but with observations it is the column of \
@@ -197,7 +195,7 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
         else {
             continue;
         };
-        condition.check_keys(keys::CONDITION);
+        keys::check(&condition, keys::CONDITION);
         conditions.add(member, &condition);
         let unit = conditions.quantities.last().map_or_else(Unit::one, |of| of.unit.clone());
         let values = if condition.get("values").is_some() {
@@ -246,7 +244,7 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
 }
 
 fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<Conditions> {
-    object.check_keys(keys::TABLE_OF_CONDITIONS);
+    keys::check(object, keys::TABLE_OF_CONDITIONS);
     let log = object.log;
     let name = object.text("file")?;
     let wanted = object.get("columns").map(|member| member.value.texts());

@@ -4,14 +4,14 @@ use std::collections::HashSet;
 
 use super::condition_values::ConditionValues;
 use super::conditions::{Conditions, unit};
-use super::diagnostics::Collector;
-use super::json::{Json, Member};
-use super::object::Object;
 use super::overrides::Override;
 use super::scopes::ConditionSet;
-use super::value_text::{ValueOf, is_value};
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::Formula;
+use gumption_text::Collector;
+use gumption_text::json::{Json, Member};
+use gumption_text::object::Object;
+use gumption_text::value_text::{ValueOf, is_value};
 use gumption_units::Unit;
 
 /// The inputs of a file by whether formulas of estimates may use them.

@@ -4,18 +4,16 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::DiagnosticKind;
-use super::diagnostics::Collector;
-use super::folder::Folder;
 use super::input_set::InputSet;
-use super::json::{Json, Node};
 use super::keys;
 use super::links;
-use super::object::Object;
-use super::{sharing, table};
+use super::sharing;
 use gumption_engine::decimal;
 use gumption_engine::distribution::{Correlation, CorrelationError, Distribution, Fits};
 use gumption_engine::task::{Trials, Warning};
+use gumption_text::json::{Json, Node};
+use gumption_text::object::Object;
+use gumption_text::{Collector, DiagnosticKind, Folder, table};
 use gumption_units::nearest;
 
 /// Reads `correlations` and `correlation_matrix` of the root object and checks that the quantities
@@ -208,7 +206,7 @@ impl Reader<'_> {
     fn matrix(
         &mut self,
         log: &Collector,
-        member: &super::json::Member,
+        member: &gumption_text::json::Member,
         folder: Folder<'_>,
         files: &mut Vec<(String, Vec<u8>)>,
     ) {
@@ -217,7 +215,7 @@ impl Reader<'_> {
         else {
             return;
         };
-        object.check_keys(keys::CORRELATION_MATRIX);
+        keys::check(&object, keys::CORRELATION_MATRIX);
         let (names, values, spans) = if let Some(file) = object.text("file") {
             let place = object.get("file").map_or(object.place(), |m| &m.value.span).clone();
             let Some((table, bytes)) = table::read(log, folder, file, &place, None) else {

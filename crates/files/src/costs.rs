@@ -2,16 +2,15 @@
 
 use std::path::Path;
 
-use super::DiagnosticKind;
-use super::diagnostics::Diagnostics;
-use super::json::{Json, Member, Node};
 use super::keys::{self, COSTS_KEY};
-use super::object::Object;
 use super::open::{check_format, open, read_root};
-use super::value_text::ValueOf;
 use gumption_analysis::plan::{Costs, Improvement, Offer};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::task::Task;
+use gumption_text::json::{Json, Member, Node};
+use gumption_text::object::Object;
+use gumption_text::value_text::ValueOf;
+use gumption_text::{DiagnosticKind, Diagnostics};
 use gumption_units::{Unit, listed, nearest};
 
 /// At most so many offers of an input.
@@ -58,7 +57,7 @@ pub(super) fn is_meant(root: &Node) -> bool {
 }
 
 fn costs(root: Object<'_>, task: Option<&Task>) -> Costs {
-    root.check_keys(keys::COSTS);
+    keys::check(&root, keys::COSTS);
     check_format(&root, 1.0);
     root.text("title");
     let currency = root.text("currency").unwrap_or("").to_owned();
@@ -112,7 +111,7 @@ fn improvement(
 ) -> Option<Improvement> {
     let log = root.log;
     let object = Object::new(log, "the costs of an input", &member.value, &member.key_span)?;
-    object.check_keys(keys::COST);
+    keys::check(&object, keys::COST);
     let kinds = ["cost", "per_reading", "offers"];
     let given: Vec<&str> = kinds.into_iter().filter(|key| object.get(key).is_some()).collect();
     let [kind] = given.as_slice() else {
@@ -179,7 +178,7 @@ fn offers(object: &Object<'_>, unit: Option<&Unit>) -> Option<Vec<Offer>> {
     }
     let offer = |node: &Node| {
         let object = Object::new(object.log, "an offer", node, &node.span)?;
-        object.check_keys(keys::OFFER);
+        keys::check(&object, keys::OFFER);
         object.required("standard_uncertainty")?;
         object.required("cost")?;
         let about = object.text("about").unwrap_or("").to_owned();

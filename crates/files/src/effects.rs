@@ -3,20 +3,20 @@
 use std::ops::Range;
 
 use super::conditions::NoConditions;
-use super::diagnostics::Collector;
 use super::input_set::InputSet;
-use super::json::{Json, Member};
+use super::inputs;
 use super::keys;
-use super::object::Object;
 use super::results::Results;
 use super::scopes::report_formula;
-use super::{DiagnosticKind, inputs};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::model::formula;
 use gumption_engine::model::formula::{Formula, FormulaError};
 use gumption_engine::task::{Trials, Warning};
 use gumption_gap::Candidate;
 use gumption_gap::{Effect, OverridableModel};
+use gumption_text::json::{Json, Member};
+use gumption_text::object::Object;
+use gumption_text::{Collector, DiagnosticKind};
 use gumption_units::nearest;
 
 /// At most so many effects: their pairs are tried as well.
@@ -107,7 +107,7 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn effect(&mut self, member: &Member) -> Option<Candidate> {
         let object = Object::new(self.log, "an effect", &member.value, &member.key_span)?;
-        object.check_keys(keys::EFFECT);
+        keys::check(&object, keys::EFFECT);
         let diagnostic = |reason: &str| DiagnosticKind::Effect {
             name: member.key.clone(),
             reason: reason.to_owned(),

@@ -3,14 +3,9 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::diagnostics::Collector;
-use super::json::{Json, Member};
 use super::model_checks::Quantities;
 use super::model_reader::Equation;
-use super::object::Object;
 use super::scopes::report_formula;
-use super::shapes;
-use super::value_text::is_value;
 use gumption_engine::model::formula::{
     Factors, Formula, KelvinKind, LevelReference, Numbers, Scope, TableCall, TableData, Typing,
     Use, ValueSource,
@@ -18,6 +13,10 @@ use gumption_engine::model::formula::{
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Warning;
+use gumption_text::json::{Json, Member};
+use gumption_text::object::Object;
+use gumption_text::value_text::is_value;
+use gumption_text::{Collector, WIDTHS};
 use gumption_units::{Dimension, Exponent, Turn, Unit};
 
 /// Notes on the formulas of a file whose units are checked, and on the units of its outputs. Arguments
@@ -358,7 +357,7 @@ pub(super) fn of_conditions(root: &Object<'_>, of: &Quantities) -> Vec<Warning> 
 /// The texts of the fields of an input or a component that may be formulas of conditions, each with its
 /// key.
 fn condition_formulas(fields: &[Member]) -> impl Iterator<Item = (&str, &str)> {
-    let keys = || ["mean", "value", "values"].into_iter().chain(shapes::WIDTHS);
+    let keys = || ["mean", "value", "values"].into_iter().chain(WIDTHS);
     let fields = fields.iter().filter(move |field| keys().any(|key| key == field.key));
     fields.flat_map(|field| {
         let values = match &field.value.value {
@@ -376,7 +375,7 @@ fn condition_formulas(fields: &[Member]) -> impl Iterator<Item = (&str, &str)> {
 /// What a formula of conditions at a key of an input in that unit is for.
 fn use_of<'u>(key: &str, unit: Option<&'u Unit>) -> Use<'u> {
     match unit {
-        _ if shapes::WIDTHS.contains(&key) => Use::Width,
+        _ if WIDTHS.contains(&key) => Use::Width,
         Some(unit) => Use::Estimate(unit),
         None => Use::Quantity,
     }

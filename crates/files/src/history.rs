@@ -8,18 +8,17 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::DiagnosticKind;
-use super::column_heading;
 use super::conditions::Conditions;
-use super::json::Json;
-use super::object::Object;
 use super::observations::Observations;
-use super::table::Table;
 use gumption_engine::linalg::dot;
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::is_name;
 use gumption_engine::number::{ascending, smallest_first};
 use gumption_gap::{History, HistoryKind};
+use gumption_text::json::Json;
+use gumption_text::object::Object;
+use gumption_text::table::Table;
+use gumption_text::{DiagnosticKind, column_heading};
 use gumption_units::Unit;
 
 /// Fewer rows have no history that can be told from chance; of more, a search over it takes too long.

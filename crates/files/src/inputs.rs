@@ -2,30 +2,27 @@
 
 use std::collections::HashSet;
 
-use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::conditions::unit;
 use super::dcc::FromCertificate;
-use super::diagnostics::Collector;
-use super::folder::Folder;
 use super::input_set::InputSet;
-use super::json::{Json, Member};
 use super::keys::{self, Shape};
-use super::notation;
-use super::object::Object;
 use super::overrides::Override;
 use super::paired;
 use super::readings::{self, FileReadings};
 use super::results::Results;
 use super::samples;
 use super::shapes::{self, Estimate, Fields};
-use super::value_text::{ValueOf, is_value};
 use gumption_engine::decimal;
 use gumption_engine::distribution::{Constant, Distribution, EvaluationType, Samples};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{InputQuantity, Quantity};
 use gumption_engine::number::Shortest;
 use gumption_engine::task::{Evidence, Sharing, Trials, Variable, Warning};
+use gumption_text::json::{Json, Member};
+use gumption_text::object::Object;
+use gumption_text::value_text::{ValueOf, is_value};
+use gumption_text::{Collector, DiagnosticKind, Folder, notation};
 use gumption_units::Unit;
 
 /// At most so many variables.
@@ -144,7 +141,7 @@ impl<'a> Reader<'a, '_> {
     /// A complex quantity: two real ones, its real and imaginary part, or its modulus and phase.
     fn complex(&mut self, member: &'a Member, overrides: &'a [Override]) {
         let log = self.object.log;
-        self.object.check_keys(keys::COMPLEX_INPUT);
+        keys::check(&self.object, keys::COMPLEX_INPUT);
         if let Some(moved) = self.moved {
             let (text, name) = (moved.text.clone(), self.name);
             let reason = format!(
@@ -161,7 +158,7 @@ impl<'a> Reader<'a, '_> {
         let Some(object) = Object::new(log, what, &member.value, &member.key_span) else {
             return;
         };
-        object.check_keys(keys::COMPLEX);
+        keys::check(&object, keys::COMPLEX);
         let polar = object.get("modulus").is_some() || object.get("phase").is_some();
         let (parts, other) = if polar {
             ([("modulus", "abs"), ("phase", "arg")], ["re", "im"])
@@ -332,7 +329,7 @@ impl<'a> Reader<'a, '_> {
             return self.variable(self.name.to_owned(), &object, None, unit);
         };
         let known: Vec<&str> = keys::INPUT.into_iter().chain(kind.fields.iter().copied()).collect();
-        object.check_names(&known);
+        keys::check_names(&object, &known);
         self.evidence(unit);
         let variable = self.inputs.variables.len();
         self.variable(self.name.to_owned(), &object, Some(kind), unit);
@@ -448,7 +445,7 @@ impl<'a> Reader<'a, '_> {
         let Some(object) = object else {
             return;
         };
-        object.check_keys(keys::READINGS);
+        keys::check(&object, keys::READINGS);
         let name = format!("{}/evidence", self.name);
         let files = &mut self.inputs.files;
         let unit = (unit, ValueOf::Quantity);
@@ -663,7 +660,7 @@ impl<'a> Reader<'a, '_> {
     /// An input that is the sum of an estimate and its components.
     fn components(&mut self, unit: &Unit) {
         let object = self.object;
-        object.check_names(&keys::COMPOSED);
+        keys::check_names(&object, &keys::COMPOSED);
         // the estimate: a constant without a line of its own
         let first = self.inputs.variables.len();
         self.variable(self.name.to_owned(), &object, None, unit);
@@ -871,7 +868,7 @@ impl<'a> Reader<'a, '_> {
             } else if let Some(kind) = shapes::kind(&component) {
                 let known: Vec<&str> =
                     keys::COMPONENT.into_iter().chain(kind.fields.iter().copied()).collect();
-                component.check_names(&known);
+                keys::check_names(&component, &known);
                 let samples = self.samples(&component, &full, (unit, ValueOf::Difference), kind);
                 let Some(read) = self.readings_of_file(&component, &full, unit, kind) else {
                     continue;

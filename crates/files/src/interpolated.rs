@@ -3,17 +3,15 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::DiagnosticKind;
-use super::column_heading::heading;
-use super::diagnostics::Collector;
-use super::folder::Folder;
 use super::model_reader::Equation;
 use super::scopes::place_in_formula;
-use super::table::{self, Table};
 use gumption_engine::decimal;
 use gumption_engine::model::formula::{TableCall, TableData};
 use gumption_engine::model::{Interpolation, InterpolationMethod, NumberForm, TableFault};
 use gumption_engine::task::Warning;
+use gumption_text::column_heading::heading;
+use gumption_text::table::{self, Table};
+use gumption_text::{Collector, DiagnosticKind, Folder};
 use gumption_units::{Unit, nearest};
 
 /// The tables of a file's equations, as formulas take them.

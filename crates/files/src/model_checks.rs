@@ -5,13 +5,9 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::DiagnosticKind;
 use super::conditions::Conditions;
-use super::diagnostics::Collector;
 use super::input_set::InputSet;
-use super::json::{Json, Member, Node};
 use super::model_reader::{Equation, ModelBody};
-use super::object::Object;
 use super::outputs::Outputs;
 use super::scopes::{coherent, condition_scope, give_units, report_formula};
 use gumption_engine::model::Quantity;
@@ -20,6 +16,9 @@ use gumption_engine::model::formula::{
 };
 use gumption_engine::model::typed::CatalogueEntry;
 use gumption_engine::task::Warning;
+use gumption_text::json::{Json, Member, Node};
+use gumption_text::object::Object;
+use gumption_text::{Collector, DiagnosticKind};
 use gumption_units::Unit;
 use gumption_units::nearest;
 

@@ -23,36 +23,30 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::column_heading;
 use super::conditions::{self, Conditions};
 use super::constant_inputs::ConstantInputs;
+use super::context::Context;
 use super::counted_twice;
-use super::diagnostics::{Collector, Diagnostics};
 use super::fits::{self, FitSet};
-use super::folder::Folder;
 use super::formula_notes;
 use super::input_set::InputSet;
 use super::interpolated;
-use super::json::{Json, Member, Node};
 use super::model_checks::{
     Quantities, check_equations, check_formula_outputs, check_names, check_typed,
     imaginary_unit_hidden, units_not_checked, unknown_output,
 };
 use super::model_file::ModelFile;
-use super::object::Object;
 use super::observations::{self, Observations};
 use super::occasions;
 use super::open::{FileKind, check_format, read_changed_root, refuse_other_kind};
 use super::output_limits;
 use super::outputs::{self, Outputs};
 use super::overrides::{self, Override};
-use super::reader::FileReader;
 use super::results::Results;
 use super::scopes::{ConditionSet, number_form, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
-use super::table::{self, Table};
-use super::{DiagnosticKind, correlations, history, inputs, keys, notation, regions, settings};
+use super::{correlations, history, inputs, keys, regions, settings};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::{Formula, constants};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
@@ -61,6 +55,10 @@ use gumption_engine::number::Shortest;
 use gumption_engine::regression::CurveFunction;
 use gumption_engine::task::{ModelStatement, Row, Settings, Task, Trials, Warning};
 use gumption_gap::{History, ModelForm, ObservedOutput, OverridableModel};
+use gumption_text::json::{Json, Member, Node};
+use gumption_text::object::Object;
+use gumption_text::table::{self, Table};
+use gumption_text::{Collector, DiagnosticKind, Diagnostics, Folder, column_heading, notation};
 use gumption_units::Unit;
 use gumption_units::nearest;
 
@@ -68,7 +66,7 @@ use gumption_units::nearest;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ModelOptions<'a> {
     /// The typed measurements that the file may name.
-    pub(super) files: FileReader<'a>,
+    pub(super) files: Context<'a>,
     /// Values in place of those of the file.
     pub(super) overrides: &'a [Override],
     /// A table of conditions in place of those of the data.
@@ -77,7 +75,7 @@ pub(super) struct ModelOptions<'a> {
 
 impl<'a> ModelOptions<'a> {
     /// Of a file as it is.
-    pub(super) fn with(files: FileReader<'a>) -> Self {
+    pub(super) fn with(files: Context<'a>) -> Self {
         Self { files, overrides: &[], at: None }
     }
 }
@@ -186,7 +184,7 @@ impl<'a> ModelReader<'a> {
         if refuse_other_kind(root, FileKind::Model) {
             return None;
         }
-        root.check_keys(keys::MODEL);
+        keys::check(root, keys::MODEL);
         check_format(root, 2.0);
         own_units(root);
         let title = root.text("title").unwrap_or("").to_owned();
@@ -474,7 +472,7 @@ impl<'a> ModelReader<'a> {
         match (self.root.get("model"), self.root.get("equations")) {
             (Some(member), None) => {
                 let name = self.root.text("model")?;
-                let catalogue = self.options.files.catalogue();
+                let catalogue = self.options.files.catalogue;
                 let entry = typed_model(self.root.log, catalogue, name, &member.value.span)?;
                 Some(ModelBody::Typed(entry, &member.value.span))
             }

@@ -4,13 +4,13 @@
 
 use std::collections::HashMap;
 
-use super::DiagnosticKind;
 use super::scopes;
-use super::value_text::{ValueOf, converted, with_unit};
-use super::width::number;
 use gumption_engine::decimal::to_15_digits;
 use gumption_engine::model::formula::{Formula, NameKind, PlainNumber, Scope};
 use gumption_engine::number::Shortest;
+use gumption_text::DiagnosticKind;
+use gumption_text::value_text::{ValueOf, converted, with_unit};
+use gumption_text::width::number;
 use gumption_units::{Turn, Unit};
 
 /// The mistake of an estimate that is a formula of numbers alone; that of another key is
@@ -271,7 +271,7 @@ mod tests {
         }
     }
 
-    fn model(input: &str, unit: &str) -> Result<crate::ModelFile, crate::Diagnostics> {
+    fn model(input: &str, unit: &str) -> Result<crate::ModelFile, gumption_text::Diagnostics> {
         let text = format!(
             r#"{{"inputs": {{"x": {input}}}, "equations": {{"y": "x"}},
             "outputs": {{"y": {{"unit": "{unit}"}}}}}}"#

@@ -3,18 +3,15 @@
 use gumption_engine::number::ascending;
 use std::ops::Range;
 
-use super::DiagnosticKind;
-use super::diagnostics::Collector;
-use super::folder::Folder;
-use super::json::{Json, Member, Node};
 use super::keys;
-use super::object::Object;
-use super::source::Place;
-use super::table::{self, Table};
-use super::value_text::{ValueOf, with_plus_minus};
-use super::width::{self, Width};
 use gumption_engine::linalg::packed;
 use gumption_gap::{MOST_GROUPS, ObservedOutput};
+use gumption_text::json::{Json, Member, Node};
+use gumption_text::object::Object;
+use gumption_text::table::{self, Table};
+use gumption_text::value_text::{ValueOf, with_plus_minus};
+use gumption_text::width::{self, Width};
+use gumption_text::{Collector, DiagnosticKind, Folder, Place};
 use gumption_units::Unit;
 
 /// The data's table with the columns of the observed outputs.
@@ -100,7 +97,7 @@ pub(super) fn read(
     wanted: &[&str],
 ) -> Option<Observations> {
     let object = Object::new(log, "`observations`", &member.value, &member.key_span)?;
-    object.check_keys(keys::OBSERVATIONS);
+    keys::check(&object, keys::OBSERVATIONS);
     let file = object.required("file")?;
     let name = object.text("file")?;
     let columns = object.required("columns");
@@ -215,7 +212,7 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn column(&self, member: &Member, files: &mut Vec<(String, Vec<u8>)>) -> Option<Column> {
         let object = Object::new(self.log, "an observed output", &member.value, &member.key_span)?;
-        object.check_keys(keys::OBSERVED);
+        keys::check(&object, keys::OBSERVED);
         object.required("value")?;
         let values = self.values(&object, "value");
         let uncertainties = self.uncertainties(&object, UNCERTAINTY);

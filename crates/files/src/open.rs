@@ -5,11 +5,10 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::diagnostics::{Collector, Diagnostics};
-use super::json::{self, Json, Member, Node};
-use super::object::Object;
-use super::source::SourceText;
-use super::{DiagnosticKind, bytes, keys};
+use super::keys;
+use gumption_text::json::{self, Json, Member, Node};
+use gumption_text::object::Object;
+use gumption_text::{Collector, DiagnosticKind, Diagnostics, SourceText, bytes};
 
 /// Opens a file of text and hands its name, its text and its folder to `read`.
 ///
@@ -111,7 +110,7 @@ pub(super) fn check_format(root: &Object<'_>, newest: f64) -> bool {
 
 /// A kind of file that commands read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum FileKind {
+pub enum FileKind {
     /// A model file or a case of the gap diagnosis.
     Model,
     /// A certificate.
@@ -133,7 +132,7 @@ pub(super) enum FileKind {
 }
 
 /// How quantities are taken from a certificate.
-pub(super) const FROM_CERTIFICATES: &str = "a model takes quantities from the digital certificate \
+pub const FROM_CERTIFICATES: &str = "a model takes quantities from the digital certificate \
     (`gumption certificate --format dcc`), each by an input of the distribution `dcc`";
 
 impl FileKind {
@@ -172,7 +171,7 @@ impl FileKind {
     }
 
     /// What it is, in words, and the command that reads it.
-    pub(super) fn described(self) -> DiagnosticKind {
+    pub fn described(self) -> DiagnosticKind {
         let (what, command) = match self {
             Self::CertificateAnswer => {
                 let reason = format!(
@@ -212,7 +211,7 @@ pub(super) fn refuse_other_kind(root: &Object<'_>, expected: FileKind) -> bool {
 
 /// What is wrong with a JSON file or a digital certificate where a table is read, and where; nothing of
 /// any other text.
-pub(super) fn no_table(source: &Arc<SourceText>) -> Option<(Range<usize>, DiagnosticKind)> {
+pub fn no_table(source: &Arc<SourceText>) -> Option<(Range<usize>, DiagnosticKind)> {
     let place = 0..source.text.find('\n').unwrap_or(source.text.len());
     if source.text.trim_start().starts_with('<') {
         return FileKind::of_text(&source.text).map(|kind| (place, kind.described()));
@@ -237,7 +236,7 @@ pub(super) fn is_table_of_results(text: &str) -> bool {
 }
 
 /// Whether columns of these names are those of results to be compared.
-pub(super) fn are_results<'t>(names: impl Iterator<Item = &'t str>) -> bool {
+pub fn are_results<'t>(names: impl Iterator<Item = &'t str>) -> bool {
     let names: Vec<&str> = names.collect();
     let has = |name: &str| names.contains(&name);
     has("label") && (has("x1") && has("U1") || has("x") && has("U"))

@@ -4,20 +4,19 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::conditions::Conditions;
 use super::constant_inputs::ConstantInputs;
-use super::diagnostics::Collector;
-use super::json::{Json, Member};
 use super::model_checks::Quantities;
-use super::object::Object;
 use super::scopes::ConditionSet;
-use super::value_text::ValueOf;
-use super::width::{self, Width};
 use gumption_engine::model::formula::{Formula, KelvinKind, Scope, Typing};
 use gumption_engine::model::{Capability, OfConditions, Quantity};
 use gumption_engine::number::Shortest;
+use gumption_text::json::{Json, Member};
+use gumption_text::object::Object;
+use gumption_text::value_text::ValueOf;
+use gumption_text::width::{self, Width};
+use gumption_text::{Collector, DiagnosticKind};
 use gumption_units::Unit;
 
 /// A capability, and what of it follows the conditions.

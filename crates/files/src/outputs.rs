@@ -3,19 +3,19 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::DiagnosticKind;
 use super::conditions::unit;
-use super::diagnostics::Collector;
-use super::json::{Json, Member};
 use super::keys;
-use super::object::Object;
 use super::output_limits::{self, LimitFormula};
 use super::results::Results;
 use super::scopes::ConditionSet;
 use super::shapes::{self, Estimate, Fields};
-use super::value_text::ValueOf;
 use gumption_engine::distribution::{Distribution, Invalid};
 use gumption_engine::model::{FollowingConditions, OfConditions, Output, Quantity, Tolerance};
+use gumption_text::json::{Json, Member};
+use gumption_text::object::Object;
+use gumption_text::other_names::other_name;
+use gumption_text::value_text::ValueOf;
+use gumption_text::{Collector, DiagnosticKind};
 use gumption_units::Unit;
 
 /// Outputs with their places.
@@ -116,7 +116,7 @@ pub(super) fn read(
         let Some(object) = Object::new(log, "an output", &member.value, &member.key_span) else {
             continue;
         };
-        object.check_keys(keys::OUTPUT);
+        keys::check(&object, keys::OUTPUT);
         if let Some(complex) = object.get("complex") {
             outputs.complex(&object, member, complex);
             continue;
@@ -206,7 +206,7 @@ impl Decision {
         let Some(object) = object else {
             return Self::default();
         };
-        object.check_keys(keys::TOLERANCE);
+        keys::check(&object, keys::TOLERANCE);
         let risk = object.number("risk");
         if let (Some(risk), Some(member)) = (risk, object.get("risk"))
             && !(risk > 0.0 && risk < 0.5)
@@ -275,7 +275,7 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<D
     }
     let mut known = vec!["distribution", "about"];
     known.extend(kind.fields);
-    object.check_names(&known);
+    keys::check_names(&object, &known);
     Fields::new(object, "prior", unit, Estimate::Own, results).distribution(kind)
 }
 
@@ -329,7 +329,7 @@ fn tolerance(
             };
             // what could not be read has been reported, as have other names of the limits
             let limits = ["lower", "upper"];
-            let is_other = |member: &Member| keys::other_name(&member.key, &limits).is_some();
+            let is_other = |member: &Member| other_name(&member.key, &limits).is_some();
             let is_told = object.members().iter().any(is_other);
             if !is_told && !limits.iter().any(is_there) {
                 object.report(DiagnosticKind::NoValues { name: "tolerance".into() });

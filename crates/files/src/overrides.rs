@@ -2,10 +2,9 @@
 
 use std::ops::Range;
 
-use super::DiagnosticKind;
-use super::diagnostics::Collector;
-use super::json::{Json, Member, Node};
-use super::value_text::{ValueOf, converted, with_unit};
+use gumption_text::json::{Json, Member, Node};
+use gumption_text::value_text::{ValueOf, converted, with_unit};
+use gumption_text::{Collector, DiagnosticKind};
 use gumption_units::Unit;
 use gumption_units::nearest;
 

@@ -1,10 +1,9 @@
 //! Readings that belong together: `"paired": true`.
 
-use super::DiagnosticKind;
-use super::diagnostics::Collector;
 use super::input_set::InputSet;
 use gumption_engine::distribution::{Distribution, Readings};
 use gumption_engine::task::Trials;
+use gumption_text::{Collector, DiagnosticKind};
 
 /// Makes ensembles of the paired readings, all those of equal length one. The variables must be
 /// complete in every row; else a mistake has been reported already. Where the file wants trials their

@@ -1,9 +1,9 @@
 //! The prior probabilities of the hypotheses of a case.
 
-use super::DiagnosticKind;
 use super::keys;
-use super::object::Object;
 use gumption_gap::Prior;
+use gumption_text::DiagnosticKind;
+use gumption_text::object::Object;
 
 /// Reads `prior`: shares of probability that are scaled to sum to one.
 pub(super) fn read(root: &Object<'_>) -> Option<Prior> {
@@ -11,7 +11,7 @@ pub(super) fn read(root: &Object<'_>) -> Option<Prior> {
         return Some(Prior::DEFAULT);
     };
     let object = Object::new(root.log, "`prior`", &member.value, &member.key_span)?;
-    object.check_keys(keys::PRIOR);
+    keys::check(&object, keys::PRIOR);
     let mut clean = true;
     let mut share = |key: &str, default: f64| {
         let Some(value) = object.number(key) else {

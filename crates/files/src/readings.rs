@@ -4,19 +4,17 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::DiagnosticKind;
-use super::angle_branches::{branches, turn};
-use super::column_heading;
-use super::folder::Folder;
-use super::json::{Json, Node};
-use super::object::Object;
-use super::table::{self, Table};
-use super::value_text::{ValueOf, is_value};
 use super::{keys, samples};
 use gumption_engine::decimal::{self, to_15_digits};
 use gumption_engine::number::Shortest;
 use gumption_engine::regression::{CurveFunction, Spread};
 use gumption_engine::special;
+use gumption_text::angle_branches::{branches, turn};
+use gumption_text::json::{Json, Node};
+use gumption_text::object::Object;
+use gumption_text::table::{self, Table};
+use gumption_text::value_text::{ValueOf, is_value};
+use gumption_text::{DiagnosticKind, Folder, column_heading};
 use gumption_units::{Unit, nearest};
 
 /// Readings of a file, with what is to be said of them.
@@ -255,7 +253,7 @@ pub(super) fn pooled(
 ) -> Option<Option<Pooled>> {
     let Some(member) = object.get("pooled") else { return Some(None) };
     let pooled = Object::new(object.log, "`pooled`", &member.value, &member.key_span)?;
-    pooled.check_keys(keys::POOLED);
+    keys::check(&pooled, keys::POOLED);
     if let Some(fit) = pooled.get("fit") {
         for second in ["std", "dof"] {
             if let Some(member) = pooled.get(second) {
@@ -307,7 +305,8 @@ mod tests {
     use gumption_engine::number::elementary;
 
     use super::*;
-    use crate::{Diagnostics, ModelFile, read as read_model};
+    use crate::{ModelFile, read as read_model};
+    use gumption_text::Diagnostics;
 
     /// A model of an input `x`, in a folder with these files.
     fn model(input: &str, more: &str, files: &[(&str, &str)]) -> Result<ModelFile, Diagnostics> {

@@ -1,11 +1,11 @@
 //! The outputs of a file that are covered together.
 
-use super::DiagnosticKind;
-use super::json::Json;
 use super::keys;
-use super::object::Object;
 use gumption_engine::model::Output;
 use gumption_engine::propagate::Region;
+use gumption_text::DiagnosticKind;
+use gumption_text::json::Json;
+use gumption_text::object::Object;
 use gumption_units::nearest;
 
 /// Outputs of a region, at most.
@@ -17,7 +17,7 @@ pub(super) fn read(root: &Object<'_>, outputs: &[Output]) -> Vec<Region> {
     let Some(list) = root.list("regions") else { return regions };
     for node in list.iter().take_while(|_| !log.is_full()) {
         let Some(object) = Object::new(log, "a region", node, &node.span) else { continue };
-        object.check_keys(keys::REGION);
+        keys::check(&object, keys::REGION);
         let probability = object.number("probability");
         if let (Some(found), Some(member)) = (probability, object.get("probability"))
             && !(found > 0.0 && found < 1.0)

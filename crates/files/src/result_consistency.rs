@@ -1,10 +1,10 @@
 //! Whether what stands in a saved result can stand together. A file with its digest intact is as it
 //! was written; one without, or one that was changed, is looked at more closely.
 
-use super::DiagnosticKind;
-use super::json::Json;
-use super::object::Object;
 use gumption_engine::distribution::{Root, RootCorrelation, RootName, Scores};
+use gumption_text::DiagnosticKind;
+use gumption_text::json::Json;
+use gumption_text::object::Object;
 
 /// Rounding of figures that were computed from each other.
 const ROUNDING: f64 = 1e-9;

@@ -5,16 +5,11 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
-use super::DiagnosticKind;
 use super::conditions::unit;
-use super::diagnostics::{Collector, Diagnostics};
-use super::json::{Json, Node};
-use super::object::Object;
+use super::context::Context;
 use super::open::{check_format, read_root};
-use super::reader::FileReader;
 use super::result_consistency::{self, Stated};
 use super::result_outputs;
-use super::source::SourceText;
 use gumption_analysis::diff::ByTrials;
 use gumption_analysis::integrity;
 use gumption_engine::distribution::{
@@ -22,6 +17,9 @@ use gumption_engine::distribution::{
     SavedResult, Scores,
 };
 use gumption_engine::task::Warning;
+use gumption_text::json::{Json, Node};
+use gumption_text::object::Object;
+use gumption_text::{Collector, DiagnosticKind, Diagnostics, SourceText};
 use gumption_units::Unit;
 
 /// At most so many quantiles of an output.
@@ -84,14 +82,14 @@ pub(super) fn is_meant(root: &Node) -> bool {
 
 /// Reads and checks the text of a result file; `name` is used in messages.
 pub(super) fn read_text(
-    files: FileReader<'_>,
+    files: Context<'_>,
     name: &str,
     text: &str,
 ) -> Result<ResultFile, Diagnostics> {
     // results are told apart by their content
     let hash = integrity::sha256(text.as_bytes());
     read_root(name, text, "a result file", |root| {
-        let accepted = files.accepts_changed_results();
+        let accepted = files.changed_results;
         Reader { log: root.log, root, hash: &hash, accepted }.read()
     })
 }

@@ -4,15 +4,13 @@
 
 use std::ops::Range;
 
-use super::folder::Folder;
-use super::json::Json;
-use super::object::{Object, whole_number};
-use super::source::{Place, SourceText};
-use super::value_text::{ValueOf, with_point};
-use super::{DiagnosticKind, bytes, column_heading, table};
 use gumption_columns::recording::npy_columns;
 use gumption_columns::separator::{Separator, is_skipped};
 use gumption_engine::distribution::Samples;
+use gumption_text::json::Json;
+use gumption_text::object::{Object, whole_number};
+use gumption_text::value_text::{ValueOf, with_point};
+use gumption_text::{DiagnosticKind, Folder, Place, SourceText, bytes, column_heading, table};
 use gumption_units::Unit;
 
 /// At most so many faulty lines are reported; a file of something else has nothing but those.
@@ -267,7 +265,8 @@ fn parse(text: &str, from: usize) -> Result<Vec<f64>, PlacedKinds> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Diagnostics, ModelFile, read as read_model};
+    use crate::{ModelFile, read as read_model};
+    use gumption_text::Diagnostics;
 
     /// A model of two inputs and a component with samples from `s.txt` of that content.
     fn model(content: &str) -> Result<ModelFile, Diagnostics> {

@@ -3,21 +3,20 @@
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
-use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::conditions::Conditions;
 use super::constant_inputs::ConstantInputs;
-use super::diagnostics::Collector;
 use super::input_set::InputSet;
-use super::json::Member;
 use super::numbers_alone;
-use super::value_text::ValueOf;
 use gumption_engine::model::NumberForm;
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{
     Formula, FormulaError, NameKind, ScaleMisfit, Scope, Typing,
 };
 use gumption_engine::model::typed::CatalogueEntry;
+use gumption_text::json::Member;
+use gumption_text::value_text::ValueOf;
+use gumption_text::{Collector, DiagnosticKind};
 use gumption_units::{Dimension, Unit};
 
 /// A formula's mistake at its place inside the JSON text.

@@ -1,11 +1,11 @@
 //! Coverage and Monte Carlo settings of a file.
 
-use super::DiagnosticKind;
 use super::coverage_slips;
-use super::json::Json;
 use super::keys;
-use super::object::{Object, whole_number};
 use gumption_engine::task::{Coverage, MethodChoice, Settings, StoppingRule, Trials};
+use gumption_text::DiagnosticKind;
+use gumption_text::json::Json;
+use gumption_text::object::{Object, whole_number};
 
 /// At most so many trials.
 pub(super) const MOST_TRIALS: u64 = 1_000_000_000_000;
@@ -39,7 +39,7 @@ pub(super) fn read(root: &Object<'_>) -> Settings {
     else {
         return settings;
     };
-    object.check_keys(keys::MONTE_CARLO);
+    keys::check(&object, keys::MONTE_CARLO);
     if let Some(trials) = trials(&object) {
         settings.trials = trials;
         settings.decide_up_to = 0;

@@ -2,17 +2,12 @@
 
 use std::ops::Range;
 
-use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::coverage_slips;
 use super::dcc::FromCertificate;
-use super::json::{Json, Node};
-use super::keys::{SHAPES, Shape};
-use super::object::Object;
+use super::keys::{self, SHAPES, Shape};
 use super::readings::{self, FileReadings, Pooled};
 use super::results::Results;
-use super::value_text::ValueOf;
-use super::width::{Width, is_bare_share, terms, without_plus_minus};
 use gumption_engine::distribution::{
     Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, External, Fitted,
     Gamma, Invalid, LogUniform, Lognormal, Normal, PoissonCount, Quantiles, Readings, Rectangular,
@@ -20,6 +15,11 @@ use gumption_engine::distribution::{
 };
 use gumption_engine::model::formula::Formula;
 use gumption_engine::special;
+use gumption_text::json::{Json, Node};
+use gumption_text::object::Object;
+use gumption_text::value_text::ValueOf;
+use gumption_text::width::{Width, is_bare_share, terms, without_plus_minus};
+use gumption_text::{DiagnosticKind, WIDTHS};
 use gumption_units::Unit;
 use gumption_units::nearest;
 
@@ -78,7 +78,7 @@ pub(super) fn kind(object: &Object<'_>) -> Option<&'static Shape> {
         });
         // it may be misspelt; nothing else can be said of the keys
         let fields = SHAPES.iter().flat_map(|kind| kind.fields).copied();
-        object.check_names(&KEYS.into_iter().chain(fields).collect::<Vec<_>>());
+        keys::check_names(object, &KEYS.into_iter().chain(fields).collect::<Vec<_>>());
         return None;
     };
     let name = object.text("distribution")?;
@@ -86,7 +86,11 @@ pub(super) fn kind(object: &Object<'_>) -> Option<&'static Shape> {
     if found.is_none() {
         let known = SHAPES.iter().flat_map(|k| std::iter::once(&k.name).chain(k.aliases)).copied();
         let nearest = nearest(name, known).map(str::to_owned);
-        let diagnostic = DiagnosticKind::UnknownDistribution { name: name.to_owned(), nearest };
+        let diagnostic = DiagnosticKind::UnknownDistribution {
+            name: name.to_owned(),
+            nearest,
+            known: SHAPES.iter().map(|kind| kind.name).collect(),
+        };
         object.log.report(&member.value.span, diagnostic);
     }
     found
@@ -125,9 +129,6 @@ pub(super) struct Fields<'a> {
     /// The conditions and the row of them that this is for, where a width may be a formula of them.
     pub(super) at: Option<(&'a dyn ConditionValues, usize)>,
 }
-
-/// The fields that are widths.
-pub(super) const WIDTHS: [&str; 5] = ["std", "expanded", "scale", "half_width", "semi_range"];
 
 /// The formula of conditions that a width is: a text that begins with a name, as no specification
 /// does, or one with names, products or functions that can be read as a formula and not as a

@@ -16,9 +16,9 @@ use serde_json::{Map, Value, json};
 use super::model_file::ModelFile;
 use super::overrides::Override;
 use super::reader::FileReader;
-use super::{Diagnostics, bytes};
 use gumption_analysis::integrity::sha256;
 use gumption_engine::task::{Coverage, MethodChoice, Settings, StoppingRule, Trials};
+use gumption_text::{Diagnostics, bytes};
 
 /// The first bytes of every such file.
 const MAGIC: &[u8] = b"gumption part\n";

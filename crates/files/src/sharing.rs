@@ -53,7 +53,8 @@ pub(super) fn contradiction(
 mod tests {
     use std::path::Path;
 
-    use crate::{DiagnosticKind, read_text};
+    use crate::read_text;
+    use gumption_text::DiagnosticKind;
 
     /// A file with a coefficient between two inputs that have these `per` and distributions.
     fn kinds(conditions: &str, per: [&str; 2], second: &str) -> Vec<DiagnosticKind> {

@@ -1,11 +1,11 @@
 //! Outputs that are columns of the data: somebody else's simulation.
 
-use super::DiagnosticKind;
 use super::conditions::Conditions;
-use super::json::{Json, Member, Node};
-use super::object::Object;
 use super::observations::Observations;
-use super::table::Table;
+use gumption_text::DiagnosticKind;
+use gumption_text::json::{Json, Member, Node};
+use gumption_text::object::Object;
+use gumption_text::table::Table;
 use gumption_units::Unit;
 
 /// Columns of somebody else's simulation: each becomes a condition, and the output is that.

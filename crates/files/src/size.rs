@@ -1,7 +1,7 @@
 //! Evaluations that are larger than what is served: an answer has a line for each input of each
 //! output in each row of conditions.
 
-use super::DiagnosticKind;
+use gumption_text::DiagnosticKind;
 
 /// Outputs at most. Every pair of them has a correlation coefficient.
 const MOST_OUTPUTS: usize = 3000;

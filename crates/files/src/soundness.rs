@@ -1,11 +1,10 @@
 //! What a case must be as a whole: enough data, and values of the sim at all of them.
 
-use super::DiagnosticKind;
-use super::diagnostics::Collector;
 use super::effect_context::EffectContext;
 use super::effects::Placed;
-use super::table::Table;
 use gumption_gap::Effect;
+use gumption_text::table::Table;
+use gumption_text::{Collector, DiagnosticKind};
 
 /// Checks a case that was read.
 pub(super) fn check(log: &Collector, read: &EffectContext<'_>, placed: &[Placed], data: &Table) {

@@ -1,12 +1,12 @@
 //! What a plan is asked for, as it is typed: `U(y) <= 0.01 m/s^2`, and `reference/drift = 1 yr`.
 
-use super::value_text::{
-    ValueOf, bare_number, converted, decimal_comma, grouped_digits, is_comma, with_unit,
-};
-use super::width::{Width, number, share};
 use gumption_analysis::plan::{Drift, DriftLaw, PlanTarget};
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Task;
+use gumption_text::value_text::{
+    ValueOf, bare_number, converted, decimal_comma, grouped_digits, is_comma, with_unit,
+};
+use gumption_text::width::{Width, number, share};
 use gumption_units::nearest;
 
 /// The form of a target, for messages.

@@ -1,9 +1,8 @@
 //! A case with other data and one candidate fewer, as files of their own.
 
 use super::CaseFile;
-use super::json::{self, Json, Member, Node};
-use super::source::SourceText;
-use super::{bytes, table};
+use gumption_text::json::{self, Json, Member, Node};
+use gumption_text::{SourceText, bytes, table};
 
 /// Why a case cannot be copied.
 #[derive(Clone, Debug, PartialEq, Eq)]

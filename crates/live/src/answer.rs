@@ -8,10 +8,10 @@ use gumption_engine::propagate::{
     Control, Evaluation, convergence, evaluate, histograms, warnings,
 };
 use gumption_engine::task::{MethodChoice, Task, Trials};
-use gumption_files::{
-    ComparisonOptions, Diagnostics, FileReader, ModelFile, TextKind, read_comparison_text,
-};
+use gumption_files::{FileReader, ModelFile, TextKind};
+use gumption_foreign::{ComparisonOptions, read_comparison_text};
 use gumption_report::{EvaluationReport, FigureSize, PageChoice, Provenance, Shown, page_parts};
+use gumption_text::Diagnostics;
 use jsonc_parser::ast::Value;
 use serde::Deserialize;
 use serde_json::{Value as Json, json};

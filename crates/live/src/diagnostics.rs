@@ -1,6 +1,6 @@
 //! Mistakes as the page underlines them.
 
-use gumption_files::Diagnostics;
+use gumption_text::Diagnostics;
 use jsonc_parser::ast::Value;
 use jsonc_parser::common::Ranged;
 use serde_json::{Value as Json, json};

@@ -1,6 +1,6 @@
 //! Files in memory.
 
-use gumption_files::FileSource;
+use gumption_text::FileSource;
 
 /// Files that are in memory and no others, by the names that model files have for them: those that
 /// were dropped onto a page that has no server.

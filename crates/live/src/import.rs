@@ -4,7 +4,7 @@ use std::path::Path;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use gumption_files::import_budget_bytes;
+use gumption_foreign::import_budget_bytes;
 use serde::Deserialize;
 use serde_json::{Value as Json, json};
 

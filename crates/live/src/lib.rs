@@ -34,7 +34,7 @@ use serde::de::DeserializeOwned;
 use serde_json::json;
 
 pub use diagnostics::mistakes;
-pub use gumption_files::FileSource;
+pub use gumption_text::FileSource;
 pub use held::HeldFiles;
 
 /// Bytes of a text that is edited on the page, at most.

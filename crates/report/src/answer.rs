@@ -9,7 +9,7 @@ use serde::Serialize;
 use serde_json::Value;
 use serde_json::ser::{CompactFormatter, Formatter, PrettyFormatter, Serializer};
 
-use gumption_files::is_obeyed;
+use gumption_text::is_obeyed;
 
 /// An object of these keys, in their order.
 pub(crate) fn object<K: Into<String>, V: Into<Value>>(

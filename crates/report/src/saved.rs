@@ -19,7 +19,7 @@ use gumption_engine::propagate::{
     origins, quantiles_and_ranks,
 };
 use gumption_engine::task::Task;
-use gumption_files::bytes::MOST;
+use gumption_text::bytes::MOST;
 
 /// The result file of an evaluation's first row. `quantiles` are those of each output's trials over
 /// [`Scores::WRITTEN`], `ranks` those of each output in trials that stand for all of them. Numbers are

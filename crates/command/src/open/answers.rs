@@ -10,11 +10,12 @@ use crate::diagnostics::render as rendered;
 use crate::output::Destination;
 use crate::{CommandLine, ExportedAnswer, GivenFile, NotExported};
 use gumption_engine::parallel::Pool;
-use gumption_files::{FileSource, TextKind};
+use gumption_files::TextKind;
 use gumption_live::LiveError;
 use gumption_server::{
     Answers, Exported, FileDescription, NamedFiles, Refusal, ServedAsset, TextOfFile,
 };
+use gumption_text::FileSource;
 
 /// Idle pools of threads that are kept for later, at most.
 const KEPT_POOLS: usize = 2;

@@ -9,7 +9,7 @@ use super::shown;
 use crate::exit::say;
 use crate::output::Destination;
 use crate::{Exit, Failure};
-use gumption_files::bytes;
+use gumption_text::bytes;
 
 /// Where the program stands in the folder.
 const PROGRAM: &str = "assets/gumption.wasm";

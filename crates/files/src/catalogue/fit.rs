@@ -1,12 +1,12 @@
 //! From an effect of the catalogue to one in the names of a sim.
 
 use super::super::effect_context::EffectContext;
-use super::super::json::{Json, Member, Node};
 use super::measured::Measured;
 use super::{ANY_BENCH, Catalogue, Entry};
 use gumption_engine::model::Output;
 use gumption_engine::model::formula::Formula;
 use gumption_gap::OverridableModel;
+use gumption_text::json::{Json, Member, Node};
 
 /// Why an entry does not fit a sim.
 #[derive(Clone, Debug, Default)]

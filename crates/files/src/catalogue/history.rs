@@ -6,11 +6,11 @@
 //! longest time) and when the row was taken (`{passed}`, from the first row to the last).
 
 use super::super::effect_context::EffectContext;
-use super::super::json::Member;
 use super::fit::written;
 use super::{Catalogue, Entry};
 use gumption_engine::model::NumberForm;
 use gumption_gap::HistoryKind;
+use gumption_text::json::Member;
 
 impl Catalogue {
     /// The catalogue for a sim: an entry that depends on what came before once for each condition whose

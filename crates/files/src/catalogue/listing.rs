@@ -2,9 +2,9 @@
 
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 
-use super::super::json::{Json, Member, Node};
 use super::measured::Measured;
 use super::{Catalogue, Entry};
+use gumption_text::json::{Json, Member, Node};
 
 /// The catalogue of ready-made effects.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! Numbers of a prior that follow the data: `{"times": 0.02, "lowest": "f"}`.
 
 use super::super::effect_context::EffectContext;
-use super::super::json::{Json, Member};
+use gumption_text::json::{Json, Member};
 
 /// A multiple of something that was measured.
 #[derive(Clone, Debug, PartialEq)]

@@ -18,16 +18,14 @@ use std::sync::Arc;
 
 pub use listing::{EffectListing, ListedEffect, ListedParameter};
 
-use super::DiagnosticKind;
-use super::diagnostics::Collector;
 use super::effect_context::EffectContext;
 use super::effects::{self, Placed};
-use super::json::{self, Json, Member, Node};
-use super::object::Object;
 use super::results::Results;
-use super::source::SourceText;
 use fit::Misfit;
 use gumption_engine::task::Warning;
+use gumption_text::json::{self, Json, Member, Node};
+use gumption_text::object::Object;
+use gumption_text::{Collector, DiagnosticKind, SourceText};
 use gumption_units::nearest;
 
 /// The catalogue's text.

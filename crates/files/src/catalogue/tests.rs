@@ -3,11 +3,12 @@
 use std::collections::BTreeSet;
 
 use super::super::effect_context::EffectContext;
-use super::super::{CaseFile, DiagnosticKind, FileReader};
+use super::super::{CaseFile, FileReader};
 use super::{ANY_BENCH, Catalogue, TEXT, catalogue, fit};
 use gumption_engine::model::formula::is_name;
 use gumption_engine::task::Warning;
 use gumption_gap::{History, HistoryKind};
+use gumption_text::DiagnosticKind;
 
 /// A sim of a bench: its file without the last brace, and two rows of data.
 struct Bench {

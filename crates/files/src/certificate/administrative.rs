@@ -1,13 +1,13 @@
 //! Device, parties, dates and texts of a certificate.
 
-use super::super::DiagnosticKind;
-use super::super::json::{Json, Member};
 use super::super::keys;
-use super::super::object::Object;
 use super::{named, texts};
 use gumption_analysis::certificate::contents::{
     AdministrativeData, Device, Language, Localized, Party, PerformanceLocation,
 };
+use gumption_text::DiagnosticKind;
+use gumption_text::json::{Json, Member};
+use gumption_text::object::Object;
 
 /// Reads what the certificate says beside its results; `None` after a mistake.
 pub(super) fn read(root: &Object<'_>) -> Option<AdministrativeData> {
@@ -56,7 +56,7 @@ pub(super) fn localized(object: &Object<'_>, key: &str) -> Option<Localized> {
     };
     let texts =
         Object::new(object.log, "a text in several languages", &member.value, &member.key_span)?;
-    texts.check_names(&Language::ALL.map(Language::code));
+    keys::check_names(&texts, &Language::ALL.map(Language::code));
     let found: Vec<(Option<Language>, String)> = Language::ALL
         .into_iter()
         .filter_map(|language| Some((Some(language), owned(&texts, language.code())?)))
@@ -75,7 +75,7 @@ fn device(root: &Object<'_>) -> Option<Device> {
         return Some(Device { name: Localized::plain(name.clone()), ..Device::default() });
     }
     let object = Object::new(root.log, "`device`", &member.value, &member.key_span)?;
-    object.check_keys(keys::DEVICE);
+    keys::check(&object, keys::DEVICE);
     object.required("name");
     Some(Device {
         name: localized(&object, "name")?,
@@ -95,7 +95,7 @@ fn party(root: &Object<'_>, key: &'static str) -> Option<Party> {
     }
     let what = if key == "customer" { "`customer`" } else { "`laboratory`" };
     let object = Object::new(root.log, what, &member.value, &member.key_span)?;
-    object.check_keys(keys::PARTY);
+    keys::check(&object, keys::PARTY);
     object.required("name");
     if let (Some(country), Some(member)) = (object.text("country"), object.get("country"))
         && !(country.len() == 2 && country.bytes().all(|c| c.is_ascii_uppercase()))

@@ -8,17 +8,15 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::diagnostics::{Collector, Diagnostics};
-use super::json::{self, Json, Node};
+use super::context::Context;
 use super::keys;
-use super::object::Object;
 use super::open::{FileKind, check_format, read_root, refuse_other_kind};
-use super::reader::FileReader;
-use super::source::SourceText;
-use super::{DiagnosticKind, settings};
-use crate::folder::Folder;
+use super::settings;
 use gumption_analysis::certificate::contents::{Certificate, DecimalMark, Language, Rounding};
 use gumption_engine::task::{Coverage, Settings, Warning};
+use gumption_text::json::{self, Json, Node};
+use gumption_text::object::Object;
+use gumption_text::{Collector, DiagnosticKind, Diagnostics, Folder, SourceText};
 use rows::Rows;
 
 /// The most significant digits of a stated uncertainty.
@@ -87,7 +85,7 @@ impl CertificateFile {
 
 /// Reads and checks a certificate file's text and its model files.
 pub(super) fn read_text(
-    files: FileReader<'_>,
+    files: Context<'_>,
     name: &str,
     text: &str,
     folder: &Path,
@@ -138,14 +136,14 @@ impl Asking {
 }
 
 fn certificate<'a>(
-    files: FileReader<'a>,
+    files: Context<'a>,
     root: Object<'a>,
     folder: Folder<'a>,
 ) -> Option<CertificateFile> {
     if refuse_other_kind(&root, FileKind::Certificate) {
         return None;
     }
-    root.check_keys(keys::CERTIFICATE);
+    keys::check(&root, keys::CERTIFICATE);
     check_format(&root, 1.0);
     let administrative = administrative::read(&root);
     let languages = languages(&root);

@@ -4,28 +4,26 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
-use super::super::DiagnosticKind;
-use super::super::bytes;
 use super::super::conditions::Conditions;
 use super::super::constant_inputs::ConstantInputs;
-use super::super::diagnostics::{Collector, Diagnostic, Diagnostics};
-use super::super::json::{Json, Member, Node};
+use super::super::context::Context;
 use super::super::keys;
-use super::super::model_file::ModelFile;
-use super::super::object::Object;
+use super::super::model_file::{self, ModelFile};
 use super::super::output_limits;
 use super::super::overrides::Override;
-use super::super::reader::FileReader;
 use super::super::scopes::ConditionSet;
-use super::super::source::Place;
 use super::administrative::localized;
 use super::{Asking, CertifiedModel};
-use crate::folder::{FileSource, Folder};
 use crate::open::{is_no_object, text};
-use crate::value_text::{ValueOf, converts_alike, either_temperature};
 use gumption_analysis::certificate::contents::{Asked, Line, StatedFunction};
 use gumption_engine::model::{Capability, Quantity};
 use gumption_engine::task::{Task, Warning};
+use gumption_text::json::{Json, Member, Node};
+use gumption_text::object::Object;
+use gumption_text::value_text::{ValueOf, converts_alike, either_temperature};
+use gumption_text::{
+    Collector, Diagnostic, DiagnosticKind, Diagnostics, FileSource, Folder, Place, bytes,
+};
 use gumption_units::Unit;
 use gumption_units::nearest;
 
@@ -63,7 +61,7 @@ pub(super) struct Read {
 pub(super) struct Rows<'a> {
     log: &'a Collector,
     /// What reads the model files, and where these are looked for.
-    files_in: (FileReader<'a>, Folder<'a>),
+    files_in: (Context<'a>, Folder<'a>),
     asking: Asking,
     /// The model files without replacements, by name; `None` after a mistake.
     files: BTreeMap<String, Option<usize>>,
@@ -78,7 +76,7 @@ pub(super) struct Rows<'a> {
 impl<'a> Rows<'a> {
     pub(super) fn new(
         log: &'a Collector,
-        files_in: (FileReader<'a>, Folder<'a>),
+        files_in: (Context<'a>, Folder<'a>),
         asking: Asking,
     ) -> Self {
         Self {
@@ -118,7 +116,7 @@ impl<'a> Rows<'a> {
     pub(super) fn function(&mut self, node: &'a Node) {
         let mut read = || {
             let of = Object::new(self.log, "a function", node, &node.span)?;
-            of.check_keys(keys::CERTIFICATE_FUNCTION);
+            keys::check(&of, keys::CERTIFICATE_FUNCTION);
             let (model, fit) = (of.required("model"), of.required("fit"));
             let (model, fit) = (model?, fit?);
             let (name, wanted) = (of.text("model")?, of.text("fit")?);
@@ -147,7 +145,7 @@ impl<'a> Rows<'a> {
 
     fn row(&mut self, node: &'a Node) -> Option<()> {
         let row = Object::new(self.log, "a row", node, &node.span)?;
-        row.check_keys(keys::CERTIFICATE_ROW);
+        keys::check(&row, keys::CERTIFICATE_ROW);
         let model = row.required("model");
         let output = row.required("output");
         let name = model.and_then(|_| row.text("model"));
@@ -243,7 +241,7 @@ impl<'a> Rows<'a> {
     ) -> Result<Result<ModelFile, Diagnostics>, DiagnosticKind> {
         let (files, folder) = self.files_in;
         if !folder.holds(name) {
-            return Ok(files.model(&folder.file(name)?, overrides));
+            return Ok(model_file::read(files, &folder.file(name)?, overrides));
         }
         let content = folder.content(name, bytes::MOST)?;
         let text = text(content).map_err(|message| DiagnosticKind::Unreadable { message })?;
@@ -251,10 +249,10 @@ impl<'a> Rows<'a> {
         let above = name.rsplit_once('/').map_or("", |(above, _)| above);
         let beside = folder.source().map(|source| Beside { above, source });
         let files = match &beside {
-            Some(beside) => files.reading(beside),
+            Some(beside) => Context { source: Some(beside), ..files },
             None => files,
         };
-        Ok(files.model_text(name, &text, Path::new(above), overrides))
+        Ok(model_file::read_text(files, name, &text, Path::new(above), overrides))
     }
 
     /// A model file with replacements; mistakes of the replacements are reported at `member`.

@@ -12,9 +12,9 @@ use roxmltree::{Node, NodeId};
 
 use super::document::{self, Measured, names};
 use super::standing::{self, STATUSES};
-use crate::DiagnosticKind;
-use crate::json::Json;
-use crate::object::{Object, whole_number};
+use gumption_text::DiagnosticKind;
+use gumption_text::json::Json;
+use gumption_text::object::{Object, whole_number};
 
 /// Tables and quantities that a message lists, at most.
 const SHOWN: usize = 8;

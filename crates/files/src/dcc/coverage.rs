@@ -1,11 +1,11 @@
 //! Coverage factors and coverage probabilities: which factor a distribution has, and whether a factor and
 //! a probability that are stated together can belong together.
 
-use super::super::named_shape::NamedShape;
 use gumption_engine::decimal::{Decimal, rounded};
 use gumption_engine::number::elementary;
 use gumption_engine::special::normal;
 use gumption_engine::special::student::two_sided_factor;
+use gumption_text::named_shape::NamedShape;
 
 /// A number with half a unit of its last written digit.
 #[derive(Clone, Copy, Debug)]

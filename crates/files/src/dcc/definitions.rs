@@ -5,7 +5,7 @@ use gumption_units::Unit;
 use roxmltree::Node;
 
 use super::document::{Fault, content_of};
-use crate::implied_dof::last_digit;
+use gumption_text::implied_dof::last_digit;
 
 /// Sizes that are computed differ by no more than this share of them.
 const COMPUTED: f64 = 1e-9;

@@ -6,7 +6,7 @@ use roxmltree::Node;
 
 use super::Fault;
 use super::document::{self, BLANKS, Measured, names};
-use crate::deviation_words::{PARTS_OF_TYPES, is_of_difference};
+use gumption_text::deviation_words::{PARTS_OF_TYPES, is_of_difference};
 
 /// What a temperature of a certificate is.
 #[derive(Clone, Debug, PartialEq)]

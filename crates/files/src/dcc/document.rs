@@ -7,9 +7,9 @@
 use std::ops::Range;
 
 use super::{agreement, definitions, relative};
-use crate::implied_dof::last_digit;
-use crate::named_shape::NamedShape;
-use crate::xml_limits;
+use gumption_text::implied_dof::last_digit;
+use gumption_text::named_shape::NamedShape;
+use gumption_text::xml_limits;
 use gumption_units::Unit;
 use roxmltree::{Document, Node};
 

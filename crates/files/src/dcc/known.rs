@@ -1,11 +1,11 @@
 //! What a certificate's statements of uncertainty make known of one value: standard uncertainty, degrees
 //! of freedom and shape.
 
-use super::super::implied_dof::Factor;
-use super::super::named_shape::NamedShape;
 use super::coverage::{self, Written, limited, of_probability_alone};
 use super::document::{Measured, Stated, at};
 use super::{agreement, intervals};
+use gumption_text::implied_dof::Factor;
+use gumption_text::named_shape::NamedShape;
 
 /// What is known of one value.
 #[derive(Clone, Copy, Debug)]

@@ -1,10 +1,10 @@
 //! What a model file says of the distribution of values for which a certificate names none that is known.
 
-use super::super::named_shape::NamedShape;
 use super::Fault;
 use super::document::Measured;
-use crate::DiagnosticKind;
-use crate::object::Object;
+use gumption_text::DiagnosticKind;
+use gumption_text::named_shape::NamedShape;
+use gumption_text::object::Object;
 
 /// The distributions that it may say.
 pub(crate) const LAWS: [&str; 5] = ["normal", "t", "rectangular", "triangular", "arcsine"];

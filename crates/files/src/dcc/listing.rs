@@ -8,9 +8,8 @@ use serde_json::{Value, json};
 
 use super::document::{Measured, measured, names, parse, quantities};
 use super::{difference, standing};
-use crate::diagnostics::{Collector, Diagnostics};
-use crate::source::SourceText;
-use crate::{DiagnosticKind, open};
+use crate::open;
+use gumption_text::{Collector, DiagnosticKind, Diagnostics, SourceText};
 
 /// The quantities of a Digital Calibration Certificate, in the order of its text.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -22,12 +22,6 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::condition_values::ConditionValues;
-use super::folder::Folder;
-use super::named_shape::NamedShape;
-use super::object::Object;
-use super::source::{Place, SourceText};
-use super::value_text::ValueOf;
-use super::{DiagnosticKind, bytes};
 use difference::TemperatureKind;
 use document::Measured;
 pub(super) use document::{Fault, parse, tag};
@@ -35,6 +29,10 @@ use gumption_engine::distribution::{
     Arcsine, Constant, Distribution, Invalid, Normal, Rectangular, Triangular,
 };
 use gumption_engine::number::{Shortest, smallest_first};
+use gumption_text::named_shape::NamedShape;
+use gumption_text::object::Object;
+use gumption_text::value_text::ValueOf;
+use gumption_text::{DiagnosticKind, Folder, Place, SourceText, bytes};
 use gumption_units::Unit;
 use known::{Interval, Known, known};
 pub(crate) use law::LAWS;

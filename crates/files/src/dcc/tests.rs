@@ -6,7 +6,8 @@ mod tables;
 mod uncertainty;
 
 use super::*;
-use crate::{Diagnostics, ModelFile, read as read_model};
+use crate::{ModelFile, read as read_model};
+use gumption_text::Diagnostics;
 
 /// A model of an input `x` from `ref.xml`.
 fn model(xml: &str, input: &str, more: &str) -> Result<ModelFile, Diagnostics> {

@@ -5,15 +5,15 @@ mod changes;
 #[cfg(test)]
 mod tests;
 
-use super::diagnostics::Diagnostics;
+use super::ModelFile;
 use super::either::ModelOrResult;
 use super::result_file::{ResultFile, SavedOutput};
-use super::{DiagnosticKind, ModelFile};
 use gumption_analysis::diff::{
     Difference, LinearOutput, LinearResult, SeveralRows, add_trials, compare, compare_linear,
 };
 use gumption_engine::distribution::RootName;
 use gumption_engine::propagate::Control;
+use gumption_text::{DiagnosticKind, Diagnostics};
 
 /// Compares two model files, two saved results, or one with the other.
 ///

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::super::diagnostics::Collector;
 use gumption_engine::decimal::to_digits;
 use gumption_engine::model::formula::Typing;
 use gumption_engine::model::{Output, Quantity};
@@ -10,6 +9,7 @@ use gumption_engine::number::{Shortest, elementary};
 use gumption_engine::regression::CurveFunction;
 use gumption_engine::task::{Task, Warning};
 use gumption_gap::{ModelForm, OverridableModel};
+use gumption_text::Collector;
 
 /// A curve may be used this share of the range of its points beyond them without a note.
 const LITTLE: f64 = 0.1;

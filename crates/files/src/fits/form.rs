@@ -2,16 +2,16 @@
 
 use std::collections::HashMap;
 
-use super::super::DiagnosticKind;
-use super::super::json::{Json, Member};
-use super::super::object::Object;
 use super::super::scopes::report_formula;
-use super::super::value_text::{
-    ValueOf, converted, decimal_comma, grouped_digits, is_comma, with_unit,
-};
 use super::parameter_units;
 use gumption_engine::model::formula::{Formula, Scope, Typing, check_name};
 use gumption_engine::model::{NumberForm, Program, Recorder, Traced};
+use gumption_text::DiagnosticKind;
+use gumption_text::json::{Json, Member};
+use gumption_text::object::Object;
+use gumption_text::value_text::{
+    ValueOf, converted, decimal_comma, grouped_digits, is_comma, with_unit,
+};
 use gumption_units::{Turn, Unit};
 
 /// The variable of a formula.

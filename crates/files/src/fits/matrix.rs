@@ -2,15 +2,13 @@
 
 use std::ops::Range;
 
-use super::super::diagnostics::Collector;
-use super::super::folder::Folder;
-use super::super::json::{Json, Member, Node};
 use super::super::keys;
-use super::super::object::Object;
-use super::super::{DiagnosticKind, bytes};
 use gumption_columns::recording::npy_matrix;
 use gumption_columns::separator::{DecimalMarks, Separator, is_skipped};
 use gumption_engine::regression::Cross;
+use gumption_text::json::{Json, Member, Node};
+use gumption_text::object::Object;
+use gumption_text::{Collector, DiagnosticKind, Folder, bytes};
 
 /// The largest file: 10,000 x 10,000 numbers as text.
 const MOST_BYTES: u64 = 4_000_000_000;
@@ -109,7 +107,7 @@ fn read(
         Json::List(rows) => written(log, member, rows),
         Json::Object(_) => {
             let object = Object::new(log, "a matrix", &member.value, &member.key_span)?;
-            object.check_keys(keys::COVARIANCE_FILE);
+            keys::check(&object, keys::COVARIANCE_FILE);
             let place = object.required("file")?.value.span.clone();
             let name = object.text("file")?;
             of_file(log, member, name, place, folder, files)

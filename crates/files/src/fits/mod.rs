@@ -12,14 +12,8 @@ mod tests;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::DiagnosticKind;
-use super::diagnostics::Collector;
-use super::folder::Folder;
 use super::input_set::InputSet;
-use super::json::{Json, Member};
 use super::keys;
-use super::object::Object;
-use super::value_text::ValueOf;
 use form::Form;
 use gumption_engine::distribution::{Distribution, EvaluationType, Fitted};
 use gumption_engine::model::formula::check_name;
@@ -28,6 +22,10 @@ use gumption_engine::regression::{
     Coordinate, Curve, CurveFunction, Points, Regression, RegressionError, choose_degree,
 };
 use gumption_engine::task::{Variable, Warning};
+use gumption_text::json::{Json, Member};
+use gumption_text::object::Object;
+use gumption_text::value_text::ValueOf;
+use gumption_text::{Collector, DiagnosticKind, Folder};
 use gumption_units::Unit;
 use points::Tables;
 
@@ -137,7 +135,7 @@ struct Reader<'a, 's> {
 impl Reader<'_, '_> {
     fn curve(&mut self, numbers: NumberForm) -> Option<CurveFunction> {
         let object = self.object;
-        object.check_keys(keys::FIT);
+        keys::check(&object, keys::FIT);
         let form = Form::read(&object);
         let points = self.points();
         let estimated = match object.text("weights") {

@@ -7,9 +7,9 @@
 
 use std::collections::HashMap;
 
-use super::super::diagnostics::Collector;
 use super::texts_of;
 use gumption_engine::model::formula::{Formula, Scope, Typing};
+use gumption_text::Collector;
 use gumption_units::Unit;
 
 /// Powers of y and of x of which a parameter's unit is the product, those that are met most often first.

@@ -2,19 +2,16 @@
 
 use std::rc::Rc;
 
-use super::super::DiagnosticKind;
-use super::super::column_heading;
 use super::super::conditions::unit;
-use super::super::diagnostics::Collector;
-use super::super::folder::Folder;
-use super::super::json::{Json, Member};
 use super::super::keys;
-use super::super::object::Object;
-use super::super::table::{self, Table};
-use super::super::value_text::ValueOf;
-use super::super::width::Width;
 use super::matrix;
 use gumption_engine::regression::Spread;
+use gumption_text::json::{Json, Member};
+use gumption_text::object::Object;
+use gumption_text::table::{self, Table};
+use gumption_text::value_text::ValueOf;
+use gumption_text::width::Width;
+use gumption_text::{Collector, DiagnosticKind, Folder, column_heading};
 use gumption_units::Unit;
 
 /// The values of a coordinate in its unit, and their uncertainties.
@@ -62,7 +59,7 @@ pub(super) fn read(
 ) -> Option<Side> {
     let what = if name == "x" { "`x` of a fit" } else { "`y` of a fit" };
     let object = Object::new(log, what, &member.value, &member.key_span)?;
-    object.check_keys(keys::POINTS);
+    keys::check(&object, keys::POINTS);
     let unit = match object.get("unit") {
         None => Unit::one(),
         Some(_) => unit(&object, "unit")?,

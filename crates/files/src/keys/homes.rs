@@ -49,7 +49,7 @@ const OF_INPUTS: [&str; 2] = ["an input", "a component"];
 
 /// The objects of the file around an object which have a key of this name, in words; none where the
 /// object is not one of those above.
-pub(crate) fn homes(key: &str, object: &str) -> Vec<&'static str> {
+pub(super) fn homes(key: &str, object: &str) -> Vec<&'static str> {
     let is_of_input = OF_INPUTS.contains(&object);
     let holds = |file: &[Home]| file.iter().any(|(what, _)| *what == object);
     let file =

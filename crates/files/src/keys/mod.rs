@@ -3,12 +3,12 @@
 
 mod case;
 mod certificate;
+mod check;
 mod costs;
 mod fits;
 mod homes;
 mod model_file;
 mod node;
-mod other_names;
 mod recipe;
 mod result_file;
 mod shapes;
@@ -22,15 +22,14 @@ pub(crate) use case::{EFFECT, OBSERVATIONS, OBSERVED, PRIOR};
 pub(crate) use certificate::{
     CERTIFICATE, CERTIFICATE_FUNCTION, CERTIFICATE_KEYS, CERTIFICATE_ROW, DEVICE, PARTY,
 };
+pub(crate) use check::{check, check_names};
 pub(crate) use costs::{COST, COSTS, COSTS_KEY, OFFER};
 pub(crate) use fits::{COVARIANCE_FILE, FIT, POINTS};
-pub(crate) use homes::homes;
 pub(crate) use model_file::{
     CONDITION, CORRELATION_MATRIX, MODEL, MONTE_CARLO, OUTPUT, REGION, TABLE_OF_CONDITIONS,
     TOLERANCE,
 };
 use node::{With, object, reference};
-pub(crate) use other_names::other_name;
 pub(crate) use recipe::{
     CHANNEL, FREQUENCY, POINT, QUANTITY, RECIPE, RECIPE_CONDITION, RECIPE_KEY, RECIPE_ROW,
     RECORDING, SEARCH, SEARCHED, STEPS,

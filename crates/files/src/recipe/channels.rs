@@ -2,13 +2,7 @@
 
 use std::ops::Range;
 
-use super::super::DiagnosticKind;
-use super::super::column_heading;
-use super::super::diagnostics::Collector;
-use super::super::json::Member;
 use super::super::keys;
-use super::super::object::Object;
-use super::super::value_text::ValueOf;
 use super::column::column;
 use super::quantity::{of_member, positive, unit};
 use super::recordings::{RecordingFile, SearchFile};
@@ -17,6 +11,10 @@ use gumption_columns::gravity;
 use gumption_columns::recording::{ColumnName, Conversion, Wanted};
 use gumption_engine::task::Warning;
 use gumption_signal::{Channel, ChannelRateSearch};
+use gumption_text::json::Member;
+use gumption_text::object::Object;
+use gumption_text::value_text::ValueOf;
+use gumption_text::{Collector, DiagnosticKind, column_heading};
 use gumption_units::Unit;
 use gumption_units::nearest;
 
@@ -68,7 +66,7 @@ fn refuse_uncertainties_of(log: &Collector, members: &[Member]) {
 fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Option<ChannelFile> {
     check_name(log, &member.key, &member.key_span);
     let of = Object::new(log, "a channel", &member.value, &member.key_span)?;
-    of.check_keys(keys::CHANNEL);
+    keys::check(&of, keys::CHANNEL);
     let recording = recording(&of, recordings);
     let column = of.required("column").and_then(|member| column(log, member));
     let own = unit(&of, "unit", "1");

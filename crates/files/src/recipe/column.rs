@@ -1,10 +1,9 @@
 //! The columns of a recording, as a recipe names them.
 
-use super::super::DiagnosticKind;
-use super::super::diagnostics::Collector;
-use super::super::json::{Json, Member};
-use super::super::object::whole_number;
 use gumption_columns::recording::ColumnName;
+use gumption_text::json::{Json, Member};
+use gumption_text::object::whole_number;
+use gumption_text::{Collector, DiagnosticKind};
 
 /// A column by its name, or by its number from 1.
 pub(super) fn column(log: &Collector, member: &Member) -> Option<ColumnName> {

@@ -10,14 +10,8 @@ mod steps;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::DiagnosticKind;
-use super::diagnostics::{Collector, Diagnostics};
-use super::json::{Json, Node};
 use super::keys;
-use super::object::Object;
 use super::open::{FileKind, check_format, read_root, refuse_other_kind};
-use super::source::SourceText;
-use crate::folder::Folder;
 use channels::ChannelFile;
 use gumption_columns::recording::{self, Recording};
 use gumption_engine::model::formula;
@@ -26,6 +20,9 @@ use gumption_signal::{
     Amplitude, ChannelRateSearch, ChannelRecording, Frequency, Method, PhaseUnit, RecipeSettings,
     Refused, TimeBase,
 };
+use gumption_text::json::{Json, Node};
+use gumption_text::object::Object;
+use gumption_text::{Collector, DiagnosticKind, Diagnostics, Folder, SourceText};
 use gumption_units::Unit;
 use gumption_units::nearest;
 use recordings::RecordingFile;
@@ -129,7 +126,7 @@ fn recipe(root: &Object<'_>, folder: Folder<'_>) -> Option<RecipeFile> {
     if refuse_other_kind(root, FileKind::Recipe) {
         return None;
     }
-    root.check_keys(keys::RECIPE);
+    keys::check(root, keys::RECIPE);
     check_format(root, 1.0);
     let title = root.text("title").map(str::to_owned);
     root.text("source");

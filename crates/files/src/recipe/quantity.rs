@@ -1,9 +1,9 @@
 //! A value with its unit and, perhaps, its standard uncertainty.
 
-use super::super::DiagnosticKind;
-use super::super::json::{Json, Member};
 use super::super::keys;
-use super::super::object::Object;
+use gumption_text::DiagnosticKind;
+use gumption_text::json::{Json, Member};
+use gumption_text::object::Object;
 use gumption_units::{Turn, Unit};
 
 /// A value and its standard uncertainty, with the unit that they are in.
@@ -56,7 +56,7 @@ pub(super) fn of_member(object: &Object<'_>, member: &Member, default: &str) -> 
         return None;
     }
     let inner = Object::new(object.log, "a quantity", &member.value, &member.key_span)?;
-    inner.check_keys(keys::QUANTITY);
+    keys::check(&inner, keys::QUANTITY);
     of_object(&inner, default)
 }
 

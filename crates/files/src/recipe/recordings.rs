@@ -4,18 +4,16 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::super::DiagnosticKind;
-use super::super::column_heading;
-use super::super::json::{Json, Member};
 use super::super::keys;
-use super::super::object::Object;
-use super::super::value_text::ValueOf;
 use super::check_name;
 use super::column::column;
 use super::quantity::{positive, quantity, unit};
-use crate::folder::Folder;
 use gumption_columns::recording::{Bytes, ColumnName, Conversion, Reading, Wanted};
 use gumption_signal::Measured;
+use gumption_text::json::{Json, Member};
+use gumption_text::object::Object;
+use gumption_text::value_text::ValueOf;
+use gumption_text::{DiagnosticKind, Folder, column_heading};
 use gumption_units::Unit;
 
 /// The search for a sampling rate, as the recipe describes it.
@@ -66,7 +64,7 @@ pub(super) fn read(root: &Object<'_>, folder: Folder<'_>) -> Option<Vec<Recordin
         let Some(of) = Object::new(root.log, "a recording", &member.value, &member.key_span) else {
             continue;
         };
-        of.check_keys(keys::RECORDING);
+        keys::check(&of, keys::RECORDING);
         let search = search(&of);
         let found = search.as_ref().map(|of| Measured {
             value: f64::midpoint(of.between[0], of.between[1]),
@@ -142,10 +140,11 @@ fn searched<'a>(of: &Object<'a>) -> Option<(&'a Member, &'a Member)> {
 
 fn search(of: &Object<'_>) -> Option<SearchFile> {
     let (whole, member) = searched(of)?;
-    Object::new(of.log, "a sampling rate that is searched", &whole.value, &whole.key_span)?
-        .check_keys(keys::SEARCHED);
+    let whole =
+        Object::new(of.log, "a sampling rate that is searched", &whole.value, &whole.key_span)?;
+    keys::check(&whole, keys::SEARCHED);
     let of = Object::new(of.log, "a search", &member.value, &member.key_span)?;
-    of.check_keys(keys::SEARCH);
+    keys::check(&of, keys::SEARCH);
     let place = of.required("channel").map(|member| member.value.span.clone());
     let channel = of.text("channel")?.to_owned();
     let hertz = |key: &'static str| {

@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use super::super::DiagnosticKind;
-use super::super::json::{Json, Member, Node};
 use super::super::keys;
-use super::super::object::Object;
 use super::quantity::{of_object, own_unit, quantity, same_dimension, uncertainty, unit};
 use super::recordings::{RecordingFile, check_part};
 use super::{RecipeCondition, RecipeRow, check_name};
 use gumption_signal::Frequency;
+use gumption_text::DiagnosticKind;
+use gumption_text::json::{Json, Member, Node};
+use gumption_text::object::Object;
 
 /// At most so many rows.
 const MOST_ROWS: usize = 10_000;
@@ -66,7 +66,7 @@ fn conditions(root: &Object<'_>) -> Option<(Vec<RecipeCondition>, Vec<Option<f64
         check_name(root.log, &member.key, &member.key_span);
         let of =
             Object::new(root.log, "a condition of recordings", &member.value, &member.key_span)?;
-        of.check_keys(keys::RECIPE_CONDITION);
+        keys::check(&of, keys::RECIPE_CONDITION);
         of.text("about");
         let unit = unit(&of, "unit", "1")?;
         conditions.push(RecipeCondition { name: member.key.clone(), unit });
@@ -91,7 +91,7 @@ impl Reader<'_> {
         let object = match node {
             Some(node) => {
                 let object = Object::new(log, "a row of a recipe", node, &node.span)?;
-                object.check_keys(keys::RECIPE_ROW);
+                keys::check(&object, keys::RECIPE_ROW);
                 Some(object)
             }
             None => None,
@@ -207,7 +207,7 @@ fn frequencies(object: &Object<'_>, member: &Member) -> Option<Vec<Frequency>> {
         Json::List(_) => object.numbers("frequency")?.into_iter().map(stated).collect(),
         _ => {
             let of = Object::new(object.log, "`frequency`", &member.value, &member.key_span)?;
-            of.check_keys(keys::FREQUENCY);
+            keys::check(&of, keys::FREQUENCY);
             of.text("name");
             let estimate = of.truth("estimate").unwrap_or(false);
             let hertz = own_unit("Hz");

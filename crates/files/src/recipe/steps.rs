@@ -3,12 +3,12 @@
 
 use std::ops::Range;
 
-use super::super::DiagnosticKind;
-use super::super::json::{Json, Member, Node};
 use super::super::keys::{self, STEPS};
-use super::super::object::Object;
 use super::quantity::{Quantity, positive, quantity, same_dimension, unit};
 use gumption_signal::{Band, Butterworth, ChannelStep, Measured, Response, ResponsePoint};
+use gumption_text::DiagnosticKind;
+use gumption_text::json::{Json, Member, Node};
+use gumption_text::object::Object;
 use gumption_units::Unit;
 
 /// The step that an object describes, whose keys were checked, and the unit that values have after
@@ -208,7 +208,7 @@ fn points(of: &Object<'_>) -> Option<Vec<ResponsePoint>> {
     let member = of.get("response")?;
     for node in of.list("response")? {
         let point = Object::new(of.log, "a point of a response", node, &node.span)?;
-        point.check_keys(keys::POINT);
+        keys::check(&point, keys::POINT);
         point.required("gain")?;
         let gain = quantity(&point, "gain", "1")?;
         positive(&point, "gain", &gain).then_some(())?;
@@ -267,7 +267,7 @@ pub(super) fn read(channel: &Object<'_>, unit: &Unit) -> Option<Steps> {
             channel.log.report(&node.span, diagnostic);
             return None;
         };
-        object.check_names(&[&["step"], *keys].concat());
+        keys::check_names(&object, &[&["step"], *keys].concat());
         let (step, unit) = step(name, &object, &read.unit)?;
         read.steps.push(step);
         read.places.push(node.span.clone());

@@ -9,8 +9,8 @@ use serde_json::{Value, json};
 
 use super::text;
 use crate as file;
-use crate::DiagnosticKind;
 use crate::keys::SHAPES;
+use gumption_text::DiagnosticKind;
 
 fn schema() -> Value {
     serde_json::from_str(&text()).unwrap()

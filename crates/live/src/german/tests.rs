@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use gumption_files::FileSource;
+use gumption_text::FileSource;
 use serde_json::{Value, json};
 
 use super::texts::{Sentence, TEXTS};

@@ -2,7 +2,7 @@
 
 use super::grid::Grid;
 use super::text_width;
-use gumption_files::is_obeyed;
+use gumption_text::is_obeyed;
 
 /// Names in a list of definitions get this many characters before they wrap.
 const NAME_WIDTH: usize = 32;

@@ -12,7 +12,8 @@ use gumption_engine::propagate::{
 };
 use gumption_engine::task::Trials;
 use gumption_files as file;
-use gumption_files::{Diagnostic, DiagnosticKind, ModelFile};
+use gumption_files::ModelFile;
+use gumption_text::{Diagnostic, DiagnosticKind};
 
 const TRIALS: u64 = 400_000;
 

@@ -5,9 +5,10 @@ use super::super::difference;
 use gumption_analysis::integrity;
 use gumption_engine::propagate::Control;
 
-use crate::{DiagnosticKind, ModelOrResult, read_result, read_text};
+use crate::{ModelOrResult, read_result, read_text};
 use gumption_analysis::diff::{ChangeCause, Difference, OutputDifference};
 use gumption_engine::special::student::two_sided_factor;
+use gumption_text::DiagnosticKind;
 
 /// An input: file hash, name, estimate, standard uncertainty, degrees of freedom (0 for infinite).
 type Input<'a> = (&'a str, &'a str, f64, f64, f64);

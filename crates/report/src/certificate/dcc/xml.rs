@@ -7,7 +7,7 @@ use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
 use crate::answer::in_memory;
 use gumption_analysis::certificate::contents::{Language, Localized};
-use gumption_files::is_obeyed;
+use gumption_text::is_obeyed;
 
 /// A document in memory.
 #[allow(missing_debug_implementations)] // the library's writer has none

@@ -1,0 +1,34 @@
+//! The keys of an object held against those that are known there.
+
+use super::Key;
+use super::homes::homes;
+use gumption_text::DiagnosticKind;
+use gumption_text::object::Object;
+use gumption_text::other_names::other_name;
+use gumption_units::nearest;
+
+/// Reports every key that is not among `known`; keys that begin with `$` belong to editors.
+pub(crate) fn check(object: &Object<'_>, known: &[Key]) {
+    check_names(object, &known.iter().map(|key| key.name).collect::<Vec<_>>());
+}
+
+/// As [`check`], for keys that are put together.
+pub(crate) fn check_names(object: &Object<'_>, known: &[&'static str]) {
+    for member in object.members() {
+        if !known.contains(&member.key.as_str()) && !member.key.starts_with('$') {
+            object.log.report(
+                &member.key_span,
+                DiagnosticKind::UnknownKey {
+                    key: member.key.clone(),
+                    what: object.what(),
+                    nearest: other_name(&member.key, known)
+                        .map(|other| other.key)
+                        .or_else(|| nearest(&member.key, known.iter().copied()))
+                        .map(str::to_owned),
+                    homes: homes(&member.key, object.what()),
+                    known: known.to_vec(),
+                },
+            );
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! Files of strangers: the uncertainty budgets of spreadsheets, documents and other programs, which
+//! become model files, and tables of results of others, which are compared.
+
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
+
+mod answer;
+mod comparison;
+mod import;
+#[cfg(test)]
+mod tests;
+
+pub use comparison::{
+    ComparisonOptions, ComparisonTable, ReadComparison, read_comparison, read_comparison_text,
+};
+pub use import::{ImportedBudget, import_budget, import_budget_bytes, import_budget_sheet};

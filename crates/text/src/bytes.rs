@@ -1,0 +1,128 @@
+//! The content of files, up to a size.
+
+use std::borrow::Cow;
+use std::fmt;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Bytes of a model file, a result file or a table, at most. What is read takes up to a dozen times
+/// as much memory.
+pub const MOST: u64 = 50_000_000;
+
+/// Bytes of a file of samples, at most.
+pub const MOST_OF_SAMPLES: u64 = 200_000_000;
+
+/// The content of a file of at most so many bytes, or why there is none. Of a larger one, or of a
+/// device without an end, no more than that is read.
+pub fn of_file(path: &Path, most: u64) -> Result<Vec<u8>, String> {
+    // what systems say of one differs: access is denied on Windows
+    if path.is_dir() {
+        return Err("it is a folder: name a file".to_owned());
+    }
+    let file = File::open(path).map_err(|error| error.to_string())?;
+    of(file, most).map_err(|error| error.to_string())
+}
+
+/// Why there is no content.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The system cannot read it.
+    Io(io::Error),
+    /// There are more than so many bytes.
+    TooLarge {
+        /// The most that are read.
+        most: u64,
+    },
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Io(error) => error.fmt(f),
+            Self::TooLarge { most } => {
+                let most = most / 1_000_000;
+                write!(f, "it is larger than {most} MB, which this version takes at most")
+            }
+        }
+    }
+}
+
+impl std::error::Error for ReadError {}
+
+/// All that a reader gives, up to so many bytes.
+///
+/// # Errors
+/// More bytes, or what the system says.
+pub fn of(reader: impl Read, most: u64) -> Result<Vec<u8>, ReadError> {
+    let mut bytes = Vec::new();
+    reader.take(most + 1).read_to_end(&mut bytes).map_err(ReadError::Io)?;
+    if bytes.len() as u64 > most {
+        return Err(ReadError::TooLarge { most });
+    }
+    Ok(bytes)
+}
+
+/// The text of a file: UTF-8, or UTF-16 with its byte-order mark, as Windows PowerShell writes it.
+///
+/// # Errors
+/// What it is not, as a sentence about it.
+pub fn text(bytes: &[u8]) -> Result<Cow<'_, str>, String> {
+    type Unit = fn([u8; 2]) -> u16;
+    let (rest, of): (&[u8], Unit) = match bytes {
+        [0xff, 0xfe, rest @ ..] => (rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => (rest, u16::from_be_bytes),
+        _ => {
+            let text = std::str::from_utf8(bytes).map_err(|_| {
+                // archives, which workbooks are, begin so
+                if bytes.starts_with(b"PK\x03\x04") {
+                    return "it is a workbook, or another archive: `gumption import` makes a model file of a \
+                            budget; of a table save the sheet as `CSV UTF-8`"
+                        .to_owned();
+                }
+                "it is not UTF-8 text: save it as UTF-8, of a spreadsheet as `CSV UTF-8` or as a workbook"
+                    .to_owned()
+            });
+            return text.map(Cow::Borrowed);
+        }
+    };
+    let (units, left) = rest.as_chunks();
+    let text = String::from_utf16(&units.iter().map(|&unit| of(unit)).collect::<Vec<u16>>());
+    match text {
+        Ok(text) if left.is_empty() => Ok(text.into()),
+        _ => Err("it begins as UTF-16 text, but is not".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_of_both_widths_are_read() {
+        let wide = |mark: u16, of: fn(u16) -> [u8; 2]| -> Vec<u8> {
+            std::iter::once(mark).chain("aµ😀".encode_utf16()).flat_map(of).collect()
+        };
+        for bytes in [wide(0xfeff, u16::to_le_bytes), wide(0xfeff, u16::to_be_bytes), "aµ😀".into()]
+        {
+            assert_eq!(text(&bytes).unwrap(), "aµ😀");
+        }
+        assert!(text(b"\xff\xfea").unwrap_err().contains("UTF-16"));
+        assert!(text(b"\xff\xfe\x00\xd8").unwrap_err().contains("UTF-16"));
+        assert!(text(b"\x80").unwrap_err().contains("UTF-8"));
+    }
+
+    #[test]
+    fn a_file_without_an_end_is_refused() {
+        assert_eq!(of(&b"abc"[..], 3).unwrap(), b"abc");
+        assert!(of(&b"abcd"[..], 3).is_err());
+        let message = of(io::repeat(0), 2_000_000).unwrap_err().to_string();
+        assert_eq!(message, "it is larger than 2 MB, which this version takes at most");
+    }
+
+    #[test]
+    fn a_folder_is_called_one() {
+        assert_eq!(of_file(Path::new("."), 1).unwrap_err(), "it is a folder: name a file");
+    }
+}

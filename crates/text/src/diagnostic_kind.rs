@@ -1,0 +1,968 @@
+//! What can be wrong with a user's file: the facts, and the sentence that is said about them.
+
+use std::fmt;
+use std::sync::Arc;
+
+use super::other_names::other_name;
+use super::value_text::with_point;
+use gumption_columns::{gravity, heading::OtherUnit};
+use gumption_engine::distribution::Invalid;
+use gumption_engine::model::formula::{FormulaError, ScaleMisfit};
+use gumption_engine::number::Shortest;
+use gumption_units::UnitError;
+use gumption_units::nearest;
+
+/// The keys of an input that are widths: none of them is 0.
+pub const WIDTHS: [&str; 5] = ["std", "expanded", "scale", "half_width", "semi_range"];
+
+/// A mistake, without its place.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum DiagnosticKind {
+    /// The file cannot be read.
+    Unreadable {
+        /// What the system or the parser says.
+        message: String,
+    },
+    /// A file that may not be read, because it lies outside of the folder of the file that names
+    /// it.
+    Outside {
+        /// Its name, as it is written.
+        name: String,
+    },
+    /// The file has no content.
+    Empty,
+    /// The text is not JSON.
+    NotJson {
+        /// What the system or the parser says.
+        message: String,
+    },
+    /// JSON has no NaN and no infinity.
+    NotFiniteInJson,
+    /// A number beyond double precision.
+    NumberTooLarge,
+    /// A value of another type.
+    WrongType {
+        /// What is concerned, in words.
+        what: String,
+        /// What stands there.
+        found: &'static str,
+        /// What must stand there.
+        expected: &'static str,
+    },
+    /// A key that does not exist here.
+    UnknownKey {
+        /// The key.
+        key: String,
+        /// What is concerned, in words.
+        what: &'static str,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+        /// The objects of this kind of file that have such a key, in words.
+        homes: Vec<&'static str>,
+        /// What is known there.
+        known: Vec<&'static str>,
+    },
+    /// The same key twice.
+    DuplicateKey {
+        /// The key.
+        key: String,
+    },
+    /// A required key is not there.
+    MissingKey {
+        /// The key.
+        key: &'static str,
+        /// What is concerned, in words.
+        what: &'static str,
+    },
+    /// An input or a component without a distribution.
+    NoDistribution {
+        /// What is concerned, in words.
+        what: &'static str,
+        /// The distributions that have all of its keys; none where it has no key of a distribution.
+        fitting: Vec<&'static str>,
+    },
+    /// A version of the file format that this program does not know.
+    UnknownFormat {
+        /// What stands there.
+        found: String,
+    },
+    /// A file of another kind than the command reads.
+    WrongFile {
+        /// What it is, in words.
+        what: &'static str,
+        /// The command that reads it.
+        command: &'static str,
+    },
+    /// Neither a typed model nor equations.
+    NoModel,
+    /// Both a typed model and equations.
+    TwoModels,
+    /// No typed model of that name.
+    UnknownModel {
+        /// The name that is concerned.
+        name: String,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+    },
+    /// The typed model has no such input.
+    UnknownInput {
+        /// The name that is concerned.
+        name: String,
+        /// The typed model.
+        model: String,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+        /// What is known there.
+        known: Vec<String>,
+    },
+    /// The typed model has no such output, or no equation defines it.
+    UnknownOutput {
+        /// The name that is concerned.
+        name: String,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+        /// What is known there.
+        known: Arc<[String]>,
+    },
+    /// The typed model needs an input that is not there.
+    MissingInput {
+        /// The name that is concerned.
+        name: String,
+        /// The typed model.
+        model: String,
+        /// The unit.
+        unit: String,
+        /// The inputs that the model has.
+        known: Vec<String>,
+    },
+    /// A name that cannot be used.
+    BadName {
+        /// The name that is concerned.
+        name: String,
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
+    /// The same name for two quantities.
+    NameTaken {
+        /// The name that is concerned.
+        name: String,
+    },
+    /// A name that is not that of an input.
+    NoSuchInput {
+        /// The name that is concerned.
+        name: String,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+    },
+    /// A unit that does not parse.
+    Unit {
+        /// The unit.
+        unit: String,
+        /// What is wrong with it.
+        error: UnitError,
+    },
+    /// A unit of another dimension than the quantity.
+    WrongDimension {
+        /// The name that is concerned.
+        name: String,
+        /// What stands there.
+        found: String,
+        /// The quantity that this unit is one of.
+        found_as: String,
+        /// The quantity that is needed.
+        expected_as: String,
+        /// What must stand there.
+        expected: String,
+    },
+    /// A unit of the right dimension that the scale of a quantity does not fit.
+    WrongScale {
+        /// The name that is concerned.
+        name: String,
+        /// The unit.
+        unit: String,
+        /// Why it does not fit.
+        misfit: ScaleMisfit,
+    },
+    /// A value with a unit that cannot be read or converted.
+    Value {
+        /// The key.
+        key: String,
+        /// What stands there.
+        found: String,
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
+    /// No distribution of that name.
+    UnknownDistribution {
+        /// The name that is concerned.
+        name: String,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+        /// What is known there.
+        known: Vec<&'static str>,
+    },
+    /// Parameters that no distribution has.
+    Distribution {
+        /// The name that is concerned.
+        name: String,
+        /// What is wrong with it.
+        error: Invalid,
+    },
+    /// Two keys of which one may be there.
+    Exclusive {
+        /// The first of the two.
+        first: &'static str,
+        /// The second of the two.
+        second: &'static str,
+    },
+    /// `expanded` without `k` or `p`.
+    NoCoverage {
+        /// The name that is concerned.
+        name: String,
+    },
+    /// A key that says something about another one, which is not there.
+    OnlyWith {
+        /// The key.
+        key: &'static str,
+        /// The key that is not there.
+        with: &'static str,
+    },
+    /// A probability outside 0 to 1.
+    NotProbability {
+        /// The key.
+        key: String,
+        /// What stands there.
+        found: f64,
+    },
+    /// A number that is not a positive one.
+    NotPositive {
+        /// The key.
+        key: String,
+        /// What stands there.
+        found: f64,
+    },
+    /// Not a whole number, or out of range.
+    NotWhole {
+        /// The key.
+        key: String,
+        /// What stands there.
+        found: String,
+        /// The least that is allowed.
+        least: u64,
+        /// The most that is allowed.
+        most: u64,
+    },
+    /// Not a number of trials.
+    NotTrials {
+        /// What stands there.
+        found: String,
+        /// The most that is allowed.
+        most: u64,
+    },
+    /// A number out of its range.
+    OutOfRange {
+        /// The key.
+        key: String,
+        /// What stands there.
+        found: f64,
+        /// The range, in words.
+        range: &'static str,
+    },
+    /// A value that must be one of a few.
+    NotOneOf {
+        /// The key.
+        key: String,
+        /// What stands there.
+        found: String,
+        /// The values that are allowed.
+        allowed: Vec<String>,
+    },
+    /// A width that does not parse.
+    Width {
+        /// The name that is concerned.
+        name: String,
+        /// What stands there.
+        found: String,
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
+    /// A tolerance with one limit of an output that comes round.
+    OneLimitOfPeriod {
+        /// The output.
+        name: String,
+        /// The limit that is not there.
+        missing: &'static str,
+        /// A turn, with its unit.
+        turn: String,
+    },
+    /// A component without a name, or with the name of another.
+    Component {
+        /// The name that is concerned.
+        name: String,
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
+    /// A formula's mistake.
+    Formula {
+        /// What is wrong with it.
+        error: FormulaError,
+    },
+    /// An estimate's formula with an input that is not known exactly.
+    EstimateOfInput {
+        /// The input.
+        name: String,
+    },
+    /// An estimate's formula with a constant that is a formula of more than constants.
+    EstimateOfFormula {
+        /// The constant.
+        name: String,
+    },
+    /// An estimate's formula that gives no finite number.
+    EstimateUndefined {
+        /// The row, from 1.
+        row: usize,
+        /// What stands there.
+        found: f64,
+    },
+    /// A condition or list without values.
+    NoValues {
+        /// The name that is concerned.
+        name: String,
+    },
+    /// A range of a condition that is not two increasing values.
+    ConditionRange {
+        /// The condition.
+        name: String,
+        /// What stands there.
+        found: Vec<f64>,
+    },
+    /// A condition that has no values of its own and no table to take them from.
+    NoTable {
+        /// The name that is concerned.
+        name: String,
+    },
+    /// A table's cell that is empty or not a number.
+    Cell {
+        /// The row, from 1.
+        row: usize,
+        /// The column.
+        column: String,
+        /// What stands there.
+        found: String,
+    },
+    /// A table's row with another number of cells than the header.
+    ShortRow {
+        /// The row, from 1.
+        row: usize,
+        /// What stands there.
+        found: usize,
+        /// What must stand there.
+        expected: usize,
+    },
+    /// A line of a file of samples that is not a number.
+    Sample {
+        /// What stands there.
+        found: String,
+    },
+    /// A column whose heading has another unit than its values are read in.
+    ColumnUnit(OtherUnit),
+    /// A table without rows, or a bad header.
+    Table {
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
+    /// A coefficient out of range, of unknown or equal quantities.
+    Correlation {
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
+    /// A calibration function that cannot be fitted, or points that cannot be read.
+    Fit {
+        /// The function, or the coordinate.
+        name: String,
+        /// Why, as a sentence without a capital.
+        reason: String,
+    },
+    /// A complex quantity that is not written as one, or is not taken as one.
+    Complex {
+        /// The quantity.
+        name: String,
+        /// Why, as the rest of the sentence.
+        reason: String,
+    },
+    /// A coverage region that cannot be.
+    Region {
+        /// Why, as a sentence without a capital.
+        reason: String,
+    },
+    /// Too many rows, inputs, nodes.
+    TooMany {
+        /// What is concerned, in words.
+        what: &'static str,
+        /// What stands there.
+        found: usize,
+        /// The most that is allowed.
+        most: usize,
+    },
+    /// A saved result that was changed since it was written.
+    SavedChanged {
+        /// What was changed, by the keys that lead to it; `None` where that cannot be told.
+        part: Option<String>,
+    },
+    /// A file that `--save` did not write.
+    NotResult {
+        /// The file.
+        file: String,
+    },
+    /// A result file has no such output.
+    NoSuchResult {
+        /// The file.
+        file: String,
+        /// The name that is concerned.
+        name: String,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+        /// What is known there.
+        known: Vec<String>,
+    },
+    /// A list of a result file whose entries do not fit.
+    SavedEntry {
+        /// Why, as a part of the sentence.
+        reason: &'static str,
+    },
+    /// A result for an input in a unit with another zero: degC and K, degC and degF, dBm and dBW.
+    SavedZero {
+        /// The name that is concerned.
+        name: String,
+        /// What stands there.
+        found: String,
+        /// The unit of the saved result.
+        saved: String,
+    },
+    /// A declared coefficient between inputs whose saved results have one.
+    SavedCorrelation {
+        /// The first of the two.
+        first: String,
+        /// The second of the two.
+        second: String,
+    },
+    /// More mistakes than are listed.
+    MoreMistakes {
+        /// The most that is allowed.
+        most: usize,
+    },
+    /// A model file with several rows of conditions, to be compared with a saved result.
+    SeveralRows {
+        /// How many rows there are.
+        rows: usize,
+    },
+    /// The evaluation met numbers that it cannot go on with.
+    Evaluation {
+        /// What the system or the parser says.
+        message: String,
+    },
+    /// The catalogue has no effect of that name.
+    UnknownEffect {
+        /// The name that is concerned.
+        name: String,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+    },
+    /// An effect that cannot act on the sim.
+    Effect {
+        /// The name that is concerned.
+        name: String,
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
+    /// Observations that say nothing about the sim, or contradict themselves.
+    Observation {
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
+    /// What the improvement of an input costs, in a form that it cannot have.
+    Cost {
+        /// Why, as a sentence without a capital.
+        reason: String,
+    },
+    /// Prior probabilities that do not sum to one.
+    Prior {
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
+    /// Something in a certificate file that does not fit.
+    Certificate {
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
+    /// Not a day of the calendar.
+    NotDate {
+        /// The key.
+        key: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// A recipe whose parts do not fit.
+    Recipe {
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
+    /// A recording that cannot be used, with its line or sample and channel.
+    Recording {
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
+    /// An override of the command line that does not fit.
+    Override {
+        /// The replacement as it is written.
+        text: String,
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
+}
+
+impl DiagnosticKind {
+    /// A short fixed name of the kind of mistake.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Unreadable { .. } => "unreadable",
+            Self::Outside { .. } => "outside",
+            Self::Empty => "empty",
+            Self::NotJson { .. } => "not-json",
+            Self::NotFiniteInJson => "not-finite",
+            Self::NumberTooLarge => "number-too-large",
+            Self::WrongType { .. } => "wrong-type",
+            Self::UnknownKey { .. } => "unknown-key",
+            Self::DuplicateKey { .. } => "duplicate-key",
+            Self::MissingKey { .. } | Self::NoDistribution { .. } => "missing-key",
+            Self::UnknownFormat { .. } => "unknown-format",
+            Self::NoModel => "no-model",
+            Self::TwoModels => "two-models",
+            Self::UnknownModel { .. } => "unknown-model",
+            Self::UnknownInput { .. } => "unknown-input",
+            Self::UnknownOutput { .. } => "unknown-output",
+            Self::MissingInput { .. } => "missing-input",
+            Self::BadName { .. } => "bad-name",
+            Self::NameTaken { .. } => "name-taken",
+            Self::NoSuchInput { .. } => "no-such-input",
+            Self::Unit { .. } => "bad-unit",
+            Self::WrongDimension { .. } => "wrong-dimension",
+            Self::WrongScale { .. } => "wrong-scale",
+            Self::WrongFile { .. } => "wrong-file",
+            Self::Value { .. } => "bad-value",
+            Self::UnknownDistribution { .. } => "unknown-distribution",
+            Self::Distribution { .. } => "bad-distribution",
+            Self::Exclusive { .. } => "exclusive-keys",
+            Self::NoCoverage { .. } => "no-coverage",
+            Self::OnlyWith { .. } => "only-with",
+            Self::NotProbability { .. } => "not-a-probability",
+            Self::NotPositive { .. } => "not-positive",
+            Self::NotWhole { .. } => "not-whole",
+            Self::NotTrials { .. } => "bad-trials",
+            Self::OutOfRange { .. } => "out-of-range",
+            Self::NotOneOf { .. } => "not-one-of",
+            Self::Width { .. } => "bad-width",
+            Self::OneLimitOfPeriod { .. } => "one-limit-of-period",
+            Self::Component { .. } => "bad-component",
+            Self::Formula { .. } => "bad-formula",
+            Self::EstimateOfInput { .. } => "estimate-of-input",
+            Self::EstimateOfFormula { .. } => "estimate-of-formula",
+            Self::EstimateUndefined { .. } => "estimate-undefined",
+            Self::NoValues { .. } => "no-values",
+            Self::ConditionRange { .. } => "bad-range",
+            Self::NoTable { .. } => "no-table",
+            Self::Cell { .. } => "bad-cell",
+            Self::ShortRow { .. } => "short-row",
+            Self::Sample { .. } => "bad-sample",
+            Self::ColumnUnit(_) => "column-unit",
+            Self::Table { .. } => "bad-table",
+            Self::Correlation { .. } => "bad-correlation",
+            Self::Complex { .. } => "bad-complex",
+            Self::Fit { .. } => "bad-fit",
+            Self::Region { .. } => "bad-region",
+            Self::TooMany { .. } => "too-many",
+            Self::MoreMistakes { .. } => "more-mistakes",
+            Self::SavedChanged { .. } => "changed-result",
+            Self::NotResult { .. } => "not-a-result",
+            Self::NoSuchResult { .. } => "no-such-result",
+            Self::SavedEntry { .. } => "bad-result",
+            Self::SavedZero { .. } => "celsius-result",
+            Self::SavedCorrelation { .. } => "correlated-results",
+            Self::SeveralRows { .. } => "several-rows",
+            Self::Evaluation { .. } => "evaluation",
+            Self::UnknownEffect { .. } => "unknown-effect",
+            Self::Effect { .. } => "bad-effect",
+            Self::Observation { .. } => "bad-observations",
+            Self::Cost { .. } => "bad-cost",
+            Self::Prior { .. } => "bad-prior",
+            Self::Certificate { .. } => "bad-certificate",
+            Self::NotDate { .. } => "not-a-date",
+            Self::Recipe { .. } => "bad-recipe",
+            Self::Recording { .. } => "bad-recording",
+            Self::Override { .. } => "bad-override",
+        }
+    }
+
+    /// The same mistake of what stands at another key.
+    #[must_use]
+    pub fn of_key(mut self, of: &str) -> Self {
+        if let Self::WrongDimension { name, .. }
+        | Self::WrongScale { name, .. }
+        | Self::Value { key: name, .. } = &mut self
+        {
+            of.clone_into(name);
+        }
+        self
+    }
+
+    /// What to write instead, where that is known.
+    pub fn suggestion(&self) -> Option<String> {
+        match self {
+            Self::UnknownKey { key, known, .. }
+                if other_name(key, known).is_some_and(|other| !other.is_same) =>
+            {
+                None
+            }
+            Self::UnknownKey { nearest, .. }
+            | Self::UnknownModel { nearest, .. }
+            | Self::UnknownInput { nearest, .. }
+            | Self::UnknownOutput { nearest, .. }
+            | Self::UnknownEffect { nearest, .. }
+            | Self::NoSuchInput { nearest, .. }
+            | Self::NoSuchResult { nearest, .. }
+            | Self::UnknownDistribution { nearest, .. } => nearest.clone(),
+            Self::NotOneOf { found, allowed, .. } => {
+                nearest(found, allowed.iter().map(String::as_str)).map(str::to_owned)
+            }
+            Self::Unit { unit, error } => {
+                error.in_whole(unit).suggestions().first().map(|s| (*s).to_owned())
+            }
+            Self::Formula { error } => error.suggestion(),
+            _ => None,
+        }
+    }
+}
+
+/// `a`, `b`, `c`
+fn list<S: AsRef<str>>(names: &[S]) -> String {
+    let quoted = names.iter().map(|n| format!("`{}`", n.as_ref()));
+    let mut list = quoted.take(LONGEST_LIST).collect::<Vec<_>>().join(", ");
+    if names.len() > LONGEST_LIST {
+        list.push_str(&format!(" and {} more", names.len() - LONGEST_LIST));
+    }
+    list
+}
+
+/// At most so many names are listed in a message.
+const LONGEST_LIST: usize = 30;
+
+/// What is done with an uncertainty of 0.
+pub(crate) const WITHOUT_UNCERTAINTY: &str = "; a quantity without an uncertainty has the distribution `constant`, and a component without \
+     one is left out";
+
+/// "1 cell", "2 cells"
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// "; did you mean `x`?" or the list of what there is.
+fn hint(nearest: Option<&String>, known: &str) -> String {
+    if nearest.is_some() { meant(nearest) } else { format!("; there are {known}") }
+}
+
+/// The near name, where there is one.
+fn meant(nearest: Option<&String>) -> String {
+    nearest.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
+}
+
+impl fmt::Display for DiagnosticKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unreadable { message } => write!(f, "cannot read the file: {message}"),
+            Self::Outside { name } => write!(
+                f,
+                "`{name}` lies outside of the folder of this file, below which the files that it names \
+                 are read"
+            ),
+            Self::Empty => f.write_str(
+                "the file is empty; a model file is a JSON object with `inputs`, `outputs` and \
+                 `equations` or `model`",
+            ),
+            Self::NotJson { message } => write!(f, "this is not JSON: {message}"),
+            Self::NotFiniteInJson => {
+                f.write_str("NaN and infinity are no JSON numbers; a finite number is needed here")
+            }
+            Self::NumberTooLarge => {
+                f.write_str("this number is larger than any in double precision (1.8e308)")
+            }
+            Self::WrongType { what, found, expected } => {
+                write!(f, "{what} is {found}, but must be {expected}")
+            }
+            Self::UnknownKey { key, what, nearest, homes, known } => {
+                write!(f, "unknown key `{key}` in {what}")?;
+                if let Some(other) = other_name(key, known) {
+                    return write!(f, "; {}", other.said);
+                }
+                if homes.is_empty() || nearest.is_some() {
+                    f.write_str(&hint(nearest.as_ref(), &list(known)))?;
+                }
+                if homes.is_empty() {
+                    return Ok(());
+                }
+                let begin = if nearest.is_some() { " It" } else { "; it" };
+                write!(f, "{begin} is a key of {}", homes.join(" and of "))
+            }
+            Self::DuplicateKey { key } => write!(f, "the key `{key}` stands here a second time"),
+            Self::MissingKey { key, what } => write!(f, "{what} needs the key `{key}`"),
+            Self::NoDistribution { what, fitting } => {
+                write!(f, "{what} needs the key `distribution`")?;
+                match fitting.as_slice() {
+                    [] => f.write_str(", such as `\"distribution\": \"rectangular\"`"),
+                    [only] => write!(f, "; its keys are those of `\"distribution\": \"{only}\"`"),
+                    several => write!(f, "; its keys are those of {}", list(several)),
+                }
+            }
+            Self::UnknownFormat { found } => {
+                write!(
+                    f,
+                    "file format {found} is not known; this version reads `\"format\": 1` and `2`"
+                )
+            }
+            Self::WrongFile { what, command } => {
+                write!(f, "this is {what}, which `{command}` reads")
+            }
+            Self::NoModel => f.write_str(
+                "a model file needs `equations` (formulas) or `model` (the name of a typed model)",
+            ),
+            Self::TwoModels => f.write_str(
+                "a model file has either `equations` or `model`, not both; take one of them out",
+            ),
+            Self::UnknownModel { name, nearest } => {
+                write!(f, "there is no typed model `{name}`{}", meant(nearest.as_ref()))
+            }
+            Self::UnknownInput { name, model, nearest, known } => write!(
+                f,
+                "the model `{model}` has no input `{name}`{}{}",
+                hint(nearest.as_ref(), &list(known)),
+                nearest
+                    .as_ref()
+                    .map_or_else(String::new, |_| format!(" There are {}", list(known)))
+            ),
+            Self::UnknownOutput { name, nearest, known } => {
+                write!(
+                    f,
+                    "nothing computes an output `{name}`{}",
+                    hint(nearest.as_ref(), &list(known))
+                )
+            }
+            Self::MissingInput { name, model, unit, known } => write!(
+                f,
+                "the model `{model}` needs the input `{name}` (unit `{unit}`), which is not here; its \
+                 inputs are {}",
+                list(known)
+            ),
+            Self::BadName { name, reason } => write!(f, "`{name}` cannot be a name: {reason}"),
+            Self::NameTaken { name } => {
+                write!(f, "the name `{name}` is already that of another quantity of this file")
+            }
+            Self::NoSuchInput { name, nearest } => {
+                write!(f, "there is no input `{name}` in this file")?;
+                match nearest {
+                    Some(near) => write!(f, "; did you mean `{near}`?"),
+                    None => f.write_str("; a component is named `input/component`"),
+                }
+            }
+            Self::Unit { unit, error } => {
+                write!(f, "the unit `{unit}` cannot be read: {}", error.in_whole(unit))
+            }
+            // of one dimension are levels and ratios
+            Self::WrongDimension { name, found, found_as, expected, expected_as }
+                if found_as == expected_as && (found.contains("dB") || found.contains("Np")) =>
+            {
+                write!(
+                    f,
+                    "`{name}` has the unit `{found}`, but must be {expected_as} such as `{expected}`; of a \
+                     level L in dB the ratio of amplitudes is 10^(L/20), that of powers 10^(L/10)"
+                )
+            }
+            Self::WrongDimension { name, found, found_as, expected, expected_as } => write!(
+                f,
+                "`{name}` has the unit `{found}`, {found_as}, but must be {expected_as}, such as \
+                 `{expected}`{}",
+                gravity::hint_of(found, expected)
+            ),
+            Self::WrongScale { name, unit, misfit } => {
+                write!(f, "`{name}` cannot be given in `{unit}`: it {misfit}")
+            }
+            Self::Value { key, found, reason } => {
+                write!(f, "the value `{found}` of `{key}` cannot be taken: {reason}")
+            }
+            Self::UnknownDistribution { name, nearest, known } => {
+                write!(
+                    f,
+                    "there is no distribution `{name}`{}",
+                    hint(nearest.as_ref(), &list(known))
+                )
+            }
+            Self::Distribution { name, error } => write!(f, "`{name}`: {error}"),
+            Self::Exclusive { first, second } => {
+                write!(f, "`{first}` and `{second}` cannot stand together; take one of them out")
+            }
+            Self::NoCoverage { name } => write!(
+                f,
+                "`{name}` gives an expanded uncertainty, which needs its coverage factor `k` or its \
+                 coverage probability `p`"
+            ),
+            Self::OnlyWith { key, with } => {
+                write!(f, "`{key}` says something about `{with}`, which is not here")
+            }
+            Self::NotProbability { key, found } => {
+                let found = Shortest(*found);
+                write!(f, "`{key}` is {found}, but must be a probability between 0 and 1")
+            }
+            Self::NotPositive { key, found } => {
+                write!(f, "`{key}` is {}, but must be above zero", Shortest(*found))?;
+                let is_none = *found == 0.0 && WIDTHS.contains(&key.as_str());
+                if is_none { f.write_str(WITHOUT_UNCERTAINTY) } else { Ok(()) }
+            }
+            Self::NotWhole { key, found, least, most } => {
+                write!(f, "`{key}` is {found}, but must be a whole number from {least} to {most}")
+            }
+            Self::NotTrials { found, most } => write!(
+                f,
+                "{found} is not a number of trials; a whole number from 2 to {most} is, or 0 for an \
+                 evaluation by the law of propagation alone"
+            ),
+            Self::OutOfRange { key, found, range } => {
+                write!(f, "`{key}` is {}, but must be {range}", Shortest(*found))
+            }
+            Self::NotOneOf { key, found, allowed } => {
+                write!(f, "`{key}` is `{found}`, but must be one of {}", list(allowed))
+            }
+            Self::Width { name, found, reason } => {
+                write!(f, "`{name}`: the width `{found}` cannot be read: {reason}")
+            }
+            Self::OneLimitOfPeriod { name, missing, turn } => write!(
+                f,
+                "the `tolerance` of `{name}` needs `{missing}` as well: its values come round after \
+                 {turn} (`periodic`), so that each of them lies on either side of one limit alone"
+            ),
+            Self::Component { name, reason } => write!(f, "a component of `{name}` {reason}"),
+            Self::Formula { error } => error.fmt(f),
+            Self::EstimateOfInput { name } => write!(
+                f,
+                "`{name}` has an uncertainty, and an estimate is a formula of conditions, of inputs with \
+                 the distribution `constant` and of constants; write a formula of `{name}` among the \
+                 `equations`"
+            ),
+            Self::EstimateOfFormula { name } => write!(
+                f,
+                "`{name}` is a formula itself, of more than constants; write that formula here in its \
+                 place, or a formula of `{name}` among the `equations`"
+            ),
+            Self::EstimateUndefined { row, found } => {
+                write!(f, "this estimate is {found} in row {row} of the conditions")
+            }
+            Self::NoValues { name } => write!(f, "`{name}` has no values; at least one is needed"),
+            Self::ConditionRange { name, found } => {
+                let found: Vec<String> = found.iter().map(|v| Shortest(*v).to_string()).collect();
+                write!(
+                    f,
+                    "the range of the condition `{name}` is [{}], but must be two values, the lower \
+                     one first: `[1, 500]`",
+                    found.join(", ")
+                )
+            }
+            Self::NoTable { name } => write!(
+                f,
+                "the condition `{name}` has no `values`; it would name a column of observations, \
+                 but the file has none"
+            ),
+            Self::Cell { row, column, found } if found.is_empty() => {
+                write!(f, "row {row}, column `{column}`: the cell is empty; a number is needed")
+            }
+            Self::Cell { row, column, found } => {
+                write!(f, "row {row}, column `{column}`: `{found}` is not a finite number")
+            }
+            Self::ShortRow { row, found, expected } => {
+                let (found, expected) = (counted(*found, "cell"), counted(*expected, "name"));
+                write!(f, "row {row} has {found}, but the header has {expected}")
+            }
+            Self::Sample { found } => {
+                if let Some(point) = with_point(found) {
+                    return write!(
+                        f,
+                        "`{found}` is no number: a decimal fraction is written with a point, \
+                         `{point}`"
+                    );
+                }
+                write!(
+                    f,
+                    "`{found}` is not a finite number; a file of samples has one on each line, and \
+                     `#` before words"
+                )
+            }
+            Self::ColumnUnit(found) => found.fmt(f),
+            Self::Table { reason }
+            | Self::Cost { reason }
+            | Self::Observation { reason }
+            | Self::Prior { reason } => f.write_str(reason),
+            Self::UnknownEffect { name, nearest } => {
+                write!(f, "the catalogue has no effect `{name}`{}", meant(nearest.as_ref()))
+            }
+            Self::Effect { name, reason } => write!(f, "the effect `{name}` {reason}"),
+            Self::Correlation { reason } => f.write_str(reason),
+            Self::Fit { name, reason } => write!(f, "`{name}`: {reason}"),
+            Self::Region { reason } => f.write_str(reason),
+            Self::Complex { name, reason } => write!(f, "`{name}` {reason}"),
+            // more than can be counted, or than was looked at
+            Self::TooMany { what, found: usize::MAX, most } => {
+                write!(f, "there are more than {most} {what}, which this version takes at most")
+            }
+            Self::TooMany { what, found, most } => {
+                write!(f, "there are {found} {what}; this version takes {most} at most")
+            }
+            Self::SavedChanged { part: Some(part) } => {
+                write!(f, "`{part}` was changed since the result was saved; save it again")
+            }
+            Self::SavedChanged { part: None } => f.write_str(
+                "this result was changed since it was saved, and does not say where; save it again",
+            ),
+            Self::NotResult { file } => {
+                write!(f, "`{file}` is not a saved result (`\"result\": true` is missing)")
+            }
+            Self::NoSuchResult { file, name, nearest, known } => {
+                let hint = hint(nearest.as_ref(), &list(known));
+                write!(f, "the saved result `{file}` has no output `{name}`{hint}")
+            }
+            Self::SavedEntry { reason } => f.write_str(reason),
+            Self::SavedZero { name, found, saved } => write!(
+                f,
+                "the saved result `{name}` is in `{saved}`, the input in `{found}`, whose values count \
+                 from another zero, and a saved result is never shifted; take the unit of the result"
+            ),
+            Self::SavedCorrelation { first, second } => write!(
+                f,
+                "the correlation of `{first}` and `{second}` follows from the saved results that \
+                 they come from; take the declared coefficient out"
+            ),
+            Self::MoreMistakes { most } => {
+                write!(f, "there are more mistakes; the first {most} are listed")
+            }
+            Self::SeveralRows { rows } => write!(
+                f,
+                "this file has {rows} rows of conditions, but a saved result is one row; compare it \
+                 with a file of that row alone"
+            ),
+            Self::Evaluation { message } => f.write_str(message),
+            Self::Certificate { reason } | Self::Recipe { reason } | Self::Recording { reason } => {
+                f.write_str(reason)
+            }
+            Self::NotDate { key, found } => {
+                write!(f, "`{key}` is `{found}`, but must be a day such as 2026-03-02")
+            }
+            Self::Override { text, reason } => write!(f, "the replacement `{text}`: {reason}"),
+        }
+    }
+}

@@ -1,0 +1,286 @@
+//! Mistakes with their places.
+
+use std::borrow::Cow;
+use std::cell::{Cell, Ref, RefCell};
+use std::collections::HashMap;
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::DiagnosticKind;
+use super::source::{Place, SourceText};
+use gumption_engine::model::formula::{Formula, FormulaError};
+use gumption_engine::regression::CurveFunction;
+use gumption_units::{Unit, UnitError};
+
+/// At most so many mistakes are collected: a table of a million faulty cells helps nobody.
+const MOST: usize = 1000;
+
+/// The longest part of a sentence between two quotation marks, in letters.
+const LONGEST: usize = 1000;
+
+/// A mistake in a user's file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// The text in which it lies.
+    pub source: Arc<SourceText>,
+    /// The place: a half-open range of bytes.
+    pub span: Range<usize>,
+    /// What is wrong.
+    pub kind: DiagnosticKind,
+}
+
+impl Diagnostic {
+    /// Line and column, counted from 1.
+    pub fn position(&self) -> (usize, usize) {
+        self.source.position(self.span.start)
+    }
+
+    /// The sentence about the mistake, on one line whatever the file's names have in them; very long
+    /// quoted texts are cut.
+    pub fn message(&self) -> String {
+        let mut message = String::new();
+        for (number, part) in self.kind.to_string().split('`').enumerate() {
+            if number > 0 {
+                message.push('`');
+            }
+            message += &printable(&shortened(part));
+        }
+        message
+    }
+}
+
+/// A text of a file on one line, with what [`is_obeyed`] as it is written in Rust: `\u{1b}`.
+pub fn printable(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_obeyed(c) { out.extend(c.escape_default()) } else { out.push(c) }
+    }
+    out
+}
+
+/// Whether a terminal would obey a character, or it changes the direction of the text around it, or has no
+/// width.
+pub fn is_obeyed(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{ad}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{2069}')
+}
+
+/// A part of a sentence without the middle of what is longer than anything that is said.
+fn shortened(part: &str) -> Cow<'_, str> {
+    let Some((cut, _)) = part.char_indices().nth(LONGEST) else {
+        return part.into();
+    };
+    let head = part.char_indices().nth(LONGEST / 2).map_or(cut, |(at, _)| at);
+    let tail = part.char_indices().nth_back(LONGEST / 4).map_or(cut, |(at, _)| at);
+    match (part.get(..head), part.get(tail..)) {
+        (Some(head), Some(tail)) => format!("{head}…{tail}").into(),
+        _ => part.into(),
+    }
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (line, column) = self.position();
+        write!(f, "{}:{line}:{column}: {}", printable(&self.source.name), self.message())
+    }
+}
+
+/// All mistakes that were found, in the order of their places.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostics(pub Vec<Diagnostic>);
+
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (number, diagnostic) in self.0.iter().enumerate() {
+            if number > 0 {
+                f.write_str("\n")?;
+            }
+            diagnostic.fmt(f)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Diagnostics {}
+
+/// Collects mistakes while a file is read.
+#[derive(Debug)]
+pub struct Collector {
+    /// The text that is read.
+    pub source: Arc<SourceText>,
+    diagnostics: RefCell<Vec<Diagnostic>>,
+    /// Whether there are more than are collected.
+    more: Cell<bool>,
+    /// The diagnostics by where they begin.
+    by_start: RefCell<HashMap<usize, Vec<usize>>>,
+    /// Units that the file defines.
+    units: RefCell<Vec<Unit>>,
+}
+
+impl Collector {
+    /// Nothing found yet.
+    pub fn new(source: Arc<SourceText>) -> Self {
+        let (diagnostics, by_start) = (RefCell::default(), RefCell::default());
+        Self { source, diagnostics, more: Cell::new(false), by_start, units: RefCell::default() }
+    }
+
+    /// A unit as text: one that the file defines, or one that everybody knows.
+    pub fn unit(&self, text: &str) -> Result<Unit, UnitError> {
+        Unit::parse_among(text, &self.own_units())
+    }
+
+    /// The units that the file defines.
+    pub fn own_units(&self) -> Ref<'_, [Unit]> {
+        Ref::map(self.units.borrow(), Vec::as_slice)
+    }
+
+    /// A formula, in whose brackets units of the file may stand.
+    pub fn formula(&self, text: &str) -> Result<Formula, FormulaError> {
+        self.formula_with(text, &[])
+    }
+
+    /// A formula that may call these calibration functions.
+    pub fn formula_with(
+        &self,
+        text: &str,
+        curves: &[Arc<CurveFunction>],
+    ) -> Result<Formula, FormulaError> {
+        Formula::parse_with(text, curves, &self.own_units())
+    }
+
+    /// Defines a unit.
+    pub fn define_unit(&self, unit: Unit) {
+        let mut units = self.units.borrow_mut();
+        if !units.iter().any(|known| known.text() == unit.text()) {
+            units.push(unit);
+        }
+    }
+
+    /// A mistake in the file itself.
+    pub fn report(&self, span: &Range<usize>, kind: DiagnosticKind) {
+        self.report_at(Place { source: self.source.clone(), span: span.clone() }, kind);
+    }
+
+    /// A mistake in some text.
+    pub fn report_at(&self, place: Place, kind: DiagnosticKind) {
+        let diagnostic = Diagnostic { source: place.source, span: place.span, kind };
+        let mut diagnostics = self.diagnostics.borrow_mut();
+        let mut by_start = self.by_start.borrow_mut();
+        let same_start = by_start.entry(diagnostic.span.start).or_default();
+        if !same_start.iter().any(|&earlier| diagnostics.get(earlier) == Some(&diagnostic)) {
+            if diagnostics.len() >= MOST {
+                self.more.set(true);
+                return;
+            }
+            same_start.push(diagnostics.len());
+            diagnostics.push(diagnostic);
+        }
+    }
+
+    /// What was found, unless something was reported.
+    ///
+    /// # Errors
+    /// All that was reported, in the order of the places.
+    pub fn finish<T>(self, found: Option<T>) -> Result<T, Diagnostics> {
+        match found {
+            Some(found) if self.is_clean() => Ok(found),
+            _ => Err(self.into_diagnostics()),
+        }
+    }
+
+    /// Whether there are more mistakes than are collected, so that nothing more needs to be read.
+    pub fn is_full(&self) -> bool {
+        self.more.get()
+    }
+
+    /// The value, or the mistake reported at `span`.
+    pub fn value<T>(&self, span: &Range<usize>, result: Result<T, DiagnosticKind>) -> Option<T> {
+        result.map_err(|diagnostic| self.report(span, diagnostic)).ok()
+    }
+
+    /// Whether a mistake was reported that begins where `span` does.
+    pub fn has_mistake_at(&self, span: &Range<usize>) -> bool {
+        self.by_start.borrow().get(&span.start).is_some_and(|found| !found.is_empty())
+    }
+
+    /// Whether nothing was reported.
+    pub fn is_clean(&self) -> bool {
+        self.diagnostics.borrow().is_empty()
+    }
+
+    /// The mistakes in order: those of this file by place, then those of other files.
+    pub fn into_diagnostics(self) -> Diagnostics {
+        let mut diagnostics = self.diagnostics.into_inner();
+        let own = self.source;
+        diagnostics.sort_by_key(|p| (!Arc::ptr_eq(&p.source, &own), p.span.start, p.span.end));
+        without_consequences(&mut diagnostics);
+        if self.more.get() {
+            let end = own.text.trim_end().len();
+            let diagnostic = DiagnosticKind::MoreMistakes { most: MOST };
+            diagnostics.push(Diagnostic { source: own, span: end..end, kind: diagnostic });
+        }
+        Diagnostics(diagnostics)
+    }
+}
+
+/// Leaves out what is missing only because its name is misspelt.
+fn without_consequences(diagnostics: &mut Vec<Diagnostic>) {
+    let mut explained = Vec::new();
+    for (at, diagnostic) in diagnostics.iter().enumerate() {
+        let missing = match &diagnostic.kind {
+            DiagnosticKind::UnknownKey { nearest: Some(right), what, .. } => {
+                // without `expanded` it is `std` that is missing, and its `k` stands alone
+                let is_expanded = right == "expanded";
+                let is_alone = |p: &Diagnostic| matches!(&p.kind, DiagnosticKind::OnlyWith { with, .. } if with == right);
+                explained.extend(diagnostics.iter().position(is_alone).filter(|_| is_expanded));
+                diagnostics.iter().take(at).rposition(
+                    |p| matches!(&p.kind, DiagnosticKind::MissingKey { key, what: of } if (key == right || is_expanded && *key == "std") && of == what),
+                )
+            }
+            DiagnosticKind::UnknownInput { nearest: Some(right), .. } => diagnostics
+                .iter()
+                .position(|p| matches!(&p.kind, DiagnosticKind::MissingInput { name, .. } if name == right)),
+            _ => None,
+        };
+        explained.extend(missing);
+    }
+    let mut number = 0;
+    diagnostics.retain(|_| {
+        number += 1;
+        !explained.contains(&(number - 1))
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn very_long_names_are_cut_in_messages() {
+        let unit = format!("a{}b\nc", "ä".repeat(100_000));
+        let diagnostic = DiagnosticKind::NoSuchInput { name: unit, nearest: None };
+        let diagnostic =
+            Diagnostic { source: SourceText::new("m", "{}"), span: 0..0, kind: diagnostic };
+        let message = diagnostic.message();
+        assert!(message.starts_with("there is no input `aää") && message.len() < 2000, "{message}");
+        assert!(message.contains("ä…ä") && message.contains("äb\\nc`"), "{message}");
+    }
+
+    #[test]
+    fn more_mistakes_than_are_of_use_are_not_collected() {
+        let log = Collector::new(SourceText::new("m", &"x".repeat(5000)));
+        for place in 0..2000 {
+            log.report(&(place..place + 1), DiagnosticKind::NumberTooLarge);
+        }
+        assert!(log.is_full());
+        let diagnostics = log.into_diagnostics().0;
+        assert_eq!(diagnostics.len(), MOST + 1);
+        let last = diagnostics.last().unwrap();
+        assert_eq!(
+            (last.position(), &last.kind),
+            ((1, 5001), &DiagnosticKind::MoreMistakes { most: MOST })
+        );
+    }
+}

@@ -1,0 +1,369 @@
+//! Tables of numbers from CSV files, with the place of every cell.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::diagnostics::Collector;
+use super::folder::Folder;
+use super::source::{Place, SourceText};
+use super::value_text::power_of_last_digit;
+use super::{DiagnosticKind, bytes, column_heading};
+use gumption_columns::separator::{DecimalMarks, Separator, is_skipped};
+use gumption_units::nearest;
+
+/// At most so many columns and rows.
+const MOST_COLUMNS: usize = 10_000;
+const MOST_ROWS: usize = 1_000_000;
+
+/// More faulty cells than are listed anyway.
+const MOST_FAULTS: usize = 2000;
+
+/// A table: column names and rows of numbers.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// The text of the table.
+    pub source: Arc<SourceText>,
+    /// The names in the header.
+    pub columns: Vec<String>,
+    /// Not a number in columns that were not wanted.
+    pub rows: Vec<Vec<f64>>,
+    /// For each column the power of ten of the last digit that any of its numbers is written with; none of
+    /// a column that was not wanted.
+    pub last_digits: Vec<Option<i32>>,
+    /// Where each row stands in the text.
+    lines: Vec<Range<usize>>,
+    separator: Separator,
+}
+
+impl Table {
+    /// The column of that name: as it stands in the header, else the only one that has it with a unit
+    /// behind it, `f [Hz]` for `f`.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        column_heading::place_of(&self.columns, name)
+    }
+
+    /// That there is no column of that name.
+    pub fn no_column(&self, name: &str) -> String {
+        let of_name = |column: &&String| column_heading::bare(column) == name;
+        let alike: Vec<String> =
+            self.columns.iter().filter(of_name).map(|column| format!("`{column}`")).collect();
+        if alike.len() > 1 {
+            return format!(
+                "`{}` has more than one column `{name}`: {}; name one as it stands there, with its unit",
+                self.source.name,
+                gumption_units::listed(&alike, " and ")
+            );
+        }
+        let near = nearest(name, self.columns.iter().map(String::as_str));
+        let hint = match near {
+            Some(near) => format!("; did you mean `{near}`?"),
+            None => format!("; its columns are {}", self.columns.join(", ")),
+        };
+        format!("`{}` has no column `{name}`{hint}", self.source.name)
+    }
+
+    /// The place of a cell.
+    pub fn place(&self, row: usize, column: usize) -> Place {
+        let span = self.lines.get(row).cloned().unwrap_or(0..0);
+        place_of_cell(&Place { source: self.source.clone(), span }, column, self.separator)
+    }
+}
+
+/// All kinds of a table, with their places.
+type PlacedKinds = Vec<(Place, DiagnosticKind)>;
+
+/// Reads the table `name` in `folder` and reports its kinds; a file that cannot be read is reported
+/// at `named`, where the model file names it. Of the columns these are `wanted`, all if none are named:
+/// what stands in others, the time of a logger or remarks, need not be numbers. The content is given too.
+pub fn read(
+    log: &Collector,
+    folder: Folder<'_>,
+    name: &str,
+    named: &Range<usize>,
+    wanted: Option<&[&str]>,
+) -> Option<(Table, Vec<u8>)> {
+    let bytes = match folder.content(name, bytes::MOST) {
+        Ok(bytes) => bytes,
+        Err(kind) => {
+            log.report(named, kind);
+            return None;
+        }
+    };
+    let kinds = match read_bytes(bytes, &folder.shown(name), wanted) {
+        Ok(read) => return Some(read),
+        Err(kinds) => kinds,
+    };
+    for (place, diagnostic) in kinds {
+        match diagnostic {
+            DiagnosticKind::Unreadable { message } => {
+                let message = format!("`{name}`: {message}");
+                log.report(named, DiagnosticKind::Unreadable { message });
+            }
+            diagnostic => log.report_at(place, diagnostic),
+        }
+    }
+    None
+}
+
+/// Reads a table: a header row of names, cells between `,`, `;` or tabs (of the last two perhaps with
+/// decimal commas), lines that begin with `#` skipped. All faulty cells are returned.
+fn read_bytes(
+    bytes: Vec<u8>,
+    name: &str,
+    wanted: Option<&[&str]>,
+) -> Result<(Table, Vec<u8>), PlacedKinds> {
+    let unreadable = |message: String| {
+        let place = Place { source: SourceText::new(name, ""), span: 0..0 };
+        vec![(place, DiagnosticKind::Unreadable { message })]
+    };
+    let text = bytes::text(&bytes).map_err(unreadable)?;
+    let source = SourceText::new(name, &text);
+    drop(text);
+    match parse(&source, wanted) {
+        Ok(table) => Ok((table, bytes)),
+        // it may be anything, and is not shown
+        Err(_) if !has_numbers(&source.text) => {
+            let message = "it is no table of numbers: below its first line there is none";
+            Err(unreadable(message.to_owned()))
+        }
+        Err(kinds) => Err(kinds),
+    }
+}
+
+/// Whether some cell below the first line is a number; of an empty file nothing is to be hidden.
+fn has_numbers(text: &str) -> bool {
+    let mut lines = text.lines().filter(|line| !is_skipped(line));
+    let number = |cell: &str| {
+        let cell = cell.trim().trim_matches('"');
+        cell.parse::<f64>().is_ok() || cell.replace(',', ".").parse::<f64>().is_ok()
+    };
+    match lines.next() {
+        None => true,
+        Some(_) => lines.any(|line| line.split([',', ';', '\t']).any(number)),
+    }
+}
+
+/// The table that a text is; cells of columns that are not `wanted` need no numbers, and without a list
+/// all are wanted.
+///
+/// # Errors
+/// All that is wrong with it, each with its place.
+pub fn parse(source: &Arc<SourceText>, wanted: Option<&[&str]>) -> Result<Table, PlacedKinds> {
+    let starts: Vec<usize> = std::iter::once(0)
+        .chain(source.text.match_indices('\n').map(|(newline, _)| newline + 1))
+        .collect();
+    let at_line = |line: usize| {
+        let start = starts.get(line.saturating_sub(1)).copied().unwrap_or(source.text.len());
+        let text = source.text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or("");
+        Place { source: source.clone(), span: start..start + text.len() }
+    };
+    // comments and blank lines become empty ones, which count but are no records
+    let mut text = String::with_capacity(source.text.len() + 1);
+    let mut header = None;
+    for (number, line) in source.text.lines().enumerate() {
+        // empty last cells of a line of tabs are cells
+        let line = if is_skipped(line) { "" } else { line.trim_end_matches(['\r', ' ']) };
+        if header.is_none() && !line.is_empty() {
+            header = Some((number + 1, line));
+        }
+        text.push_str(line);
+        text.push('\n');
+    }
+    let Some((header_line, header)) = header else {
+        let reason = "the table is empty; a header row of names and rows of numbers are needed";
+        return Err(vec![(at_line(1), DiagnosticKind::Table { reason: reason.to_owned() })]);
+    };
+    let separator = Separator::of_header(header);
+    let mut marks = DecimalMarks::of(separator);
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(separator.byte())
+        .trim(csv::Trim::All)
+        .flexible(true)
+        .from_reader(text.as_bytes());
+    let columns: Vec<String> = match reader.headers() {
+        Ok(header) => header.iter().map(str::to_owned).collect(),
+        Err(error) => {
+            return Err(vec![(
+                at_line(header_line),
+                DiagnosticKind::Table { reason: error.to_string() },
+            )]);
+        }
+    };
+    let too_many = |what, found, most| {
+        (found > most)
+            .then(|| vec![(at_line(header_line), DiagnosticKind::TooMany { what, found, most })])
+    };
+    let lines = text.lines().filter(|line| !line.is_empty()).count();
+    let too_many = too_many("columns of a table", columns.len(), MOST_COLUMNS)
+        .or_else(|| too_many("rows of a table", lines - 1, MOST_ROWS));
+    if let Some(kinds) = too_many {
+        return Err(kinds);
+    }
+    let is_wanted: Vec<bool> = match wanted {
+        None => vec![true; columns.len()],
+        Some(names) => {
+            let places = names.iter().filter_map(|name| column_heading::place_of(&columns, name));
+            let places: Vec<usize> = places.collect();
+            (0..columns.len()).map(|place| places.contains(&place)).collect()
+        }
+    };
+    let mut kinds = Vec::new();
+    for (number, name) in columns.iter().enumerate().filter(|(number, _)| is_wanted[*number]) {
+        let reason = if name.is_empty() {
+            format!("column {} has no name in the header", number + 1)
+        } else if columns.iter().position(|of| of == name) == Some(number)
+            && columns.iter().skip(number + 1).any(|of| of == name)
+        {
+            format!("the header has the name `{name}` twice")
+        } else {
+            continue;
+        };
+        kinds.push((at_line(header_line), DiagnosticKind::Table { reason }));
+    }
+    let mut rows = Vec::new();
+    let mut last_digits: Vec<Option<i32>> = vec![None; columns.len()];
+    let mut lines = Vec::new();
+    for (number, record) in reader.records().enumerate() {
+        if kinds.len() >= MOST_FAULTS {
+            break;
+        }
+        let record = match record {
+            Ok(record) => record,
+            Err(error) => {
+                kinds.push((
+                    at_line(number + 2),
+                    DiagnosticKind::Table { reason: error.to_string() },
+                ));
+                break;
+            }
+        };
+        let mut line = record.position().map_or(number + 2, |p| p.line() as usize);
+        let mut place = at_line(line);
+        // the reader stood before the comments and empty lines that it skipped
+        while line < starts.len()
+            && is_skipped(source.text.get(place.span.clone()).unwrap_or_default())
+        {
+            line += 1;
+            place = at_line(line);
+        }
+        if record.len() != columns.len() {
+            let diagnostic = DiagnosticKind::ShortRow {
+                row: number + 1,
+                found: record.len(),
+                expected: columns.len(),
+            };
+            kinds.push((place, diagnostic));
+            continue;
+        }
+        let mut row = Vec::with_capacity(columns.len());
+        for (number_of_cell, (cell, column)) in record.iter().zip(&columns).enumerate() {
+            if !is_wanted[number_of_cell] {
+                row.push(f64::NAN);
+                continue;
+            }
+            let read = marks.with_point(cell).map(|text| (text.parse::<f64>(), text));
+            let diagnostic = match read {
+                Ok((Ok(value), text)) if value.is_finite() => {
+                    let last = power_of_last_digit(&text);
+                    let finest = &mut last_digits[number_of_cell];
+                    *finest = Some(finest.map_or(last, |known| known.min(last)));
+                    row.push(value);
+                    continue;
+                }
+                Ok(_) => {
+                    let (column, found) = (column.clone(), cell.to_owned());
+                    DiagnosticKind::Cell { row: number + 1, column, found }
+                }
+                // what every number after it would be told as well
+                Err(reason) => {
+                    let place = place_of_cell(&place, number_of_cell, separator);
+                    return Err(vec![(place, DiagnosticKind::Table { reason })]);
+                }
+            };
+            kinds.push((place_of_cell(&place, number_of_cell, separator), diagnostic));
+        }
+        rows.push(row);
+        lines.push(place.span);
+    }
+    if rows.is_empty() && kinds.is_empty() {
+        let reason = "the table has a header but no rows".to_owned();
+        kinds.push((at_line(header_line), DiagnosticKind::Table { reason }));
+    }
+    if kinds.is_empty() {
+        Ok(Table { source: source.clone(), columns, rows, last_digits, lines, separator })
+    } else {
+        Err(kinds)
+    }
+}
+
+/// The place of a cell in its line; the whole line where quotes make that uncertain. An empty cell is
+/// shown by the separator before or after it.
+pub(crate) fn place_of_cell(line: &Place, number: usize, separator: Separator) -> Place {
+    let text = line.source.text.get(line.span.clone()).unwrap_or("");
+    let separator = separator.sign();
+    if text.contains('"') {
+        return line.clone();
+    }
+    let Some(cell) = text.split(separator).nth(number) else {
+        return line.clone();
+    };
+    let before: usize = text.split(separator).take(number).map(|cell| cell.len() + 1).sum();
+    let start = line.span.start + before;
+    let blank = cell.len() - cell.trim_start().len();
+    let span = if !cell.trim().is_empty() {
+        start + blank..start + blank + cell.trim().len()
+    } else if before > 0 {
+        start - 1..start + cell.len()
+    } else {
+        start..(start + cell.len() + 1).min(line.span.end)
+    };
+    Place { source: line.source.clone(), span }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_separators_are_read() {
+        let table = parse(&SourceText::new("t", "# note\nf, x\n1,2.5\n"), None).unwrap();
+        assert_eq!(
+            (table.columns, table.rows),
+            (vec!["f".into(), "x".into()], vec![vec![1.0, 2.5]])
+        );
+        let table = parse(&SourceText::new("t", "\u{feff}f;x\n1;2,5\n# end\n3;4\n"), None).unwrap();
+        assert_eq!(table.rows, vec![vec![1.0, 2.5], vec![3.0, 4.0]]);
+        // a comment may be the last line, without a line end, and may be indented
+        let table = parse(&SourceText::new("t", "f\n  # middle\n\n1\n# end"), None).unwrap();
+        assert_eq!(table.rows, vec![vec![1.0]]);
+    }
+
+    /// Times, remarks and a column without a name beside the one that is wanted.
+    #[test]
+    fn other_columns_need_not_be_numbers() {
+        let source = SourceText::new("t", "time,U [V],\n10:00:00,1.01,ok\n10:00:01,1.02,\n");
+        assert!(parse(&source, None).is_err());
+        let table = parse(&source, Some(&["U"])).unwrap();
+        assert_eq!(table.rows.iter().map(|row| row[1]).collect::<Vec<_>>(), vec![1.01, 1.02]);
+        assert!(parse(&source, Some(&["U", "time"])).is_err());
+    }
+
+    #[test]
+    fn faults_name_row_column_and_line() {
+        let kinds = parse(&SourceText::new("t", "f,x\n1,\n# c\n2\nz,1\n"), None).unwrap_err();
+        let lines: Vec<usize> =
+            kinds.iter().map(|(place, _)| place.source.position(place.span.start).0).collect();
+        assert_eq!(lines, vec![2, 4, 5]);
+        assert_eq!(
+            kinds[0].1,
+            DiagnosticKind::Cell { row: 1, column: "x".into(), found: String::new() }
+        );
+        assert_eq!(kinds[1].1, DiagnosticKind::ShortRow { row: 2, found: 1, expected: 2 });
+        let places: Vec<&str> =
+            kinds.iter().map(|(place, _)| &place.source.text[place.span.clone()]).collect();
+        assert_eq!(places, vec![",", "2", "z"]);
+        assert!(parse(&SourceText::new("t", ""), None).is_err());
+        assert!(parse(&SourceText::new("t", "a,b\n"), None).is_err());
+        assert!(parse(&SourceText::new("t", "a,a\n1,2\n"), None).is_err());
+    }
+}

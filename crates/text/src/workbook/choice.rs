@@ -1,0 +1,92 @@
+//! Which sheet of a workbook is read: the one that is shown and holds what is wanted.
+
+use super::{Book, SheetName};
+use crate::DiagnosticKind;
+
+/// What a sheet is to hold, in words.
+#[derive(Debug)]
+pub struct Wanted {
+    /// With its article: `a budget`.
+    pub a: &'static str,
+    /// As one of several: `one budget`.
+    pub one: &'static str,
+    /// Whether the command has an option for the name of the sheet.
+    pub has_option: bool,
+}
+
+/// The sheet of that name, or the one that is shown and holds what is wanted; the first one that is shown
+/// where none does. With it, which of several sheets it is, as a sentence.
+pub fn of<T>(
+    book: &mut Book,
+    name: Option<&str>,
+    wanted: &Wanted,
+    mut read: impl FnMut(&mut Book, &SheetName) -> Result<T, DiagnosticKind>,
+    holds: impl Fn(&T) -> bool,
+) -> Result<(T, Option<String>), DiagnosticKind> {
+    let unreadable = |message| DiagnosticKind::Unreadable { message };
+    let sheets = book.sheets();
+    if let Some(name) = name {
+        let Some(sheet) = sheets.iter().find(|sheet| sheet.name == name) else {
+            let message =
+                format!("it has no sheet `{name}`; its sheets are {}", list(sheets.iter(), "and"));
+            return Err(unreadable(message));
+        };
+        return Ok((read(book, sheet)?, told(sheet, &sheets)));
+    }
+    let mut first = None;
+    let mut found: Vec<(&SheetName, T)> = Vec::new();
+    for sheet in sheets.iter().filter(|sheet| !sheet.is_hidden) {
+        let chosen = read(book, sheet)?;
+        if holds(&chosen) {
+            found.push((sheet, chosen));
+        } else if first.is_none() {
+            first = Some(chosen);
+        }
+    }
+    let Wanted { a, one, has_option } = wanted;
+    if found.len() > 1 {
+        let say = if *has_option { "say which one with `--sheet NAME`, or " } else { "" };
+        let names = list(found.iter().map(|(sheet, _)| *sheet), "and");
+        let reason = format!("the sheets {names} hold {a} each: {say}keep {one} in a workbook");
+        return Err(DiagnosticKind::Table { reason });
+    }
+    if found.is_empty() {
+        for sheet in sheets.iter().filter(|sheet| sheet.is_hidden) {
+            if holds(&read(book, sheet)?) {
+                let name = &sheet.name;
+                let say = if *has_option { ", or say it with `--sheet`" } else { "" };
+                let reason = format!(
+                    "no sheet that is shown holds {a}, and the hidden sheet `{name}` does: show it{say}"
+                );
+                return Err(DiagnosticKind::Table { reason });
+            }
+        }
+    }
+    match found.pop() {
+        Some((sheet, chosen)) => Ok((chosen, told(sheet, &sheets))),
+        None => first
+            .map(|chosen| (chosen, None))
+            .ok_or_else(|| unreadable("the workbook has no sheet".to_owned())),
+    }
+}
+
+/// Which of several sheets it is.
+fn told(own: &SheetName, sheets: &[SheetName]) -> Option<String> {
+    let others: Vec<&SheetName> = sheets.iter().filter(|sheet| *sheet != own).collect();
+    let others = (!others.is_empty()).then(|| list(others.into_iter(), "or"))?;
+    Some(format!("sheet `{}` is read, not {others}", own.name))
+}
+
+/// Names of sheets in a sentence; not more than the first ten.
+fn list<'a>(sheets: impl Iterator<Item = &'a SheetName>, and: &str) -> String {
+    const MOST: usize = 10;
+    let named = |sheet: &SheetName| {
+        format!("`{}`{}", sheet.name, if sheet.is_hidden { " (hidden)" } else { "" })
+    };
+    let mut names: Vec<String> = sheets.map(named).collect();
+    if names.len() > MOST {
+        let rest = names.split_off(MOST).len();
+        names.push(format!("{rest} more"));
+    }
+    gumption_units::listed(&names, &format!(" {and} "))
+}
