@@ -4,11 +4,11 @@ use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::context::Context;
 use super::effect_context::EffectContext;
 use super::effects;
 use super::formula_notes::UNUSED_INPUT;
 use super::model_reader::{Found, ModelOptions, ModelReader, read_with};
-use super::reader::FileReader;
 use super::results::Results;
 use super::{catalogue, prior, soundness};
 use gumption_engine::task::{Row, Warning};
@@ -33,7 +33,7 @@ pub struct CaseFile {
 
 /// What a case's sim has in the rows of a table of conditions, which stands in the current folder.
 pub(super) fn read_at(
-    files: FileReader<'_>,
+    files: Context<'_>,
     name: &str,
     text: &str,
     folder: &Path,
@@ -47,7 +47,7 @@ pub(super) fn read_at(
 
 /// Reads and checks a case's text.
 pub(super) fn read_text(
-    files: FileReader<'_>,
+    files: Context<'_>,
     name: &str,
     text: &str,
     folder: &Path,

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::certificate;
+use super::context::Context;
 use super::costs;
 use super::model_reader::{ModelOptions, read_with};
 use super::open::is_table_of_results;
-use super::reader::FileReader;
 use super::recipe;
 use super::result_file;
 use gumption_engine::task::Warning;
@@ -81,7 +81,7 @@ impl TextKind {
 /// Checks a text: as a certificate, a recipe, a file of costs, a saved result or a case of the gap
 /// diagnosis where it has a key that only those have, else as a model. Hands back the notes on it.
 pub(super) fn check_text(
-    files: FileReader<'_>,
+    files: Context<'_>,
     name: &str,
     text: &str,
     folder: &Path,
@@ -94,10 +94,10 @@ pub(super) fn check_text(
             return costs::check_text(name, text).map(|()| Vec::new());
         }
         if result_file::is_meant(&root) {
-            return files.result_text(name, text).map(|file| file.warnings);
+            return result_file::read_text(files, name, text).map(|file| file.warnings);
         }
         if certificate::is_meant(&root) {
-            return files.certificate_text(name, text, folder).map(|file| file.warnings);
+            return certificate::read_text(files, name, text, folder).map(|file| file.warnings);
         }
     }
     read_with(name, text, folder, ModelOptions::with(files), |reader| reader.checked())

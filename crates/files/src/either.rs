@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::model_file::ModelFile;
-use super::reader::FileReader;
-use super::result_file::ResultFile;
+use super::context::Context;
+use super::model_file::{self, ModelFile};
+use super::result_file::{self, ResultFile};
 use gumption_engine::task::Warning;
 use gumption_text::json::{self, Json};
 use gumption_text::{Diagnostic, DiagnosticKind, Diagnostics, SourceText};
@@ -30,7 +30,7 @@ impl ModelOrResult {
 
 /// Reads and checks a text: one with the key `result` is a saved result.
 pub(super) fn read_text(
-    files: FileReader<'_>,
+    files: Context<'_>,
     name: &str,
     text: &str,
     folder: &Path,
@@ -41,9 +41,9 @@ pub(super) fn read_text(
         _ => false,
     });
     Ok(if is_result {
-        ModelOrResult::Result(files.result_text(name, text)?)
+        ModelOrResult::Result(result_file::read_text(files, name, text)?)
     } else {
-        ModelOrResult::Model(Box::new(files.model_text(name, text, folder, &[])?))
+        ModelOrResult::Model(Box::new(model_file::read_text(files, name, text, folder, &[])?))
     })
 }
 

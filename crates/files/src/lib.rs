@@ -13,6 +13,7 @@ mod checked;
 mod condition_values;
 mod conditions;
 mod constant_inputs;
+mod context;
 mod correlations;
 mod costs;
 mod counted_twice;

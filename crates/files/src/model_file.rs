@@ -4,9 +4,10 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::context::Context;
 use super::model_reader::{ModelOptions, read_with};
+use super::open::open;
 use super::overrides::Override;
-use super::reader::FileReader;
 use gumption_engine::task::{Evidence, Task, Warning};
 use gumption_text::{Diagnostic, DiagnosticKind, Diagnostics, SourceText};
 
@@ -27,9 +28,18 @@ pub struct ModelFile {
     pub evidence: Vec<Evidence>,
 }
 
+/// Reads and checks a model file.
+pub(super) fn read(
+    files: Context<'_>,
+    path: &Path,
+    overrides: &[Override],
+) -> Result<ModelFile, Diagnostics> {
+    open(path, |name, text, folder| read_text(files, name, text, folder, overrides))
+}
+
 /// Reads and checks a model file's text.
 pub(super) fn read_text(
-    files: FileReader<'_>,
+    files: Context<'_>,
     name: &str,
     text: &str,
     folder: &Path,

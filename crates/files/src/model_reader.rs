@@ -25,6 +25,7 @@ use std::sync::Arc;
 
 use super::conditions::{self, Conditions};
 use super::constant_inputs::ConstantInputs;
+use super::context::Context;
 use super::counted_twice;
 use super::fits::{self, FitSet};
 use super::formula_notes;
@@ -41,7 +42,6 @@ use super::open::{FileKind, check_format, read_changed_root, refuse_other_kind};
 use super::output_limits;
 use super::outputs::{self, Outputs};
 use super::overrides::{self, Override};
-use super::reader::FileReader;
 use super::results::Results;
 use super::scopes::{ConditionSet, number_form, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
@@ -66,7 +66,7 @@ use gumption_units::nearest;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ModelOptions<'a> {
     /// The typed measurements that the file may name.
-    pub(super) files: FileReader<'a>,
+    pub(super) files: Context<'a>,
     /// Values in place of those of the file.
     pub(super) overrides: &'a [Override],
     /// A table of conditions in place of those of the data.
@@ -75,7 +75,7 @@ pub(super) struct ModelOptions<'a> {
 
 impl<'a> ModelOptions<'a> {
     /// Of a file as it is.
-    pub(super) fn with(files: FileReader<'a>) -> Self {
+    pub(super) fn with(files: Context<'a>) -> Self {
         Self { files, overrides: &[], at: None }
     }
 }
@@ -472,7 +472,7 @@ impl<'a> ModelReader<'a> {
         match (self.root.get("model"), self.root.get("equations")) {
             (Some(member), None) => {
                 let name = self.root.text("model")?;
-                let catalogue = self.options.files.catalogue();
+                let catalogue = self.options.files.catalogue;
                 let entry = typed_model(self.root.log, catalogue, name, &member.value.span)?;
                 Some(ModelBody::Typed(entry, &member.value.span))
             }

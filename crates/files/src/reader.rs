@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::case::{self, CaseFile};
 use super::certificate::{self, CertificateFile};
 use super::checked;
+use super::context::Context;
 use super::either::{self, ModelOrResult};
 use super::model_file::{self, ModelFile};
 use super::open::open;
@@ -13,7 +14,7 @@ use super::recipe::{self, RecipeFile};
 use super::result_file::{self, ResultFile};
 use gumption_engine::model::typed::Catalogue;
 use gumption_engine::task::{Row, Trials, Warning};
-use gumption_text::{Diagnostics, FileSource, Folder};
+use gumption_text::{Diagnostics, FileSource};
 
 /// Reads files that may name the typed measurements of a catalogue: the built-in ones
 /// ([`FileReader::default`]), or those of one's own as well.
@@ -25,15 +26,7 @@ use gumption_text::{Diagnostics, FileSource, Folder};
 /// Each method gives all mistakes of the file and of those that it names, in the order of their
 /// places, those of the file first.
 #[derive(Clone, Copy, Debug)]
-pub struct FileReader<'c> {
-    catalogue: &'c Catalogue,
-    allowed: &'c [PathBuf],
-    held: &'c [(String, Vec<u8>)],
-    source: Option<&'c dyn FileSource>,
-    within: Option<&'c Path>,
-    changed_results: bool,
-    trials: Option<Trials>,
-}
+pub struct FileReader<'c>(Context<'c>);
 
 impl Default for FileReader<'static> {
     fn default() -> Self {
@@ -45,15 +38,7 @@ impl Default for FileReader<'static> {
 impl<'c> FileReader<'c> {
     /// Readers of files that may name these measurements.
     pub fn new(catalogue: &'c Catalogue) -> Self {
-        Self {
-            catalogue,
-            allowed: &[],
-            held: &[],
-            source: None,
-            within: None,
-            changed_results: false,
-            trials: None,
-        }
+        Self(Context::new(catalogue))
     }
 
     /// The same for files that may name others below these folders too. Without them a file names
@@ -61,7 +46,7 @@ impl<'c> FileReader<'c> {
     /// `.gumption-root`; others are refused, since a file may come from a stranger.
     #[must_use]
     pub fn allowing(self, folders: &'c [PathBuf]) -> Self {
-        Self { allowed: folders, ..self }
+        Self(Context { allowed: folders, ..self.0 })
     }
 
     /// The same with files in memory: where a file names one of these names, it is this content, and
@@ -82,63 +67,40 @@ impl<'c> FileReader<'c> {
     /// ```
     #[must_use]
     pub fn holding(self, files: &'c [(String, Vec<u8>)]) -> Self {
-        Self { held: files, ..self }
+        Self(Context { held: files, ..self.0 })
     }
 
     /// The same for files of a folder that was opened, and nothing above it: a `.gumption-root` above
     /// that folder allows nothing.
     #[must_use]
     pub fn within(self, folder: Option<&'c Path>) -> Self {
-        Self { within: folder, ..self }
+        Self(Context { within: folder, ..self.0 })
     }
 
     /// The same with a source that the tables, samples, results, certificates and model files come from
     /// which a file names; nothing of them is looked for on the disk. Recordings are.
     #[must_use]
     pub fn reading(self, source: &'c dyn FileSource) -> Self {
-        Self { source: Some(source), ..self }
+        Self(Context { source: Some(source), ..self.0 })
     }
 
     /// The same, taking saved results that were changed since they were written, with a note, where
     /// `accepted`. What is not consistent is refused all the same.
     #[must_use]
     pub fn accepting_changed_results(self, accepted: bool) -> Self {
-        Self { changed_results: accepted, ..self }
+        Self(Context { changed_results: accepted, ..self.0 })
     }
 
     /// The same for a run with so many trials, whatever a model file says: what trials alone need is not
     /// asked for where there are none.
     #[must_use]
     pub fn making(self, trials: Option<Trials>) -> Self {
-        Self { trials, ..self }
-    }
-
-    /// The trials of a model file that says so many.
-    pub(crate) fn trials(self, of_file: Trials) -> Trials {
-        self.trials.unwrap_or(of_file)
-    }
-
-    /// Whether saved results that were changed are taken.
-    pub(crate) fn accepts_changed_results(self) -> bool {
-        self.changed_results
-    }
-
-    /// The folder that a file's names are relative to.
-    pub(crate) fn folder<'f>(self, path: &'f Path) -> Folder<'f>
-    where
-        'c: 'f,
-    {
-        Folder::new(path, self.allowed).holding(self.held).sourced(self.source).within(self.within)
-    }
-
-    /// The measurements that files may name.
-    pub(crate) fn catalogue(self) -> &'c Catalogue {
-        self.catalogue
+        Self(Context { trials, ..self.0 })
     }
 
     /// A model file, with values in place of some of its own.
     pub fn model(self, path: &Path, overrides: &[Override]) -> Result<ModelFile, Diagnostics> {
-        open(path, |name, text, folder| self.model_text(name, text, folder, overrides))
+        model_file::read(self.0, path, overrides)
     }
 
     /// A model file's text, with values in place of some of its own.
@@ -149,7 +111,7 @@ impl<'c> FileReader<'c> {
         folder: &Path,
         overrides: &[Override],
     ) -> Result<ModelFile, Diagnostics> {
-        model_file::read_text(self, name, text, folder, overrides)
+        model_file::read_text(self.0, name, text, folder, overrides)
     }
 
     /// A model file or a saved result: a file with the key `result` is one.
@@ -164,7 +126,7 @@ impl<'c> FileReader<'c> {
         text: &str,
         folder: &Path,
     ) -> Result<ModelOrResult, Diagnostics> {
-        either::read_text(self, name, text, folder)
+        either::read_text(self.0, name, text, folder)
     }
 
     /// A case of the gap diagnosis.
@@ -174,7 +136,7 @@ impl<'c> FileReader<'c> {
 
     /// A case's text.
     pub fn case_text(self, name: &str, text: &str, folder: &Path) -> Result<CaseFile, Diagnostics> {
-        case::read_text(self, name, text, folder)
+        case::read_text(self.0, name, text, folder)
     }
 
     /// What a case's sim has in the rows of a table of conditions, which stands in the current
@@ -192,12 +154,12 @@ impl<'c> FileReader<'c> {
         folder: &Path,
         conditions: &Path,
     ) -> Result<Vec<Row>, Diagnostics> {
-        case::read_at(self, name, text, folder, conditions)
+        case::read_at(self.0, name, text, folder, conditions)
     }
 
     /// A saved result's text.
     pub fn result_text(self, name: &str, text: &str) -> Result<ResultFile, Diagnostics> {
-        result_file::read_text(self, name, text)
+        result_file::read_text(self.0, name, text)
     }
 
     /// A recipe; its recordings are opened later.
@@ -212,7 +174,7 @@ impl<'c> FileReader<'c> {
         text: &str,
         folder: &Path,
     ) -> Result<RecipeFile, Diagnostics> {
-        recipe::read_text(name, text, self.folder(folder))
+        recipe::read_text(name, text, self.0.folder(folder))
     }
 
     /// A certificate file with its model files.
@@ -227,7 +189,7 @@ impl<'c> FileReader<'c> {
         text: &str,
         folder: &Path,
     ) -> Result<CertificateFile, Diagnostics> {
-        certificate::read_text(self, name, text, folder)
+        certificate::read_text(self.0, name, text, folder)
     }
 
     /// Checks a file: as a certificate, a recipe or a case of the gap diagnosis where it has a key
@@ -243,7 +205,7 @@ impl<'c> FileReader<'c> {
         text: &str,
         folder: &Path,
     ) -> Result<Vec<Warning>, Diagnostics> {
-        checked::check_text(self, name, text, folder)
+        checked::check_text(self.0, name, text, folder)
     }
 }
 

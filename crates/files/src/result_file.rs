@@ -6,8 +6,8 @@ use std::sync::Arc;
 use serde_json::{Map, Value};
 
 use super::conditions::unit;
+use super::context::Context;
 use super::open::{check_format, read_root};
-use super::reader::FileReader;
 use super::result_consistency::{self, Stated};
 use super::result_outputs;
 use gumption_analysis::diff::ByTrials;
@@ -82,14 +82,14 @@ pub(super) fn is_meant(root: &Node) -> bool {
 
 /// Reads and checks the text of a result file; `name` is used in messages.
 pub(super) fn read_text(
-    files: FileReader<'_>,
+    files: Context<'_>,
     name: &str,
     text: &str,
 ) -> Result<ResultFile, Diagnostics> {
     // results are told apart by their content
     let hash = integrity::sha256(text.as_bytes());
     read_root(name, text, "a result file", |root| {
-        let accepted = files.accepts_changed_results();
+        let accepted = files.changed_results;
         Reader { log: root.log, root, hash: &hash, accepted }.read()
     })
 }

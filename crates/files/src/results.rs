@@ -4,10 +4,10 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::context::Context;
 use super::dcc::{self, Certificates, FromCertificate};
 use super::open::is_no_object;
-use super::reader::FileReader;
-use super::result_file::{ResultFile, SavedOutput};
+use super::result_file::{self, ResultFile, SavedOutput};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::regression::CurveFunction;
 use gumption_engine::task::Warning;
@@ -21,7 +21,7 @@ use gumption_units::nearest;
 #[derive(Debug)]
 pub(super) struct Results<'a> {
     pub(super) folder: Folder<'a>,
-    reader: FileReader<'a>,
+    context: Context<'a>,
     read: RefCell<HashMap<String, Option<Arc<ResultFile>>>>,
     /// The content of the files, by name.
     pub(super) files: RefCell<Vec<(String, Vec<u8>)>>,
@@ -35,10 +35,10 @@ pub(super) struct Results<'a> {
 
 impl<'a> Results<'a> {
     /// Paths are relative to `folder`.
-    pub(crate) fn new(folder: Folder<'a>, reader: FileReader<'a>) -> Self {
+    pub(crate) fn new(folder: Folder<'a>, context: Context<'a>) -> Self {
         let (read, files, certificates, curves) = Default::default();
         let warnings = RefCell::default();
-        Self { folder, reader, read, files, certificates, warnings, curves }
+        Self { folder, context, read, files, certificates, warnings, curves }
     }
 
     /// These calibration functions are in the file.
@@ -149,7 +149,7 @@ impl<'a> Results<'a> {
         if let Some(message) = is_no_object(&text) {
             return unreadable(message);
         }
-        let read = self.reader.result_text(name, &text);
+        let read = result_file::read_text(self.context, name, &text);
         drop(text);
         match read {
             Ok(result) => {

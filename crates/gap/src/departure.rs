@@ -6,8 +6,8 @@ use super::shrink;
 use gumption_engine::number::{elementary, largest_first, smallest_first};
 use gumption_engine::task::Row;
 use gumption_inference::discrepancy::{Of, Term, Weighted};
-use gumption_inference::noise_model::Weighing;
-use gumption_inference::shared_noise::Setting;
+use gumption_inference::noise::shared_noise::Setting;
+use gumption_inference::noise::weighing::Weighing;
 
 /// Forms are told where a departure has more than this probability.
 pub(crate) const WORTH_TELLING: f64 = 0.05;

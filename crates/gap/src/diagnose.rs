@@ -25,12 +25,12 @@ use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::task::{Coverage, Row};
 use gumption_inference::discrepancy::Discrepancy;
 use gumption_inference::latent::Role;
-use gumption_inference::noise_model::NoiseModel;
+use gumption_inference::noise::noise_model::NoiseModel;
+use gumption_inference::noise::prior_widths::{self, OtherPriors};
+use gumption_inference::noise::shared_noise::Setting;
 use gumption_inference::posterior::{Effort, Posterior, WeighedHypothesis};
-use gumption_inference::prior_widths::{self, OtherPriors};
 use gumption_inference::setup::Setup;
 use gumption_inference::shape::ComposedForm;
-use gumption_inference::shared_noise::Setting;
 use gumption_inference::{predict, scan};
 
 /// Rows of the data that are handed back, at most; of longer records every so many-th.
@@ -361,7 +361,7 @@ pub(crate) fn hypotheses(
                 .evidence
                 .modes
                 .iter()
-                .map(gumption_inference::search::Mode::ln_likelihood)
+                .map(gumption_inference::integral::search::Mode::ln_likelihood)
                 .fold(f64::NEG_INFINITY, f64::max),
             fitted: parameter_count(setup, &hypothesis.effects),
             parameters: parameters(setup, &hypothesis, probability),

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use super::composed::ComposedEffect;
 use gumption_engine::task::ModelStatement;
+use gumption_inference::noise::{noise_model, shared_noise};
 use gumption_inference::scan::GapRegion;
-use gumption_inference::{noise_model, shared_noise};
 
 /// The answer of the gap diagnosis.
 #[derive(Clone, Debug)]

@@ -12,7 +12,7 @@ use gumption_engine::parallel;
 use gumption_engine::special;
 
 use gumption_inference::covariance::Covariance;
-use gumption_inference::noise_model::NoiseModel;
+use gumption_inference::noise::noise_model::NoiseModel;
 use gumption_inference::setup::Setup;
 
 /// An input is far from its estimate by more than this, in standard uncertainties.

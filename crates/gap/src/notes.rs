@@ -10,12 +10,12 @@ use super::turns;
 use super::unit_slip;
 use gumption_engine::decimal::significant;
 use gumption_engine::number::Shortest;
-use gumption_inference::copies::Copies;
-use gumption_inference::evidence::DISAGREE;
+use gumption_inference::integral::evidence::DISAGREE;
+use gumption_inference::noise::copies::Copies;
+use gumption_inference::noise::resolution::Rounding;
+use gumption_inference::noise::shared_noise_search;
 use gumption_inference::posterior::{Posterior, WeighedHypothesis};
-use gumption_inference::resolution::Rounding;
 use gumption_inference::setup::Setup;
-use gumption_inference::shared_noise;
 
 pub(crate) fn notes(
     setup: &Setup<'_>,
@@ -64,7 +64,7 @@ pub(crate) fn notes(
             ),
         );
     }
-    if let Some(alike) = shared_noise::not_weighed(setup, winner) {
+    if let Some(alike) = shared_noise_search::not_weighed(setup, winner) {
         note(
             "many-settings",
             format!(

@@ -5,7 +5,7 @@ use super::parameters::parameters;
 use crate::Case;
 use gumption_engine::distribution::Distribution;
 use gumption_engine::number::{elementary, largest_first};
-use gumption_inference::noise_model::Weighing;
+use gumption_inference::noise::weighing::Weighing;
 
 /// Conflicts below this probability are not worth a word.
 const LEAST: f64 = 0.01;

@@ -6,8 +6,8 @@
 
 use gumption_engine::linalg::dot;
 use gumption_engine::special::{normal, student};
+use gumption_inference::noise::remainder::Remainder;
 use gumption_inference::posterior::WeighedHypothesis;
-use gumption_inference::remainder::Remainder;
 use gumption_inference::setup::Setup;
 
 /// Fewer rows tell a drift from nothing else.

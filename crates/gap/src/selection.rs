@@ -6,8 +6,8 @@ use super::shrink;
 use super::weighed::Weighed;
 use crate::{Case, OverrideError};
 use gumption_engine::task::Row;
+use gumption_inference::noise::prior_widths::OtherPriors;
 use gumption_inference::posterior::Effort;
-use gumption_inference::prior_widths::OtherPriors;
 
 /// A diagnosis without regions, cross-validation and advice.
 #[derive(Clone, Debug)]

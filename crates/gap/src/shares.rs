@@ -6,7 +6,7 @@
 
 use super::diagnosis::{GapPart, GapShare};
 use gumption_inference::discrepancy::{Base, Discrepancy, Weighted};
-use gumption_inference::search::Mode;
+use gumption_inference::integral::search::Mode;
 use gumption_inference::setup::Setup;
 
 /// The shares of effects at a mode and of the heaviest of the departures beside them, what takes most first

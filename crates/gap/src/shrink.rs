@@ -13,12 +13,12 @@ use gumption_engine::task::Row;
 use gumption_inference::beside::Beside;
 use gumption_inference::data::{Data, by_rows, within_half_a_turn};
 use gumption_inference::discrepancy::{Discrepancy, Weighted};
-use gumption_inference::evidence::EvidenceEstimate;
+use gumption_inference::integral::evidence::EvidenceEstimate;
 use gumption_inference::logarithm::{HALF_LN_TWO_PI, ln_sum};
+use gumption_inference::noise::shared_noise::SharedNoise;
 use gumption_inference::posterior::{Effort, Posterior};
 use gumption_inference::predict::{self, Normals, Values};
 use gumption_inference::setup::Setup;
-use gumption_inference::shared_noise::SharedNoise;
 
 /// Blocks of conditions that are left out in turn.
 const BLOCKS: usize = 6;

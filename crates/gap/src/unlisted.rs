@@ -6,7 +6,7 @@ use super::parameters::parameters;
 use crate::Case;
 use gumption_engine::number::{elementary, largest_first};
 use gumption_inference::logarithm::ln_add;
-use gumption_inference::noise_model::Weighing;
+use gumption_inference::noise::weighing::Weighing;
 use gumption_inference::posterior::{Effort, singles};
 use gumption_inference::setup::Setup;
 

@@ -21,12 +21,13 @@ use gumption_engine::task::Row;
 use gumption_inference::beside::Beside;
 use gumption_inference::discrepancy::Discrepancy;
 use gumption_inference::latent::Role;
-use gumption_inference::noise_model::{self, Weighing};
-use gumption_inference::over_noises;
+use gumption_inference::noise::over_noises;
+use gumption_inference::noise::prior_widths::{self, OtherPriors};
+use gumption_inference::noise::resolution::Rounding;
+use gumption_inference::noise::weighing::{self, Weighing};
+use gumption_inference::noise::weighings::weighings;
 use gumption_inference::posterior::{Effort, Posterior, WeighedHypothesis};
 use gumption_inference::predict;
-use gumption_inference::prior_widths::{self, OtherPriors};
-use gumption_inference::resolution::Rounding;
 use gumption_inference::setup::Setup;
 
 /// Two hypotheses look alike if their best predictions differ by less than this, in standard
@@ -88,8 +89,8 @@ impl<'c> Weighed<'c> {
         effort: Effort<'_>,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Self {
-        let weighings = noise_model::weighings(case, others, seed, effort, progress);
-        let prior_conflict = noise_model::most_probable_widths(&weighings).widened().is_some();
+        let weighings = weighings(case, others, seed, effort, progress);
+        let prior_conflict = weighing::most_probable_widths(&weighings).widened().is_some();
         let hidden = prior_widths::hidden(&weighings);
         let prior_conflicts =
             prior_conflict::conflicts(case, &weighings, super::diagnose::coverage(case));
@@ -201,7 +202,7 @@ fn composed(weighings: &[Weighing<'_>]) -> (Vec<ComposedEffect>, Compositions) {
     let Weighing { setup, discrepancy, posterior, .. } = weighing;
     let found = composed::compose(setup, discrepancy, posterior);
     let effects = found.effects(setup, unexplained);
-    let same = noise_model::most_probable(weighings) == leading;
+    let same = weighing::most_probable(weighings) == leading;
     (effects, if same { found } else { Compositions::default() })
 }
 

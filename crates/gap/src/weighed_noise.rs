@@ -5,10 +5,13 @@ use crate::UncertaintyFactor;
 use gumption_engine::number::{COLUMN, elementary, smallest_first};
 use gumption_inference::latent::Role;
 use gumption_inference::logarithm::ln_add;
-use gumption_inference::noise_model::{Suspect, Weighing, serial_gain};
-use gumption_inference::remainder::Remainder;
+use gumption_inference::noise::noise_model::Suspect;
+use gumption_inference::noise::remainder::Remainder;
+use gumption_inference::noise::shared_noise::{RATIOS, Setting};
+use gumption_inference::noise::shared_noise_search::Groups;
+use gumption_inference::noise::weighing::Weighing;
+use gumption_inference::noise::weighings::serial_gain;
 use gumption_inference::setup::Setup;
-use gumption_inference::shared_noise::{Groups, RATIOS, Setting};
 
 /// Hypotheses below this probability do not contribute to the factor.
 const LEAST: f64 = 1e-3;

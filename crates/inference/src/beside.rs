@@ -18,11 +18,11 @@ use gumption_engine::parallel;
 use gumption_engine::special;
 
 use super::discrepancy::{Base, Discrepancy, Unexplained, Weighted, amplitude_steps};
-use super::evidence::EvidenceEstimate;
-use super::over_noises::converted_point;
+use super::latent::converted_point;
 use super::posterior::{Before, Effort, HOPELESS, Posterior, WeighedHypothesis, ln_weight};
-use super::search::{self, Mode};
 use super::setup::Setup;
+use crate::integral::evidence::EvidenceEstimate;
+use crate::integral::search::{self, Mode};
 use crate::{Case, Prior};
 
 /// Share of the prior of a departure in which effects of the list act as well. Nobody's list is complete:

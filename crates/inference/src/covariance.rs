@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::correlated;
 use super::data::{Data, Spread};
-use super::resolution::Rounding;
 use crate::Case;
+use crate::noise::resolution::Rounding;
 use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::elementary;

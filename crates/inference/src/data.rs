@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::copies::Copies;
-use super::noise_model::{NoiseModel, lag};
 use crate::Case;
+use crate::noise::copies::Copies;
+use crate::noise::noise_model::{NoiseModel, lag};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::number::elementary;
 use gumption_engine::task::Sharing;

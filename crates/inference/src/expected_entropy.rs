@@ -8,7 +8,7 @@
 //! measurement that is compared.
 
 use super::logarithm::ln_sum;
-use super::mixture::standard_normals;
+use crate::integral::mixture::standard_normals;
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::{CodePath, Column, Kernel, elementary};

@@ -201,3 +201,25 @@ impl Role {
         !matches!(self, Self::Variable { .. })
     }
 }
+
+/// Scores of the unknown quantities `from` at one point as those of `to`; `None` where a quantity has a
+/// prior from which its values cannot be taken back.
+pub(crate) fn converted_point(scores: &[f64], from: &[Role], to: &[Role]) -> Option<Vec<f64>> {
+    let score = |role: &Role| match from.iter().position(|other| other.is_same_quantity(role)) {
+        None => score_of_none(role),
+        Some(at) => score_as(*scores.get(at)?, &from[at], role),
+    };
+    to.iter().map(score).collect()
+}
+
+/// The score of a quantity that is taken for certain elsewhere: the factor of uncertainties that are
+/// right is one, whose logarithm is zero.
+pub(crate) fn score_of_none(role: &Role) -> Option<f64> {
+    role.map().and_then(|map| map.score(0.0))
+}
+
+/// The score of the same value with another prior.
+pub(crate) fn score_as(score: f64, from: &Role, to: &Role) -> Option<f64> {
+    let (theirs, own) = (from.map()?, to.map()?);
+    if theirs == own { Some(score) } else { own.score(theirs.value(score)) }
+}

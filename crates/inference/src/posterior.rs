@@ -7,13 +7,13 @@ use gumption_engine::parallel;
 use super::beside::{Beside, prior_alone};
 use super::data::by_rows;
 use super::discrepancy::{Discrepancy, Unexplained};
-use super::evidence::EvidenceEstimate;
-use super::evidence_error;
-use super::exploration::Exploration;
 use super::latent::{AT_BOUND, EDGE, Map};
 use super::likelihood::Likelihood;
 use super::logarithm::ln_add;
 use super::setup::Setup;
+use crate::integral::evidence::EvidenceEstimate;
+use crate::integral::evidence_error;
+use crate::integral::exploration::Exploration;
 use gumption_engine::number::elementary;
 
 /// A hypothesis that effects explain the data: none of them, or one or more together.

@@ -19,7 +19,7 @@
 
 use gumption_engine::parallel;
 
-use crate::mixture::standard_normals;
+use crate::integral::mixture::standard_normals;
 use crate::setup::Setup;
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::linalg::packed::{self, TOGETHER, triangle};

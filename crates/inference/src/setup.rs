@@ -8,7 +8,7 @@ use super::data::{Data, Spread};
 use super::evaluators::Evaluators;
 use super::latent::{Map, Role};
 use super::likelihood::Likelihood;
-use super::noise_model::NoiseModel;
+use crate::noise::noise_model::NoiseModel;
 use crate::{Case, Prior};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::number::{elementary, largest_first, smallest_first};

@@ -8,9 +8,9 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::context::Context;
 use super::keys;
 use super::open::{FileKind, check_format, read_root, refuse_other_kind};
-use super::reader::FileReader;
 use super::settings;
 use gumption_analysis::certificate::contents::{Certificate, DecimalMark, Language, Rounding};
 use gumption_engine::task::{Coverage, Settings, Warning};
@@ -85,7 +85,7 @@ impl CertificateFile {
 
 /// Reads and checks a certificate file's text and its model files.
 pub(super) fn read_text(
-    files: FileReader<'_>,
+    files: Context<'_>,
     name: &str,
     text: &str,
     folder: &Path,
@@ -136,7 +136,7 @@ impl Asking {
 }
 
 fn certificate<'a>(
-    files: FileReader<'a>,
+    files: Context<'a>,
     root: Object<'a>,
     folder: Folder<'a>,
 ) -> Option<CertificateFile> {

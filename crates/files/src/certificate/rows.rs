@@ -6,11 +6,11 @@ use std::path::Path;
 
 use super::super::conditions::Conditions;
 use super::super::constant_inputs::ConstantInputs;
+use super::super::context::Context;
 use super::super::keys;
-use super::super::model_file::ModelFile;
+use super::super::model_file::{self, ModelFile};
 use super::super::output_limits;
 use super::super::overrides::Override;
-use super::super::reader::FileReader;
 use super::super::scopes::ConditionSet;
 use super::administrative::localized;
 use super::{Asking, CertifiedModel};
@@ -61,7 +61,7 @@ pub(super) struct Read {
 pub(super) struct Rows<'a> {
     log: &'a Collector,
     /// What reads the model files, and where these are looked for.
-    files_in: (FileReader<'a>, Folder<'a>),
+    files_in: (Context<'a>, Folder<'a>),
     asking: Asking,
     /// The model files without replacements, by name; `None` after a mistake.
     files: BTreeMap<String, Option<usize>>,
@@ -76,7 +76,7 @@ pub(super) struct Rows<'a> {
 impl<'a> Rows<'a> {
     pub(super) fn new(
         log: &'a Collector,
-        files_in: (FileReader<'a>, Folder<'a>),
+        files_in: (Context<'a>, Folder<'a>),
         asking: Asking,
     ) -> Self {
         Self {
@@ -241,7 +241,7 @@ impl<'a> Rows<'a> {
     ) -> Result<Result<ModelFile, Diagnostics>, DiagnosticKind> {
         let (files, folder) = self.files_in;
         if !folder.holds(name) {
-            return Ok(files.model(&folder.file(name)?, overrides));
+            return Ok(model_file::read(files, &folder.file(name)?, overrides));
         }
         let content = folder.content(name, bytes::MOST)?;
         let text = text(content).map_err(|message| DiagnosticKind::Unreadable { message })?;
@@ -249,10 +249,10 @@ impl<'a> Rows<'a> {
         let above = name.rsplit_once('/').map_or("", |(above, _)| above);
         let beside = folder.source().map(|source| Beside { above, source });
         let files = match &beside {
-            Some(beside) => files.reading(beside),
+            Some(beside) => Context { source: Some(beside), ..files },
             None => files,
         };
-        Ok(files.model_text(name, &text, Path::new(above), overrides))
+        Ok(model_file::read_text(files, name, &text, Path::new(above), overrides))
     }
 
     /// A model file with replacements; mistakes of the replacements are reported at `member`.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::truth::Scores;
 use crate::{Case, Prior};
 use gumption_engine::number::elementary;
-use gumption_inference::noise_model::{DrawnNoise, Factor, NoiseModel};
+use gumption_inference::noise::noise_model::{DrawnNoise, Factor, NoiseModel};
 
 /// What the noise of blind draws is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

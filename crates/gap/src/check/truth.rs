@@ -8,8 +8,8 @@ use crate::{Case, OverrideError};
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::{COLUMN, Column};
 use gumption_inference::data::{Data, Spread};
+use gumption_inference::integral::mixture::standard_normals;
 use gumption_inference::latent::Map;
-use gumption_inference::mixture::standard_normals;
 use gumption_inference::{correlated, setup};
 
 /// What makes the data.

@@ -3,7 +3,7 @@
 use super::cases::{candidate, case, normal, observed};
 use crate::{Case, Diagnosis, DiagnosisOptions, HypothesisKind, diagnose};
 use gumption_engine::task::Sharing;
-use gumption_inference::copies::Copies;
+use gumption_inference::noise::copies::Copies;
 
 const VALUES: [f64; 10] = [100.9, 199.2, 300.4, 398.7, 501.3, 600.2, 699.1, 801.1, 900.3, 998.9];
 

@@ -14,10 +14,10 @@ use gumption_engine::number::Column;
 use gumption_engine::special;
 use gumption_engine::task::{Row, Sharing, Task, Variable};
 use gumption_inference::expected_entropy::{Detail, Normals, Outlook, expected_loss, ln_odds};
-use gumption_inference::prior_widths::OtherPriors;
+use gumption_inference::noise::prior_widths::OtherPriors;
 use gumption_units::Unit;
 
-use gumption_inference::mixture::standard_normals;
+use gumption_inference::integral::mixture::standard_normals;
 
 /// Draws of a normal prediction, spread evenly.
 fn draws(mean: f64, deviation: f64) -> Vec<Vec<f64>> {

@@ -18,7 +18,7 @@ fn normals(count: usize, seed: u64) -> Vec<f64> {
     let mut columns = Vec::new();
     while columns.len() < count {
         let mut column = gumption_engine::number::Column::ZERO;
-        gumption_inference::mixture::standard_normals(&mut stream, &mut column);
+        gumption_inference::integral::mixture::standard_normals(&mut stream, &mut column);
         columns.extend(column.0);
     }
     columns.truncate(count);

@@ -26,8 +26,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::latent::LN_BOUNDED;
 use super::predict;
-use super::search::Mode;
 use super::setup::Setup;
+use crate::integral::search::Mode;
 use crate::logarithm::{HALF_LN_TWO_PI, ln_add};
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::{elementary, largest_first};

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::cases::{candidate, case, normal, observed};
-use crate::influence::Influence;
+use crate::noise::influence::Influence;
 use crate::posterior::{self, Effort};
 use crate::setup::Setup;
 use gumption_engine::task::Sharing;

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::cases::{case, formulas, normal, observed, quantity};
 use super::ln_normal;
-use crate::evidence::EvidenceEstimate;
+use crate::integral::evidence::EvidenceEstimate;
 use crate::posterior::{Effort, singles};
 use crate::setup::Setup;
 use crate::{Candidate, Case, Effect};

@@ -12,9 +12,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::latent::{bounded_from_normal, ln_priors};
-use super::logarithm::HALF_LN_TWO_PI;
-use super::search::Mode;
+use crate::integral::search::Mode;
+use crate::latent::{bounded_from_normal, ln_priors};
+use crate::logarithm::HALF_LN_TWO_PI;
 use gumption_engine::distribution::{Normal, Stream};
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::{COLUMN, CodePath, Column, Kernel, elementary};

@@ -6,8 +6,8 @@
 
 use gumption_engine::decimal::to_15_digits;
 
-use super::data::{Data, numbered};
 use crate::Case;
+use crate::data::{Data, numbered};
 
 /// Displays count in these steps of their last digit.
 const STEPS: [i64; 3] = [10, 5, 2];

@@ -4,11 +4,12 @@
 //! a wrong value would stand out. It stands out among its neighbours, though: a departure moves them
 //! about as much as it. Such a value is proposed here, and weighed with "unexplained".
 
-use super::data::by_rows;
-use super::discrepancy::Discrepancy;
-use super::noise_model::{NoiseModel, STILL_OFF, SUSPECT_SIZES, Suspect, Weighing};
-use super::posterior::ln_weight;
-use super::setup::Setup;
+use crate::data::by_rows;
+use crate::discrepancy::Discrepancy;
+use crate::noise::noise_model::{NoiseModel, STILL_OFF, SUSPECT_SIZES, Suspect};
+use crate::noise::weighing::Weighing;
+use crate::posterior::ln_weight;
+use crate::setup::Setup;
 use gumption_engine::number::{elementary, largest_first, median};
 
 /// Neighbours on each side that a value is compared with, at most.

@@ -9,16 +9,16 @@
 
 use gumption_engine::parallel;
 
-use super::beside_departure::beside_departure;
-use super::influence::{Influence, SizeGains, suspect};
-use super::logarithm::ln_add;
-use super::noise_model::{
-    MOST_SUSPECTS, NoiseModel, STILL_OFF, SUSPECT_SIZES, Suspect, WORTH_TRYING, Weighing, ln_total,
-    ln_weight_at_mode,
+use crate::logarithm::ln_add;
+use crate::noise::beside_departure::beside_departure;
+use crate::noise::influence::{Influence, SizeGains, suspect};
+use crate::noise::noise_model::{
+    MOST_SUSPECTS, NoiseModel, STILL_OFF, SUSPECT_SIZES, Suspect, WORTH_TRYING,
 };
-use super::posterior::{self, Effort, WeighedHypothesis};
-use super::prior_widths::PriorWidths;
-use super::remainder::Remainder;
+use crate::noise::prior_widths::PriorWidths;
+use crate::noise::remainder::Remainder;
+use crate::noise::weighing::{Weighing, ln_total, ln_weight_at_mode};
+use crate::posterior::{self, Effort, WeighedHypothesis};
 use gumption_engine::number::{elementary, largest_first};
 
 /// One of so many values may be off, where several at once are looked for: what most of the data say

@@ -6,12 +6,13 @@
 //! effect that made it (Lindley 1957, Biometrika 44, 187). Priors of other widths are therefore
 //! weighed beside the stated ones, with a small probability of their own.
 
-use super::beside;
-use super::logarithm::ln_add;
-use super::noise_model::{WORTH_TRYING, Weighing, ln_total};
-use super::posterior::{self, Effort, Posterior, WeighedHypothesis};
-use super::setup::Setup;
 use crate::Case;
+use crate::beside;
+use crate::logarithm::ln_add;
+use crate::noise::noise_model::WORTH_TRYING;
+use crate::noise::weighing::{Weighing, ln_total};
+use crate::posterior::{self, Effort, Posterior, WeighedHypothesis};
+use crate::setup::Setup;
 use gumption_engine::distribution::{Distribution, LogUniform, Normal, Rectangular, Truncated};
 use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::parallel;

@@ -6,14 +6,15 @@
 
 use std::sync::Arc;
 
-use super::beside::{self, Beside};
-use super::discrepancy::{Discrepancy, Unexplained};
-use super::evidence::EvidenceEstimate;
-use super::latent::Role;
-use super::noise_model::{NoiseModel, Weighing, most_probable};
-use super::posterior::{Posterior, WeighedHypothesis};
-use super::prior_widths::PriorWidths;
-use super::setup::Setup;
+use crate::beside::{self, Beside};
+use crate::discrepancy::{Discrepancy, Unexplained};
+use crate::integral::evidence::EvidenceEstimate;
+use crate::latent::{Role, score_as, score_of_none};
+use crate::noise::noise_model::NoiseModel;
+use crate::noise::prior_widths::PriorWidths;
+use crate::noise::weighing::{Weighing, most_probable};
+use crate::posterior::{Posterior, WeighedHypothesis};
+use crate::setup::Setup;
 use gumption_engine::number::Column;
 
 /// A hypothesis below this probability is not worth more draws.
@@ -145,27 +146,6 @@ fn converted(scores: &[Column], from: &[Role], to: &[Role]) -> Option<Vec<Column
         Some(column)
     };
     to.iter().map(score).collect()
-}
-
-/// The same of one point.
-pub(crate) fn converted_point(scores: &[f64], from: &[Role], to: &[Role]) -> Option<Vec<f64>> {
-    let score = |role: &Role| match from.iter().position(|other| other.is_same_quantity(role)) {
-        None => score_of_none(role),
-        Some(at) => score_as(*scores.get(at)?, &from[at], role),
-    };
-    to.iter().map(score).collect()
-}
-
-/// The score of a quantity that is taken for certain elsewhere: the factor of uncertainties that are
-/// right is one, whose logarithm is zero.
-fn score_of_none(role: &Role) -> Option<f64> {
-    role.map().and_then(|map| map.score(0.0))
-}
-
-/// The score of the same value with another prior.
-fn score_as(score: f64, from: &Role, to: &Role) -> Option<f64> {
-    let (theirs, own) = (from.map()?, to.map()?);
-    if theirs == own { Some(score) } else { own.score(theirs.value(score)) }
 }
 
 #[cfg(test)]

@@ -3,11 +3,11 @@
 use gumption_engine::linalg::{dot, packed};
 use gumption_engine::number::elementary;
 
-use super::covariance::inner_root;
-use super::posterior::WeighedHypothesis;
-use super::setup::Setup;
-use super::shared_noise::root_mean_square;
-use super::whitened::{self, WhitenedResiduals};
+use crate::covariance::inner_root;
+use crate::noise::shared_noise::root_mean_square;
+use crate::posterior::WeighedHypothesis;
+use crate::setup::Setup;
+use crate::whitened::{self, WhitenedResiduals};
 
 /// What a hypothesis leaves at its best mode, less what the inputs explain that act linearly.
 #[derive(Debug)]

@@ -13,9 +13,9 @@
 use gumption_engine::number::smallest_first;
 use nalgebra::{DMatrix, DVector};
 
-use super::latent::{EDGE, Map, Role};
-use super::likelihood::Likelihood;
-use super::whitened::{self, WhitenedResiduals};
+use crate::latent::{EDGE, Map, Role};
+use crate::likelihood::Likelihood;
+use crate::whitened::{self, WhitenedResiduals};
 use gumption_engine::linalg::dot;
 
 /// Responses are alike from this coefficient of correlation on. Halfway between such neighbours at

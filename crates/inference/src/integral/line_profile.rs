@@ -15,10 +15,10 @@
 
 use gumption_engine::number::{COLUMN, elementary, largest_first, smallest_first};
 
-use super::likelihood::Likelihood;
-use super::mixture::{TEMPER, ln_share};
-use super::response_scan::{Plan, Scan};
-use super::search::{self, GAIN, Mode};
+use crate::integral::mixture::{TEMPER, ln_share};
+use crate::integral::response_scan::{Plan, Scan};
+use crate::integral::search::{self, GAIN, Mode};
+use crate::likelihood::Likelihood;
 
 /// Distances from a mode, in scores, at which its approximation is looked at.
 const PROBES: [f64; 5] = [0.5, 0.125, 0.03, 0.008, 0.002];

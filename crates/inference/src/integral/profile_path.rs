@@ -4,10 +4,10 @@
 
 use nalgebra::DMatrix;
 
-use super::latent::EDGE;
-use super::likelihood::Likelihood;
-use super::mixture::Mixture;
-use super::search::{self, Mode};
+use crate::integral::mixture::Mixture;
+use crate::integral::search::{self, Mode};
+use crate::latent::EDGE;
+use crate::likelihood::Likelihood;
 use gumption_engine::number::{elementary, smallest_first};
 
 /// Values of a parameter over its prior.

@@ -3,8 +3,9 @@
 //! Which values are off is looked for beside the hypotheses of the list. Where none of them explains
 //! the data, a departure that does may need fewer: those that it does not need are taken out again.
 
-use super::beside_departure::ln_departure;
-use super::noise_model::{Suspect, Weighing};
+use crate::noise::beside_departure::ln_departure;
+use crate::noise::noise_model::Suspect;
+use crate::noise::weighing::Weighing;
 
 /// The probability of a departure, with the values that are off, from which on it is asked which of
 /// them it needs.

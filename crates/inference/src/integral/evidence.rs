@@ -2,13 +2,13 @@
 //! that is unknown, by adaptive multiple importance sampling (Cornuet, Marin, Mira, Robert 2012,
 //! Scandinavian Journal of Statistics 39, 798).
 
-use super::differential_evolution;
-use super::latent::bounded_from_normal;
-use super::likelihood::Likelihood;
-use super::line_profile;
-use super::mixture::{Mixture, add_ln, standard_normals};
-use super::profile_path;
-use super::search::{self, Mode};
+use crate::integral::differential_evolution;
+use crate::integral::line_profile;
+use crate::integral::mixture::{Mixture, add_ln, standard_normals};
+use crate::integral::profile_path;
+use crate::integral::search::{self, Mode};
+use crate::latent::bounded_from_normal;
+use crate::likelihood::Likelihood;
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::{COLUMN, Column, elementary, largest_first};
 

@@ -2,10 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::covariance::Covariance;
-use super::latent::EDGE;
-use super::likelihood::{Likelihood, Visitor};
-use super::logarithm::HALF_LN_TWO_PI;
+use crate::covariance::Covariance;
+use crate::latent::EDGE;
+use crate::likelihood::{Likelihood, Visitor};
+use crate::logarithm::HALF_LN_TWO_PI;
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::{COLUMN, CodePath, Column, Kernel, elementary, smallest_first};
 
@@ -627,9 +627,9 @@ impl Kernel for RowOfMoments<'_, '_> {
 #[cfg(test)]
 mod tests {
     use super::locals;
-    use crate::noise_model::NoiseModel;
+    use crate::noise::noise_model::NoiseModel;
+    use crate::noise::shared_noise::{Setting, SharedNoise};
     use crate::setup::Setup;
-    use crate::shared_noise::{Setting, SharedNoise};
     use crate::tests::cases::{candidate, case, normal, observed};
     use gumption_engine::task::Sharing;
 

@@ -1,27 +1,16 @@
-//! Noise that the outputs of a row have in common.
-//!
-//! What is read at the same moment, or against the same reference, shares errors: a supply, a vibration,
-//! the reference itself. The uncertainties that are stated beside the readings say nothing of that. Taken
-//! for independent, errors in common look like a departure that jumps from row to row, in all of these
-//! outputs alike, which no effect makes. Here the noise of some outputs of a row is correlated, by one
-//! coefficient with a sign for each of them; and the stated uncertainties of each output are right, or
-//! multiplied by a factor.
-//!
-//! Coefficient and factors are not integrated over together with all else: they are taken as they are most
-//! probable beside what the leading hypothesis leaves, and the width of that peak counts in the prior
-//! probability (Laplace's method, as in MacKay 1992, Neural Computation 4, 415).
+//! Which noises that the outputs of a row have in common may be worth an evidence of their own.
 
 use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::parallel;
 
-use super::logarithm::{HALF_LN_TWO_PI, ln_add};
-use super::noise_model::{
-    FACTORS, NoiseModel, WORTH_TRYING, Weighing, ln_total, ln_weight_at_mode,
-};
-use super::remainder::Remainder;
-use super::setup::Setup;
+use crate::logarithm::{HALF_LN_TWO_PI, ln_add};
+use crate::noise::common_noise::CommonNoise;
+use crate::noise::noise_model::{FACTORS, NoiseModel, WORTH_TRYING};
+use crate::noise::remainder::Remainder;
+use crate::noise::weighing::{Weighing, ln_total, ln_weight_at_mode};
+use crate::setup::Setup;
 
 /// Fewer rows say nothing of a correlation.
 const LEAST_ROWS: usize = 8;
@@ -35,34 +24,6 @@ const MOST_MODELS: usize = 3;
 
 /// The coefficient of correlation is looked for between these.
 const CORRELATIONS: [f64; 2] = [0.05, 0.998];
-
-/// Noise that is correlated between the outputs of a row, and independent between rows.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CommonNoise {
-    /// For each observed output the sign of its share of what is common; 0 where it has none.
-    pub(crate) signs: Vec<f64>,
-    /// The coefficient of correlation of two outputs with shares of like signs, above 0.
-    pub(crate) correlation: f64,
-    /// The standard deviation of its inverse hyperbolic tangent.
-    pub spread: f64,
-    /// For each observed output what its stated uncertainties are multiplied by, with the standard
-    /// deviation of the logarithm; `None` where they are right.
-    pub factors: Vec<Option<(f64, f64)>>,
-    /// The prior probability of all that is like this, among such noises.
-    pub(crate) share: f64,
-}
-
-impl CommonNoise {
-    /// What an output's stated uncertainties are multiplied by.
-    pub(crate) fn factor(&self, output: usize) -> f64 {
-        self.factors.get(output).copied().flatten().map_or(1.0, |(factor, _)| factor)
-    }
-
-    /// The coefficient of correlation of two outputs.
-    pub fn between(&self, one: usize, other: usize) -> f64 {
-        self.signs[one] * self.signs[other] * self.correlation
-    }
-}
 
 /// The correlated noises that may be worth an evidence of their own: by the densities of the residuals that
 /// the hypotheses leave at their modes, with such noise and without.

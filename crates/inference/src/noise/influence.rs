@@ -11,10 +11,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::noise_model::{SUSPECT_SIZES, Suspect};
-use super::posterior::WeighedHypothesis;
-use super::setup::Setup;
-use super::whitened::{self, WhitenedResiduals};
+use crate::noise::noise_model::{SUSPECT_SIZES, Suspect};
+use crate::posterior::WeighedHypothesis;
+use crate::setup::Setup;
+use crate::whitened::{self, WhitenedResiduals};
 use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::elementary;

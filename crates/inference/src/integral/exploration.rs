@@ -8,13 +8,13 @@
 use gumption_engine::number::largest_first;
 use gumption_engine::parallel;
 
-use super::evidence::{DISAGREE, EvidenceEstimate};
-use super::likelihood::Likelihood;
-use super::over_noises::converted_point;
-use super::posterior::{Before, Effort, HOPELESS, MANY_VALUES, WeighedHypothesis};
-use super::response_scan;
-use super::search::Mode;
-use super::setup::Setup;
+use crate::integral::evidence::{DISAGREE, EvidenceEstimate};
+use crate::integral::response_scan;
+use crate::integral::search::Mode;
+use crate::latent::converted_point;
+use crate::likelihood::Likelihood;
+use crate::posterior::{Before, Effort, HOPELESS, MANY_VALUES, WeighedHypothesis};
+use crate::setup::Setup;
 use gumption_engine::distribution::StreamKey;
 
 /// Values of the part of much data in which modes are searched first.

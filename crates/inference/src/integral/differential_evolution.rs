@@ -5,9 +5,9 @@
 //! others, so that steps follow whatever shape the population has, without tuning. What they visit is
 //! not used as a sample but to fit another component of the proposal.
 
-use super::latent::ln_prior;
-use super::likelihood::Likelihood;
-use super::mixture::standard_normals;
+use crate::integral::mixture::standard_normals;
+use crate::latent::ln_prior;
+use crate::likelihood::Likelihood;
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::{COLUMN, Column, elementary};
 
