@@ -7,13 +7,13 @@ use super::Measured;
 use super::beside::{Besides, amplitude};
 use super::drift;
 use super::effects::Effects;
+use super::known_noise::KnownNoise;
 use super::quantization::quantization_variance;
-use super::recipe::TimeBase;
+use super::recipe::{RecipeSettings, TimeBase};
 use super::residuals::Residuals;
 use super::rounding::{Rounding, noise_before};
 use super::sine_fit::{ToneCoefficients, ToneDesign};
 use super::spurious::Spurious;
-use super::through::KnownNoise;
 use super::trace::RecordTrace;
 use gumption_engine::number::elementary::{exp, hypot, sinh};
 
@@ -170,5 +170,16 @@ pub(super) fn local(residuals: &Residuals, tone: usize) -> [f64; 2] {
     match &residuals.local {
         Some(local) if residuals.correlated => local.get(tone).copied().unwrap_or([1.0; 2]),
         _ => [1.0; 2],
+    }
+}
+
+/// The unit of a channel's values before its steps have none of their own, with a blank before it.
+pub(super) fn unit_text(settings: &RecipeSettings, of: &Analysed) -> String {
+    let channel = &settings.channels[of.channel];
+    let unit = channel.unit.text();
+    if unit.is_empty() || unit == "1" || !channel.steps.is_empty() {
+        String::new()
+    } else {
+        format!(" {unit}")
     }
 }

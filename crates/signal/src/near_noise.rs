@@ -2,9 +2,9 @@
 //! large on average.
 
 use super::budget::UncertaintySource;
+use super::note::{Note, short};
 use super::observation::{ChannelObservation, ToneComponent};
 use super::recipe::RecipeSettings;
-use super::run::{Note, short};
 use gumption_engine::number::elementary;
 
 /// The probability with which noise alone reaches an amplitude that is near it.

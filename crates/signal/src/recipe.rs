@@ -1,7 +1,7 @@
 //! A recipe: what is to be taken from which channels.
 
 use super::Measured;
-use super::step::ChannelStep;
+use super::channel_step::ChannelStep;
 use gumption_units::Unit;
 
 /// How amplitudes and phases are taken.

@@ -2,21 +2,22 @@
 
 use std::rc::Rc;
 
-use super::analysed::{Analysed, local};
+use super::analysed::{Analysed, local, unit_text};
 use super::analysis::Group;
 use super::asked;
 use super::beside::{amplitude, clear_degree};
+use super::channel_step::ChannelStep;
 use super::coloured::Memory;
 use super::common_noise::correlation;
 use super::effects::StepEffect;
 use super::near_noise;
+use super::note::{Note, short};
 use super::observation::{ChannelObservation, Observation};
 use super::passes::{InMemorySamples, SampleSource, gathered};
 use super::recipe::{Frequency, Method, RecipeSettings, TimeBase};
 use super::refused::{MOST_HELD, Refused};
 use super::search;
 use super::spurious::Spurious;
-use super::step::ChannelStep;
 use super::surroundings::{Finding, Surroundings};
 use super::through::{self, Through};
 use super::trace::RecordTrace;
@@ -36,9 +37,6 @@ struct Stepped {
     through: Option<Through>,
     notes: Vec<Note>,
 }
-
-/// A fixed short name, the channel, and the sentence.
-pub(super) type Note = (&'static str, usize, String);
 
 /// Takes amplitudes, phases and what goes with them from the recordings of one row.
 ///
@@ -481,21 +479,4 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
         }
     }
     notes
-}
-
-/// A number with so many digits.
-pub(super) fn short(value: f64, digits: usize) -> String {
-    let text = format!("{value:.*e}", digits.saturating_sub(1));
-    gumption_engine::number::Shortest(text.parse().unwrap_or(value)).to_string()
-}
-
-/// The unit of a channel's values before its steps have none of their own, with a blank before it.
-pub(super) fn unit_text(settings: &RecipeSettings, of: &Analysed) -> String {
-    let channel = &settings.channels[of.channel];
-    let unit = channel.unit.text();
-    if unit.is_empty() || unit == "1" || !channel.steps.is_empty() {
-        String::new()
-    } else {
-        format!(" {unit}")
-    }
 }

@@ -1,10 +1,10 @@
 //! What a fit does not explain and a note names: tones stronger than the ones that the recipe asks
 //! for, tones that are most of the residuals, and samples far beyond the rest.
 
-use super::analysed::{Analysed, local};
+use super::analysed::{Analysed, local, unit_text};
 use super::beside::amplitude;
+use super::note::{Note, short};
 use super::recipe::{Amplitude, RecipeSettings};
-use super::run::{Note, short, unit_text};
 use super::spurious::{self, Spurious};
 use std::f64::consts::TAU;
 

@@ -1,11 +1,11 @@
 //! What a fit leaves: its size, whether it is white, and how strong it is near each tone.
 
 use crate::coloured::{Coloured, Memory, Series};
+use crate::known_noise::KnownNoise;
 use crate::lattice;
 use crate::outlying::Farthest;
 use crate::passes::SampleSource;
 use crate::sine_fit::{Sums, ToneCoefficients, ToneDesign, Waves, dot};
-use crate::through::KnownNoise;
 
 /// Lags at which the autocorrelation of residuals is looked at.
 pub(crate) const LAGS: usize = 16;
