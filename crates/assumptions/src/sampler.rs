@@ -4,7 +4,8 @@
 use gumption_engine::distribution::{BLOCK, Draws, FromScore, StreamKey, Varying};
 use gumption_engine::model::{Following, Schedule, ScheduledOutput};
 use gumption_engine::number::{COLUMN, CodePath, Column};
-use gumption_engine::propagate::monte_carlo::{onto_branch, stream_name};
+use gumption_engine::propagate::monte_carlo::stream_name;
+use gumption_engine::propagate::onto_branch;
 use gumption_engine::propagate::{EvaluationError, gum, joint};
 use gumption_engine::task::{Row, Task};
 

@@ -10,9 +10,8 @@ pub(super) use error_law::ErrorLaw;
 use error_law::StudentLaw;
 pub use global::GlobalRisks;
 use global::Inspection;
-pub(super) use turns::on_branch;
 
-use super::evaluation::OutputEvaluation;
+use super::figures::OutputEvaluation;
 use super::gum::Gum;
 use super::monte_carlo::MonteCarlo;
 use super::statement::{Stated, located};

@@ -2,328 +2,35 @@
 
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
-use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 
 use super::Control;
-use super::branch::{self, Jump};
+use super::branch;
 use super::conformity::{Conformity, ErrorLaw};
+use super::evaluation_error::{EvaluationError, named_values};
 use super::exact::{self, Noiseless};
+use super::figures::{
+    CapabilityStatement, Evaluation, FEW_ROWS, JointlyDrawn, NOTEWORTHY, OutputEvaluation,
+    RowEvaluation,
+};
 use super::gum::{self, Gum, GumRow};
 use super::inherited::Inherited;
 use super::moment_order::moment_orders;
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
 use super::nonlinearity;
-use super::regions::{RegionEvaluation, regions};
-use super::second_order::{SecondOrder, second_order};
-use super::statement::{Stated, located};
+use super::regions::regions;
+use super::second_order::second_order;
+use super::statement::Stated;
 use super::validate::{Validation, validate};
 use super::{quasi, rounding};
-use crate::decimal::{Decimal, Direction, position, to_digits};
-use crate::distribution::{BLOCK, Correlation, CorrelationError, Distribution, Invalid, Joint};
-use crate::model::{COMPUTED_DIGITS, Capability, Output, Program};
-use crate::number::{COLUMN, Column, Shortest};
+use crate::decimal::position;
+use crate::distribution::{BLOCK, Distribution, Joint};
+use crate::model::{Output, Program};
+use crate::number::{COLUMN, Column};
 use crate::parallel;
-use crate::task::{Coverage, MethodChoice, Row, Settings, Task, TaskError, Trials};
-
-/// The evaluation of a whole task.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct Evaluation {
-    /// The coverage probability used.
-    pub coverage_probability: f64,
-    /// The settings used.
-    pub settings: Settings,
-    /// One entry for each row of conditions.
-    pub rows: Vec<RowEvaluation>,
-    /// Whether declared correlations were taken as possible only within the rounding of their
-    /// coefficients.
-    pub rounded_correlations: bool,
-    /// The variables that are drawn through a Gaussian copula in some row, in order.
-    pub copula: Vec<usize>,
-    /// The largest change of a declared coefficient, within its rounding, that a copula needed.
-    pub copula_adjusted: f64,
-    /// Whether the run was stopped before all trials were made.
-    pub stopped: bool,
-}
-
-/// The evaluation of one row.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct RowEvaluation {
-    /// Values of the conditions.
-    pub conditions: Vec<f64>,
-    /// One entry for each output.
-    pub outputs: Vec<OutputEvaluation>,
-    /// Correlation coefficients between the outputs i < j: from the trials, or by the law of
-    /// propagation if there are none.
-    pub correlations: Vec<f64>,
-    /// Numerical standard errors of those from the trials; `None` where an output's trials do not
-    /// tell them. Empty by the law of propagation, which has none.
-    pub correlation_errors: Vec<Option<f64>>,
-    /// The coverage regions of several outputs together, as many as the task asks for.
-    pub regions: Vec<RegionEvaluation>,
-    /// Trials that were left out because an output was not finite.
-    pub undefined: Option<Undefined>,
-    /// The variables that are outputs of saved results, drawn as they varied together there.
-    pub jointly_drawn: Vec<JointlyDrawn>,
-    /// Coefficients that the copula of the trials does not give as they are, and what it gives.
-    pub copula_changes: Arc<Vec<(Correlation, f64)>>,
-}
-
-/// Variables that are outputs of one saved result and drawn from its trials.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct JointlyDrawn {
-    /// The variables, in order.
-    pub variables: Vec<usize>,
-    /// How many trials the result holds.
-    pub trials: usize,
-}
-
-/// One output by both methods.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct OutputEvaluation {
-    /// By the law of propagation; `None` where a sensitivity coefficient is not finite.
-    pub gum: Option<Gum>,
-    /// By the Monte Carlo method; `None` without trials.
-    pub monte_carlo: Option<MonteCarlo>,
-    /// The law of propagation with its terms of second order, where they tell why the two differ, or
-    /// what the law leaves out.
-    pub second_order: Option<Box<SecondOrder>>,
-    /// What the limited trials of saved results among the inputs do to the figures; `None` without such
-    /// results. The numerical standard errors of the trials have it in them.
-    pub inherited: Option<Box<Inherited>>,
-    /// Whether the trials tell that the model is not linear over the uncertainties of its inputs; `None`
-    /// without trials or without a law of propagation.
-    pub(super) nonlinear: Option<bool>,
-    /// How the trials lie on both sides of a cut, where they do.
-    pub(super) jump: Option<Jump>,
-    /// Figures without the noise of trials, or why there are none; `None` where none were asked for.
-    pub noiseless: Option<Result<Box<Noiseless>, String>>,
-    /// Their comparison.
-    pub validation: Option<Validation>,
-    /// The laboratory's capability, and what may be stated beside it; `None` if there is none of
-    /// either.
-    pub capability: Option<Box<CapabilityStatement>>,
-    /// The decision about the output's tolerance with the uncertainty that is stated; `None` without
-    /// a tolerance, or an uncertainty.
-    pub conformity: Option<Box<Conformity>>,
-    /// The fewest degrees of freedom among the t distributions that the output depends on.
-    pub drawn_dof: f64,
-    /// The guard band for the wanted specific risk, by the distribution of the trials, where it was
-    /// looked for; `None` inside where no value has so small a risk.
-    pub(super) guard_band_of_trials: Option<Option<f64>>,
-}
-
-impl OutputEvaluation {
-    /// Where the output lies by its trials, and the numerical standard error of that (0 of what no seed
-    /// moves), in the unit of the output; `None` without trials. It is the mean of the trials where they
-    /// have a variance and it is told from the estimate by the law of propagation, and otherwise that
-    /// estimate, or without it the median.
-    pub fn located(&self) -> Option<(f64, f64)> {
-        self.monte_carlo.as_ref().map(|figures| located(figures, self.gum.as_ref()))
-    }
-
-    /// The law of propagation where the trials do not refute it.
-    pub(super) fn trusted(&self) -> Option<&Gum> {
-        let is_trusted = self.validation.is_some_and(|v| v.gum_valid != Some(false));
-        self.gum.as_ref().filter(|_| is_trusted)
-    }
-}
-
-/// The expanded uncertainty that a laboratory may state beside its capability.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CapabilityStatement {
-    /// The capability (CMC) at the estimate.
-    pub cmc: f64,
-    /// The estimate.
-    pub estimate: f64,
-    /// The expanded uncertainty that was evaluated: half of the interval that is stated.
-    pub evaluated: f64,
-    /// The expanded uncertainty to be stated.
-    pub expanded_uncertainty: f64,
-    /// Whether the evaluated one is below the capability.
-    pub below: bool,
-    /// Whether it was raised to the capability.
-    pub raised: bool,
-}
-
-/// A capability, which is stated for approximately 95 % and the factor 2 (ILAC-P14:09/2020, 4.2), with
-/// another coverage: it grows with the factor of a normal distribution.
-fn with_coverage(cmc: f64, coverage: Coverage) -> f64 {
-    if coverage.is_about_95() {
-        return cmc;
-    }
-    to_digits(0.5 * coverage.normal_factor() * cmc, COMPUTED_DIGITS)
-}
-
-/// Significant digits of a capability in words.
-const CAPABILITY_DIGITS: u32 = 6;
-
-impl CapabilityStatement {
-    /// What may be stated where this expanded uncertainty of this estimate was evaluated, with this
-    /// coverage.
-    pub fn of(
-        capability: &Capability,
-        estimate: f64,
-        (evaluated, coverage): (f64, Coverage),
-    ) -> Self {
-        let cmc = with_coverage(capability.at(estimate), coverage);
-        let below = to_digits(evaluated, COMPUTED_DIGITS) < cmc;
-        let raised = below && capability.floor;
-        let expanded_uncertainty = if raised { cmc } else { evaluated };
-        Self { cmc, estimate, evaluated, expanded_uncertainty, below, raised }
-    }
-
-    /// The capability in words, in the output's unit: with as many digits as one is stated with.
-    pub fn cmc_text(&self) -> String {
-        crate::decimal::exact(to_digits(self.cmc, CAPABILITY_DIGITS))
-    }
-
-    /// The expanded uncertainty to be stated, to so many significant digits: to the nearest, or up where
-    /// that would bring below the capability what is not below it. `None` of zero, and of what is not
-    /// finite.
-    pub fn rounded(&self, digits: u32) -> Option<Decimal> {
-        let exact = Decimal::shortest(self.expanded_uncertainty)?;
-        let to = |direction| exact.round_to_digits(digits, direction);
-        let nearest = to(Direction::Nearest);
-        let is_kept = (self.raised || !self.below) && nearest.value() < self.cmc;
-        Some(if is_kept { to(Direction::Up) } else { nearest })
-            .filter(|_| self.expanded_uncertainty > 0.0)
-    }
-
-    /// What may be stated of an output, as certificates do; `None` without a capability, or an
-    /// expanded uncertainty.
-    fn beside(output: &Output, figures: &OutputEvaluation, settings: &Settings) -> Option<Self> {
-        let capability = output.capability.as_ref()?;
-        let found = Stated::of(figures, settings, |u| position(u, settings.digits))?;
-        Some(Self::of(capability, found.value, (found.expanded_uncertainty, settings.coverage)))
-    }
-}
-
-impl RowEvaluation {
-    /// The trials that were made, those that were left out included; `None` without trials.
-    pub(super) fn made(&self) -> Option<u64> {
-        let figures = self.outputs.iter().find_map(|output| output.monte_carlo.as_ref())?;
-        let undefined = self.undefined.as_ref().map_or(0, |undefined| undefined.count);
-        Some(figures.trials + undefined)
-    }
-}
-
-/// Why a task cannot be evaluated.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum EvaluationError {
-    /// The task does not hold together, as after its fields were set by hand.
-    Task(Box<TaskError>),
-    /// Declared correlations that no joint distribution has, or that cannot be drawn.
-    Correlation {
-        /// What is wrong; the quantities are the task's variables.
-        error: CorrelationError,
-        /// The sentence, with their names.
-        message: String,
-    },
-    /// More trials are not finite than are allowed.
-    Undefined {
-        /// The row.
-        row: usize,
-        /// How many, out of how many, and the first one's drawn inputs.
-        undefined: Undefined,
-        /// Names and values of the varying inputs in the first such trial, and of the conditions.
-        inputs: Vec<(String, f64)>,
-        /// The operation that gave no number.
-        operation: Option<String>,
-    },
-    /// An output has no value at the inputs' estimates, and there are no trials that would tell more.
-    NoEstimate {
-        /// The row.
-        row: usize,
-        /// The output, by its number.
-        output: usize,
-        /// The sentence.
-        message: String,
-    },
-    /// More trials are not finite than are allowed, of which no more is known.
-    NotFinite {
-        /// Their share.
-        share: f64,
-    },
-    /// Paired readings too few for a joint distribution with a covariance, which trials need.
-    Paired {
-        /// The variable that has them.
-        variable: String,
-        /// What is wrong.
-        error: Invalid,
-    },
-    /// Numbers of double precision do not hold what the trials of an output would vary.
-    Rounding {
-        /// The row.
-        row: usize,
-        /// The output, by its number.
-        output: usize,
-        /// The sentence.
-        message: String,
-    },
-}
-
-impl fmt::Display for EvaluationError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Task(error) => error.fmt(f),
-            Self::Paired { variable, error } => write!(f, "`{variable}`: {error}"),
-            Self::Correlation { message, .. }
-            | Self::NoEstimate { message, .. }
-            | Self::Rounding { message, .. } => f.write_str(message),
-            Self::Undefined { undefined, inputs, operation, .. } => {
-                let Undefined { count, trials, .. } = undefined;
-                write!(f, "{count} of {trials} trials have no finite result")?;
-                let at = named_values(inputs);
-                match operation {
-                    Some(operation) => write!(f, "; the first is {operation}{at}")?,
-                    None if at.is_empty() => {}
-                    None => write!(f, "; the first is the one{at}")?,
-                }
-                let missing = inputs.iter().filter(|(_, value)| value.is_nan());
-                let missing: Vec<&str> = missing.map(|(name, _)| name.as_str()).collect();
-                if missing.is_empty() {
-                    return Ok(());
-                }
-                write!(
-                    f,
-                    "; a fit to the drawn data of that trial finds no {}: stated uncertainties or \
-                     fewer parameters help, or allow a share of such trials (`allow_undefined`)",
-                    missing.join(", ")
-                )
-            }
-            Self::NotFinite { share } => write!(
-                f,
-                "{} % of the trials have no finite result; an evaluation of the task names the first \
-                 of them",
-                Shortest(100.0 * share)
-            ),
-        }
-    }
-}
-
-/// The place that values of names are.
-fn named_values(values: &[(String, f64)]) -> String {
-    let each = values.iter().map(|(name, value)| format!("{name} = {}", Shortest(*value)));
-    let each: Vec<String> = each.collect();
-    if each.is_empty() { String::new() } else { format!(", at {}", each.join(", ")) }
-}
-
-impl std::error::Error for EvaluationError {}
-
-impl EvaluationError {
-    fn correlation(task: &Task, error: CorrelationError) -> Self {
-        let name = |v: usize| task.variables.get(v).map_or("", |v| v.name.as_str());
-        let message = error.describe(&|v| format!("`{}`", name(v)));
-        Self::Correlation { error, message }
-    }
-}
+use crate::task::{MethodChoice, Row, Settings, Task, Trials};
 
 /// The joint draw of a row.
 pub fn joint(task: &Task, row: &Row) -> Result<Arc<Joint>, EvaluationError> {
@@ -611,8 +318,7 @@ fn evaluate_row(
                 let law = ErrorLaw::of_trials(values, found.located()?.0);
                 Some(law.guard_band(risk, limits))
             });
-        found.capability =
-            CapabilityStatement::beside(&output, &found, &task.settings).map(Box::new);
+        found.capability = capability_beside(&output, &found, &task.settings).map(Box::new);
         found.conformity = Conformity::decided(&output, &found, &task.settings).map(Box::new);
         result.outputs.push(found);
     }
@@ -782,18 +488,6 @@ fn noiseless(problem: &exact::Problem<'_>, needed: bool) -> Option<Result<Box<No
 /// A standard uncertainty whose square, summed up over inputs, may leave the range of double precision.
 const LARGE: f64 = 1e150;
 
-/// A difference of two standard uncertainties below this share is not worth a word.
-pub(super) const NOTEWORTHY: f64 = 0.01;
-
-/// Rows at most of an evaluation without trials for which terms of second order are computed.
-pub(super) const FEW_ROWS: usize = 16;
-
-/// The standard deviation of the standard deviation of so many normal trials (JCGM 100, E.4.3). What
-/// few trials tell of it themselves is as uncertain as it is.
-pub(super) fn scatter_of_few(u: f64, trials: u64) -> f64 {
-    u / (2.0 * (trials as f64 - 1.0).max(0.5)).sqrt()
-}
-
 /// How many times as many trials are made where clause 8 is undecided.
 const FURTHER: u64 = 4;
 
@@ -939,6 +633,22 @@ fn swept(task: &Task, row: &Row) -> impl Iterator<Item = (String, f64)> {
     let conditions = task.model.conditions.iter().zip(&row.conditions);
     let conditions = conditions.filter(|_| task.rows.len() > 1);
     conditions.map(|(condition, value)| (condition.name.clone(), *value))
+}
+
+/// What may be stated of an output, as certificates do; `None` without a capability, or an expanded
+/// uncertainty.
+fn capability_beside(
+    output: &Output,
+    figures: &OutputEvaluation,
+    settings: &Settings,
+) -> Option<CapabilityStatement> {
+    let capability = output.capability.as_ref()?;
+    let found = Stated::of(figures, settings, |u| position(u, settings.digits))?;
+    Some(CapabilityStatement::of(
+        capability,
+        found.value,
+        (found.expanded_uncertainty, settings.coverage),
+    ))
 }
 
 /// Whether outputs have values at the inputs' estimates, which without trials are all there is.

@@ -1,6 +1,6 @@
 //! The note that saved results of few trials matter.
 
-use super::evaluation::OutputEvaluation;
+use super::figures::OutputEvaluation;
 use super::inherited::{Inherited, Variances};
 use super::validate::numerical_tolerance;
 use crate::decimal::significant;

@@ -9,7 +9,9 @@ mod conformity;
 mod control;
 mod density;
 mod evaluation;
+mod evaluation_error;
 mod exact;
+mod figures;
 mod golden_section;
 pub mod gum;
 mod inherited;
@@ -22,6 +24,7 @@ mod nonlinearity;
 mod origins;
 pub mod parts;
 mod quasi;
+mod region_figures;
 mod regions;
 mod replay;
 mod rounding;
@@ -30,21 +33,21 @@ mod shortest;
 mod statement;
 pub mod validate;
 mod warnings;
+mod whole_turns;
 
 pub use conformity::{Conformity, GlobalRisks};
 pub use control::Control;
 pub use evaluation::in_pool;
 pub use evaluation::joint;
-pub use evaluation::{
-    CapabilityStatement, Evaluation, EvaluationError, JointlyDrawn, OutputEvaluation,
-    RowEvaluation, evaluate, trial_hash,
-};
+pub use evaluation::{evaluate, trial_hash};
+pub use evaluation_error::EvaluationError;
 pub use exact::{Accuracy, Noiseless, Scatter};
+pub use figures::{CapabilityStatement, Evaluation, JointlyDrawn, OutputEvaluation, RowEvaluation};
 pub use inherited::Inherited;
 pub use input_figures::InputFigures;
 pub use naming::naming;
 pub use origins::{Origins, linear, origins, own_roots};
-pub use regions::{
+pub use region_figures::{
     JointRegion, Region, RegionEvaluation, RegionValidation, SampledRegion, SmallestRegion,
 };
 pub use replay::{
@@ -53,3 +56,4 @@ pub use replay::{
 pub use second_order::SecondOrder;
 pub use statement::{Basis, Stated};
 pub use warnings::{second_order_text, warnings};
+pub use whole_turns::onto_branch;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::RowEvaluation;
+use super::figures::RowEvaluation;
 
 /// The conditions that name rows, by their places: the first of those that vary that together tell
 /// all rows apart, or all that vary where rows are alike. What was measured in every row may stand

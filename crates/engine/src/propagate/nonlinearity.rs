@@ -5,8 +5,8 @@
 //! single trials far out in the tails carry it, and it is another one with another seed. What is stated
 //! must not hang on it where the formula itself, or its terms of second order, say better.
 
-use super::evaluation::{NOTEWORTHY, scatter_of_few};
 use super::exact::Problem;
+use super::figures::{NOTEWORTHY, scatter_of_few};
 use super::gum::Gum;
 use super::monte_carlo::MonteCarlo;
 use super::second_order::SecondOrder;

@@ -51,9 +51,10 @@ use crate::parallel;
 
 use super::Control;
 use super::evaluation::{
-    Evaluation, EvaluationError, ROWS_AT_A_TIME, decided, evaluate_rows, goes_on, in_pool, joint,
-    of_one_row, reach,
+    ROWS_AT_A_TIME, decided, evaluate_rows, goes_on, in_pool, joint, of_one_row, reach,
 };
+use super::evaluation_error::EvaluationError;
+use super::figures::Evaluation;
 use super::gum::{self, Gum, GumRow};
 use super::moment_order::moment_orders;
 use super::monte_carlo::{

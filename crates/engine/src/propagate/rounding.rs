@@ -4,7 +4,7 @@
 //! its standard uncertainty, such as a time stamp of 1.8e9 s known to 50 ns, take few different values:
 //! their figures are those of a staircase, and the input's estimate may itself be off by half a step.
 
-use super::evaluation::EvaluationError;
+use super::evaluation_error::EvaluationError;
 use super::gum::{BudgetLine, Gum};
 use super::monte_carlo::MonteCarlo;
 use crate::decimal::significant;

@@ -1,8 +1,8 @@
 //! What is stated of an output: value, expanded uncertainty and coverage factor, by the method that
 //! is to be believed.
 
-use super::evaluation::OutputEvaluation;
 use super::exact::Noiseless;
+use super::figures::OutputEvaluation;
 use super::gum::{Dof, Gum};
 use super::monte_carlo::MonteCarlo;
 use crate::decimal::to_position;
@@ -189,6 +189,16 @@ fn by_trials(figures: &MonteCarlo, gum: Option<&Gum>) -> Option<Stated> {
 /// Numerical standard errors within which the mean of the trials is no other than the estimate by the
 /// law of propagation: normal scatter is so far out once in 500 million times.
 const SAME_ESTIMATE: f64 = 6.0;
+
+impl OutputEvaluation {
+    /// Where the output lies by its trials, and the numerical standard error of that (0 of what no seed
+    /// moves), in the unit of the output; `None` without trials. It is the mean of the trials where they
+    /// have a variance and it is told from the estimate by the law of propagation, and otherwise that
+    /// estimate, or without it the median.
+    pub fn located(&self) -> Option<(f64, f64)> {
+        self.monte_carlo.as_ref().map(|figures| located(figures, self.gum.as_ref()))
+    }
+}
 
 /// Where an output lies by its trials, and the numerical standard error of that: at their mean where they
 /// have a variance. The estimate by the law of propagation, which no seed moves, stands in its place where

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::evaluation::{
+use super::figures::{
     CapabilityStatement, Evaluation, FEW_ROWS, NOTEWORTHY, OutputEvaluation, RowEvaluation,
     scatter_of_few,
 };

@@ -8,7 +8,7 @@ use super::condensed::Condensed;
 use crate::distribution::{BLOCK, Draws, Joint, StreamKey, Varying};
 use crate::model::{Schedule, ScheduledOutput};
 use crate::number::{COLUMN, CodePath, Column, Kernel};
-use crate::propagate::conformity::on_branch;
+use crate::propagate::whole_turns::{on_branch, onto_branch};
 use crate::task::{ColumnFunction, Row, Sharing, Task};
 
 /// One row of a task made ready for trials.
@@ -257,17 +257,5 @@ impl Kernel for BlockKernel<'_> {
                 }
             }
         }
-    }
-}
-
-/// Moves values by whole turns to within half a turn of the middle.
-#[inline(always)]
-pub fn onto_branch(values: &mut [f64], middle: f64, turn: f64) {
-    // adding and taking away 1.5 x 2^52 rounds to the nearest integer; phases of more turns than
-    // that have lost their angle anyway
-    const ROUND: f64 = 6_755_399_441_055_744.0;
-    for value in values {
-        let turns = ((*value - middle) / turn + ROUND) - ROUND;
-        *value -= turn * turns;
     }
 }

@@ -1,8 +1,23 @@
 //! What a Monte Carlo run gives.
 
-use super::adaptive::Adaptive;
 use super::moments::Moments;
 use crate::number::elementary;
+use crate::task::StoppingRule;
+
+/// How an adaptive run ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Adaptive {
+    /// The rule that stopped it.
+    pub rule: StoppingRule,
+    /// Trials in a block of the procedure: max(J, 10^4), J the least integer not below 100/(1 - p).
+    pub block_trials: u64,
+    /// Number of blocks; 0 if the largest number of trials is not even two blocks.
+    pub blocks: u64,
+    /// Numerical tolerance of the output's figures.
+    pub tolerance: f64,
+    /// Whether the rule was satisfied before the largest number of trials.
+    pub converged: bool,
+}
 
 /// One output's figures from the trials.
 #[derive(Clone, Debug, PartialEq)]

@@ -44,15 +44,13 @@ mod targets;
 mod totals;
 mod windows;
 
-pub use adaptive::Adaptive;
 pub use adaptive::FIRST_STAGE;
 pub(crate) use adaptive::{Search, find_trials};
 pub(crate) use block::RowTrials;
-pub use block::onto_branch;
 pub use block::stream_name;
 pub(crate) use convergence::settling;
 pub(crate) use figures::Finished;
-pub use figures::{MonteCarlo, NumericalError, StatedInterval, Undefined};
+pub use figures::{Adaptive, MonteCarlo, NumericalError, StatedInterval, Undefined};
 pub(crate) use hash::hash_trials;
 pub use histogram::Histogram;
 pub(crate) use histogram::histograms;

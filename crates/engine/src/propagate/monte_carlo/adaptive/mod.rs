@@ -25,6 +25,7 @@ use watch::Watch;
 
 use super::block::RowTrials;
 use super::condensed::Condensed;
+use super::figures::Adaptive;
 use super::pilot::{LONGEST_PILOT, plans_of_any_length};
 use super::plan::Plan;
 use super::request::Request;
@@ -51,21 +52,6 @@ const AT_ONCE: u64 = 1_000_000;
 
 /// The probability with which Stein's rule is to meet the tolerance.
 const CONFIDENCE: f64 = 0.95;
-
-/// How an adaptive run ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Adaptive {
-    /// The rule that stopped it.
-    pub rule: StoppingRule,
-    /// Trials in a block of the procedure: max(J, 10^4), J the least integer not below 100/(1 - p).
-    pub block_trials: u64,
-    /// Number of blocks; 0 if the largest number of trials is not even two blocks.
-    pub blocks: u64,
-    /// Numerical tolerance of the output's figures.
-    pub tolerance: f64,
-    /// Whether the rule was satisfied before the largest number of trials.
-    pub converged: bool,
-}
 
 /// What the procedure is asked for.
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::encoding::{Damaged, Reader, Writer};
 use crate::distribution::BLOCK;
 use crate::propagate::monte_carlo::accumulate::{Accumulated, AccumulatedOutput};
-use crate::propagate::monte_carlo::adaptive::Adaptive;
+use crate::propagate::monte_carlo::figures::Adaptive;
 use crate::propagate::monte_carlo::figures::{Finished, MonteCarlo, NumericalError, Undefined};
 use crate::propagate::monte_carlo::partition::{Partition, Tally};
 use crate::propagate::monte_carlo::passes::{Look, Stretch};
