@@ -95,7 +95,7 @@ fn shown_codes() -> BTreeSet<String> {
 /// The codes in the text of `DiagnosticKind::code`: the quoted words after `=> "`.
 fn all_codes() -> BTreeSet<String> {
     let source =
-        fs::read_to_string(root().join("crates/files/src/diagnostic_kind.rs")).expect("the source");
+        fs::read_to_string(root().join("crates/text/src/diagnostic_kind.rs")).expect("the source");
     let body = source.split("fn code(").nth(1).expect("the function `code`");
     let body = body.split("pub fn").next().expect("its body");
     let codes: BTreeSet<String> = body

@@ -5,7 +5,7 @@ use std::fs;
 use crate::support::root;
 
 /// The crates from low to high.
-const CRATES: [&str; 14] = [
+const CRATES: [&str; 16] = [
     "units",
     "engine",
     "measurements",
@@ -15,7 +15,9 @@ const CRATES: [&str; 14] = [
     "gap",
     "assumptions",
     "analysis",
+    "text",
     "files",
+    "foreign",
     "report",
     "live",
     "server",

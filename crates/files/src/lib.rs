@@ -1,4 +1,5 @@
-//! User files: read, validated, turned into tasks. Every mistake is a [`Diagnostic`] with its place.
+//! User files: read, validated, turned into tasks. Every mistake is a
+//! [`Diagnostic`](gumption_text::Diagnostic) with its place.
 //!
 //! Reading goes on after a mistake, so that all of a file's mistakes are reported at once; only
 //! text that is not JSON stops it.

@@ -63,7 +63,7 @@ impl<'c> FileReader<'c> {
     ///     "equations": {"y": "a + L"}, "outputs": {"y": {"unit": "mm"}}}"#;
     /// let file = FileReader::default().holding(&held).model_text("m", model, Path::new(""), &[])?;
     /// assert_eq!(file.task.rows.len(), 2);
-    /// # Ok::<(), gumption_files::Diagnostics>(())
+    /// # Ok::<(), gumption_text::Diagnostics>(())
     /// ```
     #[must_use]
     pub fn holding(self, files: &'c [(String, Vec<u8>)]) -> Self {

@@ -2,9 +2,9 @@
 //! that none of them explains, and of the data's noise, given measured data and their uncertainties.
 //!
 //! A [`Case`] holds data, model and candidates. [`setup`] maps its unknowns to standard normal scores,
-//! [`likelihood`] and [`covariance`] weigh the data, [`search`](integral::search) and [`evidence`](integral::evidence) integrate over the
-//! unknowns, and [`posterior`] compares the hypotheses. What is told of them is the diagnosis's, in the
-//! crate above.
+//! [`likelihood`] and [`covariance`] weigh the data, [`integral`] integrates over the unknowns of a
+//! hypothesis, [`posterior`] compares the hypotheses, and [`noise`] weighs them with every noise that the
+//! data may have. What is told of them is the diagnosis's, in the crate above.
 // the expected values of tests may be as inexact as the platform
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 #![allow(clippy::needless_range_loop)] // lanes and small matrices read best by their places
