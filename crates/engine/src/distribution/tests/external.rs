@@ -161,7 +161,7 @@ fn quantiles_of_laws_are_those_of_tables() {
 fn laws_refuse_parameters_by_name() {
     for (law, parameter) in [
         (External::weibull(0.0, 1.0), "shape"),
-        (External::weibull(1e-3, 1.0), "std"),
+        (External::weibull(1e-3, 1.0), "mean"),
         (External::gumbel(f64::NAN, 1.0), "location"),
         (External::pareto(2.0, 1.0), "shape"),
         (External::chi_squared(-1.0), "dof"),
