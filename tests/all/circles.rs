@@ -217,9 +217,9 @@ fn home(files: &BTreeMap<Module, File>, from: &[String], path: &[String]) -> Opt
                 continue;
             }
             let named = files.get(&at).and_then(|file| file.names.get(first));
-            let handed = named.filter(|_| left > 0).and_then(|named| {
-                step(files, &at, &[named.as_slice(), behind].concat(), left - 1)
-            });
+            let handed = named
+                .filter(|_| left > 0)
+                .and_then(|named| step(files, &at, &[named.as_slice(), behind].concat(), left - 1));
             return Some(handed.unwrap_or(at));
         }
         Some(at)
@@ -308,5 +308,8 @@ fn a_circle_is_found() {
     };
     let files = files(&source);
     assert_eq!(files.len(), 4);
-    assert_eq!(largest_circle(&files), [vec!["a".to_owned(), "b".to_owned()], vec!["c".to_owned()]]);
+    assert_eq!(
+        largest_circle(&files),
+        [vec!["a".to_owned(), "b".to_owned()], vec!["c".to_owned()]]
+    );
 }

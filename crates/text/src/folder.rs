@@ -53,7 +53,7 @@ impl<'a> Folder<'a> {
         Self { source, ..self }
     }
 
-    /// The same, where a [`ROOT`] above this folder says nothing.
+    /// The same, where a file `.gumption-root` above this folder says nothing.
     pub fn within(self, folder: Option<&'a Path>) -> Self {
         Self { within: folder, ..self }
     }
