@@ -109,7 +109,10 @@ pub use difference::difference;
 pub use either::ModelOrResult;
 pub use folder::FileSource;
 pub use gumption_columns::recording::Recording;
-pub use import::{ImportedBudget, import_budget, import_budget_bytes, import_budget_sheet};
+pub use import::{
+    Coefficients, ImportOptions, ImportedBudget, Question, RefusedBudget, import_budget,
+    import_budget_bytes,
+};
 pub use loose_files::named_in;
 pub use model_file::ModelFile;
 pub use overrides::{Override, Overrides};

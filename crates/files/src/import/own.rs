@@ -51,13 +51,11 @@ pub(super) fn of_workbook(
     let made = if changed.is_empty() {
         let unchanged = "the model file of this workbook; no estimate, standard uncertainty, degrees of \
                          freedom or correlation was changed, and other cells are not looked at";
-        let understood = vec![unchanged.to_owned()];
-        Some(ImportedBudget { text, understood, guessed: Vec::new() })
+        Some(ImportedBudget { text, notes: vec![unchanged.to_owned()] })
     } else {
         serde_json::to_string_pretty(&root).ok().map(|text| ImportedBudget {
             text: text + "\n",
-            understood: changed,
-            guessed: replaced,
+            notes: changed.into_iter().chain(replaced).collect(),
         })
     };
     let made = log.finish(made).and_then(|made| {
