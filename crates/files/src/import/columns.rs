@@ -137,15 +137,19 @@ impl Column {
 /// What the heading of a column names, by the table of words; what is not in it is `None`.
 pub(crate) fn column(heading: &str) -> Option<Column> {
     let named = |text: &str| words::meaning("", text).and_then(Column::named);
-    let clean = plain_case(heading);
-    if let Some(found) = named(&clean).or_else(|| named(heading.trim())) {
+    if let Some(found) = named(heading.trim()) {
         return Some(found);
+    }
+    // `Value (±)` is no value
+    if PLUS_MINUS.into_iter().any(|sign| heading.contains(sign)) {
+        return Some(Column::Uncertainty);
     }
     if let Some((column, _)) = symbol::of_uncertainties(heading) {
         return Some(column);
     }
-    if PLUS_MINUS.into_iter().any(|sign| heading.contains(sign)) {
-        return Some(Column::Uncertainty);
+    let clean = plain_case(heading);
+    if let Some(found) = named(&clean) {
+        return Some(found);
     }
     // as cells break words: `Standardmess-unsicherheit`
     let joined = clean.replace("- ", "").replace('-', "");

@@ -87,7 +87,7 @@ impl Sheet<'_> {
             known.iter().any(|name| name == word)
         });
         let name = identifier(left);
-        let is_name = check_name(&name).is_ok() && !left.contains(['*', '·', '×', '^', '+', '/', '\'', '"']);
+        let is_name = check_name(&name).is_ok() && !left.starts_with(|c: char| c.is_ascii_digit()) && !left.contains(['*', '·', '×', '^', '+', '/', '\'', '"']);
         let formula = as_formula(right, comma);
         let parsed = Formula::parse(&formula);
         match parsed {

@@ -104,7 +104,7 @@ impl Sheet<'_> {
         }
         let has_estimate = of_result.estimate.is_some();
         for row in rows {
-            let is_celsius = Unit::parse(&row.unit).is_ok_and(|unit| unit.zero().is_some());
+            let is_celsius = Unit::parse(&row.unit).is_ok_and(|unit| unit.offset() != 0.0);
             if is_celsius && !has_estimate && !self.options.numbers && used.contains(&row.name) && row.sensitivity.is_none() && !self.is_said_quantity(row.line) {
                 self.ask(
                     row.line..=row.line,
@@ -274,9 +274,6 @@ impl Sheet<'_> {
         let are_shares = rows.iter().all(|row| is_share(&row.unit));
         let mut of_contributions: Vec<&str> = contributions.map(|cell| cell.unit.as_str()).collect();
         of_contributions.retain(|unit| !unit.is_empty() && (are_shares || !is_share(unit)));
-        if let Some(unit) = of_contributions.first() {
-            return Some((*unit).to_owned());
-        }
         let of_row = |row: &Row| match &row.unit_of_sensitivity {
             Some(unit) => of_coefficient(unit, &row.unit),
             // 1 of a quantity in the unit of the result
@@ -289,9 +286,13 @@ impl Sheet<'_> {
                 let pair = Unit::parse(unit).ok().zip(Unit::parse(&units[0]).ok());
                 pair.is_some_and(|(a, b)| a.is_compatible(&b) && a.is_relative() == b.is_relative())
             };
-            if units.iter().all(|unit| is_same_unit(unit, &units[0])) || units.iter().all(same_dimension) {
+            let are_same = units.iter().all(|unit| is_same_unit(unit, &units[0]));
+            if are_same || of_contributions.is_empty() && units.iter().all(same_dimension) {
                 return Some(units[0].clone());
             }
+        }
+        if let Some(unit) = of_contributions.first() {
+            return Some((*unit).to_owned());
         }
         if let Some(unit) = with_unit.filter(|unit| !is_share(unit)) {
             return Some(unit);

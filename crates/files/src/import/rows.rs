@@ -207,10 +207,22 @@ impl Sheet<'_> {
         if names.iter().any(is_measurand) {
             return Some(Kind::Result);
         }
+        if let Some(place) = (header.width()..self.cells.row(line).len()).find(|place| !self.cells.text(line, *place).trim().is_empty()) {
+            self.fail(line, format!("`{}` stands below no heading: numbers with decimal commas between commas are written in quotation marks", self.cells.text(line, place).trim()));
+            return None;
+        }
         // the words of totals may stand right before their numbers
         let row = self.cells.row(line).iter().map(|cell| cell.trim());
         let candidates = names.iter().copied().chain(names.is_empty().then(|| row).into_iter().flatten());
         if !is_used && let Some(kind) = candidates.into_iter().find_map(of_words) {
+            let is_stated = |column| !is_empty(header.cell(self.cells, line, column));
+            if kind == Kind::Result && is_stated(Column::Sensitivity) {
+                self.ask_kind(line..=line, &format!("`{}` has the words of a result, and a coefficient", names[0]), [
+                    ("the result", "result"),
+                    ("a quantity", "quantity"),
+                ]);
+                return None;
+            }
             return Some(kind);
         }
         if names.is_empty() {
@@ -267,7 +279,7 @@ impl Sheet<'_> {
     }
 
     /// Whether a row states an uncertainty, 0 among them.
-    fn has_uncertainty(&self, header: &Header, line: usize) -> bool {
+    pub(super) fn has_uncertainty(&self, header: &Header, line: usize) -> bool {
         let columns = [Column::Standard, Column::Relative, Column::Upper, Column::Deviation];
         let mut all = Column::WIDTHS.into_iter().chain(columns);
         let estimate = header.cell(self.cells, line, Column::Estimate);
@@ -361,6 +373,16 @@ impl Sheet<'_> {
         let cell = |column| header.cell(self.cells, line, column);
         let names = self.names(header, line);
         let words = names.first().copied().unwrap_or("");
+        if super::number::number(words, self.cells.decimal_comma()).is_some() {
+            self.ask(
+                line..=line,
+                format!("the number `{words}` stands in the place of the name of a quantity"),
+                ["a name", "a number, whose column is another one"],
+                "`--column symbol=COLUMN` or `--column quantity=COLUMN` for the names, and `--column \
+                 estimate=COLUMN` or `--column ignore=COLUMN` for the numbers",
+            );
+            return None;
+        }
         let bracketed = columns::with_unit_in_brackets(words);
         let mut name = self.name_of(words);
         if check_name(&name).is_err() {

@@ -213,15 +213,16 @@ impl Sheet<'_> {
     /// Refuses a model whose result, or whose contributions, are not those of the sheet.
     pub(super) fn compare(&self, rows: &[Row], stated: &[Stated], model: &Model) {
         let Some((gum, of_result)) = result_of(&model.text) else { return };
-        for stated in stated {
-            self.compare_figure(stated, &gum, &of_result);
+        let (estimates, others): (Vec<&Stated>, Vec<&Stated>) = stated.iter().partition(|of| of.is_estimate());
+        for stated in estimates.into_iter().chain(others) {
+            self.compare_figure(stated, (&gum, &of_result), model);
         }
         if let Some(factors) = &model.factors {
             self.compare_contributions(rows, factors, (&gum, &of_result));
         }
     }
 
-    fn compare_figure(&self, stated: &Stated, gum: &Gum, of_result: &Unit) {
+    fn compare_figure(&self, stated: &Stated, (gum, of_result): (&Gum, &Unit), model: &Model) {
         let u = gum.standard_uncertainty;
         let dof = if let Dof::Finite(dof) = gum.dof { Some(dof) } else { None };
         let usual = || [gum.coverage_factor, Some(2.0)].into_iter().flatten();
@@ -266,7 +267,14 @@ impl Sheet<'_> {
                 with_unit(significant(own[0] / scale, digits))
             ),
             ["a row or an equation that is misread, or wrong on the sheet", "a figure that does not count"],
-            format!("an option for the row or the column that is misread, or `--row ignore={}`", stated.line + 1),
+            format!(
+                "{}, an option for the row or the column that is misread, or `--row ignore={}`",
+                match model.factors {
+                    Some(_) => "`--coefficients KIND`",
+                    None => "`--equation \"y = FORMULA\"`, `--numbers` (the equation is one of numbers)",
+                },
+                stated.line + 1
+            ),
         );
     }
 
@@ -299,7 +307,12 @@ impl Sheet<'_> {
             let in_unit = if cell.unit.is_empty() { of_result.text() } else { &cell.unit };
             self.ask(
                 row.line..=row.line,
-                format!("the sheet says that `{}` contributes {} {in_unit}, and this model {shown} {in_unit}", row.name, cell.text),
+                format!(
+                    "the sheet says that `{}` contributes `{}`{}, and this model {shown} {in_unit}",
+                    row.name,
+                    cell.text,
+                    if cell.text.ends_with(in_unit) { String::new() } else { format!(" {in_unit}") }
+                ),
                 ["a row, a coefficient or a unit that is misread, or wrong on the sheet", "a column that does not count"],
                 "`--coefficients units` or `--coefficients ratios`, `--unit UNIT`, or `--column ignore=COLUMN` for the contributions",
             );

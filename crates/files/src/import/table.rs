@@ -222,20 +222,12 @@ impl Header {
             .map(|place| (place, cells.text(line, place).trim().to_owned()))
             .filter(|(_, text)| !is_empty(text))
             .collect();
-        let bare = |text: &str| {
-            let text = columns::without_in(text.trim_matches(['(', ')', '[', ']']).trim());
-            text.trim_matches(['(', ')', '[', ']']).to_owned()
-        };
-        let is_unit = |(_, text): &(usize, String)| {
-            let unit = bare(text);
-            unit.parse::<f64>().is_err() && Unit::parse(&unit).is_ok() || columns::is_symbol(text)
-        };
-        if held.len() < 2 || !held.iter().all(is_unit) {
-            return;
-        }
+        let line_of_units: Option<Vec<(usize, Option<String>)>> =
+            held.iter().map(|(place, text)| Some((*place, symbol_or_unit(text)?))).collect();
+        // one cell alone may be a row
+        let Some(units) = line_of_units.filter(|_| held.len() > 1) else { return };
         self.line = line;
-        let units = held.into_iter().filter(|(_, text)| !columns::is_symbol(text));
-        self.units = units.map(|(place, text)| (place, bare(&text))).collect();
+        self.units = units.into_iter().filter_map(|(place, unit)| Some((place, unit?))).collect();
     }
 
     /// The units of columns: of options, else of their headings.
@@ -400,6 +392,11 @@ impl Header {
         self.columns.iter().find(|(_, column)| *column == wanted).map(|(place, _)| *place)
     }
 
+    /// How many columns the row of headings has.
+    pub(super) fn width(&self) -> usize {
+        self.headings.len()
+    }
+
     /// Whether an option has named the column.
     pub(super) fn is_said(&self, place: usize) -> bool {
         self.said.contains(&place)
@@ -432,4 +429,20 @@ impl Header {
     pub(super) fn cell<'c>(&self, cells: &'c Cells, line: usize, column: Column) -> &'c str {
         self.place(column).map_or("", |place| cells.text(line, place).trim())
     }
+}
+
+/// What a cell right below a heading says: a unit, `mV`, `in mV`, `[mV]`, `u_i / mV`; `Some(None)` of a symbol, and
+/// `None` of anything else.
+fn symbol_or_unit(text: &str) -> Option<Option<String>> {
+    const LETTERS: [&str; 7] = ["a", "u", "U", "x", "X", "y", "k"];
+    let is_symbol = |text: &str| columns::is_symbol(text) || LETTERS.contains(&text);
+    let is_word = super::words::meaning("", text) == Some("unit");
+    if is_symbol(text) || is_word {
+        return Some(None);
+    }
+    let behind = text.split_once(['/', '[', '(']).filter(|(before, _)| is_symbol(before.trim()));
+    let text = behind.map_or(text, |(_, behind)| behind);
+    let bare = |text: &str| text.trim().trim_matches(['(', ')', '[', ']']).trim().to_owned();
+    let text = bare(columns::without_in(&bare(text)));
+    (text.parse::<f64>().is_err() && !text.is_empty() && Unit::parse(&text).is_ok()).then_some(Some(text))
 }

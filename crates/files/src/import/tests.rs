@@ -55,3 +55,38 @@ fn result(budget: &ImportedBudget) -> (f64, f64, String) {
 fn is_same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * b.abs()
 }
+
+#[test]
+fn corpus() {
+    let mut out = String::new();
+    let mut counts = [0; 4];
+    let mut json = Vec::new();
+    let Ok(folder) = std::fs::read_dir("/tmp/corpus") else { return };
+    let mut paths: Vec<_> = folder.map(|e| e.unwrap().path()).filter(|p| p.extension().is_some_and(|e| e == "csv" || e == "xlsx")).collect();
+    paths.sort();
+    for path in paths {
+        let old = std::fs::read_to_string(path.with_extension("old")).unwrap();
+        let content = std::fs::read(&path).unwrap();
+        let made = import_budget_bytes(&path, content.clone(), &ImportOptions::default());
+        let text = String::from_utf8_lossy(&content).into_owned();
+        let first = old.lines().next().unwrap_or("").to_owned();
+        match made {
+            Err(refused) => {
+                let kind = if first.starts_with("ok") { 1 } else { 0 };
+                counts[kind] += 1;
+                let messages: Vec<String> = refused.diagnostics.0.iter().map(|d| d.kind.to_string()).collect();
+                json.push(serde_json::json!({"text": text, "old": first, "messages": messages, "is_csv": path.extension().unwrap() == "csv"}));
+                if kind == 1 { out += &format!("=== REFUSED-NOW {}\n{}\n--- {}\n{}\n", path.display(), text.chars().take(600).collect::<String>(), first, refused.diagnostics.0.iter().map(|d| d.kind.to_string()).collect::<Vec<_>>().join("\n  ")); }
+            }
+            Ok(made) => {
+                let (estimate, u, unit) = result(&made);
+                let cells: Vec<&str> = first.split('\t').collect();
+                let is_it = cells.len() >= 4 && is_same(estimate, cells[1].parse().unwrap()) && is_same(u, cells[2].parse().unwrap()) && unit == cells[3];
+                counts[if is_it { 2 } else { 3 }] += 1;
+                if !is_it { out += &format!("=== DIFFERENT {}\n{}\n--- old {}\n--- new {estimate:e} {u:e} {unit}\n{}", path.display(), text.chars().take(900).collect::<String>(), old.chars().take(700).collect::<String>(), made.text); }
+            }
+        }
+    }
+    std::fs::write("/tmp/corpus.json", serde_json::to_string(&json).unwrap()).unwrap();
+    std::fs::write("/tmp/corpus.txt", format!("refused both {} refused now {} same {} different {}\n{out}", counts[0], counts[1], counts[2], counts[3])).unwrap();
+}

@@ -15,7 +15,13 @@ impl Sheet<'_> {
             *line < header.first || *line > header.line && held == 1
         };
         let lines = (0..self.cells.lines()).filter(is_beside);
-        let mut found = lines.filter_map(|line| stated(&self.cells.row(line).join(" ")));
+        let mut found = lines.filter_map(|line| {
+            let held: Vec<&str> =
+                self.cells.row(line).iter().map(|cell| cell.trim()).filter(|cell| !cell.is_empty()).collect();
+            // `Unit` and `mV` in two cells
+            let sign = if held.len() == 2 && !held[0].ends_with(':') { ": " } else { " " };
+            stated(&held.join(sign))
+        });
         found.next()
     }
 
@@ -35,25 +41,26 @@ impl Sheet<'_> {
 
     /// Asks what is to become of statements of correlation, which are not read.
     pub(super) fn correlations(&self, header: &Header) {
-        let is_ignored = |line: usize| {
+        let is_said = |line: usize| {
             let of = |numbers: &str| numbers.split(',').any(|number| number.trim() == (line + 1).to_string());
-            self.options.rows.iter().any(|(kind, numbers)| kind == "ignore" && of(numbers))
+            self.options.rows.iter().any(|(_, numbers)| of(numbers))
         };
         for line in (0..self.cells.lines()).filter(|line| !(header.first..=header.line).contains(line)) {
-            let is_remark = |place: usize| {
-                let of = |(at, column): &(usize, Column)| *at == place && matches!(column, Column::Remark | Column::Description);
-                line > header.line && header.columns.iter().any(of)
+            let names = [Column::Quantity, Column::Symbol, Column::Description];
+            let is_name = |place: usize| {
+                let of = |(at, column): &(usize, Column)| *at == place && names.contains(column);
+                line > header.line && self.has_uncertainty(header, line) && header.columns.iter().any(of)
             };
             let mut cells = self.cells.row(line).iter().enumerate();
-            let found = cells.find(|(place, cell)| columns::is_of_correlation(cell) && !is_remark(*place));
-            if let Some((_, cell)) = found.filter(|_| !is_ignored(line)) {
+            let found = cells.find(|(place, cell)| columns::is_of_correlation(cell) && !is_name(*place));
+            if let Some((_, cell)) = found.filter(|_| !is_said(line)) {
                 self.ask(
                     line..=line,
                     format!("`{}` speaks of correlation, which is not read", cell.trim()),
                     ["a coefficient, which is written into the model file", "of no account"],
                     format!(
-                        "`--row ignore={}`, and for a coefficient `\"correlations\": [[\"a\", \"b\", r]]` in the \
-                         model file",
+                        "`--row ignore={0}`, or `--row quantity={0}` for a quantity; a coefficient is written into \
+                         the model file, `\"correlations\": [[\"a\", \"b\", r]]`",
                         line + 1
                     ),
                 );

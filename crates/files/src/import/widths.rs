@@ -5,6 +5,7 @@
 
 use super::ask::Sheet;
 use super::columns::{self, Column};
+use super::words;
 use super::coverage::{HeaderCoverage, Statement};
 use super::number::constant;
 use super::rows::Row;
@@ -24,7 +25,7 @@ pub(super) fn divisor_of(shape: &str) -> Option<f64> {
 
 /// Whether a divisor is a root, as two to four digits write it: 1.7, 1.73, 2.4.
 pub(super) fn near(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 0.02 * b.abs()
+    (a - b).abs() <= 0.021 * b.abs()
 }
 
 /// What a row says of its distribution.
@@ -55,21 +56,6 @@ impl Shape {
             Some(NamedShape::Known(name)) => Some(name),
             _ => None,
         };
-        // `rectangular (full width)` says more than the name
-        let words = statement.rest.to_lowercase();
-        let inside = words.split_once('(').map_or("", |(_, inside)| inside);
-        let changes = inside.split(|c: char| !c.is_alphanumeric()).any(super::heading::is_scale)
-            || ["full", "width", "peak", "voll", "range", "span"].iter().any(|of| inside.contains(of));
-        if changes && name.is_some_and(|name| divisor_of(name).is_some()) {
-            sheet.ask(
-                line..=line,
-                format!("`{text}` may say that the number is no half-width"),
-                ["a half-width", "a full width"],
-                "`--column half-width=COLUMN` or `--column full-width=COLUMN`, and the name of the \
-                 distribution alone",
-            );
-            return None;
-        }
         let is_student = NamedShape::of(text) == Some(NamedShape::Student);
         Some(Self { name, is_student, statement })
     }
@@ -147,6 +133,31 @@ impl Sheet<'_> {
         Ok(Some(first.factor))
     }
 
+    /// Asks where the name or the distribution of a row speaks of a full width, and the column does not.
+    fn is_half(&self, header: &Header, line: usize, column: Column) -> Option<()> {
+        let is_said = header.place(column).is_some_and(|place| header.is_said(place));
+        if column == Column::FullWidth || is_said {
+            return Some(());
+        }
+        for column in [Column::Quantity, Column::Symbol, Column::Description, Column::Distribution] {
+            let text = header.cell(self.cells, line, column);
+            let small = text.to_lowercase();
+            // a remark on the name, and no name: `Range of the meter`
+            let behind = small.split_once(['(', '[', ',']).map_or("", |(_, behind)| behind);
+            let whole = behind.trim_matches([' ', ')', ']']);
+            if words::of("text:full-width").any(|word| whole == word || whole.starts_with(word)) {
+                self.ask(
+                    line..=line,
+                    format!("`{text}` may say that the number of its row is no half-width"),
+                    ["a half-width, or what the divisor divides", "a full width"],
+                    "`--column half-width=COLUMN` or `--column full-width=COLUMN`",
+                );
+                return None;
+            }
+        }
+        Some(())
+    }
+
     /// Writes the width of a row in its own unit, with what it is divided by, into the row; nothing after a
     /// mistake or a question. `text` is the cell.
     pub(super) fn width(
@@ -157,6 +168,7 @@ impl Sheet<'_> {
         shape: &Shape,
     ) -> Option<()> {
         let line = row.line;
+        self.is_half(header, line, column)?;
         let divisor = self.divisor(header, line, (shape, text)).ok()?;
         let root = shape.root();
         let of_heading = header.coverage(column);
@@ -321,7 +333,7 @@ impl Sheet<'_> {
         if super::grid::is_empty(text) {
             return Ok(beside);
         }
-        if super::words::meaning("text", text) == Some("infinite") {
+        if words::meaning("text", text) == Some("infinite") {
             return Ok(None);
         }
         let at_least = text.trim_start_matches(['>', '≥', '=', ' ']);
