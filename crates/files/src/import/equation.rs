@@ -9,6 +9,9 @@ use gumption_columns::separator::Separator;
 use gumption_engine::model::formula::{Formula, check_name};
 use gumption_units::Unit;
 
+/// Equations of a sheet, at most.
+const MOST_EQUATIONS: usize = 200;
+
 /// An equation of the sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Equation {
@@ -64,10 +67,14 @@ impl Sheet<'_> {
                     let same = |text: &str| text.split_whitespace().collect::<String>();
                     of.name == equation.name && same(&of.formula) == same(&equation.formula)
                 };
-                if !read.iter().any(is_repeated) {
+                if read.len() <= MOST_EQUATIONS && !read.iter().any(is_repeated) {
                     read.push(equation);
                 }
             }
+        }
+        if let Some(equation) = read.get(MOST_EQUATIONS) {
+            self.fail(equation.line, format!("the sheet has more than {MOST_EQUATIONS} equations; a budget has fewer"));
+            return None;
         }
         self.in_order(read, known)
     }

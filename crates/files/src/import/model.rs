@@ -274,6 +274,9 @@ impl Sheet<'_> {
         let are_shares = rows.iter().all(|row| is_share(&row.unit));
         let mut of_contributions: Vec<&str> = contributions.map(|cell| cell.unit.as_str()).collect();
         of_contributions.retain(|unit| !unit.is_empty() && (are_shares || !is_share(unit)));
+        if rows.iter().all(|row| row.unit.is_empty() && row.unit_of_sensitivity.is_none()) && of_contributions.is_empty() {
+            return Some(String::new());
+        }
         let of_row = |row: &Row| match &row.unit_of_sensitivity {
             Some(unit) => of_coefficient(unit, &row.unit),
             // 1 of a quantity in the unit of the result

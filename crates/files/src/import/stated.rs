@@ -145,6 +145,7 @@ impl Sheet<'_> {
                 (Kind::Combined, _) => Figure::Standard,
                 (_, Column::Standard | Column::Contribution) => Figure::Standard,
                 (_, Column::Expanded) => Figure::Expanded(coverage),
+                _ if coverage.factor(None).is_some() => Figure::Expanded(coverage),
                 _ => Figure::Uncertainty,
             });
         }

@@ -323,7 +323,7 @@ impl Header {
                 .collect();
             sheet.ask(
                 lines.clone(),
-                format!("none of the columns {} holds an uncertainty by its heading", listed(&known, " and ")),
+                format!("none of {} holds an uncertainty by its heading", listed(&known, " and ")),
                 [],
                 "`--column u=COLUMN` (standard uncertainties), `--column U=COLUMN` (expanded), \
                  `--column half-width=COLUMN` or `--column uncertainty=COLUMN` (by the divisor or the \
@@ -444,5 +444,6 @@ fn symbol_or_unit(text: &str) -> Option<Option<String>> {
     let text = behind.map_or(text, |(_, behind)| behind);
     let bare = |text: &str| text.trim().trim_matches(['(', ')', '[', ']']).trim().to_owned();
     let text = bare(columns::without_in(&bare(text)));
-    (text.parse::<f64>().is_err() && !text.is_empty() && Unit::parse(&text).is_ok()).then_some(Some(text))
+    let is_number = text.starts_with(|c: char| c.is_ascii_digit()) && !text.starts_with("1/");
+    (!is_number && !text.is_empty() && Unit::parse(&text).is_ok()).then_some(Some(text))
 }

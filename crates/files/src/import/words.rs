@@ -17,6 +17,21 @@ static TABLE: LazyLock<Table> = LazyLock::new(|| {
     known.collect()
 });
 
+/// The words of each meaning.
+static LISTS: LazyLock<HashMap<&'static str, Vec<&'static str>>> = LazyLock::new(|| {
+    let mut lists: HashMap<&str, Vec<&str>> = HashMap::new();
+    for [_, meaning, word] in entries() {
+        lists.entry(meaning).or_default().push(word);
+    }
+    lists
+});
+
+/// The words of all columns, with what they stand for.
+static COLUMNS: LazyLock<Vec<(&'static str, &'static str)>> = LazyLock::new(|| {
+    let columns = entries().filter(|[_, meaning, _]| !meaning.contains(':'));
+    columns.map(|[_, meaning, word]| (word, meaning)).collect()
+});
+
 /// Language, meaning and word of each line of the table.
 fn entries() -> impl Iterator<Item = [&'static str; 3]> {
     include_str!("words.csv").lines().skip(1).filter_map(|line| {
@@ -32,14 +47,14 @@ pub(super) fn meaning(place: &'static str, word: &str) -> Option<&'static str> {
     [word, &small].into_iter().find_map(|word| TABLE.get(&(place, word)).copied())
 }
 
-/// The words of a meaning, `row:result`.
-pub(super) fn of(meaning: &'static str) -> impl Iterator<Item = &'static str> {
-    entries().filter(move |[_, of, _]| *of == meaning).map(|[_, _, word]| word)
+/// The words of a meaning, `heading:share`.
+pub(super) fn of(meaning: &str) -> impl Iterator<Item = &'static str> {
+    LISTS.get(meaning).into_iter().flatten().copied()
 }
 
 /// The words of all columns, with what they stand for.
 pub(super) fn of_columns() -> impl Iterator<Item = (&'static str, &'static str)> {
-    entries().filter(|[_, of, _]| !of.contains(':')).map(|[_, of, word]| (word, of))
+    COLUMNS.iter().copied()
 }
 
 #[cfg(test)]
@@ -53,7 +68,12 @@ mod tests {
         for [language, meaning, word] in entries() {
             assert!(["any", "en", "de", "fr", "es"].contains(&language), "{language},{word}");
             assert!(!word.is_empty() && word.trim() == word, "{meaning}: `{word}`");
-            let place = meaning.split_once(':').map_or("", |(place, _)| place);
+            // a word of a heading may be of several lists
+            let place = match meaning.split_once(':') {
+                Some(("row", _)) => "row",
+                Some(_) => meaning,
+                None => "",
+            };
             if let Some(other) = known.insert((place, word), meaning) {
                 panic!("`{word}` stands for {other} and for {meaning}");
             }
