@@ -185,8 +185,10 @@ fn cells_of_a_workbook_mean_what_they_show() {
         sheet.write_string(row, 4, "rectangular").unwrap();
     }
     book.save(folder.path().join("shown.xlsx")).unwrap();
-    let (text, said, code) =
-        told(folder.path(), &["import", "shown.xlsx", "--output", "model.json", "--coefficients", "one"]);
+    let (text, said, code) = told(
+        folder.path(),
+        &["import", "shown.xlsx", "--output", "model.json", "--coefficients", "one"],
+    );
     assert_eq!(code, Some(0), "{text} {said}");
     let model = fs::read_to_string(folder.path().join("model.json")).unwrap();
     let model: Value = serde_json::from_str(&model).unwrap();

@@ -147,8 +147,7 @@ impl Import {
             (Ok(made), Format::Json) => {
                 let model = serde_json::from_str(&made.text).ok();
                 let (errors, questions) = (Vec::new(), &[][..]);
-                let answer =
-                    Answer { ok: true, model, notes: &made.notes, errors, questions };
+                let answer = Answer { ok: true, model, notes: &made.notes, errors, questions };
                 place.write(&pretty(&answer))?;
             }
             (Ok(made), _) => place.write(&made.text)?,

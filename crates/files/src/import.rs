@@ -34,8 +34,8 @@ use super::diagnostics::Collector;
 use super::open::{FileKind, are_results};
 use super::source::SourceText;
 use super::{DiagnosticKind, bytes, workbook};
-pub use ask::{Question, RefusedBudget};
 use ask::Sheet;
+pub use ask::{Question, RefusedBudget};
 use columns::{Column, identifier};
 use equation::Equation;
 use mark::{MarkedCell, doubt};
@@ -58,7 +58,10 @@ pub struct ImportedBudget {
 /// # Errors
 /// A file that cannot be read, or in which no budget is found; rows with mistakes, all at once; what the sheet
 /// does not say, as questions.
-pub fn import_budget(path: &Path, options: &ImportOptions) -> Result<ImportedBudget, RefusedBudget> {
+pub fn import_budget(
+    path: &Path,
+    options: &ImportOptions,
+) -> Result<ImportedBudget, RefusedBudget> {
     match bytes::of_file(path, bytes::MOST) {
         Ok(content) => import_budget_bytes(path, content, options),
         Err(message) => {
@@ -139,6 +142,7 @@ impl Sheet<'_> {
         }
         self.note_columns(&header);
         self.correlations(&header);
+        self.unknown_units(&header);
         let known = self.names_of_rows(&header);
         let equations = self.equations(&known)?;
         let measurand = equations.last().map(|equation| equation.name.as_str());
@@ -156,7 +160,8 @@ impl Sheet<'_> {
         let shown = header.columns.iter().filter(|(_, column)| *column != Column::Ignored);
         let shown: Vec<String> = shown
             .map(|(place, column)| {
-                let unit = header.unit(*place).map_or_else(String::new, |unit| format!(" in {unit}"));
+                let unit =
+                    header.unit(*place).map_or_else(String::new, |unit| format!(" in {unit}"));
                 format!("`{}` as {}{unit}", header.heading(*place), column.name())
             })
             .collect();
@@ -164,7 +169,7 @@ impl Sheet<'_> {
     }
 
     /// The names that the rows below the headings would have in formulas.
-    fn names_of_rows(&self, header: &Header) -> Vec<String> {
+    pub(super) fn names_of_rows(&self, header: &Header) -> Vec<String> {
         let lines = header.line + 1..self.cells.lines();
         let names = lines.flat_map(|line| {
             let of = |column| {
@@ -172,7 +177,9 @@ impl Sheet<'_> {
                 let plain = columns::with_unit_in_brackets(words);
                 identifier(plain.as_ref().map_or(words, |(name, _)| *name))
             };
-            [of(Column::Symbol), of(Column::Quantity), of(Column::Description)].into_iter().find(|name| !name.is_empty())
+            [of(Column::Symbol), of(Column::Quantity), of(Column::Description)]
+                .into_iter()
+                .find(|name| !name.is_empty())
         });
         names.collect()
     }

@@ -29,7 +29,8 @@ pub(crate) fn imported(asked: &Asked) -> Result<Json, LiveError> {
     match import_budget_bytes(Path::new(name), bytes, &ImportOptions::default()) {
         Ok(made) => Ok(json!({"text": made.text, "notes": made.notes})),
         Err(found) => {
-            let found: Vec<String> = found.diagnostics.0.iter().take(20).map(ToString::to_string).collect();
+            let found: Vec<String> =
+                found.diagnostics.0.iter().take(20).map(ToString::to_string).collect();
             Err(LiveError::Request(found.join("\n")))
         }
     }

@@ -263,7 +263,9 @@ pub(super) fn probability_of_symbol(words: &str) -> Option<f64> {
 /// What a heading says of the coverage of its numbers.
 pub(super) fn coverage(heading: &str) -> HeaderCoverage {
     match (HeaderCoverage::of(heading), probability_of_symbol(&plain_case(heading))) {
-        (HeaderCoverage::None | HeaderCoverage::Expanded, Some(p)) => HeaderCoverage::Probability(p),
+        (HeaderCoverage::None | HeaderCoverage::Expanded, Some(p)) => {
+            HeaderCoverage::Probability(p)
+        }
         (stated, _) => stated,
     }
 }

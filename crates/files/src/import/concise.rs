@@ -2,8 +2,8 @@
 
 use gumption_engine::decimal::to_15_digits;
 
-use super::number::number;
 use super::number::half_digit;
+use super::number::number;
 use crate::value_text::with_exponents;
 
 /// The number, its standard uncertainty and the unit behind both; `None` of other texts. A power of ten may

@@ -34,8 +34,8 @@ struct Written {
     text: String,
     /// Whether a label calls it the equation.
     is_labelled: bool,
-    /// Whether the next cell begins with a digit.
-    is_before_digit: bool,
+    /// The text of the next cell.
+    next: String,
 }
 
 impl Sheet<'_> {
@@ -49,7 +49,9 @@ impl Sheet<'_> {
             };
             let name = identifier(left);
             return match (check_name(&name), Formula::parse(right)) {
-                (Ok(()), Ok(_)) => Some(vec![Equation { line: 0, name, formula: right.trim().to_owned() }]),
+                (Ok(()), Ok(_)) => {
+                    Some(vec![Equation { line: 0, name, formula: right.trim().to_owned() }])
+                }
                 (Ok(()), Err(error)) => {
                     self.fail(0, format!("`--equation \"{said}\"`: {error}"));
                     None
@@ -73,7 +75,10 @@ impl Sheet<'_> {
             }
         }
         if let Some(equation) = read.get(MOST_EQUATIONS) {
-            self.fail(equation.line, format!("the sheet has more than {MOST_EQUATIONS} equations; a budget has fewer"));
+            self.fail(
+                equation.line,
+                format!("the sheet has more than {MOST_EQUATIONS} equations; a budget has fewer"),
+            );
             return None;
         }
         self.in_order(read, known)
@@ -81,39 +86,57 @@ impl Sheet<'_> {
 
     /// An equation of quantities of the sheet; `Some(None)` of other texts, `None` after a mistake.
     fn equation(&self, written: &Written, known: &[String]) -> Option<Option<Equation>> {
-        let Written { line, text, is_labelled, is_before_digit } = written;
+        let Written { line, text, is_labelled, next } = written;
         let comma = self.cells.decimal_comma();
         let (left, right) = text.split_once('=').unwrap_or(("", text));
         let (left, right) = (left.trim(), right.trim());
         if is_of_uncertainties(left, right) {
             return Some(None);
         }
-        let words = right.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-        let names_quantity = words.into_iter().any(|word| {
-            let word = word.trim_start_matches(|c: char| c.is_ascii_digit());
-            known.iter().any(|name| name == word)
-        });
+        let names = |text: &str| {
+            let mut words = text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+            words.any(|word| {
+                let word = word.trim_start_matches(|c: char| c.is_ascii_digit());
+                known.iter().any(|name| name == word)
+            })
+        };
+        let names_quantity = names(right);
         let name = identifier(left);
-        let is_name = check_name(&name).is_ok() && !left.starts_with(|c: char| c.is_ascii_digit()) && !left.contains(['*', '·', '×', '^', '+', '/', '\'', '"']);
+        let is_name = check_name(&name).is_ok()
+            && !left.starts_with(|c: char| c.is_ascii_digit())
+            && !left.contains(['*', '·', '×', '^', '+', '/', '\'', '"']);
+        // `y = a - 0,5*b` between commas is cut
+        let is_cut = next.starts_with(|c: char| c.is_ascii_digit())
+            && self.cells.separator() == Some(Separator::Comma)
+            && text.ends_with(|c: char| c.is_ascii_digit())
+            && (names_quantity || names(next));
+        if is_name && is_cut {
+            self.fail(
+                *line,
+                format!("`{text}` may go on in the next cell: put an equation in quotation marks"),
+            );
+            return None;
+        }
+        let has_sum = is_name && right.contains(['Σ', '∑', '∏', '∫']);
         let formula = as_formula(right, comma);
         let parsed = Formula::parse(&formula);
         match parsed {
             Ok(parsed) if is_name && parsed.names().next().is_some() => {
-                // `y = a - 0,5*b` between commas is cut
-                let is_cut = *is_before_digit
-                    && self.cells.separator() == Some(Separator::Comma)
-                    && text.ends_with(|c: char| c.is_ascii_digit());
                 let all_known = parsed.names().all(|(of, _)| known.iter().any(|name| name == of));
-                if is_cut && names_quantity {
-                    self.fail(*line, format!("`{text}` may go on in the next cell: put an equation in quotation marks"));
-                    return None;
-                }
-                Some((names_quantity || all_known || *is_labelled).then_some(Equation { line: *line, name, formula }))
+                Some((names_quantity || all_known || *is_labelled).then_some(Equation {
+                    line: *line,
+                    name,
+                    formula,
+                }))
             }
             Ok(parsed) if parsed.names().next().is_none() => Some(None),
-            _ if !names_quantity && !is_labelled => Some(None),
+            _ if !names_quantity && !has_sum => Some(None),
             // `U = 5 V`
-            _ if number_with_unit(right, comma).is_some_and(|(_, unit)| Unit::parse(unit).is_ok()) => Some(None),
+            _ if number_with_unit(right, comma)
+                .is_some_and(|(_, unit)| Unit::parse(unit).is_ok()) =>
+            {
+                Some(None)
+            }
             parsed => {
                 let reason = match parsed {
                     Err(error) => error.to_string(),
@@ -134,14 +157,20 @@ impl Sheet<'_> {
     fn in_order(&self, read: Vec<Equation>, known: &[String]) -> Option<Vec<Equation>> {
         let names: Vec<Vec<String>> = read.iter().map(Equation::names).collect();
         let is_whole = |place: &usize| {
-            names[*place].iter().all(|name| known.contains(name) || read.iter().any(|of| of.name == *name))
+            names[*place]
+                .iter()
+                .all(|name| known.contains(name) || read.iter().any(|of| of.name == *name))
         };
         let whole: Vec<usize> = (0..read.len()).filter(is_whole).collect();
         if let Some(equation) = read.first().filter(|_| whole.is_empty()) {
-            let lacks = names[0].iter().find(|name| !known.contains(name)).cloned().unwrap_or_default();
+            let lacks =
+                names[0].iter().find(|name| !known.contains(name)).cloned().unwrap_or_default();
             self.ask(
                 equation.line..=equation.line,
-                format!("the equation `{} = {}` needs `{lacks}`, which no row is called", equation.name, equation.formula),
+                format!(
+                    "the equation `{} = {}` needs `{lacks}`, which no row is called",
+                    equation.name, equation.formula
+                ),
                 ["the equation of the result, with other names", "a remark"],
                 "`--equation \"y = FORMULA\"` with the names of the rows",
             );
@@ -152,10 +181,15 @@ impl Sheet<'_> {
         };
         let last: Vec<usize> = whole.iter().copied().filter(|place| !is_used(place)).collect();
         let result = match last.as_slice() {
-            [] => return whole.is_empty().then(Vec::new).or_else(|| {
-                self.fail(read[0].line, format!("`{}` and another equation need each other", read[0].name));
-                None
-            }),
+            [] => {
+                return whole.is_empty().then(Vec::new).or_else(|| {
+                    self.fail(
+                        read[0].line,
+                        format!("`{}` and another equation need each other", read[0].name),
+                    );
+                    None
+                });
+            }
             [one] => *one,
             [first, second, ..] => {
                 let [first, second] = [*first, *second].map(|place| &read[place]);
@@ -207,15 +241,20 @@ fn written_equations(cells: &Cells) -> Vec<Written> {
             if text.is_empty() {
                 continue;
             }
-            let label = |words: &str| words::meaning("text", &columns::plain_case(words)) == Some("equation");
-            let behind = text.split_once(':').filter(|(before, _)| label(before)).map(|(_, behind)| behind.trim());
+            let label = |words: &str| {
+                words::meaning("text", &columns::plain_case(words)) == Some("equation")
+            };
+            let behind = text
+                .split_once(':')
+                .filter(|(before, _)| label(before))
+                .map(|(_, behind)| behind.trim());
             let text = behind.unwrap_or(text);
-            let is_labelled = behind.is_some() || std::mem::replace(&mut is_behind_label, label(text));
-            let is_one = text.contains('=') && !text.starts_with('=') || is_labelled && !text.is_empty() && !is_behind_label;
+            let is_labelled =
+                behind.is_some() || std::mem::replace(&mut is_behind_label, label(text));
+            let is_one = text.contains('=') || is_labelled && !text.is_empty() && !is_behind_label;
             if is_one {
-                let next = cells.text(line, place + 1);
-                let is_before_digit = next.starts_with(|c: char| c.is_ascii_digit());
-                found.push(Written { line, text: text.to_owned(), is_labelled, is_before_digit });
+                let next = cells.text(line, place + 1).trim().to_owned();
+                found.push(Written { line, text: text.to_owned(), is_labelled, next });
             }
         }
     }
@@ -223,7 +262,7 @@ fn written_equations(cells: &Cells) -> Vec<Written> {
 }
 
 /// The right side of an equation of a sheet as formulas are written.
-fn as_formula(right: &str, decimal_comma: bool) -> String {
+pub(super) fn as_formula(right: &str, decimal_comma: bool) -> String {
     let points = if decimal_comma { with_points(right) } else { right.to_owned() };
     expression(&points).replace(';', ",")
 }

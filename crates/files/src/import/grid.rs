@@ -93,7 +93,8 @@ impl Cells {
         let mut said = Vec::new();
         for ((first, column), (last, _)) in self.layout.merged.clone() {
             let (first, last, place) = (first as usize, last as usize, column as usize);
-            let is_common = self.column(self.text(line, place)).is_some_and(|of| COMMON.contains(&of));
+            let is_common =
+                self.column(self.text(line, place)).is_some_and(|of| COMMON.contains(&of));
             let text = self.text(first, place).to_owned();
             if first <= line || text.trim().is_empty() || !is_common {
                 continue;
@@ -162,7 +163,8 @@ pub(super) fn of_text(
         return Err(kind);
     }
     // words may have any of the signs in them: the headings tell which one separates
-    let read = [Separator::Semicolon, Separator::Tab, Separator::Comma].map(|of| separated(&text, of));
+    let read =
+        [Separator::Semicolon, Separator::Tab, Separator::Comma].map(|of| separated(&text, of));
     let count = |read: &Result<(Cells, String), DiagnosticKind>| {
         let cells = read.as_ref().ok().map(|(cells, _)| cells)?;
         let line = line_of(cells, options)?;

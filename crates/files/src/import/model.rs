@@ -42,7 +42,13 @@ struct OfResult<'s> {
 
 impl Sheet<'_> {
     /// The model of the rows; `None` after a mistake or a question.
-    pub(super) fn model(&self, header: &Header, rows: &Rows, (equations, stated): (&[Equation], &[Stated]), title: &str) -> Option<Model> {
+    pub(super) fn model(
+        &self,
+        header: &Header,
+        rows: &Rows,
+        (equations, stated): (&[Equation], &[Stated]),
+        title: &str,
+    ) -> Option<Model> {
         let of_result = self.of_result(header, rows, stated)?;
         if equations.is_empty() {
             self.linear(header, &rows.quantities, stated, (&of_result, title))
@@ -52,7 +58,12 @@ impl Sheet<'_> {
     }
 
     /// The name and the unit of the result, and its estimate.
-    fn of_result<'s>(&self, header: &Header, rows: &Rows, stated: &'s [Stated]) -> Option<OfResult<'s>> {
+    fn of_result<'s>(
+        &self,
+        header: &Header,
+        rows: &Rows,
+        stated: &'s [Stated],
+    ) -> Option<OfResult<'s>> {
         let line = rows.of_result.iter().find(|of| of.kind == Kind::Result).map(|of| of.line);
         let name = line.map_or_else(String::new, |line| self.name_of_result(header, line));
         let is_taken = |name: &str| rows.quantities.iter().any(|row| row.name == name);
@@ -67,7 +78,8 @@ impl Sheet<'_> {
         // the estimate's unit is that of the result, and figures of uncertainty may be shares of it
         let estimate = stated.iter().find(|of| of.is_estimate());
         let of_estimate = estimate.map(|of| of.cell.unit.as_str()).filter(|unit| !unit.is_empty());
-        let own = units.iter().copied().find(|unit| Unit::parse(unit).is_ok_and(|of| !of.is_relative()));
+        let own =
+            units.iter().copied().find(|unit| Unit::parse(unit).is_ok_and(|of| !of.is_relative()));
         let unit = self.options.unit.as_deref().or(of_estimate).or(own).map(str::to_owned);
         if let Some(unit) = self.options.unit.as_deref().filter(|unit| Unit::parse(unit).is_err()) {
             self.fail(header.first, format!("`--unit {unit}`: it is no unit that is known"));
@@ -91,12 +103,18 @@ impl Sheet<'_> {
                 row.line..=row.line,
                 format!("`{}` is not in the equation `{} = {}`", row.name, last.name, last.formula),
                 ["of no account", "missing in the equation"],
-                format!("`--row ignore={}`, or `--equation \"{} = FORMULA\"`", row.line + 1, last.name),
+                format!(
+                    "`--row ignore={}`, or `--equation \"{} = FORMULA\"`",
+                    row.line + 1,
+                    last.name
+                ),
             );
         }
         let has_estimates = rows.iter().any(|row| row.estimate.is_some());
         let needed = rows.iter().find(|row| row.estimate.is_none() && used.contains(&row.name));
-        if let Some(row) = needed.filter(|_| has_estimates || header.place(Column::Estimate).is_none()) {
+        if let Some(row) =
+            needed.filter(|_| has_estimates || header.place(Column::Estimate).is_none())
+        {
             let is_sum = !last.formula.contains(['*', '/', '^', '(']);
             if has_estimates || !is_sum {
                 self.fail(row.line, format!("the equation `{} = {}` needs the estimate of `{}`, and the row has none: write it, or say its column with `--column estimate=COLUMN`", last.name, last.formula, row.name));
@@ -105,7 +123,13 @@ impl Sheet<'_> {
         let has_estimate = of_result.estimate.is_some();
         for row in rows {
             let is_celsius = Unit::parse(&row.unit).is_ok_and(|unit| unit.offset() != 0.0);
-            if is_celsius && !has_estimate && !self.options.numbers && used.contains(&row.name) && row.sensitivity.is_none() && !self.is_said_quantity(row.line) {
+            if is_celsius
+                && !has_estimate
+                && !self.options.numbers
+                && used.contains(&row.name)
+                && row.sensitivity.is_none()
+                && !self.is_said_quantity(row.line)
+            {
                 self.ask(
                     row.line..=row.line,
                     format!("`{}` in {} of an equation whose result the sheet does not state", row.name, row.unit),
@@ -117,7 +141,9 @@ impl Sheet<'_> {
         self.log.is_clean().then_some(())?;
         let mut formulas: Vec<(String, String)> =
             equations.iter().map(|of| (of.name.clone(), of.formula.clone())).collect();
-        if let Some((name, _)) = formulas.last_mut().filter(|(name, _)| rows.iter().any(|row| row.name == *name)) {
+        if let Some((name, _)) =
+            formulas.last_mut().filter(|(name, _)| rows.iter().any(|row| row.name == *name))
+        {
             name.push_str("_result");
         }
         let unit = match &of_result.unit {
@@ -132,7 +158,8 @@ impl Sheet<'_> {
         let without = document(title, rows, &formulas, &unit, false);
         let text = if self.options.numbers { without.clone() } else { with };
         if let Err(faults) = read_text("the model", &text, Path::new(""), &[]) {
-            let reasons: Vec<String> = faults.0.iter().take(5).map(|fault| fault.kind.to_string()).collect();
+            let reasons: Vec<String> =
+                faults.0.iter().take(5).map(|fault| fault.kind.to_string()).collect();
             let without_units = read_text("the model", &without, Path::new(""), &[]).is_ok();
             if without_units && !self.options.numbers {
                 self.ask(
@@ -142,7 +169,10 @@ impl Sheet<'_> {
                     format!("`--equation \"{} = FORMULA\"`, or `--numbers`", last.name),
                 );
             } else {
-                self.fail(line, format!("the model of this budget has mistakes: {}", reasons.join("; ")));
+                self.fail(
+                    line,
+                    format!("the model of this budget has mistakes: {}", reasons.join("; ")),
+                );
             }
             return None;
         }
@@ -165,9 +195,14 @@ impl Sheet<'_> {
     /// the numbers without units give another one.
     fn numbers_of_units(&self, with: &str, without: &str, equation: &Equation) -> Option<()> {
         let Some(number) = conversion_number(&equation.formula) else { return Some(()) };
-        let (Some((checked, unit)), Some((numbers, _))) = (result_of(with), result_of(without)) else { return Some(()) };
+        let (Some((checked, unit)), Some((numbers, _))) = (result_of(with), result_of(without))
+        else {
+            return Some(());
+        };
         let is_same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
-        if is_same(checked.estimate, numbers.estimate) && is_same(checked.standard_uncertainty, numbers.standard_uncertainty) {
+        if is_same(checked.estimate, numbers.estimate)
+            && is_same(checked.standard_uncertainty, numbers.standard_uncertainty)
+        {
             return Some(());
         }
         self.ask(
@@ -192,7 +227,8 @@ impl Sheet<'_> {
         }
         let mut last = None;
         for equation in equations {
-            let typing = Formula::parse(&equation.formula).ok().and_then(|of| of.check(&scope).ok());
+            let typing =
+                Formula::parse(&equation.formula).ok().and_then(|of| of.check(&scope).ok());
             let Some(typing) = typing else { return String::new() };
             scope.define(equation.name.as_str(), typing);
             last = typing.dimension.filter(|of| !of.is_none());
@@ -204,7 +240,13 @@ impl Sheet<'_> {
         unit
     }
 
-    fn linear(&self, header: &Header, rows: &[Row], stated: &[Stated], (of_result, title): (&OfResult, &str)) -> Option<Model> {
+    fn linear(
+        &self,
+        header: &Header,
+        rows: &[Row],
+        stated: &[Stated],
+        (of_result, title): (&OfResult, &str),
+    ) -> Option<Model> {
         let first = rows.first()?.line;
         let lines = first..=rows.last()?.line;
         let has_coefficients = rows.iter().any(|row| row.sensitivity.is_some());
@@ -222,7 +264,13 @@ impl Sheet<'_> {
         }
         for row in rows.iter().filter(|row| has_coefficients && row.sensitivity.is_none()) {
             if row.standard_uncertainty() > 0.0 || !is_zero(row) {
-                self.fail(row.line, format!("`{}` has no sensitivity coefficient, and other rows have one: write it", row.name));
+                self.fail(
+                    row.line,
+                    format!(
+                        "`{}` has no sensitivity coefficient, and other rows have one: write it",
+                        row.name
+                    ),
+                );
             }
         }
         let unit = self.unit_of_sum(header, rows, of_result)?;
@@ -233,7 +281,9 @@ impl Sheet<'_> {
         }
         self.log.is_clean().then_some(())?;
         let written = |x: f64| Shortest(x).to_string();
-        let sum: f64 = to_15_digits(rows.iter().zip(&factors).map(|(row, c)| c * row.estimate.unwrap_or(0.0)).sum());
+        let sum: f64 = to_15_digits(
+            rows.iter().zip(&factors).map(|(row, c)| c * row.estimate.unwrap_or(0.0)).sum(),
+        );
         let constant = self.constant(header, (rows, &factors), sum, (of_result, &whole))?;
         let mut terms: Vec<String> = Vec::new();
         if constant != 0.0 {
@@ -245,11 +295,20 @@ impl Sheet<'_> {
             factor => format!("({})*{}", written(to_15_digits(factor)), row.name),
         }));
         let formulas = [(of_result.name.clone(), terms.join(" + "))];
-        self.note(format!("{} = {}: the sum of the quantities times their sensitivity coefficients, in {}", formulas[0].0, formulas[0].1, if unit.is_empty() { "1" } else { &unit }));
+        self.note(format!(
+            "{} = {}: the sum of the quantities times their sensitivity coefficients, in {}",
+            formulas[0].0,
+            formulas[0].1,
+            if unit.is_empty() { "1" } else { &unit }
+        ));
         let text = document(title, rows, &formulas, &unit, false);
         if let Err(faults) = read_text("the model", &text, Path::new(""), &[]) {
-            let reasons: Vec<String> = faults.0.iter().take(5).map(|fault| fault.kind.to_string()).collect();
-            self.fail(header.first, format!("the model of this budget has mistakes: {}", reasons.join("; ")));
+            let reasons: Vec<String> =
+                faults.0.iter().take(5).map(|fault| fault.kind.to_string()).collect();
+            self.fail(
+                header.first,
+                format!("the model of this budget has mistakes: {}", reasons.join("; ")),
+            );
             return None;
         }
         Some(Model { text, factors: Some(factors) })
@@ -272,9 +331,12 @@ impl Sheet<'_> {
         let contributions = rows.iter().filter_map(|row| row.contribution.as_ref());
         let is_share = |unit: &str| Unit::parse(unit).is_ok_and(|unit| unit.is_relative());
         let are_shares = rows.iter().all(|row| is_share(&row.unit));
-        let mut of_contributions: Vec<&str> = contributions.map(|cell| cell.unit.as_str()).collect();
+        let mut of_contributions: Vec<&str> =
+            contributions.map(|cell| cell.unit.as_str()).collect();
         of_contributions.retain(|unit| !unit.is_empty() && (are_shares || !is_share(unit)));
-        if rows.iter().all(|row| row.unit.is_empty() && row.unit_of_sensitivity.is_none()) && of_contributions.is_empty() {
+        if rows.iter().all(|row| row.unit.is_empty() && row.unit_of_sensitivity.is_none())
+            && of_contributions.is_empty()
+        {
             return Some(String::new());
         }
         let of_row = |row: &Row| match &row.unit_of_sensitivity {
@@ -283,7 +345,8 @@ impl Sheet<'_> {
             None => row.sensitivity.is_none_or(|c| c.abs() == 1.0).then(|| row.unit.clone()),
         };
         let units: Option<Vec<String>> = rows.iter().map(of_row).collect();
-        let with_unit = rows.iter().filter(|row| row.unit_of_sensitivity.is_some()).find_map(of_row);
+        let with_unit =
+            rows.iter().filter(|row| row.unit_of_sensitivity.is_some()).find_map(of_row);
         if let Some(units) = units {
             let same_dimension = |unit: &String| {
                 let pair = Unit::parse(unit).ok().zip(Unit::parse(&units[0]).ok());
@@ -300,20 +363,39 @@ impl Sheet<'_> {
         if let Some(unit) = with_unit.filter(|unit| !is_share(unit)) {
             return Some(unit);
         }
-        let all: Vec<String> = rows.iter().map(|row| format!("`{}`", if row.unit.is_empty() { "1" } else { &row.unit })).collect();
+        let all: Vec<String> = rows
+            .iter()
+            .map(|row| format!("`{}`", if row.unit.is_empty() { "1" } else { &row.unit }))
+            .collect();
         let mut distinct: Vec<String> = Vec::new();
-        all.into_iter().for_each(|unit| if !distinct.contains(&unit) { distinct.push(unit) });
-        self.ask_unit_of_result(header, &format!("the quantities are in {}", listed(&distinct, " and ")));
+        all.into_iter().for_each(|unit| {
+            if !distinct.contains(&unit) {
+                distinct.push(unit)
+            }
+        });
+        self.ask_unit_of_result(
+            header,
+            &format!("the quantities are in {}", listed(&distinct, " and ")),
+        );
         None
     }
 
     /// What the numbers of a row are multiplied by; `None` after a mistake or a question.
-    fn factor(&self, rows: &[Row], (row, stated): (&Row, &[Stated]), (unit, whole): (&str, &Unit)) -> Option<f64> {
+    fn factor(
+        &self,
+        rows: &[Row],
+        (row, stated): (&Row, &[Stated]),
+        (unit, whole): (&str, &Unit),
+    ) -> Option<f64> {
         let own = Unit::parse(&row.unit).ok()?;
         let c = row.sensitivity.unwrap_or(1.0);
         let line = row.line;
         let shown = |unit: &str| if unit.is_empty() { "1".to_owned() } else { unit.to_owned() };
-        if c == 0.0 || row.sensitivity.is_none() && row.standard_uncertainty() == 0.0 && row.estimate.is_none_or(|x| x == 0.0) {
+        if c == 0.0
+            || row.sensitivity.is_none()
+                && row.standard_uncertainty() == 0.0
+                && row.estimate.is_none_or(|x| x == 0.0)
+        {
             return Some(c);
         }
         // a sheet that states units of coefficients states all of them
@@ -327,7 +409,15 @@ impl Sheet<'_> {
                 let is_one = (scale - 1.0).abs() < 1e-12;
                 return Some(if is_one { c } else { to_15_digits(c * scale) });
             }
-            self.fail(line, format!("the coefficient of `{}` is in `{of_c}`, and times `{}` it makes no `{}`", row.name, shown(&row.unit), shown(unit)));
+            self.fail(
+                line,
+                format!(
+                    "the coefficient of `{}` is in `{of_c}`, and times `{}` it makes no `{}`",
+                    row.name,
+                    shown(&row.unit),
+                    shown(unit)
+                ),
+            );
             return None;
         }
         let scale = Unit::conversion_factor(&own, whole).ok();
@@ -365,7 +455,11 @@ impl Sheet<'_> {
         if is_confirmed {
             return Some(c);
         }
-        let more = if scale.is_some() { "`--coefficients units` or `--coefficients ratios`" } else { "`--coefficients units`, or `--column sensitivity-unit=COLUMN`" };
+        let more = if scale.is_some() {
+            "`--coefficients units` or `--coefficients ratios`"
+        } else {
+            "`--coefficients units`, or `--column sensitivity-unit=COLUMN`"
+        };
         self.ask(
             line..=line,
             format!("the coefficient {} of `{}` has no unit, and the quantity is in `{}`, the result in `{}`", Shortest(c), row.name, shown(&row.unit), shown(unit)),
@@ -376,16 +470,26 @@ impl Sheet<'_> {
     }
 
     /// What is added to the sum of the products for the estimate of the result; `None` after a question.
-    fn constant(&self, header: &Header, (rows, factors): (&[Row], &[f64]), sum: f64, (of_result, whole): (&OfResult, &Unit)) -> Option<f64> {
+    fn constant(
+        &self,
+        header: &Header,
+        (rows, factors): (&[Row], &[f64]),
+        sum: f64,
+        (of_result, whole): (&OfResult, &Unit),
+    ) -> Option<f64> {
         // a sum of quantities in one unit, each with its sign
         let is_plain = |(row, factor): (&Row, &f64)| {
-            let is_in_unit = Unit::parse(&row.unit).is_ok_and(|own| own.is_compatible(whole) && own.has_zero_of(whole));
+            let is_in_unit = Unit::parse(&row.unit)
+                .is_ok_and(|own| own.is_compatible(whole) && own.has_zero_of(whole));
             let is_one = row.sensitivity.is_none_or(|c| c.abs() == 1.0);
             row.estimate.is_none_or(|x| x == 0.0) || *factor == 0.0 || is_one && is_in_unit
         };
-        let has_signs = !header.place(Column::Sensitivity).is_some_and(|place| header.heading(place).contains('|'));
+        let has_signs = !header
+            .place(Column::Sensitivity)
+            .is_some_and(|place| header.heading(place).contains('|'));
         let is_sum = rows.iter().zip(factors).all(is_plain)
-            && (has_signs || rows.iter().filter(|row| row.estimate.is_some_and(|x| x != 0.0)).count() < 2);
+            && (has_signs
+                || rows.iter().filter(|row| row.estimate.is_some_and(|x| x != 0.0)).count() < 2);
         let said = self.options.estimate.as_deref().map(str::trim);
         if said == Some("sum") || is_sum && said.is_none() {
             return Some(0.0);
@@ -404,13 +508,20 @@ impl Sheet<'_> {
             if let Some(value) = in_unit {
                 let rest = to_15_digits(value - sum);
                 let rounding = 1.2 * estimate.cell.half_digit.abs();
-                return Some(if rest.abs() <= rounding.min(1e-6 * value.abs()) { 0.0 } else { rest });
+                return Some(if rest.abs() <= rounding.min(1e-6 * value.abs()) {
+                    0.0
+                } else {
+                    rest
+                });
             }
         }
         self.ask(
             header.first..=rows.last()?.line,
             "the sheet states coefficients and no estimate of the result",
-            [&format!("the sum of the products, {}", Shortest(sum)) as &str, "another number, as of a product of the quantities"],
+            [
+                &format!("the sum of the products, {}", Shortest(sum)) as &str,
+                "another number, as of a product of the quantities",
+            ],
             "`--estimate sum`, `--estimate NUMBER`, or `--row result=N`",
         );
         None
@@ -436,13 +547,17 @@ fn conversion_number(formula: &str) -> Option<String> {
     let mut before = ' ';
     let mut word = String::new();
     for c in formula.chars().chain([' ']) {
-        let is_exponent = word.ends_with(['e', 'E']) && matches!(c, '-' | '+') && word.starts_with(|c: char| c.is_ascii_digit());
+        let is_exponent = word.ends_with(['e', 'E'])
+            && matches!(c, '-' | '+')
+            && word.starts_with(|c: char| c.is_ascii_digit());
         if c.is_alphanumeric() || matches!(c, '_' | '.') || is_exponent {
             word.push(c);
             continue;
         }
         let number = word.parse::<f64>().ok().filter(|_| before != '^');
-        if let Some(number) = number.filter(|number| !(0.1..10.0).contains(number) && *number != 0.0) {
+        if let Some(number) =
+            number.filter(|number| !(0.1..10.0).contains(number) && *number != 0.0)
+        {
             return Some(format!("{}", Shortest(number)));
         }
         if !word.is_empty() || c != ' ' {

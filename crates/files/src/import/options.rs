@@ -88,6 +88,7 @@ impl ImportOptions {
     /// # Errors
     /// What is wrong with it, as a sentence.
     pub fn from_json(text: &str) -> Result<Self, String> {
-        serde_json::from_str(text).map_err(|error| format!("it is no file of `--keep-columns`: {error}"))
+        serde_json::from_str(text)
+            .map_err(|error| format!("it is no file of `--keep-columns`: {error}"))
     }
 }

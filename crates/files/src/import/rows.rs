@@ -6,6 +6,7 @@ use super::ask::Sheet;
 use super::both::sides;
 use super::columns::{self, Column, identifier};
 use super::concise::concise;
+use super::equation::as_formula;
 use super::grid::is_empty;
 use super::number::{half_digit, without_groups, written};
 use super::table::Header;
@@ -15,7 +16,7 @@ use crate::share::{self, Share};
 use crate::value_text::{PLUS_MINUS, grouped_digits};
 use crate::workbook::letters;
 use gumption_engine::decimal::to_15_digits;
-use gumption_engine::model::formula::check_name;
+use gumption_engine::model::formula::{Formula, check_name};
 use gumption_engine::number::Shortest;
 use gumption_units::{Unit, listed};
 
@@ -121,11 +122,18 @@ impl Sheet<'_> {
         for (name, numbers) in self.options.rows.iter().filter(|(name, _)| name != "heading") {
             let Some(kind) = Kind::named(name) else {
                 let names: Vec<&str> = Kind::NAMES.iter().map(|(name, _)| *name).collect();
-                self.fail(0, format!("`--row {name}={numbers}`: a row is one of heading, {}", names.join(", ")));
+                self.fail(
+                    0,
+                    format!(
+                        "`--row {name}={numbers}`: a row is one of heading, {}",
+                        names.join(", ")
+                    ),
+                );
                 return None;
             };
             for number in numbers.split(',') {
-                let line = number.trim().parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+                let line =
+                    number.trim().parse::<usize>().ok().and_then(|number| number.checked_sub(1));
                 let Some(line) = line.filter(|line| *line < self.cells.lines()) else {
                     self.fail(0, format!("`--row {name}={numbers}`: the sheet has no row `{number}`; rows are counted from 1"));
                     return None;
@@ -138,7 +146,12 @@ impl Sheet<'_> {
 
     /// All rows below the headings; `measurand` is the name on the left of the equation, and `used` are the
     /// names on its right side.
-    pub(super) fn rows(&self, header: &Header, measurand: Option<&str>, used: &[String]) -> Option<Rows> {
+    pub(super) fn rows(
+        &self,
+        header: &Header,
+        measurand: Option<&str>,
+        used: &[String],
+    ) -> Option<Rows> {
         let said = self.said_rows()?;
         let mut found = Rows::default();
         let mut blank = 0;
@@ -149,15 +162,23 @@ impl Sheet<'_> {
                 continue;
             }
             let said = said.iter().find(|(of, _)| *of == line).map(|(_, kind)| *kind);
-            let Some(kind) = said.or_else(|| self.kind(header, line, (measurand, used), blank)) else { continue };
+            let Some(kind) = said.or_else(|| self.kind(header, line, (measurand, used), blank))
+            else {
+                continue;
+            };
             match kind {
                 Kind::Quantity | Kind::Constant => {
                     blank = 0;
-                    if let Some(row) = self.quantity(header, line, (kind, used), &found.quantities) {
+                    if let Some(row) = self.quantity(header, line, (kind, used), &found.quantities)
+                    {
                         found.quantities.push(row);
+                    } else if self.log.is_clean() {
+                        self.fail(line, "the row cannot be read");
                     }
                 }
-                Kind::Ignored => self.note(format!("row {} `{}` is not read", line + 1, self.first_cell(line))),
+                Kind::Ignored => {
+                    self.note(format!("row {} `{}` is not read", line + 1, self.first_cell(line)))
+                }
                 kind => found.of_result.push(OfResult { line, kind }),
             }
         }
@@ -183,10 +204,20 @@ impl Sheet<'_> {
 
     /// What a row is that no option names; `None` of lines of words, and after a question. `blank` is the
     /// number of empty lines above it.
-    fn kind(&self, header: &Header, line: usize, (measurand, used): (Option<&str>, &[String]), blank: usize) -> Option<Kind> {
+    fn kind(
+        &self,
+        header: &Header,
+        line: usize,
+        (measurand, used): (Option<&str>, &[String]),
+        blank: usize,
+    ) -> Option<Kind> {
         let names = self.names(header, line);
         let is_of_table = |(place, column): &&(usize, Column)| {
-            (column.is_of_numbers() || matches!(column, Column::Sensitivity | Column::Divisor | Column::Factor | Column::Dof))
+            (column.is_of_numbers()
+                || matches!(
+                    column,
+                    Column::Sensitivity | Column::Divisor | Column::Factor | Column::Dof
+                ))
                 && !is_empty(self.cells.text(line, *place).trim())
         };
         let has_numbers = header.columns.iter().any(|of| is_of_table(&of));
@@ -197,8 +228,22 @@ impl Sheet<'_> {
         }
         if !has_numbers {
             let is_equation = self.cells.row(line).iter().any(|cell| cell.contains('='));
+            let first = self.first_cell(line);
+            if !is_equation && self.names_quantities(header, first) {
+                self.ask(
+                    line..=line,
+                    format!("`{first}` may be the equation of the result"),
+                    ["the equation", "a remark"],
+                    format!("`--equation \"y = {first}\"`, or `--row ignore={}`", line + 1),
+                );
+                return None;
+            }
             if !is_equation {
-                self.note(format!("row {} `{}` has no numbers and is not read", line + 1, self.first_cell(line)));
+                self.note(format!(
+                    "row {} `{}` has no numbers and is not read",
+                    line + 1,
+                    self.first_cell(line)
+                ));
             }
             return None;
         }
@@ -207,35 +252,47 @@ impl Sheet<'_> {
         if names.iter().any(is_measurand) {
             return Some(Kind::Result);
         }
-        if let Some(place) = (header.width()..self.cells.row(line).len()).find(|place| !self.cells.text(line, *place).trim().is_empty()) {
+        if let Some(place) = (header.width()..self.cells.row(line).len())
+            .find(|place| !self.cells.text(line, *place).trim().is_empty())
+        {
             self.fail(line, format!("`{}` stands below no heading: numbers with decimal commas between commas are written in quotation marks", self.cells.text(line, place).trim()));
             return None;
         }
         // the words of totals may stand right before their numbers
         let row = self.cells.row(line).iter().map(|cell| cell.trim());
-        let candidates = names.iter().copied().chain(names.is_empty().then(|| row).into_iter().flatten());
+        let candidates =
+            names.iter().copied().chain(names.is_empty().then_some(row).into_iter().flatten());
         if !is_used && let Some(kind) = candidates.into_iter().find_map(of_words) {
             let is_stated = |column| !is_empty(header.cell(self.cells, line, column));
             if kind == Kind::Result && is_stated(Column::Sensitivity) {
-                self.ask_kind(line..=line, &format!("`{}` has the words of a result, and a coefficient", names[0]), [
-                    ("the result", "result"),
-                    ("a quantity", "quantity"),
-                ]);
+                self.ask_kind(
+                    line..=line,
+                    &format!("`{}` has the words of a result, and a coefficient", names[0]),
+                    [("the result", "result"), ("a quantity", "quantity")],
+                );
                 return None;
             }
             return Some(kind);
         }
         if names.is_empty() {
-            self.ask_kind(line..=line, "a row has numbers and no name", [
-                ("the combined standard uncertainty", "combined"),
-                ("not a part of the budget", "ignore"),
-            ]);
+            self.ask_kind(
+                line..=line,
+                "a row has numbers and no name",
+                [
+                    ("the combined standard uncertainty", "combined"),
+                    ("not a part of the budget", "ignore"),
+                ],
+            );
             return None;
         }
         if is_used {
             let has_width = self.has_uncertainty(header, line);
             if !has_width {
-                self.note(format!("row {} `{}` has no uncertainty and is a constant of the equation", line + 1, names[0]));
+                self.note(format!(
+                    "row {} `{}` has no uncertainty and is a constant of the equation",
+                    line + 1,
+                    names[0]
+                ));
             }
             return Some(if has_width { Kind::Quantity } else { Kind::Constant });
         }
@@ -244,22 +301,25 @@ impl Sheet<'_> {
             return Some(Kind::Constant);
         }
         if blank > 1 {
-            self.ask_kind(line..=line, &format!("`{}` stands below the table", names[0]), [
-                ("a quantity of the budget", "quantity"),
-                ("not a part of the budget", "ignore"),
-            ]);
+            self.ask_kind(
+                line..=line,
+                &format!("`{}` stands below the table", names[0]),
+                [("a quantity of the budget", "quantity"), ("not a part of the budget", "ignore")],
+            );
             return None;
         }
         if !self.has_uncertainty(header, line) {
-            self.ask_kind(line..=line, &format!("`{}` has no uncertainty", names[0]), [
-                ("the result", "result"),
-                ("a constant", "constant"),
-            ]);
+            self.ask_kind(
+                line..=line,
+                &format!("`{}` has no uncertainty", names[0]),
+                [("the result", "result"), ("a constant", "constant")],
+            );
             return None;
         }
         let lacks = |column: Column| {
             let is_stated = |line: usize| !is_empty(header.cell(self.cells, line, column));
-            header.place(column).is_some() && !is_stated(line)
+            header.place(column).is_some()
+                && !is_stated(line)
                 && (header.line + 1..line).any(is_stated)
         };
         if measurand.is_none() && lacks(Column::Sensitivity) {
@@ -270,6 +330,19 @@ impl Sheet<'_> {
             return None;
         }
         Some(Kind::Quantity)
+    }
+
+    /// Whether a text can be read as a formula of two quantities of the sheet at least, `A-B`.
+    fn names_quantities(&self, header: &Header, text: &str) -> bool {
+        if self.options.equation.is_some() {
+            return false;
+        }
+        let Ok(formula) = Formula::parse(&as_formula(text, self.cells.decimal_comma())) else {
+            return false;
+        };
+        let known = self.names_of_rows(header);
+        let names: Vec<&str> = formula.names().map(|(name, _)| name).collect();
+        names.len() > 1 && names.iter().all(|name| known.iter().any(|of| of == name))
     }
 
     fn ask_kind(&self, lines: RangeInclusive<usize>, about: &str, readings: [(&str, &str); 2]) {
@@ -290,16 +363,22 @@ impl Sheet<'_> {
 
     /// Asks whether the last row, whose uncertainty is the combined one of all others, is the result.
     fn may_be_combined(&self, found: &Rows) {
-        let Some((last, others)) = found.quantities.split_last().filter(|(_, of)| of.len() > 1) else { return };
+        let Some((last, others)) = found.quantities.split_last().filter(|(_, of)| of.len() > 1)
+        else {
+            return;
+        };
         let is_said = self.options.rows.iter().any(|(kind, numbers)| {
-            kind == "quantity" && numbers.split(',').any(|of| of.trim() == (last.line + 1).to_string())
+            kind == "quantity"
+                && numbers.split(',').any(|of| of.trim() == (last.line + 1).to_string())
         });
         let of = |row: &Row| row.sensitivity.unwrap_or(1.0) * row.standard_uncertainty();
         let combined = others.iter().map(|row| of(row) * of(row)).sum::<f64>().sqrt();
         let u = of(last).abs();
         // two digits of a combined uncertainty are rounded by up to 5 %
         let is_combined = |u: f64| (u - combined).abs() <= 0.05 * combined && combined > 0.0;
-        let is_result = !found.of_result.is_empty() || is_said || others.iter().any(|row| row.unit != last.unit);
+        let is_result = !found.of_result.is_empty()
+            || is_said
+            || others.iter().any(|row| row.unit != last.unit);
         if !is_result && (is_combined(u) || is_combined(u / 2.0)) {
             let number = last.line + 1;
             self.ask(
@@ -318,12 +397,22 @@ impl Sheet<'_> {
     }
 
     /// The number in a cell; `None` where nothing stands, `Err` after a mistake.
-    pub(super) fn number(&self, header: &Header, line: usize, place: usize) -> Result<Option<Cell>, ()> {
+    pub(super) fn number(
+        &self,
+        header: &Header,
+        line: usize,
+        place: usize,
+    ) -> Result<Option<Cell>, ()> {
         self.number_of(header, line, (place, self.cells.text(line, place)))
     }
 
     /// The number in a text of a cell.
-    fn number_of(&self, header: &Header, line: usize, (place, text): (usize, &str)) -> Result<Option<Cell>, ()> {
+    fn number_of(
+        &self,
+        header: &Header,
+        line: usize,
+        (place, text): (usize, &str),
+    ) -> Result<Option<Cell>, ()> {
         let text = text.trim();
         if is_empty(text) {
             return Ok(None);
@@ -337,11 +426,21 @@ impl Sheet<'_> {
         let known = read.and_then(|(value, plain, unit)| {
             let unit = columns::without_in(unit);
             let is_unit = grouped_digits(unit).is_none() && Unit::parse(unit).is_ok();
-            let meant = if is_unit || unit.is_empty() { Some(unit.to_owned()) } else { columns::unit_as_meant(unit) };
+            let meant = if is_unit || unit.is_empty() {
+                Some(unit.to_owned())
+            } else {
+                columns::unit_as_meant(unit)
+            };
             Some((value, plain, meant?))
         });
         let Some((value, plain, unit)) = known else {
-            self.fail(line, format!("`{text}` in {} is no number with a unit that is known", header.named(place)));
+            self.fail(
+                line,
+                format!(
+                    "`{text}` in {} is no number with a unit that is known",
+                    header.named(place)
+                ),
+            );
             return Err(());
         };
         if self.cells.is_written(line, place) {
@@ -369,7 +468,13 @@ impl Sheet<'_> {
     }
 
     /// A quantity; `None` after a mistake or a question.
-    fn quantity(&self, header: &Header, line: usize, (kind, used): (Kind, &[String]), others: &[Row]) -> Option<Row> {
+    fn quantity(
+        &self,
+        header: &Header,
+        line: usize,
+        (kind, used): (Kind, &[String]),
+        others: &[Row],
+    ) -> Option<Row> {
         let cell = |column| header.cell(self.cells, line, column);
         let names = self.names(header, line);
         let words = names.first().copied().unwrap_or("");
@@ -389,7 +494,9 @@ impl Sheet<'_> {
             name = format!("x_{}", others.len() + 1);
         }
         let wanted = name.clone();
-        if used.contains(&wanted) && let Some(first) = others.iter().find(|row| row.name == wanted) {
+        if used.contains(&wanted)
+            && let Some(first) = others.iter().find(|row| row.name == wanted)
+        {
             self.ask(
                 first.line..=line,
                 format!("two rows are called `{wanted}`, which the equation uses"),
@@ -412,7 +519,8 @@ impl Sheet<'_> {
         let text = cell(Column::Estimate);
         let (text, behind) = sides(text).map_or((text, None), |(x, u)| (x, Some(u)));
         let comma = self.cells.decimal_comma();
-        let in_digits = concise(text, comma).filter(|(.., unit)| unit.is_empty() || Unit::parse(unit).is_ok());
+        let in_digits =
+            concise(text, comma).filter(|(.., unit)| unit.is_empty() || Unit::parse(unit).is_ok());
         let estimate = match (in_digits, place) {
             (Some((value, _, unit)), Some(place)) => {
                 let unit = if unit.is_empty() { header.unit(place).unwrap_or("") } else { unit };
@@ -438,20 +546,32 @@ impl Sheet<'_> {
             let named: Vec<String> = widths.iter().map(|(.., text)| format!("`{text}`")).collect();
             self.ask(
                 line..=line,
-                format!("the row states its uncertainty {} times: {}", widths.len(), listed(&named, " and ")),
+                format!(
+                    "the row states its uncertainty {} times: {}",
+                    widths.len(),
+                    listed(&named, " and ")
+                ),
                 [],
                 "`--column ignore=COLUMN` for the ones that do not count",
             );
             return None;
         }
         let std = self.optional(header, line, Column::Standard)?;
-        let mut std = std.or_else(|| {
-            let (_, u, unit) = in_digits?;
-            Some(Cell { value: u, half_digit: 0.0, unit: unit.to_owned(), text: text.to_owned() })
+        let behind = in_digits.map(|(_, value, unit)| Cell {
+            value,
+            half_digit: 0.0,
+            unit: unit.to_owned(),
+            text: text.to_owned(),
         });
+        let (mut std, second) = match std {
+            Some(std) => (Some(std), behind),
+            None => (behind, None),
+        };
         let deviation = self.optional(header, line, Column::Deviation)?;
         if deviation.is_some() && std.is_none() && widths.is_empty() {
-            let letter = header.place(Column::Deviation).map_or_else(String::new, |place| letters(place as u32));
+            let letter = header
+                .place(Column::Deviation)
+                .map_or_else(String::new, |place| letters(place as u32));
             self.ask(
                 line..=line,
                 "the row has a standard deviation and no uncertainty",
@@ -463,7 +583,8 @@ impl Sheet<'_> {
         let relative = self.optional(header, line, Column::Relative)?;
         let all = widths.iter().map(|(_, cell, _)| cell).chain(&std);
         let units: Vec<&str> = all.clone().map(|cell| cell.unit.as_str()).collect();
-        row.unit = self.unit(header, line, (estimate.as_ref(), bracketed.map(|(_, unit)| unit)), &units)?;
+        row.unit =
+            self.unit(header, line, (estimate.as_ref(), bracketed.map(|(_, unit)| unit)), &units)?;
         for cell in all.chain(&relative) {
             if cell.value < 0.0 {
                 self.fail(line, format!("the uncertainty `{}` is below zero", cell.text));
@@ -473,11 +594,19 @@ impl Sheet<'_> {
         // what the distribution and the factors say
         let shape = Shape::of(self, header, line)?;
         row.dof = self.dof(header, line, &shape).ok()?;
+        if shape.is_student && row.dof.is_none() {
+            self.fail(
+                line,
+                "a t distribution needs its degrees of freedom: write them into a column `dof`",
+            );
+            return None;
+        }
         self.type_of(header, &mut row)?;
         self.limits(header, &mut row)?;
         let mut of_shape = None;
         if let Some((column, cell, text)) = widths.first().filter(|_| kind == Kind::Quantity) {
-            let value = self.in_unit_of_row(cell, &row, &unit_of_uncertainty(cell, header, self, line))?;
+            let value =
+                self.in_unit_of_row(cell, &row, &self.unit_of_uncertainty(cell, header, line)?)?;
             if value > 0.0 {
                 self.width(header, &mut row, (*column, value, text), &shape)?;
             }
@@ -490,13 +619,16 @@ impl Sheet<'_> {
             if columns::coverage(&cell.text).factor(None).is_some_and(|k| k != 1.0) {
                 self.ask(
                     line..=line,
-                    format!("`{}` below a heading of standard uncertainties states a coverage factor", cell.text),
+                    format!(
+                        "`{}` below a heading of standard uncertainties states a coverage factor",
+                        cell.text
+                    ),
                     ["a standard uncertainty", "an expanded one"],
                     "`--column U=COLUMN`, or correct the cell",
                 );
                 return None;
             }
-            let unit = unit_of_uncertainty(cell, header, self, line);
+            let unit = self.unit_of_uncertainty(cell, header, line)?;
             cell.value = self.in_unit_of_row(cell, &row, &unit)?;
         }
         let share = match (&relative, row.estimate) {
@@ -505,12 +637,23 @@ impl Sheet<'_> {
                 Some(to_15_digits(cell.value * size * x.abs()))
             }
             (Some(cell), _) => {
-                self.fail(line, format!("`{}` is a share of an estimate that the row does not state, or that is 0", cell.text));
+                self.fail(
+                    line,
+                    format!(
+                        "`{}` is a share of an estimate that the row does not state, or that is 0",
+                        cell.text
+                    ),
+                );
                 return None;
             }
             (None, _) => None,
         };
-        let stated = [std.as_ref().map(|cell| (cell.value, cell.half_digit)), share.map(|u| (u, 0.0))];
+        let second = match &second {
+            Some(cell) => Some((self.in_unit_of_row(cell, &row, &cell.unit)?, 0.0)),
+            None => None,
+        };
+        let std_cell = std.as_ref().map(|cell| (cell.value, cell.half_digit));
+        let stated = [std_cell, share.map(|u| (u, 0.0)), second];
         self.same_uncertainty(line, of_shape, stated)?;
         if kind == Kind::Constant {
             row.width = None;
@@ -534,12 +677,16 @@ impl Sheet<'_> {
     /// What the sheet says of a quantity in words.
     fn about(&self, header: &Header, line: usize) -> String {
         let is_word = |(_, column): &&(usize, Column)| {
-            matches!(column, Column::Quantity | Column::Symbol | Column::Description | Column::Remark)
+            matches!(
+                column,
+                Column::Quantity | Column::Symbol | Column::Description | Column::Remark
+            )
         };
         let order = [Column::Symbol, Column::Quantity, Column::Description, Column::Remark];
         let mut texts: Vec<&str> = Vec::new();
         for wanted in order {
-            let of_kind = header.columns.iter().filter(is_word).filter(|(_, column)| *column == wanted);
+            let of_kind =
+                header.columns.iter().filter(is_word).filter(|(_, column)| *column == wanted);
             for (place, _) in of_kind {
                 let text = self.cells.text(line, *place).trim();
                 if !is_empty(text) && !texts.contains(&text) {
@@ -551,15 +698,25 @@ impl Sheet<'_> {
     }
 
     /// The unit of a row: all that states one has to say the same.
-    fn unit(&self, header: &Header, line: usize, (estimate, of_name): (Option<&Cell>, Option<String>), of_uncertainties: &[&str]) -> Option<String> {
+    fn unit(
+        &self,
+        header: &Header,
+        line: usize,
+        (estimate, of_name): (Option<&Cell>, Option<String>),
+        of_uncertainties: &[&str],
+    ) -> Option<String> {
         let own = header.cell(self.cells, line, Column::Unit);
-        let own = if is_empty(own) || own == "1" { "" } else { own.trim_matches(['[', ']', '(', ')']) };
+        let own =
+            if is_empty(own) || own == "1" { "" } else { own.trim_matches(['[', ']', '(', ')']) };
         let own = match Unit::parse(own) {
             Ok(_) if own.parse::<f64>().is_err() => own.to_owned(),
             _ => match columns::unit_as_meant(own) {
                 Some(meant) => meant,
                 None => {
-                    self.fail(line, format!("`{own}` in the column of the unit is no unit that is known"));
+                    self.fail(
+                        line,
+                        format!("`{own}` in the column of the unit is no unit that is known"),
+                    );
                     return None;
                 }
             },
@@ -579,6 +736,19 @@ impl Sheet<'_> {
                 );
                 return None;
             }
+            let of_all = self.unit_of_all(header).filter(|of_all| {
+                let both = Unit::parse(of_all).ok().zip(Unit::parse(first).ok());
+                !is_same_unit(of_all, first) && both.is_some_and(|(a, b)| a.is_compatible(&b))
+            });
+            if let Some(of_all) = of_all {
+                self.ask(
+                    line..=line,
+                    "a line beside the table states the unit of all values, and the row another one",
+                    [first, &of_all],
+                    "`--row ignore=ROW` for that line, or correct it",
+                );
+                return None;
+            }
             return Some(first.clone());
         }
         if is_plain {
@@ -588,17 +758,39 @@ impl Sheet<'_> {
             return Some(unit);
         }
         let is_known = |unit: &&&str| !unit.is_empty();
-        let Some(first) = of_uncertainties.iter().find(is_known) else { return Some(String::new()) };
+        let Some(first) = of_uncertainties.iter().find(is_known) else {
+            return Some(String::new());
+        };
         if estimate.is_some_and(|cell| cell.value != 0.0) {
             self.ask(
                 line..=line,
-                format!("the estimate `{}` has no unit, and its uncertainty is in `{first}`", estimate.map_or("", |cell| &cell.text)),
+                format!(
+                    "the estimate `{}` has no unit, and its uncertainty is in `{first}`",
+                    estimate.map_or("", |cell| &cell.text)
+                ),
                 [&format!("in `{first}` as well") as &str, "in another unit"],
                 "`--column-unit estimate=UNIT`, or `--column unit=COLUMN`",
             );
             return None;
         }
         Some((*first).to_owned())
+    }
+
+    /// The unit of an uncertainty: its own, or that of the column of their units.
+    fn unit_of_uncertainty(&self, cell: &Cell, header: &Header, line: usize) -> Option<String> {
+        let of_column = header.cell(self.cells, line, Column::UnitOfUncertainty);
+        if is_empty(of_column) {
+            return Some(cell.unit.clone());
+        }
+        if Unit::parse(of_column).is_err() {
+            self.fail(line, format!("`{of_column}`, the unit of the uncertainty, is not known"));
+            return None;
+        }
+        if !cell.unit.is_empty() && !is_same_unit(&cell.unit, of_column) {
+            self.fail(line, format!("`{}` stands beside its unit `{of_column}`", cell.text));
+            return None;
+        }
+        Some(of_column.to_owned())
     }
 
     /// The number of an uncertainty in the unit of its row; per cent and ppm are of the estimate.
@@ -610,12 +802,27 @@ impl Sheet<'_> {
         let (own, value) = (Unit::parse(unit).ok()?, cell.value);
         let of_row = Unit::parse(&row.unit).ok()?;
         let known = (!row.unit.is_empty()).then_some(&of_row);
+        let is_ratio = own.dimension().is_none() && own.turn().is_none() && own.factor() != 1.0;
+        if known.is_none()
+            && is_ratio
+            && !own.is_relative()
+            && row.estimate.is_some_and(|x| x != 0.0)
+        {
+            self.fail(line, share::two_meanings(unit, "1"));
+            return None;
+        }
         match Share::of(&own, known) {
             Share::Own => match Unit::conversion_factor(&own, &of_row) {
-                Ok(scale) if scale == 1.0 => Some(to_15_digits(value)),
                 Ok(scale) => Some(to_15_digits(value * scale)),
                 Err(_) => {
-                    self.fail(line, format!("the uncertainty `{}` is in `{unit}`, and the quantity in `{}`", cell.text, if row.unit.is_empty() { "1" } else { &row.unit }));
+                    self.fail(
+                        line,
+                        format!(
+                            "the uncertainty `{}` is in `{unit}`, and the quantity in `{}`",
+                            cell.text,
+                            if row.unit.is_empty() { "1" } else { &row.unit }
+                        ),
+                    );
                     None
                 }
             },
@@ -639,7 +846,10 @@ impl Sheet<'_> {
                 }
             }
             Share::Doubtful => {
-                self.fail(line, share::two_meanings(unit, if row.unit.is_empty() { "1" } else { &row.unit }));
+                self.fail(
+                    line,
+                    share::two_meanings(unit, if row.unit.is_empty() { "1" } else { &row.unit }),
+                );
                 None
             }
         }
@@ -648,7 +858,10 @@ impl Sheet<'_> {
     /// Takes the middle and the half-width of limits; the estimate, if it is stated, is their middle.
     fn limits(&self, header: &Header, row: &mut Row) -> Option<()> {
         let line = row.line;
-        let (lower, upper) = (self.optional(header, line, Column::Lower)?, self.optional(header, line, Column::Upper)?);
+        let (lower, upper) = (
+            self.optional(header, line, Column::Lower)?,
+            self.optional(header, line, Column::Upper)?,
+        );
         let (Some(lower), Some(upper)) = (lower, upper) else { return Some(()) };
         let scaled = |cell: &Cell| {
             let of = |unit: &str| Unit::parse(unit).ok();
@@ -656,7 +869,8 @@ impl Sheet<'_> {
                 return Some(cell.value);
             }
             let (own, of_row) = (of(&cell.unit)?, of(&row.unit)?);
-            let scale = Unit::conversion_factor(&own, &of_row).ok().filter(|_| own.has_zero_of(&of_row))?;
+            let scale =
+                Unit::conversion_factor(&own, &of_row).ok().filter(|_| own.has_zero_of(&of_row))?;
             Some(to_15_digits(cell.value * scale))
         };
         let (Some(low), Some(high)) = (scaled(&lower), scaled(&upper)) else {
@@ -666,11 +880,17 @@ impl Sheet<'_> {
         let middle = to_15_digits((low + high) / 2.0);
         let half = to_15_digits((high - low) / 2.0);
         if half <= 0.0 {
-            self.fail(line, format!("the lower limit `{}` is not below the upper one, `{}`", lower.text, upper.text));
+            self.fail(
+                line,
+                format!(
+                    "the lower limit `{}` is not below the upper one, `{}`",
+                    lower.text, upper.text
+                ),
+            );
             return None;
         }
         let estimate = row.estimate.unwrap_or(middle);
-        if (estimate - middle).abs() > 1e-9 * (estimate.abs() + half) + 1.2 * lower.half_digit {
+        if (estimate - middle).abs() > 1e-9 * (estimate.abs() + half) {
             self.ask(
                 line..=line,
                 format!("the estimate {} is not in the middle of the limits `{}` and `{}`", Shortest(estimate), lower.text, upper.text),
@@ -697,7 +917,9 @@ impl Sheet<'_> {
             "B" | "b" => {}
             _ if is_empty(text) => {}
             _ => {
-                let letter = header.place(Column::Type).map_or_else(String::new, |place| letters(place as u32));
+                let letter = header
+                    .place(Column::Type)
+                    .map_or_else(String::new, |place| letters(place as u32));
                 self.ask(
                     row.line..=row.line,
                     format!("`{text}` is no type of evaluation, A or B"),
@@ -712,7 +934,12 @@ impl Sheet<'_> {
 
     /// Asks where a row states its standard uncertainty twice, and the two differ by more than their digits and
     /// one hundredth.
-    fn same_uncertainty(&self, line: usize, of_shape: Option<f64>, stated: [Option<(f64, f64)>; 2]) -> Option<()> {
+    fn same_uncertainty(
+        &self,
+        line: usize,
+        of_shape: Option<f64>,
+        stated: [Option<(f64, f64)>; 3],
+    ) -> Option<()> {
         let all = of_shape.map(|u| (u, 0.0)).into_iter().chain(stated.into_iter().flatten());
         let all: Vec<(f64, f64)> = all.collect();
         for pair in all.windows(2) {
@@ -722,7 +949,10 @@ impl Sheet<'_> {
                     line..=line,
                     "the row states two standard uncertainties",
                     [
-                        &format!("{}, of its half-width or expanded uncertainty", Shortest(to_15_digits(a))) as &str,
+                        &format!(
+                            "{}, of its half-width or expanded uncertainty",
+                            Shortest(to_15_digits(a))
+                        ) as &str,
                         &format!("{}, as it stands", Shortest(to_15_digits(b))),
                     ],
                     "`--column ignore=COLUMN` for the one that does not count, or correct the row",
@@ -741,20 +971,27 @@ impl Sheet<'_> {
             return Some(());
         }
         let comma = self.cells.decimal_comma();
-        let (value, unit) = match super::number::constant(text, comma).filter(|_| !text.contains('%')) {
-            Some(value) if self.cells.no_number(row.line, place).is_none() => {
-                (value, header.unit(place).unwrap_or("").to_owned())
-            }
-            _ => {
-                let cell = self.number(header, row.line, place).ok()??;
-                (cell.value, cell.unit)
-            }
-        };
+        let (value, unit) =
+            match super::number::constant(text, comma).filter(|_| !text.contains('%')) {
+                Some(value) if self.cells.no_number(row.line, place).is_none() => {
+                    (value, header.unit(place).unwrap_or("").to_owned())
+                }
+                _ => {
+                    let cell = self.number(header, row.line, place).ok()??;
+                    (cell.value, cell.unit)
+                }
+            };
         let of_column = header.cell(self.cells, row.line, Column::UnitOfSensitivity);
         let unit = if unit.is_empty() { of_column } else { &unit };
-        let known = Unit::parse(unit).map(|_| unit.to_owned()).ok().or_else(|| columns::unit_as_meant(unit));
+        let known = Unit::parse(unit)
+            .map(|_| unit.to_owned())
+            .ok()
+            .or_else(|| columns::unit_as_meant(unit));
         let Some(known) = known.filter(|unit| unit == "1" || unit.parse::<f64>().is_err()) else {
-            self.fail(row.line, format!("`{unit}` is no unit of a sensitivity coefficient that is known"));
+            self.fail(
+                row.line,
+                format!("`{unit}` is no unit of a sensitivity coefficient that is known"),
+            );
             return None;
         };
         row.sensitivity = Some(value);
@@ -768,23 +1005,19 @@ fn shape_of_std(sheet: &Sheet, header: &Header, line: usize) -> Option<&'static 
     let text = header.cell(sheet.cells, line, Column::Distribution);
     let shape = crate::named_shape::NamedShape::of(text)?;
     if shape == crate::named_shape::NamedShape::Unknown {
-        sheet.note(format!("row {}: of `{text}` the standard uncertainty is taken, as of a normal distribution", line + 1));
+        sheet.note(format!(
+            "row {}: of `{text}` the standard uncertainty is taken, as of a normal distribution",
+            line + 1
+        ));
     }
     shape.name().filter(|name| divisor_of(name).is_some())
-}
-
-/// The unit of an uncertainty: its own, or that of the column of their units.
-fn unit_of_uncertainty(cell: &Cell, header: &Header, sheet: &Sheet, line: usize) -> String {
-    match cell.unit.as_str() {
-        "" => header.cell(sheet.cells, line, Column::UnitOfUncertainty).to_owned(),
-        unit => unit.to_owned(),
-    }
 }
 
 /// Whether two texts are the same unit.
 pub(super) fn is_same_unit(a: &str, b: &str) -> bool {
     let same = |(a, b): (Unit, Unit)| {
-        Unit::conversion_factor(&a, &b).is_ok_and(|scale| (scale - 1.0).abs() < 1e-12) && a.has_zero_of(&b)
+        Unit::conversion_factor(&a, &b).is_ok_and(|scale| (scale - 1.0).abs() < 1e-12)
+            && a.has_zero_of(&b)
     };
     a == b || Unit::parse(a).ok().zip(Unit::parse(b).ok()).is_some_and(same)
 }
@@ -804,7 +1037,13 @@ fn of_words(words: &str) -> Option<Kind> {
     // `u(Rx)`, `u_c(y)` and `U (k=2)`
     let symbol = || words.split('(').next().and_then(|text| named(text.trim()));
     let is_symbol = || words.starts_with(['u', 'U', 'v', 'ν']) && words.contains('(');
-    named(words.trim()).or_else(|| named(&clean)).or_else(|| symbol().filter(|_| is_symbol()))
+    named(words.trim())
+        .or_else(|| named(&clean))
+        .or_else(|| symbol().filter(|_| is_symbol()))
         // `k = 2`
-        .or_else(|| words.split_once('=').and_then(|(left, _)| named(left.trim()).filter(|kind| *kind == Kind::Factor)))
+        .or_else(|| {
+            words
+                .split_once('=')
+                .and_then(|(left, _)| named(left.trim()).filter(|kind| *kind == Kind::Factor))
+        })
 }

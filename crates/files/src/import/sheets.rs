@@ -38,7 +38,8 @@ impl Chosen {
             Ok(Self { cells, text, said })
         };
         let holds = |chosen: &Self| line_of(&chosen.cells, options).is_some();
-        let (mut chosen, told) = choice::of(&mut book, options.sheet.as_deref(), &BUDGET, read, holds)?;
+        let (mut chosen, told) =
+            choice::of(&mut book, options.sheet.as_deref(), &BUDGET, read, holds)?;
         if let Some(cell) = chosen.cells.layout().beyond {
             let message = format!(
                 "its cell {} holds something; of a sheet {MOST_ROWS} rows and {MOST_COLUMNS} columns are read, \
@@ -109,7 +110,8 @@ impl Sheet<'_> {
         for &((first, column), (last, _)) in &self.cells.layout().merged {
             let (first, last, place) = (first as usize, last as usize, column as usize);
             let text = self.cells.text(first, place).trim();
-            let is_of_numbers = |(of, column): &(usize, Column)| *of == place && column.is_of_numbers();
+            let is_of_numbers =
+                |(of, column): &(usize, Column)| *of == place && column.is_of_numbers();
             let holds = |line: usize| {
                 header.columns.iter().any(|(of, _)| !self.cells.text(line, *of).trim().is_empty())
             };

@@ -66,7 +66,9 @@ impl Stated {
     /// What its number is multiplied by for one in the unit of the result: to convert it, and for an uncertainty
     /// in per cent or ppm as a share of the estimate.
     fn scales(&self, of_result: &Unit, estimate: f64) -> Vec<f64> {
-        let share = Unit::parse(&self.cell.unit).ok().filter(|unit| unit.is_relative() && !self.is_estimate());
+        let share = Unit::parse(&self.cell.unit)
+            .ok()
+            .filter(|unit| unit.is_relative() && !self.is_estimate());
         let share = share.filter(|_| estimate != 0.0).map(|unit| unit.factor() * estimate.abs());
         self.scale(of_result).into_iter().chain(share).collect()
     }
@@ -75,7 +77,8 @@ impl Stated {
 impl Sheet<'_> {
     /// The name of the result in its row; empty where it has the words of results alone.
     pub(super) fn name_of_result(&self, header: &Header, line: usize) -> String {
-        let cells = [Column::Symbol, Column::Quantity].map(|column| header.cell(self.cells, line, column));
+        let cells =
+            [Column::Symbol, Column::Quantity].map(|column| header.cell(self.cells, line, column));
         let words = cells.into_iter().find(|text| !text.is_empty()).unwrap_or("");
         let clean = columns::plain_case(words);
         let name = columns::identifier(words.split('=').next().unwrap_or(""));
@@ -90,10 +93,17 @@ impl Sheet<'_> {
         for of in &rows.of_result {
             found.extend(self.stated_by(header, *of)?);
         }
-        let factor = rows.of_result.iter().filter(|of| of.kind == Kind::Factor).find_map(|of| self.factor_of_row(of.line));
+        let factor = rows
+            .of_result
+            .iter()
+            .filter(|of| of.kind == Kind::Factor)
+            .find_map(|of| self.factor_of_row(of.line));
         if let Some(factor) = factor {
             for stated in &mut found {
-                if let Figure::Expanded(coverage @ (HeaderCoverage::None | HeaderCoverage::Expanded)) = &mut stated.figure {
+                if let Figure::Expanded(
+                    coverage @ (HeaderCoverage::None | HeaderCoverage::Expanded),
+                ) = &mut stated.figure
+                {
                     *coverage = HeaderCoverage::Factor(factor);
                 }
             }
@@ -113,7 +123,13 @@ impl Sheet<'_> {
         if matches!(kind, Kind::Factor) {
             return Some(found);
         }
-        let uncertain = [Column::Standard, Column::Contribution, Column::Uncertainty, Column::Expanded, Column::HalfWidth];
+        let uncertain = [
+            Column::Standard,
+            Column::Contribution,
+            Column::Uncertainty,
+            Column::Expanded,
+            Column::HalfWidth,
+        ];
         let own_unit = header.cell(self.cells, line, Column::Unit);
         let mut push = |cell: Cell, figure: Figure| {
             let unit = if cell.unit.is_empty() { own_unit.to_owned() } else { cell.unit.clone() };
@@ -124,7 +140,9 @@ impl Sheet<'_> {
         for column in uncertain {
             let Some(place) = header.place(column) else { continue };
             // a word beside the numbers of a summary is no mistake
-            if !self.cells.text(line, place).contains(|c: char| c.is_ascii_digit()) || self.is_factor_cell(line, place) {
+            if !self.cells.text(line, place).contains(|c: char| c.is_ascii_digit())
+                || self.is_factor_cell(line, place)
+            {
                 continue;
             }
             let Some(cell) = self.number(header, line, place).ok()? else { continue };
@@ -135,29 +153,37 @@ impl Sheet<'_> {
                 coverage = header.coverage(column);
             }
             // all of the variance
-            let is_whole = column == Column::Contribution && cell.unit == "%" && (cell.value - 100.0).abs() < 1.5;
+            let is_whole = column == Column::Contribution
+                && cell.unit == "%"
+                && (cell.value - 100.0).abs() < 1.5;
             if is_whole {
                 continue;
             }
             has_uncertainty = true;
-            push(cell, match (kind, column) {
-                (Kind::Expanded, _) => Figure::Expanded(coverage),
-                (Kind::Combined, _) => Figure::Standard,
-                (_, Column::Standard | Column::Contribution) => Figure::Standard,
-                (_, Column::Expanded) => Figure::Expanded(coverage),
-                _ if coverage.factor(None).is_some() => Figure::Expanded(coverage),
-                _ => Figure::Uncertainty,
-            });
+            push(
+                cell,
+                match (kind, column) {
+                    (Kind::Expanded, _) => Figure::Expanded(coverage),
+                    (Kind::Combined, _) => Figure::Standard,
+                    (_, Column::Standard | Column::Contribution) => Figure::Standard,
+                    (_, Column::Expanded) => Figure::Expanded(coverage),
+                    _ if coverage.factor(None).is_some() => Figure::Expanded(coverage),
+                    _ => Figure::Uncertainty,
+                },
+            );
         }
         if let Some(place) = header.place(Column::Estimate)
             && let Some(cell) = self.number(header, line, place).ok()?
         {
-            push(cell, match kind {
-                Kind::Result => Figure::Estimate,
-                _ if has_uncertainty => Figure::Estimate,
-                Kind::Expanded => Figure::Expanded(coverage),
-                _ => Figure::Standard,
-            });
+            push(
+                cell,
+                match kind {
+                    Kind::Result => Figure::Estimate,
+                    _ if has_uncertainty => Figure::Estimate,
+                    Kind::Expanded => Figure::Expanded(coverage),
+                    _ => Figure::Standard,
+                },
+            );
         }
         let is_nothing = found.is_empty();
         if is_nothing && let Some(stated) = self.beside_its_words(header, line, kind, coverage) {
@@ -167,14 +193,22 @@ impl Sheet<'_> {
     }
 
     /// The one number of a row whose words stand right before it.
-    fn beside_its_words(&self, header: &Header, line: usize, kind: Kind, coverage: HeaderCoverage) -> Option<Stated> {
+    fn beside_its_words(
+        &self,
+        header: &Header,
+        line: usize,
+        kind: Kind,
+        coverage: HeaderCoverage,
+    ) -> Option<Stated> {
         let figure = match kind {
             Kind::Combined => Figure::Standard,
             Kind::Expanded => Figure::Expanded(coverage),
             _ => return None,
         };
         let comma = self.cells.decimal_comma();
-        let is_number = |place: &usize| super::number::number_with_unit(self.cells.text(line, *place), comma).is_some();
+        let is_number = |place: &usize| {
+            super::number::number_with_unit(self.cells.text(line, *place), comma).is_some()
+        };
         let places: Vec<usize> = (0..self.cells.row(line).len()).filter(is_number).collect();
         let &[place] = places.as_slice() else { return None };
         let cell = self.number(header, line, place).ok()??;
@@ -198,7 +232,8 @@ impl Sheet<'_> {
                 Ok(statement) => statement.coverage,
                 Err(_) => continue,
             };
-            let of_symbol = columns::probability_of_symbol(&columns::plain_case(cell)).map(HeaderCoverage::Probability);
+            let of_symbol = columns::probability_of_symbol(&columns::plain_case(cell))
+                .map(HeaderCoverage::Probability);
             if stated.factor(None).is_some() {
                 of_words = stated;
             } else if let (HeaderCoverage::None, Some(p)) = (of_words, of_symbol) {
@@ -214,7 +249,8 @@ impl Sheet<'_> {
     /// Refuses a model whose result, or whose contributions, are not those of the sheet.
     pub(super) fn compare(&self, rows: &[Row], stated: &[Stated], model: &Model) {
         let Some((gum, of_result)) = result_of(&model.text) else { return };
-        let (estimates, others): (Vec<&Stated>, Vec<&Stated>) = stated.iter().partition(|of| of.is_estimate());
+        let (estimates, others): (Vec<&Stated>, Vec<&Stated>) =
+            stated.iter().partition(|of| of.is_estimate());
         for stated in estimates.into_iter().chain(others) {
             self.compare_figure(stated, (&gum, &of_result), model);
         }
@@ -252,14 +288,18 @@ impl Sheet<'_> {
             self.fail(stated.line, format!("the sheet says that {what} of the result is `{}` in `{}`, and this model has it in `{}`", cell.text, cell.unit, of_result.text()));
             return;
         }
-        let is_near = |scale: f64, own: f64| (cell.value * scale - own).abs() <= 1.2 * cell.half_digit * scale.abs() + slack;
+        let is_near = |scale: f64, own: f64| {
+            (cell.value * scale - own).abs() <= 1.2 * cell.half_digit * scale.abs() + slack
+        };
         if scales.iter().any(|scale| own.iter().any(|own| is_near(*scale, *own))) {
             return;
         }
         let scale = scales[0];
         let digits = if stated.is_estimate() { digits_of(gum) } else { 3 };
         let unit = if cell.unit.is_empty() { of_result.text() } else { &cell.unit };
-        let with_unit = |text: String| if text.ends_with(unit) { text } else { format!("{text} {unit}").trim_end().to_owned() };
+        let with_unit = |text: String| {
+            if text.ends_with(unit) { text } else { format!("{text} {unit}").trim_end().to_owned() }
+        };
         self.ask(
             stated.line..=stated.line,
             format!(
@@ -281,8 +321,17 @@ impl Sheet<'_> {
 
     /// Refuses contributions of rows that are not those of the model: in the unit of the result, as shares of its
     /// estimate, or as shares of its variance.
-    fn compare_contributions(&self, rows: &[Row], factors: &[f64], (gum, of_result): (&Gum, &Unit)) {
-        let own: Vec<f64> = rows.iter().zip(factors).map(|(row, c)| (c * row.standard_uncertainty()).abs()).collect();
+    fn compare_contributions(
+        &self,
+        rows: &[Row],
+        factors: &[f64],
+        (gum, of_result): (&Gum, &Unit),
+    ) {
+        let own: Vec<f64> = rows
+            .iter()
+            .zip(factors)
+            .map(|(row, c)| (c * row.standard_uncertainty()).abs())
+            .collect();
         let variance: f64 = own.iter().map(|u| u * u).sum();
         for (row, own) in rows.iter().zip(own) {
             let Some(cell) = &row.contribution else { continue };
@@ -295,16 +344,23 @@ impl Sheet<'_> {
             }
             if unit.is_relative() || cell.unit.is_empty() && variance > 0.0 {
                 let size = if cell.unit.is_empty() { 1.0 } else { unit.factor() };
-                readings.extend((gum.estimate != 0.0).then(|| own / gum.estimate.abs() / size).filter(|_| unit.is_relative()));
+                readings.extend(
+                    (gum.estimate != 0.0)
+                        .then(|| own / gum.estimate.abs() / size)
+                        .filter(|_| unit.is_relative()),
+                );
                 readings.extend(unit.is_relative().then(|| own * own / variance / size));
             }
             let is_near = |reading: &f64| {
-                (cell.value.abs() - reading).abs() <= 1.2 * cell.half_digit + ROUNDED_PARTS * reading
+                (cell.value.abs() - reading).abs()
+                    <= 1.2 * cell.half_digit + ROUNDED_PARTS * reading
             };
             if readings.iter().any(is_near) {
                 continue;
             }
-            let shown = readings.first().map_or_else(|| "none in that unit".to_owned(), |of| significant(*of, 3));
+            let shown = readings
+                .first()
+                .map_or_else(|| "none in that unit".to_owned(), |of| significant(*of, 3));
             let in_unit = if cell.unit.is_empty() { of_result.text() } else { &cell.unit };
             self.ask(
                 row.line..=row.line,

@@ -4,7 +4,7 @@ use super::ask::Sheet;
 use super::both::sides;
 use super::columns::{self, Column};
 use super::concise::concise;
-use super::coverage::HeaderCoverage;
+use super::coverage::{HeaderCoverage, Statement};
 use super::grid::{Cells, is_empty};
 use super::heading::unit_of_header;
 use super::number::number_with_unit;
@@ -126,7 +126,8 @@ impl Header {
         let by_heading: Vec<usize> = (0..self.headings.len()).filter(same).collect();
         let said = said.trim();
         let letter = || {
-            let digits = said.bytes().all(|of| of.is_ascii_alphabetic()) && (1..=2).contains(&said.len());
+            let digits =
+                said.bytes().all(|of| of.is_ascii_alphabetic()) && (1..=2).contains(&said.len());
             let place = said.bytes().fold(0_usize, |place, of| {
                 26 * place + usize::from(of.to_ascii_uppercase().saturating_sub(b'A')) + 1
             });
@@ -189,6 +190,7 @@ impl Header {
         let counts = |text: &&str| {
             let text = text.trim_start_matches(['±', ' ']);
             number_with_unit(text, comma).is_some()
+                || Unit::parse(text).is_ok()
                 || matches!(NamedShape::of(text), Some(of) if of != NamedShape::Unknown)
         };
         if !texts.iter().any(counts) {
@@ -201,7 +203,10 @@ impl Header {
         let letter = letters(place as u32);
         sheet.ask(
             self.first..=self.shown(sheet),
-            format!("{} is headed by no word that is known, and has numbers or distributions", self.named(place)),
+            format!(
+                "{} is headed by no word that is known, and has numbers, units or distributions",
+                self.named(place)
+            ),
             ["a column of the budget", "one that does not count"],
             format!(
                 "`--column NAME={letter}` (NAME is one of {}), or `--column ignore={letter}`",
@@ -241,7 +246,10 @@ impl Header {
                     self.units.push((place, unit.to_owned()));
                 }
                 (None, _) => {
-                    sheet.fail(self.first, format!("`--column-unit {name}={unit}`: there is no column `{name}`"));
+                    sheet.fail(
+                        self.first,
+                        format!("`--column-unit {name}={unit}`: there is no column `{name}`"),
+                    );
                 }
                 (_, Err(error)) => {
                     sheet.fail(self.first, format!("`--column-unit {name}={unit}`: {error}"));
@@ -332,7 +340,12 @@ impl Header {
         }
         if has(Column::Lower) != has(Column::Upper) {
             let about = "a lower and an upper limit belong together, and one of them has no column";
-            sheet.ask(lines.clone(), about, [], "`--column lower=COLUMN` and `--column upper=COLUMN`");
+            sheet.ask(
+                lines.clone(),
+                about,
+                [],
+                "`--column lower=COLUMN` and `--column upper=COLUMN`",
+            );
         }
         let of_divisors = [Column::Divisor, Column::Multiplier, Column::Factor];
         if let Some(place) = of_divisors.iter().find_map(|of| self.place(*of))
@@ -345,24 +358,48 @@ impl Header {
             let std = std.map_or_else(String::new, |std| letters(std as u32));
             sheet.ask(
                 lines.clone(),
-                format!("{} has what uncertainties are divided by, and no column of such is known", self.named(place)),
+                format!(
+                    "{} has what uncertainties are divided by, and no column of such is known",
+                    self.named(place)
+                ),
                 [
-                    &format!("what another column, or column {std}, is still to be divided by") as &str,
+                    &format!("what another column, or column {std}, is still to be divided by")
+                        as &str,
                     "what is divided already",
                 ],
                 format!("`--column uncertainty=COLUMN`, or `--column ignore={letter}`"),
             );
         }
+        for (place, column) in self.columns.iter().filter(|(_, column)| column.is_of_numbers()) {
+            if Statement::of(self.heading(*place)).is_ok_and(|of| of.dof.is_some()) {
+                let column = format!("{} `{}`", self.named(*place), column.name());
+                let reason = format!("{column} states degrees of freedom in its heading");
+                sheet.fail(self.first, format!("{reason}: write them into a column `dof`"));
+            }
+        }
         for column in [Column::Standard, Column::Relative, Column::HalfWidth, Column::FullWidth] {
             let Some(place) = self.place(column).filter(|place| !self.said.contains(place)) else {
                 continue;
             };
-            if let Some(k) = columns::coverage(self.heading(place)).factor(None).filter(|k| *k != 1.0) {
+            if let Some(k) =
+                columns::coverage(self.heading(place)).factor(None).filter(|k| *k != 1.0)
+            {
                 sheet.ask(
                     lines.clone(),
-                    format!("{} says a coverage factor, {}", self.named(place), gumption_engine::decimal::significant(k, 3)),
-                    [&format!("`{}`, without that factor", column.name()) as &str, "expanded uncertainties with it"],
-                    format!("`--column {}={1}` or `--column U={1}`", column.name(), letters(place as u32)),
+                    format!(
+                        "{} says a coverage factor, {}",
+                        self.named(place),
+                        gumption_engine::decimal::significant(k, 3)
+                    ),
+                    [
+                        &format!("`{}`, without that factor", column.name()) as &str,
+                        "expanded uncertainties with it",
+                    ],
+                    format!(
+                        "`--column {}={1}` or `--column U={1}`",
+                        column.name(),
+                        letters(place as u32)
+                    ),
                 );
             }
         }
@@ -376,7 +413,9 @@ impl Header {
                 is_same(cells.text(*line, *place), self.heading(*place))
             };
             let same = self.columns.iter().filter(same).count();
-            !(self.first..=self.line).contains(line) && same >= 3 && 3 * same >= 2 * self.columns.len()
+            !(self.first..=self.line).contains(line)
+                && same >= 3
+                && 3 * same >= 2 * self.columns.len()
         };
         if let Some(line) = (0..cells.lines()).find(is_header) {
             let reason = format!(

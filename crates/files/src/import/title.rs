@@ -10,25 +10,33 @@ use gumption_units::Unit;
 impl Sheet<'_> {
     /// The unit of all values by a line above or below the table.
     pub(super) fn unit_of_all(&self, header: &Header) -> Option<String> {
-        let is_beside = |line: &usize| {
-            let held = self.cells.row(*line).iter().filter(|cell| !cell.trim().is_empty()).count();
-            *line < header.first || *line > header.line && held == 1
+        self.units_of_all(header).into_iter().find_map(|(_, unit)| unit.ok())
+    }
+
+    /// What lines beside the table state as the unit of all values.
+    fn units_of_all(&self, header: &Header) -> Vec<(usize, Result<String, String>)> {
+        let is_ignored = |line: usize| {
+            let of =
+                |numbers: &str| numbers.split(',').any(|of| of.trim() == (line + 1).to_string());
+            self.options.rows.iter().any(|(kind, numbers)| kind == "ignore" && of(numbers))
         };
-        let lines = (0..self.cells.lines()).filter(is_beside);
-        let mut found = lines.filter_map(|line| {
-            let held: Vec<&str> =
-                self.cells.row(line).iter().map(|cell| cell.trim()).filter(|cell| !cell.is_empty()).collect();
+        let of_line = |line: usize| {
+            let cells = self.cells.row(line).iter().map(|cell| cell.trim());
+            let held: Vec<&str> = cells.filter(|cell| !cell.is_empty()).collect();
+            let is_beside = line < header.first || line > header.line && held.len() == 1;
             // `Unit` and `mV` in two cells
             let sign = if held.len() == 2 && !held[0].ends_with(':') { ": " } else { " " };
-            stated(&held.join(sign))
-        });
-        found.next()
+            let found = stated(&held.join(sign)).filter(|_| is_beside && !is_ignored(line))?;
+            Some((line, found))
+        };
+        (0..self.cells.lines()).filter_map(of_line).collect()
     }
 
     /// The first line of words above the table; else what the file is called.
     pub(super) fn title(&self, header: &Header, file: &str) -> String {
         let texts = (0..header.first).filter_map(|line| {
-            let mut held = self.cells.row(line).iter().map(|cell| cell.trim()).filter(|cell| !cell.is_empty());
+            let mut held =
+                self.cells.row(line).iter().map(|cell| cell.trim()).filter(|cell| !cell.is_empty());
             let first = held.next()?;
             let is_title = held.next().is_none()
                 && !first.contains('=')
@@ -39,20 +47,41 @@ impl Sheet<'_> {
         texts.into_iter().next().unwrap_or_else(|| file.to_owned())
     }
 
+    /// Asks where a line beside the table states the unit of all values, and it is not known.
+    pub(super) fn unknown_units(&self, header: &Header) {
+        for (line, unit) in self.units_of_all(header) {
+            if let Err(word) = unit {
+                self.ask(
+                    line..=line,
+                    format!("`{word}` may be the unit of all values, and is no unit that is known"),
+                    ["the unit of the columns that state none", "a remark"],
+                    format!("`--column-unit NAME=UNIT` with `--row ignore={}`", line + 1),
+                );
+            }
+        }
+    }
+
     /// Asks what is to become of statements of correlation, which are not read.
     pub(super) fn correlations(&self, header: &Header) {
         let is_said = |line: usize| {
-            let of = |numbers: &str| numbers.split(',').any(|number| number.trim() == (line + 1).to_string());
+            let of = |numbers: &str| {
+                numbers.split(',').any(|number| number.trim() == (line + 1).to_string())
+            };
             self.options.rows.iter().any(|(_, numbers)| of(numbers))
         };
-        for line in (0..self.cells.lines()).filter(|line| !(header.first..=header.line).contains(line)) {
+        for line in
+            (0..self.cells.lines()).filter(|line| !(header.first..=header.line).contains(line))
+        {
             let names = [Column::Quantity, Column::Symbol, Column::Description];
             let is_name = |place: usize| {
                 let of = |(at, column): &(usize, Column)| *at == place && names.contains(column);
-                line > header.line && self.has_uncertainty(header, line) && header.columns.iter().any(of)
+                line > header.line
+                    && self.has_uncertainty(header, line)
+                    && header.columns.iter().any(of)
             };
             let mut cells = self.cells.row(line).iter().enumerate();
-            let found = cells.find(|(place, cell)| columns::is_of_correlation(cell) && !is_name(*place));
+            let found =
+                cells.find(|(place, cell)| columns::is_of_correlation(cell) && !is_name(*place));
             if let Some((_, cell)) = found.filter(|_| !is_said(line)) {
                 self.ask(
                     line..=line,
@@ -69,15 +98,17 @@ impl Sheet<'_> {
     }
 }
 
-/// The unit that a text states for all values.
-fn stated(text: &str) -> Option<String> {
+/// The unit that a text states for all values, or the word in its place that is none.
+fn stated(text: &str) -> Option<Result<String, String>> {
     let clean = text.replace(['(', ')', '[', ']', ';', ','], " ");
     let words: Vec<&str> = clean.split_whitespace().collect();
-    let small: Vec<String> = words.iter().map(|word| word.trim_matches(':').to_lowercase()).collect();
+    let small: Vec<String> =
+        words.iter().map(|word| word.trim_matches(':').to_lowercase()).collect();
     let is = |meaning: &'static str, word: &str| words::of(meaning).any(|of| of == word);
     let unit = |text: &str| {
         let text = text.trim_end_matches(['.', ':', '!']);
-        let is_known = text.parse::<f64>().is_err() && !text.is_empty() && Unit::parse(text).is_ok();
+        let is_known =
+            text.parse::<f64>().is_err() && !text.is_empty() && Unit::parse(text).is_ok();
         is_known.then(|| text.to_owned()).or_else(|| columns::unit_as_meant(text))
     };
     for at in 1..words.len() {
@@ -87,7 +118,12 @@ fn stated(text: &str) -> Option<String> {
         let is_label = is("unit", &small[at - 1]) && words[at - 1].ends_with(':');
         let is_only = words.len() == at + 1 || is("title:behind", &small[at + 1]);
         if (is_of_values || is_label) && is_only {
-            return unit(words[at]);
+            let is_word = words[at].chars().all(char::is_lowercase);
+            return match unit(words[at]) {
+                Some(unit) => Some(Ok(unit)),
+                // `in general` is no unit
+                None => (!is_word).then(|| Err(words[at].to_owned())),
+            };
         }
     }
     None

@@ -5,11 +5,11 @@
 
 use super::ask::Sheet;
 use super::columns::{self, Column};
-use super::words;
 use super::coverage::{HeaderCoverage, Statement};
 use super::number::constant;
 use super::rows::Row;
 use super::table::Header;
+use super::words;
 use crate::named_shape::NamedShape;
 use crate::workbook::letters;
 use gumption_engine::number::Shortest;
@@ -32,7 +32,7 @@ pub(super) fn near(a: f64, b: f64) -> bool {
 pub(super) struct Shape {
     /// One that a model file has.
     name: Option<&'static str>,
-    is_student: bool,
+    pub(super) is_student: bool,
     statement: Statement,
 }
 
@@ -52,6 +52,17 @@ impl Shape {
                 return None;
             }
         };
+        if super::number::number(cell, sheet.cells.decimal_comma()).is_some() {
+            let reason = format!("the number `{cell}` stands in the column of the distribution");
+            sheet.fail(line, format!("{reason}: has the row a cell too much?"));
+            return None;
+        }
+        let inside = statement.rest.split_once('(').map_or("", |(_, inside)| inside);
+        if inside.contains(|c: char| c.is_ascii_digit()) {
+            let reason = format!("what `{text}` says besides the distribution is not understood");
+            sheet.fail(line, format!("{reason}: a coverage factor is written `normal (k=2)`"));
+            return None;
+        }
         let name = match NamedShape::of(text) {
             Some(NamedShape::Known(name)) => Some(name),
             _ => None,
@@ -88,7 +99,10 @@ impl Sheet<'_> {
                 continue;
             };
             let Some(factor) = constant(text, comma).filter(|factor| *factor > 0.0) else {
-                self.fail(line, format!("`{text}` in {} is no factor above 0", header.named(place)));
+                self.fail(
+                    line,
+                    format!("`{text}` in {} is no factor above 0", header.named(place)),
+                );
                 return Err(());
             };
             if column == Column::Divisor && factor < 0.999 {
@@ -111,8 +125,13 @@ impl Sheet<'_> {
                 return Err(());
             }
         };
+        let names = [Column::Quantity, Column::Symbol, Column::Description, Column::Remark];
+        let of_words = names.map(|column| {
+            let text = header.cell(self.cells, line, column);
+            (Statement::of(text).map_or(HeaderCoverage::None, |of| of.coverage), "the words")
+        });
         let said = [(of_cell, "the cell"), (shape.statement.coverage, "the distribution")];
-        let said = said.into_iter().filter_map(|(of, place)| match of {
+        let said = said.into_iter().chain(of_words).filter_map(|(of, place)| match of {
             HeaderCoverage::Factor(factor) => Some(Stated { factor, place: place.to_owned() }),
             _ => None,
         });
@@ -139,7 +158,8 @@ impl Sheet<'_> {
         if column == Column::FullWidth || is_said {
             return Some(());
         }
-        for column in [Column::Quantity, Column::Symbol, Column::Description, Column::Distribution] {
+        for column in [Column::Quantity, Column::Symbol, Column::Description, Column::Distribution]
+        {
             let text = header.cell(self.cells, line, column);
             let small = text.to_lowercase();
             // a remark on the name, and no name: `Range of the meter`
@@ -182,16 +202,20 @@ impl Sheet<'_> {
                 format!("`{text}` is {shape_words}, and its divisor is {}", Shortest(divisor)),
                 [
                     half,
-                    &format!("what is divided by {}, whatever the distribution", Shortest(divisor)) as &str,
+                    &format!("what is divided by {}, whatever the distribution", Shortest(divisor))
+                        as &str,
                 ],
                 "`--column ignore=COLUMN` for the column of the divisors or of the distributions",
             );
             None
         };
-        let half_of_shape = format!("the half-width of that distribution, to be divided by {}", match root {
-            Some(root) => gumption_engine::decimal::significant(root, 4),
-            None => "its own divisor".to_owned(),
-        });
+        let half_of_shape = format!(
+            "the half-width of that distribution, to be divided by {}",
+            match root {
+                Some(root) => gumption_engine::decimal::significant(root, 4),
+                None => "its own divisor".to_owned(),
+            }
+        );
         match (column, divisor, root) {
             (Column::FullWidth, divisor, Some(root)) => {
                 row.width = Some(value / 2.0);
@@ -202,9 +226,11 @@ impl Sheet<'_> {
                     _ => {}
                 }
             }
-            (Column::HalfWidth | Column::Uncertainty | Column::Expanded, Some(divisor), Some(root))
-                if near(divisor, root) =>
-            {
+            (
+                Column::HalfWidth | Column::Uncertainty | Column::Expanded,
+                Some(divisor),
+                Some(root),
+            ) if near(divisor, root) => {
                 if column != Column::HalfWidth
                     && let Some(k) = of_heading.factor(None).filter(|k| !near(*k, divisor))
                 {
@@ -287,10 +313,6 @@ impl Sheet<'_> {
         let of_cell = Statement::of(text).map_or(HeaderCoverage::None, |of| of.coverage);
         let said = [of_cell, shape.statement.coverage, header.coverage(column)];
         let found = said.into_iter().find(|of| of.factor(None).is_some());
-        if shape.is_student && row.dof.is_none() && found.and_then(HeaderCoverage::probability).is_some() {
-            self.fail(line, "a t distribution needs its degrees of freedom: write them into a column `dof`");
-            return None;
-        }
         if let Some(coverage) = found {
             row.divisor = coverage.factor(row.dof);
             row.probability = coverage.probability();
@@ -327,7 +349,12 @@ impl Sheet<'_> {
     }
 
     /// The degrees of freedom of a row: of their column, or beside a factor. `Err` after a mistake.
-    pub(super) fn dof(&self, header: &Header, line: usize, shape: &Shape) -> Result<Option<f64>, ()> {
+    pub(super) fn dof(
+        &self,
+        header: &Header,
+        line: usize,
+        shape: &Shape,
+    ) -> Result<Option<f64>, ()> {
         let text = without_type(header.cell(self.cells, line, Column::Dof));
         let beside = shape.statement.dof;
         if super::grid::is_empty(text) {
@@ -337,12 +364,18 @@ impl Sheet<'_> {
             return Ok(None);
         }
         let at_least = text.trim_start_matches(['>', '≥', '=', ' ']);
-        let Some(dof) = super::number::number(at_least, self.cells.decimal_comma()).filter(|dof| *dof > 0.0) else {
+        let Some(dof) =
+            super::number::number(at_least, self.cells.decimal_comma()).filter(|dof| *dof > 0.0)
+        else {
             self.fail(line, format!("`{text}` is no number of degrees of freedom above 0"));
             return Err(());
         };
         if at_least.len() < text.len() {
-            self.note(format!("line {}: {} degrees of freedom are taken of `{text}`", line + 1, Shortest(dof)));
+            self.note(format!(
+                "line {}: {} degrees of freedom are taken of `{text}`",
+                line + 1,
+                Shortest(dof)
+            ));
         }
         if beside.is_some_and(|beside| beside != dof) {
             self.fail(line, format!("the row says {} degrees of freedom, and another number beside its distribution", Shortest(dof)));

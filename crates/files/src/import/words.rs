@@ -90,7 +90,12 @@ mod tests {
             let is_column = crate::import::columns::Column::named(meaning).is_some();
             let is_row = matches!(
                 meaning,
-                "row:result" | "row:combined" | "row:expanded" | "row:subtotal" | "row:k" | "row:dof"
+                "row:result"
+                    | "row:combined"
+                    | "row:expanded"
+                    | "row:subtotal"
+                    | "row:k"
+                    | "row:dof"
             );
             let is_other = ["heading:", "title:", "text:"].iter().any(|of| meaning.starts_with(of));
             assert!(is_column || is_row || is_other, "{meaning}");

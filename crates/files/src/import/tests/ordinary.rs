@@ -20,7 +20,16 @@ fn ordinary_budgets_need_two_options_at_most() {
                 m_S,10000.005,g,0.0225,normal,1\nDelta m_D,0,g,0.00866,rectangular,1\ndm,0.020,g,0.0144,normal,1\n\
                 dm_C,0,g,0.00577,rectangular,1\ndB,0,g,0.00577,rectangular,1\n\nm_X,10000.025,g,0.0293,,\n",
             options: &["row result=10"],
-            result: (10000.025, root(0.0225f64.powi(2) + 0.00866f64.powi(2) + 0.0144f64.powi(2) + 2.0 * 0.00577f64.powi(2)), "g"),
+            result: (
+                10000.025,
+                root(
+                    0.0225f64.powi(2)
+                        + 0.00866f64.powi(2)
+                        + 0.0144f64.powi(2)
+                        + 2.0 * 0.00577f64.powi(2),
+                ),
+                "g",
+            ),
         },
         // German, with an equation, a factor and a root
         Ordinary {
@@ -74,8 +83,19 @@ fn ordinary_budgets_need_two_options_at_most() {
                 dlC;0 mm;18,5 nm;rectangular;1,0\ndt;0 °C;0,0289 °C;rectangular;-575 nm/°C\nda;0 1/°C;0,236·10⁻⁶ 1/°C;special;-50 mm °C\n\
                 dlV;0 mm;3,87 nm;rectangular;–1,0\nlX;49,999926 mm;36,4 nm;;\n",
             options: &["row result=9"],
-            result: (49.999926, 1e-6 * root(15.0f64.powi(2) + 17.3f64.powi(2) + 5.37f64.powi(2) + 18.5f64.powi(2)
-                + (0.0289 * 575.0f64).powi(2) + 11.8f64.powi(2) + 3.87f64.powi(2)), "mm"),
+            result: (
+                49.999926,
+                1e-6 * root(
+                    15.0f64.powi(2)
+                        + 17.3f64.powi(2)
+                        + 5.37f64.powi(2)
+                        + 18.5f64.powi(2)
+                        + (0.0289 * 575.0f64).powi(2)
+                        + 11.8f64.powi(2)
+                        + 3.87f64.powi(2),
+                ),
+                "mm",
+            ),
         },
         // UKAS M3003: `Value (±)`, contributions behind the coefficients; published 0.41 ppm
         Ordinary {

@@ -3,15 +3,9 @@
 use super::*;
 
 /// A sheet, and a part of the message that refuses it.
-const REFUSED: [(&str, &str); 85] = [
-    (
-        "label,x,U\nA,1,0.1\n",
-        "this is a table of results, which `gumption compare` reads",
-    ),
-    (
-        "quantity,estimate,+-\n",
-        "no row below this heading is a quantity",
-    ),
+const REFUSED: [(&str, &str); 102] = [
+    ("label,x,U\nA,1,0.1\n", "this is a table of results, which `gumption compare` reads"),
+    ("quantity,estimate,+-\n", "no row below this heading is a quantity"),
     (
         "quantity,estimate,+-\nx,one,2\n",
         "`one` in column B `estimate` is no number with a unit that is known",
@@ -20,22 +14,16 @@ const REFUSED: [(&str, &str); 85] = [
         "quantity;estimate;+-\nx;1.234;0,5\n",
         "`1.234` has a decimal point and `0,5` a decimal comma in one table",
     ),
-    (
-        "Quantity;Estimate;Min;Max\na;20;19;\n",
-        "`a` has no uncertainty",
-    ),
+    ("Quantity;Estimate;Min;Max\na;20;19;\n", "`a` has no uncertainty"),
     (
         "Quantity;Estimate;Unit;±\nh;0,5;;2 %\n",
         "the estimate `0,5` has no unit, and its uncertainty is in `%`",
     ),
     (
         "Source,Value,Unit,U,p\na,5,V,0.1,95%\n",
-        "column E `p` is headed by no word that is known, and has numbers or distributions",
+        "column E `p` is headed by no word that is known, and has numbers, units or distributions",
     ),
-    (
-        "quantity,estimate,unit,+-\nx,5,V,-0.1\n",
-        "the uncertainty `-0.1` is below zero",
-    ),
+    ("quantity,estimate,unit,+-\nx,5,V,-0.1\n", "the uncertainty `-0.1` is below zero"),
     (
         "Quantity;Estimate;Min;Max\na;0,2;-1;1\n",
         "the half-width `between the limits` has neither a divisor nor a distribution with limits",
@@ -48,10 +36,7 @@ const REFUSED: [(&str, &str); 85] = [
         "Quantity;Estimate;Unit;±\nd;0;V;0,1 %\n",
         "`0,1 %` is a share, and of the estimate of this row nothing can be taken",
     ),
-    (
-        "Quantity;Estimate (mm);u (µm)\nL;50;2 %\n",
-        "`2 %` is in `%`, and its heading says `µm`",
-    ),
+    ("Quantity;Estimate (mm);u (µm)\nL;50;2 %\n", "`2 %` is in `%`, and its heading says `µm`"),
     (
         "quantity,estimate,+-,divisor\nx,1,2,zero\n",
         "`zero` in column D `divisor` is no factor above 0",
@@ -64,10 +49,7 @@ const REFUSED: [(&str, &str); 85] = [
         "Quantity;Estimate;Unit;U (2 SD)\nRef;10;V;0,004\n",
         "`2 SD` in the heading `U (2 SD)` is not understood: `2 SD` is no unit, factor or probabili",
     ),
-    (
-        "Quantity;Unit;Estimate;u\na;m;3;0,1;extra;cells\n",
-        "`extra` stands below no heading",
-    ),
+    ("Quantity;Unit;Estimate;u\na;m;3;0,1;extra;cells\n", "`extra` stands below no heading"),
     (
         "Source,Unit,±,Divisor,u(xi)\nRef,V,0.030,2,0.030\n",
         "the row states two standard uncertainties",
@@ -76,14 +58,8 @@ const REFUSED: [(&str, &str); 85] = [
         "y = 2*(T-20)\nQuantity;Estimate;Unit;u\nT;30;K;0,5\n",
         "the equation `y = 2*(T-20)` does not pass the check of units (`T` is a temperature (K), bu",
     ),
-    (
-        "Quantity;Estimate;Unit;u\na;1,234;V;1\nb;2,500;V;2\n",
-        "`1,234` can be `1.234` or `1234`",
-    ),
-    (
-        "Quantity,Estimate,Uncertainty\n,mm,(µm) k=2\na,20,1\n",
-        "a row has numbers and no name",
-    ),
+    ("Quantity;Estimate;Unit;u\na;1,234;V;1\nb;2,500;V;2\n", "`1,234` can be `1.234` or `1234`"),
+    ("Quantity,Estimate,Uncertainty\n,mm,(µm) k=2\na,20,1\n", "a row has numbers and no name"),
     (
         "Y = a\nQuantity;Estimate;Unit;u\na;3;V;0.1\na;4;V;0.1\n",
         "two rows are called `a`, which the equation uses",
@@ -104,10 +80,7 @@ const REFUSED: [(&str, &str); 85] = [
         "Quantity,Estimate,Unit,Uncertainty,Divisor\nr,0.85,1,5 mm,1\n",
         "the uncertainty `5 mm` is in `mm`, and the quantity in `1`",
     ),
-    (
-        "Quantity,Estimate (V),Standard uncertainty\nA (mV),10.5,0.1\n",
-        "the row states two units",
-    ),
+    ("Quantity,Estimate (V),Standard uncertainty\nA (mV),10.5,0.1\n", "the row states two units"),
     (
         "Source,Value,Unit,U (k=2),Distribution\na,5,V,0.1,rectangular\n",
         "`0.1` is rectangular below a heading of expanded uncertainties",
@@ -344,6 +317,74 @@ const REFUSED: [(&str, &str); 85] = [
         "Quantity;Estimate;Unit;±;Distribution;Divisor\nA;1;V;0,4;trapezoid;\n",
         "nothing says what kind of uncertainty `0,4` is",
     ),
+    (
+        "Quantity,Estimate,Standard uncertainty\na,20.00(6) V,0.03 V\nb,0 V,0.1 V\n",
+        "the row states two standard uncertainties",
+    ),
+    (
+        "Quantity,Estimate,Unit,Uncertainty,Unc. unit,Divisor\nRef,10.000,V,20,ppm,2\n",
+        "column E `Unc. unit` is headed by no word that is known",
+    ),
+    (
+        "Quantity,Estimate,Unit,Uncertainty,Uncertainty unit,Divisor\nRef,10,V,20,foo,2\n",
+        "`foo`, the unit of the uncertainty, is not known",
+    ),
+    (
+        "Quantity,Estimate,Unit,Uncertainty,Uncertainty unit,Divisor\nRef,10,V,5 nV,µV,2\n",
+        "`5 nV` stands beside its unit `µV`",
+    ),
+    (
+        "Quantity;Estimate;Unit;u\nA;10;V;0,02\nB;3;V;0,01\nA-B\n",
+        "`A-B` may be the equation of the result",
+    ),
+    (
+        "=a*b\nQuantity;Estimate;Unit;u\na;6.0;1;0.1\nb;2.0;1;0.1\n",
+        "its left side is no name",
+    ),
+    (
+        "y = Σ x_i\nQuantity;Estimate;Unit;u\na;6.0;1;0.1\nb;2.0;1;0.1\n",
+        "`y = Σ x_i` cannot be read as an equation",
+    ),
+    (
+        "y = 1,5*x\nQuantity,Estimate,Uncertainty,Divisor\nx,10,0.1,2\nz,4,0.1,2\n",
+        "may go on in the next cell",
+    ),
+    (
+        "All values in mV\nQuantity;Estimate;Unit;u\nA;0;V;0,1\n",
+        "states the unit of all values, and the row another one",
+    ),
+    (
+        "All values in mVrms\nQuantity;Estimate;u\nA;0;0,1\n",
+        "`mVrms` may be the unit of all values",
+    ),
+    (
+        "Quantity,Unit,Estimate,Standard uncertainty,Distribution\na,m,0,0,25\nb,m,0,0,5\n",
+        "the number `25` stands in the column of the distribution",
+    ),
+    (
+        "Quantity,Estimate,Unit,Standard uncertainty (µV/V)\na,1.00002,1,3\n",
+        "can be a share of the value",
+    ),
+    (
+        "Quantity;Estimate;Unit;±;Distribution;Divisor\nA;0;V;0,4;normal (2 s);1\n",
+        "what `normal (2 s)` says besides the distribution",
+    ),
+    (
+        "Quantity;Estimate;Unit;Standard uncertainty;Distribution\nRef;0;V;0,004;t\n",
+        "a t distribution needs its degrees of freedom",
+    ),
+    (
+        "Quantity,Estimate,Unit,Lower limit,Upper limit,Distribution\nCal,20,V,19,20.5,triangular\n",
+        "is not in the middle of the limits",
+    ),
+    (
+        "Source,Value,Unit,Uncertainty,Distribution\nStandard (k=2),0,V,0.10,Rectangular\n",
+        "`0.10` is rectangular, and its divisor is 2",
+    ),
+    (
+        "Quantity,Estimate,Unit,\"U (k=2.13, dof=9)\"\na,0,V,0.02\n",
+        "states degrees of freedom in its heading",
+    ),
 ];
 
 #[test]
@@ -364,23 +405,75 @@ fn odd_budgets_with_one_reading() {
     let root = f64::sqrt;
     let read: [(&str, &[&str], [f64; 2]); 16] = [
         // the last column has the numbers of the result
-        ("Component,u (mV),Remark\nA,0.1,\nB,0.2,\n,0.22,root sum of squares\n", &[], [0.0, root(0.05)]),
+        (
+            "Component,u (mV),Remark\nA,0.1,\nB,0.2,\n,0.22,root sum of squares\n",
+            &[],
+            [0.0, root(0.05)],
+        ),
         ("Quantity,Estimate,Unit,±\na,0,V,0.3 V (k=2)\nb,0,mV,400 mV (k=2)\n", &[], [0.0, 0.25]),
-        ("Quantity,Estimate,Unit,Full width,Distribution\na,0,V,0.6,rectangular\n", &[], [0.0, 0.3 / root(3.0)]),
-        ("Quantity,Estimate,Unit,Uncertainty,Distribution,Divisor\na,0,V,0.6,rectangular,2√3\n", &[], [0.0, 0.3 / root(3.0)]),
-        ("Quantity,Estimate,Unit,Uncertainty,Distribution,Factor\na,0,V,0.6,normal,0.5\n", &["column multiplier=F"], [0.0, 0.3]),
-        ("Quantity;Estimate;Unit;Uncertainty;Distribution;Divisor\nNoise (peak-to-peak);0;mV;0,6;rectangular;\n", &["column full-width=D"], [0.0, 0.3 / root(3.0)]),
-        ("Source,Value (mg),Distribution,Divisor,ui (mg)\na,0.30,normal,2,0.15\nb,0.10,rectangular,√3,0.058\n", &["column uncertainty=B"], [0.0, root(0.0225 + 0.01 / 3.0)]),
-        ("P = M*n/9550\nSymbol;Value;Unit;u\nM;100;N m;0,5\nn;1500;1/min;0\nP;15,707;kW;0,079\n", &["numbers"], [150_000.0 / 9550.0, 750.0 / 9550.0]),
-        ("Quantity,Estimate,Unit,u,c\nA,10,V,0.3,1\nB,5,V,0.4,-1\nE,5,V,0.5,\n", &["row result=4"], [5.0, 0.5]),
+        (
+            "Quantity,Estimate,Unit,Full width,Distribution\na,0,V,0.6,rectangular\n",
+            &[],
+            [0.0, 0.3 / root(3.0)],
+        ),
+        (
+            "Quantity,Estimate,Unit,Uncertainty,Distribution,Divisor\na,0,V,0.6,rectangular,2√3\n",
+            &[],
+            [0.0, 0.3 / root(3.0)],
+        ),
+        (
+            "Quantity,Estimate,Unit,Uncertainty,Distribution,Factor\na,0,V,0.6,normal,0.5\n",
+            &["column multiplier=F"],
+            [0.0, 0.3],
+        ),
+        (
+            "Quantity;Estimate;Unit;Uncertainty;Distribution;Divisor\nNoise (peak-to-peak);0;mV;0,6;rectangular;\n",
+            &["column full-width=D"],
+            [0.0, 0.3 / root(3.0)],
+        ),
+        (
+            "Source,Value (mg),Distribution,Divisor,ui (mg)\na,0.30,normal,2,0.15\nb,0.10,rectangular,√3,0.058\n",
+            &["column uncertainty=B"],
+            [0.0, root(0.0225 + 0.01 / 3.0)],
+        ),
+        (
+            "P = M*n/9550\nSymbol;Value;Unit;u\nM;100;N m;0,5\nn;1500;1/min;0\nP;15,707;kW;0,079\n",
+            &["numbers"],
+            [150_000.0 / 9550.0, 750.0 / 9550.0],
+        ),
+        (
+            "Quantity,Estimate,Unit,u,c\nA,10,V,0.3,1\nB,5,V,0.4,-1\nE,5,V,0.5,\n",
+            &["row result=4"],
+            [5.0, 0.5],
+        ),
         // a product: linear about the estimates, with the estimate of the sheet
-        ("Quantity,Estimate,Unit,u,c,Unit of c\nV,10,V,0.01,100,ohm/V\nI,0.1,A,0.0001,-1000,ohm/A\nR,100,ohm,,,\n", &["row result=4"], [100.0, root(1.0 + 0.01)]),
-        ("Quantity,Estimate,Unit,u,c,Contribution\na,5,V,0.002,1,2 mV\nb,2,mV,1,1,1 mV\nResult,5.002,V,,,\n", &["coefficients ratios"], [5.002, root(5e-6)]),
-        ("Quantity;Estimate;Unit;Standard deviation\na;0;V;0,3\nb;0;V;0,4\n", &["column u=D"], [0.0, 0.5]),
+        (
+            "Quantity,Estimate,Unit,u,c,Unit of c\nV,10,V,0.01,100,ohm/V\nI,0.1,A,0.0001,-1000,ohm/A\nR,100,ohm,,,\n",
+            &["row result=4"],
+            [100.0, root(1.0 + 0.01)],
+        ),
+        (
+            "Quantity,Estimate,Unit,u,c,Contribution\na,5,V,0.002,1,2 mV\nb,2,mV,1,1,1 mV\nResult,5.002,V,,,\n",
+            &["coefficients ratios"],
+            [5.002, root(5e-6)],
+        ),
+        (
+            "Quantity;Estimate;Unit;Standard deviation\na;0;V;0,3\nb;0;V;0,4\n",
+            &["column u=D"],
+            [0.0, 0.5],
+        ),
         ("Budget (all values in mV)\n\nQuantity;Estimate;u\na;0;0,3\nb;0;0,4\n", &[], [0.0, 0.5]),
-        ("Größe;Schätzwert;Unsicherheit;Verteilung;Divisor\nX_i;x_i / V;in mV;;\na;0;0,4;normal;2\n", &[], [0.0, 2e-4]),
+        (
+            "Größe;Schätzwert;Unsicherheit;Verteilung;Divisor\nX_i;x_i / V;in mV;;\na;0;0,4;normal;2\n",
+            &[],
+            [0.0, 2e-4],
+        ),
         ("Quantity,Estimate,Unit,U (95 %),dof\na,0,V,2.262157162740992,9\n", &[], [0.0, 1.0]),
-        ("c = a/2\ny = c - b\nQuantity;Estimate;Unit;u\na;50;mm;0,6\nb;1;mm;0,4\ny;24;mm;0,5\n", &[], [24.0, 0.5]),
+        (
+            "c = a/2\ny = c - b\nQuantity;Estimate;Unit;u\na;50;mm;0,6\nb;1;mm;0,4\ny;24;mm;0,5\n",
+            &[],
+            [24.0, 0.5],
+        ),
     ];
     for (sheet, said, [estimate, u]) in read {
         let budget = import(sheet, said).unwrap_or_else(|error| panic!("{sheet}\n{error}"));
@@ -397,7 +490,9 @@ fn hostile_sheets_are_refused() {
     let head = "Quantity;Estimate;Unit;Standard uncertainty\n";
     let many = format!("{head}a;20;V;2\n").repeat(2000);
     let long = format!("{head}a;{};V;2\n", "x".repeat(10_000));
-    for text in [format!("z0 = a\n{chain}{head}a;1;V;1\n"), many, long, "\"".to_owned(), head.repeat(2)] {
+    for text in
+        [format!("z0 = a\n{chain}{head}a;1;V;1\n"), many, long, "\"".to_owned(), head.repeat(2)]
+    {
         let error = import(&text, &[]).unwrap_err().to_string();
         assert!(!error.is_empty() && error.len() < 5_000, "{}", error.len());
     }
