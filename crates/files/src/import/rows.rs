@@ -264,6 +264,17 @@ impl Sheet<'_> {
             names.iter().copied().chain(names.is_empty().then_some(row).into_iter().flatten());
         if !is_used && let Some(kind) = candidates.into_iter().find_map(of_words) {
             let is_stated = |column| !is_empty(header.cell(self.cells, line, column));
+            // `U` may be a voltage
+            let is_letter = names.first().is_some_and(|name| name.chars().count() == 1);
+            if is_letter && is_stated(Column::Estimate) && self.has_uncertainty(header, line) {
+                let about = format!("`{}` has an estimate and an uncertainty", names[0]);
+                self.ask_kind(
+                    line..=line,
+                    &about,
+                    [("a quantity", "quantity"), ("the result", "result")],
+                );
+                return None;
+            }
             if kind == Kind::Result && is_stated(Column::Sensitivity) {
                 self.ask_kind(
                     line..=line,

@@ -128,10 +128,13 @@ impl Header {
         let letter = || {
             let digits =
                 said.bytes().all(|of| of.is_ascii_alphabetic()) && (1..=2).contains(&said.len());
+            if !digits {
+                return None;
+            }
             let place = said.bytes().fold(0_usize, |place, of| {
                 26 * place + usize::from(of.to_ascii_uppercase().saturating_sub(b'A')) + 1
             });
-            digits.then_some(place)
+            Some(place)
         };
         let number = said.parse::<usize>().ok().or_else(letter);
         let place = number.and_then(|number| number.checked_sub(1));
