@@ -187,7 +187,16 @@ fn cells_of_a_workbook_mean_what_they_show() {
     book.save(folder.path().join("shown.xlsx")).unwrap();
     let (text, said, code) = told(
         folder.path(),
-        &["import", "shown.xlsx", "--output", "model.json", "--coefficients", "one"],
+        &[
+            "import",
+            "shown.xlsx",
+            "--output",
+            "model.json",
+            "--coefficients",
+            "one",
+            "--row",
+            "quantity=2",
+        ],
     );
     assert_eq!(code, Some(0), "{text} {said}");
     let model = fs::read_to_string(folder.path().join("model.json")).unwrap();
