@@ -5,7 +5,7 @@
 
 Every case is a right file (a model with its tables and fits, a case of the gap diagnosis, a
 certificate, a recipe with its recordings, a table of results, a workbook, a saved result, a digital
-calibration certificate, a budget or project to import, costs of a plan, parts of a run) with some
+calibration certificate, a budget to import, costs of a plan, parts of a run) with some
 changes, and a command that reads it; the
 seed and the number of the case tell which. In the end stand the exit codes that were seen, the
 slowest case and the largest resident memory. It fails where a code is not 0, 2 or 3, a case takes
@@ -33,16 +33,8 @@ WORDS = ["", "x", "y", "1", "m", "m/s^2", "degC", "K", "dB", "%", "ppm", "rad", 
 BUDGETS = {
     "b.csv": b"Calibration,,,,,\nR = U/I,,,,,\nQuantity,Estimate,Unit,+-,Distribution,Divisor,Degrees of freedom\n"
              b"U,5.0112,V,0.0046,normal,2,50\nI,0.01,A,0.00001,rectangular,sqrt(3),inf\nR,501,ohm,,,,\n",
-    "d.csv": "Größe;Schätzwert;Einheit;Halbbreite;Verteilung;Sensitivitätskoeffizient\nm_S;10000,005;g;0,045;Normal;1\n"
+    "d.csv": "Größe;Schätzwert;Einheit;Halbbreite;Verteilung;Sensitivitätskoeffizient\nm_S;10000,005;g;0,045;Rechteck;1\n"
              "dm;0,02;g;0,0144;Rechteck;1\n".encode(),
-    "p.yaml": b"- name: flow\n  mode: uncertainty\n  samples: 10000\n  functions:\n"
-              b"  - {name: v, expr: 'v = sqrt(2*D*R*T/p)', units: meter / second, desc: speed, tolerance: {low: '50', high: '60', units: meter / second}}\n"
-              b"  inputs:\n  - name: D\n    mean: 1.993\n    units: kilopascal\n    uncerts:\n"
-              b"    - {name: u, degf: .inf, dist: normal, unc: 0.025, k: 2, units: kilopascal}\n    - {name: r, dist: resolution, a: 0.001}\n"
-              b"  - {name: R, mean: 287.058, units: joule / kelvin / kilogram, uncerts: [{name: u, dist: normal, unc: 0.1%, conf: 0.95}]}\n"
-              b"  - {name: T, typea: [19.6, 19.7, 19.65], units: degree_Celsius, uncerts: &a [{name: u, dist: uniform, a: 0.2, units: delta_degree_Celsius}]}\n"
-              b"  - {name: p, mean: 101.4, units: kilopascal, uncerts: [{name: u, dist: t, std: 2.1, degf: 9}]}\n"
-              b"  correlations:\n  - {var1: D, var2: p, cor: '0.3'}\n- {mode: risk, name: r}\n",
 }
 
 

@@ -90,7 +90,7 @@ fn a_workbook_of_ours_comes_back_with_its_changed_cells() {
     for part in ["`voltage`: estimate 5.2 instead of 5.01", "r(voltage, current) = -0.5"] {
         assert!(said.contains(part), "{part}: {said}");
     }
-    assert!(said.contains("guessed: `rep` is normal now"), "{said}");
+    assert!(said.contains("note: `rep` is normal now"), "{said}");
     let made: Value =
         serde_json::from_str(&fs::read_to_string(at.join("changed.json")).unwrap()).unwrap();
     let number = |value: &Value| value.as_f64().unwrap();
@@ -107,43 +107,6 @@ fn a_workbook_of_ours_comes_back_with_its_changed_cells() {
     let (text, said, code) = told(at, &["import", "b.xlsx"]);
     assert_eq!((text.as_str(), code), ("", Some(2)), "{said}");
     assert!(said.contains("expanded"), "{said}");
-}
-
-/// A project as suncal 1.7.1 saves it (Pitot tube and the flow in a duct: readings, components, a
-/// share of the estimate, a Celsius temperature, a correlation), and what that program computes of it.
-/// It takes the factor of 0.95 for the barometer from a t of many degrees of freedom, as we take it
-/// from a normal; its numbers have all digits. With 1e9 degrees the two factors differ by (z^2 + 1)/4
-/// parts in 1e9, 1.2e-9, which goes into u with at most its share and into the degrees of freedom with
-/// at most twice that.
-#[test]
-fn a_project_of_suncal_becomes_a_model() {
-    let folder = tempfile::tempdir().unwrap();
-    let at = folder.path();
-    fs::copy(root().join("models/examples/pitot.yaml"), at.join("pitot.yaml")).unwrap();
-    let (text, said, code) = told(at, &["import", "pitot.yaml", "--output", "pitot.json"]);
-    assert_eq!(code, Some(0), "{text} {said}");
-    for part in [
-        "understood: the calculation `Pitot tube` of a suncal project",
-        "guessed: in the equations `T`",
-    ] {
-        assert!(said.contains(part), "{part}: {said}");
-    }
-    let (text, said, code) = told(at, &["run", "pitot.json", "--trials", "0", "--format", "json"]);
-    assert_eq!(code, Some(0), "{said}");
-    let made: Value = serde_json::from_str(&text).unwrap();
-    let expected = [
-        ("v", [57.4804332925819, 0.3449876631219945, 22.977661886645702]),
-        ("q", [112.95287495969767, 0.6841870844123163, 23.83867084669384]),
-    ];
-    for (name, of) in expected {
-        let gum = &made["outputs"][name]["gum"];
-        for (key, value) in ["estimate", "standard_uncertainty", "dof"].into_iter().zip(of) {
-            let found = gum[key].as_f64().unwrap();
-            assert!((found / value - 1.0).abs() < 2.4e-9, "{name} {key}: {found}, not {value}");
-        }
-    }
-    let (_, said, code) = told(at, &["import", "none.yaml"]);
-    assert_eq!(code, Some(2), "{said}");
 }
 
 /// German headers, a title in merged cells, empty rows, a column of formulas.
@@ -222,8 +185,19 @@ fn cells_of_a_workbook_mean_what_they_show() {
         sheet.write_string(row, 4, "rectangular").unwrap();
     }
     book.save(folder.path().join("shown.xlsx")).unwrap();
-    let (text, said, code) =
-        told(folder.path(), &["import", "shown.xlsx", "--output", "model.json"]);
+    let (text, said, code) = told(
+        folder.path(),
+        &[
+            "import",
+            "shown.xlsx",
+            "--output",
+            "model.json",
+            "--coefficients",
+            "one",
+            "--row",
+            "quantity=2",
+        ],
+    );
     assert_eq!(code, Some(0), "{text} {said}");
     let model = fs::read_to_string(folder.path().join("model.json")).unwrap();
     let model: Value = serde_json::from_str(&model).unwrap();
@@ -251,7 +225,7 @@ fn formats_that_make_another_number_are_read_or_refused() {
             sheet.write_number_with_format(1, column, value, &format).unwrap();
         }
         book.save(folder.path().join("shown.xlsx")).unwrap();
-        told(folder.path(), &["import", "shown.xlsx"])
+        told(folder.path(), &["import", "shown.xlsx", "--coefficients", "one"])
     };
     for format in ["0.0\"×10³\"", "0.0\"x10^3\"", "0.0\"e3\"", "0.0\"·10³ V\""] {
         let (text, said, code) = save([(format, 5.0), ("0", 10.0), ("\"√\"0", 3.0)]);
@@ -295,11 +269,11 @@ fn sheets_of_a_workbook() {
     let at = folder.path();
     let mut book = Workbook::new();
     let old = book.add_worksheet().set_name("Old").unwrap();
-    budget_on(old, &[("A", 1.0, 0.7)]);
+    budget_on(old, &[("A", 0.0, 0.7)]);
     old.set_hidden(true);
     book.add_worksheet().set_name("Cover").unwrap().write_string(0, 0, "Laboratory").unwrap();
     let sheet = book.add_worksheet().set_name("Budget").unwrap();
-    budget_on(sheet, &[("A", 1.0, 0.2)]);
+    budget_on(sheet, &[("A", 0.0, 0.2)]);
     sheet.set_active(true);
     book.save(at.join("one.xlsx")).unwrap();
     let (text, said, code) = told(at, &["import", "one.xlsx"]);
@@ -316,7 +290,7 @@ fn sheets_of_a_workbook() {
     let mut book = Workbook::new();
     book.add_worksheet().write_string(0, 0, "Laboratory").unwrap();
     let hidden = book.add_worksheet().set_name("Old").unwrap();
-    budget_on(hidden, &[("A", 1.0, 0.7)]);
+    budget_on(hidden, &[("A", 0.0, 0.7)]);
     hidden.set_hidden(true);
     book.save(at.join("none.xlsx")).unwrap();
     let (_, said, code) = told(at, &["import", "none.xlsx"]);
@@ -328,7 +302,7 @@ fn sheets_of_a_workbook() {
     assert!(said.contains("it is no workbook (.xlsx), and so has no sheet `Old`"), "{said}");
     let mut book = Workbook::new();
     for (name, half) in [("DC", 0.2), ("AC", 0.4)] {
-        budget_on(book.add_worksheet().set_name(name).unwrap(), &[("A", 1.0, half)]);
+        budget_on(book.add_worksheet().set_name(name).unwrap(), &[("A", 0.0, half)]);
     }
     book.save(at.join("two.xlsx")).unwrap();
     let (_, said, code) = told(at, &["import", "two.xlsx"]);
@@ -348,7 +322,7 @@ fn rows_that_are_hidden_or_struck_through() {
     let import = |change: &dyn Fn(&mut rust_xlsxwriter::Worksheet)| {
         let mut book = Workbook::new();
         let sheet = book.add_worksheet();
-        budget_on(sheet, &[("A", 1.0, 0.2), ("B", 2.0, 0.3)]);
+        budget_on(sheet, &[("A", 0.0, 0.2), ("B", 0.0, 0.3)]);
         change(sheet);
         book.save(at.join("b.xlsx")).unwrap();
         let (_, said, code) = told(at, &["import", "b.xlsx"]);
@@ -381,7 +355,7 @@ fn merged_cells_count_for_their_rows() {
     let folder = tempfile::tempdir().unwrap();
     let mut book = Workbook::new();
     let sheet = book.add_worksheet();
-    budget_on(sheet, &[("A", 1.0, 0.2), ("B", 2.0, 0.3), ("C", 2.0, 0.4)]);
+    budget_on(sheet, &[("A", 0.0, 0.2), ("B", 0.0, 0.3), ("C", 0.0, 0.4)]);
     for row in 1..=3 {
         sheet.write_blank(row, 2, &Format::new()).unwrap();
         sheet.write_blank(row, 4, &Format::new()).unwrap();
@@ -397,7 +371,7 @@ fn merged_cells_count_for_their_rows() {
         assert_eq!(model["inputs"][name]["unit"], "mV", "{text}");
         assert_eq!(model["inputs"][name]["distribution"], shape, "{text}");
     }
-    assert!(said.contains("the merged cell `triangular` counts for lines 2 to 3"), "{said}");
+    assert!(said.contains("the merged cell `triangular` counts for rows 2 to 3"), "{said}");
 }
 
 /// The rows of a certificate's workbook are results; before, they were inputs of a sum.
@@ -429,6 +403,62 @@ fn the_workbook_of_a_certificate_is_no_budget() {
             assert!(code == Some(2) && said.contains("the workbook of a certificate"), "{said}");
         }
     }
+}
+
+/// A question is an error with the option that decides; options are kept beside the sheet and read again.
+#[test]
+fn questions_name_the_option_that_decides() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let sheet = "Source,Deviation of it,Unit,Expanded uncertainty\na,0,mV,0.4\nb,0,mV,0.3\n";
+    fs::write(at.join("b.csv"), sheet).unwrap();
+    let (text, said, code) = told(at, &["import", "b.csv", "--format", "json"]);
+    assert_eq!(code, Some(2), "{said}");
+    let answer: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(answer["ok"], false);
+    let question = &answer["questions"][0];
+    assert!(question["about"].as_str().unwrap().contains("column B `Deviation of it`"), "{text}");
+    assert_eq!(question["readings"].as_array().unwrap().len(), 2, "{text}");
+    assert!(question["option"].as_str().unwrap().contains("`--column ignore=B`"), "{text}");
+    assert!(said.contains("b.csv:1:1"), "{said}");
+    let options = ["--column", "estimate=Deviation of it", "--k", "2", "--keep-columns"];
+    let (first, said, code) = told(at, &[&["import", "b.csv"], &options[..]].concat());
+    assert_eq!(code, Some(0), "{said}");
+    let (again, said, code) = told(at, &["import", "b.csv"]);
+    assert_eq!((again, code), (first, Some(0)), "{said}");
+    assert!(said.contains("note: the options of `b.csv.columns.json` are used"), "{said}");
+    // one option goes before what is kept
+    let (text, _, code) = told(at, &["import", "b.csv", "--k", "3"]);
+    assert!(code == Some(0) && text.contains("\"k\":3.0"), "{text}");
+    fs::write(at.join("b.csv.columns.json"), "{\"colums\": []}").unwrap();
+    let (_, said, code) = told(at, &["import", "b.csv"]);
+    assert!(code == Some(2) && said.contains("`colums`"), "{said}");
+    for (options, part) in [
+        (["--column", "estimat=B"], "there is no column `estimat`"),
+        (["--column", "estimate=Z9"], "no column is called `Z9`"),
+        (["--row", "results=2"], "a row is one of heading, quantity"),
+        (["--row", "result=77"], "the sheet has no row `77`"),
+        (["--k", "0"], "a number above 0"),
+    ] {
+        fs::write(at.join("c.csv"), sheet).unwrap();
+        let (text, said, code) = told(at, &[&["import", "c.csv"], &options[..]].concat());
+        assert_eq!((text.as_str(), code), ("", Some(2)), "{said}");
+        assert!(said.contains(part), "{part}: {said}");
+    }
+}
+
+/// A template is a workbook that is read without a question.
+#[test]
+fn a_template_is_read_without_a_question() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let (_, said, code) = told(at, &["import", "--template", "t.xlsx"]);
+    assert_eq!(code, Some(0), "{said}");
+    let (text, said, code) = told(at, &["import", "t.xlsx"]);
+    assert_eq!(code, Some(0), "{said}");
+    let model: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(model["equations"]["R"], "V/I");
+    assert_eq!(model["inputs"]["V"]["about"], "V; voltage; certificate");
 }
 
 /// A certificate of somebody else is listed, and other commands name the one that does it.

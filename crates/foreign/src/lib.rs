@@ -12,4 +12,7 @@ mod tests;
 pub use comparison::{
     ComparisonOptions, ComparisonTable, ReadComparison, read_comparison, read_comparison_text,
 };
-pub use import::{ImportedBudget, import_budget, import_budget_bytes, import_budget_sheet};
+pub use import::{
+    Coefficients, ImportOptions, ImportedBudget, Question, RefusedBudget, import_budget,
+    import_budget_bytes,
+};

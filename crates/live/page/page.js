@@ -752,7 +752,7 @@ class Page {
     const made = await this.program.call("import", { name: file.name, base64: btoa(binary) });
     this.#take(made.text, null, null);
     const list = (title, said) => said.length ? [make("h3", {}, title), make("ul", {}, ...said.map(text => make("li", {}, text)))] : [];
-    await this.#choose(words.import_title, make("div", {}, ...list(words.understood, made.understood), ...list(words.guessed, made.guessed)), [[words.ok, null]]);
+    await this.#choose(words.import_title, make("div", {}, ...list(words.understood, made.notes)), [[words.ok, null]]);
   }
 
   // dialogs

@@ -33,7 +33,7 @@ export default {
   open_title: "Datei öffnen", open_none: "In diesem Ordner ist noch keine Datei dieses Programms.",
   from_disk: "Von diesem Rechner …", new_title: "Neue Messung", empty: "Leer", templates: "Fertige Messmodelle",
   examples: "Veröffentlichte Beispiele", search: "Suchen", save_title: "Speichern unter", save_name: "Name der Datei",
-  export_title: "Exportieren", import_title: "Importiert", understood: "Verstanden", guessed: "Geraten",
+  export_title: "Exportieren", import_title: "Importiert", understood: "Verstanden",
   verify_title: "Veröffentlichte Werte, in diesem Browser nachgerechnet", verifying: "die veröffentlichten Werte werden nachgerechnet …",
   verified: (pass, all, hash) => `${pass} von ${all} veröffentlichten Werten stimmen überein. Prüfsumme der Versuche, die von gumption verify --paths: ${hash}`,
   verify_headers: ["Urteil", "Beispiel", "Ausgangsgröße", "Größe", "veröffentlicht", "nachgerechnet", "Toleranz"],

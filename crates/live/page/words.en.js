@@ -33,7 +33,7 @@ export default {
   open_title: "Open a file", open_none: "There is no file of this program in this folder yet.",
   from_disk: "From this computer …", new_title: "New measurement", empty: "Empty", templates: "Typed measurements",
   examples: "Published examples", search: "Search", save_title: "Save as", save_name: "Name of the file",
-  export_title: "Export", import_title: "Imported", understood: "Understood", guessed: "Guessed",
+  export_title: "Export", import_title: "Imported", understood: "Understood",
   verify_title: "Published values, recomputed in this browser", verifying: "recomputing the published values …",
   verified: (pass, all, hash) => `${pass} of ${all} published values agree. Hash of the trials, that of gumption verify --paths: ${hash}`,
   verify_headers: ["verdict", "example", "output", "quantity", "published", "recomputed", "tolerance"],

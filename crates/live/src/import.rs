@@ -4,7 +4,7 @@ use std::path::Path;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use gumption_foreign::import_budget_bytes;
+use gumption_foreign::{ImportOptions, import_budget_bytes};
 use serde::Deserialize;
 use serde_json::{Value as Json, json};
 
@@ -26,12 +26,11 @@ pub(crate) fn imported(asked: &Asked) -> Result<Json, LiveError> {
         .map_err(|why| LiveError::Request(format!("`base64`: {why}")))?;
     // a name alone, so that nothing is looked for anywhere
     let name = Path::new(&asked.name).file_name().unwrap_or_default();
-    match import_budget_bytes(Path::new(name), bytes) {
-        Ok(made) => Ok(json!({
-            "text": made.text, "understood": made.understood, "guessed": made.guessed,
-        })),
+    match import_budget_bytes(Path::new(name), bytes, &ImportOptions::default()) {
+        Ok(made) => Ok(json!({"text": made.text, "notes": made.notes})),
         Err(found) => {
-            let found: Vec<String> = found.0.iter().take(20).map(ToString::to_string).collect();
+            let found: Vec<String> =
+                found.diagnostics.0.iter().take(20).map(ToString::to_string).collect();
             Err(LiveError::Request(found.join("\n")))
         }
     }

@@ -92,7 +92,7 @@ impl<'a> Live<'a> {
     /// | `new` | `example`, `template` or nothing | `text` |
     /// | `examples` | | lists of names with titles |
     /// | `kinds` | | distributions with their keys, units |
-    /// | `import` | `name`, `base64` | `text`, `understood`, `guessed` |
+    /// | `import` | `name`, `base64` | `text`, `notes` |
     ///
     /// # Errors
     /// A call that there is not, or a request that does not go with it.

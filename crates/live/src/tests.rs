@@ -331,10 +331,16 @@ fn there_is_something_starting_points() {
 
 #[test]
 fn a_budget_of_a_spreadsheet() {
-    let csv = "Quantity,Estimate,Unit,Standard uncertainty,Sensitivity\nU,5.0,V,0.01,1\nI,0.1,A,0.001,-2.5\n";
+    let csv = "R = U/I\nQuantity,Estimate,Unit,Standard uncertainty\nU,5.0,V,0.01\nI,0.1,A,0.001\n";
     let base64 = base64::Engine::encode(&base64::engine::general_purpose::STANDARD, csv);
     let made = call("import", &json!({"name": "../x/budget.csv", "base64": base64}));
     assert!(made["text"].as_str().unwrap().contains("\"U\""), "{made}");
+    // a question is shown with the option that decides
+    let csv = "Quantity,Estimate,Unit,U\na,5.0,V,0.01\n";
+    let base64 = base64::Engine::encode(&base64::engine::general_purpose::STANDARD, csv);
+    let asked = json!({"name": "budget.csv", "base64": base64});
+    let asked = try_call("import", &asked, &HeldFiles::default()).unwrap_err().to_string();
+    assert!(asked.contains("`--k 2`"), "{asked}");
     let wrong = json!({"name": "a.xlsx", "base64": "UEs="});
     assert!(matches!(
         try_call("import", &wrong, &HeldFiles::default()),

@@ -4,6 +4,7 @@
 
 mod answer;
 pub mod assumptions;
+mod budget_template;
 pub mod certificate;
 pub mod compare;
 mod csv;
@@ -32,6 +33,7 @@ pub mod verification;
 mod workbook;
 
 pub use answer::{on_one_line, pretty};
+pub use budget_template::budget_template;
 pub use csv::{csv, write_csv};
 pub use evaluation::{
     MOST_RESULTS, OutputParts, PageChoice, PageParts, ResultStatement, Shown, histograms, html,

@@ -31,10 +31,6 @@ pub const DEVIATIONS: [&str; 10] = [
     "desviación",
 ];
 
-/// Words of what is added to an indicated value.
-pub const CORRECTIONS: [&str; 7] =
-    ["correction", "corr", "korrektion", "korrektur", "korr", "corrección", "correction value"];
-
 /// Parts of the English words of differences, of which the reference types of certificates consist
 /// (`basic_measurementError` and its kind).
 pub const PARTS_OF_TYPES: [&str; 6] =

@@ -204,11 +204,10 @@ fn syntax(source: &SourceText, error: &serde_json::Error) -> (Range<usize>, Diag
 
 /// How a file of another kind, by its name, comes in; of the files that models are made from.
 fn way_in(name: &str) -> Option<&'static str> {
-    const BUDGETS: [&str; 8] = ["csv", "tsv", "xlsx", "xlsm", "ods", "docx", "yaml", "yml"];
+    const BUDGETS: [&str; 4] = ["csv", "tsv", "xlsx", "xlsm"];
     let (_, extension) = name.rsplit_once('.')?;
     BUDGETS.contains(&extension.to_lowercase().as_str()).then_some(
-        "; an uncertainty budget of a spreadsheet, a document or another program becomes a model file \
-         by `gumption import`",
+        "; an uncertainty budget in a spreadsheet becomes a model file by `gumption import`",
     )
 }
 

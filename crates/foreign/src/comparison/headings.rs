@@ -265,9 +265,9 @@ fn said_of_any(heading: &str) -> Said {
         Some(Column::Estimate) => Said::Role(Role::Value(0), false),
         Some(Column::Unit) => Said::Role(Role::Unit, false),
         Some(Column::Dof) => Said::Role(Role::Dof, false),
-        Some(Column::Std) => Said::Role(Role::Standard(0), false),
-        Some(Column::Divisor) if columns::is_factor(&name) => Said::Role(Role::Factor(0), false),
-        Some(Column::Width) => match coverage_of_any(heading) {
+        Some(Column::Standard | Column::Deviation) => Said::Role(Role::Standard(0), false),
+        Some(Column::Factor) => Said::Role(Role::Factor(0), false),
+        Some(of) if Column::WIDTHS.contains(&of) => match coverage_of_any(heading) {
             HeaderCoverage::None => Said::SomeUncertainty(0),
             HeaderCoverage::Factor(1.0) => Said::Role(Role::Standard(0), false),
             _ => Said::Role(Role::Expanded(0), false),

@@ -1,14 +1,9 @@
 //! Estimates with their standard uncertainty in the last digits, `20.00(6) V` (JCGM 100, 7.2.2).
 
 use gumption_engine::decimal::to_15_digits;
-use gumption_engine::number::Shortest;
 
-use super::Budget;
-use super::columns::{Column, Header};
-use super::linear::standard_uncertainty;
+use super::number::half_digit;
 use super::number::number;
-use super::rows::Row;
-use super::stated::half_digit;
 use gumption_text::value_text::with_exponents;
 
 /// The number, its standard uncertainty and the unit behind both; `None` of other texts. A power of ten may
@@ -41,35 +36,6 @@ fn exponent(text: &str) -> Option<(i32, &str)> {
     let length = signed.find(|c: char| !c.is_ascii_digit()).unwrap_or(signed.len());
     let (power, unit) = rest.split_at(rest.len() - signed.len() + length);
     Some((power.parse().ok()?, unit))
-}
-
-impl Budget<'_> {
-    /// Takes the standard uncertainty of a row that states it in the digits of its estimate alone, and
-    /// refuses one that another column contradicts.
-    pub(super) fn concise(&self, header: &Header, row: &mut Row) {
-        let text = header.cell(self.cells, row.line, Column::Estimate).trim();
-        let Some((_, std, unit)) = concise(text, self.cells.decimal_comma()) else { return };
-        let unit = if unit.is_empty() { header.unit(Column::Estimate).unwrap_or("") } else { unit };
-        let in_unit = if unit.is_empty() {
-            Some(std)
-        } else {
-            self.converted((std, unit), row.line, (Column::Std, false), row)
-        };
-        let Some(std) = in_unit else { return };
-        match standard_uncertainty(row) {
-            None if row.width.is_none() && row.std.is_none() => row.std = Some(std),
-            // the last digit in brackets is rounded
-            Some(stated) if (stated - std).abs() <= 0.05 * std.max(stated) => {}
-            stated => {
-                let reason = format!(
-                    "`{text}` says the standard uncertainty {}, the row {}: which is right?",
-                    Shortest(std),
-                    Shortest(stated.unwrap_or(0.0))
-                );
-                self.fail(row.line, reason);
-            }
-        }
-    }
 }
 
 #[cfg(test)]

@@ -72,7 +72,8 @@ impl HeaderCoverage {
             "incertidumbreexpandida",
         ];
         // `Uncertainty U`: the symbol stands behind the words
-        let symbol = plain_case(before_unit(text)).split_whitespace().next_back();
+        let symbol = plain_case(before_unit(text));
+        let symbol = symbol.split_whitespace().next_back();
         if words.iter().any(|word| compact.starts_with(word)) || symbol == Some("U") {
             Self::Expanded
         } else {

@@ -2,7 +2,8 @@
 
 use serde_json::{Map, Value, json};
 
-use super::rows::{HALF_WIDTHS, Row, divisor_of, near};
+use super::rows::Row;
+use super::widths::{HALF_WIDTHS, divisor_of, near};
 use gumption_engine::decimal::to_15_digits;
 
 /// What an input of the model file says of a row.

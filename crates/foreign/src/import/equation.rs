@@ -1,18 +1,19 @@
-//! The equations of a sheet: lines such as `R = U/I`, and cells behind `equation`.
+//! The equations of a sheet: lines such as `R = U/I`, and cells behind `Equation`.
 
-use std::collections::{HashMap, HashSet};
-
-use super::Budget;
-use super::columns;
-use super::cut::Cut;
+use super::ask::Sheet;
+use super::columns::{self, identifier};
 use super::grid::Cells;
 use super::number::{expression, number_with_unit};
-use super::rows::Row;
-use gumption_engine::model::formula::{Formula, Scope, Typing, check_name};
+use super::words;
+use gumption_columns::separator::Separator;
+use gumption_engine::model::formula::{Formula, check_name};
 use gumption_units::Unit;
 
+/// Equations of a sheet, at most.
+const MOST_EQUATIONS: usize = 200;
+
 /// An equation of the sheet.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Equation {
     pub(super) line: usize,
     pub(super) name: String,
@@ -27,327 +28,243 @@ impl Equation {
     }
 }
 
-/// Whether the last of some equations, of which each may use those before it, is a sum of multiples of what
-/// they name: such a one has sensitivities where nothing tells the estimates.
-pub(super) fn is_linear(equations: &[Equation]) -> bool {
-    let names: Vec<String> = equations.iter().flat_map(Equation::names).collect();
-    // of no ratio that an equation would have
-    let place = |i: usize| [1.37 + 0.61 * i as f64, 2.93 - 0.17 * i as f64];
-    let at = |[first, second]: [f64; 2]| {
-        let mut values: HashMap<String, f64> = HashMap::new();
-        for (i, name) in names.iter().enumerate() {
-            let [a, b] = place(i);
-            values.entry(name.clone()).or_insert(first * a + second * b);
-        }
-        let mut last = None;
-        for equation in equations {
-            let formula = Formula::parse(&equation.formula).ok()?;
-            let value = formula.evaluate(&Scope::new(), &values).ok()?;
-            values.insert(equation.name.clone(), value);
-            last = Some(value);
-        }
-        last.filter(|value| value.is_finite())
-    };
-    let [whole, first, second, none] = [[1.0, 1.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0]].map(at);
-    let (Some(whole), Some(first), Some(second), Some(none)) = (whole, first, second, none) else {
-        return false;
-    };
-    let size = whole.abs() + first.abs() + second.abs() + none.abs();
-    (whole - first - second + none).abs() <= 1e-9 * size
-}
-
-/// A text that looks like an equation and cannot be read as one.
-#[derive(Clone, Debug)]
-pub(super) struct Unread {
-    pub(super) line: usize,
-    /// The name on its left side.
-    name: String,
-    pub(super) text: String,
-    pub(super) reason: String,
+/// A text with a sign of equality, and where it stands.
+struct Written {
+    line: usize,
+    text: String,
     /// Whether a label calls it the equation.
-    pub(super) is_labelled: bool,
-    /// Whether an equation of that name stands before it.
-    is_repeated: bool,
-    /// Whether it is one only if it names quantities of the sheet: it has no sign of an operation.
-    needs_names: bool,
+    is_labelled: bool,
+    /// The text of the next cell.
+    next: String,
 }
 
-/// The equations of a sheet, that of the result last, and what could not be read.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Equations {
-    pub(super) read: Vec<Equation>,
-    pub(super) unread: Vec<Unread>,
-    /// Cells with an equation that may go on in the next ones.
-    cut: Vec<Cut>,
-}
-
-/// Words before an equation.
-const LABELS: [&str; 23] = [
-    "model function",
-    "measurement model",
-    "measurement equation",
-    "mathematical model of the measurement",
-    "modellfunktion",
-    "messgleichung",
-    "fonction de mesure",
-    "ecuación",
-    "modelo",
-    "modelo matemático",
-    "fórmula",
-    "equation",
-    "formula",
-    "model",
-    "model equation",
-    "gleichung",
-    "formel",
-    "modell",
-    "modellgleichung",
-    "équation",
-    "formule",
-    "modèle",
-    "mathematical model",
-];
-
-impl Equations {
-    /// All that a sheet holds, in its order.
-    pub(super) fn of(cells: &Cells) -> Self {
-        let mut found = Self::default();
-        for line in 0..cells.lines() {
-            let row = cells.row(line);
-            for (place, cell) in row.iter().enumerate() {
-                let label = columns::plain(cell);
-                let is_label = LABELS.contains(&label.as_str());
-                let at = if is_label {
-                    let behind = row.iter().enumerate().skip(place + 1);
-                    behind.into_iter().find(|(_, cell)| !cell.trim().is_empty())
-                } else {
-                    Some((place, cell)).filter(|(_, cell)| cell.contains('='))
+impl Sheet<'_> {
+    /// The equations of the sheet, that of the result last; `known` are the names of its rows. `None` after a
+    /// mistake or a question.
+    pub(super) fn equations(&self, known: &[String]) -> Option<Vec<Equation>> {
+        if let Some(said) = &self.options.equation {
+            let Some((left, right)) = said.split_once('=') else {
+                self.fail(0, format!("`--equation \"{said}\"`: write `NAME = FORMULA`"));
+                return None;
+            };
+            let name = identifier(left);
+            return match (check_name(&name), Formula::parse(right)) {
+                (Ok(()), Ok(_)) => {
+                    Some(vec![Equation { line: 0, name, formula: right.trim().to_owned() }])
+                }
+                (Ok(()), Err(error)) => {
+                    self.fail(0, format!("`--equation \"{said}\"`: {error}"));
+                    None
+                }
+                (Err(_), _) => {
+                    self.fail(0, format!("`--equation \"{said}\"`: `{}` is no name", left.trim()));
+                    None
+                }
+            };
+        }
+        let mut read: Vec<Equation> = Vec::new();
+        for written in written_equations(self.cells) {
+            if let Some(equation) = self.equation(&written, known)? {
+                let is_repeated = |of: &Equation| {
+                    let same = |text: &str| text.split_whitespace().collect::<String>();
+                    of.name == equation.name && same(&of.formula) == same(&equation.formula)
                 };
-                let Some((at, written)) = at else { continue };
-                let behind_label = LABELS.iter().find_map(|label| {
-                    let lower = written.to_lowercase();
-                    lower.strip_prefix(label)?.trim_start().strip_prefix(':')?;
-                    written.get(written.find(':')? + 1..)
-                });
-                let text = behind_label.unwrap_or(written);
-                found.cut.extend(Cut::of(cells, line, at, text));
-                found.add(cells, line, text, is_label);
+                if read.len() <= MOST_EQUATIONS && !read.iter().any(is_repeated) {
+                    read.push(equation);
+                }
             }
         }
-        found
+        if let Some(equation) = read.get(MOST_EQUATIONS) {
+            self.fail(
+                equation.line,
+                format!("the sheet has more than {MOST_EQUATIONS} equations; a budget has fewer"),
+            );
+            return None;
+        }
+        self.in_order(read, known)
     }
 
-    fn add(&mut self, cells: &Cells, line: usize, written: &str, is_labelled: bool) {
-        let Some((left, right)) = written.split_once('=') else {
-            if is_labelled {
-                self.without_name(cells, line, written, "it has no `=`");
-            }
-            return;
-        };
-        // `2y`, and not `1. R`
-        let begins_with_factor = left.trim().starts_with(|c: char| c.is_ascii_digit())
-            && !left.trim().contains([' ', '.', ')']);
-        let is_product = left.contains(['*', '·', '×', '⋅', '^']) || begins_with_factor;
-        if left.trim().is_empty() || is_product {
-            self.without_name(cells, line, written, "its left side is no name");
-            return;
-        }
-        let name = columns::identifier(left);
-        if check_name(&name).is_err() {
-            return;
-        }
+    /// An equation of quantities of the sheet; `Some(None)` of other texts, `None` after a mistake.
+    fn equation(&self, written: &Written, known: &[String]) -> Option<Option<Equation>> {
+        let Written { line, text, is_labelled, next } = written;
+        let comma = self.cells.decimal_comma();
+        let (left, right) = text.split_once('=').unwrap_or(("", text));
+        let (left, right) = (left.trim(), right.trim());
         if is_of_uncertainties(left, right) {
-            return;
+            return Some(None);
         }
-        let is_known = self.read.iter().any(|known| known.name == name);
-        let right = right.trim();
-        let comma = cells.decimal_comma();
+        let names = |text: &str| {
+            let mut words = text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+            words.any(|word| {
+                let word = word.trim_start_matches(|c: char| c.is_ascii_digit());
+                known.iter().any(|name| name == word)
+            })
+        };
+        let names_quantity = names(right);
+        let name = identifier(left);
+        let is_name = check_name(&name).is_ok()
+            && !left.starts_with(|c: char| c.is_ascii_digit())
+            && !left.contains(['*', '·', '×', '^', '+', '/', '\'', '"']);
+        // `y = a - 0,5*b` between commas is cut
+        let is_cut = next.starts_with(|c: char| c.is_ascii_digit())
+            && self.cells.separator() == Some(Separator::Comma)
+            && text.ends_with(|c: char| c.is_ascii_digit())
+            && (names_quantity || names(next));
+        if is_name && is_cut {
+            self.fail(
+                *line,
+                format!("`{text}` may go on in the next cell: put an equation in quotation marks"),
+            );
+            return None;
+        }
+        let has_sum = is_name && right.contains(['Σ', '∑', '∏', '∫']);
         let formula = as_formula(right, comma);
-        match Formula::parse(&formula) {
-            Ok(parsed) => {
-                let same = |text: &str| text.split_whitespace().collect::<String>();
-                let is_repeated = self
-                    .read
-                    .iter()
-                    .any(|known| known.name == name && same(&known.formula) == same(&formula));
-                if parsed.names().next().is_some() && !is_repeated {
-                    self.read.push(Equation { line, name, formula });
-                }
+        let parsed = Formula::parse(&formula);
+        match parsed {
+            Ok(parsed) if is_name && parsed.names().next().is_some() => {
+                let all_known = parsed.names().all(|(of, _)| known.iter().any(|name| name == of));
+                Some((names_quantity || all_known || *is_labelled).then_some(Equation {
+                    line: *line,
+                    name,
+                    formula,
+                }))
             }
-            Err(error) => {
-                let is_quantity = number_with_unit(right, comma)
-                    .is_some_and(|(_, unit)| unit.is_empty() || Unit::parse(unit).is_ok());
-                let has_operator = formula.contains(['*', '/', '^', '+', '-', '(']);
-                let is_short = left.split_whitespace().count() <= 2;
-                let has_sign = has_operator || formula.contains(['\\', 'Σ', '∑', '∏', '∫', '÷']);
-                let is_one = is_short && formula.contains(char::is_alphabetic);
-                if is_labelled && !is_known || (is_one && !is_quantity) {
-                    let (text, reason) = (written.trim().to_owned(), error.to_string());
-                    let (is_repeated, needs_names) = (is_known, !has_sign && !is_labelled);
-                    let unread =
-                        Unread { line, name, text, reason, is_labelled, is_repeated, needs_names };
-                    self.unread.push(unread);
-                }
+            Ok(parsed) if parsed.names().next().is_none() => Some(None),
+            _ if !names_quantity && !has_sum => Some(None),
+            // `U = 5 V`
+            _ if number_with_unit(right, comma)
+                .is_some_and(|(_, unit)| Unit::parse(unit).is_ok()) =>
+            {
+                Some(None)
+            }
+            parsed => {
+                let reason = match parsed {
+                    Err(error) => error.to_string(),
+                    Ok(_) => "its left side is no name".to_owned(),
+                };
+                self.ask(
+                    *line..=*line,
+                    format!("`{text}` cannot be read as an equation, {reason}"),
+                    ["the equation of the result", "a remark"],
+                    "`--equation \"y = FORMULA\"`, or correct the line",
+                );
+                None
             }
         }
     }
 
-    /// The line and what is wrong, where the name of a row is a number's beginning.
-    pub(super) fn cut_row(
-        &self,
-        is_name: impl Fn(usize, usize) -> bool,
-    ) -> Option<(usize, String)> {
-        self.cut.iter().find_map(|cut| cut.fault_of_row(&is_name))
-    }
-
-    /// Keeps a formula that gives nothing a name.
-    fn without_name(&mut self, cells: &Cells, line: usize, written: &str, why: &str) {
-        let right = written.rsplit_once('=').map_or(written, |(_, right)| right).trim();
-        let Some(formula) = readable(right, cells.decimal_comma()) else { return };
-        if Formula::parse(&formula).is_ok_and(|formula| formula.names().next().is_none()) {
-            return;
-        }
-        self.unread.push(Unread {
-            line,
-            name: String::new(),
-            text: written.trim().to_owned(),
-            reason: format!("{why}; write `y = {right}`, with the name of the result"),
-            is_labelled: false,
-            is_repeated: false,
-            needs_names: true,
-        });
-    }
-
-    /// Leaves the equation of the result, last, and those that it needs.
-    ///
-    /// # Errors
-    /// The line and the reason where it is not clear which one is the result's.
-    pub(super) fn of_result(mut self, known: &[String]) -> Result<Self, (usize, String)> {
-        if let Some(cut) = self.cut.iter().find_map(|cut| cut.fault(known)) {
-            return Err(cut);
-        }
-        self.one_of_a_name(known)?;
-        let names: Vec<Vec<String>> = self.read.iter().map(Equation::names).collect();
-        let all_known: HashSet<&str> =
-            known.iter().chain(self.read.iter().map(|of| &of.name)).map(String::as_str).collect();
-        let is_known = |name: &String| all_known.contains(name.as_str());
-        let all: Vec<usize> = (0..self.read.len()).collect();
-        let are_whole: Vec<bool> = names.iter().map(|of| of.iter().all(is_known)).collect();
-        let is_whole = |place: &usize| are_whole[*place];
-        // a sheet may chain thousands of them
-        let mut used: HashMap<&str, HashSet<usize>> = HashMap::new();
-        for place in all.iter().copied().filter(is_whole) {
-            for name in &names[place] {
-                used.entry(name).or_default().insert(place);
-            }
+    /// The equation of the result last, with those that it needs before it.
+    fn in_order(&self, read: Vec<Equation>, known: &[String]) -> Option<Vec<Equation>> {
+        let names: Vec<Vec<String>> = read.iter().map(Equation::names).collect();
+        let is_whole = |place: &usize| {
+            names[*place]
+                .iter()
+                .all(|name| known.contains(name) || read.iter().any(|of| of.name == *name))
+        };
+        let whole: Vec<usize> = (0..read.len()).filter(is_whole).collect();
+        if let Some(equation) = read.first().filter(|_| whole.is_empty()) {
+            let lacks =
+                names[0].iter().find(|name| !known.contains(name)).cloned().unwrap_or_default();
+            self.ask(
+                equation.line..=equation.line,
+                format!(
+                    "the equation `{} = {}` needs `{lacks}`, which no row is called",
+                    equation.name, equation.formula
+                ),
+                ["the equation of the result, with other names", "a remark"],
+                "`--equation \"y = FORMULA\"` with the names of the rows",
+            );
+            return None;
         }
         let is_used = |place: &usize| {
-            let by = used.get(self.read[*place].name.as_str());
-            by.is_some_and(|by| by.iter().any(|other| other != place))
+            whole.iter().any(|other| other != place && names[*other].contains(&read[*place].name))
         };
-        let whole: Vec<usize> = all.iter().copied().filter(is_whole).collect();
-        let among = if whole.is_empty() { all } else { whole };
-        let last: Vec<usize> = among.iter().copied().filter(|place| !is_used(place)).collect();
-        let result = match (last.as_slice(), among.first()) {
-            ([one], _) => *one,
-            ([first, second, ..], _) => {
-                let [first, second] = [*first, *second].map(|place| &self.read[place]);
-                return Err((
-                    second.line,
-                    format!(
-                        "the result can be `{}` of line {} or `{}` of line {}: leave one equation, or \
-                         let one use the other",
-                        first.name,
-                        first.line + 1,
-                        second.name,
-                        second.line + 1
-                    ),
-                ));
+        let last: Vec<usize> = whole.iter().copied().filter(|place| !is_used(place)).collect();
+        let result = match last.as_slice() {
+            [] => {
+                return whole.is_empty().then(Vec::new).or_else(|| {
+                    self.fail(
+                        read[0].line,
+                        format!("`{}` and another equation need each other", read[0].name),
+                    );
+                    None
+                });
             }
-            ([], Some(first)) => {
-                let reason =
-                    format!("`{}` and another equation need each other", self.read[*first].name);
-                return Err((self.read[*first].line, reason));
+            [one] => *one,
+            [first, second, ..] => {
+                let [first, second] = [*first, *second].map(|place| &read[place]);
+                self.ask(
+                    first.line.min(second.line)..=first.line.max(second.line),
+                    "two equations can be that of the result",
+                    [
+                        &format!("`{} = {}`", first.name, first.formula) as &str,
+                        &format!("`{} = {}`", second.name, second.formula),
+                    ],
+                    "`--equation \"y = FORMULA\"`",
+                );
+                return None;
             }
-            ([], None) => return Ok(self),
         };
         let mut needed = vec![result];
         let mut next = 0;
         while let Some(&place) = needed.get(next) {
             for name in &names[place] {
-                let by = self.read.iter().position(|equation| equation.name == *name);
-                if let Some(by) = by.filter(|by| !needed.contains(by) && !known.contains(name)) {
+                let by = whole.iter().copied().find(|by| read[*by].name == *name);
+                if let Some(by) = by.filter(|_| !known.contains(name)) {
+                    needed.retain(|of| *of != by || next == 0);
                     needed.push(by);
                 }
             }
             next += 1;
+            if next > 100 {
+                self.fail(read[result].line, "the equations need each other");
+                return None;
+            }
         }
-        needed.reverse();
-        self.read = needed.into_iter().map(|place| self.read[place].clone()).collect();
-        Ok(self)
+        let mut ordered: Vec<Equation> = Vec::new();
+        for place in needed.into_iter().rev() {
+            if !ordered.contains(&read[place]) {
+                ordered.push(read[place].clone());
+            }
+        }
+        Some(ordered)
     }
 }
 
-impl Equations {
-    /// Leaves one equation of each name, that of quantities which the sheet has where others are of
-    /// something else.
-    ///
-    /// # Errors
-    /// The line and the reason where two are of such quantities.
-    fn one_of_a_name(&mut self, known: &[String]) -> Result<(), (usize, String)> {
-        let defined: Vec<String> = self.read.iter().map(|of| of.name.clone()).collect();
-        let is_whole = |equation: &Equation| {
-            equation.names().iter().all(|name| {
-                known.contains(name) || *name != equation.name && defined.contains(name)
-            })
-        };
-        let mut left: Vec<Equation> = Vec::new();
-        for equation in std::mem::take(&mut self.read) {
-            match left.iter_mut().find(|of| of.name == equation.name) {
-                None => left.push(equation),
-                Some(first) if is_whole(first) && is_whole(&equation) => {
-                    let reason = format!(
-                        "`{0}` is `{1}` in line {2} and `{3}` in line {4}: leave one equation",
-                        equation.name,
-                        first.formula,
-                        first.line + 1,
-                        equation.formula,
-                        equation.line + 1
-                    );
-                    return Err((equation.line, reason));
-                }
-                Some(first) if is_whole(&equation) => *first = equation,
-                Some(_) => {}
+/// The texts of a sheet that may be equations: with `=`, or behind a label.
+fn written_equations(cells: &Cells) -> Vec<Written> {
+    let mut found = Vec::new();
+    for line in 0..cells.lines() {
+        let mut is_behind_label = false;
+        for (place, cell) in cells.row(line).iter().enumerate() {
+            let text = cell.trim();
+            if text.is_empty() {
+                continue;
+            }
+            let label = |words: &str| {
+                words::meaning("text", &columns::plain_case(words)) == Some("equation")
+            };
+            let behind = text
+                .split_once(':')
+                .filter(|(before, _)| label(before))
+                .map(|(_, behind)| behind.trim());
+            let text = behind.unwrap_or(text);
+            let is_labelled =
+                behind.is_some() || std::mem::replace(&mut is_behind_label, label(text));
+            let is_one = text.contains('=') || is_labelled && !text.is_empty() && !is_behind_label;
+            if is_one {
+                let next = cells.text(line, place + 1).trim().to_owned();
+                found.push(Written { line, text: text.to_owned(), is_labelled, next });
             }
         }
-        self.read = left;
-        Ok(())
     }
+    found
 }
 
 /// The right side of an equation of a sheet as formulas are written.
-fn as_formula(right: &str, decimal_comma: bool) -> String {
+pub(super) fn as_formula(right: &str, decimal_comma: bool) -> String {
     let points = if decimal_comma { with_points(right) } else { right.to_owned() };
-    with_degrees(&expression(&points).replace(';', ","))
-}
-
-/// `20 °C` as formulas have it, `20 [°C]`.
-fn with_degrees(text: &str) -> String {
-    let mut parts = text.split_inclusive(['C', 'F']);
-    let is_bare = |part: &str| {
-        let before = part.strip_suffix("°C").or_else(|| part.strip_suffix("°F"))?.trim_end();
-        before.ends_with(|c: char| c.is_ascii_digit()).then(|| before.to_owned())
-    };
-    let written = |part: &str| match is_bare(part) {
-        Some(before) => format!("{before} [{}]", if part.ends_with('C') { "°C" } else { "°F" }),
-        None => part.to_owned(),
-    };
-    parts.by_ref().map(written).collect()
-}
-
-/// The same where it can be read.
-pub(super) fn readable(right: &str, decimal_comma: bool) -> Option<String> {
-    Some(as_formula(right, decimal_comma)).filter(|formula| Formula::parse(formula).is_ok())
+    expression(&points).replace(';', ",")
 }
 
 /// Whether an equation says how the uncertainty of the result is made of others, `U = k*uc` or `u(y) =
@@ -383,7 +300,7 @@ pub(super) fn is_of_uncertainties(left: &str, right: &str) -> bool {
 }
 
 /// Decimal commas of a formula as points; other commas separate arguments.
-pub(super) fn with_points(text: &str) -> String {
+fn with_points(text: &str) -> String {
     let characters: Vec<char> = text.chars().collect();
     let is_digit = |place: Option<usize>| {
         place.and_then(|place| characters.get(place)).is_some_and(char::is_ascii_digit)
@@ -393,70 +310,4 @@ pub(super) fn with_points(text: &str) -> String {
         if is_mark { '.' } else { *c }
     };
     characters.iter().enumerate().map(point).collect()
-}
-
-impl Budget<'_> {
-    /// What the equations give the result, with the types of these names: nothing after a mistake.
-    pub(super) fn typing_of(equations: &[Equation], known: Scope) -> Option<Typing> {
-        let mut scope = known;
-        let mut last = None;
-        for equation in equations {
-            let formula = Formula::parse(&equation.formula).ok()?;
-            let typing = formula.check(&scope).ok()?;
-            scope.define(equation.name.as_str(), typing);
-            last = Some(typing);
-        }
-        last
-    }
-
-    /// Says which texts look like equations and could not be read; a mistake where nothing else tells
-    /// how the result is made, or where the text is of a name of which another equation is read and
-    /// names quantities; `known` are the names of the rows.
-    pub(super) fn unread(
-        &mut self,
-        unread: &[Unread],
-        has_other: bool,
-        equations: &[Equation],
-        known: &[String],
-    ) {
-        for Unread { line, name, text, reason, is_labelled, is_repeated, needs_names } in unread {
-            let said = format!("`{text}` cannot be read as an equation: {reason}");
-            let right = text.split_once('=').map_or(text.as_str(), |(_, right)| right);
-            let mut words = right.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-            // `2a`
-            let names = words.any(|word| {
-                let word = word.trim_start_matches(|c: char| c.is_ascii_digit());
-                known.iter().any(|name| name == word)
-            });
-            if *needs_names && !names {
-                continue;
-            }
-            let other = equations.iter().find(|equation| equation.name == *name);
-            if let Some(other) = other.filter(|_| names) {
-                let reason = format!(
-                    "{said}; another equation of `{name}` stands in line {}",
-                    other.line + 1
-                );
-                self.fail(*line, reason);
-            } else if *is_repeated {
-                // a statement of the result
-            } else if has_other && !is_labelled {
-                self.guessed.push(format!("line {}: {said}; it is not taken", line + 1));
-            } else {
-                self.fail(*line, said);
-            }
-        }
-    }
-
-    /// Says which rows no equation names; `used` are the names that they need.
-    pub(super) fn unused(&mut self, rows: &[Row], equations: &[Equation], used: &[String]) {
-        let measurand = equations.last().map(|equation| equation.name.clone()).unwrap_or_default();
-        for row in rows.iter().filter(|row| !used.contains(&row.name)) {
-            self.guessed.push(format!(
-                "line {}: `{}` is not in the equation of {measurand}: it contributes nothing",
-                row.line + 1,
-                row.name
-            ));
-        }
-    }
 }

@@ -4,12 +4,15 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::columns::{self, Column, Header};
-use gumption_columns::separator::{DecimalMarks, Separator};
+use super::columns::{self, Column};
+use super::options::ImportOptions;
+use super::table::line_of;
 use gumption_files::open::no_table;
+use gumption_text::SourceText;
 use gumption_text::text_table::record;
 use gumption_text::workbook::Layout;
-use gumption_text::{DiagnosticKind, SourceText, bytes};
+use gumption_text::{DiagnosticKind, bytes};
+use gumption_columns::separator::{DecimalMarks, Separator};
 
 /// Lines and cells, at most.
 const MOST_LINES: usize = 10_000;
@@ -24,8 +27,6 @@ pub(super) struct Cells {
     separator: Option<Separator>,
     /// Whether cells of a text with commas between them have decimal commas, in quotes.
     quoted_commas: bool,
-    /// The lines of a text that may hold equations, as they are written.
-    written: HashMap<usize, String>,
     /// What a workbook says of its cells besides their values.
     layout: Layout,
     /// What texts of cells are as headings: of many rows few have others, and all are looked at.
@@ -72,16 +73,6 @@ impl Cells {
         self.separator
     }
 
-    /// A cell and those behind it that no quotes part from it, as they stand in a text: what a separator
-    /// within an equation has made cells of. `count` of them, or `None` where there are not so many.
-    pub(super) fn run_on(&self, line: usize, place: usize, count: usize) -> Option<String> {
-        let cells = self.row(line).get(place..=place + count)?;
-        let sign = self.separator?.sign().to_string();
-        let joined = cells.join(&sign);
-        let is_bare = self.written.get(&line).is_some_and(|written| written.contains(&joined));
-        is_bare.then_some(joined)
-    }
-
     /// What a workbook says of the cells besides their values; of a text nothing.
     pub(super) fn layout(&self) -> &Layout {
         &self.layout
@@ -89,75 +80,41 @@ impl Cells {
 
     /// Writes what merged cells hold into all rows that they span, in columns of what several rows can
     /// have in common; what was taken, as sentences.
-    fn spread_merged(&mut self, header: &Header) -> Vec<String> {
+    fn spread_merged(&mut self, line: usize) -> Vec<String> {
         const COMMON: [Column; 7] = [
             Column::Unit,
             Column::UnitOfUncertainty,
             Column::Distribution,
             Column::Divisor,
+            Column::Factor,
             Column::Dof,
-            Column::Sensitivity,
             Column::UnitOfSensitivity,
         ];
         let mut said = Vec::new();
         for ((first, column), (last, _)) in self.layout.merged.clone() {
             let (first, last, place) = (first as usize, last as usize, column as usize);
             let is_common =
-                |(of, column): &(usize, Column)| *of == place && COMMON.contains(column);
+                self.column(self.text(line, place)).is_some_and(|of| COMMON.contains(&of));
             let text = self.text(first, place).to_owned();
-            if first <= header.line
-                || text.trim().is_empty()
-                || !header.columns.iter().any(is_common)
-            {
+            if first <= line || text.trim().is_empty() || !is_common {
                 continue;
             }
-            let mut is_taken = false;
             for row in self.rows.iter_mut().take(last + 1).skip(first + 1) {
-                if row.iter().all(|cell| cell.trim().is_empty()) {
-                    continue;
-                }
-                row.resize(row.len().max(place + 1), String::new());
-                if row[place].is_empty() {
-                    row[place].clone_from(&text);
-                    is_taken = true;
+                if row.iter().any(|cell| !cell.trim().is_empty()) {
+                    row.resize(row.len().max(place + 1), String::new());
+                    if row[place].is_empty() {
+                        row[place].clone_from(&text);
+                    }
                 }
             }
-            if is_taken {
-                said.push(format!(
-                    "the merged cell `{}` counts for lines {} to {}",
-                    text.trim(),
-                    first + 1,
-                    last + 1
-                ));
-            }
+            said.push(format!(
+                "the merged cell `{}` counts for rows {} to {}",
+                text.trim(),
+                first + 1,
+                last + 1
+            ));
         }
         said
-    }
-
-    /// Moves the words of totals that stand right before their numbers, `,,,,,,uc,0.304`, or in a column before the
-    /// names, to where the names of quantities stand.
-    fn move_totals(&mut self, header: &Header) {
-        let Some((place, _)) = header.columns.iter().find(|(_, of)| *of == Column::Quantity) else {
-            return;
-        };
-        let (place, symbol) = (*place, header.columns.iter().find(|(_, of)| *of == Column::Symbol));
-        for row in self.rows.iter_mut().skip(header.line + 1) {
-            let Some(first) = row.iter().position(|cell| !cell.trim().is_empty()) else { continue };
-            if first == place
-                || first < place && row.get(place).is_some_and(|name| !name.trim().is_empty())
-                || symbol.is_some_and(|(symbol, _)| *symbol == first)
-            {
-                continue;
-            }
-            let words = row[first].trim();
-            let is_total = columns::is_combined_symbol(words)
-                || columns::is_summary_symbol(words)
-                || columns::is_expanded_symbol(words)
-                || columns::is_result(words);
-            if is_total {
-                row.swap(place, first);
-            }
-        }
     }
 
     /// The decimal marks of its numbers; of a workbook those of its texts, since its numbers have none.
@@ -178,53 +135,50 @@ impl Cells {
     }
 }
 
+/// Whether a cell holds nothing, or a sign that nothing is there.
+pub(super) fn is_empty(text: &str) -> bool {
+    matches!(text.trim().to_lowercase().as_str(), "" | "-" | "–" | "—" | "n/a" | "na" | "n.a.")
+}
+
 /// The cells of a sheet of a workbook, the text of messages, and what was taken of merged cells.
-pub(super) fn of_sheet(rows: Vec<Vec<String>>, layout: Layout) -> (Cells, String, Vec<String>) {
+pub(super) fn of_sheet(
+    rows: Vec<Vec<String>>,
+    layout: Layout,
+    options: &ImportOptions,
+) -> (Cells, String, Vec<String>) {
     let (cells, text) = of_rows(rows);
     let mut cells = Cells { layout, ..cells };
-    let Some(header) = Header::find(&cells) else { return (cells, text, Vec::new()) };
-    let said = cells.spread_merged(&header);
-    cells.move_totals(&header);
+    let said = line_of(&cells, options).map(|line| cells.spread_merged(line)).unwrap_or_default();
     (cells, text, said)
 }
 
 /// The cells of a CSV file, and the text of messages.
-pub(super) fn of_text(content: &[u8]) -> Result<(Cells, String), DiagnosticKind> {
+pub(super) fn of_text(
+    content: &[u8],
+    options: &ImportOptions,
+) -> Result<(Cells, String), DiagnosticKind> {
     let unreadable = |message| DiagnosticKind::Unreadable { message };
     let text = bytes::text(content).map_err(unreadable)?;
     if let Some((_, kind)) = no_table(&SourceText::new("", &text)) {
         return Err(kind);
     }
-    // words may have any of the signs in them: the header tells which one separates
-    let order = [Separator::Semicolon, Separator::Tab, Separator::Comma];
-    let read = order.map(|separator| separated(&text, separator));
-    let columns = |read: &Result<(Cells, String), DiagnosticKind>| {
-        let found = read.as_ref().ok().and_then(|(cells, _)| Header::find(cells));
-        found.map_or(0, |header| header.columns.len())
+    // words may have any of the signs in them: the headings tell which one separates
+    let read =
+        [Separator::Semicolon, Separator::Tab, Separator::Comma].map(|of| separated(&text, of));
+    let count = |read: &Result<(Cells, String), DiagnosticKind>| {
+        let cells = read.as_ref().ok().map(|(cells, _)| cells)?;
+        let line = line_of(cells, options)?;
+        Some(cells.row(line).iter().filter(|cell| cells.column(cell).is_some()).count() + 1)
     };
-    let counts = read.each_ref().map(columns);
-    let most = counts.iter().copied().max().unwrap_or(0);
-    let is_used = |sign: Separator| text.contains(sign.sign());
-    // a quote without an end hides the header from every sign
-    if most == 0 && read.iter().all(Result::is_err) {
-        let [.., last] = read;
-        return last;
-    }
+    let counts = read.each_ref().map(|read| count(read).unwrap_or(0));
+    let used = ['\u{3b}', '\t', ','].map(|sign| text.contains(sign));
+    let most = counts.into_iter().max().unwrap_or(0);
     let best = match most {
-        // no header: what stands there is told in the words of the most likely one
-        0 => order.iter().position(|sign| is_used(*sign)).unwrap_or(2),
+        // no headings: what stands there is told in the words of the most likely sign
+        0 => used.iter().position(|used| *used).unwrap_or(2),
         _ => counts.iter().position(|count| *count == most).unwrap_or(2),
     };
-    let [semicolon, tab, comma] = read;
-    let (mut cells, text) = match best {
-        0 => semicolon,
-        1 => tab,
-        _ => comma,
-    }?;
-    if let Some(header) = Header::find(&cells) {
-        cells.move_totals(&header);
-    }
-    Ok((cells, text))
+    read.into_iter().nth(best).unwrap_or_else(|| separated(&text, Separator::Comma))
 }
 
 fn separated(text: &str, separator: Separator) -> Result<(Cells, String), DiagnosticKind> {
@@ -234,7 +188,7 @@ fn separated(text: &str, separator: Separator) -> Result<(Cells, String), Diagno
             format!("line {line}: a cell that begins with a quote has no quote at its end");
         return Err(unreadable(message));
     }
-    let (mut rows, mut written) = (Vec::new(), HashMap::new());
+    let mut rows = Vec::new();
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(separator.byte())
         .has_headers(false)
@@ -255,11 +209,6 @@ fn separated(text: &str, separator: Separator) -> Result<(Cells, String), Diagno
             rows.push(Vec::new());
             last += 1;
         }
-        if record.iter().any(|cell| cell.contains('=')) {
-            let start = record.position().map_or(0, |place| place.byte() as usize);
-            let content = text.get(start..).unwrap_or_default().trim_start_matches(['\n', '\r']);
-            written.insert(rows.len(), content.lines().next().unwrap_or_default().to_owned());
-        }
         rows.push(record.iter().map(str::to_owned).collect());
         last = line;
         if rows.len() > MOST_LINES {
@@ -269,7 +218,7 @@ fn separated(text: &str, separator: Separator) -> Result<(Cells, String), Diagno
     }
     let quoted_commas = separator == Separator::Comma && has_decimal_commas(&rows);
     let (cells, text) = of_rows(rows);
-    Ok((Cells { separator: Some(separator), quoted_commas, written, ..cells }, text))
+    Ok((Cells { separator: Some(separator), quoted_commas, ..cells }, text))
 }
 
 /// The line, from 1, with a cell that begins with a quote and has none at its end.

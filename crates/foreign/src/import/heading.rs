@@ -3,15 +3,14 @@
 //! A unit or a factor that is dropped makes results wrong by powers of ten. So everything that stands
 //! there is read or looked at: what may be a unit or a factor and is none that is known is refused.
 
-use super::columns::{MEASURED, WORDS, is_of_estimate, is_symbol, unit_as_meant};
+use super::columns::{is_of_estimate, is_symbol, unit_as_meant};
 use super::coverage::Statement;
-use super::extent::Extent;
-use super::{corrected, symbol};
+use super::{symbol, words};
 use gumption_text::named_shape::NamedShape;
 use gumption_units::Unit;
 
-/// Words of columns of results.
-const RESULTS: [&str; 3] = ["result", "ergebnis", "x"];
+/// Words of columns of results, which a budget has none of.
+const VALUES: [&str; 3] = ["result", "ergebnis", "x"];
 
 /// What a piece of a heading says.
 enum Said {
@@ -37,14 +36,6 @@ pub(crate) fn unit_of_header(text: &str, is_value: bool) -> Result<Option<String
     };
     let inside = insides.iter().flat_map(|inside| separated(inside));
     of_pieces(inside.chain(outside), is_value).map_err(|reason| reason.of(text))
-}
-
-/// The unit in a cell of a line below the headings, `mV`, `in mV`, `u_i / mV`.
-///
-/// # Errors
-/// As [`unit_of_header`].
-pub(super) fn unit_of_line(text: &str) -> Result<Option<String>, String> {
-    of_pieces(pieces_of(text).into_iter(), false).map_err(|reason| reason.of(text))
 }
 
 /// All pieces of a text without words of a column, those in brackets first.
@@ -150,9 +141,9 @@ fn separated(text: &str) -> Vec<String> {
 /// What stands behind the words of a column, of which the longest are taken; `None` where it begins with
 /// none.
 fn behind_words(text: &str) -> Option<&str> {
-    let known = WORDS.iter().flat_map(|(_, words)| words.iter());
-    let known = known.chain(&MEASURED).chain(&RESULTS).copied().chain(corrected::words());
-    known
+    words::of_columns()
+        .map(|(word, _)| word)
+        .chain(VALUES)
         .filter_map(|word| behind(text, word))
         .filter(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
         .min_by_key(|rest| rest.len())
@@ -227,8 +218,7 @@ fn said(piece: &str, is_value: bool) -> Result<Said, Refused> {
     let is_count = small
         .strip_prefix('n')
         .is_some_and(|rest| rest.trim_start().starts_with('=') || matches!(rest, "-1" | "−1"));
-    let is_extent = Extent::of(text).is_some() && !text.contains(|c: char| c.is_ascii_digit());
-    if is_extent || is_condition || is_count {
+    if is_condition || is_count {
         return Ok(Said::Nothing);
     }
     let mut words = text.split([' ', '/', '-', '·']).filter(|word| !word.is_empty());
@@ -240,116 +230,27 @@ fn said(piece: &str, is_value: bool) -> Result<Said, Refused> {
 
 /// Whether a word is the name of a unit, `millivolts`, which is read by its symbol alone.
 fn is_name_of_unit(small: &str) -> bool {
-    const PREFIXES: [&str; 10] =
-        ["milli", "micro", "mikro", "nano", "pico", "kilo", "mega", "giga", "centi", "hecto"];
-    const NAMES: [&str; 48] = [
-        "volt",
-        "ampere",
-        "amp",
-        "ohm",
-        "watt",
-        "metre",
-        "meter",
-        "mètre",
-        "gram",
-        "gramm",
-        "gramme",
-        "second",
-        "sec",
-        "sekunde",
-        "sekunden",
-        "minute",
-        "minuten",
-        "hour",
-        "stunde",
-        "stunden",
-        "kelvin",
-        "celsius",
-        "fahrenheit",
-        "pascal",
-        "newton",
-        "joule",
-        "hertz",
-        "litre",
-        "liter",
-        "degree",
-        "grad",
-        "degré",
-        "candela",
-        "lumen",
-        "tesla",
-        "farad",
-        "henry",
-        "siemens",
-        "micron",
-        "inch",
-        "inche",
-        "feet",
-        "radian",
-        "mole",
-        "percent",
-        "prozent",
-        "promille",
-        "permille",
-    ];
-    let bare = PREFIXES.iter().find_map(|of| small.strip_prefix(of)).unwrap_or(small);
-    [small, bare].iter().any(|of| NAMES.contains(of) || NAMES.contains(&of.trim_end_matches('s')))
+    let mut prefixes = words::of("heading:unit-prefix");
+    let bare = prefixes.find_map(|of| small.strip_prefix(of)).unwrap_or(small);
+    words::of("heading:unit-name")
+        .any(|name| [small, bare].iter().any(|of| *of == name || of.trim_end_matches('s') == name))
 }
-
-/// Words that say what kind of numbers stand in a column.
-const SCALES: [&str; 27] = [
-    "rms",
-    "pp",
-    "fs",
-    "eff",
-    "full",
-    "rdg",
-    "ppt",
-    "dex",
-    "per",
-    "pro",
-    "par",
-    "span",
-    "relative",
-    "relativ",
-    "rel",
-    "reading",
-    "readings",
-    "range",
-    "scale",
-    "peak",
-    "squared",
-    "thousand",
-    "thousands",
-    "million",
-    "millions",
-    "thousandths",
-    "millionths",
-];
 
 /// Whether a word says what kind of numbers stand in a column: `rms`, `rel`.
 pub(super) fn is_scale(word: &str) -> bool {
-    SCALES.contains(&word.to_lowercase().as_str())
+    words::of("heading:scale").any(|of| of == word.to_lowercase())
 }
 
 /// Whether a word that is none of those known may be a unit, or change what numbers mean.
 pub(super) fn may_be_unit(word: &str) -> bool {
-    const SHORT: [&str; 68] = [
-        "of", "the", "and", "or", "for", "at", "to", "by", "as", "on", "see", "cert", "type",
-        "typ", "ref", "no", "nr", "lab", "est", "val", "unc", "std", "meas", "from", "with", "dev",
-        "und", "der", "des", "die", "das", "von", "bei", "laut", "aus", "de", "du", "la", "le",
-        "les", "et", "exp", "abs", "not", "note", "our", "own", "tol", "all", "each", "comb",
-        "sub", "data", "max", "min", "a", "b", "ci", "xi", "mean", "this", "ext", "zum", "zur",
-        "im", "its", "cal", "σ",
-    ];
     let small = word.trim_matches(['.', '\'', '"', '*', '†', '|']).to_lowercase();
-    if small.is_empty() || is_symbol(word) || SHORT.contains(&small.as_str()) {
+    if small.is_empty() || is_symbol(word) || words::of("heading:filler").any(|of| of == small) {
         return false;
     }
     let has_sign = small.contains(|c: char| c.is_ascii_digit() || "%‰×^°µμω²³⁻".contains(c));
     has_sign
         || small.chars().count() <= 3
-        || SCALES.contains(&small.as_str())
+        || is_scale(&small)
         // `milliV`
         || word.trim_start_matches(|c: char| !c.is_lowercase()).contains(char::is_uppercase)
         || is_name_of_unit(&small)

@@ -1,9 +1,7 @@
 //! Marks that could group thousands: `10.000` under German headings and `10,000` under English ones, in a
 //! sheet that nothing else tells the decimal mark of.
 
-use super::Budget;
-use super::columns::{Column, Header};
-use gumption_columns::separator::Separator;
+use super::words;
 
 /// What a number says of the decimal mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,29 +37,8 @@ impl Mark {
 
 /// Whether a heading is a German or French one, in whose tables points may group thousands.
 fn is_of_commas(heading: &str) -> bool {
-    const WORDS: [&str; 19] = [
-        "größe",
-        "groesse",
-        "wert",
-        "einheit",
-        "unsicherheit",
-        "verteilung",
-        "teiler",
-        "breite",
-        "beitrag",
-        "freiheitsgrad",
-        "koeffizient",
-        "quelle",
-        "mesure",
-        "résultat",
-        "ergebnis",
-        "bezeichnung",
-        "grandeur",
-        "incertitude",
-        "unité",
-    ];
     let small = heading.to_lowercase();
-    WORDS.iter().any(|word| small.contains(word))
+    words::of("text:comma-language").any(|word| small.contains(word))
 }
 
 /// A cell of a table: where it stands, its text, and whether the table reads it as a number.
@@ -98,37 +75,6 @@ pub(crate) fn doubt<'c, P>(
         text.replace(grouping, "")
     );
     Some((place, reason))
-}
-
-impl Budget<'_> {
-    /// Whether the decimal mark of the numbers is known; otherwise after a mistake.
-    pub(super) fn has_known_mark(&self, header: &Header) -> bool {
-        if self.cells.separator() == Some(Separator::Comma) {
-            return true;
-        }
-        let headings = header.columns.iter().map(|(place, _)| header.heading(*place));
-        let is_number = |line: usize, place: usize| {
-            let is_one = |(of, column): &(usize, Column)| {
-                *of == place && *column != Column::Quantity && *column != Column::Symbol
-            };
-            line > header.line && header.columns.iter().any(is_one)
-        };
-        let cells = (0..self.cells.lines()).flat_map(|line| {
-            let written = self.cells.row(line).iter().enumerate();
-            let written = written.filter(move |(place, _)| self.cells.is_written(line, *place));
-            written.map(move |(place, text)| (line, place, text.as_str()))
-        });
-        let cells = cells.map(|(line, place, text)| MarkedCell {
-            place: line,
-            text,
-            is_number: is_number(line, place),
-        });
-        let doubt = doubt(headings, cells);
-        if let Some((line, reason)) = &doubt {
-            self.fail(*line, reason.clone());
-        }
-        doubt.is_none()
-    }
 }
 
 #[cfg(test)]

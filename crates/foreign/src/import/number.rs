@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
-use gumption_engine::model::formula::{Formula, Scope};
 use gumption_text::value_text::{RAISED, power_of_ten, with_exponents};
+use gumption_engine::model::formula::{Formula, Scope};
+use gumption_engine::number::elementary;
 
 /// Spaces that stand between groups of digits.
 const SPACES: [char; 4] = [' ', '\u{a0}', '\u{202f}', '\u{2009}'];
@@ -144,15 +145,6 @@ fn ungrouped(digits: &str) -> Option<String> {
     Some(whole)
 }
 
-/// The value of a cell that holds a number, perhaps with a unit, or an expression.
-pub(super) fn value(text: &str, decimal_comma: bool) -> Option<f64> {
-    // the root behind a number is a factor and no unit: `2√3`
-    let is_root = expression(&text.to_lowercase()).contains("sqrt");
-    let number = || number_with_unit(text, decimal_comma).map(|(value, _)| value);
-    let constant = || constant(text, decimal_comma);
-    if is_root { constant().or_else(number) } else { number().or_else(constant) }
-}
-
 /// A number that may be written as an expression: `√3`, `2*√3`, `1/3`, `3^0.5`, `sqrt(3)`, and what
 /// repeats it: `√3 (1.73)`, `√3 = 1.732`, `2 (k=2)`, `k = 2`.
 pub(super) fn constant(text: &str, decimal_comma: bool) -> Option<f64> {
@@ -201,9 +193,39 @@ pub(super) fn expression(text: &str) -> String {
     written
 }
 
+/// Half of a unit of the last digit of a number as it is written.
+pub(super) fn half_digit(text: &str) -> f64 {
+    let end = text.find(['e', 'E', '·', '×', '*']).unwrap_or(text.len());
+    let (mantissa, rest) = text.split_at(end);
+    let digits: String =
+        mantissa.chars().filter(|c| c.is_ascii_digit() || matches!(c, '.' | ',')).collect();
+    let decimals = digits.rsplit_once(['.', ',']).map_or(0, |(_, decimals)| decimals.len());
+    let power: i32 = rest
+        .trim_start_matches(['e', 'E', '·', '×', '*', ' '])
+        .trim_start_matches("10^")
+        .split(|c: char| !(c.is_ascii_digit() || c == '-'))
+        .next()
+        .and_then(|power| power.parse().ok())
+        .unwrap_or(0);
+    0.5 * elementary::pow(10.0, f64::from(power) - decimals as f64)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn digits_of_numbers() {
+        for (text, half) in [
+            ("34,3 nm", 0.05),
+            ("12", 0.5),
+            ("0.0242", 5e-5),
+            ("1.5e-3", 5e-5),
+            ("10 000,025 g", 5e-4),
+        ] {
+            assert!((half_digit(text) / half - 1.0).abs() < 1e-12, "{text}");
+        }
+    }
 
     #[test]
     fn numbers() {

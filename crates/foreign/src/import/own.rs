@@ -7,12 +7,15 @@ use serde_json::{Map, Value, json};
 
 use super::ImportedBudget;
 use super::number::number;
+use gumption_text::DiagnosticKind;
+use gumption_text::{Collector, Diagnostics};
+use gumption_files::read_text;
+use gumption_text::SourceText;
+use gumption_files::carried;
+use gumption_text::workbook;
 use gumption_engine::distribution::Distribution;
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Task;
-use gumption_files::carried;
-use gumption_files::read_text;
-use gumption_text::{Collector, DiagnosticKind, Diagnostics, SourceText, workbook};
 
 /// Cells differ where they differ by more than a spreadsheet's rounding.
 const ROUNDING: f64 = 1e-12;
@@ -49,13 +52,11 @@ pub(super) fn of_workbook(
     let made = if changed.is_empty() {
         let unchanged = "the model file of this workbook; no estimate, standard uncertainty, degrees of \
                          freedom or correlation was changed, and other cells are not looked at";
-        let understood = vec![unchanged.to_owned()];
-        Some(ImportedBudget { text, understood, guessed: Vec::new() })
+        Some(ImportedBudget { text, notes: vec![unchanged.to_owned()] })
     } else {
         serde_json::to_string_pretty(&root).ok().map(|text| ImportedBudget {
             text: text + "\n",
-            understood: changed,
-            guessed: replaced,
+            notes: changed.into_iter().chain(replaced).collect(),
         })
     };
     let made = log.finish(made).and_then(|made| {

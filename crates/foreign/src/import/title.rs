@@ -1,197 +1,130 @@
-//! The unit that a line beside the table states for all of its values: `Budget (all values in mV)`, `alle
-//! Werte in mV`.
+//! The title of a budget, and the unit that a line beside the table states for all of its values: `Budget (all
+//! values in mV)`, `Einheit: mV`.
 
-use super::columns::{Column, Header, UNITS, unit_as_meant};
-use super::grid::Cells;
-use super::heading::may_be_unit;
+use super::ask::Sheet;
+use super::columns::{self, Column};
+use super::table::Header;
+use super::words;
 use gumption_units::Unit;
 
-/// What stands before the unit.
-const BEFORE: [&str; 20] = [
-    "values",
-    "figures",
-    "numbers",
-    "quantities",
-    "data",
-    "entries",
-    "all",
-    "budget",
-    "werte",
-    "angaben",
-    "größen",
-    "grössen",
-    "zahlenwerte",
-    "zahlen",
-    "messunsicherheitsbudget",
-    "unsicherheitsbudget",
-    "valeurs",
-    "grandeurs",
-    "valores",
-    "bilan",
-];
+impl Sheet<'_> {
+    /// The unit of all values by a line above or below the table.
+    pub(super) fn unit_of_all(&self, header: &Header) -> Option<String> {
+        self.units_of_all(header).into_iter().find_map(|(_, unit)| unit.ok())
+    }
 
-/// Words that may follow them.
-const BETWEEN: [&str; 19] = [
-    "are",
-    "given",
-    "stated",
-    "expressed",
-    "listed",
-    "below",
-    "here",
-    "sind",
-    "angegeben",
-    "jeweils",
-    "sont",
-    "exprimées",
-    "données",
-    "indiquées",
-    "están",
-    "expresados",
-    "dados",
-    "the",
-    "table",
-];
+    /// What lines beside the table state as the unit of all values.
+    fn units_of_all(&self, header: &Header) -> Vec<(usize, Result<String, String>)> {
+        let is_ignored = |line: usize| {
+            let of =
+                |numbers: &str| numbers.split(',').any(|of| of.trim() == (line + 1).to_string());
+            self.options.rows.iter().any(|(kind, numbers)| kind == "ignore" && of(numbers))
+        };
+        let of_line = |line: usize| {
+            let cells = self.cells.row(line).iter().map(|cell| cell.trim());
+            let held: Vec<&str> = cells.filter(|cell| !cell.is_empty()).collect();
+            let is_beside = line < header.first || line > header.line && held.len() == 1;
+            // `Unit` and `mV` in two cells
+            let sign = if held.len() == 2 && !held[0].ends_with(':') { ": " } else { " " };
+            let found = stated(&held.join(sign)).filter(|_| is_beside && !is_ignored(line))?;
+            Some((line, found))
+        };
+        (0..self.cells.lines()).filter_map(of_line).collect()
+    }
 
-/// What may stand behind the unit.
-const BEHIND: [&str; 9] =
-    ["unless", "except", "wenn", "sofern", "soweit", "außer", "sauf", "salvo", "excepto"];
+    /// The first line of words above the table; else what the file is called.
+    pub(super) fn title(&self, header: &Header, file: &str) -> String {
+        let texts = (0..header.first).filter_map(|line| {
+            let mut held =
+                self.cells.row(line).iter().map(|cell| cell.trim()).filter(|cell| !cell.is_empty());
+            let first = held.next()?;
+            let is_title = held.next().is_none()
+                && !first.contains('=')
+                && first.chars().filter(|c| c.is_alphabetic()).count() > 2
+                && !columns::is_of_correlation(first);
+            is_title.then(|| first.to_owned())
+        });
+        texts.into_iter().next().unwrap_or_else(|| file.to_owned())
+    }
 
-/// A unit of all values, or the word in its place that is none; `None` where a text states none.
+    /// Asks where a line beside the table states the unit of all values, and it is not known.
+    pub(super) fn unknown_units(&self, header: &Header) {
+        for (line, unit) in self.units_of_all(header) {
+            if let Err(word) = unit {
+                self.ask(
+                    line..=line,
+                    format!("`{word}` may be the unit of all values, and is no unit that is known"),
+                    ["the unit of the columns that state none", "a remark"],
+                    format!("`--column-unit NAME=UNIT` with `--row ignore={}`", line + 1),
+                );
+            }
+        }
+    }
+
+    /// Asks what is to become of statements of correlation, which are not read.
+    pub(super) fn correlations(&self, header: &Header) {
+        let is_said = |line: usize| {
+            let of = |numbers: &str| {
+                numbers.split(',').any(|number| number.trim() == (line + 1).to_string())
+            };
+            self.options.rows.iter().any(|(_, numbers)| of(numbers))
+        };
+        for line in
+            (0..self.cells.lines()).filter(|line| !(header.first..=header.line).contains(line))
+        {
+            let names = [Column::Quantity, Column::Symbol, Column::Description];
+            let is_name = |place: usize| {
+                let of = |(at, column): &(usize, Column)| *at == place && names.contains(column);
+                line > header.line
+                    && self.has_uncertainty(header, line)
+                    && header.columns.iter().any(of)
+            };
+            let mut cells = self.cells.row(line).iter().enumerate();
+            let found =
+                cells.find(|(place, cell)| columns::is_of_correlation(cell) && !is_name(*place));
+            if let Some((_, cell)) = found.filter(|_| !is_said(line)) {
+                self.ask(
+                    line..=line,
+                    format!("`{}` speaks of correlation, which is not read", cell.trim()),
+                    ["a coefficient, which is written into the model file", "of no account"],
+                    format!(
+                        "`--row ignore={0}`, or `--row quantity={0}` for a quantity; a coefficient is written into \
+                         the model file, `\"correlations\": [[\"a\", \"b\", r]]`",
+                        line + 1
+                    ),
+                );
+            }
+        }
+    }
+}
+
+/// The unit that a text states for all values, or the word in its place that is none.
 fn stated(text: &str) -> Option<Result<String, String>> {
     let clean = text.replace(['(', ')', '[', ']', ';', ','], " ");
     let words: Vec<&str> = clean.split_whitespace().collect();
-    let small: Vec<String> = words.iter().map(|word| word.to_lowercase()).collect();
-    let is_label = |at: usize| {
-        let bare = small[at].strip_suffix(':');
-        bare.is_some_and(|bare| UNITS.contains(&bare))
-            || small.get(at + 1).is_some_and(|next| next == ":")
-                && UNITS.contains(&small[at].as_str())
+    let small: Vec<String> =
+        words.iter().map(|word| word.trim_matches(':').to_lowercase()).collect();
+    let is = |meaning: &'static str, word: &str| words::of(meaning).any(|of| of == word);
+    let unit = |text: &str| {
+        let text = text.trim_end_matches(['.', ':', '!']);
+        let is_known =
+            text.parse::<f64>().is_err() && !text.is_empty() && Unit::parse(text).is_ok();
+        is_known.then(|| text.to_owned()).or_else(|| columns::unit_as_meant(text))
     };
-    let of_label = (0..words.len())
-        .find(|at| is_label(*at))
-        .map(|at| if small[at].ends_with(':') { at + 1 } else { at + 2 });
-    let is_in = |at: &usize| {
-        let mut before = small[..*at].iter().rev();
-        let is_noun = before.find(|word| !BETWEEN.contains(&word.as_str()));
-        matches!(small[*at].as_str(), "in" | "en")
-            && is_noun.is_some_and(|word| BEFORE.contains(&word.as_str()))
-    };
-    let of_values = || (1..words.len()).find(is_in).map(|at| at + 1);
-    // `Budget of a length measurement in mm`
-    let of_budget = || {
-        let at = words.len().checked_sub(1)?;
-        let is_unit = words[at].chars().count() > 1 && Unit::parse(words[at]).is_ok();
-        let is_it = matches!(small.get(at.checked_sub(1)?)?.as_str(), "in" | "en")
-            && small.iter().any(|word| word.contains("budget"));
-        (is_unit && is_it).then_some(at)
-    };
-    let at = of_label.or_else(of_values).or_else(of_budget)?;
-    let rest = words.get(at..).filter(|rest| !rest.is_empty())?;
-    let end = rest.iter().position(|word| BEHIND.contains(&word.to_lowercase().as_str()));
-    let rest = &rest[..end.unwrap_or(rest.len())];
-    let parsed = |text: &str| {
-        let known = Unit::parse(text).is_ok() && text.parse::<f64>().is_err();
-        known.then(|| text.to_owned()).or_else(|| unit_as_meant(text))
-    };
-    let whole = rest.join(" ");
-    let trimmed = |text: &str| text.trim_end_matches(['.', ':', '!']).to_owned();
-    let first = trimmed(rest.first()?);
-    if let Some(unit) = parsed(&trimmed(&whole)) {
-        return Some(Ok(unit));
-    }
-    // `in the table below`, `in SI units` and `in A1 to A5` are no units, and `Unit: DMM 1` is an instrument
-    let is_word = first.chars().all(char::is_lowercase);
-    let is_doubtful = of_label.is_none() && rest.len() == 1 && !is_word;
-    (is_doubtful && may_be_unit(&first)).then_some(Err(trimmed(&whole)))
-}
-
-impl Header {
-    /// Takes the unit that a line above or below the table states for all values, for the columns that say
-    /// none; refuses one that contradicts them.
-    pub(super) fn unit_of_all(&mut self, cells: &Cells) {
-        let is_beside = |line: usize| {
-            let count = cells.row(line).iter().filter(|cell| !cell.trim().is_empty()).count();
-            line < self.first || line > self.line && count == 1
-        };
-        let lines = (0..cells.lines()).filter(|line| is_beside(*line));
-        let found = lines.flat_map(|line| {
-            let row = cells.row(line);
-            let pair = format!("{}: {}", cells.text(line, 0).trim(), cells.text(line, 1).trim());
-            let is_pair = row.iter().filter(|cell| !cell.trim().is_empty()).count() == 2;
-            let texts = row.iter().cloned().chain(is_pair.then_some(pair));
-            texts
-                .filter_map(|text| Some((text.trim().to_owned(), stated(&text)?)))
-                .collect::<Vec<_>>()
-        });
-        let Some((text, unit)) = found.into_iter().next() else { return };
-        let units = self.columns.iter().find(|(_, column)| *column == Column::Unit);
-        let below = units.map_or_else(Vec::new, |(place, _)| {
-            let lines = self.line + 1..cells.lines();
-            lines.map(|line| cells.text(line, *place).trim().to_owned()).collect::<Vec<_>>()
-        });
-        let has_units = below.iter().any(|text| !super::rows::is_empty(text));
-        let unit = match unit {
-            Err(_) if has_units => return,
-            Ok(unit) => unit,
-            Err(word) => {
-                self.doubtful.push(format!(
-                    "`{text}`: `{word}` is no unit that is known: write the unit of all values alone, `all \
-                     values in mV`, or a column `Unit`"
-                ));
-                return;
-            }
-        };
-        let dimension = |unit: &str| Unit::parse(unit).ok().map(|unit| unit.dimension());
-        let differs = |other: &str| other != unit && dimension(other) == dimension(&unit);
-        let of_headings = self.units_of_columns().map(str::to_owned);
-        let stated: Vec<String> = of_headings.chain(below.iter().cloned()).collect();
-        if let Some(other) = stated.into_iter().find(|other| differs(other)) {
-            self.doubtful.push(format!(
-                "`{text}` says `{unit}`, and the table `{other}`: write the unit of each column into its \
-                 heading, and take the line away"
-            ));
-            return;
-        }
-        if has_units {
-            return;
-        }
-        let taken = self.take_unit_of_all(&unit);
-        if taken {
-            self.unit_of_all = Some((text, unit));
+    for at in 1..words.len() {
+        let before = small[..at - 1].iter().rev().find(|word| !is("title:between", word));
+        let is_of_values = matches!(small[at - 1].as_str(), "in" | "en")
+            && before.is_some_and(|word| is("title:before", word));
+        let is_label = is("unit", &small[at - 1]) && words[at - 1].ends_with(':');
+        let is_only = words.len() == at + 1 || is("title:behind", &small[at + 1]);
+        if (is_of_values || is_label) && is_only {
+            let is_word = words[at].chars().all(char::is_lowercase);
+            return match unit(words[at]) {
+                Some(unit) => Some(Ok(unit)),
+                // `in general` is no unit
+                None => (!is_word).then(|| Err(words[at].to_owned())),
+            };
         }
     }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::stated;
-
-    #[test]
-    fn units_of_all_values() {
-        for (text, unit) in [
-            ("Budget (all values in mV)", "mV"),
-            ("alle Werte in mV", "mV"),
-            ("Messunsicherheitsbudget, alle Angaben in µm/m", "µm/m"),
-            ("All values are given in mV unless otherwise stated.", "mV"),
-            ("Toutes les valeurs sont exprimées en mm", "mm"),
-            ("Todos los valores en mm", "mm"),
-            ("Budget in mV", "mV"),
-            ("Unsicherheitsbudget Längenmessung in mm", "mm"),
-            ("Unit: mV", "mV"),
-            ("Einheit : mm", "mm"),
-        ] {
-            assert_eq!(stated(text), Some(Ok(unit.to_owned())), "{text}");
-        }
-        for text in [
-            "all in one budget",
-            "all values in the table below",
-            "Values of 2024",
-            "Budget",
-            "Werte in Klammern",
-        ] {
-            assert_eq!(stated(text), None, "{text}");
-        }
-        assert_eq!(stated("all values in mVrms"), Some(Err("mVrms".to_owned())));
-    }
+    None
 }
