@@ -296,8 +296,9 @@ pub mod file {
         shared_file_bytes,
     };
     pub use gumption_foreign::{
-        ComparisonOptions, ComparisonTable, ImportedBudget, ReadComparison, import_budget,
-        import_budget_bytes, import_budget_sheet, read_comparison, read_comparison_text,
+        Coefficients, ComparisonOptions, ComparisonTable, ImportOptions, ImportedBudget, Question,
+        ReadComparison, RefusedBudget, import_budget, import_budget_bytes, read_comparison,
+        read_comparison_text,
     };
     pub use gumption_text::{
         Diagnostic, DiagnosticKind, Diagnostics, FileSource, SourceText, bytes, is_obeyed,

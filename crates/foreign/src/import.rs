@@ -30,14 +30,14 @@ mod words;
 use std::cell::RefCell;
 use std::path::Path;
 
-use gumption_text::Collector;
-use gumption_files::open::{FileKind, are_results};
-use gumption_text::SourceText;
-use super::{DiagnosticKind, bytes, workbook};
 use ask::Sheet;
 pub use ask::{Question, RefusedBudget};
 use columns::{Column, identifier};
 use equation::Equation;
+use gumption_files::open::{FileKind, are_results};
+use gumption_text::Collector;
+use gumption_text::SourceText;
+use gumption_text::{DiagnosticKind, bytes, workbook};
 use mark::{MarkedCell, doubt};
 pub use options::{Coefficients, ImportOptions};
 use sheets::Chosen;

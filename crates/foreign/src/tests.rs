@@ -3,7 +3,7 @@
 #[path = "../../text/src/workbook/tests/written.rs"]
 mod written;
 
-pub(crate) use written::{sheets, workbook};
+pub(crate) use written::sheets;
 
 /// A workbook of one sheet; cells as of [`sheets`].
 pub(crate) fn styled(rows: &[&[&str]]) -> Vec<u8> {

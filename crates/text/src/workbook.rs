@@ -512,12 +512,14 @@ fn csv(cells: &Cells) -> Result<String, String> {
 
 #[cfg(test)]
 mod tests {
+    mod one_sheet;
     mod written;
 
     use std::io::Write;
 
     use super::*;
-    use written::{PARTS, sheets, workbook};
+    use one_sheet::{PARTS, workbook};
+    use written::sheets;
 
     fn first_sheet(bytes: Vec<u8>) -> Result<String, String> {
         let mut book = Book::open(bytes)?;

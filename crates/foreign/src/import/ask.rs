@@ -8,9 +8,9 @@ use serde::Serialize;
 
 use super::grid::Cells;
 use super::options::ImportOptions;
+use gumption_columns::separator::DecimalMarks;
 use gumption_text::DiagnosticKind;
 use gumption_text::{Collector, Diagnostics};
-use gumption_columns::separator::DecimalMarks;
 
 /// What a sheet does not say.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

@@ -7,12 +7,12 @@ use std::ops::Range;
 use super::columns::{self, Column};
 use super::options::ImportOptions;
 use super::table::line_of;
+use gumption_columns::separator::{DecimalMarks, Separator};
 use gumption_files::open::no_table;
 use gumption_text::SourceText;
 use gumption_text::text_table::record;
 use gumption_text::workbook::Layout;
 use gumption_text::{DiagnosticKind, bytes};
-use gumption_columns::separator::{DecimalMarks, Separator};
 
 /// Lines and cells, at most.
 const MOST_LINES: usize = 10_000;

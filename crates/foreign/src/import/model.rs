@@ -11,11 +11,11 @@ use super::options::Coefficients;
 use super::rows::{Kind, Row, Rows, is_same_unit};
 use super::stated::Stated;
 use super::table::Header;
-use gumption_files::read_text;
 use gumption_engine::decimal::to_15_digits;
 use gumption_engine::model::formula::{Formula, Scope, Typing};
 use gumption_engine::number::Shortest;
 use gumption_engine::propagate::gum::{self, Gum};
+use gumption_files::read_text;
 use gumption_units::{Unit, listed};
 
 /// A model's result by the law of propagation, and its unit.

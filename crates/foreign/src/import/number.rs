@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use gumption_text::value_text::{RAISED, power_of_ten, with_exponents};
 use gumption_engine::model::formula::{Formula, Scope};
 use gumption_engine::number::elementary;
+use gumption_text::value_text::{RAISED, power_of_ten, with_exponents};
 
 /// Spaces that stand between groups of digits.
 const SPACES: [char; 4] = [' ', '\u{a0}', '\u{202f}', '\u{2009}'];

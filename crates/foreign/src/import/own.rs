@@ -7,15 +7,15 @@ use serde_json::{Map, Value, json};
 
 use super::ImportedBudget;
 use super::number::number;
-use gumption_text::DiagnosticKind;
-use gumption_text::{Collector, Diagnostics};
-use gumption_files::read_text;
-use gumption_text::SourceText;
-use gumption_files::carried;
-use gumption_text::workbook;
 use gumption_engine::distribution::Distribution;
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Task;
+use gumption_files::carried;
+use gumption_files::read_text;
+use gumption_text::DiagnosticKind;
+use gumption_text::SourceText;
+use gumption_text::workbook;
+use gumption_text::{Collector, Diagnostics};
 
 /// Cells differ where they differ by more than a spreadsheet's rounding.
 const ROUNDING: f64 = 1e-12;

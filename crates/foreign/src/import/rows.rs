@@ -12,12 +12,12 @@ use super::number::{half_digit, without_groups, written};
 use super::table::Header;
 use super::widths::{Shape, divisor_of, without_factor};
 use super::words;
-use gumption_text::share::{self, Share};
-use gumption_text::value_text::{PLUS_MINUS, grouped_digits};
-use gumption_text::workbook::letters;
 use gumption_engine::decimal::to_15_digits;
 use gumption_engine::model::formula::{Formula, check_name};
 use gumption_engine::number::Shortest;
+use gumption_text::share::{self, Share};
+use gumption_text::value_text::{PLUS_MINUS, grouped_digits};
+use gumption_text::workbook::letters;
 use gumption_units::{Unit, listed};
 
 /// A row of the budget: a quantity.

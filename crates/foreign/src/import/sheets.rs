@@ -5,8 +5,8 @@ use super::columns::Column;
 use super::grid::{self, Cells};
 use super::options::ImportOptions;
 use super::table::{Header, line_of};
-use gumption_text::DiagnosticKind;
 use gumption_files::open::FROM_CERTIFICATES;
+use gumption_text::DiagnosticKind;
 use gumption_text::workbook::choice::{self, Wanted};
 use gumption_text::workbook::{Book, MOST_COLUMNS, MOST_ROWS, Place, SheetName, reference};
 

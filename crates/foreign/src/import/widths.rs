@@ -10,9 +10,9 @@ use super::number::constant;
 use super::rows::Row;
 use super::table::Header;
 use super::words;
+use gumption_engine::number::Shortest;
 use gumption_text::named_shape::NamedShape;
 use gumption_text::workbook::letters;
-use gumption_engine::number::Shortest;
 
 /// Shapes that are stated by a half width, and the square of what that is divided by.
 pub(super) const HALF_WIDTHS: [(&str, f64); 3] =
