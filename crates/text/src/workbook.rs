@@ -518,8 +518,8 @@ mod tests {
     use std::io::Write;
 
     use super::*;
-    use one_sheet::{PARTS, workbook};
-    use written::sheets;
+    use one_sheet::workbook;
+    use written::{PARTS, sheets};
 
     fn first_sheet(bytes: Vec<u8>) -> Result<String, String> {
         let mut book = Book::open(bytes)?;
