@@ -117,7 +117,7 @@ pub(super) struct Rows {
 
 impl Sheet<'_> {
     /// The rows that options name: lines from 0 with what they are. `None` after a mistake.
-    fn said_rows(&self) -> Option<Vec<(usize, Kind)>> {
+    pub(super) fn said_rows(&self) -> Option<Vec<(usize, Kind)>> {
         let mut said = Vec::new();
         for (name, numbers) in self.options.rows.iter().filter(|(name, _)| name != "heading") {
             let Some(kind) = Kind::named(name) else {

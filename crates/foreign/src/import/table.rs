@@ -70,6 +70,8 @@ impl Header {
         let mut header = Self { line, first: line, headings, columns, said, units: Vec::new() };
         header.units_below(cells);
         header.said_columns(sheet)?;
+        // what an option says wrong is told before anything is asked
+        sheet.said_rows()?;
         header.named_columns(sheet);
         header.units_of_columns(sheet);
         header.needs(sheet);
