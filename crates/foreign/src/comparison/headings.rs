@@ -410,8 +410,11 @@ pub(super) fn is_like_uncertainty(heading: &str, known: &[&str]) -> bool {
         && (name.chars().count() <= 2 || letters.next() == Some('_'))
         || name.starts_with("U ")
         || name.starts_with("u ");
-    let is_other = columns::column(heading)
-        .is_some_and(|column| !matches!(column, Column::Symbol | Column::Quantity));
+    let holds_texts = |column: &Column| {
+        use Column::{Description, Quantity, Remark, Symbol};
+        matches!(column, Symbol | Quantity | Description | Remark)
+    };
+    let is_other = columns::column(heading).is_some_and(|column| !holds_texts(&column));
     let near = known.iter().filter(|of| of.len() > 3).copied();
     is_symbol
         || is_other
