@@ -799,9 +799,10 @@ fn errors_of_settings_belong_to_their_outputs() {
         assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained, "{stated}");
         assert!(probability(&found, 1) < 0.5, "{stated}");
         assert!(found.departure.iter().all(|form| form.outputs.contains(&"z".to_owned())));
+        // alone, or beside an effect that does nothing
         let told: f64 = found.departure.iter().map(|form| form.probability).sum();
         let unexplained = found.hypotheses.iter().find(|h| h.effects.is_none()).unwrap();
-        assert!((told - unexplained.probability).abs() < 1e-12, "{told}");
+        assert!(told > 0.99 && told > unexplained.probability - 1e-12, "{told}");
     }
 }
 

@@ -115,7 +115,11 @@ pub(crate) fn worth_trying(weighings: &[Weighing<'_>]) -> Vec<SharedNoise> {
         }
     }
     largest_first(&mut found, |(ln, _)| *ln);
-    let leading = found.first().map(|(ln, noise)| (*ln, noise.without_one()));
+    let leading = found.first().map(|(ln, noise)| {
+        let alike: Vec<SharedNoise> =
+            std::iter::once(noise.clone()).chain(noise.without_one()).collect();
+        (*ln, alike)
+    });
     let best = found.iter().map(|(ln, _)| *ln).fold(ln_total(weighings), f64::max);
     let is_worth = |ln: f64| ln - best > elementary::ln(WORTH_TRYING);
     let mut found: Vec<SharedNoise> = found
@@ -123,10 +127,11 @@ pub(crate) fn worth_trying(weighings: &[Weighing<'_>]) -> Vec<SharedNoise> {
         .filter_map(|(ln, noise)| is_worth(ln).then_some(noise))
         .take(MOST_MODELS)
         .collect();
-    // a departure beside such errors is in none of these estimates
+    // a departure beside such errors is in none of these estimates, and one over a short length looks
+    // like such errors
     let is_unexplained = posterior.departs() > UNEXPLAINED;
-    if let Some((_, fewer)) = leading.filter(|(ln, _)| is_worth(*ln) || is_unexplained) {
-        let more: Vec<SharedNoise> = fewer.into_iter().filter(|of| !found.contains(of)).collect();
+    if let Some((_, alike)) = leading.filter(|(ln, _)| is_worth(*ln) || is_unexplained) {
+        let more: Vec<SharedNoise> = alike.into_iter().filter(|of| !found.contains(of)).collect();
         found.extend(more);
     }
     found
