@@ -312,10 +312,7 @@ impl<'a> Fields<'a> {
                 let (lower, upper) = (self.limit("lower"), self.limit("upper"));
                 self.moved(LogUniform::new(lower?, upper?))
             }
-            "poisson-count" => {
-                self.object.required("count")?;
-                self.moved(PoissonCount::new(self.object.whole("count", 0, MOST_COUNT)?))
-            }
+            "poisson-count" => self.moved(PoissonCount::new(self.counted("count", 0)?)),
             "weibull" => {
                 let (shape, scale) = (self.number("shape"), self.limit("scale"));
                 self.moved(External::weibull(shape?, scale?))
@@ -330,12 +327,12 @@ impl<'a> Fields<'a> {
             }
             "chi-squared" => self.moved(External::chi_squared(self.number("dof")?)),
             "binomial" => {
-                let (trials, probability) = (self.counted("trials"), self.number("probability"));
+                let (trials, probability) = (self.counted("trials", 1), self.number("probability"));
                 self.moved(External::binomial(trials?, probability?))
             }
             "hypergeometric" => {
                 let [population, marked, draws] =
-                    ["population", "marked", "draws"].map(|key| self.counted(key));
+                    ["population", "marked", "draws"].map(|key| self.counted(key, 1));
                 self.moved(External::hypergeometric(population?, marked?, draws?))
             }
             "samples" => self.moved(Ok(self.samples?.clone())),
@@ -534,10 +531,10 @@ impl<'a> Fields<'a> {
         self.object.value(key, self.unit, ValueOf::Difference)
     }
 
-    /// A whole number above 0.
-    fn counted(&self, key: &'static str) -> Option<u64> {
+    /// A whole number that is not below `least`.
+    fn counted(&self, key: &'static str, least: u64) -> Option<u64> {
         self.object.required(key)?;
-        self.object.whole(key, 1, MOST_COUNT)
+        self.object.whole(key, least, MOST_COUNT)
     }
 
     /// A value that may be left out.

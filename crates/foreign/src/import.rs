@@ -35,9 +35,7 @@ pub use ask::{Question, RefusedBudget};
 use columns::{Column, identifier};
 use equation::Equation;
 use gumption_files::open::{FileKind, are_results};
-use gumption_text::Collector;
-use gumption_text::SourceText;
-use gumption_text::{DiagnosticKind, bytes, workbook};
+use gumption_text::{Collector, DiagnosticKind, SourceText, bytes, workbook};
 use mark::{MarkedCell, doubt};
 pub use options::{Coefficients, ImportOptions};
 use sheets::Chosen;
@@ -136,6 +134,8 @@ impl Sheet<'_> {
             self.log.report(&self.cells.line(0), FileKind::Results.described());
             return None;
         }
+        // what an option says wrong is told before anything is asked
+        let said = self.said_rows()?;
         let header = Header::of(self)?;
         if !self.is_shown(&header) || !self.has_known_mark(&header) {
             return None;
@@ -147,7 +147,7 @@ impl Sheet<'_> {
         let equations = self.equations(&known)?;
         let measurand = equations.last().map(|equation| equation.name.as_str());
         let used: Vec<String> = equations.iter().flat_map(Equation::names).collect();
-        let rows = self.rows(&header, measurand, &used)?;
+        let rows = self.rows(&header, (measurand, &used), said)?;
         let stated = self.stated(&header, &rows)?;
         let title = self.title(&header, file);
         let model = self.model(&header, &rows, (&equations, &stated), &title)?;

@@ -1,5 +1,5 @@
-//! Files of strangers: the uncertainty budgets of spreadsheets, documents and other programs, which
-//! become model files, and tables of results of others, which are compared.
+//! Files of strangers: the uncertainty budgets of spreadsheets, which become model files, and tables of
+//! results, which are compared.
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
 

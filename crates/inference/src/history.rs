@@ -31,10 +31,6 @@ pub struct History {
 }
 
 impl HistoryKind {
-    /// Those of one condition.
-    pub const OF_A_CONDITION: [Self; 4] =
-        [Self::Direction, Self::Previous, Self::Extreme, Self::Since];
-
     /// The name that formulas and answers have for it, of a condition of this name.
     ///
     /// ```

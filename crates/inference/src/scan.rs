@@ -23,7 +23,7 @@ use crate::integral::mixture::standard_normals;
 use crate::setup::Setup;
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::linalg::packed::{self, TOGETHER, triangle};
-use gumption_engine::number::{COLUMN, Column, elementary};
+use gumption_engine::number::{COLUMN, Column, elementary, largest_first};
 use gumption_engine::special;
 
 /// Conditions with more levels than this are scanned in so many bins.
@@ -256,7 +256,7 @@ impl Design {
         of_output: impl Fn(usize) -> Option<Best>,
     ) -> Vec<Best> {
         let all = vec![best.clone()];
-        if self.axes[best.axis].output.is_some() || self.outputs < 2 {
+        if self.axes[best.axis].output.is_some() {
             return all;
         }
         let departs = |own: &Best| elementary::exp(-own.surprise) <= NAMED;
@@ -264,7 +264,7 @@ impl Design {
         if own.is_empty() || own.len() == self.outputs {
             return all;
         }
-        own.sort_by(|a, b| b.surprise.total_cmp(&a.surprise));
+        largest_first(&mut own, |of| of.surprise);
         own
     }
 

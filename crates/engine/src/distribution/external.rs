@@ -16,8 +16,8 @@ const MOST_ERRORS: f64 = 20.0;
 /// The kurtosis of draws above which their variance does not tell that of the distribution.
 const LONG_TAILS: f64 = 50.0;
 
-pub(super) type Draw = dyn Fn(&mut StreamRng) -> f64 + Send + Sync;
-pub(super) type Quantile = dyn Fn(f64) -> f64 + Send + Sync;
+type Draw = dyn Fn(&mut StreamRng) -> f64 + Send + Sync;
+type Quantile = dyn Fn(f64) -> f64 + Send + Sync;
 
 /// A distribution that another crate draws from, with its mean and its standard deviation.
 ///
@@ -43,13 +43,13 @@ pub(super) type Quantile = dyn Fn(f64) -> f64 + Send + Sync;
 /// density is not drawn on pages.
 #[derive(Clone)]
 pub struct External {
-    pub(super) name: &'static str,
-    pub(super) mean: f64,
-    pub(super) std: f64,
+    name: &'static str,
+    mean: f64,
+    std: f64,
     /// What is added to what is drawn.
-    pub(super) shift: f64,
-    pub(super) draw: Arc<Draw>,
-    pub(super) quantile: Option<Arc<Quantile>>,
+    shift: f64,
+    draw: Arc<Draw>,
+    quantile: Option<Arc<Quantile>>,
 }
 
 impl External {
@@ -68,8 +68,7 @@ impl External {
         std: f64,
         draw: impl Fn(&mut StreamRng) -> f64 + Send + Sync + 'static,
     ) -> Result<Self, Invalid> {
-        let (mean, std) = (finite("mean", mean)?, positive("std", std)?);
-        let made = Self { name, mean, std, shift: 0.0, draw: Arc::new(draw), quantile: None };
+        let made = Self::known(name, [mean, std], draw)?;
         // about the stated mean, so that a large one does not cost digits
         let count = COMPARED as f64;
         let offsets: Vec<f64> = made.compared()?.into_iter().map(|value| value - mean).collect();
@@ -115,7 +114,25 @@ impl External {
                 return Err(Invalid::NotOfDraws { parameter: "quantile", stated: p, found });
             }
         }
-        Ok(Self { quantile: Some(Arc::new(quantile)), ..self })
+        Ok(self.with_known_quantile(quantile))
+    }
+
+    /// The same, of a distribution whose draws are known to have this mean and standard deviation.
+    pub(super) fn known(
+        name: &'static str,
+        [mean, std]: [f64; 2],
+        draw: impl Fn(&mut StreamRng) -> f64 + Send + Sync + 'static,
+    ) -> Result<Self, Invalid> {
+        let (mean, std) = (finite("mean", mean)?, positive("std", std)?);
+        Ok(Self { name, mean, std, shift: 0.0, draw: Arc::new(draw), quantile: None })
+    }
+
+    /// With a quantile function that is known to be that of the draws.
+    pub(super) fn with_known_quantile(
+        self,
+        quantile: impl Fn(f64) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        Self { quantile: Some(Arc::new(quantile)), ..self }
     }
 
     /// A distribution of `rand_distr` (`drawn`) with mean, standard deviation and quantiles of the

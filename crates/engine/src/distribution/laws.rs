@@ -5,8 +5,6 @@
 //! and powers of the platform, so that last digits may differ from one platform to another, and with the
 //! versions of the crates.
 
-use std::sync::Arc;
-
 use rand_distr::Distribution as _;
 use statrs::distribution::ContinuousCDF;
 use statrs::statistics::Distribution as Moments;
@@ -144,8 +142,7 @@ impl External {
         let [mean, std] = moments(&law);
         let drawn = move |random: &mut StreamRng| location + scale * drawn(random);
         let made = Self::known(name, [location + scale * mean, scale * std], drawn)?;
-        let quantile = move |p: f64| location + scale * law.inverse_cdf(p);
-        Ok(Self { quantile: Some(Arc::new(quantile)), ..made })
+        Ok(made.with_known_quantile(move |p| location + scale * law.inverse_cdf(p)))
     }
 
     /// A law of whole numbers.
@@ -155,16 +152,6 @@ impl External {
         drawn: impl Fn(&mut StreamRng) -> u64 + Send + Sync + 'static,
     ) -> Result<Self, Invalid> {
         Self::known(name, moments(law), move |random| drawn(random) as f64)
-    }
-
-    /// A law whose draws are known to have this mean and standard deviation.
-    fn known(
-        name: &'static str,
-        [mean, std]: [f64; 2],
-        draw: impl Fn(&mut StreamRng) -> f64 + Send + Sync + 'static,
-    ) -> Result<Self, Invalid> {
-        let (mean, std) = (finite("mean", mean)?, positive("std", std)?);
-        Ok(Self { name, mean, std, shift: 0.0, draw: Arc::new(draw), quantile: None })
     }
 }
 

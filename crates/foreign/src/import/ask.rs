@@ -9,8 +9,7 @@ use serde::Serialize;
 use super::grid::Cells;
 use super::options::ImportOptions;
 use gumption_columns::separator::DecimalMarks;
-use gumption_text::DiagnosticKind;
-use gumption_text::{Collector, Diagnostics};
+use gumption_text::{Collector, DiagnosticKind, Diagnostics};
 
 /// What a sheet does not say.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

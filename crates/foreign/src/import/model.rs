@@ -26,6 +26,13 @@ pub(super) fn result_of(model: &str) -> Option<(Gum, Unit)> {
     Some((evaluated.outputs.into_iter().next()??, output.quantity.unit.clone()))
 }
 
+/// What is wrong with a model, at most five mistakes; `None` where nothing is.
+fn mistakes_of(model: &str) -> Option<String> {
+    let found = read_text("the model", model, Path::new(""), &[]).err()?;
+    let first: Vec<String> = found.0.iter().take(5).map(|fault| fault.kind.to_string()).collect();
+    Some(first.join("; "))
+}
+
 /// A model with what its rows are multiplied by in the unit of the result; no factors where an equation says
 /// how the result is made.
 pub(super) struct Model {
@@ -53,7 +60,7 @@ impl Sheet<'_> {
         if equations.is_empty() {
             self.linear(header, &rows.quantities, stated, (&of_result, title))
         } else {
-            self.of_equation(header, &rows.quantities, equations, (&of_result, title))
+            self.of_equation(header, rows, equations, (&of_result, title))
         }
     }
 
@@ -91,10 +98,11 @@ impl Sheet<'_> {
     fn of_equation(
         &self,
         header: &Header,
-        rows: &[Row],
+        all: &Rows,
         equations: &[Equation],
         (of_result, title): (&OfResult, &str),
     ) -> Option<Model> {
+        let rows = all.quantities.as_slice();
         let last = equations.last()?;
         let line = last.line;
         let used: Vec<String> = equations.iter().flat_map(Equation::names).collect();
@@ -128,7 +136,7 @@ impl Sheet<'_> {
                 && !self.options.numbers
                 && used.contains(&row.name)
                 && row.sensitivity.is_none()
-                && !self.is_said_quantity(row.line)
+                && all.said(row.line) != Some(Kind::Quantity)
             {
                 self.ask(
                     row.line..=row.line,
@@ -157,22 +165,17 @@ impl Sheet<'_> {
         let with = document(title, rows, &formulas, &unit, true);
         let without = document(title, rows, &formulas, &unit, false);
         let text = if self.options.numbers { without.clone() } else { with };
-        if let Err(faults) = read_text("the model", &text, Path::new(""), &[]) {
-            let reasons: Vec<String> =
-                faults.0.iter().take(5).map(|fault| fault.kind.to_string()).collect();
-            let without_units = read_text("the model", &without, Path::new(""), &[]).is_ok();
+        if let Some(mistakes) = mistakes_of(&text) {
+            let without_units = mistakes_of(&without).is_none();
             if without_units && !self.options.numbers {
                 self.ask(
                     line..=line,
-                    format!("the equation `{} = {}` does not pass the check of units ({})", last.name, last.formula, reasons.join("; ")),
+                    format!("the equation `{} = {}` does not pass the check of units ({})", last.name, last.formula, mistakes),
                     ["an equation of the quantities, which lacks the units of its numbers (`T - 20 [°C]`)", "one of the numbers in the units of the sheet"],
                     format!("`--equation \"{} = FORMULA\"`, or `--numbers`", last.name),
                 );
             } else {
-                self.fail(
-                    line,
-                    format!("the model of this budget has mistakes: {}", reasons.join("; ")),
-                );
+                self.fail(line, format!("the model of this budget has mistakes: {mistakes}"));
             }
             return None;
         }
@@ -183,12 +186,6 @@ impl Sheet<'_> {
             self.note(format!("the equation {name} = {formula}"));
         }
         Some(Model { text, factors: None })
-    }
-
-    /// Whether `--row quantity=` names a line.
-    fn is_said_quantity(&self, line: usize) -> bool {
-        let of = |numbers: &str| numbers.split(',').any(|of| of.trim() == (line + 1).to_string());
-        self.options.rows.iter().any(|(kind, numbers)| kind == "quantity" && of(numbers))
     }
 
     /// Asks whether a number of the equation converts units, where the sheet states no estimate of the result and
@@ -302,13 +299,8 @@ impl Sheet<'_> {
             if unit.is_empty() { "1" } else { &unit }
         ));
         let text = document(title, rows, &formulas, &unit, false);
-        if let Err(faults) = read_text("the model", &text, Path::new(""), &[]) {
-            let reasons: Vec<String> =
-                faults.0.iter().take(5).map(|fault| fault.kind.to_string()).collect();
-            self.fail(
-                header.first,
-                format!("the model of this budget has mistakes: {}", reasons.join("; ")),
-            );
+        if let Some(mistakes) = mistakes_of(&text) {
+            self.fail(header.first, format!("the model of this budget has mistakes: {mistakes}"));
             return None;
         }
         Some(Model { text, factors: Some(factors) })

@@ -15,9 +15,9 @@ use super::words;
 use gumption_engine::decimal::to_15_digits;
 use gumption_engine::model::formula::{Formula, check_name};
 use gumption_engine::number::Shortest;
+use gumption_text::named_shape::NamedShape;
 use gumption_text::share::{self, Share};
 use gumption_text::value_text::{PLUS_MINUS, grouped_digits};
-use gumption_text::workbook::letters;
 use gumption_units::{Unit, listed};
 
 /// A row of the budget: a quantity.
@@ -113,6 +113,15 @@ pub(super) struct OfResult {
 pub(super) struct Rows {
     pub(super) quantities: Vec<Row>,
     pub(super) of_result: Vec<OfResult>,
+    /// The lines that options name, from 0, with what they are.
+    said: Vec<(usize, Kind)>,
+}
+
+impl Rows {
+    /// What an option says that a line is.
+    pub(super) fn said(&self, line: usize) -> Option<Kind> {
+        self.said.iter().find(|(of, _)| *of == line).map(|(_, kind)| *kind)
+    }
 }
 
 impl Sheet<'_> {
@@ -144,16 +153,15 @@ impl Sheet<'_> {
         Some(said)
     }
 
-    /// All rows below the headings; `measurand` is the name on the left of the equation, and `used` are the
-    /// names on its right side.
+    /// All rows below the headings; `measurand` is the name on the left of the equation, `used` are the names
+    /// on its right side, and `said` is what options say of lines.
     pub(super) fn rows(
         &self,
         header: &Header,
-        measurand: Option<&str>,
-        used: &[String],
+        (measurand, used): (Option<&str>, &[String]),
+        said: Vec<(usize, Kind)>,
     ) -> Option<Rows> {
-        let said = self.said_rows()?;
-        let mut found = Rows::default();
+        let mut found = Rows { said, ..Rows::default() };
         let mut blank = 0;
         for line in header.line + 1..self.cells.lines() {
             let held = self.cells.row(line).iter().filter(|cell| !cell.trim().is_empty()).count();
@@ -161,11 +169,8 @@ impl Sheet<'_> {
                 blank += 1;
                 continue;
             }
-            let said = said.iter().find(|(of, _)| *of == line).map(|(_, kind)| *kind);
-            let Some(kind) = said.or_else(|| self.kind(header, line, (measurand, used), blank))
-            else {
-                continue;
-            };
+            let asked = || self.kind(header, line, (measurand, used), blank);
+            let Some(kind) = found.said(line).or_else(asked) else { continue };
             match kind {
                 Kind::Quantity | Kind::Constant => {
                     blank = 0;
@@ -378,10 +383,7 @@ impl Sheet<'_> {
         else {
             return;
         };
-        let is_said = self.options.rows.iter().any(|(kind, numbers)| {
-            kind == "quantity"
-                && numbers.split(',').any(|of| of.trim() == (last.line + 1).to_string())
-        });
+        let is_said = found.said(last.line) == Some(Kind::Quantity);
         let of = |row: &Row| row.sensitivity.unwrap_or(1.0) * row.standard_uncertainty();
         let combined = others.iter().map(|row| of(row) * of(row)).sum::<f64>().sqrt();
         let u = of(last).abs();
@@ -580,9 +582,7 @@ impl Sheet<'_> {
         };
         let deviation = self.optional(header, line, Column::Deviation)?;
         if deviation.is_some() && std.is_none() && widths.is_empty() {
-            let letter = header
-                .place(Column::Deviation)
-                .map_or_else(String::new, |place| letters(place as u32));
+            let letter = header.letter(Column::Deviation);
             self.ask(
                 line..=line,
                 "the row has a standard deviation and no uncertainty",
@@ -928,9 +928,7 @@ impl Sheet<'_> {
             "B" | "b" => {}
             _ if is_empty(text) => {}
             _ => {
-                let letter = header
-                    .place(Column::Type)
-                    .map_or_else(String::new, |place| letters(place as u32));
+                let letter = header.letter(Column::Type);
                 self.ask(
                     row.line..=row.line,
                     format!("`{text}` is no type of evaluation, A or B"),
@@ -1014,8 +1012,8 @@ impl Sheet<'_> {
 /// The distribution of a row that states its standard uncertainty alone.
 fn shape_of_std(sheet: &Sheet, header: &Header, line: usize) -> Option<&'static str> {
     let text = header.cell(sheet.cells, line, Column::Distribution);
-    let shape = gumption_text::named_shape::NamedShape::of(text)?;
-    if shape == gumption_text::named_shape::NamedShape::Unknown {
+    let shape = NamedShape::of(text)?;
+    if shape == NamedShape::Unknown {
         sheet.note(format!(
             "row {}: of `{text}` the standard uncertainty is taken, as of a normal distribution",
             line + 1

@@ -70,8 +70,6 @@ impl Header {
         let mut header = Self { line, first: line, headings, columns, said, units: Vec::new() };
         header.units_below(cells);
         header.said_columns(sheet)?;
-        // what an option says wrong is told before anything is asked
-        sheet.said_rows()?;
         header.named_columns(sheet);
         header.units_of_columns(sheet);
         header.needs(sheet);
@@ -359,8 +357,8 @@ impl Header {
             && !has_limits
         {
             let letter = letters(place as u32);
-            let std = self.place(Column::Standard).or_else(|| self.place(Column::Relative));
-            let std = std.map_or_else(String::new, |std| letters(std as u32));
+            let std = if has(Column::Standard) { Column::Standard } else { Column::Relative };
+            let std = self.letter(std);
             sheet.ask(
                 lines.clone(),
                 format!(
@@ -457,6 +455,11 @@ impl Header {
     /// The words at the head of a column.
     pub(super) fn heading(&self, place: usize) -> &str {
         self.headings.get(place).map_or("", |heading| heading.trim())
+    }
+
+    /// The letter of what is such a column; empty where there is none.
+    pub(super) fn letter(&self, wanted: Column) -> String {
+        self.place(wanted).map_or_else(String::new, |place| letters(place as u32))
     }
 
     /// A column with its letter and its heading.

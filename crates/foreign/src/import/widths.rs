@@ -192,7 +192,7 @@ impl Sheet<'_> {
         let divisor = self.divisor(header, line, (shape, text)).ok()?;
         let root = shape.root();
         let of_heading = header.coverage(column);
-        let letter = header.place(column).map_or_else(String::new, |place| letters(place as u32));
+        let letter = header.letter(column);
         let shape_words = shape.name.unwrap_or("an unknown distribution");
         row.width = Some(value);
         row.distribution = shape.name;
@@ -318,7 +318,7 @@ impl Sheet<'_> {
             row.probability = coverage.probability();
             return Some(());
         }
-        let letter = header.place(column).map_or_else(String::new, |place| letters(place as u32));
+        let letter = header.letter(column);
         if column == Column::Expanded {
             if let Some(k) = self.options.k {
                 row.divisor = Some(k);

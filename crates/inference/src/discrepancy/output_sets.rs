@@ -1,6 +1,7 @@
 //! The sets of outputs that may depart alike.
 
 use crate::data::Data;
+use gumption_engine::number::largest_first;
 
 /// With at most so many outputs every set of them is looked at.
 const MOST_FOR_ALL: usize = 3;
@@ -52,6 +53,6 @@ fn by_departure(data: &Data) -> Option<Vec<usize>> {
     });
     let sums: Vec<f64> = sums.collect::<Option<_>>()?;
     let mut ranked: Vec<usize> = (0..sums.len()).collect();
-    ranked.sort_by(|&a, &b| sums[b].total_cmp(&sums[a]));
+    largest_first(&mut ranked, |&output| sums[output]);
     Some(ranked)
 }
