@@ -70,6 +70,7 @@ mod temperatures;
 mod units;
 mod verify;
 mod ways_in;
+mod words;
 mod workspace;
 mod wrong_files;
 mod wrong_numbers;

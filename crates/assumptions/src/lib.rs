@@ -176,7 +176,7 @@ pub fn audit(
         }
         let agreements = evidence.iter().filter_map(|of| agree(task, of, &mut warnings)).collect();
         let mut told = HashSet::new();
-        warnings.retain(|warning: &Warning| told.insert((warning.code, warning.text.clone())));
+        warnings.retain(|warning: &Warning| told.insert(warning.fact.clone()));
         Ok(Some(Audit {
             question,
             coverage_probability: task.settings.coverage.probability(),
@@ -211,24 +211,16 @@ fn agree(task: &Task, evidence: &Evidence, warnings: &mut Vec<Warning>) -> Optio
     let first = task.rows.first()?.distributions.get(evidence.variable)?;
     let evaluation = task.variables.get(evidence.variable)?.evaluation;
     if !changed(evaluation, first) {
-        let text = format!(
-            "the evidence of `{name}` is not used: it is for a distribution that is assumed \
-             (type B), and this one is {}",
-            if first.constant().is_some() {
-                "a constant"
-            } else {
-                "evaluated from readings (type A)"
-            }
-        );
-        warnings.push(Warning::new("evidence-unused", name, text));
+        let fact = match first.constant() {
+            Some(_) => fact!("evidence-unused.constant", name),
+            None => fact!("evidence-unused", name),
+        };
+        warnings.push(Warning::new(name, fact));
         return None;
     }
     let differs = |row: &Row| row.distributions.get(evidence.variable) != Some(first);
     if task.rows.iter().any(differs) {
-        let text = format!(
-            "`{name}` is not the same in all rows; its evidence is compared with the first row"
-        );
-        warnings.push(Warning::new("evidence-first-row", name, text));
+        warnings.push(Warning::new(name, fact!("evidence-first-row", name)));
     }
     agreement(evidence.variable, first, &evidence.readings)
 }
@@ -422,11 +414,7 @@ impl Auditor<'_> {
                 && own.undefined > task.settings.allowed_undefined
             {
                 let name = &task.variables[variable].name;
-                let text = format!(
-                    "with another shape or width of `{name}` some trials have no finite result; \
-                     those variants have no figures"
-                );
-                warnings.push(Warning::new("variant-undefined", name, text));
+                warnings.push(Warning::new(name, fact!("variant-undefined", name)));
             }
             for (output, moves) in moves.iter_mut().enumerate() {
                 let base = &baseline[output];
@@ -458,15 +446,13 @@ impl Auditor<'_> {
                 format!("`{}`", variable.map_or("", |v| v.name.as_str()))
             };
             let names: Vec<String> = set.iter().map(name).collect();
-            let mut text = format!(
-                "{} are drawn together; they have one Sobol index as a set",
-                names.join(", ")
-            );
-            if set.iter().any(|place| others.get(*place).is_some_and(|others| !others.is_empty())) {
-                text += ". With another shape the dependence of their ranks is kept, so that the \
-                         correlation coefficient moves a little";
-            }
-            warnings.push(Warning::new("drawn-together", names.join(", "), text));
+            let is_kept = |place: &usize| others.get(*place).is_some_and(|of| !of.is_empty());
+            let place = names.join(", ");
+            let fact = match set.iter().any(is_kept) {
+                true => fact!("drawn-together.ranks", names),
+                false => fact!("drawn-together", names),
+            };
+            warnings.push(Warning::new(place, fact));
         }
     }
 }

@@ -117,11 +117,7 @@ impl Assumptions {
             (Some(trials), _) => trials,
             (None, Trials::Adaptive | Trials::Fixed(0)) => USUAL,
             (None, Trials::Fixed(trials)) if trials < FEWEST => {
-                let text = format!(
-                    "{trials} trials are too few to tell how assumptions move the result; {FEWEST} \
-                     are made"
-                );
-                warnings.push(Warning::new("few-trials", "", text));
+                warnings.push(Warning::new("", fact!("few-trials.audit", trials, made = FEWEST)));
                 FEWEST
             }
             (None, Trials::Fixed(trials)) => trials.min(MOST),

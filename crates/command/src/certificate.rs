@@ -301,11 +301,7 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
             && let Some(why) = seeded(issued, line)
         {
             let row = number + 1;
-            let text = format!(
-                "row {row}: its figures are those of the trials, whose last digit depends on the \
-                 seed: {why}"
-            );
-            notes.push(Warning::new("digits-of-trials", format!("row {row}"), text));
+            notes.push(Warning::new(format!("row {row}"), fact!("digits-of-trials", row, why)));
         }
         let Some(limit) = statement.limit.filter(|limit| limit.below) else { continue };
         let task = file.certificate.evaluations.get(line.evaluation).map(|asked| &asked.task);
@@ -315,19 +311,14 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
         let in_unit = |number: String| output.quantity.unit.after(&number);
         let row = number + 1;
         let cmc = in_unit(gumption_engine::decimal::significant(limit.cmc, 3));
-        let (code, text) = if limit.raised {
-            let text =
-                format!("row {row}: U is raised to the laboratory's capability (CMC) of {cmc}");
-            ("raised-to-cmc", text)
+        let cmc = Argument::Number(cmc);
+        let fact = if limit.raised {
+            fact!("raised-to-cmc.certificate", row, cmc)
         } else {
             let expanded = in_unit(statement.rounded.map_or("0".to_owned(), |to| to.to_string()));
-            let text = format!(
-                "row {row}: U = {expanded} is below the laboratory's capability (CMC) of {cmc}, which an \
-                 accredited certificate may not state (ILAC-P14); `\"cmc_floor\": true` raises it"
-            );
-            ("below-cmc", text)
+            fact!("below-cmc.certificate", row, expanded = Argument::Number(expanded), cmc)
         };
-        notes.push(Warning::new(code, format!("row {row}"), text));
+        notes.push(Warning::new(format!("row {row}"), fact));
     }
     notes
 }
@@ -359,11 +350,7 @@ fn not_stated(certificate: &Asked) -> Option<Warning> {
         .filter(|(_, stated)| !stated)
         .map(|(key, _)| format!("`{key}`"))
         .collect();
-    let text = format!(
-        "the certificate does not say what ISO/IEC 17025:2017, 7.8.2.1 and 7.8.4.1 ask for: {}",
-        missing.join(", ")
-    );
-    (!missing.is_empty()).then(|| Warning::new("not-stated", "certificate".to_owned(), text))
+    (!missing.is_empty()).then(|| Warning::new("certificate", fact!("not-stated", missing)))
 }
 
 /// A certificate that cannot be made, as a mistake with its place where it is the user's.

@@ -6,6 +6,7 @@
 
 pub mod decimal;
 pub mod distribution;
+pub mod fact;
 pub mod linalg;
 pub mod model;
 pub mod number;

@@ -30,6 +30,7 @@ mod statement;
 mod subtotals;
 mod table;
 pub mod verification;
+pub mod words;
 mod workbook;
 
 pub use answer::{on_one_line, pretty};

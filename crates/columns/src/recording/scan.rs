@@ -65,22 +65,15 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
         ));
     }
     let rate = scanned.rate(stated);
-    let of_preamble = passed_by.map(|text| {
-        let text = format!("`{}`: {text}", reading.name);
-        Warning::new("preamble", reading.name.clone(), text)
-    });
+    let of_preamble = passed_by.map(|fact| Warning::new(&reading.name, fact));
     let mut warnings: Vec<Warning> = of_preamble.into_iter().collect();
     warnings.extend(scanned.suspects(rate.value, channels));
     if let Some(scatter) = scanned.clock.as_ref().map(Clock::scatter)
         && scatter * rate.value > SCATTER
     {
-        let text = format!(
-            "`{}`: the instants of the time column scatter by {:.2} % of the sampling interval (rms) \
-             about even spacing; if the samples really were taken then, state it as `jitter`",
-            reading.name,
-            scatter * rate.value * 100.0
-        );
-        warnings.push(Warning::new("uneven-instants", reading.name.clone(), text));
+        let (name, percent) = (&reading.name, format!("{:.2}", scatter * rate.value * 100.0));
+        let fact = fact!("uneven-instants", name, percent = Argument::Number(percent));
+        warnings.push(Warning::new(name, fact));
     }
     warnings.extend(scanned.contradicted(stated));
     let start = match &scanned.clock {
@@ -324,15 +317,15 @@ impl<'r> Scanned<'r> {
         let within = UNCERTAINTIES_APART * (u * u + stated.standard_uncertainty.powi(2)).sqrt();
         (apart.abs() > within.max(RATES_APART * stated.value)).then(|| {
             let name = &self.reading.name;
-            let text = format!(
-                "`{name}`: the recipe states a sampling rate of {} Hz, but {whose} {} Hz; the \
-                 recipe's is used, so that frequencies come out {} times what the file says; where the \
-                 file is right, leave out `sampling_rate`",
-                Shortest(stated.value),
-                significant(found),
-                significant(stated.value / found)
+            let fact = fact!(
+                "sampling-rates-differ",
+                name,
+                stated = stated.value,
+                whose,
+                found = Argument::Number(significant(found)),
+                times = Argument::Number(significant(stated.value / found)),
             );
-            Warning::new("sampling-rates-differ", name.clone(), text)
+            Warning::new(name, fact)
         })
     }
 
@@ -345,29 +338,24 @@ impl<'r> Scanned<'r> {
             let ends = &self.extremes[channel];
             let amplitude = (ends[0].value + ends[1].value) / 2.0;
             if amplitude <= 0.0 {
-                let text = format!(
-                    "`{}`, channel `{}`: all values are {}",
-                    self.reading.name,
-                    wanted.channel,
-                    Shortest(ends[0].value)
-                );
-                warnings.push(Warning::new("flat-channel", wanted.channel.clone(), text));
+                let (name, channel) = (&self.reading.name, &wanted.channel);
+                let fact = fact!("flat-channel", name, channel, value = ends[0].value);
+                warnings.push(Warning::new(channel, fact));
                 continue;
             }
             if let Some(end) = ends.iter().filter(|end| end.is_heaped()).max_by_key(|end| end.count)
             {
-                let text = format!(
-                    "`{}`, {}: {} of {} values are {}, the {} of the recording, and {} the next one to \
-                     it; the channel may be saturated",
-                    self.reading.name,
-                    place(end.at + 1, &wanted.channel),
-                    end.count,
-                    self.kept,
-                    Shortest(end.sign * end.value),
-                    end.name(),
-                    end.next_count
+                let fact = fact!(
+                    "saturated",
+                    name = &self.reading.name,
+                    at = place(end.at + 1, &wanted.channel),
+                    count = end.count,
+                    of = self.kept,
+                    value = end.sign * end.value,
+                    end = end.fact(),
+                    next = end.next_count,
                 );
-                warnings.push(Warning::new("saturated", wanted.channel.clone(), text));
+                warnings.push(Warning::new(&wanted.channel, fact));
                 continue;
             }
             let Some(hertz) = self.reading.slowest else { continue };
@@ -379,16 +367,15 @@ impl<'r> Scanned<'r> {
                 .filter(|end| end.longest >= LEAST_RUN && end.longest as f64 > 3.0 * natural + 2.0)
                 .max_by_key(|end| end.longest);
             if let Some(end) = suspect {
-                let text = format!(
-                    "`{}`, {}: {} values in a row are {}, the {} of the recording; the channel may be \
-                     saturated",
-                    self.reading.name,
-                    place(end.at + 1, &wanted.channel),
-                    end.longest,
-                    Shortest(end.sign * end.value),
-                    end.name()
+                let fact = fact!(
+                    "saturated.in-a-row",
+                    name = &self.reading.name,
+                    at = place(end.at + 1, &wanted.channel),
+                    count = end.longest,
+                    value = end.sign * end.value,
+                    end = end.fact(),
                 );
-                warnings.push(Warning::new("saturated", wanted.channel.clone(), text));
+                warnings.push(Warning::new(&wanted.channel, fact));
             }
         }
         warnings

@@ -15,11 +15,7 @@ pub(super) fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
     let digits = file.certificate.digits;
     let mut notes = Vec::new();
     if digits > MOST_DIGITS {
-        let text = format!(
-            "U is stated to {digits} significant digits; an accredited certificate may have at most two \
-             (ILAC-P14:09/2020, 5.3)"
-        );
-        notes.push(Warning::new("more-than-two-digits", "digits".to_owned(), text));
+        notes.push(Warning::new("digits", fact!("more-than-two-digits", digits)));
     }
     let rows = issued.statements.iter().zip(&file.certificate.lines).enumerate();
     for (number, (statement, line)) in rows {
@@ -29,14 +25,16 @@ pub(super) fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
         let output = task.and_then(|task| task.model.outputs.get(line.output));
         let Some((rounded, output)) = lost.zip(output) else { continue };
         let row = number + 1;
-        let stated = output.quantity.unit.after(&rounded.to_string());
+        let unit = &output.quantity.unit;
         let percent = significant(100.0 * (1.0 - rounded.value() / expanded), 2);
-        let text = format!(
-            "row {row}: U is stated as {stated}, {percent} % less than {}; EA-4/02 M:2022, 6.3, allows a \
-             rounding that takes away at most 5 %: `\"rounding\": \"ea\"` rounds up there",
-            output.quantity.unit.after(&significant(expanded, 3))
+        let fact = fact!(
+            "rounded-away",
+            row,
+            stated = Argument::Number(unit.after(&rounded.to_string())),
+            percent = Argument::Number(percent),
+            expanded = Argument::Number(unit.after(&significant(expanded, 3))),
         );
-        notes.push(Warning::new("rounded-away", format!("row {row}"), text));
+        notes.push(Warning::new(format!("row {row}"), fact));
     }
     notes
 }

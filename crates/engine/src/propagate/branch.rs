@@ -6,6 +6,8 @@ use std::f64::consts::PI;
 use super::gum::Gum;
 use super::monte_carlo::MonteCarlo;
 use crate::decimal::significant;
+use crate::fact;
+use crate::fact::Argument;
 use crate::model::{Node, Output, Program};
 use crate::number::Binary;
 use crate::task::Warning;
@@ -83,23 +85,15 @@ impl Jump {
         let Self { away, size, is_turn } = *self;
         let name = &output.quantity.name;
         let percent = 100.0 * away;
-        let text = if is_turn {
-            format!(
-                "`{name}`: {percent:.2} % of the trials lie a turn away from the others, beyond the cut \
-                 of a phase, so that mean, standard deviation and interval of the trials mean \
-                 nothing; write `\"periodic\": {size}` at the output, which takes its values within half \
-                 a turn of the estimate"
-            )
-        } else {
-            let size = output.quantity.unit.after(&significant(size, 2));
-            format!(
-                "`{name}`: {percent:.2} % of the trials lie about {size} away from the others, beyond a \
-                 cut of `atan2`, a phase or `mod`, so that mean, standard deviation and interval of the \
-                 trials mean nothing; where values that far apart are the same, write that distance as \
-                 `\"periodic\"` at the output, which takes its values within half of it of the estimate"
-            )
+        let percent = Argument::Number(format!("{percent:.2} %"));
+        let fact = match is_turn {
+            true => fact!("phase-jumps", name, percent, turn = size),
+            false => {
+                let size = output.quantity.unit.after(&significant(size, 2));
+                fact!("phase-jumps.apart", name, percent, size = Argument::Number(size))
+            }
         };
-        Warning::new("phase-jumps", name.as_str(), text)
+        Warning::new(name, fact)
     }
 }
 

@@ -4,6 +4,8 @@ use super::figures::OutputEvaluation;
 use super::inherited::{Inherited, Variances};
 use super::validate::numerical_tolerance;
 use crate::decimal::significant;
+use crate::fact;
+use crate::fact::{Argument, Fact};
 use crate::model::Output;
 use crate::task::{Task, Warning};
 
@@ -18,7 +20,7 @@ const NAMED: usize = 4;
 /// of the run itself would not help.
 pub(super) fn note(
     task: &Task,
-    (output, at): (&Output, &str),
+    (output, at): (&Output, Option<Fact>),
     found: &OutputEvaluation,
 ) -> Option<Warning> {
     let inherited = found.inherited.as_deref()?;
@@ -26,7 +28,7 @@ pub(super) fn note(
     let figures = found.monte_carlo.as_ref();
     let spread = figures.and_then(|figures| figures.standard_uncertainty);
     let u = spread.or_else(|| Some(found.gum.as_ref()?.standard_uncertainty))?;
-    let errors: Vec<(&str, f64)> = match figures {
+    let errors: Vec<(Fact, f64)> = match figures {
         Some(figures) => {
             let trials = figures.trials as f64;
             // the errors have both in them
@@ -38,19 +40,19 @@ pub(super) fn note(
             let of = &figures.errors;
             let [low, high] = of.symmetric_interval.map(|error| part(error, end));
             vec![
-                ("estimate", of.estimate.map_or(0.0, |error| part(error, estimate))),
+                (fact!("figure.estimate"), of.estimate.map_or(0.0, |error| part(error, estimate))),
                 (
-                    "standard uncertainty",
+                    fact!("figure.standard-uncertainty"),
                     of.standard_uncertainty.map_or(0.0, |of| part(of, standard_uncertainty)),
                 ),
-                ("lower end of the symmetric interval", low),
-                ("upper end of the symmetric interval", high),
+                (fact!("figure.symmetric-lower"), low),
+                (fact!("figure.symmetric-upper"), high),
             ]
         }
         // those of a normal distribution
         None => vec![
-            ("estimate", u * estimate.sqrt()),
-            ("standard uncertainty", u * (0.5 * standard_uncertainty).sqrt()),
+            (fact!("figure.estimate"), u * estimate.sqrt()),
+            (fact!("figure.standard-uncertainty"), u * (0.5 * standard_uncertainty).sqrt()),
         ],
     };
     let tolerance = numerical_tolerance(u, task.settings.digits);
@@ -58,24 +60,19 @@ pub(super) fn note(
         return None;
     }
     let unit = &output.quantity.unit;
-    let errors = errors.iter().filter(|(_, error)| *error > 0.0);
-    let moved = |(of, error): &(&str, f64)| {
-        let error = unit.after(&significant(*error, 1));
-        format!("its {of} by {error}")
+    let errors = errors.into_iter().filter(|(_, error)| *error > 0.0);
+    let moved = |(figure, error): (Fact, f64)| {
+        let error = unit.after(&significant(error, 1));
+        fact!("moved", figure, by = Argument::Number(error))
     };
-    let errors: Vec<String> = errors.map(moved).collect();
+    let errors: Vec<Fact> = errors.map(moved).collect();
     let name = &output.quantity.name;
-    let text = format!(
-        "`{name}`{at}: saved results of few trials ({}) leave figures uncertain, however many trials are \
-         made here: {} (one numerical standard error each); save those results with more trials",
-        results(task, inherited),
-        errors.join(", ")
-    );
-    Some(Warning::new("result-few-trials", name.as_str(), text))
+    let results = results(task, inherited);
+    Some(Warning::new(name, fact!("result-few-trials", name, at, results, errors)))
 }
 
 /// The saved results with their numbers of trials, those of the fewest first.
-fn results(task: &Task, inherited: &Inherited) -> String {
+fn results(task: &Task, inherited: &Inherited) -> Vec<String> {
     let mut results = inherited.results.clone();
     results.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
     let name = |v: usize| task.variables.get(v).map_or("", |variable| variable.name.as_str());
@@ -85,5 +82,5 @@ fn results(task: &Task, inherited: &Inherited) -> String {
     if results.len() > NAMED {
         listed.push("...".to_owned());
     }
-    listed.join(", ")
+    listed
 }

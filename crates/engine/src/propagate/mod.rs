@@ -55,5 +55,5 @@ pub use replay::{
 };
 pub use second_order::SecondOrder;
 pub use statement::{Basis, Stated};
-pub use warnings::{second_order_text, warnings};
+pub use warnings::warnings;
 pub use whole_turns::onto_branch;

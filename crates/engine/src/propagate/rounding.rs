@@ -8,6 +8,8 @@ use super::evaluation_error::EvaluationError;
 use super::gum::{BudgetLine, Gum};
 use super::monte_carlo::MonteCarlo;
 use crate::decimal::significant;
+use crate::fact;
+use crate::fact::Argument;
 use crate::model::Output;
 use crate::number::Shortest;
 use crate::task::{Row, Task, Warning};
@@ -39,20 +41,32 @@ fn coarsest(gum: &Gum) -> Option<(BudgetLine, f64)> {
         .max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// What is said of it.
-fn text(task: &Task, name: &str, (line, share): (&BudgetLine, f64)) -> String {
-    let variable = task.variables.get(line.variable);
-    let input = variable.map_or("", |of| of.name.as_str());
-    let in_unit = |number: String| variable.map_or(number.clone(), |of| of.unit.after(&number));
-    format!(
-        "`{name}`: numbers of double precision, with 16 digits, leave {} of `{input}` undetermined, {} % of \
-         its standard uncertainty: it is {} with a standard uncertainty of {}; make it the difference from \
-         a reference value",
-        in_unit(significant(HALF_SPACING * line.estimate.abs(), 2)),
-        significant(100.0 * share, 2),
-        in_unit(Shortest(line.estimate).to_string()),
-        in_unit(significant(line.standard_uncertainty, 2))
-    )
+/// The input whose last digits count, as text.
+struct CoarseInput<'t> {
+    name: &'t str,
+    /// Half of the spacing of numbers at its estimate, with its unit.
+    undetermined: String,
+    /// That in per cent of its standard uncertainty.
+    share: String,
+    estimate: String,
+    standard_uncertainty: String,
+}
+
+impl<'t> CoarseInput<'t> {
+    fn of(task: &'t Task, (line, share): (&BudgetLine, f64)) -> Self {
+        let variable = task.variables.get(line.variable);
+        let in_unit = |number: String| match variable {
+            Some(variable) => variable.unit.after(&number),
+            None => number,
+        };
+        Self {
+            name: variable.map_or("", |variable| variable.name.as_str()),
+            undetermined: in_unit(significant(HALF_SPACING * line.estimate.abs(), 2)),
+            share: significant(100.0 * share, 2),
+            estimate: in_unit(Shortest(line.estimate).to_string()),
+            standard_uncertainty: in_unit(significant(line.standard_uncertainty, 2)),
+        }
+    }
 }
 
 /// Refuses trials that would show the spacing of numbers and not the uncertainty of an output.
@@ -60,10 +74,15 @@ pub(super) fn check(task: &Task, row: usize, gums: &[Option<Gum>]) -> Result<(),
     for ((output, of), gum) in task.model.outputs.iter().enumerate().zip(gums) {
         let found = gum.as_ref().and_then(coarsest).filter(|(_, share)| *share > TOO_MUCH);
         if let Some((line, share)) = found {
+            let CoarseInput { name, undetermined, share, estimate, standard_uncertainty } =
+                CoarseInput::of(task, (&line, share));
             let message = format!(
-                "{}. `trials` of 0 evaluates it by the law of propagation alone, which has the slopes \
-                 and not the digits",
-                text(task, &of.quantity.name, (&line, share))
+                "`{}`: numbers of double precision, with 16 digits, leave {undetermined} of `{name}` \
+                 undetermined, {share} % of its standard uncertainty: it is {estimate} with a standard \
+                 uncertainty of {standard_uncertainty}; make it the difference from a reference value. \
+                 `trials` of 0 evaluates it by the law of propagation alone, which has the slopes and not \
+                 the digits",
+                of.quantity.name
             );
             return Err(EvaluationError::Rounding { row, output, message });
         }
@@ -105,16 +124,20 @@ pub(super) fn constant(
 pub(super) fn note(output: &Output, task: &Task, gum: &Gum) -> Option<Warning> {
     let (line, share) = coarsest(gum)?;
     let name = &output.quantity.name;
-    let text = text(task, name, (&line, share));
-    Some(Warning::new("double-precision", name.as_str(), text))
+    let input = CoarseInput::of(task, (&line, share));
+    let fact = fact!(
+        "double-precision",
+        name,
+        input = input.name,
+        undetermined = Argument::Number(input.undetermined),
+        share = Argument::Number(input.share),
+        estimate = Argument::Number(input.estimate),
+        uncertainty = Argument::Number(input.standard_uncertainty),
+    );
+    Some(Warning::new(name, fact))
 }
 
 /// The note on an output in whose equations a number vanishes.
 pub(super) fn underflow(name: &str) -> Warning {
-    let text = format!(
-        "`{name}`: a product, a quotient or a power in its equations is below the smallest number of \
-         double precision, 2.2e-308, and counts as less than it is; choose units of the size of the \
-         quantities"
-    );
-    Warning::new("underflow", name, text)
+    Warning::new(name, fact!("underflow", name))
 }

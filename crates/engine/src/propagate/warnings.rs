@@ -12,6 +12,8 @@ use super::monte_carlo::{Adaptive, MonteCarlo};
 use super::rounding;
 use super::second_order::SecondOrder;
 use crate::decimal::{significant, to_digits};
+use crate::fact;
+use crate::fact::{Argument, Fact};
 use crate::model::Output;
 use crate::number::Shortest;
 use crate::task::{Coverage, Task, Trials, Warning};
@@ -30,23 +32,12 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
     if let Trials::Fixed(trials @ 1..) = task.settings.trials
         && (trials as f64) < needed * (1.0 - 1e-9)
     {
-        found.push(Warning::new(
-            "few-trials",
-            "",
-            format!(
-                "{trials} trials are few for a coverage probability of {}: JCGM 101, 7.2.2 advises \
-                 at least {needed:.0}",
-                evaluation.coverage_probability
-            ),
-        ));
+        let probability = evaluation.coverage_probability;
+        let needed = Argument::number(format!("{needed:.0}"));
+        found.push(Warning::new("", fact!("few-trials", trials, probability, needed)));
     }
     if evaluation.rounded_correlations {
-        found.push(Warning::new(
-            "correlations-rounded",
-            "",
-            "the declared correlation coefficients are possible only within their rounding; the \
-             nearest possible ones are used in the trials",
-        ));
+        found.push(Warning::new("", fact!("correlations-rounded")));
     }
     copula(task, evaluation, &mut found);
     let named = named(task, &evaluation.rows);
@@ -57,9 +48,8 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
         let vanishing = of.map(|of| task.model.program.underflows(&of.estimates()));
         let vanishing = vanishing.unwrap_or_default();
         if let Some(undefined) = &row.undefined {
-            let (count, all) = (undefined.count, undefined.trials);
-            let text = format!("{count} of {all} trials are not finite and were left out");
-            push(&mut found, Warning::new("undefined-trials", "", text));
+            let (count, trials) = (undefined.count, undefined.trials);
+            push(&mut found, Warning::new("", fact!("undefined-trials", count, trials)));
         }
         for (number, (output, evaluated)) in task.model.outputs.iter().zip(&row.outputs).enumerate()
         {
@@ -73,8 +63,8 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
             of_output((task, &named), (name, is_told), row, evaluated, &mut found);
             of_noiseless(&output.quantity.name, evaluated, &mut found);
             if evaluated.inherited.is_some() {
-                let place_of_row = at(task, &named, row);
-                let inherited = inherited_note::note(task, (output, &place_of_row), evaluated);
+                let at = at(task, &named, row);
+                let inherited = inherited_note::note(task, (output, at), evaluated);
                 inherited.into_iter().for_each(|note| push(&mut found, note));
             }
             if place == 0 {
@@ -124,31 +114,16 @@ fn copula(task: &Task, evaluation: &Evaluation, found: &mut Vec<Warning>) {
         .iter()
         .filter_map(|&v| task.variables.get(v).map(|v| format!("`{}`", v.name)))
         .collect();
-    let text = format!(
-        "{} are drawn by a Gaussian copula, fitted so that they have their distributions and the \
-         declared correlation coefficients; the coefficients do not say more about their joint \
-         distribution, so this is an assumption",
-        names.join(", ")
-    );
-    found.push(Warning::new("gaussian-copula", "", text));
+    found.push(Warning::new("", fact!("gaussian-copula", names)));
     if evaluation.copula_adjusted > 0.0 {
         let of_results =
             task.rows.iter().flat_map(|row| row.distributions.iter()).any(|d| d.saved().is_some());
-        let text = if of_results {
-            format!(
-                "a Gaussian copula gives the correlation coefficients of these saved results only \
-                 nearly; in the trials they differ by up to {:.1e}. Where outputs of one result \
-                 nearly cancel, evaluate the whole in one model",
-                evaluation.copula_adjusted
-            )
-        } else {
-            format!(
-                "a Gaussian copula gives the declared correlation coefficients only within their \
-                 rounding; in the trials they differ by up to {:.1e}",
-                evaluation.copula_adjusted
-            )
+        let difference = Argument::number(format!("{:.1e}", evaluation.copula_adjusted));
+        let fact = match of_results {
+            true => fact!("copula-adjusted.results", difference),
+            false => fact!("copula-adjusted", difference),
         };
-        found.push(Warning::new("copula-adjusted", "", text));
+        found.push(Warning::new("", fact));
     }
 }
 
@@ -163,32 +138,30 @@ fn of_noiseless(name: &str, evaluated: &OutputEvaluation, found: &mut Vec<Warnin
     };
     let errors = &trials.errors;
     let own = noiseless.scatter();
-    let of =
-        |figure: &str, trials, exact, error, own| (figure.to_owned(), trials, exact, error, own);
     let mut figures = vec![
-        of(
-            "estimate",
+        (
+            fact!("figure.estimate"),
             trials.estimate,
             noiseless.estimate,
             errors.estimate,
             own.and_then(|own| own.estimate),
         ),
-        of(
-            "standard uncertainty",
+        (
+            fact!("figure.standard-uncertainty"),
             trials.standard_uncertainty,
             noiseless.standard_uncertainty,
             errors.standard_uncertainty,
             own.and_then(|own| own.standard_uncertainty),
         ),
-        of(
-            "median",
+        (
+            fact!("figure.median"),
             Some(trials.median),
             Some(noiseless.median),
             Some(errors.median),
             own.map(|own| own.median),
         ),
-        of(
-            "probability within the tolerance",
+        (
+            fact!("figure.inside"),
             Some(trials.inside),
             noiseless.inside,
             noiseless.inside.map(|inside| (inside * (1.0 - inside) / trials.trials as f64).sqrt()),
@@ -196,17 +169,19 @@ fn of_noiseless(name: &str, evaluated: &OutputEvaluation, found: &mut Vec<Warnin
         ),
     ];
     let both_unique = trials.shortest_unique && noiseless.shortest_unique;
-    for (place, end) in ["lower", "upper"].into_iter().enumerate() {
-        figures.push(of(
-            &format!("{end} end of the symmetric interval"),
+    let symmetric = [fact!("figure.symmetric-lower"), fact!("figure.symmetric-upper")];
+    let ends = [fact!("figure.shortest-lower"), fact!("figure.shortest-upper")];
+    for (place, (symmetric, end)) in symmetric.into_iter().zip(ends).enumerate() {
+        figures.push((
+            symmetric,
             Some(trials.symmetric_interval[place]),
             Some(noiseless.symmetric_interval[place]),
             Some(errors.symmetric_interval[place]),
             own.map(|own| own.symmetric_interval[place]),
         ));
         let shortest = noiseless.shortest_interval.filter(|_| both_unique);
-        figures.push(of(
-            &format!("{end} end of the shortest interval"),
+        figures.push((
+            end,
             Some(trials.shortest_interval[place]),
             shortest.map(|ends| ends[place]),
             Some(errors.shortest_interval[place]),
@@ -217,21 +192,17 @@ fn of_noiseless(name: &str, evaluated: &OutputEvaluation, found: &mut Vec<Warnin
         let (trials, exact) = trials.zip(exact)?;
         let error = crate::number::elementary::hypot(error?, own.unwrap_or(0.0));
         let count = (trials - exact).abs() / error;
-        (error > 0.0 && count > BEYOND).then(|| format!("its {figure} by {count:.1}"))
+        let count = (error > 0.0 && count > BEYOND).then(|| format!("{count:.1}"))?;
+        Some(fact!("moved", figure, by = Argument::Number(count)))
     });
-    let far: Vec<String> = far.collect();
+    let far: Vec<Fact> = far.collect();
     if !far.is_empty() {
-        let text = format!(
-            "`{name}`: figures of the trials are farther from those without their noise than {BEYOND} \
-             numerical standard errors: {}",
-            far.join(", ")
-        );
-        push(found, Warning::new("trials-off", name, text));
+        push(found, Warning::new(name, fact!("trials-off", name, errors = BEYOND, far)));
     }
 }
 
 fn push(found: &mut Vec<Warning>, warning: Warning) {
-    let known = |w: &Warning| w.code == warning.code && w.place == warning.place;
+    let known = |w: &Warning| w.code() == warning.code() && w.place == warning.place;
     if !found.iter().any(known) {
         found.push(warning);
     }
@@ -244,14 +215,7 @@ fn of_rounded_correlations(name: &str, output: &OutputEvaluation) -> Option<Warn
     let gum = output.gum.as_ref()?;
     let rounding = ROUNDING * gum.largest_contribution();
     let is_lost = gum.standard_uncertainty == 0.0 && drawn > rounding;
-    is_lost.then(|| {
-        let text = format!(
-            "`{name}`: the declared correlation coefficients leave no variance by the law of \
-             propagation, or one below zero, and the nearest possible ones do; take the Monte Carlo \
-             figures, or state the coefficients with more digits"
-        );
-        Warning::new("correlations-rounded", name, text)
-    })
+    is_lost.then(|| Warning::new(name, fact!("correlations-rounded.output", name)))
 }
 
 /// Whether expanded uncertainties of an output, by its number, are below the laboratory's capability.
@@ -266,59 +230,33 @@ fn of_capability(
         rows.iter().filter_map(stated).filter(|stated| stated.below).collect();
     let Some(first) = below.first() else { return };
     let (name, unit) = (&output.quantity.name, &output.quantity.unit);
-    let code = if first.raised { "raised-to-cmc" } else { "below-cmc" };
-    let cmc = unit.after(&first.cmc_text());
-    let text = match (rows, first.raised) {
+    let cmc = Argument::Number(unit.after(&first.cmc_text()));
+    let (count, of) = (below.len(), rows.len());
+    let fact = match (rows, first.raised) {
         ([_], true) => {
             let expanded = first.rounded(task.settings.digits).map(|expanded| expanded.to_string());
-            let expanded = unit.after(&expanded.unwrap_or_default());
-            format!(
-                "the expanded uncertainty of `{name}` is below the laboratory's capability (CMC) of {cmc} \
-                 and raised to it: {expanded} is to be stated"
-            )
+            let expanded = Argument::Number(unit.after(&expanded.unwrap_or_default()));
+            fact!("raised-to-cmc", name, cmc, expanded)
         }
         ([_], false) => {
             let expanded = unit.after(&significant(first.expanded_uncertainty, 3));
-            format!(
-                "the expanded uncertainty of `{name}` is {expanded}, below the laboratory's capability \
-                 (CMC) of {cmc}, and must not be stated (ILAC-P14)"
-            )
+            fact!("below-cmc", name, cmc, expanded = Argument::Number(expanded))
         }
-        (_, true) => format!(
-            "the expanded uncertainty of `{name}` is below the laboratory's capability (CMC) in {} of {} \
-             rows, and raised to it there",
-            below.len(),
-            rows.len()
-        ),
-        (_, false) => format!(
-            "the expanded uncertainty of `{name}` is below the laboratory's capability (CMC) in {} of {} \
-             rows, and must not be stated there (ILAC-P14)",
-            below.len(),
-            rows.len()
-        ),
+        (_, true) => fact!("raised-to-cmc.rows", name, count, of),
+        (_, false) => fact!("below-cmc.rows", name, count, of),
     };
-    push(found, Warning::new(code, name.as_str(), text));
+    push(found, Warning::new(name, fact));
 }
 
-/// Where a row is, in words.
-fn at(task: &Task, named: &[usize], row: &RowEvaluation) -> String {
-    if row.conditions.is_empty() {
-        String::new()
-    } else {
-        let values: Vec<String> = task
-            .model
-            .conditions
-            .iter()
-            .zip(&row.conditions)
-            .enumerate()
-            .filter(|(place, _)| named.contains(place))
-            .map(|(_, (c, &value))| {
-                let value = Shortest(to_digits(value, NAMED_DIGITS));
-                format!("{} = {}", c.name, c.unit.after(&value.to_string()))
-            })
-            .collect();
-        format!(" at {}", values.join(", "))
-    }
+/// The conditions of a row, where there are any.
+fn at(task: &Task, named: &[usize], row: &RowEvaluation) -> Option<Fact> {
+    let conditions = task.model.conditions.iter().zip(&row.conditions).enumerate();
+    let shown = conditions.filter(|(place, _)| named.contains(place)).map(|(_, (c, &value))| {
+        let value = Shortest(to_digits(value, NAMED_DIGITS)).to_string();
+        fact!("condition", name = &c.name, value = Argument::Number(c.unit.after(&value)))
+    });
+    let conditions: Vec<Fact> = shown.collect();
+    (!row.conditions.is_empty()).then(|| fact!("at", conditions))
 }
 
 fn of_output(
@@ -330,11 +268,7 @@ fn of_output(
 ) {
     let at = at(task, named, row);
     let Some(gum) = &output.gum else {
-        let text = format!(
-            "`{name}`{at}: the estimate or a sensitivity coefficient is not finite at the inputs' \
-             estimates, so there is no GUM evaluation"
-        );
-        push(found, Warning::new("gum-undefined", name, text));
+        push(found, Warning::new(name, fact!("gum-undefined", name, at = at.clone())));
         if let Some(monte_carlo) = &output.monte_carlo {
             of_extremes(name, &at, monte_carlo, found);
             of_heavy_tails((name, &at), output, monte_carlo, found);
@@ -342,20 +276,16 @@ fn of_output(
         return;
     };
     if gum.dof == Dof::Undefined {
-        let way = match gum.coverage_factor {
-            Some(k) => format!("the stated factor k = {k} is used as it stands"),
-            None => "the Monte Carlo interval is the way, or a stated `coverage_factor`".into(),
+        let fact = match gum.coverage_factor {
+            Some(k) => fact!("gum-dof-undefined.stated", name, at = at.clone(), k),
+            None => fact!("gum-dof-undefined", name, at = at.clone()),
         };
-        let text = format!(
-            "`{name}`{at}: correlated inputs have finite degrees of freedom, for which the \
-             Welch-Satterthwaite formula does not hold; {way}"
-        );
-        push(found, Warning::new("gum-dof-undefined", name, text));
+        push(found, Warning::new(name, fact));
     }
     let Some(monte_carlo) = &output.monte_carlo else {
         if let Some(second) = &output.second_order {
-            let said = second_order_text(task, gum, second);
-            push(found, Warning::new("non-linear", name, format!("`{name}`{at}: {said}")));
+            let second = second_order(task, gum, second);
+            push(found, Warning::new(name, fact!("non-linear.second-order", name, at, second)));
         }
         return;
     };
@@ -366,35 +296,22 @@ fn of_output(
     if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive
         && !monte_carlo.heavy_tailed
     {
-        let text = format!(
-            "`{name}`{at}: after {} trials the figures are not yet stable to the tolerance \
-             {tolerance}; the numerical standard errors say how far they are",
-            monte_carlo.trials
-        );
-        push(found, Warning::new("not-converged", name, text));
+        let trials = monte_carlo.trials;
+        let fact = fact!("not-converged", name, at = at.clone(), trials, tolerance);
+        push(found, Warning::new(name, fact));
     }
     if output.drawn_dof <= 2.0 {
-        let text = format!(
-            "`{name}`{at}: an input is drawn from a t distribution with {} {} of freedom, which \
-             has no {}{}, so the trials have no {}; the coverage intervals stand, and the value is the \
-             estimate by the law of propagation",
-            output.drawn_dof,
-            if output.drawn_dof == 1.0 { "degree" } else { "degrees" },
-            if output.drawn_dof > 1.0 { "variance" } else { "expectation and no variance" },
-            if output.drawn_dof > 1.0 && monte_carlo.estimate.is_none() {
-                ", and through this model no expectation"
-            } else {
-                ""
-            },
-            if monte_carlo.estimate.is_some() {
-                "standard uncertainty"
-            } else {
-                "estimate and no standard uncertainty"
-            }
-        );
-        push(found, Warning::new("no-variance", name, text));
+        let dof = output.drawn_dof;
+        let at = at.clone();
+        let fact = match (dof > 1.0, monte_carlo.estimate.is_some()) {
+            (true, true) => fact!("no-variance", name, at, dof),
+            (true, false) => fact!("no-variance.of-model", name, at, dof),
+            (false, _) if dof == 1.0 => fact!("no-variance.one", name, at, dof),
+            (false, _) => fact!("no-variance.no-expectation", name, at, dof),
+        };
+        push(found, Warning::new(name, fact));
     } else if !is_told {
-        of_difference(task, (name, &at), row, (gum, output, monte_carlo), found);
+        of_difference(task, (name, at), row, (gum, output, monte_carlo), found);
     }
 }
 
@@ -405,7 +322,7 @@ const ROUNDING: f64 = 1e-13;
 /// not linear, or both.
 fn of_difference(
     task: &Task,
-    (name, at): (&str, &str),
+    (name, at): (&str, Option<Fact>),
     row: &RowEvaluation,
     (gum, output, monte_carlo): (&Gum, &OutputEvaluation, &MonteCarlo),
     found: &mut Vec<Warning>,
@@ -422,40 +339,38 @@ fn of_difference(
     if (u - linear).abs() <= f64::max(NOTEWORTHY * linear, 3.0 * error).max(rounding) {
         return;
     }
-    let percent = |from: f64| format!("{:.0} %", 100.0 * (from / linear - 1.0).abs());
+    let percent = |from: f64| {
+        Argument::Number(format!("{:.0} %", 100.0 * (from / linear - 1.0).abs()))
+    };
     // what is not finite without such a distribution left the range of double precision
     let has_t = output.drawn_dof.is_finite() || drawn.is_finite();
     let by_dof = drawn > (1.0 + NOTEWORTHY) * linear && has_t;
-    let alone = || if drawn.is_finite() { percent(drawn) } else { "beyond all bounds".to_owned() };
-    let side = if u > linear { "above" } else { "below" };
-    let difference = if linear > 0.0 {
-        format!("is {} {side} that of the GUM", percent(u))
-    } else {
-        "is not zero as that of the GUM is".to_owned()
+    let alone = match drawn.is_finite() {
+        true => percent(drawn),
+        false => fact!("beyond-bounds").into(),
+    };
+    let difference = match (linear > 0.0, u > linear) {
+        (true, true) => fact!("difference.above", percent = percent(u)),
+        (true, false) => fact!("difference.below", percent = percent(u)),
+        (false, _) => fact!("difference.from-zero"),
     };
     if output.nonlinear != Some(true) {
         if by_dof {
-            let text = format!(
-                "`{name}`{at}: the Monte Carlo standard uncertainty {difference} because standard \
-                 uncertainties of inputs have few degrees of freedom{}: what is drawn for them has \
-                 a larger standard deviation, which alone makes {}. {}",
-                fewest(output),
-                alone(),
-                if matches!(gum.dof, Dof::Undefined)
-                    || matches!(task.settings.coverage, Coverage::Factor { fixed: true, .. })
-                {
-                    "Neither is wrong; no coverage factor of the GUM allows for it here"
-                } else if output.drawn_dof.is_finite() {
-                    "Neither is wrong; the GUM allows for it in the coverage factor"
-                } else {
-                    "The GUM allows for it in its coverage factor, that of a t distribution, whose \
-                     long tails these inputs do not have"
-                }
-            );
-            push(found, Warning::new("few-dof", name, text));
+            let is_allowed_for = !matches!(gum.dof, Dof::Undefined)
+                && !matches!(task.settings.coverage, Coverage::Factor { fixed: true, .. });
+            let conclusion = match (is_allowed_for, output.drawn_dof.is_finite()) {
+                (false, _) => fact!("few-dof-not-allowed-for"),
+                (true, true) => fact!("few-dof-allowed-for"),
+                (true, false) => fact!("few-dof-long-tails"),
+            };
+            let dof = fewest(output);
+            let fact = fact!("few-dof", name, at, difference, dof, alone, conclusion);
+            push(found, Warning::new(name, fact));
         } else if (gum.drawn_uncertainty() / linear - 1.0).abs() > NOTEWORTHY {
-            let text = of_bent_results(task, (name, at), &difference, gum);
-            push(found, Warning::new("non-linear", name, text));
+            let name_of = |v: usize| Some(format!("`{}`", task.variables.get(v)?.name));
+            let results: Vec<String> = gum.bent_results().filter_map(name_of).collect();
+            let fact = fact!("non-linear.results", name, at, difference, results);
+            push(found, Warning::new(name, fact));
         }
         return;
     }
@@ -463,75 +378,42 @@ fn of_difference(
     if !row.copula_changes.is_empty() || !row.jointly_drawn.is_empty() {
         return;
     }
-    let mut text = format!(
-        "`{name}`{at}: the Monte Carlo standard uncertainty {difference} because the model is not \
-         linear over the uncertainties of its inputs"
-    );
-    if by_dof {
-        text += &format!(
-            "; few degrees of freedom{} alone would bring it {} above",
-            fewest(output),
-            alone()
-        );
-    }
-    if let Some(second) = &output.second_order {
-        text += "; ";
-        text += &second_order_text(task, gum, second);
-    }
-    push(found, Warning::new("non-linear", name, text + ". Take the Monte Carlo figures"));
-}
-
-/// That saved results come from models that are not linear.
-fn of_bent_results(task: &Task, (name, at): (&str, &str), difference: &str, gum: &Gum) -> String {
-    let of = |v: usize| task.variables.get(v).map(|variable| format!("`{}`", variable.name));
-    let results: Vec<String> = gum.bent_results().filter_map(of).collect();
-    format!(
-        "`{name}`{at}: the Monte Carlo standard uncertainty {difference} because of saved results \
-         whose trials have another standard deviation than their standard uncertainty ({}), as their \
-         models are not linear. Take the Monte Carlo figures",
-        results.join(", ")
-    )
+    let few_dof = by_dof.then(|| fact!("non-linear-few-dof", dof = fewest(output), alone));
+    let second = output.second_order.as_ref().map(|second| second_order(task, gum, second));
+    let second = second.map(|said| fact!("non-linear-terms", said));
+    push(found, Warning::new(name, fact!("non-linear", name, at, difference, few_dof, second)));
 }
 
 /// The fewest degrees of freedom of what is drawn as a t, in brackets.
-fn fewest(output: &OutputEvaluation) -> String {
+fn fewest(output: &OutputEvaluation) -> Option<Fact> {
     let dof = output.drawn_dof;
-    if dof.is_finite() { format!(" ({})", Shortest(dof)) } else { String::new() }
+    dof.is_finite().then(|| fact!("in-brackets", dof))
 }
 
 /// What the terms of second order of the law of propagation make of it, and which products matter
 /// though nothing is seen of them at the estimates.
-pub fn second_order_text(task: &Task, gum: &Gum, second: &SecondOrder) -> String {
-    let number = |value: f64| significant(value, task.settings.digits.max(2));
-    let mut text = format!(
-        "with its terms of second order (JCGM 100, 5.1.2, note) the law of propagation gives {} \
-         instead of {}",
-        number(second.standard_uncertainty),
-        number(gum.standard_uncertainty)
-    );
+fn second_order(task: &Task, gum: &Gum, second: &SecondOrder) -> Fact {
+    let number =
+        |value: f64| Argument::Number(significant(value, task.settings.digits.max(2)));
     let name = |v: usize| task.variables.get(v).map_or("", |variable| variable.name.as_str());
     let lines: HashMap<usize, BudgetLine> =
         gum.budget().map(|line| (line.variable, line)).collect();
     let contribution = |v: usize| lines.get(&v).map_or(0.0, |line| line.contribution);
-    let products: Vec<String> = second
-        .products
-        .iter()
-        .map(|&(i, j, c)| {
-            let product = if i == j {
-                format!("`{}` squared", name(i))
-            } else {
-                format!("`{}` times `{}`", name(i), name(j))
-            };
-            let hidden = contribution(i).max(contribution(j)) < 0.1 * c;
-            let seen =
-                if hidden { ", though their sensitivity coefficients vanish here" } else { "" };
-            format!("{product} contributes {}{seen}", number(c))
-        })
-        .collect();
-    if !products.is_empty() {
-        text += &format!("; {}", products.join(", "));
-    }
-    text
+    let product = |&(i, j, c): &(usize, usize, f64)| {
+        let product = match i == j {
+            true => fact!("squared", name = name(i)),
+            false => fact!("times", first = name(i), second = name(j)),
+        };
+        let contribution_of = contribution(i).max(contribution(j));
+        match contribution_of < 0.1 * c {
+            true => fact!("contributes.hidden", product, contribution = number(c)),
+            false => fact!("contributes", product, contribution = number(c)),
+        }
+    };
+    let products: Vec<Fact> = second.products.iter().map(product).collect();
+    let products = (!products.is_empty()).then(|| fact!("second-order-products", products));
+    let with_terms = number(second.standard_uncertainty);
+    fact!("second-order", with_terms, linear = number(gum.standard_uncertainty), products)
 }
 
 /// Correlation coefficients of an output of which the trials have none.
@@ -547,31 +429,21 @@ fn of_correlations(
     {
         return;
     }
-    let text = match &evaluated.gum {
-        Some(_) => format!(
-            "`{name}`: its trials have no standard deviation that means something, so its correlation \
-             coefficients are those of the law of propagation"
-        ),
-        None => format!(
-            "`{name}`: its trials have no standard deviation that means something, and there is no GUM \
-             evaluation, so it has no correlation coefficients"
-        ),
+    let fact = match &evaluated.gum {
+        Some(_) => fact!("correlations-by-propagation", name),
+        None => fact!("correlations-by-propagation.none", name),
     };
-    push(found, Warning::new("correlations-by-propagation", name, text));
+    push(found, Warning::new(name, fact));
 }
 
 /// A decision without trials.
 fn conformity_by_propagation(name: &str) -> Warning {
-    let text = format!(
-        "`{name}`: without trials it is decided about its tolerance by the law of propagation, as of a \
-         normal or t distribution (JCGM 106, 7.2); trials show whether that holds"
-    );
-    Warning::new("conformity-by-propagation", name, text)
+    Warning::new(name, fact!("conformity-by-propagation", name))
 }
 
 /// Trials without a variance, though every input that is drawn as a t has one.
 fn of_heavy_tails(
-    (name, at): (&str, &str),
+    (name, at): (&str, &Option<Fact>),
     output: &OutputEvaluation,
     figures: &MonteCarlo,
     found: &mut Vec<Warning>,
@@ -580,30 +452,22 @@ fn of_heavy_tails(
         return;
     }
     let missing = match figures.estimate {
-        Some(_) => "no standard deviation",
-        None => "no expectation and no standard deviation",
+        Some(_) => fact!("no-deviation"),
+        None => fact!("no-moments"),
     };
     let value = match output.gum {
-        Some(_) => "the value is the estimate by the law of propagation",
-        None => "the value is the median",
+        Some(_) => fact!("value-by-propagation"),
+        None => fact!("value-is-median"),
     };
-    let text = format!(
-        "`{name}`{at}: trials far out, of which a run has few or none, carry its moments, so that trials \
-         tell {missing} (JCGM 101, 3.6, note 1); median and coverage intervals stand, and {value}"
-    );
-    push(found, Warning::new("heavy-tails", name, text));
+    push(found, Warning::new(name, fact!("heavy-tails", name, at = at.clone(), missing, value)));
 }
 
 /// Intervals from the least to the greatest trial.
-fn of_extremes(name: &str, at: &str, figures: &MonteCarlo, found: &mut Vec<Warning>) {
+fn of_extremes(name: &str, at: &Option<Fact>, figures: &MonteCarlo, found: &mut Vec<Warning>) {
     if figures.errors.symmetric_interval.iter().any(|error| error.is_nan()) {
-        let text = format!(
-            "`{name}`{at}: {} trials are so few for this coverage probability that the Monte Carlo \
-             interval is that of the extreme ones, which has no numerical standard error; clause 8 \
-             is left undecided",
-            figures.trials
-        );
-        push(found, Warning::new("interval-of-extremes", name, text));
+        let trials = figures.trials;
+        let fact = fact!("interval-of-extremes", name, at = at.clone(), trials);
+        push(found, Warning::new(name, fact));
     }
 }
 
@@ -611,7 +475,7 @@ fn of_extremes(name: &str, at: &str, figures: &MonteCarlo, found: &mut Vec<Warni
 /// does not do; and what a copula that does not give their coefficients makes of it.
 fn of_results(
     name: &str,
-    at: &str,
+    at: &Option<Fact>,
     row: &RowEvaluation,
     (gum, spread): (&Gum, f64),
     found: &mut Vec<Warning>,
@@ -628,13 +492,11 @@ fn of_results(
         // ranks of so many trials leave less than this of what should cancel
         let left = largest / (set.trials as f64).sqrt();
         if 0.5 * left.powi(2) > CANCELLED * spread.powi(2) {
-            let text = format!(
-                "`{name}`{at}: outputs of a saved result nearly cancel, and the {} trials that the \
-                 result holds tell how they vary together to about {left:.1e} only, of a standard \
-                 uncertainty of {spread:.1e} in the trials here; evaluate the whole in one model",
-                set.trials
-            );
-            push(found, Warning::new("result-cancellation", name, text));
+            let at = at.clone();
+            let left = Argument::Number(format!("{left:.1e}"));
+            let spread = Argument::Number(format!("{spread:.1e}"));
+            let fact = fact!("result-cancellation", name, at, trials = set.trials, left, spread);
+            push(found, Warning::new(name, fact));
         }
     }
     let change: f64 = row
@@ -650,13 +512,10 @@ fn of_results(
     let drawn = (variance + change).max(0.0).sqrt();
     let relative = drawn / gum.standard_uncertainty - 1.0;
     if relative.abs() > NOTEWORTHY {
-        let text = format!(
-            "`{name}`{at}: with the correlation coefficients that the Gaussian copula gives in place \
-             of those of the inputs, its standard uncertainty in the trials is about {drawn:.2e}, \
-             not {:.2e}",
-            gum.standard_uncertainty
-        );
-        push(found, Warning::new("copula-effect", name, text));
+        let drawn = Argument::Number(format!("{drawn:.2e}"));
+        let linear = Argument::Number(format!("{:.2e}", gum.standard_uncertainty));
+        let fact = fact!("copula-effect", name, at = at.clone(), drawn, linear);
+        push(found, Warning::new(name, fact));
     }
 }
 
@@ -683,26 +542,30 @@ mod tests {
         let said = |output: &OutputEvaluation| {
             let mut found = Vec::new();
             of_noiseless("y", output, &mut found);
-            found.first().map(|warning| warning.text.clone())
+            found.first().and_then(|warning| match warning.fact.arguments.last() {
+                Some(("far", Argument::List(far))) => Some(far.clone()),
+                _ => None,
+            })
         };
         assert_eq!(said(&output), None);
         type Change = fn(&mut MonteCarlo);
         let moved: [(&str, Change); 8] = [
-            ("its estimate by", |of| *of.estimate.as_mut().unwrap() += 0.2),
-            ("its standard uncertainty by", |of| *of.standard_uncertainty.as_mut().unwrap() += 0.2),
-            ("its median by", |of| of.median += 0.2),
-            ("its lower end of the symmetric", |of| of.symmetric_interval[0] += 0.5),
-            ("its upper end of the symmetric", |of| of.symmetric_interval[1] += 0.9),
-            ("its lower end of the shortest", |of| of.shortest_interval[0] -= 1.5),
-            ("its upper end of the shortest", |of| of.shortest_interval[1] += 1.5),
-            ("its probability within the tolerance", |of| of.inside -= 0.03),
+            ("figure.estimate", |of| *of.estimate.as_mut().unwrap() += 0.2),
+            ("figure.standard-uncertainty", |of| *of.standard_uncertainty.as_mut().unwrap() += 0.2),
+            ("figure.median", |of| of.median += 0.2),
+            ("figure.symmetric-lower", |of| of.symmetric_interval[0] += 0.5),
+            ("figure.symmetric-upper", |of| of.symmetric_interval[1] += 0.9),
+            ("figure.shortest-lower", |of| of.shortest_interval[0] -= 1.5),
+            ("figure.shortest-upper", |of| of.shortest_interval[1] += 1.5),
+            ("figure.inside", |of| of.inside -= 0.03),
         ];
         for (name, moved) in moved {
             let mut output = output.clone();
             moved(output.monte_carlo.as_mut().unwrap());
-            let text = said(&output).unwrap_or_default();
-            let listed = text.rsplit_once("errors: ").map_or("", |(_, listed)| listed);
-            assert!(listed.starts_with(name) && !listed.contains(", "), "{name}: {text}");
+            let far = said(&output).unwrap_or_default();
+            let [Argument::Fact(moved)] = &far[..] else { panic!("{name}: {far:?}") };
+            let figure = Argument::from(Fact { key: name, arguments: Vec::new() });
+            assert_eq!(moved.arguments[0], ("figure", figure));
         }
     }
 }
