@@ -286,9 +286,8 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
     let evaluations = file.certificate.evaluations.iter().zip(&issued.evaluations);
     for (asked, evaluation) in evaluations {
         let found = warnings(&asked.task, evaluation).into_iter();
-        for warning in found.filter(|warning| !OF_ROWS.contains(&warning.code)) {
-            let text = format!("{}: {}", asked.model, warning.text);
-            let note = Warning { text, ..warning };
+        for warning in found.filter(|warning| !OF_ROWS.contains(&warning.code())) {
+            let note = warning.within(fact!("of-model", model = &asked.model));
             if !notes.contains(&note) {
                 notes.push(note);
             }

@@ -30,22 +30,7 @@ struct Verdict<'n> {
     errors: Vec<Mistake>,
     /// What is right and seldom meant, as a run says it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    warnings: Vec<Said<'n>>,
-}
-
-/// A note, with the keys that it has in every answer.
-#[derive(Debug, Serialize)]
-struct Said<'n> {
-    code: &'n str,
-    #[serde(rename = "where")]
-    place: &'n str,
-    text: &'n str,
-}
-
-impl<'n> From<&'n Warning> for Said<'n> {
-    fn from(Warning { code, place, text }: &'n Warning) -> Self {
-        Self { code, place, text }
-    }
+    warnings: Vec<Note<'n>>,
 }
 
 /// A mistake in a file as `check --format json` tells it.

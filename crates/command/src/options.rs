@@ -80,11 +80,12 @@ impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
 
     /// Warnings and notes on standard error, unless nothing is to be said.
     pub(super) fn say(&self, warnings: &[Warning]) {
-        self.note(warnings.iter().map(|warning| warning.text.as_str()));
+        let said = |warning| words::note(warning, Language::English);
+        self.note(warnings.iter().map(said));
     }
 
     /// Sentences on standard error, unless nothing is to be said.
-    pub(super) fn note<'t>(&self, texts: impl IntoIterator<Item = &'t str>) {
+    pub(super) fn note<T: std::fmt::Display>(&self, texts: impl IntoIterator<Item = T>) {
         for text in texts.into_iter().filter(|_| !self.quiet) {
             say_line(&format!("note: {text}"));
         }

@@ -1,6 +1,8 @@
 //! Facts: what an evaluation or a reader has found, without the words for it. A report has a sentence for
 //! each key, in each of its languages.
 
+use std::fmt;
+
 use crate::number::Shortest;
 
 /// What was found. [`crate::fact!`] makes one.
@@ -34,8 +36,8 @@ impl Fact {
 
 impl Argument {
     /// A number with its unit, as it is printed with a decimal point.
-    pub fn number(text: impl Into<String>) -> Self {
-        Self::Number(text.into())
+    pub fn number(printed: impl fmt::Display) -> Self {
+        Self::Number(printed.to_string())
     }
 }
 

@@ -274,13 +274,13 @@ fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Js
         warnings: &notes,
         provenance: &provenance,
     };
-    let shown = Shown { histograms: &counts, convergence: &settled, ..Shown::default() };
+    let language = asked.lang.of_words();
+    let shown = Shown { histograms: &counts, convergence: &settled, language, ..Shown::default() };
     let size = if asked.narrow { FigureSize::Narrow } else { FigureSize::Page };
     let outputs = task.model.outputs.len();
     let output = asked.output.map(|wanted| if wanted < outputs { wanted } else { 0 });
     let parts = asked.lang.parts(page_parts(&report, &shown, size, PageChoice { output, row }));
-    let note =
-        |note: &gumption_engine::task::Warning| asked.lang.note(gumption_report::plain(&note.text));
+    let note = |warning| plain(&words::note(warning, language));
     Ok(json!({
         "results": outputs::results(&task, &evaluation, row, &parts),
         "together": parts.together,

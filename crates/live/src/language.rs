@@ -1,6 +1,6 @@
 //! The language of what the page is told.
 
-use gumption_report::PageParts;
+use gumption_report::{PageParts, words};
 use serde::Deserialize;
 
 use crate::german::{self, RowNames};
@@ -39,11 +39,11 @@ impl Language {
         parts
     }
 
-    /// A note on an evaluation in this language.
-    pub(crate) fn note(self, text: String) -> String {
+    /// The same for the words of facts.
+    pub(crate) fn of_words(self) -> words::Language {
         match self {
-            Self::En => text,
-            Self::De => german::note(&text),
+            Self::En => words::Language::English,
+            Self::De => words::Language::German,
         }
     }
 }

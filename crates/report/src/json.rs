@@ -51,7 +51,7 @@ struct Answer<'a> {
     results: Results<'a>,
     #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
     fits: Vec<(&'a str, FitSide<'a>)>,
-    warnings: Vec<Remark<'a>>,
+    warnings: Vec<Note<'a>>,
     provenance: Origin<'a>,
 }
 
@@ -544,7 +544,7 @@ impl<'a> Answer<'a> {
             inputs: Inputs { task },
             results,
             fits: task.curves.iter().map(|c| (c.fit.name.as_str(), FitSide::of(c))).collect(),
-            warnings: warnings.iter().map(Remark::of).collect(),
+            warnings: words::notes(warnings),
             provenance: Origin {
                 model_sha256: &provenance.model_sha256,
                 seed: evaluation.settings.seed,
@@ -687,12 +687,6 @@ impl From<validate::Validation> for Validation {
     fn from(validation: validate::Validation) -> Self {
         let validate::Validation { digits, tolerance, d_low, d_high, gum_valid } = validation;
         Self { digits, tolerance, d_low, d_high, gum_valid }
-    }
-}
-
-impl<'a> Remark<'a> {
-    fn of(warning: &'a Warning) -> Self {
-        Self { code: warning.code, r#where: &warning.place, text: &warning.text }
     }
 }
 

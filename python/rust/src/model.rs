@@ -18,7 +18,7 @@ use crate::draws;
 use crate::errors::{argument, failed};
 use crate::function::PythonFunction;
 use crate::parts::Parts;
-use crate::run::{Ran, Run};
+use crate::run::{Note, Ran, Run, notes};
 use crate::supervised::{Watch, supervised, supervised_within};
 
 /// What a model is read from.
@@ -274,9 +274,8 @@ impl Model {
 
     /// Codes, places and texts of the notes on what was read.
     #[getter]
-    fn warnings(&self) -> Vec<(&'static str, String, String)> {
-        let told = self.file.warnings.iter();
-        told.map(|w| (w.code, w.place.clone(), w.text.clone())).collect()
+    fn warnings(&self) -> Vec<Note> {
+        notes(&self.file.warnings)
     }
 
     /// Sets of values of the variables and conditions, and what the formulas give at them: a column for

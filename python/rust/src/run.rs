@@ -258,8 +258,8 @@ impl Run {
 
     /// Codes, places and texts of the notes and warnings.
     #[getter]
-    fn warnings(&self) -> Vec<(&'static str, String, String)> {
-        self.0.notes.iter().map(|w| (w.code, w.place.clone(), w.text.clone())).collect()
+    fn warnings(&self) -> Vec<Note> {
+        notes(&self.0.notes)
     }
 
     #[getter]
@@ -317,4 +317,12 @@ impl Run {
     fn __repr__(&self) -> String {
         format!("<gumption._gumption.Run {:?}>", self.0.task.title)
     }
+}
+
+/// A note: its code, its place and its sentence.
+pub(crate) type Note = (&'static str, String, String);
+
+pub(crate) fn notes(warnings: &[Warning]) -> Vec<Note> {
+    let notes = gumption::report::words::notes(warnings).into_iter();
+    notes.map(|note| (note.code, note.r#where.to_owned(), note.text)).collect()
 }

@@ -13,6 +13,8 @@ use super::wide_text::NarrowText;
 use super::{BLOCK, ColumnName, Frames, Wanted, place};
 use crate::separator::DecimalMarks;
 use crate::{ValueOf, gravity, heading};
+use gumption_engine::fact;
+use gumption_engine::fact::Fact;
 use gumption_units::{Unit, nearest};
 
 /// What instruments and programs write where they have no value.
@@ -351,15 +353,12 @@ impl<R: Read> CsvFrames<R> {
 }
 
 impl<R: Read> Frames for CsvFrames<R> {
-    fn passed_by(&self) -> Option<String> {
+    fn passed_by(&self, name: &str) -> Option<Fact> {
         let above = self.beginning.above?;
         let (first, header) = (above + 1, self.beginning.first + 1);
         Some(match header - first {
-            1 => format!("line {first} stands above the header in line {header} and is not read"),
-            _ => format!(
-                "lines {first} to {} stand above the header in line {header} and are not read",
-                header - 1
-            ),
+            1 => fact!("preamble", name, first, header),
+            _ => fact!("preamble.lines", name, first, last = header - 1, header),
         })
     }
 

@@ -18,6 +18,7 @@ use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
+use gumption_engine::fact::Fact;
 use gumption_engine::task::Warning;
 use gumption_signal::{BLOCK, BlockVisitor, InMemorySamples, Measured, SampleSource, in_blocks};
 use gumption_units::Unit;
@@ -182,8 +183,8 @@ trait Frames {
         false
     }
 
-    /// What stands above the samples and is not read, in words.
-    fn passed_by(&self) -> Option<String> {
+    /// What stands above the samples and is not read.
+    fn passed_by(&self, _name: &str) -> Option<Fact> {
         None
     }
 

@@ -10,6 +10,8 @@ use super::{
     BLOCK, Digesting, InMemorySamples, MOST_IN_MEMORY, Measured, Reading, Recording, place,
 };
 use gumption_engine::number::Shortest;
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::task::Warning;
 
 /// Equal values at the highest or lowest value that make a channel suspect, at least.
@@ -51,7 +53,7 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
             }
             scanned.block(&columns)?;
         }
-        (stated, frames.whole(), frames.passed_by(), scanned)
+        (stated, frames.whole(), frames.passed_by(&reading.name), scanned)
     };
     // what stands behind the last frame belongs to the file too
     io::copy(&mut reader.by_ref(), &mut io::sink()).map_err(|error| error.to_string())?;
@@ -173,8 +175,8 @@ impl Extreme {
         self.value != 0.0 && self.count >= LEAST_AT_END && self.count > TIMES_NEXT * self.next_count
     }
 
-    fn name(&self) -> &'static str {
-        if self.sign > 0.0 { "highest" } else { "lowest" }
+    fn fact(&self) -> Fact {
+        if self.sign > 0.0 { fact!("highest") } else { fact!("lowest") }
     }
 }
 
@@ -308,9 +310,9 @@ impl<'r> Scanned<'r> {
         let (found, u, whose) = match (&self.clock, header) {
             (Some(clock), _) if clock.count > 2 => {
                 let rate = clock.rate();
-                (rate.value, rate.standard_uncertainty, "its time column has")
+                (rate.value, rate.standard_uncertainty, fact!("of-time-column"))
             }
-            (None, Some(rate)) => (rate, WHOLE_HERTZ / UNCERTAINTIES_APART, "its header says"),
+            (None, Some(rate)) => (rate, WHOLE_HERTZ / UNCERTAINTIES_APART, fact!("of-header")),
             _ => return None,
         };
         let apart = found - stated.value;
@@ -322,8 +324,8 @@ impl<'r> Scanned<'r> {
                 name,
                 stated = stated.value,
                 whose,
-                found = Argument::Number(significant(found)),
-                times = Argument::Number(significant(stated.value / found)),
+                found = Argument::number(significant(found)),
+                times = Argument::number(significant(stated.value / found)),
             );
             Warning::new(name, fact)
         })
@@ -348,7 +350,7 @@ impl<'r> Scanned<'r> {
                 let fact = fact!(
                     "saturated",
                     name = &self.reading.name,
-                    at = place(end.at + 1, &wanted.channel),
+                    at = at(end.at + 1, &wanted.channel),
                     count = end.count,
                     of = self.kept,
                     value = end.sign * end.value,
@@ -370,7 +372,7 @@ impl<'r> Scanned<'r> {
                 let fact = fact!(
                     "saturated.in-a-row",
                     name = &self.reading.name,
-                    at = place(end.at + 1, &wanted.channel),
+                    at = at(end.at + 1, &wanted.channel),
                     count = end.longest,
                     value = end.sign * end.value,
                     end = end.fact(),
@@ -548,5 +550,13 @@ mod tests {
         assert!((late.of_middle() - 3e-7).abs() < 2e-9, "{}", late.of_middle());
         // with a stated rate the middle alone decides
         assert!((late.start(1000.0) - 5.0 - 3e-7).abs() < 1e-9);
+    }
+}
+
+/// A sample of a channel.
+fn at(sample: u64, channel: &str) -> Fact {
+    match channel == super::THE_TIME {
+        true => fact!("sample-of-time", sample),
+        false => fact!("sample-of-channel", sample, channel),
     }
 }

@@ -47,11 +47,6 @@ fn labelled(markup: &str) -> String {
     made
 }
 
-/// A note on an evaluation in German.
-pub(crate) fn note(text: &str) -> String {
-    text_of(text).unwrap_or_else(|| text.to_owned())
-}
-
 /// The next element that holds text: what comes before its content, its opening tag, its content, and
 /// what follows that.
 fn next_holder(html: &str) -> Option<(&str, &str, &str, &str)> {
@@ -120,7 +115,7 @@ fn word(text: &str) -> Option<&'static str> {
 /// The first sentence of a text in German, and what follows it.
 fn sentence(text: &str) -> Option<(String, &str)> {
     let brief = if text.len() <= BRIEF_LENGTH { TEXTS.brief.as_slice() } else { &[] };
-    let all = TEXTS.sentences.iter().chain(&TEXTS.notes).chain(brief);
+    let all = TEXTS.sentences.iter().chain(brief);
     let mut all = all.filter(|sentence| sentence.least <= text.len());
     all.find_map(|sentence| {
         let (captured, rest) = fitted(&sentence.pieces, text)?;

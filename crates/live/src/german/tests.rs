@@ -9,7 +9,7 @@ use gumption_text::FileSource;
 use serde_json::{Value, json};
 
 use super::texts::{Sentence, TEXTS};
-use super::{RowNames, note, part};
+use super::{RowNames, part};
 use crate::Live;
 
 /// The files beside a model.
@@ -29,7 +29,7 @@ fn words_of(text: &str) -> impl Iterator<Item = String> + '_ {
 
 /// The sentences of all tables.
 fn sentences() -> impl Iterator<Item = &'static Sentence> {
-    [&TEXTS.sentences, &TEXTS.notes, &TEXTS.brief].into_iter().flatten()
+    [&TEXTS.sentences, &TEXTS.brief].into_iter().flatten()
 }
 
 /// Words that only English has: those of the tables' English sides that no German one uses.
@@ -299,13 +299,6 @@ fn names_of_a_file_stay_and_words_of_a_report_do_not() {
     assert_eq!(of_file, html);
     let own = part(html, RowNames::OfReport);
     assert!(own.contains("Dichte") && own.contains("Grenzen"), "{own}");
-    let said = note(
-        "`y`: the Monte Carlo standard uncertainty is 36 % above that of the GUM because the model is not linear over the uncertainties of its inputs. Take the Monte Carlo figures",
-    );
-    assert_eq!(
-        said,
-        "`y`: Die Standardunsicherheit der Monte-Carlo-Methode liegt 36 % über der des GUM, weil das Modell über die Unsicherheiten seiner Eingangsgrößen nicht linear ist. Die Angaben der Monte-Carlo-Methode sind zu nehmen"
-    );
     let markup = part(
         "<p>Tolerance from 1 to 2 m<sup>2</sup>: the estimate lies within, and the value conforms with a probability of 99.00 % (numerical standard error 0.1 %).</p>",
         RowNames::OfFile,
@@ -314,37 +307,4 @@ fn names_of_a_file_stay_and_words_of_a_report_do_not() {
         markup.starts_with("<p>Toleranz von 1 bis 2 m<sup>2</sup>: Der Schätzwert liegt innerhalb"),
         "{markup}"
     );
-}
-
-/// The notes on what is right and seldom meant, as the readers write them.
-#[test]
-fn notes_on_formulas_are_in_german() {
-    let files = [
-        ("deg", "x + 90", "deg"),
-        ("%", "x + 2", "%"),
-        ("deg", "sin(x*pi/180)", "1"),
-        ("%", "x/100", "1"),
-        ("dBm", "2*x", "dBm"),
-        ("1/min", "x", "rpm"),
-    ];
-    let english = english();
-    for (unit, formula, result) in files {
-        let constant = json!({"unit": unit, "distribution": "constant", "value": 1});
-        let file = json!({
-            "inputs": {"x": {"unit": unit, "distribution": "normal", "mean": 1, "std": 0.1},
-                "z": constant, "v": constant},
-            "equations": {"y": formula, "w": "x + z"},
-            "outputs": {"y": {"unit": result}, "w": {"unit": unit}},
-            "correlations": [["x", "z", 0.5]]
-        });
-        let own: BTreeSet<String> = words_of(&file.to_string()).collect();
-        let foreign = |word: &str| english.contains(word) && !own.contains(word);
-        let notes = gumption_files::check_text("m.json", &file.to_string(), Path::new("")).unwrap();
-        assert!(notes.len() >= 3, "{notes:?}");
-        for text in notes.iter().map(|of| note(&of.text)) {
-            let left: Vec<String> =
-                words_of(&unquoted(&text)).filter(|word| foreign(word)).collect();
-            assert!(left.is_empty(), "{left:?} in {text}");
-        }
-    }
 }

@@ -2,8 +2,7 @@
 //!
 //! - `words`, `shapes`: words of tables and figures that stand alone; names of distributions.
 //! - `between`: what stands between names in enumerations.
-//! - `sentences`, `notes`: sentences, captions and cells; notes of the engine and of the readers. The
-//!   first one that fits is taken. English has `{}` for what varies, and German its places: `{0}` as
+//! - `sentences`: sentences, captions and cells. The first one that fits is taken. English has `{}` for what varies, and German its places: `{0}` as
 //!   it stands, `{0:}` said in German itself, `{0;}` with the names of shapes in German, `{0+}` with
 //!   what stands between names in German. A full stop at the end belongs to neither.
 //! - `brief`: parts of sentences and cells, which might be found in many sentences: they are looked for
@@ -33,8 +32,6 @@ pub(super) struct Texts {
     pub between: Vec<Pair>,
     #[serde(deserialize_with = "of_sections")]
     pub sentences: Vec<Sentence>,
-    #[serde(deserialize_with = "of_sections")]
-    pub notes: Vec<Sentence>,
     #[serde(deserialize_with = "of_sections")]
     pub brief: Vec<Sentence>,
 }

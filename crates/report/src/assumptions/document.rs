@@ -39,8 +39,7 @@ pub(super) fn of(report: &AuditReport<'_>) -> Document {
     }
     if !report.warnings.is_empty() {
         document.section("Notes");
-        let notes = report.warnings.iter().map(|warning| plain(&warning.text));
-        document.blocks.push(Block::List(notes.collect()));
+        document.blocks.push(Block::List(words::lines(report.warnings)));
     }
     document.section("To repeat this");
     let provenance = report.provenance;

@@ -31,14 +31,8 @@ pub fn json(report: &AuditReport<'_>) -> String {
         entries.extend(audit.rows.iter().map(|row| ("outputs", outputs(report, row))));
     }
     entries.push(("evidence", list(audit.evidence.iter().map(|of| agreement(report, of)))));
-    let warnings = report.warnings.iter().map(|warning| {
-        object([
-            ("code", Value::from(warning.code)),
-            ("where", warning.place.as_str().into()),
-            ("text", warning.text.as_str().into()),
-        ])
-    });
-    entries.push(("warnings", list(warnings)));
+    let warnings = words::notes(report.warnings);
+    entries.push(("warnings", to_value(warnings)));
     let files = report.provenance.files.iter();
     let files = files.map(|(name, digest)| (name.as_str(), Value::from(digest.as_str())));
     let provenance = object([

@@ -30,13 +30,7 @@ pub fn json(report: &CertificateReport<'_>) -> String {
     });
     let matrix = issued.correlations.iter();
     let matrix = matrix.map(|row| list(row.iter().map(|r| Value::from(*r))));
-    let warnings = report.warnings.iter().map(|warning| {
-        object([
-            ("code", Value::from(warning.code)),
-            ("where", warning.place.as_str().into()),
-            ("text", warning.text.as_str().into()),
-        ])
-    });
+    let warnings = words::notes(report.warnings);
     let mut answer = vec![
         ("gumption", Value::from(env!("CARGO_PKG_VERSION"))),
         ("title", title.as_str().into()),
@@ -52,7 +46,7 @@ pub fn json(report: &CertificateReport<'_>) -> String {
         ("correlations", list(matrix)),
         ("statements", object(statements)),
         ("measurement", measured(report)),
-        ("warnings", list(warnings)),
+        ("warnings", to_value(warnings)),
         ("provenance", provenance(report)),
     ];
     let covered: Vec<Value> = regions::covered(report).iter().map(|of| of.json()).collect();

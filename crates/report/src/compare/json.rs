@@ -11,14 +11,8 @@ use serde_json::Value;
 
 /// The comparison as JSON, ending in a newline.
 pub fn json(compare: &Compare, warnings: &[Warning]) -> String {
-    let warnings = warnings.iter().map(|warning| {
-        object([
-            ("code", Value::from(warning.code)),
-            ("where", warning.place.as_str().into()),
-            ("text", warning.text.as_str().into()),
-        ])
-    });
-    let warnings = ("warnings", list(warnings));
+    let warnings = words::notes(warnings);
+    let warnings = ("warnings", to_value(warnings));
     let version = ("gumption", Value::from(env!("CARGO_PKG_VERSION")));
     match compare {
         Compare::Pairs { compared, units, rounding, .. } => {

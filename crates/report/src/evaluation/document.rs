@@ -51,8 +51,7 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
     }
     if !warnings.is_empty() {
         document.section("Notes");
-        let notes = warnings.iter().map(|warning| plain(&warning.text));
-        document.blocks.push(Block::List(notes.collect()));
+        document.blocks.push(Block::List(words::lines(warnings)));
     }
     repeat::section(&mut document, report, shown);
     document

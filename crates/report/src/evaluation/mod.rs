@@ -31,6 +31,8 @@ pub struct Shown<'a> {
     pub convergence: &'a [Vec<MonteCarlo>],
     /// What the command line replaces in the model file, as it was typed.
     pub replaced: &'a [String],
+    /// The language of the notes.
+    pub language: Language,
     /// The text of the model file, for pages that show it.
     pub model: &'a str,
 }

@@ -63,7 +63,7 @@ pub(super) fn section_of(
     let digits = evaluation.settings.digits;
     let mut section = Section { title: table::title_text(quantity), ..Section::default() };
     let mut said = verdict(&evaluation.settings, output_of, found);
-    said.extend(comparison::differences(report, output_of, found));
+    said.extend(comparison::differences(report, output_of, found, shown.language));
     section.verdict.blocks.push(Block::Verdict(said));
     match &found.gum {
         Some(gum) => {

@@ -41,8 +41,7 @@ pub(super) fn of(observed: &ObservationReport<'_>) -> Document {
     }
     if !observed.warnings.is_empty() {
         document.section("Notes");
-        let notes = observed.warnings.iter().map(|warning| plain(&warning.text));
-        document.blocks.push(Block::List(notes.collect()));
+        document.blocks.push(Block::List(words::lines(observed.warnings)));
     }
     document.section("To repeat this");
     let digests = &observed.provenance.files;

@@ -19,13 +19,7 @@ pub fn json(observed: &ObservationReport<'_>) -> String {
         ]);
         (figure.name, column)
     });
-    let warnings = observed.warnings.iter().map(|warning| {
-        object([
-            ("code", Value::from(warning.code)),
-            ("where", warning.place.as_str().into()),
-            ("text", warning.text.as_str().into()),
-        ])
-    });
+    let warnings = words::notes(observed.warnings);
     let files = observed.provenance.files.iter();
     let provenance = object([
         ("recipe_sha256", Value::from(observed.provenance.model_sha256.as_str())),
@@ -42,7 +36,7 @@ pub fn json(observed: &ObservationReport<'_>) -> String {
         ("method", settings.method.name().into()),
         ("rows", list(observed.lines().map(|(values, channels)| row(observed, values, channels)))),
         ("columns", object(columns)),
-        ("warnings", list(warnings)),
+        ("warnings", to_value(warnings)),
         ("provenance", provenance),
     ]))
 }

@@ -26,8 +26,8 @@ pub fn table(observed: &ObservationReport<'_>) -> String {
     }
     if !observed.warnings.is_empty() {
         page.push('\n');
-        for warning in observed.warnings {
-            page += &wrapped(&format!("Note: {}.", warning.text.trim_end_matches('.')));
+        for said in words::lines(observed.warnings) {
+            page += &wrapped(&format!("Note: {said}."));
         }
     }
     page

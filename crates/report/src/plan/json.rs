@@ -20,13 +20,7 @@ pub fn json(report: &PlanReport<'_>) -> String {
         let names = task.model.conditions.iter().map(|condition| condition.name.as_str());
         object(names.zip(row.conditions.iter().map(|&value| Value::from(value))))
     });
-    let notes = warnings.iter().map(|warning| {
-        object([
-            ("code", warning.code),
-            ("where", warning.place.as_str()),
-            ("text", warning.text.as_str()),
-        ])
-    });
+    let notes = words::notes(warnings);
     let trials: Value = match task.settings.trials {
         Trials::Fixed(count) => count.into(),
         Trials::Adaptive => "adaptive".into(),
@@ -59,7 +53,7 @@ pub fn json(report: &PlanReport<'_>) -> String {
         ("check", plan.check.as_ref().map(|found| check(report, found)).into()),
         ("interval", plan.interval.as_ref().map(|found| interval(report, found)).into()),
         ("missed_rows", list(rows)),
-        ("warnings", list(notes)),
+        ("warnings", to_value(notes)),
         ("provenance", origin),
     ]))
 }

@@ -48,8 +48,7 @@ fn document(report: &PlanReport<'_>) -> Document {
     }
     if !report.warnings.is_empty() {
         document.section("Notes");
-        let notes = report.warnings.iter().map(|warning| plain(&warning.text));
-        document.blocks.push(Block::List(notes.collect()));
+        document.blocks.push(Block::List(words::lines(report.warnings)));
     }
     document
 }

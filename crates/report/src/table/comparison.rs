@@ -128,11 +128,12 @@ pub(crate) fn differences(
     report: &EvaluationReport<'_>,
     output: &Output,
     figures: &OutputEvaluation,
+    language: Language,
 ) -> Vec<String> {
     let name = &output.quantity.name;
     let own = report.warnings.iter().filter(|warning| warning.place == *name);
-    let own = own.filter(|warning| DIFFERENCES.contains(&warning.code));
-    let mut said: Vec<String> = own.map(|warning| sentence(&warning.text)).collect();
+    let own = own.filter(|warning| DIFFERENCES.contains(&warning.code()));
+    let mut said: Vec<String> = own.map(|warning| sentence(&note(warning, language))).collect();
     let settings = &report.evaluation.settings;
     let gum = figures.gum.as_ref();
     if let (Coverage::Factor { factor, fixed: true }, Some(Dof::Finite(_)), Some(_)) =

@@ -188,7 +188,7 @@ fn section(
         None => parts.push(wrapped(NO_BUDGET)),
     }
     parts.extend(comparison::table(&output.quantity, figures, &evaluation.settings));
-    let said = comparison::differences(report, output, figures);
+    let said = comparison::differences(report, output, figures, Language::English);
     parts.extend(said.iter().map(|said| wrapped(said)));
     parts.extend(comparison::capability(output, figures, digits).map(|said| wrapped(&said)));
     parts.join("\n")

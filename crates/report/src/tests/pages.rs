@@ -201,12 +201,7 @@ fn numbers_are_those_of_the_json() {
 fn a_page_has_what_is_needed_to_repeat_it() {
     let mut case = Case::new(plane_at(35.0, 20_000));
     case.task.title = "50 % of <a_b> & $c$".to_owned();
-    let warning = Warning {
-        code: "few-trials",
-        place: String::new(),
-        text: "there are few of them".to_owned(),
-    };
-    case.warnings.push(warning);
+    case.warnings.push(Warning::new("", fact!("underflow", name = "a_b")));
     for (format, page, rows) in pages(&case, &[]) {
         assert_eq!(row(&rows, 0, "model file, SHA-256")[1], "0123", "{format}");
         assert_eq!(row(&rows, 0, "data.csv, SHA-256")[1], "4567", "{format}");
@@ -214,7 +209,7 @@ fn a_page_has_what_is_needed_to_repeat_it() {
         assert_eq!(row(&rows, 0, "trials")[1], "20000", "{format}");
         assert_eq!(row(&rows, 0, "replaced")[1], "tilt=35 deg", "{format}");
         assert!(page.contains(env!("CARGO_PKG_VERSION")), "{format}");
-        assert!(page.contains("there are few of them"), "{format}");
+        assert!(page.contains("smallest number"), "{format}");
         assert!(page.contains("clause 8: the GUM interval is"), "{format}");
         assert_eq!(page.contains("&lt;model&gt;"), format == "html");
     }

@@ -146,6 +146,25 @@ const FILES: Sentences = &[
 /// Facts about recordings.
 #[rustfmt::skip]
 const SIGNALS: Sentences = &[
+    ("preamble", "`{name}`: line {first} stands above the header in line {header} and is not read"),
+    ("preamble.lines", "`{name}`: lines {first} to {last} stand above the header in line {header} and are not \
+        read"),
+    ("uneven-instants", "`{name}`: the instants of the time column scatter by {percent} % of the sampling \
+        interval (rms) about even spacing; if the samples really were taken then, state it as `jitter`"),
+    ("sampling-rates-differ", "`{name}`: the recipe states a sampling rate of {stated} Hz, but {whose} {found} \
+        Hz; the recipe's is used, so that frequencies come out {times} times what the file says; where the \
+        file is right, leave out `sampling_rate`"),
+    ("of-time-column", "its time column has"),
+    ("of-header", "its header says"),
+    ("flat-channel", "`{name}`, channel `{channel}`: all values are {value}"),
+    ("saturated", "`{name}`, {at}: {count} of {of} values are {value}, the {end} of the recording, and {next} \
+        the next one to it; the channel may be saturated"),
+    ("saturated.in-a-row", "`{name}`, {at}: {count} values in a row are {value}, the {end} of the recording; \
+        the channel may be saturated"),
+    ("highest", "highest"),
+    ("lowest", "lowest"),
+    ("sample-of-time", "sample {sample}, the time"),
+    ("sample-of-channel", "sample {sample}, channel `{channel}`"),
 ];
 
 /// Facts about a diagnosis.
@@ -156,4 +175,27 @@ const GAP: Sentences = &[
 /// Facts that only a command knows.
 #[rustfmt::skip]
 const COMMANDS: Sentences = &[
+    ("of-model", "{model}: "),
+    ("few-trials.audit", "{trials} trials are too few to tell how assumptions move the result; {made} are made"),
+    ("more-than-two-digits", "U is stated to {digits} significant digits; an accredited certificate may have \
+        at most two (ILAC-P14:09/2020, 5.3)"),
+    ("rounded-away", "row {row}: U is stated as {stated}, {percent} % less than {expanded}; EA-4/02 M:2022, \
+        6.3, allows a rounding that takes away at most 5 %: `\"rounding\": \"ea\"` rounds up there"),
+    ("digits-of-trials", "row {row}: its figures are those of the trials, whose last digit depends on the \
+        seed: {why}"),
+    ("raised-to-cmc.certificate", "row {row}: U is raised to the laboratory's capability (CMC) of {cmc}"),
+    ("below-cmc.certificate", "row {row}: U = {expanded} is below the laboratory's capability (CMC) of \
+        {cmc}, which an accredited certificate may not state (ILAC-P14); `\"cmc_floor\": true` raises it"),
+    ("not-stated", "the certificate does not say what ISO/IEC 17025:2017, 7.8.2.1 and 7.8.4.1 ask for: \
+        {missing}"),
+    ("evidence-unused", "the evidence of `{name}` is not used: it is for a distribution that is assumed \
+        (type B), and this one is evaluated from readings (type A)"),
+    ("evidence-unused.constant", "the evidence of `{name}` is not used: it is for a distribution that is \
+        assumed (type B), and this one is a constant"),
+    ("evidence-first-row", "`{name}` is not the same in all rows; its evidence is compared with the first row"),
+    ("variant-undefined", "with another shape or width of `{name}` some trials have no finite result; those \
+        variants have no figures"),
+    ("drawn-together", "{names} are drawn together; they have one Sobol index as a set"),
+    ("drawn-together.ranks", "{names} are drawn together; they have one Sobol index as a set. With another \
+        shape the dependence of their ranks is kept, so that the correlation coefficient moves a little"),
 ];

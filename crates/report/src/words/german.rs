@@ -155,6 +155,25 @@ const FILES: Sentences = &[
 /// Facts about recordings.
 #[rustfmt::skip]
 const SIGNALS: Sentences = &[
+    ("preamble", "`{name}`: Zeile {first} steht über der Kopfzeile in Zeile {header} und wird nicht gelesen"),
+    ("preamble.lines", "`{name}`: Zeilen {first} bis {last} stehen über der Kopfzeile in Zeile {header} und \
+        werden nicht gelesen"),
+    ("uneven-instants", "`{name}`: Die Zeitpunkte der Zeitspalte streuen um {percent} % des Abtastintervalls \
+        (Effektivwert) um gleiche Abstände; wenn wirklich dann abgetastet wurde, ist es als `jitter` anzugeben"),
+    ("sampling-rates-differ", "`{name}`: Das Rezept gibt eine Abtastrate von {stated} Hz an, aber {whose} \
+        {found} Hz; die des Rezepts wird verwendet, so dass die Frequenzen das {times}-Fache der Angabe der \
+        Datei sind; wo die Datei stimmt, ist `sampling_rate` wegzulassen"),
+    ("of-time-column", "die Zeitspalte hat"),
+    ("of-header", "der Dateikopf sagt"),
+    ("flat-channel", "`{name}`, Kanal `{channel}`: alle Werte sind {value}"),
+    ("saturated", "`{name}`, {at}: {count} von {of} Werten sind {value}, der {end} der Aufzeichnung, und \
+        {next} der ihm nächste; der Kanal kann übersteuert sein"),
+    ("saturated.in-a-row", "`{name}`, {at}: {count} Werte in Folge sind {value}, der {end} der Aufzeichnung; \
+        der Kanal kann übersteuert sein"),
+    ("highest", "höchste"),
+    ("lowest", "kleinste"),
+    ("sample-of-time", "Abtastwert {sample}, die Zeit"),
+    ("sample-of-channel", "Abtastwert {sample}, Kanal `{channel}`"),
 ];
 
 /// Facts about a diagnosis.
@@ -165,4 +184,32 @@ const GAP: Sentences = &[
 /// Facts that only a command knows.
 #[rustfmt::skip]
 const COMMANDS: Sentences = &[
+    ("of-model", "{model}: "),
+    ("few-trials.audit", "{trials} Versuche sind zu wenige, um zu sagen, wie Annahmen das Ergebnis bewegen; es \
+        werden {made} gemacht"),
+    ("more-than-two-digits", "U wird auf {digits} signifikante Stellen angegeben; ein akkreditierter \
+        Kalibrierschein darf höchstens zwei haben (ILAC-P14:09/2020, 5.3)"),
+    ("rounded-away", "Zeile {row}: U wird als {stated} angegeben, {percent} % weniger als {expanded}; EA-4/02 \
+        M:2022, 6.3, erlaubt eine Rundung, die höchstens 5 % wegnimmt: `\"rounding\": \"ea\"` rundet dort auf"),
+    ("digits-of-trials", "Zeile {row}: Die Angaben sind die der Versuche, deren letzte Stelle vom Startwert \
+        abhängt: {why}"),
+    ("raised-to-cmc.certificate", "Zeile {row}: U wird auf die Messmöglichkeit (CMC) des Laboratoriums von \
+        {cmc} angehoben"),
+    ("below-cmc.certificate", "Zeile {row}: U = {expanded} liegt unter der Messmöglichkeit (CMC) des \
+        Laboratoriums von {cmc}, was ein akkreditierter Kalibrierschein nicht angeben darf (ILAC-P14); \
+        `\"cmc_floor\": true` hebt es an"),
+    ("not-stated", "der Kalibrierschein sagt nicht, was ISO/IEC 17025:2017, 7.8.2.1 und 7.8.4.1 verlangen: \
+        {missing}"),
+    ("evidence-unused", "der Beleg zu `{name}` wird nicht verwendet: Er gilt einer angenommenen Verteilung \
+        (Typ B), und diese ist aus Ablesungen ermittelt (Typ A)"),
+    ("evidence-unused.constant", "der Beleg zu `{name}` wird nicht verwendet: Er gilt einer angenommenen \
+        Verteilung (Typ B), und dies ist eine Konstante"),
+    ("evidence-first-row", "`{name}` ist nicht in allen Zeilen dieselbe Größe; der Beleg wird mit der ersten \
+        Zeile verglichen"),
+    ("variant-undefined", "mit einer anderen Form oder Breite von `{name}` haben einige Versuche kein endliches \
+        Ergebnis; diese Varianten haben keine Angaben"),
+    ("drawn-together", "{names} werden gemeinsam gezogen; sie haben einen gemeinsamen Sobol-Index"),
+    ("drawn-together.ranks", "{names} werden gemeinsam gezogen; sie haben einen gemeinsamen Sobol-Index. Mit \
+        einer anderen Form bleibt die Abhängigkeit ihrer Ränge, so dass sich der Korrelationskoeffizient etwas \
+        bewegt"),
 ];

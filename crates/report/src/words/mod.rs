@@ -11,6 +11,9 @@ use std::sync::LazyLock;
 
 use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::task::Warning;
+use serde::Serialize;
+
+use crate::plain;
 
 /// A language in which the facts of all rooms have words.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,6 +72,32 @@ pub fn sentence(fact: &Fact, language: Language) -> String {
 pub fn note(warning: &Warning, language: Language) -> String {
     let within = warning.within.as_ref().map(|part| sentence(part, language));
     within.unwrap_or_default() + &sentence(&warning.fact, language)
+}
+
+/// What warnings say in English, a line each.
+pub(crate) fn lines(warnings: &[Warning]) -> Vec<String> {
+    warnings.iter().map(|warning| plain(&note(warning, Language::English))).collect()
+}
+
+/// A warning as answers for programs have it.
+#[derive(Debug, Serialize)]
+pub struct Note<'w> {
+    /// A short fixed name.
+    pub code: &'static str,
+    /// The input, output or row that it is about.
+    pub r#where: &'w str,
+    /// The sentence, in English.
+    pub text: String,
+}
+
+/// Warnings as answers for programs have them.
+pub fn notes<'w>(warnings: &'w [Warning]) -> Vec<Note<'w>> {
+    let as_note = |warning: &'w Warning| Note {
+        code: warning.code(),
+        r#where: &warning.place,
+        text: note(warning, Language::English),
+    };
+    warnings.iter().map(as_note).collect()
 }
 
 fn of_argument(argument: &Argument, language: Language) -> String {

@@ -222,8 +222,8 @@ fn about(
     if !report.warnings.is_empty() {
         leaf.title(row + 1, "Notes")?;
         row += 2;
-        for warning in report.warnings {
-            leaf.line(row, &plain(&warning.text))?;
+        for said in words::lines(report.warnings) {
+            leaf.line(row, &said)?;
             row += 1;
         }
     }
