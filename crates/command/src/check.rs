@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::exit::say;
-use super::options::{self, Answer, Format, Trust};
+use super::options::{self, AnswerOptions, Format, Trust};
 use super::{CommandLine, Exit, Failure, diagnostics};
 use gumption_engine::task::Warning;
 use gumption_report::{plain, pretty};
@@ -20,7 +20,7 @@ pub(super) struct Check {
     #[command(flatten)]
     trust: Trust,
     #[command(flatten)]
-    answer: Answer<Format>,
+    answer: AnswerOptions<Format>,
 }
 
 /// The answer for programs.
@@ -30,19 +30,19 @@ struct Verdict<'n> {
     errors: Vec<Mistake>,
     /// What is right and seldom meant, as a run says it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    warnings: Vec<Said<'n>>,
+    warnings: Vec<CheckNote<'n>>,
 }
 
 /// A note, with the keys that it has in every answer.
 #[derive(Debug, Serialize)]
-struct Said<'n> {
+struct CheckNote<'n> {
     code: &'n str,
     #[serde(rename = "where")]
     place: &'n str,
     text: &'n str,
 }
 
-impl<'n> From<&'n Warning> for Said<'n> {
+impl<'n> From<&'n Warning> for CheckNote<'n> {
     fn from(Warning { code, place, text }: &'n Warning) -> Self {
         Self { code, place, text }
     }
@@ -93,7 +93,7 @@ impl Check {
         let answer = match self.answer.format {
             Format::Json => {
                 let errors = found.0.iter().map(Mistake::from).collect();
-                let warnings = notes.iter().map(Said::from).collect();
+                let warnings = notes.iter().map(CheckNote::from).collect();
                 let verdict = Verdict { ok: right, errors, warnings };
                 pretty(&verdict)
             }
