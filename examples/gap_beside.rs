@@ -30,7 +30,7 @@ type Listed = (&'static str, f64, &'static str, &'static str);
 /// What a bench measures: from inputs, conditions and the two true effects, each acting or not.
 type Truth = fn(&[f64], &[f64], [bool; 2]) -> f64;
 
-struct Bench {
+struct BesideBench {
     name: &'static str,
     /// Name, estimate, standard uncertainty.
     inputs: &'static [(&'static str, f64, f64)],
@@ -46,8 +46,8 @@ struct Bench {
     others: &'static [Listed],
 }
 
-const BENCHES: [Bench; 6] = [
-    Bench {
+const BENCHES: [BesideBench; 6] = [
+    BesideBench {
         name: "two-wire Pt100",
         inputs: &[("R0", 100.0, 0.004), ("A", 3.9083e-3, 4e-7), ("B", -5.775e-7, 5e-10)],
         conditions: ["t", "I"],
@@ -78,7 +78,7 @@ const BENCHES: [Bench; 6] = [
             ("thermal-voltage", 0.05, "R", "R + p/I"),
         ],
     },
-    Bench {
+    BesideBench {
         name: "pendulum",
         inputs: &[("g", 9.81, 0.0005), ("e", 0.0, 0.00005)],
         conditions: ["l", "th"],
@@ -108,7 +108,7 @@ const BENCHES: [Bench; 6] = [
             ("elastic-thread", 0.005, "m", "m*(1 + p*cos(th))"),
         ],
     },
-    Bench {
+    BesideBench {
         name: "Hall sensor",
         inputs: &[("s", 1.0, 0.0005), ("z", 0.0, 0.0003)],
         conditions: ["B", "t"],
@@ -137,7 +137,7 @@ const BENCHES: [Bench; 6] = [
             ("planar", 0.02, "V", "V + p*B^2"),
         ],
     },
-    Bench {
+    BesideBench {
         name: "falling balls",
         inputs: &[("g", 9.81, 0.0005), ("e", 0.0, 0.0002)],
         conditions: ["h", "w"],
@@ -163,7 +163,7 @@ const BENCHES: [Bench; 6] = [
             ("bounce", 0.001, "t", "t + p*h^2"),
         ],
     },
-    Bench {
+    BesideBench {
         name: "low-pass with a probe",
         inputs: &[("C", 1.0, 0.0008), ("G", 1.0, 0.0003)],
         conditions: ["f", "r"],
@@ -195,7 +195,7 @@ const BENCHES: [Bench; 6] = [
             ("resistor-tolerance", 0.02, "a", "a*(1 + p*r)"),
         ],
     },
-    Bench {
+    BesideBench {
         name: "robot joint",
         inputs: &[("k", 1.0, 0.0002), ("z", 0.0, 0.005)],
         conditions: ["y", "d"],
@@ -229,7 +229,7 @@ struct Simulated {
     outside: Vec<(Vec<f64>, f64)>,
 }
 
-impl Bench {
+impl BesideBench {
     /// A data set with effects acting, where `listed` are in the list beside those that never act.
     fn simulated(&self, acts: [bool; 2], listed: &[Listed], noise: f64, seed: u64) -> Simulated {
         let of_name = self.name.bytes().fold(seed, |h, b| h.wrapping_mul(31) + u64::from(b));
@@ -372,7 +372,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 impl Tally {
     fn add(
         &mut self,
-        bench: &Bench,
+        bench: &BesideBench,
         own: usize,
         noise: f64,
         data: &Simulated,

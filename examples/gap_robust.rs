@@ -47,7 +47,7 @@ struct Effect {
 }
 
 /// A sim with an input, a list of effects and a stated uncertainty.
-struct Bench {
+struct RobustBench {
     name: &'static str,
     input: (&'static str, f64, f64),
     conditions: &'static [&'static str],
@@ -58,8 +58,8 @@ struct Bench {
     u: f64,
 }
 
-const BENCHES: [Bench; 3] = [
-    Bench {
+const BENCHES: [RobustBench; 3] = [
+    RobustBench {
         name: "load cell",
         input: ("k", 2.0, 0.002),
         conditions: &["F"],
@@ -110,7 +110,7 @@ const BENCHES: [Bench; 3] = [
             },
         ],
     },
-    Bench {
+    RobustBench {
         name: "amplifier",
         input: ("A", 1.0, 0.005),
         conditions: &["f"],
@@ -163,7 +163,7 @@ const BENCHES: [Bench; 3] = [
             },
         ],
     },
-    Bench {
+    RobustBench {
         name: "thermometer",
         input: ("S", 4.0, 0.01),
         conditions: &["t", "d"],
@@ -271,7 +271,7 @@ struct Sealed {
 }
 
 /// A set of this number; `free` of any gap or with what the number says.
-fn sealed(bench: &Bench, fault: &str, number: usize, free: bool) -> Sealed {
+fn sealed(bench: &RobustBench, fault: &str, number: usize, free: bool) -> Sealed {
     let seed = bench.name.bytes().fold(number as u64, |h, b| h.wrapping_mul(31) + u64::from(b));
     let mut random = SplitMix64(seed);
     random.next();

@@ -140,13 +140,14 @@ fn formula_files_agree_with_the_typed_models() {
 }
 
 /// Typed models whose equations are stated as formulas, which can be copied into a file.
-const STATED: [&str; 8] = [
+const STATED: [&str; 9] = [
     "inclined-plane",
     "rotating-table",
     "rotating-table-instant",
     "sensitivity",
     "normalized-error",
     "projection-45",
+    "axis-sensitivity",
     "relative-sensitivity",
     "phase-budget",
 ];

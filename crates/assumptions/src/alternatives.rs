@@ -29,7 +29,7 @@ const BETA: f64 = 0.5;
 
 /// A reasonable shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Shape {
+enum AlternativeShape {
     Normal,
     Rectangular,
     Triangular,
@@ -38,7 +38,7 @@ enum Shape {
     T(f64),
 }
 
-impl Shape {
+impl AlternativeShape {
     /// The shape with a standard deviation (of a t: a scale) about a mean.
     fn with_std(self, mean: f64, std: f64) -> Result<Distribution, Invalid> {
         let half_width = match self {
@@ -111,22 +111,22 @@ pub(super) fn limits(stated: &Distribution) -> Option<[f64; 2]> {
 /// kept where it has any. A normal distribution with degrees of freedom is drawn as a t, so the normal
 /// one is among its alternatives. Data (samples, saved results) have no limits to keep.
 pub(super) fn alternatives(stated: &Distribution) -> Vec<(Kept, Distribution)> {
-    let own = Shape::of(stated);
+    let own = AlternativeShape::of(stated);
     let dof = stated.dof();
     let mut shapes = vec![
-        Shape::Normal,
-        Shape::Rectangular,
-        Shape::Triangular,
-        Shape::Arcsine,
-        Shape::Trapezoidal,
+        AlternativeShape::Normal,
+        AlternativeShape::Rectangular,
+        AlternativeShape::Triangular,
+        AlternativeShape::Arcsine,
+        AlternativeShape::Trapezoidal,
     ];
     if dof.is_finite() {
-        shapes.push(Shape::T(dof));
+        shapes.push(AlternativeShape::T(dof));
     }
     shapes.retain(|shape| own != Some(*shape));
     let (mean, std) = (stated.mean(), stated.standard_uncertainty());
     let kept_limits = match own {
-        Some(Shape::Normal | Shape::T(_)) => Some((mean, 2.0 * std)),
+        Some(AlternativeShape::Normal | AlternativeShape::T(_)) => Some((mean, 2.0 * std)),
         _ => limits(stated).map(|[low, high]| (0.5 * low + 0.5 * high, 0.5 * high - 0.5 * low)),
     };
     let mut found = Vec::new();

@@ -28,7 +28,7 @@ pub struct Sobol {
 
 /// Sums of one batch for one output.
 #[derive(Clone, Debug, Default)]
-struct Sums {
+struct BatchSums {
     count: f64,
     /// Of both samples about the reference, and their squares.
     sum: f64,
@@ -37,7 +37,7 @@ struct Sums {
     differences: Vec<[f64; 2]>,
 }
 
-impl Sums {
+impl BatchSums {
     fn add(&mut self, other: &Self) {
         self.count += other.count;
         self.sum += other.sum;
@@ -72,9 +72,9 @@ struct Lanes {
 }
 
 impl Lanes {
-    fn sums(&self, count: f64) -> Sums {
+    fn sums(&self, count: f64) -> BatchSums {
         let sum = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
-        Sums {
+        BatchSums {
             count,
             sum: sum(&self.samples[0]),
             squares: sum(&self.samples[1]),
@@ -207,12 +207,12 @@ fn indices_of(
         }
         Some(lanes.lanes.iter().map(|lanes| lanes.sums(made as f64)).collect())
     };
-    let batches: Option<Vec<Vec<Sums>>> =
+    let batches: Option<Vec<Vec<BatchSums>>> =
         parallel::map(batches(trials), batch).into_iter().collect();
     let batches = batches?;
     let of = |output: usize, set: usize| {
         let parts = || batches.iter().filter_map(|batch| batch.get(output));
-        let mut all = Sums::default();
+        let mut all = BatchSums::default();
         parts().for_each(|part| all.add(part));
         let [first, total] = all.indices(set)?;
         let own: Option<Vec<[f64; 2]>> = parts().map(|part| part.indices(set)).collect();

@@ -94,11 +94,11 @@ struct OutputPlan {
 }
 
 /// A change's plans, output by output.
-type Plan = Vec<OutputPlan>;
+type ChangePlan = Vec<OutputPlan>;
 
 /// One output's values in one batch.
 #[derive(Clone, Debug, Default)]
-struct Tally {
+struct BatchTally {
     trials: u64,
     sums: [f64; LANES],
     squares: [f64; LANES],
@@ -112,7 +112,7 @@ struct Tally {
 #[derive(Clone, Debug)]
 struct Batch {
     undefined: u64,
-    outputs: Vec<Tally>,
+    outputs: Vec<BatchTally>,
 }
 
 /// The spreads of all outputs under each of the changes, of which the first is the baseline; `None`
@@ -154,7 +154,7 @@ fn plans(
     changes: &[Prepared<'_>],
     (trials, probability): (u64, f64),
     control: &Control<'_>,
-) -> Vec<Plan> {
+) -> Vec<ChangePlan> {
     let blocks = trials.div_ceil(BLOCK as u64);
     let mut buffers = sampler.buffers();
     let mut pilot = Pilot { values: vec![vec![Vec::new(); sampler.outputs()]; changes.len()] };
@@ -210,13 +210,13 @@ impl Taker for Pilot {
 fn tallies(
     sampler: &Sampler,
     changes: &[Prepared<'_>],
-    plans: &[Plan],
+    plans: &[ChangePlan],
     (trials, probability): (u64, f64),
     control: &Control<'_>,
 ) -> Option<Vec<Vec<Batch>>> {
     let batch = |blocks: std::ops::Range<u64>| {
         let mut buffers = sampler.buffers();
-        let empty = Batch { undefined: 0, outputs: vec![Tally::default(); sampler.outputs()] };
+        let empty = Batch { undefined: 0, outputs: vec![BatchTally::default(); sampler.outputs()] };
         let mut tallies = Tallies { found: vec![empty; changes.len()], plans };
         for block in blocks {
             if control.is_stopped() {
@@ -263,7 +263,7 @@ fn defined(outputs: &mut [Column], count: usize) -> usize {
 /// Takes values into the tallies of a batch.
 struct Tallies<'a> {
     found: Vec<Batch>,
-    plans: &'a [Plan],
+    plans: &'a [ChangePlan],
 }
 
 impl Taker for Tallies<'_> {
@@ -300,7 +300,7 @@ impl Kernel for AddTallies<'_, '_> {
     }
 }
 
-impl Tally {
+impl BatchTally {
     /// Takes at most a column of values.
     #[inline(always)]
     fn add(&mut self, values: &[f64], plan: &OutputPlan) {
@@ -362,7 +362,7 @@ impl Tally {
 /// The spreads under all changes; `None` if an end was not kept.
 fn finish_all(
     batches: &[Vec<Batch>],
-    plans: &[Plan],
+    plans: &[ChangePlan],
     probability: f64,
 ) -> Option<Vec<Vec<Spread>>> {
     let mut found: Vec<Vec<Spread>> = Vec::with_capacity(plans.len());
@@ -377,7 +377,7 @@ fn finish_all(
 fn finish(
     batches: &[Vec<Batch>],
     change: usize,
-    plans: &[Plan],
+    plans: &[ChangePlan],
     probability: f64,
     baseline: Option<&Vec<Spread>>,
 ) -> Option<Vec<Spread>> {
@@ -391,8 +391,8 @@ fn finish(
             return (undefined == 0 && baseline.undefined == 0.0).then(|| baseline.clone());
         }
         let parts = batches.iter().filter_map(|batch| batch.outputs.get(output));
-        let parts: Vec<&Tally> = parts.filter(|tally| tally.trials > 0).collect();
-        let mut all = Tally::default();
+        let parts: Vec<&BatchTally> = parts.filter(|tally| tally.trials > 0).collect();
+        let mut all = BatchTally::default();
         let (mut sum, mut squares) = (0.0, 0.0);
         for part in &parts {
             all.trials += part.trials;

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 
 use super::exit::say;
-use super::options::{Answer, CoverageOption, Interactive, Model, Seed, Threads};
+use super::options::{AnswerOptions, CoverageOption, Interactive, ModelArguments, Seed, Threads};
 use super::{CommandLine, Exit, Failure, options, progress, run, signals};
 use gumption_assumptions::{Audit, Question, audit, trials_to_make};
 use gumption_engine::task::{Task, Trials, Warning};
@@ -16,9 +16,9 @@ use gumption_report as report;
 #[derive(Debug, Args)]
 pub(super) struct Assumptions {
     #[command(flatten)]
-    model: Model,
+    model: ModelArguments,
     #[command(flatten)]
-    answer: Answer<Format>,
+    answer: AnswerOptions<AssumptionsFormat>,
     #[command(flatten)]
     interactive: Interactive,
     /// Relative change of the expanded uncertainty that is allowed
@@ -40,7 +40,7 @@ pub(super) struct Assumptions {
 
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum AssumptionsFormat {
     /// A page of text for people
     Table,
     /// A page as GitHub shows it
@@ -100,11 +100,11 @@ impl Assumptions {
             provenance: &provenance,
         };
         let answer = match self.answer.format {
-            Format::Table => report::assumptions::table(&report),
-            Format::Markdown => report::assumptions::markdown(&report),
-            Format::Html => page(report::assumptions::html(&report)),
-            Format::Json => report::assumptions::json(&report),
-            Format::Csv => report::assumptions::csv(&report),
+            AssumptionsFormat::Table => report::assumptions::table(&report),
+            AssumptionsFormat::Markdown => report::assumptions::markdown(&report),
+            AssumptionsFormat::Html => page(report::assumptions::html(&report)),
+            AssumptionsFormat::Json => report::assumptions::json(&report),
+            AssumptionsFormat::Csv => report::assumptions::csv(&report),
         };
         self.answer.say(&warnings);
         place.write(&answer)?;

@@ -9,8 +9,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 
 use super::exit::say;
-use super::options::{self, Answer, CoverageOption, Interactive, Seed, Threads, Trust};
-use super::output::Place;
+use super::options::{self, AnswerOptions, CoverageOption, Interactive, Seed, Threads, Trust};
+use super::output::AnswerPlace;
 use super::{CommandLine, Exit, Failure, output, progress, run, signals};
 use gumption_analysis::certificate::contents::{Certificate as Asked, Line};
 use gumption_analysis::certificate::{Basis, Failed, Issued, issue};
@@ -28,7 +28,7 @@ pub(super) struct Certificate {
     #[command(flatten)]
     trust: Trust,
     #[command(flatten)]
-    answer: Answer<Format>,
+    answer: AnswerOptions<CertificateFormat>,
     #[command(flatten)]
     interactive: Interactive,
     #[command(flatten)]
@@ -59,7 +59,7 @@ pub(super) struct Certificate {
 
 /// The format of a certificate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum CertificateFormat {
     /// A page of text for people
     Table,
     /// The whole answer for programs
@@ -111,9 +111,12 @@ impl Certificate {
             ],
             &self.paths(&file),
         )?;
-        let page_or_pipe =
-            if self.answer.format == Format::Table { Place::Page } else { Place::StandardOutput };
-        let place = place.map_or(page_or_pipe, Place::File);
+        let page_or_pipe = if self.answer.format == CertificateFormat::Table {
+            AnswerPlace::Page
+        } else {
+            AnswerPlace::StandardOutput
+        };
+        let place = place.map_or(page_or_pipe, AnswerPlace::File);
         for asked in &mut file.certificate.evaluations {
             let settings = &mut asked.task.settings;
             settings.seed = self.seed.or(settings.seed);
@@ -156,18 +159,18 @@ impl Certificate {
             say("gumption: interrupted; no certificate is issued from part of the trials\n");
             return Ok(Exit::Interrupted);
         }
-        if self.answer.format == Format::Dcc {
+        if self.answer.format == CertificateFormat::Dcc {
             let names = report::attached(&report).join(", ");
             self.answer.note([format!("attached to the certificate: {names}").as_str()]);
         }
         let answer = match self.answer.format {
-            Format::Table => report::table(&report),
-            Format::Json => report::json(&report),
-            Format::Csv => report::csv(&report),
-            Format::Markdown => report::markdown(&report),
-            Format::Latex => report::latex(&report),
-            Format::Html => page(report::html(&report)),
-            Format::Dcc => {
+            CertificateFormat::Table => report::table(&report),
+            CertificateFormat::Json => report::json(&report),
+            CertificateFormat::Csv => report::csv(&report),
+            CertificateFormat::Markdown => report::markdown(&report),
+            CertificateFormat::Latex => report::latex(&report),
+            CertificateFormat::Html => page(report::html(&report)),
+            CertificateFormat::Dcc => {
                 let version = self.dcc_version.map_or_else(Default::default, Into::into);
                 let made = report::dcc(&report, version);
                 match &beside {
@@ -175,7 +178,7 @@ impl Certificate {
                     None => made,
                 }
             }
-            Format::Xlsx => {
+            CertificateFormat::Xlsx => {
                 let bytes = report::xlsx(&report)
                     .map_err(|error| Failure::System(format!("no workbook: {error}")))?;
                 place.write_with(|out| out.write_all(&bytes))?;
@@ -183,7 +186,7 @@ impl Certificate {
             }
         };
         if let Some(view) = view {
-            Place::File(view).write(&report::dcc_stylesheet())?;
+            AnswerPlace::File(view).write(&report::dcc_stylesheet())?;
         }
         place.write(&answer)?;
         Ok(Exit::Done)
@@ -196,7 +199,7 @@ impl Certificate {
             return Ok(None);
         }
         let Some(output) = output::to_file(self.answer.output.as_deref())
-            .filter(|_| self.answer.format == Format::Dcc)
+            .filter(|_| self.answer.format == CertificateFormat::Dcc)
         else {
             return refuse("`--stylesheet` goes with `--format dcc --output NAME.xml`");
         };
@@ -228,14 +231,14 @@ impl Certificate {
 
     /// Whether the certificate can be given in the format that was asked for.
     fn check_format(&self, file: &CertificateFile) -> Result<(), Failure> {
-        if self.answer.format == Format::Xlsx && self.answer.is_terminal() {
+        if self.answer.format == CertificateFormat::Xlsx && self.answer.is_terminal() {
             return Err(options::workbook_in_terminal());
         }
-        if self.dcc_version.is_some() && self.answer.format != Format::Dcc {
+        if self.dcc_version.is_some() && self.answer.format != CertificateFormat::Dcc {
             let said = "`--dcc-version` goes with `--format dcc`".to_owned();
             return Err(Failure::Argument(said));
         }
-        if self.answer.format == Format::Dcc {
+        if self.answer.format == CertificateFormat::Dcc {
             let needed = report::needed(&file.certificate);
             if !needed.is_empty() {
                 let what = "a digital calibration certificate (`--format dcc`)";

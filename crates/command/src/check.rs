@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::exit::say;
-use super::options::{self, Answer, Format, Trust};
+use super::options::{self, AnswerOptions, Format, Trust};
 use super::{CommandLine, Exit, Failure, diagnostics};
 use gumption_engine::task::Warning;
 use gumption_report::{plain, pretty};
@@ -20,7 +20,7 @@ pub(super) struct Check {
     #[command(flatten)]
     trust: Trust,
     #[command(flatten)]
-    answer: Answer<Format>,
+    answer: AnswerOptions<Format>,
 }
 
 /// The answer for programs.
@@ -78,7 +78,7 @@ impl Check {
         let answer = match self.answer.format {
             Format::Json => {
                 let errors = found.0.iter().map(Mistake::from).collect();
-                let warnings = notes.iter().map(Said::from).collect();
+                let warnings = notes.iter().map(CheckNote::from).collect();
                 let verdict = Verdict { ok: right, errors, warnings };
                 pretty(&verdict)
             }

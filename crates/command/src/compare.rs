@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::options::{self, Answer, Interactive};
+use super::options::{self, AnswerOptions, Interactive};
 use super::{Exit, Failure};
 use gumption_analysis::compare::{Estimator, Impossible, ResultPair, laboratories};
 use gumption_foreign::{ComparisonOptions, ComparisonTable, ReadComparison};
@@ -38,14 +38,14 @@ pub(super) struct Compare {
     #[arg(long)]
     fail: bool,
     #[command(flatten)]
-    answer: Answer<Format>,
+    answer: AnswerOptions<CompareFormat>,
     #[command(flatten)]
     interactive: Interactive,
 }
 
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum CompareFormat {
     /// A page of text for people
     Table,
     /// A page with a figure for a browser and for print, in one file
@@ -119,11 +119,11 @@ impl Compare {
         };
         self.answer.say(&warnings);
         let answer = match self.answer.format {
-            Format::Table => report::table(&found),
-            Format::Html => page(report::html(&found, &warnings)),
-            Format::Markdown => report::markdown(&found, &warnings),
-            Format::Json => report::json(&found, &warnings),
-            Format::Csv => report::csv(&found),
+            CompareFormat::Table => report::table(&found),
+            CompareFormat::Html => page(report::html(&found, &warnings)),
+            CompareFormat::Markdown => report::markdown(&found, &warnings),
+            CompareFormat::Json => report::json(&found, &warnings),
+            CompareFormat::Csv => report::csv(&found),
         };
         place.write(&answer)?;
         Ok(if self.fail && !found.is_compatible() { Exit::No } else { Exit::Done })

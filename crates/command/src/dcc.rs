@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::options::{self, Answer, Format};
+use super::options::{self, AnswerOptions, Format};
 use super::{Exit, Failure};
 use gumption_files::{CertificateListing, ListedQuantity};
 use gumption_report::{on_one_line, plain, pretty};
@@ -21,7 +21,7 @@ pub(super) struct Dcc {
     /// The certificate (XML); - for standard input
     file: PathBuf,
     #[command(flatten)]
-    answer: Answer<Format>,
+    answer: AnswerOptions<Format>,
 }
 
 impl Dcc {

@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use clap::{Args, ValueEnum};
 
 use super::exit::say;
-use super::options::{self, Answer, CoverageOption, Interactive, Threads, Trust};
+use super::options::{self, AnswerOptions, CoverageOption, Interactive, Threads, Trust};
 use super::{CommandLine, Exit, Failure, signals};
 use gumption_files as file;
 use gumption_files::ModelOrResult;
@@ -23,7 +23,7 @@ pub(super) struct Diff {
     #[command(flatten)]
     trust: Trust,
     #[command(flatten)]
-    answer: Answer<Format>,
+    answer: AnswerOptions<DiffFormat>,
     #[command(flatten)]
     interactive: Interactive,
     #[command(flatten)]
@@ -34,7 +34,7 @@ pub(super) struct Diff {
 
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum DiffFormat {
     /// A page of text for people
     Table,
     /// The whole answer for programs
@@ -93,10 +93,10 @@ impl Diff {
         }
         let names = [&first, &second].map(ModelOrResult::name);
         let answer = match self.answer.format {
-            Format::Table => report::diff::table(names, &difference),
-            Format::Json => report::diff::json(names, &difference),
-            Format::Markdown => report::diff::markdown(names, &difference),
-            Format::Html => page(report::diff::html(names, &difference)),
+            DiffFormat::Table => report::diff::table(names, &difference),
+            DiffFormat::Json => report::diff::json(names, &difference),
+            DiffFormat::Markdown => report::diff::markdown(names, &difference),
+            DiffFormat::Html => page(report::diff::html(names, &difference)),
         };
         place.write(&answer)?;
         Ok(Exit::Done)

@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Args;
 
 use super::exit::say;
-use super::options::{self, Answer, Interactive, Page};
-use super::output::{Destination, Place};
+use super::options::{self, AnswerOptions, Interactive, Page};
+use super::output::{AnswerPlace, Destination};
 use super::{Exit, Failure, output, save};
 use gumption_engine::propagate::monte_carlo::{Histogram, MonteCarlo};
 use gumption_engine::propagate::{Control, Evaluation, convergence, histograms, warnings};
@@ -22,7 +22,7 @@ use gumption_report::{BudgetColumn, EvaluationReport, Shown, TableStyle};
 #[derive(Debug, Args)]
 pub(super) struct Evaluated {
     #[command(flatten)]
-    pub(super) answer: Answer<Page>,
+    pub(super) answer: AnswerOptions<Page>,
     #[command(flatten)]
     interactive: Interactive,
     /// More columns of the budget in a table: names with commas between them
@@ -122,8 +122,9 @@ impl Evaluated {
                 .map(|(file, asked)| (file.path().to_owned(), saver.samples(asked, file))),
         ];
         let format = self.answer.format;
-        let page = if format == Page::Table { Place::Page } else { Place::StandardOutput };
-        let place = answer.map_or(page, Place::File);
+        let page =
+            if format == Page::Table { AnswerPlace::Page } else { AnswerPlace::StandardOutput };
+        let place = answer.map_or(page, AnswerPlace::File);
         let page = self.interactive.of(&self.answer)?;
         let written = place.write_with(|out| write((format, page), &report, &shown, out));
         let mut failures: Vec<Failure> = written.err().into_iter().collect();

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
 
-use super::options::{Answer, Case, CoverageOption, Interactive, Seed, Threads};
+use super::options::{AnswerOptions, Case, CoverageOption, Interactive, Seed, Threads};
 use super::{CommandLine, Exit, Failure, progress, run, signals};
 use gumption_engine::task::Row;
 use gumption_files::CaseFile;
@@ -23,7 +23,7 @@ pub(super) struct Gap {
     #[arg(long, value_name = "CONDITIONS.csv")]
     predict: Option<PathBuf>,
     #[command(flatten)]
-    answer: Answer<Format>,
+    answer: AnswerOptions<GapFormat>,
     #[command(flatten)]
     interactive: Interactive,
     #[command(flatten)]
@@ -36,7 +36,7 @@ pub(super) struct Gap {
 
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum GapFormat {
     /// A page of text with plots, for people
     Table,
     /// A page with figures for a browser and for print, in one file
@@ -64,14 +64,14 @@ impl Gap {
         self.answer.say(&file.warnings);
         let diagnosis = self.diagnose(&file, at.as_deref(), &stop)?;
         let answer = match self.answer.format {
-            Format::Table => report::gap::table(&diagnosis),
-            Format::Html => page(report::gap::html(&diagnosis, &self.provenance(&file)?)),
-            Format::Markdown => report::gap::markdown(&diagnosis, &self.provenance(&file)?),
-            Format::Json => report::gap::json(&diagnosis),
-            Format::Csv => report::gap::csv(&diagnosis),
+            GapFormat::Table => report::gap::table(&diagnosis),
+            GapFormat::Html => page(report::gap::html(&diagnosis, &self.provenance(&file)?)),
+            GapFormat::Markdown => report::gap::markdown(&diagnosis, &self.provenance(&file)?),
+            GapFormat::Json => report::gap::json(&diagnosis),
+            GapFormat::Csv => report::gap::csv(&diagnosis),
         };
         // a page on standard output has the notes itself
-        if self.answer.format != Format::Table || self.answer.is_to_file() {
+        if self.answer.format != GapFormat::Table || self.answer.is_to_file() {
             self.answer.note(diagnosis.notes.iter().map(|note| note.text.as_str()));
         }
         place.write(&answer)?;

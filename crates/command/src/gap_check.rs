@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 
 use super::exit::say;
-use super::options::{Answer, Case, Interactive, Seed, Threads};
+use super::options::{AnswerOptions, Case, Interactive, Seed, Threads};
 use super::shared_draws::SharedCheck;
 use super::signals::{self, Temporary};
 use super::{CommandLine, Exit, Failure, output, parts, progress, run};
@@ -37,7 +37,7 @@ pub(super) struct GapCheck {
     #[arg(long, value_enum, default_value_t)]
     noise: Noise,
     #[command(flatten)]
-    answer: Answer<Format>,
+    answer: AnswerOptions<GapCheckFormat>,
     #[command(flatten)]
     interactive: Interactive,
     #[command(flatten)]
@@ -63,7 +63,7 @@ pub(super) struct GapCheck {
 
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum GapCheckFormat {
     /// A page of text for people
     Table,
     /// A page with figures for a browser and for print, in one file
@@ -130,12 +130,12 @@ impl GapCheck {
         let scores = self.threads.install(|| score(&file.case, checked, seed));
         let design = report::gap::check::CheckedDesign::of(&file.case, self.noise.into());
         let answer = match self.answer.format {
-            Format::Table => report::gap::check::table(&design, &scores),
-            Format::Html => {
+            GapCheckFormat::Table => report::gap::check::table(&design, &scores),
+            GapCheckFormat::Html => {
                 let provenance = run::provenance(&file.source.text, &file.files);
                 page(report::gap::check::html(&design, &scores, &provenance))
             }
-            Format::Json => report::gap::check_json(&design.title, design.noise, &scores),
+            GapCheckFormat::Json => report::gap::check_json(&design.title, design.noise, &scores),
         };
         place.write(&answer)?;
         Ok(Exit::Done)

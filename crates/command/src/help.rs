@@ -2,7 +2,7 @@
 
 use clap::{Args, CommandFactory, ValueEnum};
 
-use super::output::Place;
+use super::output::AnswerPlace;
 use super::{Arguments, Exit, Failure};
 use gumption_report::reference::{self, Topic};
 use gumption_units::nearest;
@@ -15,12 +15,12 @@ pub(super) struct Help {
     topic: Option<String>,
     /// Format of what is told about files and formulas
     #[arg(long, value_enum, default_value = "table")]
-    format: Form,
+    format: ReferenceFormat,
 }
 
 /// A format of the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Form {
+enum ReferenceFormat {
     /// A page of text for people
     Table,
     /// A page as GitHub shows it
@@ -32,12 +32,14 @@ impl Help {
         let text = match &self.topic {
             None => overview(),
             Some(name) => match Topic::ALL.into_iter().find(|topic| topic.name() == name) {
-                Some(topic) if self.format == Form::Markdown => reference::markdown(topic),
+                Some(topic) if self.format == ReferenceFormat::Markdown => {
+                    reference::markdown(topic)
+                }
                 Some(topic) => reference::table(topic),
                 None => of_command(name)?,
             },
         };
-        Place::StandardOutput.write(&text)?;
+        AnswerPlace::StandardOutput.write(&text)?;
         Ok(Exit::Done)
     }
 }

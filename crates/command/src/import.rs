@@ -10,7 +10,7 @@ use serde_json::Value;
 use super::check::Mistake;
 use super::exit::{say, say_line};
 use super::options::Format;
-use super::output::{Destination, Place};
+use super::output::{AnswerPlace, Destination};
 use super::{Exit, Failure, diagnostics, output};
 use gumption_foreign::{
     Coefficients, ImportOptions, ImportedBudget, Question, RefusedBudget, import_budget,
@@ -83,7 +83,7 @@ pub(super) struct Import {
 
 /// The answer for programs.
 #[derive(Debug, Serialize)]
-struct Answer<'a> {
+struct ImportAnswer<'a> {
     ok: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<Value>,
@@ -123,7 +123,7 @@ impl Import {
         if let Some(template) = &self.template {
             let book = budget_template().map_err(|error| Failure::System(error.to_string()))?;
             let [file] = output::open([("--template", Some(template.as_path()))], &[])?;
-            let place = file.map_or(Place::StandardOutput, Place::File);
+            let place = file.map_or(AnswerPlace::StandardOutput, AnswerPlace::File);
             place.write_with(|out| out.write_all(&book))?;
             return Ok(Exit::Done);
         }
@@ -142,12 +142,13 @@ impl Import {
         {
             used.iter().chain(notes).for_each(|note| say_line(&format!("note: {note}")));
         }
-        let place = file.map_or(Place::StandardOutput, Place::File);
+        let place = file.map_or(AnswerPlace::StandardOutput, AnswerPlace::File);
         match (result, self.format) {
             (Ok(made), Format::Json) => {
                 let model = serde_json::from_str(&made.text).ok();
                 let (errors, questions) = (Vec::new(), &[][..]);
-                let answer = Answer { ok: true, model, notes: &made.notes, errors, questions };
+                let answer =
+                    ImportAnswer { ok: true, model, notes: &made.notes, errors, questions };
                 place.write(&pretty(&answer))?;
             }
             (Ok(made), _) => place.write(&made.text)?,
@@ -158,7 +159,7 @@ impl Import {
         }
         if self.keep_columns {
             let kept = kept_beside(sheet);
-            Place::File(Destination::open(&kept)?).write(&options.to_json())?;
+            AnswerPlace::File(Destination::open(&kept)?).write(&options.to_json())?;
         }
         Ok(Exit::Done)
     }
@@ -186,10 +187,10 @@ impl Import {
     }
 
     /// The mistakes and questions as the answer of a program.
-    fn refused(&self, place: Place, refused: &RefusedBudget) -> Result<Exit, Failure> {
+    fn refused(&self, place: AnswerPlace, refused: &RefusedBudget) -> Result<Exit, Failure> {
         let errors = refused.diagnostics.0.iter().map(Mistake::from).collect();
         let questions = &refused.questions;
-        let answer = Answer { ok: false, model: None, notes: &[], errors, questions };
+        let answer = ImportAnswer { ok: false, model: None, notes: &[], errors, questions };
         place.write(&pretty(&answer))?;
         if !self.quiet {
             say(&diagnostics::render(&refused.diagnostics, true));

@@ -7,7 +7,7 @@ use clap::Args;
 use serde_json::{Map, Value, json};
 
 use super::exit::{say, say_line};
-use super::output::Place;
+use super::output::AnswerPlace;
 use super::{CommandLine, Exit, Failure, output};
 use gumption_engine::model::formula::Formula;
 use gumption_files::schema;
@@ -62,7 +62,7 @@ impl New {
         }
         let name = output::to_file(self.output.as_deref());
         let name = name.map_or_else(String::new, |path| path.display().to_string());
-        file.map_or(Place::StandardOutput, Place::File).write(&text)?;
+        file.map_or(AnswerPlace::StandardOutput, AnswerPlace::File).write(&text)?;
         if !name.is_empty() {
             let name = plain(&name);
             let next = if missing.is_empty() {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::options::{self, AllowedFolders, Answer, Interactive, Seed};
+use super::options::{self, AllowedFolders, AnswerOptions, Interactive, Seed};
 use super::{CommandLine, Exit, Failure, run};
 use gumption_engine::task::Warning;
 use gumption_files::{FileReader, RecipeFile};
@@ -21,14 +21,14 @@ pub(super) struct Observe {
     #[command(flatten)]
     seed: Seed,
     #[command(flatten)]
-    answer: Answer<Format>,
+    answer: AnswerOptions<ObserveFormat>,
     #[command(flatten)]
     interactive: Interactive,
 }
 
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum ObserveFormat {
     /// A page of text for people
     Table,
     /// The whole answer for programs
@@ -56,8 +56,8 @@ impl Observe {
         let mut rows = Vec::new();
         let mut traces = Vec::new();
         for row in 0..file.rows.len() {
-            let is_page = self.answer.format == Format::Html;
-            let Row { observation, traces: seen, warnings: found, digests } =
+            let is_page = self.answer.format == ObserveFormat::Html;
+            let ObservedRow { observation, traces: seen, warnings: found, digests } =
                 observed(&file, row, is_page)?;
             traces.push(seen);
             for warning in found {
@@ -83,14 +83,14 @@ impl Observe {
             provenance: &provenance,
         };
         let answer = match self.answer.format {
-            Format::Table => report::table(&found),
-            Format::Json => report::json(&found),
-            Format::Csv => report::csv(&found),
-            Format::Markdown => report::markdown(&found),
-            Format::Html => page(report::html(&found)),
+            ObserveFormat::Table => report::table(&found),
+            ObserveFormat::Json => report::json(&found),
+            ObserveFormat::Csv => report::csv(&found),
+            ObserveFormat::Markdown => report::markdown(&found),
+            ObserveFormat::Html => page(report::html(&found)),
         };
         // a page on standard output has the notes itself
-        if self.answer.format != Format::Table || self.answer.is_to_file() {
+        if self.answer.format != ObserveFormat::Table || self.answer.is_to_file() {
             self.answer.say(&warnings);
         }
         place.write(&answer)?;
@@ -99,7 +99,7 @@ impl Observe {
 }
 
 /// What was found in a row, with notes and the digests of its files.
-struct Row {
+struct ObservedRow {
     observation: Observation,
     /// What figures show, where there are figures.
     traces: Vec<RecordTrace>,
@@ -107,7 +107,7 @@ struct Row {
     digests: Vec<(String, String)>,
 }
 
-fn observed(file: &RecipeFile, row: usize, traced: bool) -> Result<Row, Failure> {
+fn observed(file: &RecipeFile, row: usize, traced: bool) -> Result<ObservedRow, Failure> {
     let mut opened = file.open(row)?;
     let frequencies = &file.rows[row].frequencies;
     let found = match traced {
@@ -123,5 +123,5 @@ fn observed(file: &RecipeFile, row: usize, traced: bool) -> Result<Row, Failure>
         let text = if several { format!("row {}, {text}", row + 1) } else { text.clone() };
         warnings.push(Warning::new(code, name, text));
     }
-    Ok(Row { observation, traces, warnings, digests: opened.digests })
+    Ok(ObservedRow { observation, traces, warnings, digests: opened.digests })
 }

@@ -10,7 +10,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::exit::say_line;
-use super::output::Place;
+use super::output::AnswerPlace;
 use super::surroundings::{GivenFile, in_call};
 use super::{CommandLine, Failure, output};
 use gumption_engine::parallel::{self, Pool};
@@ -52,7 +52,7 @@ pub(super) enum Page {
 
 /// How the answer is given, in one of the formats that the command has.
 #[derive(Debug, Args)]
-pub(super) struct Answer<F: ValueEnum + Send + Sync + 'static> {
+pub(super) struct AnswerOptions<F: ValueEnum + Send + Sync + 'static> {
     /// Format of the answer
     #[arg(long, value_enum, default_value = "table")]
     pub(super) format: F,
@@ -64,13 +64,13 @@ pub(super) struct Answer<F: ValueEnum + Send + Sync + 'static> {
     pub(super) quiet: bool,
 }
 
-impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
+impl<F: ValueEnum + Send + Sync + 'static> AnswerOptions<F> {
     /// Opens the place of the answer; `read` are the files that it is made from.
-    pub(super) fn open(&self, read: &[PathBuf]) -> Result<Place, Failure> {
+    pub(super) fn open(&self, read: &[PathBuf]) -> Result<AnswerPlace, Failure> {
         let [file] = output::open([("--output", output::to_file(self.output.as_deref()))], read)?;
         let is_page = self.format.to_possible_value().is_some_and(|of| of.get_name() == "table");
-        let page = if is_page { Place::Page } else { Place::StandardOutput };
-        Ok(file.map_or(page, Place::File))
+        let page = if is_page { AnswerPlace::Page } else { AnswerPlace::StandardOutput };
+        Ok(file.map_or(page, AnswerPlace::File))
     }
 
     /// Whether the answer goes to a file.
@@ -113,7 +113,7 @@ impl Interactive {
     /// Where the answer is no page.
     pub(super) fn of<F: ValueEnum + Send + Sync>(
         &self,
-        answer: &Answer<F>,
+        answer: &AnswerOptions<F>,
     ) -> Result<fn(String) -> String, Failure> {
         let is_html = answer.format.to_possible_value().is_some_and(|of| of.get_name() == "html");
         match (self.interactive, is_html) {
@@ -266,7 +266,7 @@ pub(super) fn with_named<'n>(
 
 /// The model file of an evaluation.
 #[derive(Debug, Args)]
-pub(super) struct Model {
+pub(super) struct ModelArguments {
     /// The model file; - for standard input
     model: PathBuf,
     #[command(flatten)]
@@ -276,7 +276,7 @@ pub(super) struct Model {
     pub(super) replacements: Vec<Override>,
 }
 
-impl Model {
+impl ModelArguments {
     /// The model file with the replacements.
     pub(super) fn read(&self, program: &CommandLine) -> Result<ModelFile, Failure> {
         self.read_for(program, None)

@@ -15,7 +15,7 @@ use super::{Failure, paint, signals};
 
 /// Where an answer goes.
 #[derive(Debug)]
-pub(super) enum Place {
+pub(super) enum AnswerPlace {
     /// To standard output.
     StandardOutput,
     /// To standard output as a page of text, which looks its best on a terminal.
@@ -24,7 +24,7 @@ pub(super) enum Place {
     File(Destination),
 }
 
-impl Place {
+impl AnswerPlace {
     /// Writes the answer. A reader that closed the pipe has had enough; that is no failure.
     pub(super) fn write(self, text: &str) -> Result<(), Failure> {
         self.write_with(|out| out.write_all(text.as_bytes()))
@@ -93,7 +93,7 @@ enum Sink {
 }
 
 /// The options that name a file, and the file.
-pub(super) type Asked<'a> = (&'static str, Option<&'a Path>);
+pub(super) type FileOption<'a> = (&'static str, Option<&'a Path>);
 
 /// The file of an `--output`; none of `-`, which is standard output as it is standard input of a model.
 pub(super) fn to_file(asked: Option<&Path>) -> Option<&Path> {
@@ -110,7 +110,7 @@ fn is_standard(path: &Path) -> bool {
 /// # Errors
 /// A file that would be written twice, or that is read; one that cannot be written.
 pub(super) fn open<const N: usize>(
-    asked: [Asked<'_>; N],
+    asked: [FileOption<'_>; N],
     read: &[PathBuf],
 ) -> Result<[Option<Destination>; N], Failure> {
     check(&asked, read)?;
@@ -122,7 +122,7 @@ pub(super) fn open<const N: usize>(
 }
 
 /// Whether every file is written once, and none that is read.
-fn check(asked: &[Asked<'_>], read: &[PathBuf]) -> Result<(), Failure> {
+fn check(asked: &[FileOption<'_>], read: &[PathBuf]) -> Result<(), Failure> {
     let wanted: Vec<(&str, &Path, Identity)> = asked
         .iter()
         .filter_map(|&(option, path)| Some((option, path?, Identity::of(path?)?)))

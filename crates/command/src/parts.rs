@@ -70,7 +70,7 @@ impl Blocks {
 }
 
 /// A part that is asked for.
-pub(super) struct Asked<'a> {
+pub(super) struct AskedPart<'a> {
     pub(super) blocks: &'a Blocks,
     pub(super) partial: &'a Path,
     /// The file of the pass; the first one where there is none.
@@ -83,7 +83,7 @@ pub(super) struct Asked<'a> {
 /// `gumption run --blocks`
 pub(super) fn make(
     run: PartedRun<'_>,
-    asked: Asked<'_>,
+    asked: AskedPart<'_>,
     control: &Control<'_>,
 ) -> Result<Exit, Failure> {
     let range = asked.blocks.of(run.blocks()?, ("--blocks", "blocks"))?;

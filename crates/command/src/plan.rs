@@ -7,7 +7,9 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::exit::say;
-use super::options::{self, Answer, CoverageOption, Interactive, Model, Seed, Threads};
+use super::options::{
+    self, AnswerOptions, CoverageOption, Interactive, ModelArguments, Seed, Threads,
+};
 use super::{CommandLine, Exit, Failure, progress, run, signals};
 use gumption_analysis::integrity;
 use gumption_analysis::plan::{Costs, DriftLaw, NoPlan, Plan, PlanQuestion, plan};
@@ -21,7 +23,7 @@ use gumption_report::plan as report;
 #[derive(Debug, Args)]
 pub(super) struct Planning {
     #[command(flatten)]
-    model: Model,
+    model: ModelArguments,
     /// What is wanted: "U(y) <= 0.01 m/s^2", "U(y)/y <= 0.5 %", or "u(y) <= ..." for the standard
     /// uncertainty; without a unit in that of the output
     #[arg(long, value_name = "TARGET")]
@@ -37,7 +39,7 @@ pub(super) struct Planning {
     #[arg(long, value_name = "LAW", default_value = "linear", value_parser = law(), requires = "drift")]
     drift_law: DriftLaw,
     #[command(flatten)]
-    answer: Answer<Format>,
+    answer: AnswerOptions<PlanFormat>,
     #[command(flatten)]
     interactive: Interactive,
     #[command(flatten)]
@@ -53,7 +55,7 @@ pub(super) struct Planning {
 
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum PlanFormat {
     /// A page of text for people
     Table,
     /// A page as GitHub shows it
@@ -112,11 +114,11 @@ impl Planning {
             provenance: &provenance,
         };
         let answer = match self.answer.format {
-            Format::Table => report::table(&report),
-            Format::Markdown => report::markdown(&report),
-            Format::Json => report::json(&report),
-            Format::Csv => report::csv(&report),
-            Format::Html => page(report::html(&report)),
+            PlanFormat::Table => report::table(&report),
+            PlanFormat::Markdown => report::markdown(&report),
+            PlanFormat::Json => report::json(&report),
+            PlanFormat::Csv => report::csv(&report),
+            PlanFormat::Html => page(report::html(&report)),
         };
         self.answer.say(&file.warnings);
         place.write(&answer)?;

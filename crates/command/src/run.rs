@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use clap::{Args, ValueEnum};
 
 use super::evaluated::Evaluated;
-use super::options::{self, CoverageOption, Model, Seed, Threads};
+use super::options::{self, CoverageOption, ModelArguments, Seed, Threads};
 use super::parted_run::PartedRun;
 use super::{CommandLine, Exit, Failure, parts, progress, signals};
 use gumption_engine::propagate::{Control, Evaluation, EvaluationError, evaluate};
@@ -18,7 +18,7 @@ use gumption_report::Provenance;
 #[derive(Debug, Args)]
 pub(super) struct Run {
     #[command(flatten)]
-    model: Model,
+    model: ModelArguments,
     #[command(flatten)]
     evaluated: Evaluated,
     #[command(flatten)]
@@ -109,7 +109,8 @@ impl Run {
         let quiet = self.evaluated.answer.quiet;
         if let (Some(blocks), Some(partial)) = (&self.blocks, &self.partial) {
             let read = self.model.paths(&file);
-            let asked = parts::Asked { blocks, partial, pass: self.pass.as_deref(), read, quiet };
+            let asked =
+                parts::AskedPart { blocks, partial, pass: self.pass.as_deref(), read, quiet };
             let run = shared();
             return parts::make(PartedRun::new(&file, &task, &run), asked, &control);
         }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::output::Place;
+use super::output::AnswerPlace;
 use super::{Exit, Failure, output};
 use gumption_files::schema;
 
@@ -19,7 +19,7 @@ pub(super) struct Schema {
 impl Schema {
     pub(super) fn execute(&self) -> Result<Exit, Failure> {
         let [file] = output::open([("--output", output::to_file(self.output.as_deref()))], &[])?;
-        file.map_or(Place::StandardOutput, Place::File).write(&schema::text())?;
+        file.map_or(AnswerPlace::StandardOutput, AnswerPlace::File).write(&schema::text())?;
         Ok(Exit::Done)
     }
 }

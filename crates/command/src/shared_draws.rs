@@ -34,7 +34,7 @@ pub(super) struct SharedCheck {
 
 /// Some of the draws.
 #[derive(Debug, Serialize, Deserialize)]
-struct Part {
+struct DrawsPart {
     blind_check: SharedCheck,
     /// The first, and the one behind the last.
     range: [u64; 2],
@@ -83,11 +83,12 @@ impl SharedCheck {
         checked: Vec<BlindDraw>,
     ) -> Result<String, Failure> {
         let range = [range.start, range.end];
-        let part = Part { blind_check: self.clone(), range, checked };
+        let part = DrawsPart { blind_check: self.clone(), range, checked };
         let line = serde_json::to_string(&part);
         let line = line.map_err(|error| Failure::System(format!("cannot write draws: {error}")))?;
         // what JSON has no numbers for would not come back
-        let again = serde_json::from_str::<Part>(&line).is_ok_and(|of| of.checked == part.checked);
+        let again =
+            serde_json::from_str::<DrawsPart>(&line).is_ok_and(|of| of.checked == part.checked);
         if !again {
             let reason = "a draw has a figure that is not finite, so that it cannot be carried";
             return Err(Failure::System(reason.to_owned()));
@@ -110,7 +111,7 @@ impl SharedCheck {
         let Some((line, _)) = line else {
             return Err(refuse(&"its content does not match its SHA-256; make it again"));
         };
-        let part: Part = serde_json::from_str(line).map_err(|error| refuse(&error))?;
+        let part: DrawsPart = serde_json::from_str(line).map_err(|error| refuse(&error))?;
         if let Some(difference) = self.difference(&part.blind_check) {
             return Err(refuse(&format!("these draws {difference}")));
         }

@@ -36,10 +36,10 @@ pub fn spare_thread() -> std::io::Result<()> {
 
 /// Threads that loops run on.
 #[derive(Debug)]
-pub struct Pool(Kind);
+pub struct Pool(PoolKind);
 
 #[derive(Debug)]
-enum Kind {
+enum PoolKind {
     /// The pool that the calling thread is in, and rayon's global one if it is in none.
     Callers,
     Own(ThreadPool),
@@ -52,22 +52,22 @@ impl Pool {
     /// none, the calling thread alone.
     pub fn new(threads: usize) -> Self {
         let made = ThreadPoolBuilder::new().num_threads(threads).build();
-        Self(made.map_or_else(|error| refuse(&error), Kind::Own))
+        Self(made.map_or_else(|error| refuse(&error), PoolKind::Own))
     }
 
     /// Does work on the threads.
     pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         match &self.0 {
-            Kind::Own(pool) => return pool.install(work),
-            Kind::Callers => enter(),
-            Kind::Alone => alone(),
+            PoolKind::Own(pool) => return pool.install(work),
+            PoolKind::Callers => enter(),
+            PoolKind::Alone => alone(),
         }
         work()
     }
 
     /// Whether it is one of so many threads for itself.
     fn is_of(&self, threads: usize) -> bool {
-        matches!(&self.0, Kind::Own(pool) if pool.current_num_threads() == threads)
+        matches!(&self.0, PoolKind::Own(pool) if pool.current_num_threads() == threads)
     }
 }
 
@@ -78,7 +78,7 @@ pub fn pool(threads: usize) -> Arc<Pool> {
     static LAST: OfProcess<Pool> = OfProcess::new();
     if threads == 0 {
         enter();
-        return Arc::new(Pool(Kind::Callers));
+        return Arc::new(Pool(PoolKind::Callers));
     }
     let made = LAST.of(|pool| pool.is_of(threads), || Ok::<_, Infallible>(Pool::new(threads)));
     let Ok(pool) = made;
@@ -106,9 +106,9 @@ fn enter() {
 }
 
 /// Remembers what the system said.
-fn refuse(error: &ThreadPoolBuildError) -> Kind {
+fn refuse(error: &ThreadPoolBuildError) -> PoolKind {
     REFUSED.get_or_init(|| error.to_string());
-    Kind::Alone
+    PoolKind::Alone
 }
 
 /// Makes the calling thread a pool of one for good, unless it is in one.

@@ -8,8 +8,8 @@ use super::context::Context;
 use super::effect_context::EffectContext;
 use super::effects;
 use super::formula_notes::UNUSED_INPUT;
-use super::model_reader::{Found, ModelOptions, ModelReader, read_with};
-use super::results::Results;
+use super::model_reader::{FoundModel, ModelOptions, ModelReader, read_with};
+use super::results::ResultFiles;
 use super::{catalogue, prior, soundness};
 use gumption_engine::task::{Row, Warning};
 use gumption_gap::Case;
@@ -55,7 +55,7 @@ pub(super) fn read_text(
     read_with(name, text, folder, ModelOptions::with(files), |reader| reader.case())
 }
 
-impl Found {
+impl FoundModel {
     fn for_effects(&self) -> EffectContext<'_> {
         EffectContext {
             sim: &self.sim,
@@ -86,7 +86,7 @@ impl ModelReader<'_> {
             let what = "a case of the gap diagnosis";
             self.root.report(DiagnosticKind::MissingKey { key: "observations", what });
         }
-        let results = Results::new(self.folder, self.options.files);
+        let results = ResultFiles::new(self.folder, self.options.files);
         let mut warnings = Vec::new();
         let sim = found.as_ref().map(|found| &found.sim);
         let own = match self.root.get("effects") {
@@ -95,7 +95,7 @@ impl ModelReader<'_> {
         };
         let complete = own.is_some();
         let mut placed = own.unwrap_or_default();
-        let read = found.as_ref().map(Found::for_effects);
+        let read = found.as_ref().map(FoundModel::for_effects);
         let shipped =
             catalogue::read(self.root.log, &self.root, read, &results, &mut placed, &mut warnings);
         let read = read?;
@@ -105,7 +105,8 @@ impl ModelReader<'_> {
         }
         shipped.filter(|()| complete)?;
         let unlisted = catalogue::unlisted(&read, &results, &placed);
-        let Found { file, sim, observed, simulated, history, reachable, replication, .. } = found?;
+        let FoundModel { file, sim, observed, simulated, history, reachable, replication, .. } =
+            found?;
         let of = |name: String| sim.conditions.iter().position(|condition| condition.name == name);
         let groups = replication.and_then(of);
         let by_effects: HashSet<&str> = placed

@@ -28,7 +28,7 @@ pub(super) struct ConstantInputs {
 }
 
 /// What the text of a constant says of its value.
-enum Said {
+enum ConstantText {
     /// A number written out, in the constant's unit.
     Value(Unit, f64),
     /// A formula, whose value is in the constant's unit.
@@ -58,10 +58,12 @@ impl ConstantInputs {
                 found.unstated.push(member.key.clone());
             }
             match constant(&unsaid, member, overrides) {
-                Some(Said::Value(unit, value)) => {
+                Some(ConstantText::Value(unit, value)) => {
                     found.known.push((quantity(&member.key, unit), value));
                 }
-                Some(Said::Formula(unit, formula)) => formulas.push((&member.key, unit, formula)),
+                Some(ConstantText::Formula(unit, formula)) => {
+                    formulas.push((&member.key, unit, formula))
+                }
                 None => found.uncertain.push(member.key.clone()),
             }
         }
@@ -87,7 +89,7 @@ impl ConstantInputs {
 }
 
 /// What an input says of its value that is a constant; `None` of every other one.
-fn constant(log: &Collector, member: &Member, overrides: &[Override]) -> Option<Said> {
+fn constant(log: &Collector, member: &Member, overrides: &[Override]) -> Option<ConstantText> {
     let object = Object::new(log, "an input", &member.value, &member.key_span)?;
     let is_constant = object.text("distribution") == Some("constant");
     if !is_constant || ["components", "complex"].iter().any(|key| object.get(key).is_some()) {
@@ -97,16 +99,16 @@ fn constant(log: &Collector, member: &Member, overrides: &[Override]) -> Option<
     let moved = overrides.iter().rev().find(|o| o.input == member.key && o.field.is_none());
     if let Some(moved) = moved {
         let value = moved.value_in(&unit, &log.own_units()).ok()?;
-        return Some(Said::Value(unit, value));
+        return Some(ConstantText::Value(unit, value));
     }
     match &object.get("value")?.value.value {
         Json::Text(text) if !is_value(text) => {
             let formula = Formula::parse_with(text, &[], &log.own_units()).ok()?;
-            Some(Said::Formula(unit, formula))
+            Some(ConstantText::Formula(unit, formula))
         }
         _ => {
             let value = object.value("value", &unit, ValueOf::Quantity)?;
-            Some(Said::Value(unit, value))
+            Some(ConstantText::Value(unit, value))
         }
     }
 }

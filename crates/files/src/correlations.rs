@@ -23,7 +23,7 @@ use gumption_units::nearest;
 pub(super) fn read(
     root: &Object<'_>,
     inputs: &InputSet,
-    rows: &Rows<'_>,
+    rows: &ConditionRows<'_>,
     folder: Folder<'_>,
     files: &mut Vec<(String, Vec<u8>)>,
     (fits, trials): (&Fits, Trials),
@@ -33,7 +33,7 @@ pub(super) fn read(
     let places = found.iter().map(place).collect();
     let shown = inputs.variables.iter().enumerate().filter(|(_, variable)| variable.shown);
     let by_name = shown.map(|(place, variable)| (variable.name.as_str(), place)).collect();
-    let mut reader = Reader {
+    let mut reader = CorrelationsReader {
         log: root.log,
         inputs,
         rows,
@@ -64,17 +64,17 @@ pub(super) fn read(
 }
 
 /// The rows of conditions.
-pub(super) struct Rows<'a> {
+pub(super) struct ConditionRows<'a> {
     /// Names of the conditions.
     pub(super) conditions: Vec<String>,
     /// Their values in every row.
     pub(super) rows: &'a [Vec<f64>],
 }
 
-struct Reader<'a> {
+struct CorrelationsReader<'a> {
     log: &'a Collector,
     inputs: &'a InputSet,
-    rows: &'a Rows<'a>,
+    rows: &'a ConditionRows<'a>,
     by_name: HashMap<&'a str, usize>,
     found: Vec<Correlation>,
     pairs: HashSet<(usize, usize)>,
@@ -83,7 +83,7 @@ struct Reader<'a> {
     from_certificates: usize,
 }
 
-impl Reader<'_> {
+impl CorrelationsReader<'_> {
     /// Adds the coefficients between results of one certificate, where the file states no others.
     fn certified(&mut self) -> Option<Warning> {
         let certified = &self.inputs.certified;
@@ -297,7 +297,7 @@ impl Reader<'_> {
             .map(|(pair, _, place)| (pair, place, false));
         let place = |pair: (usize, usize)| self.inputs.places.get(pair.1).unwrap_or(root.place());
         let of_results = linked.iter().map(|&pair| (pair, place(pair), true));
-        let Rows { conditions, rows } = self.rows;
+        let ConditionRows { conditions, rows } = self.rows;
         let mut alike = true;
         for (pair, place, linked) in declared.chain(of_results) {
             let reason = sharing::contradiction(self.inputs, pair, linked, conditions, rows);

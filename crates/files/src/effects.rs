@@ -6,7 +6,7 @@ use super::conditions::NoConditions;
 use super::input_set::InputSet;
 use super::inputs;
 use super::keys;
-use super::results::Results;
+use super::results::ResultFiles;
 use super::scopes::report_formula;
 use gumption_engine::distribution::Distribution;
 use gumption_engine::model::formula;
@@ -35,7 +35,7 @@ pub(super) fn read(
     log: &Collector,
     member: &Member,
     sim: Option<&OverridableModel>,
-    results: &Results<'_>,
+    results: &ResultFiles<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Option<Vec<Placed>> {
     let object = Object::new(log, "`effects`", &member.value, &member.key_span)?;
@@ -53,10 +53,10 @@ pub(super) fn read_one(
     log: &Collector,
     member: &Member,
     sim: Option<&OverridableModel>,
-    results: &Results<'_>,
+    results: &ResultFiles<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Option<Placed> {
-    let candidate = Reader { log, sim, results, warnings }.effect(member)?;
+    let candidate = EffectsReader { log, sim, results, warnings }.effect(member)?;
     Some(Placed { candidate, place: member.key_span.clone() })
 }
 
@@ -97,14 +97,14 @@ pub(super) fn check_together(log: &Collector, placed: &[Placed], sim: &Overridab
     }
 }
 
-struct Reader<'a> {
+struct EffectsReader<'a> {
     log: &'a Collector,
     sim: Option<&'a OverridableModel>,
-    results: &'a Results<'a>,
+    results: &'a ResultFiles<'a>,
     warnings: &'a mut Vec<Warning>,
 }
 
-impl Reader<'_> {
+impl EffectsReader<'_> {
     fn effect(&mut self, member: &Member) -> Option<Candidate> {
         let object = Object::new(self.log, "an effect", &member.value, &member.key_span)?;
         keys::check(&object, keys::EFFECT);

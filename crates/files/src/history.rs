@@ -184,7 +184,7 @@ fn apart(mut values: Vec<f64>, parts: &[Vec<usize>]) -> Vec<f64> {
 }
 
 /// Which columns may tell what: those of the conditions, and of what was measured.
-struct Known<'k> {
+struct HistoryColumns<'k> {
     /// Places of the conditions that may have a history.
     conditions: Vec<usize>,
     /// How many conditions there are.
@@ -197,7 +197,7 @@ struct Known<'k> {
     is_condition: bool,
 }
 
-impl Known<'_> {
+impl HistoryColumns<'_> {
     /// What of the order of the rows can matter.
     fn matter(&self, series: &Series<'_>) -> Vec<History> {
         let rows = series.rows.len();
@@ -300,7 +300,7 @@ pub(super) fn add(
     let replication = observations.replication.as_ref().map(|(name, _)| name.as_str());
     let count = conditions.quantities.len();
     let is_set = |place: &usize| Some(conditions.quantities[*place].name.as_str()) != replication;
-    let known = Known {
+    let known = HistoryColumns {
         conditions: (0..count).filter(is_set).collect(),
         all: count,
         measured: observations.columns.iter().map(|of| of.observed.values.as_slice()).collect(),

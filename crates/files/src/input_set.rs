@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::dcc::Certified;
-use super::known::Known;
+use super::known::KnownVariables;
 use gumption_engine::model::InputQuantity;
 use gumption_engine::task::{Evidence, Variable, Warning};
 
@@ -18,7 +18,7 @@ pub(super) struct InputSet {
     /// The key of each quantity.
     pub(super) quantity_places: Vec<Range<usize>>,
     /// What is known about the variables in each row.
-    pub(super) known: Known,
+    pub(super) known: KnownVariables,
     pub(super) warnings: Vec<Warning>,
     /// Quantities whose unit could not be read: they fit every dimension.
     pub(super) without_unit: Vec<String>,

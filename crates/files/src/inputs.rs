@@ -6,11 +6,11 @@ use super::condition_values::ConditionValues;
 use super::conditions::unit;
 use super::dcc::FromCertificate;
 use super::input_set::InputSet;
-use super::keys::{self, Shape};
+use super::keys::{self, FileShape};
 use super::overrides::Override;
 use super::paired;
 use super::readings::{self, FileReadings};
-use super::results::Results;
+use super::results::ResultFiles;
 use super::samples;
 use super::shapes::{self, Estimate, Fields};
 use gumption_engine::decimal;
@@ -45,7 +45,7 @@ pub(super) fn read(
     member: &Member,
     conditions: &dyn ConditionValues,
     overrides: &[Override],
-    results: &Results<'_>,
+    results: &ResultFiles<'_>,
     trials: Trials,
 ) -> Option<InputSet> {
     let object = Object::new(log, "`inputs`", &member.value, &member.key_span)?;
@@ -66,8 +66,17 @@ pub(super) fn read(
         let (name, folder) = (member.key.as_str(), results.folder);
         let inputs = &mut inputs;
         let (whole, certificate) = (None, None);
-        let mut reader =
-            Reader { object, name, conditions, moved, folder, results, certificate, inputs, whole };
+        let mut reader = InputReader {
+            object,
+            name,
+            conditions,
+            moved,
+            folder,
+            results,
+            certificate,
+            inputs,
+            whole,
+        };
         match object.get("complex") {
             None => reader.input(),
             Some(complex) => reader.complex(complex, overrides),
@@ -93,13 +102,13 @@ fn phase_of_turns(name: &str, found: f64) -> Warning {
     Warning::new("angle-of-turns", name, text)
 }
 
-struct Reader<'a, 'i> {
+struct InputReader<'a, 'i> {
     object: Object<'a>,
     name: &'a str,
     conditions: &'a dyn ConditionValues,
     moved: Option<&'a Override>,
     folder: Folder<'a>,
-    results: &'a Results<'a>,
+    results: &'a ResultFiles<'a>,
     /// What the input takes from a certificate.
     certificate: Option<FromCertificate>,
     inputs: &'i mut InputSet,
@@ -107,7 +116,7 @@ struct Reader<'a, 'i> {
     whole: Option<Unit>,
 }
 
-impl<'a> Reader<'a, '_> {
+impl<'a> InputReader<'a, '_> {
     fn input(&mut self) {
         let object = self.object;
         let is_certificate = object
@@ -188,7 +197,7 @@ impl<'a> Reader<'a, '_> {
             let inputs = &mut *self.inputs;
             let known = inputs.quantities.len();
             let name = name.as_str();
-            let mut reader = Reader {
+            let mut reader = InputReader {
                 certificate: None,
                 object: part,
                 name,
@@ -465,7 +474,7 @@ impl<'a> Reader<'a, '_> {
         object: &Object<'_>,
         name: &str,
         unit: (&Unit, ValueOf),
-        kind: &Shape,
+        kind: &FileShape,
     ) -> Option<Samples> {
         if kind.name != "samples" {
             return None;
@@ -480,7 +489,7 @@ impl<'a> Reader<'a, '_> {
         object: &Object<'_>,
         name: &str,
         unit: &Unit,
-        kind: &Shape,
+        kind: &FileShape,
     ) -> Option<Option<FileReadings>> {
         if kind.name != "readings" {
             return Some(None);
@@ -505,7 +514,7 @@ impl<'a> Reader<'a, '_> {
         &mut self,
         (object, unit): (&Object<'_>, &Unit),
         name: &str,
-        kind: &Shape,
+        kind: &FileShape,
         (drawn, read): (Option<&Distribution>, Option<&FileReadings>),
     ) {
         if kind.name != "readings" {
@@ -594,7 +603,13 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Adds a variable of the budget.
-    fn variable(&mut self, name: String, object: &Object<'_>, kind: Option<&Shape>, unit: &Unit) {
+    fn variable(
+        &mut self,
+        name: String,
+        object: &Object<'_>,
+        kind: Option<&FileShape>,
+        unit: &Unit,
+    ) {
         let is_type_a = kind.is_some_and(|kind| kind.name == "readings");
         if is_type_a && object.truth("paired") == Some(true) {
             self.inputs.paired.push(self.inputs.variables.len());
@@ -672,7 +687,7 @@ impl<'a> Reader<'a, '_> {
         let (Some(parts), Some(source)) = (parts, source) else {
             return;
         };
-        let of_type_a: Vec<&Part<'_>> =
+        let of_type_a: Vec<&WrittenComponent<'_>> =
             parts.iter().filter(|p| p.kind.name == "readings").collect();
         if of_type_a.len() > 1 {
             let reason = "is a second one of `readings`; at most one can be".to_owned();
@@ -831,7 +846,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// The components as written, each with a variable of its own; `None` if one is faulty.
-    fn parts(&mut self, unit: &Unit) -> Option<Vec<Part<'a>>> {
+    fn parts(&mut self, unit: &Unit) -> Option<Vec<WrittenComponent<'a>>> {
         let object = self.object;
         let list = object.list("components")?;
         if list.len() > MOST_VARIABLES {
@@ -845,7 +860,7 @@ impl<'a> Reader<'a, '_> {
         if list.is_empty() {
             object.report(DiagnosticKind::NoValues { name: format!("{}/components", self.name) });
         }
-        let mut parts: Vec<Part<'a>> = Vec::new();
+        let mut parts: Vec<WrittenComponent<'a>> = Vec::new();
         let mut names: HashSet<String> = HashSet::new();
         for node in list {
             if object.log.is_full() {
@@ -882,7 +897,7 @@ impl<'a> Reader<'a, '_> {
                 }
                 let object = component;
                 let read = (read, certificate);
-                parts.push(Part { object, full, kind, samples, read, beside_others });
+                parts.push(WrittenComponent { object, full, kind, samples, read, beside_others });
             }
         }
         for part in &parts {
@@ -896,24 +911,24 @@ impl<'a> Reader<'a, '_> {
 const ROUNDING_OF_LIMITS: f64 = 1e-12;
 
 /// A component as written.
-struct Part<'a> {
+struct WrittenComponent<'a> {
     object: Object<'a>,
     full: String,
-    kind: &'static Shape,
+    kind: &'static FileShape,
     samples: Option<Samples>,
     /// Readings of a file, and what is taken from a certificate.
     read: (Option<FileReadings>, Option<FromCertificate>),
     beside_others: bool,
 }
 
-impl Part<'_> {
+impl WrittenComponent<'_> {
     /// Its distribution where the quantity's estimate is `total`, of which a share may be its
     /// width. A component's own mean is 0 unless it is given.
     fn distribution(
         &self,
         unit: &Unit,
         total: f64,
-        results: &Results<'_>,
+        results: &ResultFiles<'_>,
         at: (&dyn ConditionValues, usize),
     ) -> Option<Distribution> {
         let own = !self.kind.is_about_zero()
@@ -932,13 +947,13 @@ impl Part<'_> {
     }
 
     /// The estimate of the saved result that it is.
-    fn saved(&self, unit: &Unit, results: &Results<'_>) -> Option<f64> {
+    fn saved(&self, unit: &Unit, results: &ResultFiles<'_>) -> Option<f64> {
         results.distribution(&self.object, &self.full, unit, true).map(|saved| saved.mean())
     }
 }
 
 /// Whether a distribution has lost the width that its shape has.
-fn is_without_width(kind: &Shape, distribution: &Distribution) -> bool {
+fn is_without_width(kind: &FileShape, distribution: &Distribution) -> bool {
     let has_none = ["constant", "result", "dcc", "readings"].contains(&kind.name);
     !has_none && distribution.constant().is_some()
 }

@@ -7,7 +7,7 @@ use gumption_engine::distribution::Distribution;
 
 /// The distributions of all variables, in order.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Known {
+pub(super) struct KnownVariables {
     variables: Vec<Option<OfVariable>>,
 }
 
@@ -17,7 +17,7 @@ enum OfVariable {
     InRow(Vec<Arc<Distribution>>),
 }
 
-impl Known {
+impl KnownVariables {
     /// A variable that has the same distribution in all rows.
     pub(super) fn always(&mut self, variable: usize, distribution: Distribution) {
         self.put(variable, OfVariable::Always(Arc::new(distribution)));

@@ -42,7 +42,7 @@ use super::open::{FileKind, check_format, read_changed_root, refuse_other_kind};
 use super::output_limits;
 use super::outputs::{self, Outputs};
 use super::overrides::{self, Override};
-use super::results::Results;
+use super::results::ResultFiles;
 use super::scopes::{ConditionSet, number_form, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
@@ -82,7 +82,7 @@ impl<'a> ModelOptions<'a> {
 
 /// What was found in a file.
 #[derive(Debug)]
-pub(super) struct Found {
+pub(super) struct FoundModel {
     pub(super) file: ModelFile,
     pub(super) sim: OverridableModel,
     /// What was measured of each output.
@@ -170,16 +170,16 @@ pub(super) fn read_with<T>(
 
 impl<'a> ModelReader<'a> {
     /// All that the file holds, unless it has mistakes.
-    pub(super) fn found(&self) -> Option<Found> {
+    pub(super) fn found(&self) -> Option<FoundModel> {
         self.found_with(false)
     }
 
     /// The same with conditions that follow from the order of the rows.
-    pub(super) fn found_with_history(&self) -> Option<Found> {
+    pub(super) fn found_with_history(&self) -> Option<FoundModel> {
         self.found_with(true)
     }
 
-    fn found_with(&self, history: bool) -> Option<Found> {
+    fn found_with(&self, history: bool) -> Option<FoundModel> {
         let root = &self.root;
         if refuse_other_kind(root, FileKind::Model) {
             return None;
@@ -196,7 +196,7 @@ impl<'a> ModelReader<'a> {
         let Data { mut observations, conditions, simulated } = self.data(history)?;
         let fits = self.fits(check_units)?;
         let body = self.body(&simulated, &fits.curves);
-        let results = Results::new(self.folder, self.options.files).with_curves(&fits.curves);
+        let results = ResultFiles::new(self.folder, self.options.files).with_curves(&fits.curves);
         let files = (&results, &fits);
         let trials = self.options.files.trials(settings.trials);
         let mut of = self.quantities(conditions, check_units, &body, files, trials)?;
@@ -237,7 +237,8 @@ impl<'a> ModelReader<'a> {
         });
         let curves = fits.curves;
         let fits = joint;
-        let parts = Parts { title, source, statement, settings, fits, swept, correlations, curves };
+        let parts =
+            TaskParts { title, source, statement, settings, fits, swept, correlations, curves };
         let mut task = task(parts, model.ok()?, of)?;
         task.regions = regions;
         warnings.extend(fits::extrapolation::notes(root.log, &sim, &task, &task.curves));
@@ -249,7 +250,17 @@ impl<'a> ModelReader<'a> {
             Some(of) => (Some(of.table), of.replication.map(|(name, _)| name)),
             None => (None, None),
         };
-        Some(Found { file, sim, observed, simulated, history, clock, reachable, replication, data })
+        Some(FoundModel {
+            file,
+            sim,
+            observed,
+            simulated,
+            history,
+            clock,
+            reachable,
+            replication,
+            data,
+        })
     }
 
     /// Whether units are checked. Where formulas are built in, their quantities have units of their own.
@@ -323,7 +334,7 @@ impl<'a> ModelReader<'a> {
         conditions: Conditions,
         check_units: bool,
         body: &Option<ModelBody<'a>>,
-        (results, fits): (&Results<'_>, &FitSet),
+        (results, fits): (&ResultFiles<'_>, &FitSet),
         trials: Trials,
     ) -> Option<Quantities> {
         let (root, log) = (&self.root, self.root.log);
@@ -367,7 +378,7 @@ impl<'a> ModelReader<'a> {
         files: &mut Vec<(String, Vec<u8>)>,
         draws: (&Fits, Trials),
     ) -> (Vec<Correlation>, Vec<Warning>) {
-        let rows = correlations::Rows {
+        let rows = correlations::ConditionRows {
             conditions: of.conditions.quantities.iter().map(|c| c.name.clone()).collect(),
             rows: &of.conditions.rows,
         };
@@ -454,7 +465,8 @@ impl<'a> ModelReader<'a> {
         }
         let mut all = Vec::with_capacity(sim.outputs.len());
         for output in &sim.outputs {
-            let named = |column: &&observations::Column| column.output == output.quantity.name;
+            let named =
+                |column: &&observations::ObservedColumn| column.output == output.quantity.name;
             let column = observations.columns.iter().find(named);
             let observed = column.map(|of| of.in_unit(self.root.log, &output.quantity.unit));
             clean &= !matches!(observed, Some(None));
@@ -594,7 +606,7 @@ fn replication_column(
 }
 
 /// What a task has beside model and quantities.
-struct Parts {
+struct TaskParts {
     title: String,
     source: String,
     statement: ModelStatement,
@@ -606,8 +618,8 @@ struct Parts {
 }
 
 /// The task; none where something is not known about a variable, which has been reported.
-fn task(parts: Parts, model: Model, of: Quantities) -> Option<Task> {
-    let Parts { title, source, statement, settings, fits, swept, correlations, curves } = parts;
+fn task(parts: TaskParts, model: Model, of: Quantities) -> Option<Task> {
+    let TaskParts { title, source, statement, settings, fits, swept, correlations, curves } = parts;
     let Quantities { inputs, conditions, .. } = of;
     if !inputs.known.is_complete(inputs.variables.len()) {
         return None;

@@ -18,7 +18,7 @@ use gumption_units::Unit;
 #[derive(Debug)]
 pub(super) struct Observations {
     pub(super) table: Table,
-    pub(super) columns: Vec<Column>,
+    pub(super) columns: Vec<ObservedColumn>,
     /// The column that tells devices or days apart, and where it is named.
     pub(super) replication: Option<(String, Range<usize>)>,
     /// The column that says in which order the rows were taken.
@@ -37,7 +37,7 @@ pub(super) struct OrderColumn {
 
 /// What the table says of one output.
 #[derive(Debug)]
-pub(super) struct Column {
+pub(super) struct ObservedColumn {
     /// The headings that are named, with their places, and what their values are.
     pub(super) headings: Vec<(String, Range<usize>, ValueOf)>,
     pub(super) output: String,
@@ -46,23 +46,23 @@ pub(super) struct Column {
     /// The column with somebody else's simulation of the output.
     pub(super) simulated: Option<String>,
     /// Standard uncertainties that are no columns: for all rows, or as they follow from the values.
-    stated: Vec<Stated>,
+    stated: Vec<StatedUncertainty>,
 }
 
 /// A standard uncertainty in place of a column, in the output's unit or in one of its own.
 #[derive(Clone, Debug)]
-struct Stated {
+struct StatedUncertainty {
     key: &'static str,
     value: Node,
     /// What shares of it are of.
     of: Vec<f64>,
 }
 
-impl Column {
+impl ObservedColumn {
     /// What was measured of the output, whose unit is this; `None` after a mistake.
     pub(super) fn in_unit(&self, log: &Collector, unit: &Unit) -> Option<ObservedOutput> {
         let mut observed = self.observed.clone();
-        for Stated { key, value, of } in &self.stated {
+        for StatedUncertainty { key, value, of } in &self.stated {
             let width = Width::read(log, value, (&self.output, *key), unit)
                 .map_err(|mistake| log.report(&value.span, mistake))
                 .ok()?;
@@ -104,8 +104,8 @@ pub(super) fn read(
     let (table, bytes) = table::read(log, folder, name, &file.value.span, Some(wanted))?;
     let mut files = vec![(name.to_owned(), bytes)];
     let columns = Object::new(log, "`columns`", &columns?.value, &member.key_span)?;
-    let reader = Reader { log, folder, table: &table };
-    let read: Vec<Option<Column>> =
+    let reader = ObservationsReader { log, folder, table: &table };
+    let read: Vec<Option<ObservedColumn>> =
         columns.members().iter().map(|member| reader.column(member, &mut files)).collect();
     if read.is_empty() {
         columns.report(DiagnosticKind::NoValues { name: "columns".into() });
@@ -203,14 +203,18 @@ fn is_stated(node: &Node, table: &Table) -> bool {
     table.column(&text).is_none() && width::number(width).is_ok()
 }
 
-struct Reader<'a> {
+struct ObservationsReader<'a> {
     log: &'a Collector,
     folder: Folder<'a>,
     table: &'a Table,
 }
 
-impl Reader<'_> {
-    fn column(&self, member: &Member, files: &mut Vec<(String, Vec<u8>)>) -> Option<Column> {
+impl ObservationsReader<'_> {
+    fn column(
+        &self,
+        member: &Member,
+        files: &mut Vec<(String, Vec<u8>)>,
+    ) -> Option<ObservedColumn> {
         let object = Object::new(self.log, "an observed output", &member.value, &member.key_span)?;
         keys::check(&object, keys::OBSERVED);
         object.required("value")?;
@@ -253,10 +257,10 @@ impl Reader<'_> {
         let of = [(UNCERTAINTY, Some(&values)), (OF_THE_SIMULATION, sims.as_ref())];
         let stated = of.into_iter().filter_map(|(key, of)| {
             let value = object.get(key).filter(|_| !is_column(key))?.value.clone();
-            Some(Stated { key, value, of: of?.clone() })
+            Some(StatedUncertainty { key, value, of: of?.clone() })
         });
         let stated = stated.collect();
-        Some(Column {
+        Some(ObservedColumn {
             stated,
             headings: headings.collect(),
             output: member.key.clone(),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::conditions::unit;
 use super::keys;
 use super::output_limits::{self, LimitFormula};
-use super::results::Results;
+use super::results::ResultFiles;
 use super::scopes::ConditionSet;
 use super::shapes::{self, Estimate, Fields};
 use gumption_engine::distribution::{Distribution, Invalid};
@@ -104,7 +104,7 @@ impl Outputs {
 pub(super) fn read(
     log: &Collector,
     member: &Member,
-    results: &Results<'_>,
+    results: &ResultFiles<'_>,
     set: &ConditionSet<'_>,
 ) -> Option<Outputs> {
     let object = Object::new(log, "`outputs`", &member.value, &member.key_span)?;
@@ -196,7 +196,7 @@ impl Decision {
     fn read(
         output: &Object<'_>,
         unit: &Unit,
-        results: &Results<'_>,
+        results: &ResultFiles<'_>,
         set: &ConditionSet<'_>,
     ) -> Self {
         let Some(member) = output.get("tolerance") else {
@@ -258,7 +258,7 @@ fn guard_factor(tolerance: &Object<'_>) -> Option<f64> {
 }
 
 /// What was known about the items before measuring.
-fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<Distribution> {
+fn prior(tolerance: &Object<'_>, unit: &Unit, results: &ResultFiles<'_>) -> Option<Distribution> {
     let member = tolerance.get("prior")?;
     let object = Object::new(tolerance.log, "`prior`", &member.value, &member.key_span)?;
     let kind = shapes::kind(&object)?;

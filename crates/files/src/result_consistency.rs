@@ -17,7 +17,7 @@ const ROUNDING_OF_SUMS: f64 = 1e-6;
 const FARTHEST: f64 = 20.0;
 
 /// An output as the file has it.
-pub(super) struct Stated<'a> {
+pub(super) struct StatedOutput<'a> {
     pub(super) estimate: f64,
     pub(super) standard_uncertainty: f64,
     pub(super) standard_deviation: f64,
@@ -29,7 +29,7 @@ pub(super) struct Stated<'a> {
 }
 
 /// Reports what cannot be.
-pub(super) fn check(object: &Object<'_>, of: &Stated<'_>) {
+pub(super) fn check(object: &Object<'_>, of: &StatedOutput<'_>) {
     let report = |key: &str, reason: &'static str| {
         let place = object.get(key).map_or(object.place(), |member| &member.value.span);
         object.log.report(place, DiagnosticKind::SavedEntry { reason });
@@ -105,7 +105,7 @@ pub(super) fn check(object: &Object<'_>, of: &Stated<'_>) {
 }
 
 /// The variance by the law of propagation from sensitivities, inputs and their correlations.
-fn linear_variance(of: &Stated<'_>) -> Option<f64> {
+fn linear_variance(of: &StatedOutput<'_>) -> Option<f64> {
     let weights: Vec<f64> = of
         .sensitivities?
         .iter()

@@ -8,7 +8,7 @@ use serde_json::{Map, Value};
 use super::conditions::unit;
 use super::context::Context;
 use super::open::{check_format, read_root};
-use super::result_consistency::{self, Stated};
+use super::result_consistency::{self, StatedOutput};
 use super::result_outputs;
 use gumption_analysis::diff::ByTrials;
 use gumption_analysis::integrity;
@@ -447,7 +447,7 @@ impl<'a> Reader<'a> {
         if !intact {
             result_consistency::check(
                 object,
-                &Stated {
+                &StatedOutput {
                     estimate,
                     standard_uncertainty: u,
                     standard_deviation: saved.standard_deviation,

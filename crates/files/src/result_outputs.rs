@@ -38,7 +38,7 @@ pub(super) fn tell_each_other(
     let own_roots: Vec<Root> = alone.iter().filter_map(own).collect();
     let mut all = correlations.to_vec();
     all.extend(among(&alone, &own_roots));
-    let inputs = Inputs::new(roots, correlations, &linear);
+    let inputs = RootInputs::new(roots, correlations, &linear);
     for (result, root) in alone.iter().zip(&own_roots) {
         all.extend(inputs.with(result, &root.name));
     }
@@ -71,7 +71,7 @@ fn among(alone: &[SavedResult], own: &[Root]) -> Vec<RootCorrelation> {
 }
 
 /// The inputs of the file, and the outputs that go back to them.
-struct Inputs<'a> {
+struct RootInputs<'a> {
     roots: &'a [Root],
     /// Places in `roots`, and a coefficient.
     correlations: Vec<(usize, usize, f64)>,
@@ -86,7 +86,7 @@ struct Direction {
     coefficient: f64,
 }
 
-impl<'a> Inputs<'a> {
+impl<'a> RootInputs<'a> {
     fn new(roots: &'a [Root], correlations: &[RootCorrelation], linear: &'a [SavedResult]) -> Self {
         let place = |name: &RootName| roots.iter().position(|root| root.name == *name);
         let coefficients = correlations.iter();

@@ -19,7 +19,7 @@ use gumption_units::nearest;
 
 /// The result files that a model file names, each read once.
 #[derive(Debug)]
-pub(super) struct Results<'a> {
+pub(super) struct ResultFiles<'a> {
     pub(super) folder: Folder<'a>,
     context: Context<'a>,
     read: RefCell<HashMap<String, Option<Arc<ResultFile>>>>,
@@ -33,7 +33,7 @@ pub(super) struct Results<'a> {
     pub(super) curves: Vec<Arc<CurveFunction>>,
 }
 
-impl<'a> Results<'a> {
+impl<'a> ResultFiles<'a> {
     /// Paths are relative to `folder`.
     pub(crate) fn new(folder: Folder<'a>, context: Context<'a>) -> Self {
         let (read, files, certificates, curves) = Default::default();

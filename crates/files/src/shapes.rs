@@ -5,9 +5,9 @@ use std::ops::Range;
 use super::condition_values::ConditionValues;
 use super::coverage_slips;
 use super::dcc::FromCertificate;
-use super::keys::{self, SHAPES, Shape};
+use super::keys::{self, FileShape, SHAPES};
 use super::readings::{self, FileReadings, Pooled};
-use super::results::Results;
+use super::results::ResultFiles;
 use gumption_engine::distribution::{
     Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, External, Fitted,
     Gamma, Invalid, LogUniform, Lognormal, Normal, PoissonCount, Quantiles, Readings, Rectangular,
@@ -39,7 +39,7 @@ fn with_uncertainty(distribution: Distribution) -> Result<Distribution, Invalid>
 /// The largest count of events; one more is still a whole number in double precision.
 const MOST_COUNT: u64 = 999_999_999_999_999;
 
-impl Shape {
+impl FileShape {
     /// Whether a component of this shape is about 0 unless it says otherwise. Shapes of positive
     /// quantities and those without a field for their estimate are where their fields put them.
     pub(super) fn is_about_zero(&self) -> bool {
@@ -63,11 +63,11 @@ const KEYS: [&str; 10] = [
 ];
 
 /// The shape that an object names.
-pub(super) fn kind(object: &Object<'_>) -> Option<&'static Shape> {
+pub(super) fn kind(object: &Object<'_>) -> Option<&'static FileShape> {
     let Some(member) = object.get("distribution") else {
         let own =
             || object.members().iter().map(|m| &m.key).filter(|k| !KEYS.contains(&k.as_str()));
-        let has_all = |kind: &&Shape| own().all(|key| kind.fields.contains(&key.as_str()));
+        let has_all = |kind: &&FileShape| own().all(|key| kind.fields.contains(&key.as_str()));
         let fitting: Vec<_> = SHAPES.iter().filter(has_all).map(|kind| kind.name).collect();
         object.report(match own().next() {
             None => DiagnosticKind::NoDistribution { what: object.what(), fitting: Vec::new() },
@@ -125,7 +125,7 @@ pub(super) struct Fields<'a> {
     /// Whether other components stand beside it, so that readings may be equal.
     pub(super) beside_others: bool,
     /// The saved results that inputs name.
-    pub(super) results: &'a Results<'a>,
+    pub(super) results: &'a ResultFiles<'a>,
     /// The conditions and the row of them that this is for, where a width may be a formula of them.
     pub(super) at: Option<(&'a dyn ConditionValues, usize)>,
 }
@@ -147,7 +147,7 @@ fn formula_of_width(object: &Object<'_>, key: &str, unit: &Unit) -> Option<Strin
 }
 
 /// Whether a width of the object is a formula of conditions, so that it differs from row to row.
-pub(super) fn has_width_of_row(object: &Object<'_>, kind: &Shape, unit: &Unit) -> bool {
+pub(super) fn has_width_of_row(object: &Object<'_>, kind: &FileShape, unit: &Unit) -> bool {
     let is_text = |key: &str| {
         let member = object.get(key);
         member.is_some_and(|member| matches!(member.value.value, Json::Text(_)))
@@ -164,7 +164,7 @@ pub(super) fn has_width_of_row(object: &Object<'_>, kind: &Shape, unit: &Unit) -
 
 /// Whether a width of the quantity has a share of its estimate and something beside it, so that of an
 /// estimate of 0 the share is lost without a trace.
-pub(super) fn has_share_beside_value(object: &Object<'_>, kind: &Shape, unit: &Unit) -> bool {
+pub(super) fn has_share_beside_value(object: &Object<'_>, kind: &FileShape, unit: &Unit) -> bool {
     let own = object.log.own_units();
     let mut widths = WIDTHS.iter().filter(|key| kind.fields.contains(key));
     widths.any(|key| {
@@ -184,7 +184,7 @@ impl<'a> Fields<'a> {
         name: &'a str,
         unit: &'a Unit,
         estimate: Estimate,
-        results: &'a Results<'a>,
+        results: &'a ResultFiles<'a>,
     ) -> Self {
         Self {
             object,
@@ -203,7 +203,7 @@ impl<'a> Fields<'a> {
     }
 
     /// The distribution, with what cannot be reported.
-    pub(super) fn distribution(&self, kind: &Shape) -> Option<Distribution> {
+    pub(super) fn distribution(&self, kind: &FileShape) -> Option<Distribution> {
         if let (true, Estimate::Given(_), Some(_)) =
             (self.replaces, self.estimate, self.object.get("limits"))
         {
@@ -231,7 +231,7 @@ impl<'a> Fields<'a> {
     }
 
     /// The distribution without regard to limits.
-    fn whole(&self, kind: &Shape) -> Option<Distribution> {
+    fn whole(&self, kind: &FileShape) -> Option<Distribution> {
         match kind.name {
             "constant" => {
                 let value = self.estimate("value")?;

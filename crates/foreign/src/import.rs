@@ -30,7 +30,7 @@ mod words;
 use std::cell::RefCell;
 use std::path::Path;
 
-use ask::Sheet;
+use ask::ReadSheet;
 pub use ask::{Question, RefusedBudget};
 use columns::{Column, identifier};
 use equation::Equation;
@@ -112,7 +112,7 @@ pub fn import_budget_bytes(
     };
     let file = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let log = Collector::new(SourceText::new(name, &text));
-    let sheet = Sheet {
+    let sheet = ReadSheet {
         cells: &cells,
         log: &log,
         options,
@@ -121,13 +121,13 @@ pub fn import_budget_bytes(
         questions: RefCell::new(Vec::new()),
     };
     let made = sheet.budget(&file.unwrap_or_default());
-    let Sheet { notes, questions, .. } = sheet;
+    let ReadSheet { notes, questions, .. } = sheet;
     let notes = notes.into_inner();
     log.finish(made.map(|text| ImportedBudget { text, notes }))
         .map_err(|diagnostics| RefusedBudget { diagnostics, questions: questions.into_inner() })
 }
 
-impl Sheet<'_> {
+impl ReadSheet<'_> {
     /// The model file of the budget; `None` after a mistake or a question.
     fn budget(&self, file: &str) -> Option<String> {
         if are_results(self.cells.row(0).iter().map(|cell| cell.trim())) {

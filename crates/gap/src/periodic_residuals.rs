@@ -11,7 +11,7 @@ use gumption_engine::number::{ascending, elementary};
 
 /// A sine in some values.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Line {
+pub(crate) struct PeriodicLine {
     /// Periods for each unit of the abscissa.
     pub(crate) frequency: f64,
     /// The amplitude, in the unit of the values.
@@ -50,7 +50,7 @@ pub(crate) struct PeriodicResiduals {
     pub(crate) output: usize,
     /// The condition that it is periodic in; none: along the rows.
     pub(crate) condition: Option<usize>,
-    pub(crate) line: Line,
+    pub(crate) line: PeriodicLine,
 }
 
 /// The strongest line in what a verdict leaves of an output.
@@ -82,7 +82,7 @@ pub(crate) fn found(rows: &[RowGap], conditions: usize) -> Option<PeriodicResidu
 
 /// The line in values at some abscissas, if they have one; `looks` is in how many sets of values it is
 /// looked for.
-pub(crate) fn line(abscissas: &[f64], values: &[f64], looks: usize) -> Option<Line> {
+pub(crate) fn line(abscissas: &[f64], values: &[f64], looks: usize) -> Option<PeriodicLine> {
     let n = values.len();
     if !(FEWEST..=MOST).contains(&n) || abscissas.len() != n {
         return None;
@@ -121,7 +121,7 @@ pub(crate) fn line(abscissas: &[f64], values: &[f64], looks: usize) -> Option<Li
     let others = spectrum.iter().filter(|(other, _)| !is_own(*other));
     let second = others.map(|(_, sine)| sine.gain).fold(0.0, f64::max);
     // what the line leaves is larger where the line is not removed: compared with it
-    (second * TIMES_OTHERS < best.gain).then_some(Line {
+    (second * TIMES_OTHERS < best.gain).then_some(PeriodicLine {
         frequency,
         amplitude: best.amplitude,
         share,

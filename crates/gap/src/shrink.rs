@@ -86,7 +86,7 @@ pub(crate) fn shrinkage(
             .flat_map(|&row| (0..outputs).map(move |output| data.values[output][row]))
             .collect();
         let turns = data.turns.repeat(block.len());
-        let of = |density: &Density| density.ln_density(&measured, &noise, &turns);
+        let of = |density: &PredictiveDensity| density.ln_density(&measured, &noise, &turns);
         gain += of(&fold.density) - of(&fold.base);
     }
     let linear: Vec<f64> =
@@ -296,19 +296,19 @@ pub(crate) fn moments(values: &Values) -> Normals {
 /// What is predicted of a block of rows from all others.
 struct Fold {
     predicted: Normals,
-    density: Density,
-    base: Density,
+    density: PredictiveDensity,
+    base: PredictiveDensity,
 }
 
 /// A predictive density of a block.
-enum Density {
+enum PredictiveDensity {
     /// A mixture over draws, each a value for every measured one.
     Draws(Vec<Vec<f64>>),
     /// Independent normal values.
     Normal(Vec<(f64, f64)>),
 }
 
-impl Density {
+impl PredictiveDensity {
     fn of(values: &Values) -> Self {
         let draws = values.first().and_then(|row| row.first()).map_or(0, Vec::len);
         let flat: Vec<&Vec<f64>> = values.iter().flatten().collect();
@@ -400,8 +400,8 @@ fn fold(
             let values = if effects.is_empty() { none.clone() } else { of(effects) };
             Fold {
                 predicted: moments(&values),
-                density: Density::of(&values),
-                base: Density::of(&none),
+                density: PredictiveDensity::of(&values),
+                base: PredictiveDensity::of(&none),
             }
         }
         Correction::Departure(compositions) => {
@@ -431,8 +431,8 @@ fn fold(
                 &compositions,
                 &rows,
             );
-            let density = Density::Normal(predicted.iter().flatten().copied().collect());
-            Fold { predicted, density, base: Density::of(&none) }
+            let density = PredictiveDensity::Normal(predicted.iter().flatten().copied().collect());
+            Fold { predicted, density, base: PredictiveDensity::of(&none) }
         }
     }
 }

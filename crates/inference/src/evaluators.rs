@@ -16,11 +16,11 @@ const MOST_KEPT: usize = 50_000;
 /// rows are taken together at the same conditions or not at all, which the number of points tells.
 #[derive(Debug, Default)]
 pub(crate) struct Evaluators {
-    known: Mutex<Known>,
+    known: Mutex<KnownEvaluators>,
 }
 
 #[derive(Debug, Default)]
-struct Known {
+struct KnownEvaluators {
     by_effects: HashMap<(usize, Vec<usize>), Arc<Evaluator>>,
     kept: usize,
 }

@@ -60,7 +60,7 @@ pub enum Detail {
 }
 
 /// The density of a measurement that a hypothesis predicts.
-struct Density {
+struct KernelDensity {
     /// Centres of the kernels, whitened by the root: those of each output one after the other.
     centres: Vec<f64>,
     /// Lower Cholesky root of a kernel's covariance.
@@ -70,7 +70,7 @@ struct Density {
     kernels: usize,
 }
 
-impl Density {
+impl KernelDensity {
     /// `noise` holds a variance for each output.
     fn new(draws: &[Vec<f64>], noise: &[f64], detail: Detail) -> Self {
         let outputs = draws.len();
@@ -137,7 +137,7 @@ impl Density {
 /// The logarithm of the sum of the kernels at a whitened measurement; a quarter of a diagnosis is spent
 /// here.
 struct LnKernels<'a> {
-    density: &'a Density,
+    density: &'a KernelDensity,
     white: &'a [f64],
     terms: &'a mut [f64],
 }
@@ -183,8 +183,8 @@ pub fn expected_loss(
     if total <= 0.0 {
         return 0.0;
     }
-    let densities: Vec<Density> =
-        hypotheses.iter().map(|of| Density::new(of.draws, noise, detail)).collect();
+    let densities: Vec<KernelDensity> =
+        hypotheses.iter().map(|of| KernelDensity::new(of.draws, noise, detail)).collect();
     let ln_priors: Vec<f64> =
         hypotheses.iter().map(|of| elementary::ln(of.probability / total)).collect();
     let mut loss = 0.0;
@@ -210,7 +210,7 @@ pub fn expected_loss(
 /// with weights that sum to one.
 pub fn ln_odds(pair: [Outlook<'_>; 2], noise: &[f64], normals: &Normals) -> Vec<(f64, f64)> {
     let total = pair[0].probability + pair[1].probability;
-    let densities = pair.map(|of| Density::new(of.draws, noise, Detail::Kernels));
+    let densities = pair.map(|of| KernelDensity::new(of.draws, noise, Detail::Kernels));
     let mut all = Vec::with_capacity(2 * ODDS);
     for (own, other) in [(0, 1), (1, 0)] {
         let before = elementary::ln(pair[own].probability / pair[other].probability);

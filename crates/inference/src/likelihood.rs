@@ -258,7 +258,7 @@ impl<'c> Likelihood<'c> {
     /// The logarithms of the likelihood of up to a column of points; minus infinity where the model is
     /// not finite.
     pub(crate) fn log_likelihood(&self, scores: &[Column], lanes: usize) -> Vec<f64> {
-        let mut sums = Sums::new(self.covariance);
+        let mut sums = LikelihoodSums::new(self.covariance);
         self.visit(scores, lanes, &mut sums);
         sums.log_likelihood(self.covariance, self.data.len(), lanes)
     }
@@ -413,7 +413,7 @@ impl Kernel for Walk<'_, '_> {
 }
 
 /// Sums over the rows from which the likelihood follows.
-struct Sums<'c> {
+struct LikelihoodSums<'c> {
     basis: &'c [Vec<f64>],
     squares: Column,
     half_ln_variances: Column,
@@ -423,7 +423,7 @@ struct Sums<'c> {
     inner: Vec<Column>,
 }
 
-impl<'c> Sums<'c> {
+impl<'c> LikelihoodSums<'c> {
     fn new(covariance: &'c Covariance) -> Self {
         let k = covariance.basis.len();
         Self {
@@ -468,14 +468,14 @@ impl<'c> Sums<'c> {
     }
 }
 
-impl Visitor for Sums<'_> {
+impl Visitor for LikelihoodSums<'_> {
     fn row(&mut self, path: CodePath, row: usize, residuals: &[Column], ln_variances: &[Column]) {
         path.run(RowOfSums { sums: self, row, residuals, ln_variances });
     }
 }
 
 struct RowOfSums<'a, 'c> {
-    sums: &'a mut Sums<'c>,
+    sums: &'a mut LikelihoodSums<'c>,
     row: usize,
     residuals: &'a [Column],
     ln_variances: &'a [Column],

@@ -215,7 +215,7 @@ struct Making<'s, 'r> {
 }
 
 /// What a quantity becomes, one after the other.
-enum Step<'s> {
+enum QuantityStep<'s> {
     /// The value of an equation.
     Equation(&'s Formula),
     /// The typed model's output of this number.
@@ -228,7 +228,7 @@ enum Step<'s> {
 struct Begun<'s, 'r> {
     name: &'s str,
     value: Option<Value<'r>>,
-    steps: VecDeque<Step<'s>>,
+    steps: VecDeque<QuantityStep<'s>>,
     /// What the first of the steps still needs.
     needs: VecDeque<&'s str>,
 }
@@ -340,17 +340,17 @@ impl<'s, 'r> Making<'s, 'r> {
         if value.is_none() {
             steps.push_back(match &self.sim.maker {
                 ModelForm::Equations(_) => {
-                    Step::Equation(self.equations.get(name).ok_or_else(|| undefined(name))?)
+                    QuantityStep::Equation(self.equations.get(name).ok_or_else(|| undefined(name))?)
                 }
                 ModelForm::Typed(typed) => {
-                    Step::Typed(typed.output(name).ok_or_else(|| undefined(name))?.0)
+                    QuantityStep::Typed(typed.output(name).ok_or_else(|| undefined(name))?.0)
                 }
             });
         }
         if !self.outputs.contains(name) {
             for (number, effect) in self.effects.iter().enumerate() {
                 let own = effect.overrides.iter().filter(|(of, _)| of == name);
-                steps.extend(own.map(|(_, formula)| Step::Override(number, formula)));
+                steps.extend(own.map(|(_, formula)| QuantityStep::Override(number, formula)));
             }
         }
         let needs = self.needs(name, steps.front());
@@ -358,18 +358,20 @@ impl<'s, 'r> Making<'s, 'r> {
     }
 
     /// The quantities that a step of a quantity needs.
-    fn needs(&self, name: &'s str, step: Option<&Step<'s>>) -> VecDeque<&'s str> {
+    fn needs(&self, name: &'s str, step: Option<&QuantityStep<'s>>) -> VecDeque<&'s str> {
         match step {
             None => VecDeque::new(),
-            Some(Step::Equation(formula)) => formula.names().map(|(used, _)| used).collect(),
-            Some(Step::Override(number, formula)) => {
+            Some(QuantityStep::Equation(formula)) => {
+                formula.names().map(|(used, _)| used).collect()
+            }
+            Some(QuantityStep::Override(number, formula)) => {
                 let parameters = self.parameters.get(*number);
                 let own =
                     |used: &str| used == name || parameters.is_some_and(|of| of.contains_key(used));
                 formula.names().map(|(used, _)| used).filter(|used| !own(used)).collect()
             }
-            Some(Step::Typed(_)) if self.typed.is_some() => VecDeque::new(),
-            Some(Step::Typed(_)) => self.typed_inputs().collect(),
+            Some(QuantityStep::Typed(_)) if self.typed.is_some() => VecDeque::new(),
+            Some(QuantityStep::Typed(_)) => self.typed_inputs().collect(),
         }
     }
 
@@ -383,19 +385,23 @@ impl<'s, 'r> Making<'s, 'r> {
     }
 
     /// A quantity's value after a step, all that the step needs being made.
-    fn step(&mut self, of: &Begun<'s, 'r>, step: &Step<'s>) -> Result<Value<'r>, OverrideError> {
+    fn step(
+        &mut self,
+        of: &Begun<'s, 'r>,
+        step: &QuantityStep<'s>,
+    ) -> Result<Value<'r>, OverrideError> {
         let made = |making: &Self, used: &str| {
             making.made.get(used).copied().ok_or_else(|| undefined(used))
         };
         match *step {
-            Step::Equation(formula) => {
+            QuantityStep::Equation(formula) => {
                 let mut values = HashMap::new();
                 for (used, _) in formula.names() {
                     values.insert(used.to_owned(), made(self, used)?);
                 }
                 self.record(formula, None, &values)
             }
-            Step::Override(number, formula) => {
+            QuantityStep::Override(number, formula) => {
                 let mut values = HashMap::new();
                 for (used, _) in formula.names() {
                     let parameter = self.parameters.get(number).and_then(|of| of.get(used));
@@ -408,7 +414,7 @@ impl<'s, 'r> Making<'s, 'r> {
                 }
                 self.record(formula, Some(number), &values)
             }
-            Step::Typed(place) => {
+            QuantityStep::Typed(place) => {
                 if let (None, ModelForm::Typed(typed)) = (&self.typed, &self.sim.maker) {
                     let inputs: HashSet<&str> = self.typed_inputs().collect();
                     let value = |name: &str| {

@@ -311,7 +311,7 @@ impl Design {
         for value in (0..self.values).filter(|&value| !out[value]) {
             self.add_products(value, &mut inner);
         }
-        let all: Vec<Sums> = whites.iter().map(|white| self.sums(white, &out)).collect();
+        let all: Vec<ResidualSums> = whites.iter().map(|white| self.sums(white, &out)).collect();
         let mut explained = Explained::new(k, whites.len());
         explained.with(&inner, |n, place| all[n].cross[place]);
         let lengths: Vec<f64> =
@@ -325,7 +325,7 @@ impl Design {
             }
             let [ln_whole, ln_interval] = self.ln_weights(axis);
             let (counts, products) = self.without(axis, &out);
-            let cumulated: Vec<Vec<Sums>> =
+            let cumulated: Vec<Vec<ResidualSums>> =
                 whites.iter().map(|white| self.cumulated(axis, white, &out)).collect();
             for (from, to) in intervals {
                 let count = counts[to + 1] - counts[from];
@@ -376,8 +376,8 @@ impl Design {
     }
 
     /// The sums of residuals over all values that are in.
-    fn sums(&self, white: &[f64], out: &[bool]) -> Sums {
-        let mut sums = Sums { square: 0.0, cross: vec![0.0; self.shared] };
+    fn sums(&self, white: &[f64], out: &[bool]) -> ResidualSums {
+        let mut sums = ResidualSums { square: 0.0, cross: vec![0.0; self.shared] };
         for value in (0..self.values).filter(|&value| !out[value]) {
             self.add_value(&mut sums, white, value);
         }
@@ -385,8 +385,8 @@ impl Design {
     }
 
     /// The same cumulated over the bins of an axis.
-    fn cumulated(&self, axis: &Axis, white: &[f64], out: &[bool]) -> Vec<Sums> {
-        let mut sums = Sums { square: 0.0, cross: vec![0.0; self.shared] };
+    fn cumulated(&self, axis: &Axis, white: &[f64], out: &[bool]) -> Vec<ResidualSums> {
+        let mut sums = ResidualSums { square: 0.0, cross: vec![0.0; self.shared] };
         let mut cumulated = vec![sums.clone()];
         for bin in &axis.bins {
             for &value in bin.iter().filter(|&&value| !out[value]) {
@@ -397,7 +397,7 @@ impl Design {
         cumulated
     }
 
-    fn add_value(&self, sums: &mut Sums, white: &[f64], value: usize) {
+    fn add_value(&self, sums: &mut ResidualSums, white: &[f64], value: usize) {
         sums.square += white[value] * white[value];
         for (sum, column) in sums.cross.iter_mut().zip(&self.basis) {
             *sum += column[value] * white[value];
@@ -424,7 +424,7 @@ impl Design {
 
 /// Sums over values.
 #[derive(Clone)]
-struct Sums {
+struct ResidualSums {
     /// Of the squares of the residuals.
     square: f64,
     /// Of the products of the basis with the residuals.

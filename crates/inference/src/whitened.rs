@@ -21,7 +21,7 @@ pub(crate) fn residuals(
     let mut all = Vec::with_capacity(points.len());
     for points in points.chunks(COLUMN) {
         let scores = likelihood.columns(points);
-        let mut kept = Kept::new(likelihood);
+        let mut kept = KeptResiduals::new(likelihood);
         likelihood.visit(&scores, points.len(), &mut kept);
         all.extend(kept.by_lane(points.len()));
     }
@@ -29,14 +29,14 @@ pub(crate) fn residuals(
 }
 
 /// Keeps the residuals of a column of points, value by value.
-struct Kept {
+struct KeptResiduals {
     residuals: Vec<Column>,
     /// Where the noise is estimated.
     ln_variances: Vec<Column>,
     fitted: bool,
 }
 
-impl Kept {
+impl KeptResiduals {
     fn new(likelihood: &Likelihood<'_>) -> Self {
         let (fitted, values) = (likelihood.covariance.fitted, likelihood.data.len());
         let zeros = |count: usize| vec![Column::ZERO; count];
@@ -83,7 +83,7 @@ fn by_lane(columns: &[Column], lanes: usize) -> Vec<Vec<f64>> {
     all
 }
 
-impl Visitor for Kept {
+impl Visitor for KeptResiduals {
     fn row(&mut self, _: CodePath, row: usize, residuals: &[Column], ln_variances: &[Column]) {
         let own = row * residuals.len()..(row + 1) * residuals.len();
         self.residuals[own.clone()].clone_from_slice(residuals);

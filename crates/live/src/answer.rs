@@ -31,7 +31,7 @@ const MOST_ROWS: usize = 10_000;
 
 /// A request of the call `answer`.
 #[derive(Debug, Deserialize)]
-pub(crate) struct Asked {
+pub(crate) struct AnswerRequest {
     text: String,
     /// Changes that are made to the text first; the answer has it as it is then.
     #[serde(default)]
@@ -63,7 +63,7 @@ pub(crate) struct Asked {
 /// What a text says and what follows from it.
 pub(crate) fn answer(
     files: FileReader<'_>,
-    asked: &Asked,
+    asked: &AnswerRequest,
     stop: &Arc<AtomicBool>,
 ) -> Result<Json, LiveError> {
     let changed = match asked.edits.as_slice() {
@@ -211,7 +211,7 @@ fn missing(root: &Value<'_>) -> Vec<String> {
 }
 
 /// The settings of this answer, and whether they are those of the file.
-fn settle(task: &mut Task, asked: &Asked) -> bool {
+fn settle(task: &mut Task, asked: &AnswerRequest) -> bool {
     let rows = (task.rows.len() as u64).max(1);
     let each = |all: u64| (all / rows).max(1000);
     let settings = &mut task.settings;
@@ -241,7 +241,11 @@ fn settle(task: &mut Task, asked: &Asked) -> bool {
 }
 
 /// The evaluation and the parts of its page; or what is wrong that only the evaluation finds.
-fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Json, Diagnostics> {
+fn results(
+    file: &ModelFile,
+    asked: &AnswerRequest,
+    stop: &Arc<AtomicBool>,
+) -> Result<Json, Diagnostics> {
     let mut task = file.task.clone();
     let all_rows = task.rows.len();
     task.rows.truncate(MOST_ROWS);

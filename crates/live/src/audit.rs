@@ -18,7 +18,7 @@ use crate::{LiveError, diagnostics, limited};
 
 /// A request of the call `audit`.
 #[derive(Debug, Deserialize)]
-pub(crate) struct Asked {
+pub(crate) struct AuditRequest {
     text: String,
     #[serde(default)]
     name: String,
@@ -40,7 +40,7 @@ const MOST: usize = 60;
 /// The audit as a part of the page; `null` where there is none to be made.
 pub(crate) fn audited(
     files: FileReader<'_>,
-    asked: &Asked,
+    asked: &AuditRequest,
     stop: &Arc<AtomicBool>,
 ) -> Result<Json, LiveError> {
     let text = limited(&asked.text)?;

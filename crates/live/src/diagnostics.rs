@@ -5,7 +5,7 @@ use jsonc_parser::ast::Value;
 use jsonc_parser::common::Ranged;
 use serde_json::{Value as Json, json};
 
-use crate::tree::{self, Step};
+use crate::tree::{self, PathStep};
 
 /// Mistakes that are told, at most: a table of a million faulty cells helps nobody.
 const MOST: usize = 100;
@@ -54,7 +54,7 @@ pub(crate) fn list(text: &str, found: &Diagnostics) -> Json {
 fn within(
     text: &str,
     root: &Value<'_>,
-    path: &[Step],
+    path: &[PathStep],
     span: &std::ops::Range<usize>,
 ) -> Option<[usize; 2]> {
     let Value::StringLit(found) = tree::at(root, path)? else { return None };

@@ -9,14 +9,14 @@ use jsonc_parser::ast::{Array, Object, Value};
 use jsonc_parser::common::Ranged;
 use serde::Deserialize;
 
-use crate::tree::{self, Step};
+use crate::tree::{self, PathStep};
 
 /// One change.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Edit {
     /// What is changed.
-    path: Vec<Step>,
+    path: Vec<PathStep>,
     /// What it becomes.
     #[serde(default, with = "given")]
     value: Option<serde_json::Value>,
@@ -50,27 +50,27 @@ mod given {
 
 impl Edit {
     /// A value in the place of what is there, or beside it.
-    pub(crate) fn set(path: Vec<Step>, value: serde_json::Value) -> Self {
+    pub(crate) fn set(path: Vec<PathStep>, value: serde_json::Value) -> Self {
         Self { value: Some(value), ..Self::of(path) }
     }
 
     /// The end of what is there.
-    pub(crate) fn remove(path: Vec<Step>) -> Self {
+    pub(crate) fn remove(path: Vec<PathStep>) -> Self {
         Self { remove: true, ..Self::of(path) }
     }
 
     /// Another key.
-    pub(crate) fn rename(path: Vec<Step>, name: &str) -> Self {
+    pub(crate) fn rename(path: Vec<PathStep>, name: &str) -> Self {
         Self { rename: Some(name.to_owned()), ..Self::of(path) }
     }
 
-    fn of(path: Vec<Step>) -> Self {
+    fn of(path: Vec<PathStep>) -> Self {
         let (value, typed, rename, members) = (None, None, None, None);
         Self { path, value, typed, remove: false, rename, before: None, members }
     }
 
     fn path(&self) -> String {
-        let steps: Vec<String> = self.path.iter().map(Step::to_string).collect();
+        let steps: Vec<String> = self.path.iter().map(PathStep::to_string).collect();
         steps.join("/")
     }
 }
@@ -168,20 +168,23 @@ fn as_typed(typed: &str) -> String {
 }
 
 /// The object or list that something lies in, and the last step to it.
-fn container<'v, 't>(root: &'v Value<'t>, path: &'v [Step]) -> Option<(&'v Value<'t>, &'v Step)> {
+fn container<'v, 't>(
+    root: &'v Value<'t>,
+    path: &'v [PathStep],
+) -> Option<(&'v Value<'t>, &'v PathStep)> {
     let (last, above) = path.split_last()?;
     Some((tree::at(root, above)?, last))
 }
 
 /// What goes with a value: its key, and a comma.
-fn removed(root: &Value<'_>, path: &[Step]) -> Option<Range<usize>> {
+fn removed(root: &Value<'_>, path: &[PathStep]) -> Option<Range<usize>> {
     let (of, last) = container(root, path)?;
     let (ranges, place) = match (of, last) {
-        (Value::Object(object), Step::Key(key)) => {
+        (Value::Object(object), PathStep::Key(key)) => {
             let place = object.properties.iter().position(|of| of.name.as_str() == key)?;
             (ranges(&object.properties), place)
         }
-        (Value::Array(array), Step::Place(place)) => (ranges(&array.elements), *place),
+        (Value::Array(array), PathStep::Place(place)) => (ranges(&array.elements), *place),
         _ => return None,
     };
     let own = ranges.get(place)?;
@@ -200,8 +203,8 @@ fn ranges(of: &[impl Ranged]) -> Vec<Range<usize>> {
 
 fn renamed(text: &str, root: &Value<'_>, edit: &Edit, name: &str) -> Result<String, String> {
     let found = container(root, &edit.path).and_then(|(of, last)| match last {
-        Step::Key(key) => Some((of.as_object()?, key)),
-        Step::Place(_) => None,
+        PathStep::Key(key) => Some((of.as_object()?, key)),
+        PathStep::Place(_) => None,
     });
     let Some((object, key)) = found else {
         return Err(format!("`{}` is no key", edit.path()));
@@ -219,7 +222,7 @@ fn renamed(text: &str, root: &Value<'_>, edit: &Edit, name: &str) -> Result<Stri
 fn added(
     text: &str,
     root: &Value<'_>,
-    path: &[Step],
+    path: &[PathStep],
     written: &str,
     before: Option<usize>,
 ) -> Option<String> {
@@ -227,15 +230,17 @@ fn added(
     let of = tree::at(root, &path[..known])?;
     let mut value = written.to_owned();
     for step in path[known + 1..].iter().rev() {
-        let Step::Key(key) = step else { return None };
+        let PathStep::Key(key) = step else { return None };
         value = format!("{{{}: {value}}}", self::written(&key.as_str().into()));
     }
     match (of, &path[known]) {
-        (Value::Object(object), Step::Key(key)) => {
+        (Value::Object(object), PathStep::Key(key)) => {
             let value = format!("{}: {value}", self::written(&key.as_str().into()));
             Some(put_into_object(text, object, &value, before, known))
         }
-        (Value::Array(array), Step::Place(_)) => Some(put_into_array(text, array, &value, before)),
+        (Value::Array(array), PathStep::Place(_)) => {
+            Some(put_into_array(text, array, &value, before))
+        }
         _ => None,
     }
 }
@@ -329,7 +334,7 @@ fn with_members(
     }
     let step = |key: &str| {
         let mut path = edit.path.clone();
-        path.push(Step::Key(key.to_owned()));
+        path.push(PathStep::Key(key.to_owned()));
         path
     };
     let mut edits = Vec::new();

@@ -8,7 +8,7 @@ use crate::{Live, LiveError};
 
 /// A request of the call `new`.
 #[derive(Debug, Deserialize)]
-pub(crate) struct Asked {
+pub(crate) struct NewRequest {
     #[serde(default)]
     example: Option<String>,
     #[serde(default)]
@@ -19,7 +19,7 @@ pub(crate) struct Asked {
 const EMPTY: &str = "{\n  \"format\": 1,\n  \"title\": \"\",\n  \"inputs\": {},\n  \"equations\": {},\n  \"outputs\": {}\n}\n";
 
 /// The text of a new file.
-pub(crate) fn new(live: &Live<'_>, asked: &Asked) -> Result<Json, LiveError> {
+pub(crate) fn new(live: &Live<'_>, asked: &NewRequest) -> Result<Json, LiveError> {
     let templates = live.catalogue.iter().filter_map(|entry| Some((entry.name(), entry.template?)));
     let text = match (&asked.example, &asked.template) {
         (Some(name), _) => named(name, live.examples.iter().copied(), "example")?,

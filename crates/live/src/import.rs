@@ -12,7 +12,7 @@ use crate::LiveError;
 
 /// A request of the call `import`.
 #[derive(Debug, Deserialize)]
-pub(crate) struct Asked {
+pub(crate) struct ImportRequest {
     /// The file's name, whose extension says what it is.
     name: String,
     /// Its content.
@@ -20,7 +20,7 @@ pub(crate) struct Asked {
 }
 
 /// The model file of a budget.
-pub(crate) fn imported(asked: &Asked) -> Result<Json, LiveError> {
+pub(crate) fn imported(asked: &ImportRequest) -> Result<Json, LiveError> {
     let bytes = STANDARD
         .decode(&asked.base64)
         .map_err(|why| LiveError::Request(format!("`base64`: {why}")))?;

@@ -8,7 +8,7 @@ use jsonc_parser::ast::{Object, Value};
 use jsonc_parser::common::Ranged;
 use serde_json::{Value as Json, json};
 
-use crate::tree::{self, Step, path_of};
+use crate::tree::{self, PathStep, path_of};
 
 /// Rows of a table, at most.
 const MOST: usize = 500;
@@ -22,11 +22,11 @@ pub(crate) fn raw(text: &str, value: &Value<'_>) -> String {
 }
 
 /// The keys of an object as cells; of lists and objects the JSON text.
-fn cells(text: &str, object: &Object<'_>, path: &[Step]) -> Vec<Json> {
+fn cells(text: &str, object: &Object<'_>, path: &[PathStep]) -> Vec<Json> {
     let one = |member: &jsonc_parser::ast::ObjectProp<'_>| {
         let key = member.name.as_str();
         let mut path = path.to_vec();
-        path.push(Step::Key(key.to_owned()));
+        path.push(PathStep::Key(key.to_owned()));
         let kind = match &member.value {
             Value::NumberLit(_) => "number",
             Value::StringLit(_) => "text",
@@ -56,7 +56,7 @@ pub(crate) fn rows(text: &str, root: &Value<'_>, task: Option<&Task>) -> Vec<Jso
             let of = tree::get(component, "name").map(|name| raw(text, name));
             let full = format!("{name}/{}", of.unwrap_or_default());
             let mut path = path.clone();
-            path.extend([Step::Key("components".to_owned()), Step::Place(place)]);
+            path.extend([PathStep::Key("components".to_owned()), PathStep::Place(place)]);
             let mut row = row(text, &full, component, &path, task);
             row["component"] = json!(true);
             rows.push(row);
@@ -68,7 +68,7 @@ pub(crate) fn rows(text: &str, root: &Value<'_>, task: Option<&Task>) -> Vec<Jso
     rows
 }
 
-fn row(text: &str, name: &str, value: &Value<'_>, path: &[Step], task: Option<&Task>) -> Json {
+fn row(text: &str, name: &str, value: &Value<'_>, path: &[PathStep], task: Option<&Task>) -> Json {
     let mut row = match value {
         Value::Object(object) => {
             let form = if tree::member(object, "components").is_some() {
@@ -163,7 +163,7 @@ pub(crate) fn correlations(text: &str, root: &Value<'_>) -> Json {
         let of = of.as_array()?;
         let [a, b, r] = of.elements.as_slice() else { return None };
         Some(json!({
-            "path": [Step::Key("correlations".to_owned()), Step::Place(place)],
+            "path": [PathStep::Key("correlations".to_owned()), PathStep::Place(place)],
             "between": [raw(text, a), raw(text, b)],
             "raw": raw(text, r),
         }))

@@ -108,7 +108,7 @@ impl<'a> Live<'a> {
             "answer" => answer::answer(files, &asked(request)?, stop)?,
             "audit" => audit::audited(files, &asked(request)?, stop)?,
             "edit" => {
-                let asked: edit_call::Asked = asked(request)?;
+                let asked: edit_call::EditRequest = asked(request)?;
                 let text = edit::edited(limited(&asked.text)?, &asked.edits);
                 json!({ "text": text.map_err(LiveError::Request)? })
             }
@@ -128,7 +128,7 @@ mod edit_call {
 
     /// A request of the call `edit`.
     #[derive(Debug, Deserialize)]
-    pub(super) struct Asked {
+    pub(super) struct EditRequest {
         pub(super) text: String,
         pub(super) edits: Vec<super::edit::Edit>,
     }

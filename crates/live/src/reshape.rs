@@ -9,15 +9,15 @@ use serde::Deserialize;
 use serde_json::{Value as Json, json};
 
 use crate::edit::{self, Edit};
-use crate::tree::{self, Step};
+use crate::tree::{self, PathStep};
 use crate::{LiveError, inputs, limited};
 
 /// A request of the call `reshape`.
 #[derive(Debug, Deserialize)]
-pub(crate) struct Asked {
+pub(crate) struct ReshapeRequest {
     text: String,
     /// The input.
-    path: Vec<Step>,
+    path: Vec<PathStep>,
     distribution: String,
 }
 
@@ -97,7 +97,7 @@ const CENTRES: [&str; 4] = ["mean", "value", "mode", "count"];
 const WIDTHS: [&str; 6] = ["std", "half_width", "semi_range", "scale", "expanded", "std_low"];
 
 /// The text with another distribution of an input.
-pub(crate) fn reshaped(files: FileReader<'_>, asked: &Asked) -> Result<Json, LiveError> {
+pub(crate) fn reshaped(files: FileReader<'_>, asked: &ReshapeRequest) -> Result<Json, LiveError> {
     let text = limited(&asked.text)?;
     let bare = text.strip_prefix('\u{feff}').unwrap_or(text);
     let shapes = schema::distributions();
@@ -123,7 +123,7 @@ pub(crate) fn reshaped(files: FileReader<'_>, asked: &Asked) -> Result<Json, Liv
     let limits = number("lower").zip(number("upper"));
     let step = |key: &str| {
         let mut path = asked.path.clone();
-        path.push(Step::Key(key.to_owned()));
+        path.push(PathStep::Key(key.to_owned()));
         path
     };
     let mut edits = vec![Edit::set(step("distribution"), json!(shape.name))];
@@ -173,11 +173,11 @@ fn plain_number(value: f64) -> Json {
 /// An input that was a value in words, written out with its keys.
 fn written_out(
     files: FileReader<'_>,
-    asked: &Asked,
+    asked: &ReshapeRequest,
     text: &str,
     shape: &str,
 ) -> Result<String, LiveError> {
-    let name = asked.path.last().map(Step::to_string).unwrap_or_default();
+    let name = asked.path.last().map(PathStep::to_string).unwrap_or_default();
     let read = files.model_text("the model", text, Path::new(""), &[]).ok();
     let known = read.as_ref().and_then(|file| inputs::drawn(&file.task, &name));
     let mut input = serde_json::Map::new();

@@ -11,14 +11,14 @@ use serde::{Deserialize, Serialize};
 /// A step from a value to one inside of it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
-pub(crate) enum Step {
+pub(crate) enum PathStep {
     /// Into a list, counted from 0.
     Place(usize),
     /// Into an object.
     Key(String),
 }
 
-impl fmt::Display for Step {
+impl fmt::Display for PathStep {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Place(place) => place.fmt(f),
@@ -47,26 +47,26 @@ pub(crate) fn get<'v, 't>(value: &'v Value<'t>, key: &str) -> Option<&'v Value<'
 }
 
 /// The value behind a path.
-pub(crate) fn at<'v, 't>(root: &'v Value<'t>, path: &[Step]) -> Option<&'v Value<'t>> {
+pub(crate) fn at<'v, 't>(root: &'v Value<'t>, path: &[PathStep]) -> Option<&'v Value<'t>> {
     path.iter().try_fold(root, |value, step| match step {
-        Step::Key(key) => get(value, key),
-        Step::Place(place) => value.as_array()?.elements.get(*place),
+        PathStep::Key(key) => get(value, key),
+        PathStep::Place(place) => value.as_array()?.elements.get(*place),
     })
 }
 
 /// The path to the innermost value, or the key of it, that a place of the text lies in.
-pub(crate) fn path_to(root: &Value<'_>, byte: usize) -> Vec<Step> {
+pub(crate) fn path_to(root: &Value<'_>, byte: usize) -> Vec<PathStep> {
     let mut path = Vec::new();
     let mut value = root;
     loop {
         let next = match value {
             Value::Object(object) => {
                 let found = object.properties.iter().find(|member| contains(*member, byte));
-                found.map(|member| (Step::Key(member.name.as_str().to_owned()), &member.value))
+                found.map(|member| (PathStep::Key(member.name.as_str().to_owned()), &member.value))
             }
             Value::Array(array) => {
                 let found = array.elements.iter().position(|element| contains(element, byte));
-                found.map(|place| (Step::Place(place), &array.elements[place]))
+                found.map(|place| (PathStep::Place(place), &array.elements[place]))
             }
             _ => None,
         };
@@ -81,6 +81,6 @@ fn contains(of: &impl Ranged, byte: usize) -> bool {
 }
 
 /// A path from keys.
-pub(crate) fn path_of<const N: usize>(keys: [&str; N]) -> Vec<Step> {
-    keys.into_iter().map(|key| Step::Key(key.to_owned())).collect()
+pub(crate) fn path_of<const N: usize>(keys: [&str; N]) -> Vec<PathStep> {
+    keys.into_iter().map(|key| PathStep::Key(key.to_owned())).collect()
 }

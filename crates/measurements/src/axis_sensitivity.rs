@@ -15,11 +15,11 @@ measurement! {
     /// transverse sensitivities, repeatability, reproducibility, reference. The two axes across
     /// contribute to the voltage, V = S (a_axis + transverse_1 a_1 + transverse_2 a_2), so with
     /// transverse sensitivities relative to the main one
-    /// S = V / (a_axis + transverse_1 a_1 + transverse_2 a_2), a_1 and a_2 being the accelerations
+    /// S = V / |a_axis + transverse_1 a_1 + transverse_2 a_2|, a_1 and a_2 being the accelerations
     /// along the next axes in the cyclic order x, y, z. They are neglected in the estimate (0) and
     /// have their limits of 5 % in the budget. Repeatability and reproducibility are factors of
-    /// expectation 1. Voltage and acceleration are both peak or both RMS values; the acceleration
-    /// along y, which has the opposite phase, enters with its modulus.
+    /// expectation 1. Voltage and acceleration are both peak or both RMS values; the modulus is for
+    /// an axis whose acceleration has the opposite phase, as y has.
     pub AxisSensitivity as "axis-sensitivity"
         from "D'Emilia, Gaspari, Natale (2019), equation (4) and Table 2";
     inputs {
@@ -42,14 +42,14 @@ measurement! {
     }
     outputs AxisSensitivities {
         /// Sensitivity of the x axis.
-        s_xx: "V/(m/s^2)" = "voltage*repeatability*reproducibility/(a_x + transverse_1*a_y + \
-            transverse_2*a_z)",
+        s_xx: "V/(m/s^2)" = "voltage*repeatability*reproducibility/abs(a_x + transverse_1*a_y + \
+            transverse_2*a_z) with a_x = a_ref*cos(inclination)*cos(rotation)",
         /// Sensitivity of the y axis.
         s_yy: "V/(m/s^2)" = "voltage*repeatability*reproducibility/abs(a_y + transverse_1*a_z + \
-            transverse_2*a_x)",
+            transverse_2*a_x) with a_y = -a_ref*cos(inclination)*sin(rotation)",
         /// Sensitivity of the z axis.
-        s_zz: "V/(m/s^2)" = "voltage*repeatability*reproducibility/(a_z + transverse_1*a_x + \
-            transverse_2*a_y)",
+        s_zz: "V/(m/s^2)" = "voltage*repeatability*reproducibility/abs(a_z + transverse_1*a_x + \
+            transverse_2*a_y) with a_z = a_ref*sin(inclination)",
     }
 }
 

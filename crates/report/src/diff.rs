@@ -18,31 +18,31 @@ use gumption_analysis::diff::{
 const DIGITS: u32 = 2;
 
 #[derive(Serialize)]
-struct Answer<'a> {
+struct DiffAnswer<'a> {
     gumption: &'static str,
     a: &'a str,
     b: &'a str,
     changes: &'a [String],
     #[serde(flatten)]
-    results: Results<'a>,
+    results: DiffResults<'a>,
 }
 
-type Outputs<'a> = Vec<(&'a str, Output<'a>)>;
+type Outputs<'a> = Vec<(&'a str, DiffOutput<'a>)>;
 
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Results<'a> {
+enum DiffResults<'a> {
     Single {
         #[serde(serialize_with = "in_order")]
         outputs: Outputs<'a>,
     },
     Swept {
-        rows: Vec<Row<'a>>,
+        rows: Vec<DiffRow<'a>>,
     },
 }
 
 #[derive(Serialize)]
-struct Row<'a> {
+struct DiffRow<'a> {
     #[serde(serialize_with = "in_order")]
     conditions: Vec<(&'a str, f64)>,
     #[serde(serialize_with = "in_order")]
@@ -50,7 +50,7 @@ struct Row<'a> {
 }
 
 #[derive(Serialize)]
-struct Output<'a> {
+struct DiffOutput<'a> {
     unit: &'a str,
     #[serde(rename = "U")]
     expanded: [Option<f64>; 2],
@@ -59,24 +59,24 @@ struct Output<'a> {
     by_trials: [Option<f64>; 2],
     /// Whether clause 8 says that U is valid.
     gum_valid: [Option<bool>; 2],
-    inputs: Vec<Line<'a>>,
+    inputs: Vec<InputChange<'a>>,
 }
 
 #[derive(Serialize)]
-struct Line<'a> {
+struct InputChange<'a> {
     /// The input; null for what is none.
     input: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     what: Option<&'static str>,
-    from: Option<Known<'a>>,
-    to: Option<Known<'a>>,
+    from: Option<InputEntry<'a>>,
+    to: Option<InputEntry<'a>>,
     #[serde(rename = "change_of_U")]
     change: Option<f64>,
     share_of_change: Option<f64>,
 }
 
 #[derive(Serialize)]
-struct Known<'a> {
+struct InputEntry<'a> {
     estimate: f64,
     standard_uncertainty: f64,
     distribution: &'a str,
@@ -86,7 +86,7 @@ struct Known<'a> {
     sensitivity: Option<f64>,
 }
 
-impl<'a> From<&'a InputState> for Known<'a> {
+impl<'a> From<&'a InputState> for InputEntry<'a> {
     fn from(state: &'a InputState) -> Self {
         Self {
             estimate: state.estimate,
@@ -110,21 +110,21 @@ fn due(part: &ChangePart) -> (Option<&str>, Option<&'static str>) {
     }
 }
 
-impl<'a> Line<'a> {
+impl<'a> InputChange<'a> {
     fn of(part: &'a ChangePart) -> Self {
         let (input, what) = due(part);
-        let [from, to] = part.states.each_ref().map(|state| state.as_ref().map(Known::from));
+        let [from, to] = part.states.each_ref().map(|state| state.as_ref().map(InputEntry::from));
         Self { input, what, from, to, change: part.change, share_of_change: part.share }
     }
 }
 
 fn outputs(row: &RowDifference) -> Outputs<'_> {
     let outputs = row.outputs.iter().map(|output| {
-        let inputs = output.parts.iter().map(Line::of).collect();
+        let inputs = output.parts.iter().map(InputChange::of).collect();
         let (unit, expanded) = (output.unit.as_str(), output.expanded);
         let by_trials = output.by_trials.map(|of| of.map(|of| of.half_length));
         let gum_valid = output.by_trials.map(|of| of?.gum_valid);
-        (output.name.as_str(), Output { unit, expanded, by_trials, gum_valid, inputs })
+        (output.name.as_str(), DiffOutput { unit, expanded, by_trials, gum_valid, inputs })
     });
     outputs.collect()
 }
@@ -132,17 +132,17 @@ fn outputs(row: &RowDifference) -> Outputs<'_> {
 /// The answer for programs.
 pub fn json([a, b]: [&str; 2], difference: &Difference) -> String {
     let results = match difference.rows.as_slice() {
-        [row] if !difference.swept => Results::Single { outputs: outputs(row) },
+        [row] if !difference.swept => DiffResults::Single { outputs: outputs(row) },
         rows => {
             let rows = rows.iter().map(|row| {
                 let conditions = row.conditions.iter().map(|(n, value, _)| (n.as_str(), *value));
-                Row { conditions: conditions.collect(), outputs: outputs(row) }
+                DiffRow { conditions: conditions.collect(), outputs: outputs(row) }
             });
-            Results::Swept { rows: rows.collect() }
+            DiffResults::Swept { rows: rows.collect() }
         }
     };
     let gumption = env!("CARGO_PKG_VERSION");
-    let answer = Answer { gumption, a, b, changes: &difference.changes, results };
+    let answer = DiffAnswer { gumption, a, b, changes: &difference.changes, results };
     pretty(&answer)
 }
 

@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 use super::EvaluationReport;
 use super::answer::{in_order, pretty, write_pretty};
 use super::fits::FitSide;
-use super::json_inputs::{Inputs, RowInputs, varying};
+use super::json_inputs::{InputsSide, RowInputs, varying};
 use super::regions::RegionSide;
 use super::subtotals::Subtotals;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
@@ -23,7 +23,7 @@ use gumption_engine::task::{Task, Trials, Warning};
 ///
 /// The same evaluation gives the same bytes always.
 pub fn json(report: &EvaluationReport<'_>) -> String {
-    pretty(&Answer::of(report))
+    pretty(&EvaluationAnswer::of(report))
 }
 
 /// Writes what [`json`] gives, piece by piece: it may be much larger than the evaluation.
@@ -31,12 +31,12 @@ pub fn json(report: &EvaluationReport<'_>) -> String {
 /// # Errors
 /// Those of the writer.
 pub fn write_json(report: &EvaluationReport<'_>, mut out: impl Write) -> io::Result<()> {
-    write_pretty(&Answer::of(report), &mut out)?;
+    write_pretty(&EvaluationAnswer::of(report), &mut out)?;
     out.write_all(b"\n")
 }
 
 #[derive(Serialize)]
-struct Answer<'a> {
+struct EvaluationAnswer<'a> {
     gumption: &'static str,
     title: &'a str,
     coverage_probability: f64,
@@ -46,9 +46,9 @@ struct Answer<'a> {
     model: Option<ModelSide<'a>>,
     #[serde(serialize_with = "in_order")]
     equations: &'a [(String, String)],
-    inputs: Inputs<'a>,
+    inputs: InputsSide<'a>,
     #[serde(flatten)]
-    results: Results<'a>,
+    results: EvaluationResults<'a>,
     #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
     fits: Vec<(&'a str, FitSide<'a>)>,
     warnings: Vec<Note<'a>>,
@@ -69,22 +69,22 @@ fn given(text: &str) -> Option<&str> {
 
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Results<'a> {
+enum EvaluationResults<'a> {
     Single(Figures<'a>),
     Swept {
         #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
         condition_units: Vec<(&'a str, &'a str)>,
-        rows: Rows<'a>,
+        rows: SweepRows<'a>,
     },
 }
 
 /// The rows of a sweep, made one by one.
-struct Rows<'a> {
+struct SweepRows<'a> {
     task: &'a Task,
     evaluation: &'a Evaluation,
 }
 
-impl Serialize for Rows<'_> {
+impl Serialize for SweepRows<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self { task, evaluation } = *self;
         let varying = varying(task);
@@ -93,13 +93,13 @@ impl Serialize for Rows<'_> {
             let conditions = names.zip(row.conditions.iter().copied()).collect();
             let figures = Figures::of(task, row, evaluation.stopped);
             let inputs = RowInputs { task, row: number, varying: &varying };
-            Row { conditions, inputs, figures }
+            SweepRow { conditions, inputs, figures }
         }))
     }
 }
 
 #[derive(Serialize)]
-struct Row<'a> {
+struct SweepRow<'a> {
     #[serde(serialize_with = "in_order")]
     conditions: Vec<(&'a str, f64)>,
     #[serde(skip_serializing_if = "RowInputs::is_empty")]
@@ -132,7 +132,7 @@ impl Serialize for Outputs<'_> {
         let outputs = task.model.outputs.iter().zip(&row.outputs);
         serializer.collect_map(outputs.map(|(output, evaluation)| {
             let noiseless = evaluation.noiseless.as_ref();
-            let side = Output {
+            let side = OutputSide {
                 unit: output.quantity.unit.text(),
                 gum: evaluation.gum.as_ref().map(|gum| GumSide::of(task, gum, evaluation)),
                 monte_carlo: MonteCarloSide::of(task, row, evaluation, stopped),
@@ -168,7 +168,7 @@ impl<T: Copy + Serialize> Serialize for Pairs<'_, T> {
 }
 
 #[derive(Serialize)]
-struct Output<'a> {
+struct OutputSide<'a> {
     unit: &'a str,
     gum: Option<GumSide<'a>>,
     monte_carlo: Option<MonteCarloSide>,
@@ -226,13 +226,15 @@ impl Serialize for Lines<'_> {
         let Self { task, gum } = *self;
         let inputs = gum.budget().filter_map(|line| InputLine::of(task, &line));
         let coefficients = gum.correlations().filter_map(|line| CoefficientLine::of(task, &line));
-        serializer.collect_seq(inputs.map(Line::Input).chain(coefficients.map(Line::Coefficient)))
+        serializer.collect_seq(
+            inputs.map(BudgetItem::Input).chain(coefficients.map(BudgetItem::Coefficient)),
+        )
     }
 }
 
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Line<'a> {
+enum BudgetItem<'a> {
     Input(InputLine<'a>),
     Coefficient(CoefficientLine<'a>),
 }
@@ -463,7 +465,7 @@ impl CmcSide {
 /// The number of trials that was asked for.
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Asked {
+enum AskedTrials {
     Number(u64),
     Word(&'static str),
 }
@@ -508,26 +510,28 @@ struct Remark<'a> {
 struct Origin<'a> {
     model_sha256: &'a str,
     seed: u64,
-    trials: Asked,
+    trials: AskedTrials,
     #[serde(serialize_with = "in_order")]
     files: &'a [(String, String)],
 }
 
-impl<'a> Answer<'a> {
+impl<'a> EvaluationAnswer<'a> {
     fn of(report: &EvaluationReport<'a>) -> Self {
         let EvaluationReport { task, evaluation, warnings, provenance } = *report;
         let results = match evaluation.rows.first() {
-            Some(row) if !task.swept => Results::Single(Figures::of(task, row, evaluation.stopped)),
-            _ => Results::Swept {
+            Some(row) if !task.swept => {
+                EvaluationResults::Single(Figures::of(task, row, evaluation.stopped))
+            }
+            _ => EvaluationResults::Swept {
                 condition_units: (task.model.conditions.iter())
                     .map(|condition| (condition.name.as_str(), condition.unit.text()))
                     .collect(),
-                rows: Rows { task, evaluation },
+                rows: SweepRows { task, evaluation },
             },
         };
         let trials = match evaluation.settings.trials {
-            Trials::Fixed(trials) => Asked::Number(trials),
-            Trials::Adaptive => Asked::Word("adaptive"),
+            Trials::Fixed(trials) => AskedTrials::Number(trials),
+            Trials::Adaptive => AskedTrials::Word("adaptive"),
         };
         Self {
             gumption: env!("CARGO_PKG_VERSION"),
@@ -541,7 +545,7 @@ impl<'a> Answer<'a> {
                 .as_deref()
                 .map(|name| ModelSide { name, source: given(&task.statement.source) }),
             equations: &task.statement.equations,
-            inputs: Inputs { task },
+            inputs: InputsSide { task },
             results,
             fits: task.curves.iter().map(|c| (c.fit.name.as_str(), FitSide::of(c))).collect(),
             warnings: words::notes(warnings),

@@ -13,11 +13,11 @@ use gumption_engine::task::{Row, Task, Variable};
 /// All input quantities, made one by one. What differs between the rows of a sweep is null here and
 /// stands in the rows.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Inputs<'a> {
+pub(super) struct InputsSide<'a> {
     pub(super) task: &'a Task,
 }
 
-impl Serialize for Inputs<'_> {
+impl Serialize for InputsSide<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let task = self.task;
         let first = task.rows.first();
@@ -27,7 +27,7 @@ impl Serialize for Inputs<'_> {
             let variables = figures.variables.clone();
             let varies = varies(task, variables.clone());
             let own = task.variables.get(variables.start).filter(|_| !figures.composed);
-            let part = |variable: usize| Part::of(task, first?, variable, varies);
+            let part = |variable: usize| ComponentSide::of(task, first?, variable, varies);
             let parts = || variables.clone().filter_map(part);
             InputSide {
                 name: &input.quantity.name,
@@ -97,10 +97,10 @@ struct InputSide<'a> {
     #[serde(flatten)]
     figures: FigureSide,
     #[serde(flatten)]
-    known: Known<'a>,
+    known: DistributionSide<'a>,
     source: Option<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    components: Vec<Part<'a>>,
+    components: Vec<ComponentSide<'a>>,
 }
 
 #[derive(Serialize)]
@@ -124,29 +124,30 @@ impl From<Option<&InputFigures>> for FigureSide {
 }
 
 #[derive(Serialize)]
-struct Known<'a> {
+struct DistributionSide<'a> {
     distribution: Option<&'static str>,
     r#type: Option<&'static str>,
     group: Option<&'a str>,
 }
 
 /// Of a quantity that is made of components: they have distributions of their own.
-const COMPOSED: Known<'static> = Known { distribution: None, r#type: None, group: None };
+const COMPOSED: DistributionSide<'static> =
+    DistributionSide { distribution: None, r#type: None, group: None };
 
 /// A component.
 #[derive(Serialize)]
-struct Part<'a> {
+struct ComponentSide<'a> {
     name: &'a str,
     #[serde(flatten)]
     figures: FigureSide,
     #[serde(flatten)]
-    known: Known<'a>,
+    known: DistributionSide<'a>,
     source: Option<&'a str>,
     #[serde(skip)]
     shown: bool,
 }
 
-impl<'a> Part<'a> {
+impl<'a> ComponentSide<'a> {
     fn of(task: &'a Task, row: &Row, variable: usize, varies: bool) -> Option<Self> {
         let distribution: &Distribution = row.distributions.get(variable)?;
         let of: &Variable = task.variables.get(variable)?;
@@ -158,7 +159,7 @@ impl<'a> Part<'a> {
                 standard_uncertainty: here(distribution.standard_uncertainty()),
                 dof: here(distribution.dof()),
             },
-            known: Known {
+            known: DistributionSide {
                 distribution: Some(distribution.name()),
                 r#type: Some(of.evaluation.letter()),
                 group: of.group.as_deref(),

@@ -5,14 +5,14 @@ use super::number::MISSING;
 /// A table, column by column.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sheet {
-    pub(crate) columns: Vec<Column>,
+    pub(crate) columns: Vec<SheetColumn>,
     /// Whether the last row sums up the others.
     pub(crate) footer: bool,
 }
 
 /// A column of a table.
 #[derive(Clone, Debug)]
-pub(crate) struct Column {
+pub(crate) struct SheetColumn {
     /// What stands above it; a line break may be in it.
     pub(crate) header: String,
     /// The cells as a page shows them.
@@ -20,12 +20,12 @@ pub(crate) struct Column {
     /// The numbers that the cells were rounded from, where they are known: as many as cells, or
     /// none at all.
     pub(crate) values: Vec<Option<f64>>,
-    pub(crate) kind: Kind,
+    pub(crate) kind: ColumnKind,
 }
 
 /// What the cells of a column are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum ColumnKind {
     /// Texts.
     Text,
     /// Numbers, whose decimal points stand under each other.
@@ -63,17 +63,17 @@ impl Figure {
 impl Sheet {
     /// Adds a column of texts.
     pub(crate) fn text(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
-        self.push(header, cells, Kind::Text);
+        self.push(header, cells, ColumnKind::Text);
     }
 
     /// Adds a column of numbers.
     pub(crate) fn numbers(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
-        self.push(header, cells, Kind::Numbers);
+        self.push(header, cells, ColumnKind::Numbers);
     }
 
     /// Adds a column of units.
     pub(crate) fn units(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
-        self.push(header, cells, Kind::Units);
+        self.push(header, cells, ColumnKind::Units);
     }
 
     /// Adds a column of numbers whose unrounded values are known.
@@ -91,15 +91,20 @@ impl Sheet {
         &mut self,
         header: &str,
         cells: impl IntoIterator<Item = String>,
-        kind: Kind,
+        kind: ColumnKind,
     ) {
         let cells = cells.into_iter().collect();
-        self.columns.push(Column { header: header.to_owned(), cells, values: Vec::new(), kind });
+        self.columns.push(SheetColumn {
+            header: header.to_owned(),
+            cells,
+            values: Vec::new(),
+            kind,
+        });
     }
 
     /// The same with decimal commas in its numbers.
     pub(crate) fn with_commas(mut self) -> Self {
-        for column in self.columns.iter_mut().filter(|column| column.kind == Kind::Numbers) {
+        for column in self.columns.iter_mut().filter(|column| column.kind == ColumnKind::Numbers) {
             for cell in &mut column.cells {
                 *cell = super::document::with_comma(cell);
             }
@@ -118,15 +123,15 @@ impl Sheet {
     }
 }
 
-impl Column {
+impl SheetColumn {
     /// Whether the cells are numbers.
     pub(crate) fn is_numeric(&self) -> bool {
-        self.kind == Kind::Numbers
+        self.kind == ColumnKind::Numbers
     }
 
     /// Whether the cells are texts that may be broken.
     pub(crate) fn wraps(&self) -> bool {
-        matches!(self.kind, Kind::Text | Kind::Equations)
+        matches!(self.kind, ColumnKind::Text | ColumnKind::Equations)
     }
 
     /// The header on one line.

@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::plain;
-use super::sheet::{Kind, Sheet};
+use super::sheet::{ColumnKind, Sheet};
 use gumption_engine::task::{ModelStatement, Task};
 
 /// Equations on a page, at most; the rest is in the JSON answer.
@@ -67,7 +67,7 @@ pub(crate) fn sheet(of: Measurement<'_>) -> Option<Sheet> {
     }
     let mut sheet = Sheet::default();
     sheet.text("quantity", equations.iter().map(|(name, _)| name.clone()));
-    sheet.push("equation", equations.into_iter().map(|(_, text)| text), Kind::Equations);
+    sheet.push("equation", equations.into_iter().map(|(_, text)| text), ColumnKind::Equations);
     Some(sheet)
 }
 

@@ -10,7 +10,7 @@ use rust_xlsxwriter::{
 };
 
 use super::number::MISSING;
-use super::sheet::{Kind, Sheet};
+use super::sheet::{ColumnKind, Sheet};
 use gumption_engine::decimal::position;
 
 /// Letters of a worksheet's name, at most.
@@ -315,7 +315,8 @@ impl Leaf {
     /// A table from a row on: cells whose unrounded numbers are known are those, with as many
     /// decimals as the page shows. The row below it.
     pub(crate) fn table(&mut self, row: u32, sheet: &Sheet) -> Result<u32, XlsxError> {
-        let titles: Vec<String> = sheet.columns.iter().map(super::sheet::Column::title).collect();
+        let titles: Vec<String> =
+            sheet.columns.iter().map(super::sheet::SheetColumn::title).collect();
         self.headers(row, titles.iter().map(String::as_str))?;
         let mut below = row + 1;
         for line in 0..sheet.rows() {
@@ -325,8 +326,8 @@ impl Leaf {
                     (Some(value), _) => {
                         self.number((below, place), value, decimals(text), Look::Plain)?;
                     }
-                    (None, Kind::Numbers) => self.word((below, place), text, Look::Plain)?,
-                    (None, Kind::Text | Kind::Units | Kind::Equations) => {
+                    (None, ColumnKind::Numbers) => self.word((below, place), text, Look::Plain)?,
+                    (None, ColumnKind::Text | ColumnKind::Units | ColumnKind::Equations) => {
                         self.text(below, place, text)?
                     }
                 }

@@ -62,13 +62,13 @@ impl Drop for StopWhenDropped {
 }
 
 /// A place that is taken until the work ends, whoever waits for it.
-struct Place {
+struct LanePlace {
     _place: OwnedSemaphorePermit,
     flag: Arc<AtomicBool>,
     running: Flags,
 }
 
-impl Drop for Place {
+impl Drop for LanePlace {
     fn drop(&mut self) {
         lock(&self.running).retain(|flag| !Arc::ptr_eq(flag, &self.flag));
     }
@@ -112,7 +112,7 @@ impl Lane {
         }
     }
 
-    async fn place(&self) -> Result<Place, Undone> {
+    async fn place(&self) -> Result<LanePlace, Undone> {
         let places = Arc::clone(&self.places);
         let taken = match Arc::clone(&places).try_acquire_owned() {
             Ok(taken) => taken,
@@ -126,7 +126,7 @@ impl Lane {
         };
         let flag = Arc::new(AtomicBool::new(false));
         lock(&self.running).push_back(Arc::clone(&flag));
-        Ok(Place { _place: taken, flag, running: Arc::clone(&self.running) })
+        Ok(LanePlace { _place: taken, flag, running: Arc::clone(&self.running) })
     }
 
     fn stop_oldest(&self) {

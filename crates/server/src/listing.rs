@@ -45,7 +45,7 @@ fn is_wanted(name: &str) -> bool {
 
 /// The files below the folder; only those in it where a file of it was opened.
 pub(crate) fn listing(folder: &OpenedFolder, answers: &dyn Answers) -> Listing {
-    let mut found = Found { paths: Vec::new(), seen: 0, more: false };
+    let mut found = FoundPaths { paths: Vec::new(), seen: 0, more: false };
     let depth = if folder.named().is_some() { 0 } else { DEEPEST };
     found.look_into(folder.root(), "", depth);
     let described = |path: String| {
@@ -68,13 +68,13 @@ pub(crate) fn listing(folder: &OpenedFolder, answers: &dyn Answers) -> Listing {
     }
 }
 
-struct Found {
+struct FoundPaths {
     paths: Vec<String>,
     seen: usize,
     more: bool,
 }
 
-impl Found {
+impl FoundPaths {
     fn look_into(&mut self, folder: &Path, prefix: &str, depth: usize) {
         let Ok(entries) = fs::read_dir(folder) else { return };
         let mut entries: Vec<_> = entries.take(MOST_SEEN).flatten().collect();

@@ -196,7 +196,7 @@ async fn files(State(house): State<Arc<House>>, request: Request) -> Response {
 }
 
 #[derive(Deserialize)]
-struct Wanted {
+struct WantedPath {
     path: String,
 }
 
@@ -209,7 +209,7 @@ struct Opened<'a> {
 }
 
 async fn open(State(house): State<Arc<House>>, request: Request) -> Response {
-    let Wanted { path } = match request_of(&house, request).await {
+    let WantedPath { path } = match request_of(&house, request).await {
         Ok(wanted) => wanted,
         Err(refused) => return refused,
     };

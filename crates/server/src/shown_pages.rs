@@ -15,11 +15,11 @@ const MOST: usize = 16;
 /// Bytes of them, at most.
 const MOST_BYTES: usize = 64 << 20;
 
-type Kept = VecDeque<(Token, Arc<str>)>;
+type KeptPages = VecDeque<(Token, Arc<str>)>;
 
 /// The last pages.
 #[derive(Debug, Default)]
-pub(crate) struct ShownPages(Mutex<Kept>);
+pub(crate) struct ShownPages(Mutex<KeptPages>);
 
 impl ShownPages {
     /// Keeps a page, and gives the name to fetch it by.
@@ -28,7 +28,7 @@ impl ShownPages {
         let text = name.text().to_owned();
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         kept.push_back((name, html.into()));
-        let too_much = |kept: &Kept| {
+        let too_much = |kept: &KeptPages| {
             kept.len() > MOST || kept.iter().map(|(_, page)| page.len()).sum::<usize>() > MOST_BYTES
         };
         while kept.len() > 1 && too_much(&kept) {

@@ -26,7 +26,7 @@ const SETTLED: f64 = 1e-6;
 
 /// The channels of one time base.
 #[derive(Debug)]
-pub(super) struct Group<'g> {
+pub(super) struct ChannelGroup<'g> {
     pub(super) settings: &'g RecipeSettings,
     pub(super) frequencies: &'g [Frequency],
     pub(super) base: TimeBase,
@@ -43,7 +43,7 @@ pub(super) struct Group<'g> {
 /// The tones of a recording, and for each channel their coefficients and what they leave.
 pub(super) type FittedTones = (ToneDesign, Vec<ToneCoefficients>, Vec<Residuals>);
 
-impl Group<'_> {
+impl ChannelGroup<'_> {
     /// Analyses the channels.
     pub(super) fn analyse<E>(
         &self,

@@ -6,7 +6,7 @@
 //! left is that of the joint fit, its frequency's included.
 
 use super::analysed::Fundamental;
-use super::analysis::{FittedTones, Group};
+use super::analysis::{ChannelGroup, FittedTones};
 use super::drift;
 use super::passes::SampleSource;
 use super::refused::Refused;
@@ -61,7 +61,7 @@ const ROUNDING: u32 = 199;
 
 /// An oscillation that no one named.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Beside {
+pub(super) struct UnnamedOscillation {
     /// Cycles in a sample interval.
     pub(super) cycles: f64,
     /// Their standard deviation.
@@ -91,12 +91,12 @@ impl Accompanying<'_> {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Besides {
     /// Those that are fitted.
-    pub(super) fitted: Vec<Beside>,
+    pub(super) fitted: Vec<UnnamedOscillation>,
     /// Whether there is one that is too near to a named one to be told from it.
     pub(super) too_near: bool,
 }
 
-impl Group<'_> {
+impl ChannelGroup<'_> {
     /// The fits at the frequencies that the recording has, with what oscillates beside them.
     pub(super) fn with_besides<E>(
         &self,
@@ -215,7 +215,7 @@ impl Group<'_> {
         &self,
         passes: &mut dyn SampleSource<Error = E>,
         fundamentals: &mut [Fundamental],
-        tuned: &mut Vec<Beside>,
+        tuned: &mut Vec<UnnamedOscillation>,
         drift: usize,
     ) -> Result<Option<FittedTones>, Refused<E>> {
         let samples = passes.frames() as f64;
@@ -255,11 +255,11 @@ impl Group<'_> {
         passes: &mut dyn SampleSource<Error = E>,
         fundamentals: &[Fundamental],
         (cycles, drift): (Vec<f64>, usize),
-    ) -> Result<Option<Vec<Beside>>, Refused<E>> {
+    ) -> Result<Option<Vec<UnnamedOscillation>>, Refused<E>> {
         let samples = passes.frames();
-        let mut all: Vec<Beside> = cycles
+        let mut all: Vec<UnnamedOscillation> = cycles
             .into_iter()
-            .map(|cycles| Beside { cycles, deviation: 0.0, clear: 0.0 })
+            .map(|cycles| UnnamedOscillation { cycles, deviation: 0.0, clear: 0.0 })
             .collect();
         for _ in 0..MOST_STEPS {
             let cycles: Vec<f64> = all.iter().map(|of| of.cycles).collect();
@@ -407,10 +407,10 @@ pub(super) fn is_flanked(design: &ToneDesign, left: &Residuals) -> bool {
 }
 
 /// Takes out what is too near to a named oscillation, and what lies on both sides of one.
-fn keep_apart(all: &mut Vec<Beside>, named: &[f64], samples: u64) {
+fn keep_apart(all: &mut Vec<UnnamedOscillation>, named: &[f64], samples: u64) {
     let samples = samples as f64;
-    let from = |of: &Beside, tone: f64| (of.cycles - tone) * samples;
-    let both_sides = |tone: f64, all: &[Beside]| {
+    let from = |of: &UnnamedOscillation, tone: f64| (of.cycles - tone) * samples;
+    let both_sides = |tone: f64, all: &[UnnamedOscillation]| {
         let near =
             |sign: f64| all.iter().any(|of| (0.0..SIDEBANDS).contains(&(sign * from(of, tone))));
         near(1.0) && near(-1.0)
@@ -421,7 +421,7 @@ fn keep_apart(all: &mut Vec<Beside>, named: &[f64], samples: u64) {
         let beside = modulated.iter().all(|tone| from(of, *tone).abs() >= SIDEBANDS);
         alone && beside && of.deviation * samples < APART / 4.0
     });
-    let mut kept: Vec<Beside> = Vec::new();
+    let mut kept: Vec<UnnamedOscillation> = Vec::new();
     for of in all.drain(..) {
         if kept.iter().all(|other| (of.cycles - other.cycles).abs() * samples >= APART) {
             kept.push(of);

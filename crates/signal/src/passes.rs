@@ -53,9 +53,9 @@ impl SampleSource for InMemorySamples {
 
 /// The values of one channel in memory.
 #[derive(Debug)]
-pub(super) struct Values<'v>(pub(super) &'v [f64]);
+pub(super) struct ChannelValues<'v>(pub(super) &'v [f64]);
 
-impl SampleSource for Values<'_> {
+impl SampleSource for ChannelValues<'_> {
     type Error = Infallible;
 
     fn frames(&self) -> u64 {

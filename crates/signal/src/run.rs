@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::analysed::{Analysed, local, unit_text};
-use super::analysis::Group;
+use super::analysis::ChannelGroup;
 use super::asked;
 use super::beside::{amplitude, clear_degree};
 use super::channel_step::ChannelStep;
@@ -90,7 +90,8 @@ fn row<P: SampleSource>(
         let base = recording.base;
         let through = None;
         let channels = &plain;
-        let group = Group { settings, frequencies, base, track, clock, channels, through, traced };
+        let group =
+            ChannelGroup { settings, frequencies, base, track, clock, channels, through, traced };
         analysed.extend(group.analyse(&mut recording.passes)?);
         track += 1;
     }
@@ -100,7 +101,8 @@ fn row<P: SampleSource>(
         let (base, clock) = (of.base, of.clock);
         let through = of.through.as_ref();
         let channels = &channels;
-        let group = Group { settings, frequencies, base, track, clock, channels, through, traced };
+        let group =
+            ChannelGroup { settings, frequencies, base, track, clock, channels, through, traced };
         analysed.extend(group.analyse(&mut of.held.unfailing())?);
         findings.extend(of.findings.into_iter().map(|finding| (of.channel, finding)));
         of_steps.extend(of.notes);
@@ -190,7 +192,7 @@ fn through_steps<P: SampleSource>(
         if of.has_effect() && through.is_none() {
             base.start = now.start;
             let channels = [(channel, 0)];
-            let group = Group {
+            let group = ChannelGroup {
                 settings,
                 frequencies,
                 base,

@@ -1,7 +1,7 @@
 //! The sampling rates of recordings that are found from an oscillation of known frequency: the rate
 //! at which it is strongest, refined with its multiples in the fit.
 
-use super::analysis::Group;
+use super::analysis::ChannelGroup;
 use super::passes::{SampleSource, gathered};
 use super::recipe::{ChannelRateSearch, Frequency, RecipeSettings};
 use super::refused::Refused;
@@ -70,7 +70,7 @@ fn rate<P: SampleSource>(
     let frequencies = [Frequency { hertz, standard_uncertainty: 0.0, estimate: true }];
     let channels = [(channel, 0)];
     let settings = RecipeSettings { method: super::Method::SineFit, ..settings.clone() };
-    let group = Group {
+    let group = ChannelGroup {
         settings: &settings,
         frequencies: &frequencies,
         base,

@@ -8,7 +8,7 @@ use super::coloured::Memory;
 use super::effects::{Coloured, Effects, StepEffect};
 use super::known_noise::{KnownNoise, NoiseSource, SeenBefore};
 use super::note::Note;
-use super::passes::Values;
+use super::passes::ChannelValues;
 use super::periodic::{HarmonicNoise, Harmonics};
 use super::quantization::amplitude_error;
 use super::residuals::{Residuals, parts};
@@ -292,7 +292,7 @@ pub(super) fn noise_of(
     through: Option<&Through>,
 ) -> Option<HarmonicNoise> {
     let design = harmonics.design(signal.rate, signal.values.len()).ok()?;
-    let mut passes = Values(&signal.values);
+    let mut passes = ChannelValues(&signal.values);
     let Ok(mut fits) = design.fit(&mut passes);
     let Ok(mut left) = super::residuals::of(&design, &mut passes, &mut fits);
     let mut residuals = left.pop()?;

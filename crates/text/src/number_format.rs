@@ -8,15 +8,15 @@ use gumption_engine::decimal;
 
 /// What a cell shows of a number, by the sections of its format.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Shown {
-    usual: Section,
+pub(crate) struct NumberFormat {
+    usual: FormatSection,
     /// That of negative numbers, where they have one.
-    negative: Option<Section>,
+    negative: Option<FormatSection>,
 }
 
 /// What a section of a format shows around a number.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-struct Section {
+struct FormatSection {
     /// What stands before it and makes another number of it: `√`, `1/`, a minus.
     before: String,
     behind: Behind,
@@ -43,32 +43,32 @@ enum Behind {
 
 /// Where in a section a sign stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Part {
+enum SignPlace {
     Before,
     Within,
 }
 
-impl Shown {
+impl NumberFormat {
     /// By the first section of a format, which is that of positive numbers, and the second one.
     pub(crate) fn of(format: &str) -> Self {
-        let (usual, rest) = Section::of(format, false);
-        let negative = rest.map(|rest| Section::of(rest, true).0);
+        let (usual, rest) = FormatSection::of(format, false);
+        let negative = rest.map(|rest| FormatSection::of(rest, true).0);
         Self { usual, negative }
     }
 
-    fn section(&self, value: f64) -> &Section {
+    fn section(&self, value: f64) -> &FormatSection {
         self.negative.as_ref().filter(|_| value < 0.0).unwrap_or(&self.usual)
     }
 
     /// Whether a cell shows its number alone.
     pub(crate) fn is_plain(&self) -> bool {
-        let is_plain = |of: &Section| *of == Section::default();
+        let is_plain = |of: &FormatSection| *of == FormatSection::default();
         is_plain(&self.usual) && self.negative.as_ref().is_none_or(is_plain)
     }
 
     /// Whether the digits that are shown of a number are those of its value, perhaps in per cent.
     pub(crate) fn shows_digits_of(&self, value: f64) -> bool {
-        let Section { before, behind } = self.section(value);
+        let FormatSection { before, behind } = self.section(value);
         before.is_empty()
             && match behind {
                 Behind::Letters(letters) => {
@@ -82,7 +82,7 @@ impl Shown {
     /// A number as it is shown, with all its digits; no number where it is shown divided or in pieces, so
     /// that who needs one refuses it.
     pub(crate) fn text(&self, value: f64) -> String {
-        let Section { before, behind } = self.section(value);
+        let FormatSection { before, behind } = self.section(value);
         let hundredfold = || decimal::to_15_digits(100.0 * value.abs());
         let shown = |number: &str| {
             let sign = if value < 0.0 { "-" } else { "" };
@@ -120,11 +120,11 @@ fn is_power(letters: &str) -> bool {
     power.parse::<i32>().is_ok() || times.trim_start().starts_with("10")
 }
 
-impl Section {
+impl FormatSection {
     /// The first section of a format, and the others behind it.
     fn of(format: &str, is_negative: bool) -> (Self, Option<&str>) {
         let (mut before, mut between, mut behind) = (String::new(), String::new(), String::new());
-        let mut part = Part::Before;
+        let mut part = SignPlace::Before;
         let mut is_percent = false;
         // commas behind the last digit divide, and those between digits group
         let (mut commas, mut thousands) = (0, 0);
@@ -136,8 +136,8 @@ impl Section {
         let mut is_text = false;
         while let Some(sign) = signs.next() {
             let mut literal = |text: &str| match part {
-                Part::Before => before.push_str(text),
-                Part::Within => behind.push_str(text),
+                SignPlace::Before => before.push_str(text),
+                SignPlace::Within => behind.push_str(text),
             };
             match sign {
                 ';' => {
@@ -145,7 +145,7 @@ impl Section {
                     break;
                 }
                 '%' => is_percent = true,
-                ',' if part == Part::Within => commas += 1,
+                ',' if part == SignPlace::Within => commas += 1,
                 ',' => {}
                 '.' => thousands += std::mem::take(&mut commas),
                 '"' => {
@@ -162,7 +162,7 @@ impl Section {
                     literal(currency.split('-').next().unwrap_or_default());
                 }
                 '0' | '#' | '?' => {
-                    part = Part::Within;
+                    part = SignPlace::Within;
                     commas = 0;
                     between.push_str(&std::mem::take(&mut behind));
                 }
@@ -170,13 +170,13 @@ impl Section {
                 'E' | 'e' if signs.peek().is_some_and(|c| matches!(c, '+' | '-')) => {
                     let _sign = signs.next();
                 }
-                '/' if part == Part::Within => {}
+                '/' if part == SignPlace::Within => {}
                 '@' => is_text = true,
                 other => literal(&other.to_string()),
             }
         }
         let rest = rest.and_then(|length| format.get(format.len() - length..));
-        let found = if part == Part::Before {
+        let found = if part == SignPlace::Before {
             let before = before.trim();
             let is_shown = !is_text && !before.is_empty();
             let behind =
@@ -318,7 +318,7 @@ mod tests {
             ("0\\.00", "0.0002 shown with `.` between digits"),
             ("\"√3\"", "√3"),
         ] {
-            assert_eq!(Shown::of(format).text(0.0002), shown, "{format}");
+            assert_eq!(NumberFormat::of(format).text(0.0002), shown, "{format}");
         }
         for (format, value, last) in [
             ("0.00", 10.016_67, Some(-2)),
@@ -335,8 +335,8 @@ mod tests {
         ] {
             assert_eq!(last_digit(format, value), last, "{format}");
         }
-        assert_eq!(Shown::of("0%").text(0.07), "7%");
-        assert_eq!(Shown::of("0%").text(-1.5), "-150%");
+        assert_eq!(NumberFormat::of("0%").text(0.07), "7%");
+        assert_eq!(NumberFormat::of("0%").text(-1.5), "-150%");
         // in red, in brackets, and with the letters of their section
         for (format, shown) in [
             ("0.0", "-3"),
@@ -346,12 +346,12 @@ mod tests {
             ("\"√\"0", "-√3"),
             ("0.0;0.0\"×10³\"", "-3×10³"),
         ] {
-            assert_eq!(Shown::of(format).text(-3.0), shown, "{format}");
+            assert_eq!(NumberFormat::of(format).text(-3.0), shown, "{format}");
         }
         for (format, is_of_value) in
             [("0.0", true), ("0.0\" mV\"", true), ("0.0\"×10³\"", false), ("√0", false)]
         {
-            assert_eq!(Shown::of(format).shows_digits_of(1.0), is_of_value, "{format}");
+            assert_eq!(NumberFormat::of(format).shows_digits_of(1.0), is_of_value, "{format}");
         }
     }
 }

@@ -19,7 +19,7 @@ use calamine::{Data, DataRef, Reader as _, SheetType, SheetVisible, Style, Xlsx}
 use quick_xml::events::{BytesStart, Event};
 use zip::ZipArchive;
 
-use super::number_format::{Shown, last_digit};
+use super::number_format::{NumberFormat, last_digit};
 use super::xml_limits;
 use layout::PartsOf;
 pub use layout::{Layout, Place};
@@ -357,9 +357,9 @@ pub fn letters(column: u32) -> String {
 }
 
 /// What cells of a style show of their numbers.
-fn shown(style: &Style) -> Shown {
+fn shown(style: &Style) -> NumberFormat {
     let format = style.number_format.as_ref();
-    format.map(|format| Shown::of(&format.format_code)).unwrap_or_default()
+    format.map(|format| NumberFormat::of(&format.format_code)).unwrap_or_default()
 }
 
 fn opened(bytes: Vec<u8>) -> Result<Xlsx<Cursor<Vec<u8>>>, String> {
@@ -395,8 +395,8 @@ fn cells(
     };
     let sheet = sheet.ok_or_else(|| "the workbook has no sheet".to_owned())?;
     let mut reader = workbook.worksheet_cells_reader(&sheet).map_err(is_none)?;
-    let formats: Vec<Shown> = reader.styles().iter().map(shown).collect();
-    let plain = Shown::default();
+    let formats: Vec<NumberFormat> = reader.styles().iter().map(shown).collect();
+    let plain = NumberFormat::default();
     let code = |style: &Style| style.number_format.as_ref().map(|of| of.format_code.clone());
     let codes: Vec<Option<_>> = reader.styles().iter().map(code).collect();
     let is_struck = |style: &Style| style.font.as_ref().is_some_and(|font| font.strikethrough);

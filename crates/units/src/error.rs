@@ -246,7 +246,7 @@ impl fmt::Display for UnitError {
                 write!(f, "the prefix `{prefix}` cannot stand before `{unit}`; write `{instead}`")
             }
             Self::UnexpectedCharacter { found, expected, suggestion, .. } => {
-                write!(f, "`{}` cannot stand here; expected {expected}", Shown(*found))?;
+                write!(f, "`{}` cannot stand here; expected {expected}", ShownChar(*found))?;
                 match suggestion {
                     Some(suggestion) => write!(f, "; did you mean `{suggestion}`?"),
                     None => Ok(()),
@@ -319,9 +319,9 @@ fn alternatives(texts: &[String]) -> String {
 }
 
 /// A character in a message: quotes as they are, control characters escaped.
-struct Shown(char);
+struct ShownChar(char);
 
-impl fmt::Display for Shown {
+impl fmt::Display for ShownChar {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             '\'' | '"' | '\\' => write!(f, "{}", self.0),

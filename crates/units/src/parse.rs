@@ -132,7 +132,7 @@ pub(super) struct Parser<'t> {
 
 /// What kind of factor has been read, for the rules that depend on it.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum FactorKind {
     Number,
     Name,
     Group,
@@ -141,7 +141,7 @@ enum Kind {
 /// A factor with its exponent.
 struct Power {
     meaning: Meaning,
-    kind: Kind,
+    kind: FactorKind,
     start: usize,
     has_exponent: bool,
 }
@@ -236,7 +236,7 @@ impl<'t> Parser<'t> {
                 Some(next)
                     if starts_factor(next)
                         && !next.is_ascii_digit()
-                        && (spaced || last.kind == Kind::Number && !last.has_exponent) =>
+                        && (spaced || last.kind == FactorKind::Number && !last.has_exponent) =>
                 {
                     self.refuse_split(&last, end)?;
                     // half a millimetre, 1/2 mm, is read in one way only, and `g/100 g` is not
@@ -245,14 +245,14 @@ impl<'t> Parser<'t> {
                             .slice(start..solidus)
                             .contains(|c: char| c.is_alphabetic() || c == '%')
                     };
-                    (false, last.kind != Kind::Number || !quotient.is_none_or(is_number))
+                    (false, last.kind != FactorKind::Number || !quotient.is_none_or(is_number))
                 }
                 Some(_) => return Err(self.no_operator(&last, end)),
             };
             let from = self.factors.len();
             let is_joined = !self.slice(end..self.at).contains(is_operator);
             last = self.power(depth)?;
-            if is_joined && last.kind == Kind::Group {
+            if is_joined && last.kind == FactorKind::Group {
                 self.refuse_number(last.start, from)?;
             }
             if let Some(solidus) = quotient.filter(|_| typeset) {
@@ -349,8 +349,8 @@ impl<'t> Parser<'t> {
         let before = self.slice(last.start..end);
         let suggestion = match last.kind {
             _ if digits.is_empty() || last.has_exponent => None,
-            Kind::Name => Some(format!("{before}^{sign}{digits}")),
-            Kind::Number if next.is_ascii_digit() => Some(format!("{before}{digits}")),
+            FactorKind::Name => Some(format!("{before}^{sign}{digits}")),
+            FactorKind::Number if next.is_ascii_digit() => Some(format!("{before}{digits}")),
             _ => None,
         };
         self.unexpected(OPERATOR, suggestion.filter(|text| parse(text).is_ok()))
@@ -413,13 +413,13 @@ impl<'t> Parser<'t> {
         let (start, from) = (self.at, self.factors.len());
         let (base, kind) = self.factor(depth)?;
         let end = self.at;
-        let limit = if kind == Kind::Number { MAX_NUMBER_EXPONENT } else { MAX_EXPONENT };
+        let limit = if kind == FactorKind::Number { MAX_NUMBER_EXPONENT } else { MAX_EXPONENT };
         self.skip_space();
         let Some(read) = self.exponent(limit)? else {
             self.at = end;
             return Ok(Power { meaning: base, kind, start, has_exponent: false });
         };
-        if read.bare && kind != Kind::Number {
+        if read.bare && kind != FactorKind::Number {
             self.refuse_ambiguous(start..end, &read)?;
         }
         let flavour = if read.exponent == Exponent::ONE { base.flavour } else { Flavour::Plain };
@@ -434,7 +434,7 @@ impl<'t> Parser<'t> {
     }
 
     /// Reads a number, a name, a group or a root.
-    fn factor(&mut self, depth: usize) -> Result<(Meaning, Kind), UnitError> {
+    fn factor(&mut self, depth: usize) -> Result<(Meaning, FactorKind), UnitError> {
         let (start, from) = (self.at, self.factors.len());
         match self.peek() {
             Some('(') => self.group(start, depth),
@@ -463,7 +463,7 @@ impl<'t> Parser<'t> {
     }
 
     /// Reads a product in parentheses; the opening one is next.
-    fn group(&mut self, start: usize, depth: usize) -> Result<(Meaning, Kind), UnitError> {
+    fn group(&mut self, start: usize, depth: usize) -> Result<(Meaning, FactorKind), UnitError> {
         let open = self.next_span();
         let depth = deeper(depth, open.clone())?;
         self.at = open.end;
@@ -480,7 +480,7 @@ impl<'t> Parser<'t> {
             Some(_) => Some(self.product(depth)?),
         };
         match meaning {
-            Some(meaning) if self.take(")") => Ok((meaning, Kind::Group)),
+            Some(meaning) if self.take(")") => Ok((meaning, FactorKind::Group)),
             _ => Err(UnitError::UnbalancedParenthesis { found: '(', span: open }),
         }
     }
@@ -491,16 +491,16 @@ impl<'t> Parser<'t> {
         inner: Meaning,
         start: usize,
         from: usize,
-    ) -> Result<(Meaning, Kind), UnitError> {
+    ) -> Result<(Meaning, FactorKind), UnitError> {
         let fits = self.raise(from, Exponent::HALF);
         let dimension = inner.dimension.checked_pow(Exponent::HALF).filter(|_| fits);
         let scale = inner.scale.power(Exponent::HALF);
         let meaning = self.meaning(dimension, scale, Flavour::Plain, start..self.at)?;
-        Ok((meaning, Kind::Group))
+        Ok((meaning, FactorKind::Group))
     }
 
     /// Reads a number; a digit is next.
-    fn number(&mut self) -> Result<(Meaning, Kind), UnitError> {
+    fn number(&mut self) -> Result<(Meaning, FactorKind), UnitError> {
         let start = self.at;
         self.take_while(|c| c.is_ascii_digit());
         if matches!(self.rest().as_bytes(), [b'.', b'0'..=b'9', ..]) {
@@ -524,7 +524,7 @@ impl<'t> Parser<'t> {
                 self.factors.push(Factor { base: FactorBase::Number(10.0), exponent });
             }
         }
-        Ok((self.meaning(Some(Dimension::NONE), scale, Flavour::Plain, span)?, Kind::Number))
+        Ok((self.meaning(Some(Dimension::NONE), scale, Flavour::Plain, span)?, FactorKind::Number))
     }
 
     /// The length of an `e-6` that is next.
@@ -537,7 +537,7 @@ impl<'t> Parser<'t> {
     }
 
     /// Reads a name; its first character is next.
-    fn name(&mut self, depth: usize) -> Result<(Meaning, Kind), UnitError> {
+    fn name(&mut self, depth: usize) -> Result<(Meaning, FactorKind), UnitError> {
         let (start, from) = (self.at, self.factors.len());
         match self.peek() {
             Some(c) if is_quote(c) => {
@@ -561,14 +561,14 @@ impl<'t> Parser<'t> {
         }
         if let Some(unit) = self.own.iter().find(|unit| unit.text() == name) {
             self.factors.extend_from_slice(&unit.factors);
-            return Ok((unit.meaning(), Kind::Name));
+            return Ok((unit.meaning(), FactorKind::Name));
         }
         let Some((prefix, symbol)) = read(name) else {
             return Err(suggest::unknown(name, span));
         };
         self.factors.push(Factor::of(FactorBase::Named { prefix, symbol }));
         let meaning = meaning(prefix, symbol).ok_or(UnitError::FactorOutOfRange { span })?;
-        Ok((meaning, Kind::Name))
+        Ok((meaning, FactorKind::Name))
     }
 
     /// Reads a sign; whether it is a minus.

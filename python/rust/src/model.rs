@@ -46,7 +46,7 @@ pub(crate) struct Model {
 
 /// What `run` is asked for beside what the file says.
 #[derive(Debug, Default)]
-struct Asked {
+struct RunRequest {
     changes: SettingsChanges,
     /// A coverage factor; whether it is kept fixed is said by the file.
     factor: Option<f64>,
@@ -54,7 +54,7 @@ struct Asked {
     memory: usize,
 }
 
-impl Asked {
+impl RunRequest {
     fn of(py: Python<'_>, options: &Bound<'_, PyDict>) -> PyResult<Self> {
         let mut asked = Self { memory: 64 << 20, ..Self::default() };
         for (name, value) in options {
@@ -305,7 +305,7 @@ impl Model {
         progress: Option<&Bound<'_, PyAny>>,
         function: Option<Py<PyAny>>,
     ) -> PyResult<Run> {
-        let asked = Asked::of(py, options)?;
+        let asked = RunRequest::of(py, options)?;
         let task = self.asked_task(py, &asked)?;
         let file = Arc::clone(&self.file);
         let counted = progress.is_some();
@@ -332,7 +332,7 @@ impl Model {
         options: &Bound<'_, PyDict>,
         function: Option<Py<PyAny>>,
     ) -> PyResult<Parts> {
-        let asked = Asked::of(py, options)?;
+        let asked = RunRequest::of(py, options)?;
         let task = self.asked_task(py, &asked)?;
         let of = (&self.file, task, &self.provenance);
         Ok(Parts::new(of, &self.source, (asked.threads, asked.memory), function))
@@ -345,7 +345,7 @@ impl Model {
 
 impl Model {
     /// The task with what is asked for.
-    fn asked_task(&self, py: Python<'_>, asked: &Asked) -> PyResult<Task> {
+    fn asked_task(&self, py: Python<'_>, asked: &RunRequest) -> PyResult<Task> {
         let mut task = self.file.task.clone();
         asked.settings(&mut task);
         if asked.changes.rule.is_some() && task.settings.trials != Trials::Adaptive {
@@ -372,7 +372,7 @@ enum Failed {
 fn evaluated(
     file: &ModelFile,
     mut task: Task,
-    asked: &Asked,
+    asked: &RunRequest,
     counted: bool,
     function: Option<Py<PyAny>>,
     watch: &Watch,
@@ -381,7 +381,7 @@ fn evaluated(
     if let Some(called) = &called {
         task.function = Some(called.clone());
     }
-    let Asked { threads, memory, .. } = *asked;
+    let RunRequest { threads, memory, .. } = *asked;
     let advance = |trials: u64| {
         watch.done.fetch_add(trials, std::sync::atomic::Ordering::Relaxed);
     };

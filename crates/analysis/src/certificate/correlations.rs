@@ -29,8 +29,8 @@ pub(super) fn between(
     let own = own_roots_of(certificate, digests);
     let (places, links) = Default::default();
     let mut unknowns = Unknowns { certificate, own, places, links };
-    let mut found: BTreeMap<(usize, usize), Vec<Option<Parts>>> = BTreeMap::new();
-    let parts: Vec<Option<Parts>> = certificate
+    let mut found: BTreeMap<(usize, usize), Vec<Option<ContributionsByValue>>> = BTreeMap::new();
+    let parts: Vec<Option<ContributionsByValue>> = certificate
         .lines
         .iter()
         .map(|line| {
@@ -41,7 +41,7 @@ pub(super) fn between(
             of_row.get(line.output).cloned().flatten()
         })
         .collect();
-    let covariance = |a: &Parts, b: &Parts| unknowns.covariance(a, b);
+    let covariance = |a: &ContributionsByValue, b: &ContributionsByValue| unknowns.covariance(a, b);
     let spread: Vec<Option<f64>> = parts
         .iter()
         .map(|part| part.as_ref().map(|p| covariance(p, p).sqrt()).filter(|u| *u > 0.0))
@@ -61,7 +61,7 @@ pub(super) fn between(
 }
 
 /// Contributions c u of a result by unknown value.
-type Parts = BTreeMap<usize, f64>;
+type ContributionsByValue = BTreeMap<usize, f64>;
 
 /// The unknown values behind all rows.
 struct Unknowns<'a> {
@@ -80,7 +80,7 @@ impl Unknowns<'_> {
         (number, row): (usize, usize),
         evaluations: &[Evaluation],
         digests: &[Arc<str>],
-    ) -> Option<Vec<Option<Parts>>> {
+    ) -> Option<Vec<Option<ContributionsByValue>>> {
         let asked = self.certificate.evaluations.get(number)?;
         let outputs = &evaluations.get(number)?.rows.get(row)?.outputs;
         let digest = digests.get(asked.file)?;
@@ -102,7 +102,7 @@ impl Unknowns<'_> {
             }
         }
         let parts = sensitivities.into_iter().map(|sensitivities| {
-            let mut parts = Parts::new();
+            let mut parts = ContributionsByValue::new();
             for ((place, root), c) in places.iter().zip(&roots).zip(sensitivities?) {
                 *parts.entry(*place).or_insert(0.0) += c * root.standard_uncertainty;
             }
@@ -111,7 +111,7 @@ impl Unknowns<'_> {
         Some(parts.collect())
     }
 
-    fn covariance(&self, a: &Parts, b: &Parts) -> f64 {
+    fn covariance(&self, a: &ContributionsByValue, b: &ContributionsByValue) -> f64 {
         let mut sum = 0.0;
         for (place, part) in a {
             sum += part * b.get(place).copied().unwrap_or(0.0);

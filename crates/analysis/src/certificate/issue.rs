@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::correlations;
-use super::statement::{self, Statement, Wanted};
+use super::statement::{self, Statement, StatementRules};
 use crate::certificate::contents::Certificate;
 use gumption_engine::propagate::{Control, Evaluation, EvaluationError, evaluate};
 
@@ -105,7 +105,7 @@ pub fn issue(
             Some((evaluation, evaluation.rows.get(line.row)?.outputs.get(line.output)?))
         });
         let (evaluation, output) = found.ok_or(Failed::NoResult { line: number })?;
-        let wanted = Wanted {
+        let wanted = StatementRules {
             settings: &evaluation.settings,
             rounding: certificate.rounding,
             digits: certificate.digits,

@@ -75,7 +75,7 @@ impl Statement {
 
 /// What a certificate asks of every statement.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Wanted<'a> {
+pub(super) struct StatementRules<'a> {
     pub(super) settings: &'a Settings,
     pub(super) rounding: Rounding,
     pub(super) digits: u32,
@@ -85,9 +85,9 @@ pub(super) struct Wanted<'a> {
 pub(super) fn of(
     output: &OutputEvaluation,
     capability: Option<&Capability>,
-    wanted: Wanted<'_>,
+    wanted: StatementRules<'_>,
 ) -> Option<Statement> {
-    let Wanted { settings, .. } = wanted;
+    let StatementRules { settings, .. } = wanted;
     let place = |expanded: f64| {
         rounding::expanded(expanded, wanted.digits, wanted.rounding).map(Decimal::position)
     };

@@ -13,7 +13,7 @@
 
 use nalgebra::DMatrix;
 
-use super::laboratories::{Impossible, ReferenceValue, Results};
+use super::laboratories::{CorrelatedResults, Impossible, ReferenceValue};
 use gumption_engine::linalg::DenseRoot;
 use gumption_engine::special;
 
@@ -101,9 +101,9 @@ const PROBABILITY: f64 = 0.954_499_736_103_641_6;
 /// The value of one of the estimators that take all laboratories, and the results with the
 /// covariance matrix that it takes.
 pub(super) fn estimated(
-    results: &Results,
+    results: &CorrelatedResults,
     estimator: Estimator,
-) -> Result<(ConsensusValue, Results), Impossible> {
+) -> Result<(ConsensusValue, CorrelatedResults), Impossible> {
     let n = results.values.len();
     let everybody: Vec<usize> = (0..n).collect();
     let stated = results.reference(&everybody).ok_or(Impossible::NotDefinite)?;
@@ -127,7 +127,7 @@ pub(super) fn estimated(
             widened(results, squared)
         }
     };
-    let taken = Results { values: results.values.clone(), covariance };
+    let taken = CorrelatedResults { values: results.values.clone(), covariance };
     let reference = taken.reference(&everybody).ok_or(Impossible::NotDefinite)?;
     let hartung_knapp = tau.map(|_| HartungKnapp {
         standard_uncertainty: reference.standard_uncertainty * (reference.chi_squared / dof).sqrt(),
@@ -138,14 +138,14 @@ pub(super) fn estimated(
 }
 
 /// V + tau^2 I.
-fn widened(results: &Results, squared: f64) -> DMatrix<f64> {
+fn widened(results: &CorrelatedResults, squared: f64) -> DMatrix<f64> {
     let n = results.values.len();
     &results.covariance + DMatrix::from_diagonal_element(n, n, squared)
 }
 
 /// tau^2 of DerSimonian and Laird: chi-squared is compared with its expectation
 /// n - 1 + tau^2 (tr W - 1' W W 1 / 1' W 1), where W is the inverse of V.
-fn moment(results: &Results, chi_squared: f64) -> Option<f64> {
+fn moment(results: &CorrelatedResults, chi_squared: f64) -> Option<f64> {
     let n = results.values.len();
     let inverse = DenseRoot::of(results.covariance.clone())?.inverse();
     let sums = inverse.column_sum();
@@ -156,11 +156,11 @@ fn moment(results: &Results, chi_squared: f64) -> Option<f64> {
 
 /// tau^2 of Mandel and Paule, at which chi-squared is n - 1; it falls with tau. 0 where it is not
 /// above that as stated.
-fn iterated(results: &Results, everybody: &[usize]) -> Option<f64> {
+fn iterated(results: &CorrelatedResults, everybody: &[usize]) -> Option<f64> {
     let expected = (results.values.len() - 1) as f64;
     let excess = |squared: f64| -> Option<f64> {
         let covariance = widened(results, squared);
-        let taken = Results { values: results.values.clone(), covariance };
+        let taken = CorrelatedResults { values: results.values.clone(), covariance };
         Some(taken.reference(everybody)?.chi_squared - expected)
     };
     if excess(0.0)? <= 0.0 {

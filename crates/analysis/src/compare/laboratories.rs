@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::consensus::{self, ConsensusValue, Estimator};
 use super::pair::StatedResult;
-use super::subset::{self, Found, SubsetSearch, Ties};
+use super::subset::{self, FoundSubset, SubsetSearch, Ties};
 use super::{FACTOR, agree, definite, probability};
 use gumption_engine::linalg::{DenseRoot, principal_part};
 use gumption_engine::special;
@@ -186,12 +186,12 @@ impl std::error::Error for Impossible {}
 
 /// Values with their covariance matrix.
 #[derive(Clone, Debug)]
-pub(super) struct Results {
+pub(super) struct CorrelatedResults {
     pub(super) values: Vec<f64>,
     pub(super) covariance: DMatrix<f64>,
 }
 
-impl Results {
+impl CorrelatedResults {
     /// The root of the members' covariance matrix; `None` if that is not positive definite.
     fn root(&self, members: &[usize]) -> Option<DenseRoot> {
         DenseRoot::of(principal_part(&self.covariance, members))
@@ -346,7 +346,7 @@ pub fn compare_by(
     if !correlations.is_empty() {
         definite::check(laboratories, coefficient)?;
     }
-    let results = Results {
+    let results = CorrelatedResults {
         values: laboratories.iter().map(|l| l.result.value).collect(),
         covariance: DMatrix::from_fn(n, n, |i, j| coefficient(i, j) * u[i] * u[j]),
     };
@@ -358,7 +358,7 @@ pub fn compare_by(
         Some(subset::largest(&results, n).ok_or(Impossible::NotDefinite)?)
     };
     let (subset, (search, ties)) = match subset {
-        Some(Found { reference, search, ties }) => (Some(reference), (Some(search), ties)),
+        Some(FoundSubset { reference, search, ties }) => (Some(reference), (Some(search), ties)),
         None => (None, (None, Ties::default())),
     };
     let estimator = match wanted {

@@ -1,6 +1,6 @@
 //! The largest consistent subset of laboratories.
 
-use super::laboratories::{ReferenceValue, Results};
+use super::laboratories::{CorrelatedResults, ReferenceValue};
 
 /// How the subset was looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +43,7 @@ const MOST_KEPT: usize = 10;
 
 /// The largest consistent subset and how it was found.
 #[derive(Debug)]
-pub(super) struct Found {
+pub(super) struct FoundSubset {
     pub(super) reference: ReferenceValue,
     pub(super) search: SubsetSearch,
     pub(super) ties: Ties,
@@ -51,7 +51,7 @@ pub(super) struct Found {
 
 /// The largest consistent subset of `count` laboratories; `None` if a covariance matrix is not
 /// positive definite. One laboratory alone is consistent.
-pub(super) fn largest(results: &Results, count: usize) -> Option<Found> {
+pub(super) fn largest(results: &CorrelatedResults, count: usize) -> Option<FoundSubset> {
     let noise = noise(results.reference(&(0..count).collect::<Vec<_>>())?.chi_squared);
     let mut looked_at = 0u64;
     for out in 1..count {
@@ -63,7 +63,7 @@ pub(super) fn largest(results: &Results, count: usize) -> Option<Found> {
         let reference = results.reference(&members)?;
         // the others of its size have larger chi-squared
         if reference.is_consistent() {
-            return Some(Found { reference, search: SubsetSearch::All, ties });
+            return Some(FoundSubset { reference, search: SubsetSearch::All, ties });
         }
     }
     None
@@ -94,7 +94,7 @@ fn noise(of_all: f64) -> f64 {
 /// The subset without `out` laboratories that has the smallest chi-squared, the first one of equals, and
 /// the equals.
 fn smallest(
-    results: &Results,
+    results: &CorrelatedResults,
     (count, out): (usize, usize),
     noise: f64,
 ) -> Option<(Vec<usize>, Ties)> {
@@ -144,7 +144,7 @@ fn without(places: &[usize], count: usize) -> Vec<usize> {
     others
 }
 
-fn one_at_a_time(results: &Results, count: usize) -> Option<Found> {
+fn one_at_a_time(results: &CorrelatedResults, count: usize) -> Option<FoundSubset> {
     let mut members: Vec<usize> = (0..count).collect();
     let mut reference = results.reference(&members)?;
     let mut ties = Ties::default();
@@ -166,7 +166,7 @@ fn one_at_a_time(results: &Results, count: usize) -> Option<Found> {
         ties.count += equals;
         reference = results.reference(&members)?;
     }
-    Some(Found { reference, search: SubsetSearch::OneAtATime, ties })
+    Some(FoundSubset { reference, search: SubsetSearch::OneAtATime, ties })
 }
 
 fn binomial(n: u64, k: u64) -> u64 {

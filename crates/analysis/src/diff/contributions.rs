@@ -50,7 +50,7 @@ fn rules(probability: Option<f64>, factor: f64, dof: f64) -> Vec<Rule> {
 
 /// One output in one of two files; lists have an entry for each input of either.
 #[derive(Clone, Debug)]
-pub(super) struct Known {
+pub(super) struct OutputFigures {
     /// Standard uncertainty.
     pub(super) standard_uncertainty: f64,
     /// Coverage factor.
@@ -82,7 +82,7 @@ pub(super) enum Cause {
 
 /// The parts of the changes of u^2 and k; they sum to the changes. Causes that change nothing are
 /// not among them.
-pub(super) fn parts(sides: [&Known; 2]) -> Vec<(Cause, [f64; 2])> {
+pub(super) fn parts(sides: [&OutputFigures; 2]) -> Vec<(Cause, [f64; 2])> {
     let [first, second] = sides;
     let fitting = sides.map(|side| rules(side.probability, side.coverage_factor, side.dof));
     let common = fitting[0].iter().find(|rule| fitting[1].contains(rule));
@@ -91,7 +91,7 @@ pub(super) fn parts(sides: [&Known; 2]) -> Vec<(Cause, [f64; 2])> {
         return Vec::new();
     };
     let moved = |&index: &usize| {
-        let of = |side: &Known| {
+        let of = |side: &OutputFigures| {
             let dof = side.input_dof.get(index).map(|dof| dof.to_bits());
             (side.contributions.get(index).map(|c| c.to_bits()), dof)
         };
@@ -131,7 +131,8 @@ pub(super) fn parts(sides: [&Known; 2]) -> Vec<(Cause, [f64; 2])> {
         let combined = combined(&contributions, &dof, &side(of_correlations).correlations);
         vec![combined.variance, rule.factor(combined.dof).unwrap_or(f64::NAN)]
     };
-    let stated = |side: &Known| vec![side.standard_uncertainty.powi(2), side.coverage_factor];
+    let stated =
+        |side: &OutputFigures| vec![side.standard_uncertainty.powi(2), side.coverage_factor];
     // both ends are the files' own figures, so that the parts sum to the change to the last digit
     let value = |marks: &[bool]| {
         let computed = figures(marks);

@@ -1,6 +1,6 @@
 //! Saved results compared with each other, or with tasks.
 
-use super::contributions::{Cause, Known, parts};
+use super::contributions::{Cause, OutputFigures, parts};
 use super::linear::{LinearOutput, LinearResult, Matched, matched};
 use super::{
     ChangeCause, ChangePart, Difference, InputState, OutputDifference, ROUNDING, RowDifference,
@@ -147,14 +147,14 @@ impl Pair<'_> {
         })
     }
 
-    fn known(&self, side: usize, correlations: &[(usize, usize, f64)]) -> Option<Known> {
+    fn known(&self, side: usize, correlations: &[(usize, usize, f64)]) -> Option<OutputFigures> {
         let output = self.outputs[side];
         let root = |input: &Matched| self.sides[side].inputs.get(input.indices[side]?);
         let contribution = |input: &Matched| {
             let u = root(input).map_or(0.0, |root| root.standard_uncertainty);
             self.sensitivity(side, input) * u * self.scale(side)
         };
-        Some(Known {
+        Some(OutputFigures {
             standard_uncertainty: output.standard_uncertainty * self.scale(side),
             coverage_factor: output.coverage_factor?,
             dof: output.dof,
@@ -190,8 +190,9 @@ impl Pair<'_> {
             [Some(first), Some(second)] => Some(parts([first, second])),
             _ => None,
         };
-        let figure =
-            |of: fn(&Known) -> f64| known.each_ref().map(|s| s.as_ref().map_or(f64::NAN, of));
+        let figure = |of: fn(&OutputFigures) -> f64| {
+            known.each_ref().map(|s| s.as_ref().map_or(f64::NAN, of))
+        };
         let (u, k) = (figure(|s| s.standard_uncertainty), figure(|s| s.coverage_factor));
         let part = |cause: Cause| attributed.iter().flatten().find(|(of, _)| *of == cause);
         let change = |part: [f64; 2]| change_of_expanded(u, k, part);

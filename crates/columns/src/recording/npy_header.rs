@@ -22,12 +22,12 @@ pub(super) struct NpyHeader {
 /// How a number is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct NpyNumber {
-    kind: Kind,
+    kind: ElementType,
     big_endian: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum ElementType {
     F16,
     F32,
     F64,
@@ -46,17 +46,17 @@ impl NpyNumber {
     fn parse(text: &str) -> Option<Self> {
         let (order, kind) = text.split_at_checked(1)?;
         let kind = match kind {
-            "f2" => Kind::F16,
-            "f4" => Kind::F32,
-            "f8" => Kind::F64,
-            "i1" => Kind::I8,
-            "i2" => Kind::I16,
-            "i4" => Kind::I32,
-            "i8" => Kind::I64,
-            "u1" => Kind::U8,
-            "u2" => Kind::U16,
-            "u4" => Kind::U32,
-            "u8" => Kind::U64,
+            "f2" => ElementType::F16,
+            "f4" => ElementType::F32,
+            "f8" => ElementType::F64,
+            "i1" => ElementType::I8,
+            "i2" => ElementType::I16,
+            "i4" => ElementType::I32,
+            "i8" => ElementType::I64,
+            "u1" => ElementType::U8,
+            "u2" => ElementType::U16,
+            "u4" => ElementType::U32,
+            "u8" => ElementType::U64,
             _ => return None,
         };
         let number = Self { kind, big_endian: order == ">" };
@@ -67,16 +67,16 @@ impl NpyNumber {
     /// Bytes of a number.
     pub(super) fn size(self) -> usize {
         match self.kind {
-            Kind::I8 | Kind::U8 => 1,
-            Kind::F16 | Kind::I16 | Kind::U16 => 2,
-            Kind::F32 | Kind::I32 | Kind::U32 => 4,
-            Kind::F64 | Kind::I64 | Kind::U64 => 8,
+            ElementType::I8 | ElementType::U8 => 1,
+            ElementType::F16 | ElementType::I16 | ElementType::U16 => 2,
+            ElementType::F32 | ElementType::I32 | ElementType::U32 => 4,
+            ElementType::F64 | ElementType::I64 | ElementType::U64 => 8,
         }
     }
 
     /// Whether it is of an integer format.
     pub(super) fn is_whole(self) -> bool {
-        !matches!(self.kind, Kind::F16 | Kind::F32 | Kind::F64)
+        !matches!(self.kind, ElementType::F16 | ElementType::F32 | ElementType::F64)
     }
 
     /// The number that the bytes begin with; not a number where they are too few.
@@ -93,17 +93,17 @@ impl NpyNumber {
             };
         }
         let value = match self.kind {
-            Kind::F16 => of!(u16).map(half),
-            Kind::F32 => of!(f32),
-            Kind::F64 => of!(f64),
-            Kind::I8 => of!(i8),
-            Kind::I16 => of!(i16),
-            Kind::I32 => of!(i32),
-            Kind::I64 => of!(i64),
-            Kind::U8 => of!(u8),
-            Kind::U16 => of!(u16),
-            Kind::U32 => of!(u32),
-            Kind::U64 => of!(u64),
+            ElementType::F16 => of!(u16).map(half),
+            ElementType::F32 => of!(f32),
+            ElementType::F64 => of!(f64),
+            ElementType::I8 => of!(i8),
+            ElementType::I16 => of!(i16),
+            ElementType::I32 => of!(i32),
+            ElementType::I64 => of!(i64),
+            ElementType::U8 => of!(u8),
+            ElementType::U16 => of!(u16),
+            ElementType::U32 => of!(u32),
+            ElementType::U64 => of!(u64),
         };
         value.unwrap_or(f64::NAN)
     }

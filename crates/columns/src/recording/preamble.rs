@@ -34,13 +34,13 @@ pub(super) struct Beginning {
 }
 
 /// A line that holds something.
-struct Line {
+struct PreambleLine {
     place: usize,
     separator: Separator,
     cells: Vec<String>,
 }
 
-impl Line {
+impl PreambleLine {
     fn is_number(&self, place: usize) -> bool {
         self.cells.get(place).is_some_and(|cell| is_number(cell, self.separator))
     }
@@ -125,9 +125,9 @@ impl Beginning {
             let separator = Separator::of_line(text);
             let cells = separator.cells(text).unwrap_or_default();
             let is_held = !is_skipped(text) && cells.iter().any(|cell| !cell.is_empty());
-            is_held.then_some(Line { place, separator, cells })
+            is_held.then_some(PreambleLine { place, separator, cells })
         };
-        let lines: Vec<Line> = lines.iter().enumerate().filter_map(of_line).collect();
+        let lines: Vec<PreambleLine> = lines.iter().enumerate().filter_map(of_line).collect();
         let first = lines.first()?;
         let plain = Self {
             first: first.place,
@@ -146,24 +146,25 @@ impl Beginning {
         let above = (at > 0).then_some(first.place);
         let is_header = units.is_some();
         let (first, separator) = (header.place, header.separator);
-        let of_values = lines.iter().take(at).find_map(Line::unit_of_values);
+        let of_values = lines.iter().take(at).find_map(PreambleLine::unit_of_values);
         Some(Self { first, units, of_values, above, separator, is_header })
     }
 
     /// The first line with the names of the columns and numbers below it, perhaps behind a line of units.
-    fn named(lines: &[Line], wanted: &[Wanted]) -> Option<(usize, Option<Vec<String>>)> {
+    fn named(lines: &[PreambleLine], wanted: &[Wanted]) -> Option<(usize, Option<Vec<String>>)> {
         if !wanted.iter().any(|wanted| matches!(wanted.column, ColumnName::Name(_))) {
             return None;
         }
-        let places = |line: &Line| -> Option<Vec<usize>> {
+        let places = |line: &PreambleLine| -> Option<Vec<usize>> {
             let place = |wanted: &Wanted| match &wanted.column {
                 ColumnName::Name(name) => heading::place_of(&line.cells, name),
                 ColumnName::Number(number) => Some(number - 1),
             };
             wanted.iter().map(place).collect()
         };
-        let has_numbers =
-            |line: &Line, places: &[usize]| places.iter().all(|place| line.is_number(*place));
+        let has_numbers = |line: &PreambleLine, places: &[usize]| {
+            places.iter().all(|place| line.is_number(*place))
+        };
         let header = lines.iter().enumerate().find_map(|(at, line)| {
             let places = places(line)?;
             let next = lines.get(at + 1);
@@ -178,7 +179,7 @@ impl Beginning {
         });
         // the first samples may be mistakes, which are told then
         header.or_else(|| {
-            let is_above = |(at, line): &(usize, &Line)| {
+            let is_above = |(at, line): &(usize, &PreambleLine)| {
                 let mut below = lines.iter().skip(at + 1);
                 places(line).is_some_and(|places| below.any(|line| has_numbers(line, &places)))
             };
@@ -187,7 +188,10 @@ impl Beginning {
     }
 
     /// The line above the first ones of numbers alone, or above a line of units above these.
-    fn above_numbers(lines: &[Line], wanted: &[Wanted]) -> Option<(usize, Option<Vec<String>>)> {
+    fn above_numbers(
+        lines: &[PreambleLine],
+        wanted: &[Wanted],
+    ) -> Option<(usize, Option<Vec<String>>)> {
         let place = |wanted: &Wanted| match wanted.column {
             ColumnName::Number(number) => Some(number - 1),
             ColumnName::Name(_) => None,
@@ -201,7 +205,7 @@ impl Beginning {
         // a column without numbers is told as such
         let mut body = first(&wanted).or_else(|| first(&[]))?;
         // words may stand beside the first samples
-        let is_sample = |line: &Line| wanted.iter().all(|place| line.is_number(*place));
+        let is_sample = |line: &PreambleLine| wanted.iter().all(|place| line.is_number(*place));
         while !wanted.is_empty() && body > 0 && lines.get(body - 1).is_some_and(is_sample) {
             body -= 1;
         }

@@ -10,7 +10,7 @@ use clap::Args;
 use comfy_table::{ContentArrangement, Table, presets};
 
 use super::options::Format;
-use super::output::Place;
+use super::output::AnswerPlace;
 use super::{CommandLine, Exit, Failure, did_you_mean, output};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_units::all_nearest;
@@ -70,7 +70,7 @@ impl Models {
                 None => return Err(unknown(&program.catalogue, name)),
             },
         };
-        file.map_or(Place::StandardOutput, Place::File).write(&text)?;
+        file.map_or(AnswerPlace::StandardOutput, AnswerPlace::File).write(&text)?;
         Ok(Exit::Done)
     }
 }

@@ -9,7 +9,7 @@ use std::sync::atomic::Ordering;
 
 use clap::{Args, ValueEnum};
 
-use super::options::{Answer, Interactive, Threads};
+use super::options::{AnswerOptions, Interactive, Threads};
 use super::{CommandLine, Exit, Failure, progress, signals};
 pub use examples::PublishedExamples;
 use gumption_analysis::verification::{PublishedVerdict, RecomputedExample};
@@ -26,7 +26,7 @@ pub(super) struct Verify {
     #[command(flatten)]
     compared: paths::Paths,
     #[command(flatten)]
-    answer: Answer<Format>,
+    answer: AnswerOptions<VerifyFormat>,
     #[command(flatten)]
     interactive: Interactive,
     #[command(flatten)]
@@ -38,7 +38,7 @@ pub(super) struct Verify {
 
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum VerifyFormat {
     /// A page of text for people
     Table,
     /// The whole answer for programs
@@ -74,11 +74,11 @@ impl Verify {
         }
         bar.finish_and_clear();
         let answer = match self.answer.format {
-            Format::Table => verification::table(&found),
-            Format::Json => verification::json(&found),
-            Format::Csv => verification::csv(&found),
-            Format::Markdown => verification::markdown(&found),
-            Format::Html => page(verification::html(&found)),
+            VerifyFormat::Table => verification::table(&found),
+            VerifyFormat::Json => verification::json(&found),
+            VerifyFormat::Csv => verification::csv(&found),
+            VerifyFormat::Markdown => verification::markdown(&found),
+            VerifyFormat::Html => page(verification::html(&found)),
         };
         place.write(&answer)?;
         if stop.load(Ordering::Relaxed) {

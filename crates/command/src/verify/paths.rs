@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::output::Place;
+use crate::output::AnswerPlace;
 use crate::{CommandLine, Exit, Failure, options};
 use gumption_engine::number::CodePath;
 use gumption_engine::propagate::{Control, trial_hash};
@@ -63,7 +63,7 @@ impl Paths {
         let same = hashes.windows(2).all(|pair| pair[0] == pair[1]);
         let verdict = if same { "the same bits on every path" } else { "the paths DIFFER" };
         let _ = writeln!(text, "{trials} trials: {verdict}");
-        Place::StandardOutput.write(&text)?;
+        AnswerPlace::StandardOutput.write(&text)?;
         Ok(if !same && fail { Exit::No } else { Exit::Done })
     }
 }

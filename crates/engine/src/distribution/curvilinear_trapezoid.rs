@@ -6,7 +6,7 @@ use super::shape::{Invalid, Shape, finite, limits, positive};
 use super::stream::Stream;
 use crate::number::{COLUMN, Column, elementary};
 use crate::special::ln_1p_minus;
-use crate::special::root::{Point, Trend, find};
+use crate::special::root::{FunctionPoint, Trend, find};
 
 /// A rectangular distribution of inexactly known width about a known middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +88,7 @@ impl Shape for CurvilinearTrapezoid {
         let start = (2.0 * target).sqrt().min(end);
         let shortfall = find(Trend::Rising, target, start, f64::MIN_POSITIVE, end, |e| {
             let value = e * e + (1.0 - e) * ln_1p_minus(-e);
-            Point { value, rate: -e * libm::log1p(-e) }
+            FunctionPoint { value, rate: -e * libm::log1p(-e) }
         });
         let distance = reach * (1.0 - shortfall.min(end));
         mean + if p < 0.5 { -distance } else { distance }

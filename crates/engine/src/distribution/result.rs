@@ -488,7 +488,7 @@ fn moments(cells: &[[f64; 2]], scores: Scores) -> (f64, f64) {
 }
 
 /// A product of two weights that adds to the correlation of two results.
-struct Term {
+struct CorrelationTerm {
     product: f64,
     /// The same with standard deviations of drawn values in place of standard uncertainties.
     drawn: f64,
@@ -499,7 +499,7 @@ struct Term {
 }
 
 /// What two results have in common: equal roots, and correlated ones.
-fn shared(a: &Origin, b: &Origin) -> Vec<Term> {
+fn shared(a: &Origin, b: &Origin) -> Vec<CorrelationTerm> {
     let by_name = |origin: &'_ Origin| -> HashMap<RootName, (f64, Root)> {
         origin.roots.iter().map(|(root, w)| (root.name.clone(), (*w, root.clone()))).collect()
     };
@@ -509,7 +509,7 @@ fn shared(a: &Origin, b: &Origin) -> Vec<Term> {
         if let (Some((w, x)), Some((v, y))) = (of_a.get(first), of_b.get(second)) {
             let product = w * v * coefficient;
             let wider = |root: &Root| root.standard_deviation / root.standard_uncertainty;
-            terms.push(Term {
+            terms.push(CorrelationTerm {
                 product,
                 drawn: product * wider(x) * wider(y),
                 same: first == second,

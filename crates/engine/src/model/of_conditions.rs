@@ -7,11 +7,11 @@ use super::COMPUTED_DIGITS;
 use crate::decimal::to_digits;
 
 /// A function of the conditions' values.
-type Function = dyn Fn(&[f64]) -> f64 + Send + Sync;
+type ConditionsFunction = dyn Fn(&[f64]) -> f64 + Send + Sync;
 
 /// A figure of an output that follows the conditions, in the output's unit.
 #[derive(Clone)]
-pub struct OfConditions(Arc<Function>);
+pub struct OfConditions(Arc<ConditionsFunction>);
 
 impl OfConditions {
     /// The figure that this function gives of the conditions' values, each in its unit.

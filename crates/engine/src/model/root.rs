@@ -91,7 +91,7 @@ impl Look {
 
 /// The search in one trial.
 #[derive(Clone, Copy, Debug)]
-struct Search {
+struct RootSearch {
     /// The last place, the other end of the bracket, and the place before.
     points: [[f64; 2]; 3],
     /// Share of the way from the first point to the second at which to look next.
@@ -102,7 +102,7 @@ struct Search {
     found: Option<f64>,
 }
 
-impl Search {
+impl RootSearch {
     fn nothing() -> Self {
         let points = [[0.0; 2]; 3];
         Self { points, share: 0.5, largest: 0.0, found: Some(f64::NAN) }
@@ -123,7 +123,7 @@ impl Search {
         self.found.unwrap_or(a + self.share * (b - a))
     }
 
-    /// Takes in the function at [`Search::next`].
+    /// Takes in the function at [`RootSearch::next`].
     fn take(&mut self, y: f64) {
         if self.found.is_some() {
             return;
@@ -179,7 +179,7 @@ impl Root {
     }
 
     /// What a search from a change of sign leads to: the root, or a NaN at a jump or a pole.
-    fn searched(&self, mut search: Search, rest: &[f64]) -> f64 {
+    fn searched(&self, mut search: RootSearch, rest: &[f64]) -> f64 {
         for _ in 0..STEPS {
             if search.found.is_some() {
                 break;
@@ -192,7 +192,7 @@ impl Root {
     /// The changes of sign that are roots.
     fn roots(&self, look: &Look, rest: &[f64]) -> Vec<f64> {
         let cells = look.changes.iter().copied();
-        let all = cells.map(|cell| self.searched(Search::new(Some(cell)), rest));
+        let all = cells.map(|cell| self.searched(RootSearch::new(Some(cell)), rest));
         all.filter(|root| !root.is_nan()).collect()
     }
 
@@ -216,7 +216,7 @@ impl Routine for Root {
         if look.has_several() {
             return self.among_several(&look, rest);
         }
-        self.searched(Search::new(look.cell()), rest)
+        self.searched(RootSearch::new(look.cell()), rest)
     }
 
     fn slopes(&self, operands: &[f64], value: f64) -> Vec<f64> {
@@ -301,7 +301,8 @@ impl Routine for Root {
                 look.see(x, y);
             }
         }
-        let mut searches: Vec<Search> = looks.iter().map(|look| Search::new(look.cell())).collect();
+        let mut searches: Vec<RootSearch> =
+            looks.iter().map(|look| RootSearch::new(look.cell())).collect();
         for _ in 0..STEPS {
             if searches.iter().all(|search| search.found.is_some()) {
                 break;

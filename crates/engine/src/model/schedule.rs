@@ -42,7 +42,7 @@ pub enum ScheduledOutput {
 
 /// Which values are still there after a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kept {
+enum KeptValues {
     Outputs,
     /// And those of the variables, so that one set of values can be used again.
     Variables,
@@ -55,7 +55,7 @@ enum Kept {
 pub struct Schedule {
     steps: Vec<Step>,
     routines: Vec<ScheduledRoutine>,
-    kept: Kept,
+    kept: KeptValues,
     /// Number of registers, those of the varying variables first.
     pub registers: usize,
     /// For each varying variable, in order, whether an output depends on it.
@@ -68,22 +68,22 @@ impl Schedule {
     /// `bound[v]` is the value of variable `v` where it is the same in all trials; the other
     /// variables arrive in registers 0, 1, 2, … in their order.
     pub fn new(program: &Program, bound: &[Option<f64>]) -> Self {
-        Self::keeping(program, bound, Kept::Outputs)
+        Self::keeping(program, bound, KeptValues::Outputs)
     }
 
     /// The same; the registers of the variables are never written to, so that one set of values can
     /// be used again.
     pub fn keeping_variables(program: &Program, bound: &[Option<f64>]) -> Self {
-        Self::keeping(program, bound, Kept::Variables)
+        Self::keeping(program, bound, KeptValues::Variables)
     }
 
     /// The same; no register is written to twice, so that [`Schedule::following`] can tell what is to
     /// be computed again where some variables change.
     pub fn keeping_all(program: &Program, bound: &[Option<f64>]) -> Self {
-        Self::keeping(program, bound, Kept::All)
+        Self::keeping(program, bound, KeptValues::All)
     }
 
-    fn keeping(program: &Program, bound: &[Option<f64>], kept: Kept) -> Self {
+    fn keeping(program: &Program, bound: &[Option<f64>], kept: KeptValues) -> Self {
         let folded = fold(program, bound);
         let needed = program.needed_by(&folded, program.outputs.iter().copied());
         let mut register_of_variable = vec![usize::MAX; program.variables];
@@ -111,9 +111,9 @@ impl Schedule {
         }
         for (last, node) in last_use.iter_mut().zip(&program.nodes) {
             let lasts = match kept {
-                Kept::Outputs => false,
-                Kept::Variables => matches!(node, Node::Variable(_)),
-                Kept::All => true,
+                KeptValues::Outputs => false,
+                KeptValues::Variables => matches!(node, Node::Variable(_)),
+                KeptValues::All => true,
             };
             if lasts {
                 *last = usize::MAX;
@@ -228,7 +228,7 @@ impl Schedule {
     /// # Panics
     /// As [`Schedule::following`].
     pub fn following_to(&self, places: &[usize], outputs: &[ScheduledOutput]) -> Following {
-        assert!(self.kept == Kept::All, "values that are needed again are not kept");
+        assert!(self.kept == KeptValues::All, "values that are needed again are not kept");
         let mut own: Vec<Option<usize>> = vec![None; self.registers];
         let mut registers = self.registers;
         let mut take = || {

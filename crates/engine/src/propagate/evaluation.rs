@@ -18,7 +18,7 @@ use super::figures::{
 use super::gum::{self, Gum, GumRow};
 use super::inherited::Inherited;
 use super::moment_order::moment_orders;
-use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
+use super::monte_carlo::{self, AdaptiveSearch, MonteCarlo, Request, Undefined};
 use super::nonlinearity;
 use super::regions::regions;
 use super::second_order::second_order;
@@ -67,7 +67,7 @@ pub fn evaluate(task: &Task, control: &Control<'_>) -> Result<Evaluation, Evalua
 }
 
 /// The figures of a row's trials, where they are known already.
-pub(super) type Known<'k> = &'k (dyn Fn(usize) -> Option<monte_carlo::Finished> + Sync);
+pub(super) type KnownTrials<'k> = &'k (dyn Fn(usize) -> Option<monte_carlo::Finished> + Sync);
 
 /// Memory for the columns of all threads. Only models of tens of thousands of inputs or hundreds of
 /// outputs need so much on a machine of many cores.
@@ -112,10 +112,10 @@ pub(super) fn of_one_row<'c>(task: &Task, control: &Control<'c>) -> Control<'c> 
 pub(super) fn evaluate_rows(
     task: &Task,
     control: &Control<'_>,
-    known: Known<'_>,
+    known: KnownTrials<'_>,
 ) -> Result<Evaluation, EvaluationError> {
     let reaches = reach(&task.model.program, task.variables.len());
-    let gum = gum::Rows::of(task);
+    let gum = gum::GumRows::of(task);
     let control = &of_one_row(task, control);
     let notes = Mutex::new(Notes::default());
     // every row has its slot from the start: a million of them are not to be held twice
@@ -195,7 +195,7 @@ fn evaluate_row(
     (number, row, mut linear): (usize, &Row, GumRow),
     reaches: &[Vec<bool>],
     control: &Control<'_>,
-    (known, notes): (Known<'_>, &Mutex<Notes>),
+    (known, notes): (KnownTrials<'_>, &Mutex<Notes>),
 ) -> Result<RowEvaluation, EvaluationError> {
     let joint = task.joint(row).map_err(|error| EvaluationError::correlation(task, error))?;
     let mut gums = std::mem::take(&mut linear.outputs);
@@ -556,7 +556,7 @@ fn run(
     }
     let gum: Vec<f64> =
         gums.iter().map(|gum| gum.as_ref().map_or(0.0, |g| g.standard_uncertainty)).collect();
-    let search = Search {
+    let search = AdaptiveSearch {
         rule: settings.rule,
         probability,
         digits: settings.digits,

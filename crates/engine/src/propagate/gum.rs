@@ -135,7 +135,7 @@ pub struct GumRow {
 
 /// The evaluation of the rows of a task.
 #[derive(Debug)]
-pub(crate) struct Rows<'a> {
+pub(crate) struct GumRows<'a> {
     task: &'a Task,
     gradients: Gradients<'a>,
     shown: Arc<[usize]>,
@@ -150,10 +150,10 @@ type Distributions = Arc<[Arc<Distribution>]>;
 
 /// Evaluates one row of a task.
 pub fn evaluate(task: &Task, row: &Row) -> GumRow {
-    Rows::of(task).evaluate(row)
+    GumRows::of(task).evaluate(row)
 }
 
-impl<'a> Rows<'a> {
+impl<'a> GumRows<'a> {
     pub(crate) fn of(task: &'a Task) -> Self {
         let shown = task.variables.iter().enumerate().filter(|(_, v)| v.shown).map(|(v, _)| v);
         Self {
@@ -215,7 +215,7 @@ impl<'a> Rows<'a> {
 /// sensitivity coefficients are computed once.
 #[derive(Debug)]
 pub struct AtEstimates<'a> {
-    rows: Rows<'a>,
+    rows: GumRows<'a>,
     row: &'a Row,
     linear: Linear,
 }
@@ -223,7 +223,7 @@ pub struct AtEstimates<'a> {
 impl<'a> AtEstimates<'a> {
     /// At the estimates of a row of a task.
     pub fn of(task: &'a Task, row: &'a Row) -> Self {
-        let rows = Rows::of(task);
+        let rows = GumRows::of(task);
         let linear = rows.gradients.one(row);
         Self { rows, row, linear }
     }
@@ -334,7 +334,7 @@ impl Linked {
     }
 }
 
-impl Rows<'_> {
+impl GumRows<'_> {
     /// The evaluation of one output from its estimate and its sensitivity coefficients; `None` where
     /// the standard uncertainty is not finite.
     fn output(&self, row: &Row, estimate: f64, slopes: &[f64], linked: &Linked) -> Option<Gum> {

@@ -52,7 +52,7 @@ pub(super) struct Variances {
 
 /// How an output goes back to the variables of one saved result.
 #[derive(Clone, Copy, Debug)]
-struct Part {
+struct InheritedPart {
     /// The share of the output's standard deviation.
     share: f64,
     /// The correlation coefficient with the output.
@@ -103,7 +103,7 @@ impl Inherited {
             let trials = members.iter().map(|(_, saved)| saved.origin().trials);
             let trials = trials.fold(f64::INFINITY, f64::min);
             let seed = members.first().and_then(|(_, saved)| saved.origin().seed);
-            Part { share, coefficient, trials, seed }
+            InheritedPart { share, coefficient, trials, seed }
         });
         let variances = Variances::of(&parts.collect::<Vec<_>>(), probability);
         let results = all.iter().map(|(v, saved)| (*v, saved.origin().trials));
@@ -186,8 +186,8 @@ impl Linear {
 impl Variances {
     /// The errors of results with one seed may be those of the same draws: they add up at most. Others
     /// are independent.
-    fn of(parts: &[Part], probability: f64) -> Self {
-        let together = |of: &dyn Fn(&Part) -> f64| {
+    fn of(parts: &[InheritedPart], probability: f64) -> Self {
+        let together = |of: &dyn Fn(&InheritedPart) -> f64| {
             let mut seeds: BTreeMap<u64, f64> = BTreeMap::new();
             let mut sum = 0.0;
             for part in parts {

@@ -58,7 +58,8 @@ use super::figures::Evaluation;
 use super::gum::{self, Gum, GumRow};
 use super::moment_order::moment_orders;
 use super::monte_carlo::{
-    Finished, Gathered, Prepared, Reader, Request, RowOutcome, RowPass, RowTrials, Writer, share,
+    ByteReader, Finished, Gathered, Prepared, Request, RowOutcome, RowPass, RowTrials, Writer,
+    share,
 };
 use crate::distribution::{BLOCK, Scores};
 use crate::number::COLUMN;
@@ -194,7 +195,7 @@ impl SharedPass {
     /// # Errors
     /// Bytes that are none.
     pub fn from_bytes(bytes: &[u8], task: &Task) -> Result<Self, Damaged> {
-        let mut from = Reader::new(bytes);
+        let mut from = ByteReader::new(bytes);
         let number = from.at_most(u64::from(u32::MAX), "too many passes")?;
         let Trials::Fixed(asked) = task.settings.trials else {
             from.end()?;
@@ -261,7 +262,7 @@ impl CutRow {
     /// Every row of a task.
     fn all(task: &Task, control: &Control<'_>) -> Result<Vec<Self>, EvaluationError> {
         let reaches = reach(&task.model.program, task.variables.len());
-        let linear = gum::Rows::of(task).evaluate_all(&task.rows, control.path);
+        let linear = gum::GumRows::of(task).evaluate_all(&task.rows, control.path);
         let of_row = |(row, linear): (&Row, GumRow)| {
             let joint = joint(task, row)?;
             let trials = RowTrials::new(task, row, &linear.estimates, &joint);
@@ -294,7 +295,7 @@ fn rows(
     control: &Control<'_>,
 ) -> Result<Option<Vec<u8>>, EvaluationError> {
     let reaches = reach(&task.model.program, task.variables.len());
-    let gum = gum::Rows::of(task);
+    let gum = gum::GumRows::of(task);
     let control = &of_one_row(task, control);
     let rows = &task.rows[range.start as usize..range.end as usize];
     let of_row = |(row, linear): (_, GumRow)| -> Result<Finished, EvaluationError> {
@@ -423,7 +424,7 @@ impl<'a> Merging<'a> {
         if blocks.is_empty() || blocks.end > self.all || !free {
             return Err(PartError::Blocks(blocks));
         }
-        let mut from = Reader::new(part);
+        let mut from = ByteReader::new(part);
         match &mut self.state {
             State::Rows(found) => {
                 let own = share(&blocks, self.all, found.len() as u64);

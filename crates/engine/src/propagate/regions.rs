@@ -185,7 +185,7 @@ fn from_trials(
     let count = made.min(MOST_TRIALS);
     let mut distances: Vec<f64> = Vec::new();
     let mut deviations: Vec<f64> = Vec::new();
-    let mut places: Vec<smallest::Place> = Vec::new();
+    let mut places: Vec<smallest::TrialPlace> = Vec::new();
     let every = (count as usize).div_ceil(SHOWN).max(1);
     let mut sample = vec![Vec::new(); order];
     let mut number = 0;
@@ -209,7 +209,7 @@ fn from_trials(
                 packed::solve(root, &mut off);
                 distances.push(off.iter().map(|z| z * z).sum::<f64>().sqrt());
                 if order <= smallest::MOST_OUTPUTS && places.len() < smallest::MOST_TRIALS {
-                    let mut place = smallest::Place::default();
+                    let mut place = smallest::TrialPlace::default();
                     place[..order].copy_from_slice(&off);
                     places.push(place);
                 }

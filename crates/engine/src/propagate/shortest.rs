@@ -74,13 +74,13 @@ const STEP: f64 = 0.02;
 const STEPS: u32 = 80;
 
 /// A search among the intervals that `at` knows by the probabilities below and above them.
-pub(super) struct Search<F> {
+pub(super) struct ShortestSearch<F> {
     /// The probability outside.
     pub(super) tail: f64,
     pub(super) at: F,
 }
 
-impl<F: FnMut([f64; 2], Purpose) -> Option<Interval>> Search<F> {
+impl<F: FnMut([f64; 2], Purpose) -> Option<Interval>> ShortestSearch<F> {
     /// The interval with a probability below it, counted from 0 or, below 0, from that of all outside.
     fn find(&mut self, place: f64) -> Option<Interval> {
         let tails =

@@ -2,7 +2,7 @@
 
 use super::normal;
 use super::quadrature::decaying;
-use super::root::{Point, Trend, find};
+use super::root::{FunctionPoint, Trend, find};
 use super::weight::{beta_excess, beta_weight, exp_m1_minus, ln_1p_minus, ln_gamma_1p};
 
 /// Shapes from here on take the quadrature for the tail that they rule.
@@ -79,12 +79,12 @@ fn lower_half(p: f64, q: f64, a: f64, b: f64) -> f64 {
     if p <= 0.5 {
         find(Trend::Rising, p, start, smallest, 0.6, |x| {
             let masses = Masses::at(x, 1.0 - x, a, b);
-            Point { value: masses.lower, rate: masses.weight / (1.0 - x) }
+            FunctionPoint { value: masses.lower, rate: masses.weight / (1.0 - x) }
         })
     } else {
         find(Trend::Falling, q, start, smallest, 0.6, |x| {
             let masses = Masses::at(x, 1.0 - x, a, b);
-            Point { value: masses.upper, rate: masses.weight / (1.0 - x) }
+            FunctionPoint { value: masses.upper, rate: masses.weight / (1.0 - x) }
         })
     }
 }

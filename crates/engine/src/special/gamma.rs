@@ -3,7 +3,7 @@
 
 use super::normal;
 use super::quadrature::decaying;
-use super::root::{Point, Trend, find};
+use super::root::{FunctionPoint, Trend, find};
 use super::weight::{exp_m1_minus, gamma_weight, ln_gamma_1p};
 use crate::number::elementary;
 
@@ -108,14 +108,14 @@ fn between(p: f64, q: f64, shape: f64) -> f64 {
     if p <= 0.5 {
         find(Trend::Rising, p, start, smallest, largest, |x| {
             let masses = Masses::at(x, shape);
-            Point { value: masses.lower, rate: masses.weight }
+            FunctionPoint { value: masses.lower, rate: masses.weight }
         })
     } else {
         // For shapes below 1, Q(a, x) <= e^-x beyond 1: an upper bound of the root.
         let start = if shape < 1.0 && q < 0.1 * shape { -libm::log(q) } else { start };
         find(Trend::Falling, q, start, smallest, largest, |x| {
             let masses = Masses::at(x, shape);
-            Point { value: masses.upper, rate: masses.weight }
+            FunctionPoint { value: masses.upper, rate: masses.weight }
         })
     }
 }

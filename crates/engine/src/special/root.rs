@@ -1,7 +1,7 @@
 //! The root of a monotone function in log-log coordinates.
 
 /// A positive function at one argument.
-pub(crate) struct Point {
+pub(crate) struct FunctionPoint {
     /// The value f(x).
     pub(crate) value: f64,
     /// |df / d ln x|.
@@ -35,12 +35,12 @@ pub(crate) fn find(
     start: f64,
     mut low: f64,
     mut high: f64,
-    f: impl Fn(f64) -> Point,
+    f: impl Fn(f64) -> FunctionPoint,
 ) -> f64 {
     let inside = |x: f64, low: f64, high: f64| x > low && x < high;
     let mut x = if inside(start, low, high) { start } else { low.sqrt() * high.sqrt() };
     for step in 0..STEPS {
-        let Point { value, rate } = f(x);
+        let FunctionPoint { value, rate } = f(x);
         if (value < target) == (trend == Trend::Rising) {
             low = x;
         } else {
@@ -72,13 +72,12 @@ mod tests {
     #[test]
     fn powers_both_ways() {
         for target in [1e-200, 0.3, 1.0, 1e250] {
-            let rising = find(Trend::Rising, target, 1.0, f64::MIN_POSITIVE, f64::MAX, |x| Point {
-                value: x,
-                rate: x,
+            let rising = find(Trend::Rising, target, 1.0, f64::MIN_POSITIVE, f64::MAX, |x| {
+                FunctionPoint { value: x, rate: x }
             });
             assert!((rising / target - 1.0).abs() < 1e-15, "{rising:e} for {target:e}");
             let falling = find(Trend::Falling, target, 1.0, f64::MIN_POSITIVE, f64::MAX, |x| {
-                Point { value: 1.0 / x, rate: 1.0 / x }
+                FunctionPoint { value: 1.0 / x, rate: 1.0 / x }
             });
             assert!((falling * target - 1.0).abs() < 1e-15, "{falling:e} for {target:e}");
         }
@@ -87,12 +86,13 @@ mod tests {
     // Newton's steps are useless here: the halvings alone come to a relative 1e-15.
     #[test]
     fn ends_with_a_wrong_rate_and_without_a_root() {
-        let x = find(Trend::Rising, 7.0, 1.0, f64::MIN_POSITIVE, f64::MAX, |x| Point {
+        let x = find(Trend::Rising, 7.0, 1.0, f64::MIN_POSITIVE, f64::MAX, |x| FunctionPoint {
             value: x,
             rate: 1e-300,
         });
         assert!((x / 7.0 - 1.0).abs() < 1e-14, "{x}");
-        let x = find(Trend::Rising, 2.0, 0.3, 0.25, 0.5, |_| Point { value: 0.0, rate: 0.0 });
+        let x =
+            find(Trend::Rising, 2.0, 0.3, 0.25, 0.5, |_| FunctionPoint { value: 0.0, rate: 0.0 });
         assert!((x - 0.5).abs() < 1e-15, "{x}");
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
 use super::beta;
 use super::normal;
-use super::root::{Point, Trend, find};
+use super::root::{FunctionPoint, Trend, find};
 use super::weight::{ln_1p_minus, stirling_error};
 
 /// From here on the distribution is the normal one: the quantile differs from that by a relative
@@ -82,7 +82,7 @@ fn magnitude(inner: f64, outer: f64, dof: f64) -> f64 {
         let start = inner / (2.0 * peak(dof));
         find(Trend::Rising, inner, start, f64::MIN_POSITIVE, f64::MAX, |t| {
             let masses = Masses::at(t, dof);
-            Point { value: masses.inner, rate: masses.rate }
+            FunctionPoint { value: masses.inner, rate: masses.rate }
         })
     } else {
         from_outer(outer, dof)
@@ -125,7 +125,7 @@ fn from_outer(outer: f64, dof: f64) -> f64 {
     let start = if dof < 1.0 { power } else { power.max(expansion) };
     find(Trend::Falling, outer, start, f64::MIN_POSITIVE, f64::MAX, |t| {
         let masses = Masses::at(t, dof);
-        Point { value: masses.outer, rate: masses.rate }
+        FunctionPoint { value: masses.outer, rate: masses.rate }
     })
 }
 

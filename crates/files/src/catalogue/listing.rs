@@ -123,16 +123,16 @@ impl Serialize for ListedEffect {
         map.serialize_entry("name", &self.name)?;
         map.serialize_entry("bench", &self.bench)?;
         for member in &self.members {
-            map.serialize_entry(&member.key, &Written(&member.value))?;
+            map.serialize_entry(&member.key, &WrittenValue(&member.value))?;
         }
         map.end()
     }
 }
 
 /// A value as it was written, its keys in their order.
-struct Written<'n>(&'n Node);
+struct WrittenValue<'n>(&'n Node);
 
-impl Serialize for Written<'_> {
+impl Serialize for WrittenValue<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match &self.0.value {
             Json::Null => serializer.serialize_unit(),
@@ -145,14 +145,14 @@ impl Serialize for Written<'_> {
             Json::List(list) => {
                 let mut sequence = serializer.serialize_seq(Some(list.len()))?;
                 for node in list {
-                    sequence.serialize_element(&Written(node))?;
+                    sequence.serialize_element(&WrittenValue(node))?;
                 }
                 sequence.end()
             }
             Json::Object(members) => {
                 let mut map = serializer.serialize_map(Some(members.len()))?;
                 for member in members {
-                    map.serialize_entry(&member.key, &Written(&member.value))?;
+                    map.serialize_entry(&member.key, &WrittenValue(&member.value))?;
                 }
                 map.end()
             }

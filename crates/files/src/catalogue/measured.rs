@@ -7,14 +7,14 @@ use gumption_text::json::{Json, Member};
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Measured {
     pub(super) times: f64,
-    pub(super) of: Of,
+    pub(super) of: Multiplied,
     /// The condition or output.
     pub(super) name: String,
 }
 
 /// What is multiplied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Of {
+pub(super) enum Multiplied {
     /// The lowest value of a condition above zero, in SI units.
     Lowest,
     /// The highest value of a condition, in SI units.
@@ -27,12 +27,12 @@ pub(super) enum Of {
     OverLargest,
 }
 
-const KEYS: [(&str, Of, &str); 5] = [
-    ("lowest", Of::Lowest, "the lowest"),
-    ("highest", Of::Highest, "the highest"),
-    ("over_highest", Of::OverHighest, "one over the highest"),
-    ("largest", Of::Largest, "the largest measured"),
-    ("over_largest", Of::OverLargest, "one over the largest measured"),
+const KEYS: [(&str, Multiplied, &str); 5] = [
+    ("lowest", Multiplied::Lowest, "the lowest"),
+    ("highest", Multiplied::Highest, "the highest"),
+    ("over_highest", Multiplied::OverHighest, "one over the highest"),
+    ("largest", Multiplied::Largest, "the largest measured"),
+    ("over_largest", Multiplied::OverLargest, "one over the largest measured"),
 ];
 
 impl Measured {
@@ -47,7 +47,7 @@ impl Measured {
 
     /// Whether its name is that of a condition rather than of an output.
     pub(super) fn of_condition(&self) -> bool {
-        !matches!(self.of, Of::Largest | Of::OverLargest)
+        !matches!(self.of, Multiplied::Largest | Multiplied::OverLargest)
     }
 
     /// In words.
@@ -60,13 +60,13 @@ impl Measured {
     /// number above zero.
     pub(super) fn value(&self, sim: &EffectContext<'_>, name: &str) -> Option<f64> {
         let measured = match self.of {
-            Of::Lowest => extreme(sim, name, f64::min),
-            Of::Highest | Of::OverHighest => extreme(sim, name, f64::max),
-            Of::Largest | Of::OverLargest => largest(sim, name),
+            Multiplied::Lowest => extreme(sim, name, f64::min),
+            Multiplied::Highest | Multiplied::OverHighest => extreme(sim, name, f64::max),
+            Multiplied::Largest | Multiplied::OverLargest => largest(sim, name),
         }?;
         let value = match self.of {
-            Of::Lowest | Of::Highest | Of::Largest => self.times * measured,
-            Of::OverHighest | Of::OverLargest => self.times / measured,
+            Multiplied::Lowest | Multiplied::Highest | Multiplied::Largest => self.times * measured,
+            Multiplied::OverHighest | Multiplied::OverLargest => self.times / measured,
         };
         (value.is_finite() && value > 0.0).then_some(value)
     }

@@ -20,7 +20,7 @@ pub use listing::{EffectListing, ListedEffect, ListedParameter};
 
 use super::effect_context::EffectContext;
 use super::effects::{self, Placed};
-use super::results::Results;
+use super::results::ResultFiles;
 use fit::Misfit;
 use gumption_engine::task::Warning;
 use gumption_text::json::{self, Json, Member, Node};
@@ -170,7 +170,7 @@ pub(super) fn read(
     log: &Collector,
     root: &Object<'_>,
     sim: Option<EffectContext<'_>>,
-    results: &Results<'_>,
+    results: &ResultFiles<'_>,
     own: &mut Vec<Placed>,
     warnings: &mut Vec<Warning>,
 ) -> Option<()> {
@@ -238,7 +238,7 @@ pub(super) fn read(
 /// The effects of the catalogue that can act on a sim and that a case does not have.
 pub(super) fn unlisted(
     sim: &EffectContext<'_>,
-    results: &Results<'_>,
+    results: &ResultFiles<'_>,
     own: &[Placed],
 ) -> Vec<gumption_gap::Candidate> {
     let shipped = Catalogue::shipped().with_history(sim);
@@ -259,7 +259,7 @@ fn one(
     shipped: &Catalogue,
     name: &str,
     sim: &EffectContext<'_>,
-    results: &Results<'_>,
+    results: &ResultFiles<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Result<gumption_gap::Candidate, String> {
     let member = chosen(shipped, name, sim).map_err(|misfit| misfit.reason(shipped, sim.sim))?;

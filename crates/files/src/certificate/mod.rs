@@ -17,7 +17,7 @@ use gumption_engine::task::{Coverage, Settings, Warning};
 use gumption_text::json::{self, Json, Node};
 use gumption_text::object::Object;
 use gumption_text::{Collector, DiagnosticKind, Diagnostics, Folder, SourceText};
-use rows::Rows;
+use rows::CertificateRows;
 
 /// The most significant digits of a stated uncertainty.
 const MOST_DIGITS: u64 = 4;
@@ -154,7 +154,7 @@ fn certificate<'a>(
     let coverage = settings::coverage(&root);
     let equations = root.truth("equations").unwrap_or(true);
     let trials = root.get("monte_carlo").map(|_| settings::read(&root));
-    let mut rows = Rows::new(
+    let mut rows = CertificateRows::new(
         root.log,
         (files, folder),
         Asking { coverage, digits: u32::try_from(digits).unwrap_or(2), trials },

@@ -32,12 +32,12 @@ const MOST_ROWS: usize = 1000;
 
 /// The files beside a model that lies in another folder than the certificate.
 #[derive(Debug)]
-struct Beside<'a> {
+struct FilesBeside<'a> {
     above: &'a str,
     source: &'a dyn FileSource,
 }
 
-impl FileSource for Beside<'_> {
+impl FileSource for FilesBeside<'_> {
     fn content(&self, name: &str, most: u64) -> Result<Vec<u8>, String> {
         match self.above {
             "" => self.source.content(name, most),
@@ -58,7 +58,7 @@ pub(super) struct Read {
 }
 
 /// Rows that are being read.
-pub(super) struct Rows<'a> {
+pub(super) struct CertificateRows<'a> {
     log: &'a Collector,
     /// What reads the model files, and where these are looked for.
     files_in: (Context<'a>, Folder<'a>),
@@ -73,7 +73,7 @@ pub(super) struct Rows<'a> {
     places: Vec<Range<usize>>,
 }
 
-impl<'a> Rows<'a> {
+impl<'a> CertificateRows<'a> {
     pub(super) fn new(
         log: &'a Collector,
         files_in: (Context<'a>, Folder<'a>),
@@ -247,7 +247,7 @@ impl<'a> Rows<'a> {
         let text = text(content).map_err(|message| DiagnosticKind::Unreadable { message })?;
         // what it names lies beside it
         let above = name.rsplit_once('/').map_or("", |(above, _)| above);
-        let beside = folder.source().map(|source| Beside { above, source });
+        let beside = folder.source().map(|source| FilesBeside { above, source });
         let files = match &beside {
             Some(beside) => Context { source: Some(beside), ..files },
             None => files,

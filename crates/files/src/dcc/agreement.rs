@@ -4,7 +4,7 @@
 use gumption_engine::number::Shortest;
 use gumption_units::Unit;
 
-use super::document::{Measured, Stated, at};
+use super::document::{Measured, StatedUncertainties, at};
 
 /// Standard uncertainties that have lost their digits are the same within this share of them.
 pub(super) const ROUNDED: f64 = 0.05;
@@ -52,7 +52,7 @@ pub(super) fn is_difference([one, other]: [&Measured; 2]) -> bool {
 
 /// The standard uncertainty of a value, and what its rounding may have taken: that of an expanded one is
 /// to the nearest or up. `None` where its factor is not stated.
-fn standard(stated: &Stated, place: usize) -> Option<(f64, f64)> {
+fn standard(stated: &StatedUncertainties, place: usize) -> Option<(f64, f64)> {
     if let Some(u) = at(&stated.standard, place) {
         return Some((u, ROUNDED * u));
     }

@@ -208,14 +208,14 @@ fn of_ref_type<'d>(object: &Object<'_>, all: &[Node<'d, 'd>]) -> Option<Vec<Node
 /// value each are one where they stand beside each other, or each in a row of its own: a list without
 /// others of them, which is called as the other rows are; or each in a result of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct Table<'d> {
+struct QuantityTable<'d> {
     around: NodeId,
     /// What a row and its quantity are called.
     row: Option<(Option<&'d str>, Vec<String>)>,
     status: Option<String>,
 }
 
-impl<'d> Table<'d> {
+impl<'d> QuantityTable<'d> {
     /// That of a quantity; `beside` is how many quantities of one value each element has.
     fn of(node: Node<'d, 'd>, of: &Measured, beside: &HashMap<NodeId, usize>) -> Self {
         let status = standing::status(node);
@@ -278,10 +278,10 @@ pub(super) fn is_one_table<'d>(
     for (node, _) in chosen.iter().zip(measured).filter(|(_, of)| of.values.len() == 1) {
         *beside.entry(node.parent().map_or(node.id(), |of| of.id())).or_default() += 1;
     }
-    let mut places: HashMap<Table<'_>, usize> = HashMap::new();
+    let mut places: HashMap<QuantityTable<'_>, usize> = HashMap::new();
     let mut tables: Vec<(Option<String>, Vec<usize>)> = Vec::new();
     for (number, (node, of)) in chosen.iter().zip(measured).enumerate() {
-        let table = Table::of(*node, of, &beside);
+        let table = QuantityTable::of(*node, of, &beside);
         let status = table.status.clone();
         let place = *places.entry(table).or_insert(tables.len());
         match tables.get_mut(place) {

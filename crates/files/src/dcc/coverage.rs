@@ -9,12 +9,12 @@ use gumption_text::named_shape::NamedShape;
 
 /// A number with half a unit of its last written digit.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Written {
+pub(super) struct WrittenNumber {
     value: f64,
     half_digit: f64,
 }
 
-impl Written {
+impl WrittenNumber {
     /// A number; `last_digit` is what one in its last digit is.
     pub(super) fn new(value: f64, last_digit: f64) -> Self {
         Self { value, half_digit: 0.5 * last_digit }
@@ -57,7 +57,11 @@ const LIMITED: [NamedShape; 3] = [
 ///
 /// # Errors
 /// They cannot belong together, to the digits that they are written with.
-pub(super) fn factor(k: Written, p: Written, shape: Option<NamedShape>) -> Result<f64, String> {
+pub(super) fn factor(
+    k: WrittenNumber,
+    p: WrittenNumber,
+    shape: Option<NamedShape>,
+) -> Result<f64, String> {
     let is_right = match shape {
         Some(NamedShape::Unknown) => true,
         // all of a distribution with limits can lie within U if its probability is 1
@@ -74,8 +78,8 @@ pub(super) fn factor(k: Written, p: Written, shape: Option<NamedShape>) -> Resul
 ///
 /// # Errors
 /// It is that of another one, or of several, or of none, to the digits of the factor.
-fn of_nothing_named(k: Written, p: Written) -> Result<f64, String> {
-    let exact = Written { half_digit: 0.0, ..p };
+fn of_nothing_named(k: WrittenNumber, p: WrittenNumber) -> Result<f64, String> {
+    let exact = WrittenNumber { half_digit: 0.0, ..p };
     let is_normal = is_of(k, exact, None) || is_approximate(k, p);
     // a whole factor is chosen, and no quantile of a t distribution
     let is_t = !is_normal && k.value.fract() != 0.0 && k.value > factors(exact, None)[0];
@@ -102,32 +106,32 @@ fn of_nothing_named(k: Written, p: Written) -> Result<f64, String> {
 }
 
 /// The factors of the probability of a distribution, from and to.
-fn factors(p: Written, shape: Option<NamedShape>) -> [f64; 2] {
+fn factors(p: WrittenNumber, shape: Option<NamedShape>) -> [f64; 2] {
     let most = if limited(shape, 1.0).is_some() { 1.0 } else { 1.0 - 1e-12 };
     p.ends().map(|p| of_probability_alone(shape, p.clamp(1e-6, most)))
 }
 
 /// The factors that are written so: a whole one is chosen, and not rounded.
-fn stated(k: Written) -> [f64; 2] {
+fn stated(k: WrittenNumber) -> [f64; 2] {
     let tiny = 1e-9 * k.value;
     let [low, high] = if k.value.fract() == 0.0 { [k.value; 2] } else { k.ends() };
     [low - tiny, high + tiny]
 }
 
 /// Whether the factor is that of the probability, of a normal distribution where none is named.
-fn is_of(k: Written, p: Written, shape: Option<NamedShape>) -> bool {
+fn is_of(k: WrittenNumber, p: WrittenNumber, shape: Option<NamedShape>) -> bool {
     let ([low, high], [least, most]) = (stated(k), factors(p, shape));
     high >= least && low <= most
 }
 
 /// Whether the factor is that of a t distribution, which is larger than that of a normal one, or as large.
-fn reaches(k: Written, p: Written) -> bool {
+fn reaches(k: WrittenNumber, p: WrittenNumber) -> bool {
     stated(k)[1] >= factors(p, None)[0] || is_approximate(k, p)
 }
 
 /// Whether a whole factor is beside the probability that a normal distribution has for it approximately:
 /// 2 beside 95 % (EA-4/02 M:2022), 3 beside 99 %; within one unit of the last digit, and one per cent.
-fn is_approximate(k: Written, p: Written) -> bool {
+fn is_approximate(k: WrittenNumber, p: WrittenNumber) -> bool {
     const MOST: f64 = 0.01;
     let digit = Decimal::shortest(p.value).map_or(0.0, |of| Decimal::new(1, of.position()).value());
     let covered = 1.0 - 2.0 * normal::sf(k.value);
@@ -135,7 +139,7 @@ fn is_approximate(k: Written, p: Written) -> bool {
 }
 
 /// A factor beside the probability 1, of a distribution with limits.
-fn within_limits(k: Written, shape: Option<NamedShape>) -> Result<f64, String> {
+fn within_limits(k: WrittenNumber, shape: Option<NamedShape>) -> Result<f64, String> {
     match limited(shape, 1.0) {
         Some(least) if stated(k)[1] < least => Err(format!(
             "has a coverage factor of {} and a coverage probability of 1, while its distribution reaches \
@@ -147,7 +151,7 @@ fn within_limits(k: Written, shape: Option<NamedShape>) -> Result<f64, String> {
 }
 
 /// That factor and probability do not belong together, with the factor that does.
-fn contradiction(k: Written, p: Written, shape: Option<NamedShape>) -> String {
+fn contradiction(k: WrittenNumber, p: WrittenNumber, shape: Option<NamedShape>) -> String {
     let (name, at_least) = match shape {
         Some(NamedShape::Known(name)) => (name, ""),
         Some(NamedShape::Student) => ("t", "at least "),

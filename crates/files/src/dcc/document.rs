@@ -23,10 +23,10 @@ const DEEPEST: usize = 64;
 pub(super) const BLANKS: [char; 4] = [' ', '\t', '\n', '\r'];
 
 /// A number for each value; none where nothing is stated of it, or of all behind the end.
-pub(super) type Column = Vec<Option<f64>>;
+pub(super) type NumberColumn = Vec<Option<f64>>;
 
 /// The number of a value.
-pub(super) fn at(column: &Column, place: usize) -> Option<f64> {
+pub(super) fn at(column: &NumberColumn, place: usize) -> Option<f64> {
     column.get(place).copied().flatten()
 }
 
@@ -39,7 +39,7 @@ pub(super) struct Measured {
     pub(super) values: Vec<f64>,
     /// What one in the last written digit of each value is.
     pub(super) last_digits: Vec<f64>,
-    pub(super) uncertainty: Option<Stated>,
+    pub(super) uncertainty: Option<StatedUncertainties>,
     /// What is stated of their uncertainty in a way that is not read; it matters where a value has no
     /// other one.
     pub(super) unread: Option<Fault>,
@@ -49,33 +49,33 @@ pub(super) struct Measured {
 
 /// Uncertainties of the values, in their unit.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Stated {
-    pub(super) expanded: Column,
-    pub(super) standard: Column,
-    pub(super) factors: Column,
-    pub(super) probabilities: Column,
+pub(super) struct StatedUncertainties {
+    pub(super) expanded: NumberColumn,
+    pub(super) standard: NumberColumn,
+    pub(super) factors: NumberColumn,
+    pub(super) probabilities: NumberColumn,
     /// The ends of coverage intervals.
-    pub(super) ends: [Column; 2],
+    pub(super) ends: [NumberColumn; 2],
     /// What the distributions are called; empty where nothing is said.
     pub(super) distributions: Vec<String>,
     /// What one in the last written digit of these is.
     pub(super) last_digits: LastDigits,
     /// The standard uncertainties of values whose coverage intervals stand in a quantity of their own.
-    pub(super) of_interval: Column,
+    pub(super) of_interval: NumberColumn,
 }
 
 /// What one in the last written digit is.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LastDigits {
-    pub(super) expanded: Column,
-    pub(super) standard: Column,
-    pub(super) factors: Column,
-    pub(super) probabilities: Column,
-    pub(super) ends: [Column; 2],
+    pub(super) expanded: NumberColumn,
+    pub(super) standard: NumberColumn,
+    pub(super) factors: NumberColumn,
+    pub(super) probabilities: NumberColumn,
+    pub(super) ends: [NumberColumn; 2],
 }
 
-impl Stated {
-    fn columns(&mut self) -> [&mut Column; 13] {
+impl StatedUncertainties {
+    fn columns(&mut self) -> [&mut NumberColumn; 13] {
         let digits = &mut self.last_digits;
         let [low, high] = &mut self.ends;
         let [of_low, of_high] = &mut digits.ends;
@@ -377,7 +377,7 @@ pub(super) fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Meas
     } else {
         expanded.push("uncertainty")
     }
-    let column = |names: &[&str]| -> Result<[Column; 2], Fault> {
+    let column = |names: &[&str]| -> Result<[NumberColumn; 2], Fault> {
         let Some(numbers) = numbers(uncertain, names, Some(count))? else {
             return Ok([Vec::new(), Vec::new()]);
         };
@@ -392,7 +392,7 @@ pub(super) fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Meas
     let [low, of_low] = column(&["intervalMin", "intervalMinXMLList"])?;
     let [high, of_high] = column(&["intervalMax", "intervalMaxXMLList"])?;
     let is_uncertain = !expanded.is_empty() || !standard.is_empty();
-    let stated = Stated {
+    let stated = StatedUncertainties {
         expanded,
         standard,
         factors,

@@ -1,15 +1,15 @@
 //! What a certificate's statements of uncertainty make known of one value: standard uncertainty, degrees
 //! of freedom and shape.
 
-use super::coverage::{self, Written, limited, of_probability_alone};
-use super::document::{Measured, Stated, at};
+use super::coverage::{self, WrittenNumber, limited, of_probability_alone};
+use super::document::{Measured, StatedUncertainties, at};
 use super::{agreement, intervals};
 use gumption_text::implied_dof::Factor;
 use gumption_text::named_shape::NamedShape;
 
 /// What is known of one value.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Known {
+pub(super) struct KnownValue {
     pub(super) standard: f64,
     pub(super) dof: f64,
     pub(super) shape: Option<NamedShape>,
@@ -17,7 +17,7 @@ pub(super) struct Known {
     pub(super) factor: f64,
 }
 
-impl Known {
+impl KnownValue {
     /// Of a value without an uncertainty.
     pub(super) const EXACT: Self =
         Self { standard: 0.0, dof: f64::INFINITY, shape: None, factor: 1.0 };
@@ -27,7 +27,7 @@ impl Known {
 ///
 /// # Errors
 /// What is wrong with it, as a sentence about the quantity.
-pub(super) fn known(of: &Measured, place: usize) -> Result<Known, String> {
+pub(super) fn known(of: &Measured, place: usize) -> Result<KnownValue, String> {
     let none = || "has no uncertainty".to_owned();
     let stated = of.uncertainty.as_ref().ok_or_else(none)?;
     let shape = stated.called(place).and_then(NamedShape::of);
@@ -51,7 +51,7 @@ pub(super) fn known(of: &Measured, place: usize) -> Result<Known, String> {
     let (expanded, standard) = (at(&stated.expanded, place), at(&stated.standard, place));
     let factor = match (stated_factor, probability) {
         (Some(k), Some(p)) if k > 0.0 => {
-            let (k, p) = (Written::new(k, of_factor), Written::new(p, of_probability));
+            let (k, p) = (WrittenNumber::new(k, of_factor), WrittenNumber::new(p, of_probability));
             coverage::factor(k, p, shape)?
         }
         (Some(k), None) if k > 0.0 => k,
@@ -99,7 +99,7 @@ pub(super) fn known(of: &Measured, place: usize) -> Result<Known, String> {
         }
         _ => f64::INFINITY,
     };
-    Ok(Known { standard, dof, shape, factor })
+    Ok(KnownValue { standard, dof, shape, factor })
 }
 
 /// The degrees of freedom that a coverage interval symmetric about its value shows: half of it over the
@@ -109,7 +109,7 @@ pub(super) fn known(of: &Measured, place: usize) -> Result<Known, String> {
 /// The interval cannot have that standard uncertainty and that probability.
 fn of_limits(
     of: &Measured,
-    stated: &Stated,
+    stated: &StatedUncertainties,
     place: usize,
     (shape, p, of_probability): (Option<NamedShape>, f64, f64),
 ) -> Result<f64, String> {

@@ -10,13 +10,13 @@ use super::document::{self, Fault, Measured};
 /// The quantities that are one in several rows: those of one reference type in one place, a list or the
 /// lists in it, or those at the same place of lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct Row<'d> {
+struct QuantityRow<'d> {
     around: NodeId,
     kind: Option<&'d str>,
     place: usize,
 }
 
-impl<'d> Row<'d> {
+impl<'d> QuantityRow<'d> {
     /// That of a quantity, before which so many others stand in its element; `None` if it is no row of
     /// anything.
     fn of(node: Node<'d, 'd>, before: usize) -> Option<Self> {
@@ -34,7 +34,7 @@ impl<'d> Row<'d> {
 }
 
 /// Which quantities of a certificate state uncertainties.
-pub(super) struct Rows<'a, 'd> {
+pub(super) struct QuantityRows<'a, 'd> {
     all: &'a [Node<'d, 'd>],
     /// Of nothing before it is asked for.
     stated: Option<StatedRows<'d>>,
@@ -44,12 +44,12 @@ pub(super) struct Rows<'a, 'd> {
 #[derive(Default)]
 struct StatedRows<'d> {
     /// The row of each quantity that is of one.
-    rows: HashMap<NodeId, Row<'d>>,
+    rows: HashMap<NodeId, QuantityRow<'d>>,
     /// The units of those that state uncertainties, by row.
-    units: HashMap<Row<'d>, HashSet<String>>,
+    units: HashMap<QuantityRow<'d>, HashSet<String>>,
 }
 
-impl<'a, 'd> Rows<'a, 'd> {
+impl<'a, 'd> QuantityRows<'a, 'd> {
     pub(super) fn new(all: &'a [Node<'d, 'd>]) -> Self {
         Self { all, stated: None }
     }
@@ -80,7 +80,7 @@ fn stated<'d>(all: &[Node<'d, 'd>]) -> StatedRows<'d> {
     let mut before: HashMap<Option<NodeId>, usize> = HashMap::new();
     for node in all {
         let before = before.entry(node.parent().map(|of| of.id())).or_default();
-        let row = Row::of(*node, *before);
+        let row = QuantityRow::of(*node, *before);
         *before += 1;
         let Some(row) = row else { continue };
         found.rows.insert(node.id(), row);

@@ -34,10 +34,10 @@ use gumption_text::object::Object;
 use gumption_text::value_text::ValueOf;
 use gumption_text::{DiagnosticKind, Folder, Place, SourceText, bytes};
 use gumption_units::Unit;
-use known::{Interval, Known, known};
+use known::{Interval, KnownValue, known};
 pub(crate) use law::LAWS;
 pub use listing::{CertificateListing, ListedPart, ListedQuantity, listing, listing_text};
-use missing::Rows;
+use missing::QuantityRows;
 pub(super) use own::Certified;
 use own::OwnCertificate;
 pub(super) use quantities::inputs;
@@ -123,15 +123,15 @@ enum Taken {
     /// One value, at this place of the lists.
     One(Box<Measured>, usize),
     /// Points of a table over a condition, in order.
-    Table { condition: String, unit: Box<Unit>, points: Vec<Point> },
+    Table { condition: String, unit: Box<Unit>, points: Vec<TablePoint> },
 }
 
 /// A point of a table: abscissa, value, and what is known of it.
 #[derive(Clone, Copy, Debug)]
-struct Point {
+struct TablePoint {
     x: f64,
     y: f64,
-    known: Known,
+    known: KnownValue,
 }
 
 /// Reads what the object takes from a certificate; mistakes are reported, those of the certificate
@@ -239,7 +239,7 @@ fn parsed(
     let mut left = index;
     for (node, of) in chosen.iter().zip(measured) {
         if left < of.values.len() {
-            let lacking = Rows::new(&all).lacking(*node, &of);
+            let lacking = QuantityRows::new(&all).lacking(*node, &of);
             if let Some(fault) = lacking.and_then(|lacking| lacking.fault(&of, left)) {
                 return Err(fault);
             }
@@ -342,9 +342,9 @@ fn table<'d>(
     all: &[Node<'d, 'd>],
 ) -> Result<Option<Taken>, Fault> {
     let Some(condition) = object.text("at").map(str::to_owned) else { return Ok(None) };
-    let mut points: Vec<Point> = Vec::new();
+    let mut points: Vec<TablePoint> = Vec::new();
     let are_exact = measured.iter().all(|of| of.uncertainty.is_none() && of.unread.is_none());
-    let mut rows = Rows::new(all);
+    let mut rows = QuantityRows::new(all);
     let mut unit: Option<Unit> = None;
     // quantities beside each other have the same one beside them
     let parents: HashSet<_> = chosen.iter().map(|node| node.parent().map(|of| of.id())).collect();
@@ -368,13 +368,13 @@ fn table<'d>(
                 true => {
                     known(of, place).map_err(|reason| fault(format!("this quantity {reason}")))?
                 }
-                false if are_exact => Known::EXACT,
+                false if are_exact => KnownValue::EXACT,
                 false => {
                     let others = "other points of the table";
                     return Err(fault(missing::without("this value", others)));
                 }
             };
-            points.push(Point { x, y, known });
+            points.push(TablePoint { x, y, known });
         }
     }
     smallest_first(&mut points, |point| point.x);
@@ -500,7 +500,7 @@ impl FromCertificate {
             Taken::Table { condition, unit: of, points } => {
                 let (conditions, row) = at?;
                 let x = self.condition(object, condition, of, (conditions, row))?;
-                let Some(Point { y, known, .. }) = interpolated(points, x) else {
+                let Some(TablePoint { y, known, .. }) = interpolated(points, x) else {
                     let ends = points.first().zip(points.last());
                     let (low, high) = ends.map_or((f64::NAN, f64::NAN), |(a, b)| (a.x, b.x));
                     let reason = format!(
@@ -578,7 +578,7 @@ impl FromCertificate {
 }
 
 /// The shape that a certificate states.
-fn shaped(value: f64, known: Known, factor: f64) -> Result<Distribution, Invalid> {
+fn shaped(value: f64, known: KnownValue, factor: f64) -> Result<Distribution, Invalid> {
     let u = known.standard * factor;
     if u == 0.0 {
         return Constant::new(value).map(Into::into);
@@ -599,7 +599,7 @@ fn shaped(value: f64, known: Known, factor: f64) -> Result<Distribution, Invalid
 
 /// On straight lines between the points, with the shape that both neighbours have; `None` outside. At a
 /// point it is what is known there.
-fn interpolated(points: &[Point], x: f64) -> Option<Point> {
+fn interpolated(points: &[TablePoint], x: f64) -> Option<TablePoint> {
     let [first, last] = [points.first()?, points.last()?];
     let slack = 1e-12 * (last.x - first.x);
     if !(x >= first.x - slack && x <= last.x + slack) {
@@ -614,14 +614,14 @@ fn interpolated(points: &[Point], x: f64) -> Option<Point> {
     }
     let share = (x - a.x) / (b.x - a.x);
     let between = |a: f64, b: f64| a + share * (b - a);
-    let known = Known {
+    let known = KnownValue {
         standard: between(a.known.standard, b.known.standard),
         // the fewer degrees of freedom
         dof: a.known.dof.min(b.known.dof),
         shape: a.known.shape.filter(|shape| b.known.shape == Some(*shape)),
         factor: 1.0,
     };
-    Some(Point { x, y: between(a.y, b.y), known })
+    Some(TablePoint { x, y: between(a.y, b.y), known })
 }
 
 #[cfg(test)]

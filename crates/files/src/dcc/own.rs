@@ -13,7 +13,7 @@ use crate::carried;
 #[derive(Debug)]
 pub(super) struct OwnCertificate {
     /// The rows of each `dcc:result`, in order: one result for each output and unit.
-    groups: Vec<Group>,
+    groups: Vec<RowGroup>,
     /// Correlation coefficients of the rows.
     rows: Vec<Vec<Option<f64>>>,
     /// Covariance matrix of the parameters of each calibration function.
@@ -22,13 +22,13 @@ pub(super) struct OwnCertificate {
 
 /// The rows of a `dcc:result`, in order.
 #[derive(Debug, Default)]
-struct Group {
-    rows: Vec<Row>,
+struct RowGroup {
+    rows: Vec<CertificateRow>,
 }
 
 /// A row of the certificate.
 #[derive(Clone, Copy, Debug)]
-struct Row {
+struct CertificateRow {
     number: usize,
     /// Whether its coverage interval stands in a quantity of its own.
     has_interval: bool,
@@ -37,18 +37,18 @@ struct Row {
     has_nominal: bool,
 }
 
-impl Group {
+impl RowGroup {
     /// The rows of a list of the result, of which there are so many.
-    fn list(&self, place: usize, count: usize) -> Vec<Row> {
+    fn list(&self, place: usize, count: usize) -> Vec<CertificateRow> {
         let first = self.rows.first().is_some_and(|row| row.has_nominal);
-        let is_in = |row: &&Row| count < 2 || (row.has_nominal == first) == (place == 0);
+        let is_in = |row: &&CertificateRow| count < 2 || (row.has_nominal == first) == (place == 0);
         self.rows.iter().filter(is_in).copied().collect()
     }
 }
 
 /// What an input is of such a certificate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Part {
+enum InputOrigin {
     Row(usize),
     /// A parameter of a calibration function.
     Parameter(usize, usize),
@@ -58,7 +58,7 @@ enum Part {
 #[derive(Clone, Debug)]
 pub(crate) struct Certified {
     of: Arc<OwnCertificate>,
-    part: Part,
+    part: InputOrigin,
 }
 
 impl Certified {
@@ -68,8 +68,8 @@ impl Certified {
             return None;
         }
         match (self.part, other.part) {
-            (Part::Row(a), Part::Row(b)) => *self.of.rows.get(a)?.get(b)?,
-            (Part::Parameter(of, a), Part::Parameter(with, b)) if of == with => {
+            (InputOrigin::Row(a), InputOrigin::Row(b)) => *self.of.rows.get(a)?.get(b)?,
+            (InputOrigin::Parameter(of, a), InputOrigin::Parameter(with, b)) if of == with => {
                 let covariance = self.of.functions.get(of)?;
                 let at = |i: usize, j: usize| covariance.get(i)?.get(j).copied();
                 Some((at(a, b)? / (at(a, a)? * at(b, b)?).sqrt()).clamp(-1.0, 1.0))
@@ -88,18 +88,18 @@ impl OwnCertificate {
             .filter(|(name, _)| name == "result.json")
             .find_map(|(_, bytes)| serde_json::from_slice::<Value>(&bytes).ok())?;
         answer.get("gumption")?;
-        let mut groups: Vec<([&str; 2], Group)> = Vec::new();
+        let mut groups: Vec<([&str; 2], RowGroup)> = Vec::new();
         for (number, row) in answer.get("rows")?.as_array()?.iter().enumerate() {
             let of = [row.get("output")?.as_str()?, row.get("unit")?.as_str()?];
             let place = groups.iter().position(|(known, _)| *known == of);
             let place = place.unwrap_or_else(|| {
-                groups.push((of, Group::default()));
+                groups.push((of, RowGroup::default()));
                 groups.len() - 1
             });
             let Some((_, group)) = groups.get_mut(place) else { continue };
             let has_interval = row.pointer("/stated/interval").is_some_and(Value::is_array);
             let has_nominal = row.get("nominal").is_some_and(Value::is_number);
-            group.rows.push(Row { number, has_interval, has_nominal });
+            group.rows.push(CertificateRow { number, has_interval, has_nominal });
         }
         let matrix = |value: &Value| -> Option<Vec<Vec<Option<f64>>>> {
             let row = |row: &Value| Some(row.as_array()?.iter().map(Value::as_f64).collect());
@@ -136,7 +136,7 @@ impl OwnCertificate {
                 let own = lists.iter().position(|of| *of == list)?;
                 let rows = group.list(own, lists.len()).into_iter();
                 let mut rows = rows.filter(|row| !is_interval || row.has_interval);
-                Part::Row(rows.nth(place)?.number)
+                InputOrigin::Row(rows.nth(place)?.number)
             }
             None => {
                 let function = before - self.groups.len();
@@ -145,7 +145,7 @@ impl OwnCertificate {
                 let data = node.parent().filter(|of| is(of, "data"))?;
                 let mut own = data.children().filter(|of| is(of, "quantity"));
                 let number = own.position(|of| of == node)?;
-                (number < count).then_some(Part::Parameter(function, number))?
+                (number < count).then_some(InputOrigin::Parameter(function, number))?
             }
         };
         Some(Certified { of: Arc::clone(self), part })

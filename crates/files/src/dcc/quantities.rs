@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::difference;
 use super::document::{measured, names, quantities};
-use super::missing::Rows;
+use super::missing::QuantityRows;
 use super::standing::is_result;
 
 /// The name of a quantity that has none.
@@ -19,7 +19,7 @@ const NAMELESS: &str = "q";
 pub(crate) fn inputs(document: &Document<'_>, file: &str) -> Vec<(String, String, Value)> {
     let all = quantities(document);
     let some = all.iter().any(|node| is_result(*node));
-    let mut rows = Rows::new(&all);
+    let mut rows = QuantityRows::new(&all);
     let mut found: Vec<(String, String, Value)> = Vec::new();
     // the names so far, and from which number on one may be free
     let (mut taken, mut numbers) = (HashSet::new(), HashMap::<String, usize>::new());

@@ -21,7 +21,7 @@ const VARIABLE: &str = "x";
 const MOST_DEGREE: f64 = 20.0;
 
 /// The form as written.
-pub(super) enum Form<'a> {
+pub(super) enum FitForm<'a> {
     /// A polynomial of a degree; a straight line is one of degree 1.
     Degree(usize),
     /// A polynomial of the degree that the points ask for.
@@ -41,7 +41,7 @@ pub(super) struct Made {
     pub(super) note: Option<String>,
 }
 
-impl<'a> Form<'a> {
+impl<'a> FitForm<'a> {
     pub(super) fn read(fit: &Object<'a>) -> Option<Self> {
         let written = fit.get("form");
         let text = match written {
@@ -190,9 +190,9 @@ impl<'a> Form<'a> {
     }
 }
 
-fn degree<'a>(fit: &Object<'a>, member: &'a Member) -> Option<Form<'a>> {
+fn degree<'a>(fit: &Object<'a>, member: &'a Member) -> Option<FitForm<'a>> {
     match &member.value.value {
-        Json::Text(text) if text == "auto" => return Some(Form::Automatic),
+        Json::Text(text) if text == "auto" => return Some(FitForm::Automatic),
         Json::Text(text) => {
             let diagnostic = DiagnosticKind::NotOneOf {
                 key: "degree".into(),
@@ -211,7 +211,7 @@ fn degree<'a>(fit: &Object<'a>, member: &'a Member) -> Option<Form<'a>> {
         fit.log.report(&member.value.span, diagnostic);
         return None;
     }
-    Some(Form::Degree(found as usize))
+    Some(FitForm::Degree(found as usize))
 }
 
 /// Values near the parameters of a formula.

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use super::input_set::InputSet;
 use super::keys;
-use form::Form;
+use form::FitForm;
 use gumption_engine::distribution::{Distribution, EvaluationType, Fitted};
 use gumption_engine::model::formula::check_name;
 use gumption_engine::model::{InputQuantity, NumberForm, Quantity};
@@ -82,7 +82,7 @@ pub(super) fn read(
             log.report(&member.key_span, DiagnosticKind::BadName { name, reason });
             continue;
         }
-        let mut reader = Reader { object, name: &member.key, folder, set: &mut set };
+        let mut reader = FitReader { object, name: &member.key, folder, set: &mut set };
         if let Some(curve) = reader.curve(numbers) {
             set.curves.push(Arc::new(curve));
             set.places.push(member.key_span.clone());
@@ -125,18 +125,18 @@ impl FitSet {
     }
 }
 
-struct Reader<'a, 's> {
+struct FitReader<'a, 's> {
     object: Object<'a>,
     name: &'a str,
     folder: Folder<'a>,
     set: &'s mut FitSet,
 }
 
-impl Reader<'_, '_> {
+impl FitReader<'_, '_> {
     fn curve(&mut self, numbers: NumberForm) -> Option<CurveFunction> {
         let object = self.object;
         keys::check(&object, keys::FIT);
-        let form = Form::read(&object);
+        let form = FitForm::read(&object);
         let points = self.points();
         let estimated = match object.text("weights") {
             Some("estimated") => true,
@@ -160,12 +160,14 @@ impl Reader<'_, '_> {
             Some(_) => object.value("origin", &x, ValueOf::Quantity)?,
         };
         let (fitted, named) = match (&form, made) {
-            (Form::Automatic, _) => (choose_degree(self.name, origin, &points, MOST_TRIED), None),
-            (Form::Degree(degree), _) => {
+            (FitForm::Automatic, _) => {
+                (choose_degree(self.name, origin, &points, MOST_TRIED), None)
+            }
+            (FitForm::Degree(degree), _) => {
                 let curve = Curve::Polynomial { degree: *degree, origin };
                 (Regression::of(self.name, &curve, &points, &[]), None)
             }
-            (Form::Formula(..), Some(made)) => {
+            (FitForm::Formula(..), Some(made)) => {
                 let curve = Curve::Program(made.program);
                 self.set.warnings.extend(
                     made.note.map(|text| Warning::new("fit-units-not-checked", self.name, text)),
@@ -173,7 +175,7 @@ impl Reader<'_, '_> {
                 let fitted = Regression::of(self.name, &curve, &points, &made.start);
                 (fitted, Some(made.parameters))
             }
-            (Form::Formula(..), None) => return None,
+            (FitForm::Formula(..), None) => return None,
         };
         let fitted = fitted.map_err(|error| self.report(&error)).ok()?;
         let parameters = named.unwrap_or_else(|| {

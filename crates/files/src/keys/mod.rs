@@ -35,7 +35,7 @@ pub(crate) use recipe::{
     RECORDING, SEARCH, SEARCHED, STEPS,
 };
 pub(crate) use shapes::{
-    COMPLEX, COMPLEX_INPUT, COMPONENT, COMPOSED, INPUT, POOLED, SHAPES, Shape,
+    COMPLEX, COMPLEX_INPUT, COMPONENT, COMPOSED, FileShape, INPUT, POOLED, SHAPES,
 };
 pub(crate) use values::READINGS;
 

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 /// A distribution as files name it.
 #[derive(Debug)]
-pub(crate) struct Shape {
+pub(crate) struct FileShape {
     pub(crate) name: &'static str,
     /// Its other names.
     pub(crate) aliases: &'static [&'static str],
@@ -32,15 +32,15 @@ enum Rule {
 }
 
 /// The distributions in the order of JCGM 101, Table 1, then the others.
-pub(crate) static SHAPES: [Shape; 26] = [
-    Shape {
+pub(crate) static SHAPES: [FileShape; 26] = [
+    FileShape {
         name: "constant",
         aliases: &[],
         about: "Known exactly.",
         fields: &["value"],
         rule: Rule::Estimate("value", &[]),
     },
-    Shape {
+    FileShape {
         name: "normal",
         aliases: &["gaussian"],
         about: "Normal. With `expanded` the coverage factor `k` or the coverage probability `p` is \
@@ -48,7 +48,7 @@ pub(crate) static SHAPES: [Shape; 26] = [
         fields: &["mean", "std", "expanded", "k", "p", "dof"],
         rule: Rule::Uncertainty,
     },
-    Shape {
+    FileShape {
         name: "rectangular",
         aliases: &["uniform"],
         about: "Rectangular (uniform) within limits; with `dof` it is drawn as the curvilinear \
@@ -56,7 +56,7 @@ pub(crate) static SHAPES: [Shape; 26] = [
         fields: &["mean", "half_width", "semi_range", "lower", "upper", "dof"],
         rule: Rule::Limits(&[]),
     },
-    Shape {
+    FileShape {
         name: "triangular",
         aliases: &[],
         about: "Triangular within limits; with `lower` and `upper` the mode may lie off the \
@@ -65,7 +65,7 @@ pub(crate) static SHAPES: [Shape; 26] = [
         fields: &["mean", "half_width", "semi_range", "lower", "upper", "mode", "dof"],
         rule: Rule::Limits(&[]),
     },
-    Shape {
+    FileShape {
         name: "trapezoidal",
         aliases: &[],
         about: "Symmetric trapezoidal within limits (JCGM 101, 6.4.4); with `dof` drawn as a \
@@ -73,28 +73,28 @@ pub(crate) static SHAPES: [Shape; 26] = [
         fields: &["mean", "half_width", "semi_range", "lower", "upper", "beta", "dof"],
         rule: Rule::Limits(&["beta"]),
     },
-    Shape {
+    FileShape {
         name: "curvilinear-trapezoid",
         aliases: &[],
         about: "Rectangular with limits that are not known exactly (JCGM 101, 6.4.3).",
         fields: &["lower", "upper", "inexactness"],
         rule: Rule::All(&["lower", "upper", "inexactness"]),
     },
-    Shape {
+    FileShape {
         name: "arcsine",
         aliases: &["u-shaped"],
         about: "Arcsine (U-shaped) within limits: a sinusoidal cycle (JCGM 101, 6.4.6).",
         fields: &["mean", "half_width", "semi_range", "lower", "upper"],
         rule: Rule::Limits(&[]),
     },
-    Shape {
+    FileShape {
         name: "t",
         aliases: &["student-t"],
         about: "Scaled and shifted t; its standard uncertainty by the GUM is `scale`.",
         fields: &["mean", "scale", "dof"],
         rule: Rule::Estimate("mean", &["scale", "dof"]),
     },
-    Shape {
+    FileShape {
         name: "readings",
         aliases: &[],
         about: "Repeated readings (Type A): mean, s/sqrt(n), n - 1 degrees of freedom; drawn as \
@@ -111,84 +111,84 @@ pub(crate) static SHAPES: [Shape; 26] = [
         ],
         rule: Rule::One(&["values", "file"]),
     },
-    Shape {
+    FileShape {
         name: "exponential",
         aliases: &[],
         about: "Exponential (JCGM 101, 6.4.10).",
         fields: &["mean"],
         rule: Rule::All(&["mean"]),
     },
-    Shape {
+    FileShape {
         name: "gamma",
         aliases: &[],
         about: "Gamma.",
         fields: &["shape", "rate"],
         rule: Rule::All(&["shape", "rate"]),
     },
-    Shape {
+    FileShape {
         name: "lognormal",
         aliases: &[],
         about: "Log-normal; `mean` and `std` are those of the quantity itself.",
         fields: &["mean", "std"],
         rule: Rule::All(&["mean", "std"]),
     },
-    Shape {
+    FileShape {
         name: "beta",
         aliases: &[],
         about: "Beta, between 0 and 1 or between limits.",
         fields: &["alpha", "beta", "lower", "upper"],
         rule: Rule::All(&["alpha", "beta"]),
     },
-    Shape {
+    FileShape {
         name: "log-uniform",
         aliases: &[],
         about: "Of which the logarithm is rectangular, between limits above 0.",
         fields: &["lower", "upper"],
         rule: Rule::All(&["lower", "upper"]),
     },
-    Shape {
+    FileShape {
         name: "poisson-count",
         aliases: &[],
         about: "The expectation behind a count: a gamma of shape count + 1 (JCGM 101, 6.4.11).",
         fields: &["count"],
         rule: Rule::All(&["count"]),
     },
-    Shape {
+    FileShape {
         name: "weibull",
         aliases: &[],
         about: "Weibull, as of strengths and lifetimes; 1 - 1/e of it lies below `scale`.",
         fields: &["shape", "scale"],
         rule: Rule::All(&["shape", "scale"]),
     },
-    Shape {
+    FileShape {
         name: "gumbel",
         aliases: &[],
         about: "Gumbel, as of the largest of many values; `location` is the most probable value.",
         fields: &["location", "scale"],
         rule: Rule::All(&["location", "scale"]),
     },
-    Shape {
+    FileShape {
         name: "pareto",
         aliases: &[],
         about: "Pareto: nothing below `scale`, and above x the share (scale/x)^shape; `shape` above 2.",
         fields: &["shape", "scale"],
         rule: Rule::All(&["shape", "scale"]),
     },
-    Shape {
+    FileShape {
         name: "chi-squared",
         aliases: &[],
         about: "Chi-squared: the sum of `dof` squared standard normal quantities.",
         fields: &["dof"],
         rule: Rule::All(&["dof"]),
     },
-    Shape {
+    FileShape {
         name: "binomial",
         aliases: &[],
         about: "The number of successes among `trials`, each with `probability`.",
         fields: &["trials", "probability"],
         rule: Rule::All(&["trials", "probability"]),
     },
-    Shape {
+    FileShape {
         name: "hypergeometric",
         aliases: &[],
         about: "The number of marked ones among `draws` from a `population` with `marked` ones, without \
@@ -196,21 +196,21 @@ pub(crate) static SHAPES: [Shape; 26] = [
         fields: &["population", "marked", "draws"],
         rule: Rule::All(&["population", "marked", "draws"]),
     },
-    Shape {
+    FileShape {
         name: "samples",
         aliases: &[],
         about: "An empirical distribution: values that are drawn with replacement.",
         fields: &["file", "column", "values"],
         rule: Rule::One(&["file", "values"]),
     },
-    Shape {
+    FileShape {
         name: "split-normal",
         aliases: &[],
         about: "Two halves of normal distributions, joined at the mode: 5 +0.2 -0.1.",
         fields: &["mode", "std_low", "std_high"],
         rule: Rule::All(&["mode", "std_low", "std_high"]),
     },
-    Shape {
+    FileShape {
         name: "quantiles",
         aliases: &[],
         about: "Stated by quantiles, with a monotone interpolation; with the probabilities 0 and 1 \
@@ -218,7 +218,7 @@ pub(crate) static SHAPES: [Shape; 26] = [
         fields: &["probabilities", "values"],
         rule: Rule::All(&["probabilities", "values"]),
     },
-    Shape {
+    FileShape {
         name: "dcc",
         aliases: &[],
         about: "A quantity of a Digital Calibration Certificate (2.4 to 3.3): value, uncertainty, k, \
@@ -237,7 +237,7 @@ pub(crate) static SHAPES: [Shape; 26] = [
         ],
         rule: Rule::All(&["file"]),
     },
-    Shape {
+    FileShape {
         name: "result",
         aliases: &[],
         about: "An output of a saved result.",
@@ -653,7 +653,7 @@ fn examples(holder: Holder) -> Value {
     }])
 }
 
-fn definition(holder: Holder, shape: &Shape) -> Value {
+fn definition(holder: Holder, shape: &FileShape) -> Value {
     let keys = holder.keys().iter().map(|&key| (key, common(key)));
     let own = shape.fields.iter().map(|&key| (key, field(shape.name, key)));
     let properties = keys.chain(own);

@@ -39,7 +39,8 @@ pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile], single: bool
         Some(_) => root.list("rows")?,
         None => &[],
     };
-    let reader = Reader { root, recordings, conditions: &conditions, constants, general, single };
+    let reader =
+        RecipeRowsReader { root, recordings, conditions: &conditions, constants, general, single };
     let rows: Vec<RecipeRow> = match root.get("rows") {
         Some(member) if nodes.is_empty() => {
             root.log.report(&member.key_span, DiagnosticKind::NoValues { name: "rows".into() });
@@ -75,7 +76,7 @@ fn conditions(root: &Object<'_>) -> Option<(Vec<RecipeCondition>, Vec<Option<f64
     Some((conditions, constants))
 }
 
-struct Reader<'a> {
+struct RecipeRowsReader<'a> {
     root: &'a Object<'a>,
     recordings: &'a [RecordingFile],
     conditions: &'a [RecipeCondition],
@@ -84,7 +85,7 @@ struct Reader<'a> {
     single: bool,
 }
 
-impl Reader<'_> {
+impl RecipeRowsReader<'_> {
     /// A row, or the only one where the recipe has no rows.
     fn row(&self, node: Option<&Node>) -> Option<RecipeRow> {
         let log = self.root.log;

@@ -41,7 +41,7 @@ pub struct NamedDistribution {
 /// The distributions in the order of JCGM 101, Table 1, then the others; `input-NAME` is the
 /// definition of an input that has it in the schema.
 pub fn distributions() -> Vec<NamedDistribution> {
-    let named = |shape: &'static keys::Shape| NamedDistribution {
+    let named = |shape: &'static keys::FileShape| NamedDistribution {
         name: shape.name,
         aliases: shape.aliases,
         keys: shape.fields,

@@ -1,6 +1,6 @@
 //! Results in one cell: `10.0 V ± 0.2 V (k=2)`, `(10.0 ± 0.2) V`, `10.0(2) V`.
 
-use super::Reader;
+use super::ComparisonReader;
 use super::headings::{self, Role};
 use super::numbers::Number;
 use crate::import::both::sides;
@@ -79,7 +79,7 @@ fn is_of_standard(heading: &str) -> bool {
     behind.is_some_and(|(_, behind)| headings::name(behind) == "u")
 }
 
-impl Reader<'_> {
+impl ComparisonReader<'_> {
     /// Estimate, uncertainty and factor of a cell that holds all of it; `None` after a mistake.
     pub(super) fn in_one_cell(
         &self,

@@ -1,7 +1,7 @@
 //! Angles are the same after a turn: 359.95 deg and 0.02 deg are 0.07 deg apart, on the branch on which
 //! they lie nearest to each other.
 
-use super::Reader;
+use super::ComparisonReader;
 use gumption_analysis::compare::StatedResult;
 use gumption_engine::decimal::{Decimal, to_15_digits, to_position};
 use gumption_engine::number::Shortest;
@@ -19,7 +19,7 @@ fn moved(angle: f64, by: f64) -> f64 {
 /// Results with the names that they are called by in messages.
 pub(super) type Named<'a> = (String, &'a mut StatedResult);
 
-impl Reader<'_> {
+impl ComparisonReader<'_> {
     /// Brings angles of one quantity to one branch, which a note says.
     ///
     /// # Errors

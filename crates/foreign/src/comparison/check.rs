@@ -1,13 +1,13 @@
 //! Whether the columns of a table are those of results, and say one thing.
 
-use super::Reader;
+use super::ComparisonReader;
 use super::headings::Role;
 
 /// The columns that a table of pairs, and one of laboratories, needs.
 const OF_PAIRS: &str = "label, x1, U1, x2, U2";
 const OF_LABORATORIES: &str = "label, x, U";
 
-impl Reader<'_> {
+impl ComparisonReader<'_> {
     /// Whether the columns of these results are there, and none that contradicts them.
     pub(super) fn check_columns(&self, results: &[u8]) -> Option<()> {
         let has = |role: Role| self.columns.has(role);

@@ -1,7 +1,7 @@
 //! Which column of a table of results holds what, and in which unit.
 
 use super::both;
-use super::headings::{self, Role, Said, UnitOfHeading};
+use super::headings::{self, HeadingMeaning, Role, UnitOfHeading};
 use super::numbers::Numbers;
 use crate::import::columns;
 use crate::import::coverage::HeaderCoverage;
@@ -85,10 +85,10 @@ impl Columns {
                 continue;
             }
             match headings::said(heading) {
-                Said::Role(role, is_symbol) => found.push((role, is_symbol, place)),
-                Said::SomeUncertainty(of) => doubtful.push((of, place)),
-                Said::Deviation(of) => deviations.push((of, place)),
-                Said::Nothing => unknown.push(place),
+                HeadingMeaning::Role(role, is_symbol) => found.push((role, is_symbol, place)),
+                HeadingMeaning::SomeUncertainty(of) => doubtful.push((of, place)),
+                HeadingMeaning::Deviation(of) => deviations.push((of, place)),
+                HeadingMeaning::Nothing => unknown.push(place),
             }
         }
         let heading = |place: usize| headings.get(place).map_or("", String::as_str);

@@ -1,6 +1,6 @@
 //! The conditions of a row, by which the results of a run are found.
 
-use super::{Reader, answer};
+use super::{ComparisonReader, answer};
 use gumption_text::column_heading;
 use gumption_units::Unit;
 
@@ -14,7 +14,7 @@ pub(super) struct Condition<'a> {
     heading: Option<Unit>,
 }
 
-impl Reader<'_> {
+impl ComparisonReader<'_> {
     /// The conditions of a run in the table's columns; `None` after a heading with a unit that is none
     /// of the condition.
     pub(super) fn conditions<'a>(&self, answer: &'a answer::Answer) -> Option<Vec<Condition<'a>>> {

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use super::headings::{self, Role, Said};
+use super::headings::{self, HeadingMeaning, Role};
 use super::numbers::Numbers;
 use super::sheet::{self, Content};
 use gumption_engine::number::Shortest;
@@ -54,8 +54,8 @@ impl Matrix<'_> {
         let headings = table.columns();
         // the names of the rows stand below a heading that is none of a laboratory
         let is_of_names = headings.first().is_some_and(|first| {
-            let is_word =
-                first.is_empty() || matches!(headings::said(first), Said::Role(Role::Label, _));
+            let is_word = first.is_empty()
+                || matches!(headings::said(first), HeadingMeaning::Role(Role::Label, _));
             is_word && !self.labels.contains(&first.as_str())
         });
         let skipped = usize::from(is_of_names);

@@ -23,7 +23,7 @@ pub(super) enum Role {
 
 /// What a heading says.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Said {
+pub(super) enum HeadingMeaning {
     /// What its column holds, and whether by its symbol.
     Role(Role, bool),
     /// That it is an uncertainty of these results, and not of which kind.
@@ -197,16 +197,20 @@ fn is_mean(words: &str) -> bool {
 }
 
 /// What a heading says.
-pub(super) fn said(heading: &str) -> Said {
+pub(super) fn said(heading: &str) -> HeadingMeaning {
     let plain = || said_of_any(heading);
     let Some((of, rest)) = party::split(heading) else { return plain() };
     match said_of_any(&rest) {
-        Said::Role(Role::Value(0), _) => Said::Role(Role::Value(of), false),
-        Said::Role(Role::Expanded(0), _) => Said::Role(Role::Expanded(of), false),
-        Said::Role(Role::Standard(0), _) => Said::Role(Role::Standard(of), false),
-        Said::Role(Role::Factor(0), _) => Said::Role(Role::Factor(of), false),
-        Said::SomeUncertainty(0) => Said::SomeUncertainty(of),
-        Said::Deviation(0) => Said::Deviation(of),
+        HeadingMeaning::Role(Role::Value(0), _) => HeadingMeaning::Role(Role::Value(of), false),
+        HeadingMeaning::Role(Role::Expanded(0), _) => {
+            HeadingMeaning::Role(Role::Expanded(of), false)
+        }
+        HeadingMeaning::Role(Role::Standard(0), _) => {
+            HeadingMeaning::Role(Role::Standard(of), false)
+        }
+        HeadingMeaning::Role(Role::Factor(0), _) => HeadingMeaning::Role(Role::Factor(of), false),
+        HeadingMeaning::SomeUncertainty(0) => HeadingMeaning::SomeUncertainty(of),
+        HeadingMeaning::Deviation(0) => HeadingMeaning::Deviation(of),
         _ => plain(),
     }
 }
@@ -218,12 +222,13 @@ pub(super) fn is_of_party(heading: &str) -> bool {
 
 /// A heading without words that say whose results they are, which say nothing of units and coverage.
 fn without_party(heading: &str) -> String {
-    let is_party = party::split(heading).filter(|(_, rest)| said_of_any(rest) != Said::Nothing);
+    let is_party =
+        party::split(heading).filter(|(_, rest)| said_of_any(rest) != HeadingMeaning::Nothing);
     is_party.map_or_else(|| heading.to_owned(), |(_, rest)| rest)
 }
 
 /// What a heading says, whosever results they are.
-fn said_of_any(heading: &str) -> Said {
+fn said_of_any(heading: &str) -> HeadingMeaning {
     let name = name(heading);
     let (stem, of) = numbered(&name);
     let role = match stem {
@@ -235,44 +240,46 @@ fn said_of_any(heading: &str) -> Said {
         _ => None,
     };
     if let Some(role) = role {
-        return Said::Role(role, true);
+        return HeadingMeaning::Role(role, true);
     }
     if of_symbol(&name).is_some() {
-        return Said::Role(Role::Expanded(0), true);
+        return HeadingMeaning::Role(Role::Expanded(0), true);
     }
     let words = columns::plain(&name);
     if words == "label" {
-        return Said::Role(Role::Label, true);
+        return HeadingMeaning::Role(Role::Label, true);
     }
     if LABORATORIES.contains(&words.as_str()) {
-        return Said::Role(Role::Label, false);
+        return HeadingMeaning::Role(Role::Label, false);
     }
     if VALUES.contains(&words.as_str()) {
-        return Said::Role(Role::Value(0), false);
+        return HeadingMeaning::Role(Role::Value(0), false);
     }
     let is_from = ["deviation from ", "abweichung vom ", "abweichung von ", "écart à "];
     let is_deviation = |of: &&str| *of == words.as_str();
     if ERRORS.iter().chain(&DEVIATIONS).any(is_deviation)
         || is_from.iter().any(|of| words.starts_with(of))
     {
-        return Said::Deviation(0);
+        return HeadingMeaning::Deviation(0);
     }
     if words.contains("correlation coefficient") || words.contains("korrelationskoeffizient") {
-        return Said::Role(Role::Correlation, false);
+        return HeadingMeaning::Role(Role::Correlation, false);
     }
     match columns::column(heading) {
-        Some(Column::Quantity) => Said::Role(Role::Label, false),
-        Some(Column::Estimate) => Said::Role(Role::Value(0), false),
-        Some(Column::Unit) => Said::Role(Role::Unit, false),
-        Some(Column::Dof) => Said::Role(Role::Dof, false),
-        Some(Column::Standard | Column::Deviation) => Said::Role(Role::Standard(0), false),
-        Some(Column::Factor) => Said::Role(Role::Factor(0), false),
+        Some(Column::Quantity) => HeadingMeaning::Role(Role::Label, false),
+        Some(Column::Estimate) => HeadingMeaning::Role(Role::Value(0), false),
+        Some(Column::Unit) => HeadingMeaning::Role(Role::Unit, false),
+        Some(Column::Dof) => HeadingMeaning::Role(Role::Dof, false),
+        Some(Column::Standard | Column::Deviation) => {
+            HeadingMeaning::Role(Role::Standard(0), false)
+        }
+        Some(Column::Factor) => HeadingMeaning::Role(Role::Factor(0), false),
         Some(of) if Column::WIDTHS.contains(&of) => match coverage_of_any(heading) {
-            HeaderCoverage::None => Said::SomeUncertainty(0),
-            HeaderCoverage::Factor(1.0) => Said::Role(Role::Standard(0), false),
-            _ => Said::Role(Role::Expanded(0), false),
+            HeaderCoverage::None => HeadingMeaning::SomeUncertainty(0),
+            HeaderCoverage::Factor(1.0) => HeadingMeaning::Role(Role::Standard(0), false),
+            _ => HeadingMeaning::Role(Role::Expanded(0), false),
         },
-        _ => Said::Nothing,
+        _ => HeadingMeaning::Nothing,
     }
 }
 
@@ -358,7 +365,10 @@ pub(super) fn unit(
     });
     let of = |text: &str| parse(text).map(|unit| UnitOfHeading { unit, is_of_value });
     // of words of uncertainties nothing else may be there
-    let is_value = matches!(said(heading), Said::Role(Role::Value(_), _) | Said::Deviation(_));
+    let is_value = matches!(
+        said(heading),
+        HeadingMeaning::Role(Role::Value(_), _) | HeadingMeaning::Deviation(_)
+    );
     if let Some(text) = unit_of_header(&own, is_value)? {
         return of(&text)
             .map(Some)
@@ -429,7 +439,7 @@ mod tests {
     #[test]
     fn words_and_symbols() {
         let role = |heading: &str| match said(heading) {
-            Said::Role(role, _) => Some(role),
+            HeadingMeaning::Role(role, _) => Some(role),
             _ => None,
         };
         for (heading, expected) in [
@@ -488,13 +498,13 @@ mod tests {
         ] {
             assert_eq!(role(heading), Some(expected), "{heading}");
         }
-        assert_eq!(said("Uncertainty"), Said::SomeUncertainty(0));
-        assert_eq!(said("Unsicherheit Labor"), Said::SomeUncertainty(1));
-        assert_eq!(said("Abweichung [V]"), Said::Deviation(0));
-        assert_eq!(said("Standard deviation"), Said::Role(Role::Standard(0), false));
+        assert_eq!(said("Uncertainty"), HeadingMeaning::SomeUncertainty(0));
+        assert_eq!(said("Unsicherheit Labor"), HeadingMeaning::SomeUncertainty(1));
+        assert_eq!(said("Abweichung [V]"), HeadingMeaning::Deviation(0));
+        assert_eq!(said("Standard deviation"), HeadingMeaning::Role(Role::Standard(0), false));
         assert_eq!(coverage("U95 lab"), HeaderCoverage::Probability(0.95));
         for heading in ["date", "method", "n", "remark"] {
-            assert_eq!(said(heading), Said::Nothing, "{heading}");
+            assert_eq!(said(heading), HeadingMeaning::Nothing, "{heading}");
             assert!(!is_like_uncertainty(heading, &["label"]), "{heading}");
         }
         for heading in ["u_c", "s", "std. of readings", "kp", "correlation", "lable", "U_ref [mV]"]

@@ -135,7 +135,7 @@ fn read(
         }
         let is_of_pairs = columns.has(Role::Value(1));
         let (shares, units, moved) = (BTreeSet::new(), Vec::new(), Vec::new());
-        let mut reader = Reader { numbers, columns, shares, units, moved, options };
+        let mut reader = ComparisonReader { numbers, columns, shares, units, moved, options };
         let table = if is_of_pairs { reader.pairs(answer.as_ref()) } else { reader.laboratories() };
         warnings.extend(reader.relative());
         warnings.extend(reader.turned());
@@ -144,7 +144,7 @@ fn read(
     log.finish(table.map(|(table, units)| ReadComparison { table, units, warnings }))
 }
 
-struct Reader<'a> {
+struct ComparisonReader<'a> {
     numbers: Numbers<'a>,
     columns: Columns,
     /// Units of uncertainties that were taken of the values.
@@ -176,7 +176,7 @@ struct InUnits {
     of_run: Option<String>,
 }
 
-impl Reader<'_> {
+impl ComparisonReader<'_> {
     fn fail(&self, reason: String) {
         self.fail_at(self.numbers.table.header(), reason);
     }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use super::headings::{self, Role, Said};
+use super::headings::{self, HeadingMeaning, Role};
 use gumption_text::workbook::choice::{self, Wanted};
 use gumption_text::workbook::{Book, Layout};
 use gumption_text::{DiagnosticKind, bytes, workbook};
@@ -59,11 +59,14 @@ pub(super) fn results(
         let of = |role: fn(&Role) -> bool| {
             header
                 .iter()
-                .any(|cell| matches!(headings::said(cell), Said::Role(found, _) if role(&found)))
+                .any(|cell| matches!(headings::said(cell), HeadingMeaning::Role(found, _) if role(&found)))
         };
         let is_uncertain = of(|role| matches!(role, Role::Expanded(_) | Role::Standard(_)))
-            || header.iter().any(|cell| matches!(headings::said(cell), Said::SomeUncertainty(_)));
-        let is_deviation = |cell: &String| matches!(headings::said(cell), Said::Deviation(_));
+            || header
+                .iter()
+                .any(|cell| matches!(headings::said(cell), HeadingMeaning::SomeUncertainty(_)));
+        let is_deviation =
+            |cell: &String| matches!(headings::said(cell), HeadingMeaning::Deviation(_));
         let has_value = of(|role| matches!(role, Role::Value(_)));
         (has_value || header.iter().any(is_deviation)) && is_uncertain
     };

@@ -2,7 +2,7 @@
 
 use super::headings::Role;
 use super::numbers::{self, Number};
-use super::{InUnits, Reader};
+use super::{ComparisonReader, InUnits};
 use gumption_analysis::compare::StatedResult;
 use gumption_engine::number::Shortest;
 use gumption_text::DiagnosticKind;
@@ -22,7 +22,7 @@ pub(super) fn differs(a: f64, b: f64) -> bool {
     (a - b).abs() > ROUNDED * b
 }
 
-impl Reader<'_> {
+impl ComparisonReader<'_> {
     /// A number with its unit: that of its cell, of its heading or of the column of units.
     fn in_unit(&self, row: usize, place: usize) -> Option<Number> {
         self.in_unit_of(row, place, self.numbers.table.text(row, place))

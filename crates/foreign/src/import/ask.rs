@@ -56,7 +56,7 @@ impl From<Diagnostics> for RefusedBudget {
 }
 
 /// A sheet that is read, with what is said of it.
-pub(super) struct Sheet<'a> {
+pub(super) struct ReadSheet<'a> {
     pub(super) cells: &'a Cells,
     pub(super) log: &'a Collector,
     pub(super) options: &'a ImportOptions,
@@ -68,7 +68,7 @@ pub(super) struct Sheet<'a> {
 /// Rows that a message shows, at most.
 const MOST_SHOWN: usize = 6;
 
-impl Sheet<'_> {
+impl ReadSheet<'_> {
     /// Reports a mistake in a line, from 0.
     pub(super) fn fail(&self, line: usize, reason: impl AsRef<str>) {
         self.fail_in(line..=line, reason.as_ref());

@@ -34,7 +34,7 @@ pub(crate) struct Statement {
 }
 
 /// A number that was found, and where what says it stands.
-type Found = Option<(f64, Range<usize>)>;
+type FoundNumber = Option<(f64, Range<usize>)>;
 
 impl HeaderCoverage {
     /// Of a header's cell; nothing where it can be read in two ways, which [`Statement::of`] tells.
@@ -144,7 +144,7 @@ fn begins_word(text: &str, at: usize) -> bool {
 }
 
 /// The coverage factor that stands behind `k=` or behind its words.
-fn factor(text: &str) -> Result<Found, String> {
+fn factor(text: &str) -> Result<FoundNumber, String> {
     const WORDS: [&str; 9] = [
         "coverage factor",
         "Überdeckungsfaktor",
@@ -203,7 +203,7 @@ fn checked(text: &str, number: &str, behind: &str) -> Result<f64, String> {
 }
 
 /// A number of standard deviations, `2σ` or `1.96 sigma`.
-fn standard_deviations(text: &str) -> Found {
+fn standard_deviations(text: &str) -> FoundNumber {
     ["σ", "sigma"].into_iter().find_map(|sign| {
         text.match_indices(sign).find_map(|(at, _)| {
             let (number, start) = number_before(&text[..at])?;
@@ -214,7 +214,7 @@ fn standard_deviations(text: &str) -> Found {
 
 /// A coverage probability behind `p=`, or one of 50 % or more behind other words. A relative humidity and
 /// a share of a reading are none.
-fn probability(text: &str) -> Found {
+fn probability(text: &str) -> FoundNumber {
     let stated =
         text.match_indices('p').filter(|(at, _)| begins_word(text, *at)).find_map(|(at, _)| {
             let number = text[at + 1..].trim_start().strip_prefix('=')?.trim_start();
@@ -274,7 +274,7 @@ fn of_coverage(behind: &str) -> Option<&str> {
 }
 
 /// Degrees of freedom, `dof=10`, `ν = 9` or `20 degrees of freedom`.
-fn degrees_of_freedom(text: &str) -> Found {
+fn degrees_of_freedom(text: &str) -> FoundNumber {
     const BEHIND: [&str; 4] = ["degrees of freedom", "deg of freedom", "freiheitsgrade", "dof"];
     const BEFORE: [&str; 9] = [
         "degrees of freedom",

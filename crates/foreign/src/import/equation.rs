@@ -1,6 +1,6 @@
 //! The equations of a sheet: lines such as `R = U/I`, and cells behind `Equation`.
 
-use super::ask::Sheet;
+use super::ask::ReadSheet;
 use super::columns::{self, identifier};
 use super::grid::Cells;
 use super::number::{expression, number_with_unit};
@@ -29,7 +29,7 @@ impl Equation {
 }
 
 /// A text with a sign of equality, and where it stands.
-struct Written {
+struct WrittenEquation {
     line: usize,
     text: String,
     /// Whether a label calls it the equation.
@@ -38,7 +38,7 @@ struct Written {
     next: String,
 }
 
-impl Sheet<'_> {
+impl ReadSheet<'_> {
     /// The equations of the sheet, that of the result last; `known` are the names of its rows. `None` after a
     /// mistake or a question.
     pub(super) fn equations(&self, known: &[String]) -> Option<Vec<Equation>> {
@@ -85,8 +85,8 @@ impl Sheet<'_> {
     }
 
     /// An equation of quantities of the sheet; `Some(None)` of other texts, `None` after a mistake.
-    fn equation(&self, written: &Written, known: &[String]) -> Option<Option<Equation>> {
-        let Written { line, text, is_labelled, next } = written;
+    fn equation(&self, written: &WrittenEquation, known: &[String]) -> Option<Option<Equation>> {
+        let WrittenEquation { line, text, is_labelled, next } = written;
         let comma = self.cells.decimal_comma();
         let (left, right) = text.split_once('=').unwrap_or(("", text));
         let (left, right) = (left.trim(), right.trim());
@@ -232,7 +232,7 @@ impl Sheet<'_> {
 }
 
 /// The texts of a sheet that may be equations: with `=`, or behind a label.
-fn written_equations(cells: &Cells) -> Vec<Written> {
+fn written_equations(cells: &Cells) -> Vec<WrittenEquation> {
     let mut found = Vec::new();
     for line in 0..cells.lines() {
         let mut is_behind_label = false;
@@ -254,7 +254,7 @@ fn written_equations(cells: &Cells) -> Vec<Written> {
             let is_one = text.contains('=') || is_labelled && !text.is_empty() && !is_behind_label;
             if is_one {
                 let next = cells.text(line, place + 1).trim().to_owned();
-                found.push(Written { line, text: text.to_owned(), is_labelled, next });
+                found.push(WrittenEquation { line, text: text.to_owned(), is_labelled, next });
             }
         }
     }

@@ -13,7 +13,7 @@ use gumption_units::Unit;
 const VALUES: [&str; 3] = ["result", "ergebnis", "x"];
 
 /// What a piece of a heading says.
-enum Said {
+enum HeadingPiece {
     Nothing,
     Unit(String),
 }
@@ -72,7 +72,7 @@ fn of_pieces(
 ) -> Result<Option<String>, Refused> {
     let mut unit: Option<String> = None;
     for piece in pieces {
-        if let Said::Unit(found) = said(&piece, is_value)? {
+        if let HeadingPiece::Unit(found) = said(&piece, is_value)? {
             match &unit {
                 Some(known) if *known != found => {
                     let reason = format!(
@@ -159,7 +159,7 @@ fn behind<'t>(text: &'t str, word: &str) -> Option<&'t str> {
 }
 
 /// What a piece says.
-fn said(piece: &str, is_value: bool) -> Result<Said, Refused> {
+fn said(piece: &str, is_value: bool) -> Result<HeadingPiece, Refused> {
     const SYMBOLS: [&str; 8] = ["a", "u", "U", "k", "x", "X", "y", "n"];
     // a unit as well
     const OF_UNCERTAINTIES: [&str; 5] = ["c", "d", "s", "A", "B"];
@@ -183,27 +183,27 @@ fn said(piece: &str, is_value: bool) -> Result<Said, Refused> {
     let is_symbol =
         is_symbol(text) || SYMBOLS.contains(&text) || !is_value && OF_UNCERTAINTIES.contains(&text);
     if text.is_empty() || text == "1" || is_symbol {
-        return Ok(Said::Nothing);
+        return Ok(HeadingPiece::Nothing);
     }
     let is_power = ["1/", "10^", "10⁻"].iter().any(|begin| text.starts_with(begin));
     let is_number = text.starts_with(|c: char| c.is_ascii_digit()) && !is_power;
     if !is_number && Unit::parse(text).is_ok() {
-        return Ok(Said::Unit(text.to_owned()));
+        return Ok(HeadingPiece::Unit(text.to_owned()));
     }
     if let Some(meant) = unit_as_meant(text).filter(|_| !is_number) {
-        return Ok(Said::Unit(meant));
+        return Ok(HeadingPiece::Unit(meant));
     }
     let (share, of) = text.split_once(' ').unwrap_or((text, ""));
     // `% v.M.` without its last point
     let is_of = is_of_estimate(of) || is_of_estimate(&format!("{of}."));
     if matches!(share, "%" | "‰" | "ppm" | "ppb") && is_of {
-        return Ok(Said::Unit(share.to_owned()));
+        return Ok(HeadingPiece::Unit(share.to_owned()));
     }
     if matches!(text.to_lowercase().as_str(), "percent" | "per cent" | "prozent" | "pour cent") {
-        return Ok(Said::Unit("%".to_owned()));
+        return Ok(HeadingPiece::Unit("%".to_owned()));
     }
     match NamedShape::of(text).filter(|_| text.chars().count() > 2) {
-        Some(NamedShape::Known("normal")) => return Ok(Said::Nothing),
+        Some(NamedShape::Known("normal")) => return Ok(HeadingPiece::Nothing),
         Some(NamedShape::Known(_)) => {
             let reason = format!(
                 "the distribution `{text}` is read in a column `Distribution`: write it into the rows"
@@ -219,13 +219,13 @@ fn said(piece: &str, is_value: bool) -> Result<Said, Refused> {
         .strip_prefix('n')
         .is_some_and(|rest| rest.trim_start().starts_with('=') || matches!(rest, "-1" | "−1"));
     if is_condition || is_count {
-        return Ok(Said::Nothing);
+        return Ok(HeadingPiece::Nothing);
     }
     let mut words = text.split([' ', '/', '-', '·']).filter(|word| !word.is_empty());
     if words.any(may_be_unit) {
         return Err(Refused::Unknown(text.to_owned()));
     }
-    Ok(Said::Nothing)
+    Ok(HeadingPiece::Nothing)
 }
 
 /// Whether a word is the name of a unit, `millivolts`, which is read by its symbol alone.

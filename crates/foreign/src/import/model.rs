@@ -3,13 +3,13 @@
 
 use std::path::Path;
 
-use super::ask::Sheet;
+use super::ask::ReadSheet;
 use super::columns::Column;
 use super::document::document;
 use super::equation::Equation;
 use super::options::Coefficients;
-use super::rows::{Kind, Row, Rows, is_same_unit};
-use super::stated::Stated;
+use super::rows::{Row, RowKind, Rows, is_same_unit};
+use super::stated::StatedFigure;
 use super::table::Header;
 use gumption_engine::decimal::to_15_digits;
 use gumption_engine::model::formula::{Formula, Scope, Typing};
@@ -35,7 +35,7 @@ fn mistakes_of(model: &str) -> Option<String> {
 
 /// A model with what its rows are multiplied by in the unit of the result; no factors where an equation says
 /// how the result is made.
-pub(super) struct Model {
+pub(super) struct ImportedModel {
     pub(super) text: String,
     pub(super) factors: Option<Vec<f64>>,
 }
@@ -44,18 +44,18 @@ pub(super) struct Model {
 struct OfResult<'s> {
     name: String,
     unit: Option<String>,
-    estimate: Option<&'s Stated>,
+    estimate: Option<&'s StatedFigure>,
 }
 
-impl Sheet<'_> {
+impl ReadSheet<'_> {
     /// The model of the rows; `None` after a mistake or a question.
     pub(super) fn model(
         &self,
         header: &Header,
         rows: &Rows,
-        (equations, stated): (&[Equation], &[Stated]),
+        (equations, stated): (&[Equation], &[StatedFigure]),
         title: &str,
-    ) -> Option<Model> {
+    ) -> Option<ImportedModel> {
         let of_result = self.of_result(header, rows, stated)?;
         if equations.is_empty() {
             self.linear(header, &rows.quantities, stated, (&of_result, title))
@@ -69,9 +69,9 @@ impl Sheet<'_> {
         &self,
         header: &Header,
         rows: &Rows,
-        stated: &'s [Stated],
+        stated: &'s [StatedFigure],
     ) -> Option<OfResult<'s>> {
-        let line = rows.of_result.iter().find(|of| of.kind == Kind::Result).map(|of| of.line);
+        let line = rows.of_result.iter().find(|of| of.kind == RowKind::Result).map(|of| of.line);
         let name = line.map_or_else(String::new, |line| self.name_of_result(header, line));
         let is_taken = |name: &str| rows.quantities.iter().any(|row| row.name == name);
         let name = match name.as_str() {
@@ -101,7 +101,7 @@ impl Sheet<'_> {
         all: &Rows,
         equations: &[Equation],
         (of_result, title): (&OfResult, &str),
-    ) -> Option<Model> {
+    ) -> Option<ImportedModel> {
         let rows = all.quantities.as_slice();
         let last = equations.last()?;
         let line = last.line;
@@ -136,7 +136,7 @@ impl Sheet<'_> {
                 && !self.options.numbers
                 && used.contains(&row.name)
                 && row.sensitivity.is_none()
-                && all.said(row.line) != Some(Kind::Quantity)
+                && all.said(row.line) != Some(RowKind::Quantity)
             {
                 self.ask(
                     row.line..=row.line,
@@ -185,7 +185,7 @@ impl Sheet<'_> {
         for (name, formula) in &formulas {
             self.note(format!("the equation {name} = {formula}"));
         }
-        Some(Model { text, factors: None })
+        Some(ImportedModel { text, factors: None })
     }
 
     /// Asks whether a number of the equation converts units, where the sheet states no estimate of the result and
@@ -241,9 +241,9 @@ impl Sheet<'_> {
         &self,
         header: &Header,
         rows: &[Row],
-        stated: &[Stated],
+        stated: &[StatedFigure],
         (of_result, title): (&OfResult, &str),
-    ) -> Option<Model> {
+    ) -> Option<ImportedModel> {
         let first = rows.first()?.line;
         let lines = first..=rows.last()?.line;
         let has_coefficients = rows.iter().any(|row| row.sensitivity.is_some());
@@ -303,7 +303,7 @@ impl Sheet<'_> {
             self.fail(header.first, format!("the model of this budget has mistakes: {mistakes}"));
             return None;
         }
-        Some(Model { text, factors: Some(factors) })
+        Some(ImportedModel { text, factors: Some(factors) })
     }
 
     fn ask_unit_of_result(&self, header: &Header, why: &str) {
@@ -376,7 +376,7 @@ impl Sheet<'_> {
     fn factor(
         &self,
         rows: &[Row],
-        (row, stated): (&Row, &[Stated]),
+        (row, stated): (&Row, &[StatedFigure]),
         (unit, whole): (&str, &Unit),
     ) -> Option<f64> {
         let own = Unit::parse(&row.unit).ok()?;
@@ -438,7 +438,7 @@ impl Sheet<'_> {
         }
         // what the sheet states confirms it: a row of another contribution is refused
         let is_confirmed = row.contribution.as_ref().is_some_and(|cell| cell.value != 0.0)
-            || scale.is_none() && stated.iter().any(Stated::is_uncertainty) && {
+            || scale.is_none() && stated.iter().any(StatedFigure::is_uncertainty) && {
                 let part = |row: &Row| row.sensitivity.unwrap_or(1.0) * row.standard_uncertainty();
                 let all: f64 = rows.iter().map(|row| part(row) * part(row)).sum();
                 // half of the variance cannot go unnoticed

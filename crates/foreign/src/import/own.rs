@@ -20,7 +20,7 @@ use gumption_text::{Collector, Diagnostics};
 /// Cells differ where they differ by more than a spreadsheet's rounding.
 const ROUNDING: f64 = 1e-12;
 
-type Sheet = Vec<Vec<String>>;
+type SheetCells = Vec<Vec<String>>;
 
 /// The model file of a workbook of ours with its changed cells; `None` for other files.
 ///
@@ -46,9 +46,9 @@ pub(super) fn of_workbook(
     let Ok(root) = serde_json::from_str::<Value>(&text) else { return Ok(None) };
     let log = Collector::new(SourceText::new(path.display().to_string(), ""));
     let mut reader =
-        Reader { log: &log, task: &task, root, changed: Vec::new(), replaced: Vec::new() };
+        OwnBudgetReader { log: &log, task: &task, root, changed: Vec::new(), replaced: Vec::new() };
     reader.sheet(&inputs);
-    let Reader { root, changed, replaced, .. } = reader;
+    let OwnBudgetReader { root, changed, replaced, .. } = reader;
     let made = if changed.is_empty() {
         let unchanged = "the model file of this workbook; no estimate, standard uncertainty, degrees of \
                          freedom or correlation was changed, and other cells are not looked at";
@@ -67,7 +67,7 @@ pub(super) fn of_workbook(
     Ok(Some(made))
 }
 
-struct Reader<'a> {
+struct OwnBudgetReader<'a> {
     log: &'a Collector,
     task: &'a Task,
     root: Value,
@@ -76,14 +76,14 @@ struct Reader<'a> {
     replaced: Vec<String>,
 }
 
-impl Reader<'_> {
+impl OwnBudgetReader<'_> {
     fn fail(&self, line: usize, reason: &str) {
         let reason = format!("sheet Inputs, row {}: {reason}", line + 1);
         self.log.report(&(0..0), DiagnosticKind::Table { reason });
     }
 
     /// Compares the sheet with the model: a table of the quantities for each row of conditions.
-    fn sheet(&mut self, sheet: &Sheet) {
+    fn sheet(&mut self, sheet: &SheetCells) {
         // what was changed, with the table that it stands in
         let mut tables = 0;
         let mut first: Vec<(usize, [Option<f64>; 3])> = Vec::new();

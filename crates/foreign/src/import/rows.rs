@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::ask::Sheet;
+use super::ask::ReadSheet;
 use super::both::sides;
 use super::columns::{self, Column, identifier};
 use super::concise::concise;
@@ -10,7 +10,7 @@ use super::equation::as_formula;
 use super::grid::is_empty;
 use super::number::{half_digit, without_groups, written};
 use super::table::Header;
-use super::widths::{Shape, divisor_of, without_factor};
+use super::widths::{StatedShape, divisor_of, without_factor};
 use super::words;
 use gumption_engine::decimal::to_15_digits;
 use gumption_engine::model::formula::{Formula, check_name};
@@ -71,7 +71,7 @@ pub(super) struct Cell {
 
 /// What a row is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum RowKind {
     Quantity,
     Constant,
     Result,
@@ -85,7 +85,7 @@ pub(super) enum Kind {
     Ignored,
 }
 
-impl Kind {
+impl RowKind {
     const NAMES: [(&str, Self); 7] = [
         ("quantity", Self::Quantity),
         ("constant", Self::Constant),
@@ -105,7 +105,7 @@ impl Kind {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfResult {
     pub(super) line: usize,
-    pub(super) kind: Kind,
+    pub(super) kind: RowKind,
 }
 
 /// What a sheet holds below its headings.
@@ -114,23 +114,23 @@ pub(super) struct Rows {
     pub(super) quantities: Vec<Row>,
     pub(super) of_result: Vec<OfResult>,
     /// The lines that options name, from 0, with what they are.
-    said: Vec<(usize, Kind)>,
+    said: Vec<(usize, RowKind)>,
 }
 
 impl Rows {
     /// What an option says that a line is.
-    pub(super) fn said(&self, line: usize) -> Option<Kind> {
+    pub(super) fn said(&self, line: usize) -> Option<RowKind> {
         self.said.iter().find(|(of, _)| *of == line).map(|(_, kind)| *kind)
     }
 }
 
-impl Sheet<'_> {
+impl ReadSheet<'_> {
     /// The rows that options name: lines from 0 with what they are. `None` after a mistake.
-    pub(super) fn said_rows(&self) -> Option<Vec<(usize, Kind)>> {
+    pub(super) fn said_rows(&self) -> Option<Vec<(usize, RowKind)>> {
         let mut said = Vec::new();
         for (name, numbers) in self.options.rows.iter().filter(|(name, _)| name != "heading") {
-            let Some(kind) = Kind::named(name) else {
-                let names: Vec<&str> = Kind::NAMES.iter().map(|(name, _)| *name).collect();
+            let Some(kind) = RowKind::named(name) else {
+                let names: Vec<&str> = RowKind::NAMES.iter().map(|(name, _)| *name).collect();
                 self.fail(
                     0,
                     format!(
@@ -159,7 +159,7 @@ impl Sheet<'_> {
         &self,
         header: &Header,
         (measurand, used): (Option<&str>, &[String]),
-        said: Vec<(usize, Kind)>,
+        said: Vec<(usize, RowKind)>,
     ) -> Option<Rows> {
         let mut found = Rows { said, ..Rows::default() };
         let mut blank = 0;
@@ -172,7 +172,7 @@ impl Sheet<'_> {
             let asked = || self.kind(header, line, (measurand, used), blank);
             let Some(kind) = found.said(line).or_else(asked) else { continue };
             match kind {
-                Kind::Quantity | Kind::Constant => {
+                RowKind::Quantity | RowKind::Constant => {
                     blank = 0;
                     if let Some(row) = self.quantity(header, line, (kind, used), &found.quantities)
                     {
@@ -181,7 +181,7 @@ impl Sheet<'_> {
                         self.fail(line, "the row cannot be read");
                     }
                 }
-                Kind::Ignored => {
+                RowKind::Ignored => {
                     self.note(format!("row {} `{}` is not read", line + 1, self.first_cell(line)))
                 }
                 kind => found.of_result.push(OfResult { line, kind }),
@@ -215,7 +215,7 @@ impl Sheet<'_> {
         line: usize,
         (measurand, used): (Option<&str>, &[String]),
         blank: usize,
-    ) -> Option<Kind> {
+    ) -> Option<RowKind> {
         let names = self.names(header, line);
         let is_of_table = |(place, column): &&(usize, Column)| {
             (column.is_of_numbers()
@@ -228,7 +228,7 @@ impl Sheet<'_> {
         let has_numbers = header.columns.iter().any(|of| is_of_table(&of));
         let speaks = self.cells.row(line).iter().any(|cell| columns::is_of_correlation(cell));
         if speaks && !has_numbers {
-            // told by [`Sheet::correlations`]
+            // told by [`ReadSheet::correlations`]
             return None;
         }
         if !has_numbers {
@@ -255,7 +255,7 @@ impl Sheet<'_> {
         let is_used = names.first().is_some_and(|name| used.contains(&self.name_of(name)));
         let is_measurand = |name: &&str| measurand.is_some_and(|of| self.name_of(name) == of);
         if names.iter().any(is_measurand) {
-            return Some(Kind::Result);
+            return Some(RowKind::Result);
         }
         if let Some(place) = (header.width()..self.cells.row(line).len())
             .find(|place| !self.cells.text(line, *place).trim().is_empty())
@@ -280,7 +280,7 @@ impl Sheet<'_> {
                 );
                 return None;
             }
-            if kind == Kind::Result && is_stated(Column::Sensitivity) {
+            if kind == RowKind::Result && is_stated(Column::Sensitivity) {
                 self.ask_kind(
                     line..=line,
                     &format!("`{}` has the words of a result, and a coefficient", names[0]),
@@ -310,11 +310,11 @@ impl Sheet<'_> {
                     names[0]
                 ));
             }
-            return Some(if has_width { Kind::Quantity } else { Kind::Constant });
+            return Some(if has_width { RowKind::Quantity } else { RowKind::Constant });
         }
         let shape = header.cell(self.cells, line, Column::Distribution);
         if words::meaning("text", shape) == Some("constant") {
-            return Some(Kind::Constant);
+            return Some(RowKind::Constant);
         }
         if blank > 1 {
             self.ask_kind(
@@ -345,7 +345,7 @@ impl Sheet<'_> {
             ]);
             return None;
         }
-        Some(Kind::Quantity)
+        Some(RowKind::Quantity)
     }
 
     /// Whether a text can be read as a formula of two quantities of the sheet at least, `A-B`.
@@ -383,7 +383,7 @@ impl Sheet<'_> {
         else {
             return;
         };
-        let is_said = found.said(last.line) == Some(Kind::Quantity);
+        let is_said = found.said(last.line) == Some(RowKind::Quantity);
         let of = |row: &Row| row.sensitivity.unwrap_or(1.0) * row.standard_uncertainty();
         let combined = others.iter().map(|row| of(row) * of(row)).sum::<f64>().sqrt();
         let u = of(last).abs();
@@ -485,7 +485,7 @@ impl Sheet<'_> {
         &self,
         header: &Header,
         line: usize,
-        (kind, used): (Kind, &[String]),
+        (kind, used): (RowKind, &[String]),
         others: &[Row],
     ) -> Option<Row> {
         let cell = |column| header.cell(self.cells, line, column);
@@ -603,7 +603,7 @@ impl Sheet<'_> {
             }
         }
         // what the distribution and the factors say
-        let shape = Shape::of(self, header, line)?;
+        let shape = StatedShape::of(self, header, line)?;
         row.dof = self.dof(header, line, &shape).ok()?;
         if shape.is_student && row.dof.is_none() {
             self.fail(
@@ -615,7 +615,7 @@ impl Sheet<'_> {
         self.type_of(header, &mut row)?;
         self.limits(header, &mut row)?;
         let mut of_shape = None;
-        if let Some((column, cell, text)) = widths.first().filter(|_| kind == Kind::Quantity) {
+        if let Some((column, cell, text)) = widths.first().filter(|_| kind == RowKind::Quantity) {
             let value =
                 self.in_unit_of_row(cell, &row, &self.unit_of_uncertainty(cell, header, line)?)?;
             if value > 0.0 {
@@ -666,7 +666,7 @@ impl Sheet<'_> {
         let std_cell = std.as_ref().map(|cell| (cell.value, cell.half_digit));
         let stated = [std_cell, share.map(|u| (u, 0.0)), second];
         self.same_uncertainty(line, of_shape, stated)?;
-        if kind == Kind::Constant {
+        if kind == RowKind::Constant {
             row.width = None;
         } else if row.width.is_none() {
             row.distribution = shape_of_std(self, header, line);
@@ -1010,7 +1010,7 @@ impl Sheet<'_> {
 }
 
 /// The distribution of a row that states its standard uncertainty alone.
-fn shape_of_std(sheet: &Sheet, header: &Header, line: usize) -> Option<&'static str> {
+fn shape_of_std(sheet: &ReadSheet, header: &Header, line: usize) -> Option<&'static str> {
     let text = header.cell(sheet.cells, line, Column::Distribution);
     let shape = NamedShape::of(text)?;
     if shape == NamedShape::Unknown {
@@ -1032,15 +1032,15 @@ pub(super) fn is_same_unit(a: &str, b: &str) -> bool {
 }
 
 /// What a row is by its words.
-fn of_words(words: &str) -> Option<Kind> {
+fn of_words(words: &str) -> Option<RowKind> {
     let clean = columns::plain_case(words);
     let named = |text: &str| {
         Some(match words::meaning("row", text)? {
-            "result" => Kind::Result,
-            "combined" => Kind::Combined,
-            "expanded" => Kind::Expanded,
-            "k" => Kind::Factor,
-            _ => Kind::Ignored,
+            "result" => RowKind::Result,
+            "combined" => RowKind::Combined,
+            "expanded" => RowKind::Expanded,
+            "k" => RowKind::Factor,
+            _ => RowKind::Ignored,
         })
     };
     // `u(Rx)`, `u_c(y)` and `U (k=2)`
@@ -1053,6 +1053,6 @@ fn of_words(words: &str) -> Option<Kind> {
         .or_else(|| {
             words
                 .split_once('=')
-                .and_then(|(left, _)| named(left.trim()).filter(|kind| *kind == Kind::Factor))
+                .and_then(|(left, _)| named(left.trim()).filter(|kind| *kind == RowKind::Factor))
         })
 }

@@ -1,6 +1,6 @@
 //! Which sheet of a workbook holds the budget, and what it hides.
 
-use super::ask::Sheet;
+use super::ask::ReadSheet;
 use super::columns::Column;
 use super::grid::{self, Cells};
 use super::options::ImportOptions;
@@ -55,7 +55,7 @@ impl Chosen {
 
 const BUDGET: Wanted = Wanted { a: "a budget", one: "one budget", has_option: true };
 
-impl Sheet<'_> {
+impl ReadSheet<'_> {
     /// Whether all that the budget needs is there to be seen, and no cell holds the number of several rows;
     /// otherwise after a mistake.
     pub(super) fn is_shown(&self, header: &Header) -> bool {

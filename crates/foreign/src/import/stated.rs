@@ -3,12 +3,12 @@
 //! A budget that was misread gives another result than its sheet: comparing the two finds what no look at a
 //! single cell would. A difference is an error that says both.
 
-use super::ask::Sheet;
+use super::ask::ReadSheet;
 use super::columns::{self, Column};
 use super::coverage::{HeaderCoverage, Statement};
-use super::model::{Model, result_of};
+use super::model::{ImportedModel, result_of};
 use super::number::constant;
-use super::rows::{Cell, Kind, OfResult, Row, Rows};
+use super::rows::{Cell, OfResult, Row, RowKind, Rows};
 use super::table::Header;
 use gumption_engine::decimal::significant;
 use gumption_engine::number::elementary;
@@ -27,7 +27,7 @@ enum Figure {
 
 /// A figure of the result as the sheet states it.
 #[derive(Clone, Debug)]
-pub(super) struct Stated {
+pub(super) struct StatedFigure {
     line: usize,
     figure: Figure,
     pub(super) cell: Cell,
@@ -39,7 +39,7 @@ const ROUNDED_PARTS: f64 = 0.02;
 /// Estimates differ from this share of the standard uncertainty on.
 const MATTERS: f64 = 0.1;
 
-impl Stated {
+impl StatedFigure {
     pub(super) fn is_estimate(&self) -> bool {
         self.figure == Figure::Estimate
     }
@@ -74,7 +74,7 @@ impl Stated {
     }
 }
 
-impl Sheet<'_> {
+impl ReadSheet<'_> {
     /// The name of the result in its row; empty where it has the words of results alone.
     pub(super) fn name_of_result(&self, header: &Header, line: usize) -> String {
         let cells =
@@ -88,7 +88,7 @@ impl Sheet<'_> {
     }
 
     /// What the rows of the result state; `None` after a mistake.
-    pub(super) fn stated(&self, header: &Header, rows: &Rows) -> Option<Vec<Stated>> {
+    pub(super) fn stated(&self, header: &Header, rows: &Rows) -> Option<Vec<StatedFigure>> {
         let mut found = Vec::new();
         for of in &rows.of_result {
             found.extend(self.stated_by(header, *of)?);
@@ -96,7 +96,7 @@ impl Sheet<'_> {
         let factor = rows
             .of_result
             .iter()
-            .filter(|of| of.kind == Kind::Factor)
+            .filter(|of| of.kind == RowKind::Factor)
             .find_map(|of| self.factor_of_row(of.line));
         if let Some(factor) = factor {
             for stated in &mut found {
@@ -118,9 +118,13 @@ impl Sheet<'_> {
         numbers.find(|factor| *factor > 0.0)
     }
 
-    fn stated_by(&self, header: &Header, OfResult { line, kind }: OfResult) -> Option<Vec<Stated>> {
+    fn stated_by(
+        &self,
+        header: &Header,
+        OfResult { line, kind }: OfResult,
+    ) -> Option<Vec<StatedFigure>> {
         let mut found = Vec::new();
-        if matches!(kind, Kind::Factor) {
+        if matches!(kind, RowKind::Factor) {
             return Some(found);
         }
         let uncertain = [
@@ -133,7 +137,7 @@ impl Sheet<'_> {
         let own_unit = header.cell(self.cells, line, Column::Unit);
         let mut push = |cell: Cell, figure: Figure| {
             let unit = if cell.unit.is_empty() { own_unit.to_owned() } else { cell.unit.clone() };
-            found.push(Stated { line, figure, cell: Cell { unit, ..cell } });
+            found.push(StatedFigure { line, figure, cell: Cell { unit, ..cell } });
         };
         let mut coverage = self.coverage_of_row(header, line);
         let mut has_uncertainty = false;
@@ -163,8 +167,8 @@ impl Sheet<'_> {
             push(
                 cell,
                 match (kind, column) {
-                    (Kind::Expanded, _) => Figure::Expanded(coverage),
-                    (Kind::Combined, _) => Figure::Standard,
+                    (RowKind::Expanded, _) => Figure::Expanded(coverage),
+                    (RowKind::Combined, _) => Figure::Standard,
                     (_, Column::Standard | Column::Contribution) => Figure::Standard,
                     (_, Column::Expanded) => Figure::Expanded(coverage),
                     _ if coverage.factor(None).is_some() => Figure::Expanded(coverage),
@@ -178,9 +182,9 @@ impl Sheet<'_> {
             push(
                 cell,
                 match kind {
-                    Kind::Result => Figure::Estimate,
+                    RowKind::Result => Figure::Estimate,
                     _ if has_uncertainty => Figure::Estimate,
-                    Kind::Expanded => Figure::Expanded(coverage),
+                    RowKind::Expanded => Figure::Expanded(coverage),
                     _ => Figure::Standard,
                 },
             );
@@ -197,12 +201,12 @@ impl Sheet<'_> {
         &self,
         header: &Header,
         line: usize,
-        kind: Kind,
+        kind: RowKind,
         coverage: HeaderCoverage,
-    ) -> Option<Stated> {
+    ) -> Option<StatedFigure> {
         let figure = match kind {
-            Kind::Combined => Figure::Standard,
-            Kind::Expanded => Figure::Expanded(coverage),
+            RowKind::Combined => Figure::Standard,
+            RowKind::Expanded => Figure::Expanded(coverage),
             _ => return None,
         };
         let comma = self.cells.decimal_comma();
@@ -212,7 +216,7 @@ impl Sheet<'_> {
         let places: Vec<usize> = (0..self.cells.row(line).len()).filter(is_number).collect();
         let &[place] = places.as_slice() else { return None };
         let cell = self.number(header, line, place).ok()??;
-        Some(Stated { line, figure, cell })
+        Some(StatedFigure { line, figure, cell })
     }
 
     fn is_factor_cell(&self, line: usize, place: usize) -> bool {
@@ -247,9 +251,9 @@ impl Sheet<'_> {
     }
 
     /// Refuses a model whose result, or whose contributions, are not those of the sheet.
-    pub(super) fn compare(&self, rows: &[Row], stated: &[Stated], model: &Model) {
+    pub(super) fn compare(&self, rows: &[Row], stated: &[StatedFigure], model: &ImportedModel) {
         let Some((gum, of_result)) = result_of(&model.text) else { return };
-        let (estimates, others): (Vec<&Stated>, Vec<&Stated>) =
+        let (estimates, others): (Vec<&StatedFigure>, Vec<&StatedFigure>) =
             stated.iter().partition(|of| of.is_estimate());
         for stated in estimates.into_iter().chain(others) {
             self.compare_figure(stated, (&gum, &of_result), model);
@@ -259,7 +263,12 @@ impl Sheet<'_> {
         }
     }
 
-    fn compare_figure(&self, stated: &Stated, (gum, of_result): (&Gum, &Unit), model: &Model) {
+    fn compare_figure(
+        &self,
+        stated: &StatedFigure,
+        (gum, of_result): (&Gum, &Unit),
+        model: &ImportedModel,
+    ) {
         let u = gum.standard_uncertainty;
         let dof = if let Dof::Finite(dof) = gum.dof { Some(dof) } else { None };
         let usual = || [gum.coverage_factor, Some(2.0)].into_iter().flatten();

@@ -1,6 +1,6 @@
 //! The heading row of a budget: which column holds what, and in which unit.
 
-use super::ask::Sheet;
+use super::ask::ReadSheet;
 use super::both::sides;
 use super::columns::{self, Column};
 use super::concise::concise;
@@ -53,7 +53,7 @@ fn is_same(said: &str, heading: &str) -> bool {
 
 impl Header {
     /// The headings of a sheet; `None` after a mistake or a question.
-    pub(super) fn of(sheet: &Sheet) -> Option<Self> {
+    pub(super) fn of(sheet: &ReadSheet) -> Option<Self> {
         let cells = sheet.cells;
         let Some(line) = line_of(cells, sheet.options) else {
             let reason = "no budget is found: a row of headings names the columns, such as quantity, estimate, \
@@ -78,7 +78,7 @@ impl Header {
     }
 
     /// The columns that options name.
-    fn said_columns(&mut self, sheet: &Sheet) -> Option<()> {
+    fn said_columns(&mut self, sheet: &ReadSheet) -> Option<()> {
         let fail = |reason: String| {
             sheet.fail(self.first, reason);
             None
@@ -142,7 +142,7 @@ impl Header {
     }
 
     /// The columns that the table of words names; what several name, and what none does, is asked.
-    fn named_columns(&mut self, sheet: &Sheet) {
+    fn named_columns(&mut self, sheet: &ReadSheet) {
         let free: Vec<usize> = (0..self.headings.len())
             .filter(|place| !self.said.contains(place) && !self.heading(*place).is_empty())
             .collect();
@@ -184,7 +184,7 @@ impl Header {
 
     /// A column whose heading is not in the table: words are kept as remarks, and numbers and distributions
     /// are asked.
-    fn unknown(&mut self, sheet: &Sheet, place: usize) {
+    fn unknown(&mut self, sheet: &ReadSheet, place: usize) {
         let comma = sheet.cells.decimal_comma();
         let texts: Vec<&str> = (self.line + 1..sheet.cells.lines())
             .map(|line| sheet.cells.text(line, place).trim())
@@ -219,7 +219,7 @@ impl Header {
     }
 
     /// The last line that a question about columns shows.
-    fn shown(&self, sheet: &Sheet) -> usize {
+    fn shown(&self, sheet: &ReadSheet) -> usize {
         (self.line + 2).min(sheet.cells.lines().saturating_sub(1)).max(self.first)
     }
 
@@ -239,7 +239,7 @@ impl Header {
     }
 
     /// The units of columns: of options, else of their headings.
-    fn units_of_columns(&mut self, sheet: &Sheet) {
+    fn units_of_columns(&mut self, sheet: &ReadSheet) {
         for (name, unit) in &sheet.options.column_units {
             let place = Column::named(name).and_then(|column| self.place(column));
             let unit = unit.trim();
@@ -284,7 +284,7 @@ impl Header {
         }
     }
 
-    fn ask_unit(&self, sheet: &Sheet, place: usize, column: Column, units: [&str; 2]) {
+    fn ask_unit(&self, sheet: &ReadSheet, place: usize, column: Column, units: [&str; 2]) {
         sheet.ask(
             self.first..=self.shown(sheet),
             format!("the heading and the line below it say two units for {}", self.named(place)),
@@ -294,7 +294,7 @@ impl Header {
     }
 
     /// Asks for the columns without which no budget is read, and for what divisors divide.
-    fn needs(&self, sheet: &Sheet) {
+    fn needs(&self, sheet: &ReadSheet) {
         let names = [Column::Quantity, Column::Symbol, Column::Description];
         let lines = self.first..=self.shown(sheet);
         if names.iter().all(|of| self.place(*of).is_none()) {
@@ -409,7 +409,7 @@ impl Header {
     }
 
     /// Refuses a second budget below or above this one.
-    fn repeated(&self, sheet: &Sheet) {
+    fn repeated(&self, sheet: &ReadSheet) {
         let cells = sheet.cells;
         let is_header = |line: &usize| {
             let same = |(place, _): &&(usize, Column)| {

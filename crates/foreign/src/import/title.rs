@@ -1,13 +1,13 @@
 //! The title of a budget, and the unit that a line beside the table states for all of its values: `Budget (all
 //! values in mV)`, `Einheit: mV`.
 
-use super::ask::Sheet;
+use super::ask::ReadSheet;
 use super::columns::{self, Column};
 use super::table::Header;
 use super::words;
 use gumption_units::Unit;
 
-impl Sheet<'_> {
+impl ReadSheet<'_> {
     /// The unit of all values by a line above or below the table.
     pub(super) fn unit_of_all(&self, header: &Header) -> Option<String> {
         self.units_of_all(header).into_iter().find_map(|(_, unit)| unit.ok())

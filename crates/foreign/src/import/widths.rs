@@ -3,7 +3,7 @@
 //! A stated divisor or coverage factor divides; without one the distribution says what a half-width is divided
 //! by, and the heading the coverage factor. Two statements that differ are asked, and so is none.
 
-use super::ask::Sheet;
+use super::ask::ReadSheet;
 use super::columns::{self, Column};
 use super::coverage::{HeaderCoverage, Statement};
 use super::number::constant;
@@ -29,16 +29,16 @@ pub(super) fn near(a: f64, b: f64) -> bool {
 }
 
 /// What a row says of its distribution.
-pub(super) struct Shape {
+pub(super) struct StatedShape {
     /// One that a model file has.
     name: Option<&'static str>,
     pub(super) is_student: bool,
     statement: Statement,
 }
 
-impl Shape {
+impl StatedShape {
     /// Of the cell, or of `--distribution`; `None` after a mistake.
-    pub(super) fn of(sheet: &Sheet, header: &Header, line: usize) -> Option<Self> {
+    pub(super) fn of(sheet: &ReadSheet, header: &Header, line: usize) -> Option<Self> {
         let cell = header.cell(sheet.cells, line, Column::Distribution);
         let is_stated = !super::grid::is_empty(cell);
         let text = match &sheet.options.distribution {
@@ -78,21 +78,21 @@ impl Shape {
 }
 
 /// A factor that a row states, and where.
-struct Stated {
+struct StatedFactor {
     factor: f64,
     place: String,
 }
 
-impl Sheet<'_> {
+impl ReadSheet<'_> {
     /// The divisor or coverage factor that the cells of a row state, if they agree; `Err` after a question.
     fn divisor(
         &self,
         header: &Header,
         line: usize,
-        (shape, width): (&Shape, &str),
+        (shape, width): (&StatedShape, &str),
     ) -> Result<Option<f64>, ()> {
         let comma = self.cells.decimal_comma();
-        let mut stated: Vec<Stated> = Vec::new();
+        let mut stated: Vec<StatedFactor> = Vec::new();
         for column in [Column::Divisor, Column::Factor, Column::Multiplier] {
             let text = header.cell(self.cells, line, column);
             let Some(place) = header.place(column).filter(|_| !super::grid::is_empty(text)) else {
@@ -116,7 +116,7 @@ impl Sheet<'_> {
                 return Err(());
             }
             let factor = if column == Column::Multiplier { 1.0 / factor } else { factor };
-            stated.push(Stated { factor, place: header.named(place) });
+            stated.push(StatedFactor { factor, place: header.named(place) });
         }
         let of_cell = match Statement::of(width) {
             Ok(statement) => statement.coverage,
@@ -132,7 +132,9 @@ impl Sheet<'_> {
         });
         let said = [(of_cell, "the cell"), (shape.statement.coverage, "the distribution")];
         let said = said.into_iter().chain(of_words).filter_map(|(of, place)| match of {
-            HeaderCoverage::Factor(factor) => Some(Stated { factor, place: place.to_owned() }),
+            HeaderCoverage::Factor(factor) => {
+                Some(StatedFactor { factor, place: place.to_owned() })
+            }
             _ => None,
         });
         stated.extend(said);
@@ -185,7 +187,7 @@ impl Sheet<'_> {
         header: &Header,
         row: &mut Row,
         (column, value, text): (Column, f64, &str),
-        shape: &Shape,
+        shape: &StatedShape,
     ) -> Option<()> {
         let line = row.line;
         self.is_half(header, line, column)?;
@@ -307,7 +309,7 @@ impl Sheet<'_> {
         header: &Header,
         row: &mut Row,
         (column, text): (Column, &str),
-        shape: &Shape,
+        shape: &StatedShape,
     ) -> Option<()> {
         let line = row.line;
         let of_cell = Statement::of(text).map_or(HeaderCoverage::None, |of| of.coverage);
@@ -353,7 +355,7 @@ impl Sheet<'_> {
         &self,
         header: &Header,
         line: usize,
-        shape: &Shape,
+        shape: &StatedShape,
     ) -> Result<Option<f64>, ()> {
         let text = without_type(header.cell(self.cells, line, Column::Dof));
         let beside = shape.statement.dof;

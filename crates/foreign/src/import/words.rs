@@ -7,9 +7,9 @@ use std::collections::HashMap;
 use std::sync::LazyLock;
 
 /// What a word stands for, by the word, for each kind of place: headings of columns (`""`), `row`, ...
-type Table = HashMap<(&'static str, &'static str), &'static str>;
+type WordTable = HashMap<(&'static str, &'static str), &'static str>;
 
-static TABLE: LazyLock<Table> = LazyLock::new(|| {
+static TABLE: LazyLock<WordTable> = LazyLock::new(|| {
     let known = entries().map(|[_, meaning, word]| {
         let (place, of_place) = meaning.split_once(':').unwrap_or(("", meaning));
         ((place, word), of_place)

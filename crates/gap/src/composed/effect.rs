@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::target::{fresh, of_differences};
-use super::term::{Argument, Term};
+use super::term::{Argument, DepartureTerm};
 use super::{Composition, Compositions, MOST};
 use crate::diagnosis::{DepartureKind, DepartureOver, Shrunk};
 use crate::{HistoryKind, OverridableModel};
@@ -175,9 +175,10 @@ impl Composition {
         let mut terms = self.terms.iter().zip(shares).map(|(term, own)| (term, own.as_slice()));
         if self.product {
             let first = terms.next();
-            let others: Vec<(&Term, &[f64])> = terms.collect();
-            let of =
-                |(term, own): (&Term, &[f64])| term.columns(setup, rows, nominal, own, &others);
+            let others: Vec<(&DepartureTerm, &[f64])> = terms.collect();
+            let of = |(term, own): (&DepartureTerm, &[f64])| {
+                term.columns(setup, rows, nominal, own, &others)
+            };
             return first.map(of).unwrap_or_default();
         }
         terms.flat_map(|(term, own)| term.columns(setup, rows, nominal, own, &[])).collect()
@@ -217,7 +218,7 @@ impl Composition {
         let best = self.shares();
         let fit = self.fit(setup, metric, residuals, &best)?;
         let sim = &setup.case.model;
-        let mut written = Written { sim, parameters: Vec::new(), overrides: Vec::new() };
+        let mut written = EffectText { sim, parameters: Vec::new(), overrides: Vec::new() };
         // what the sizes become one standard deviation off in each parameter
         let moved = |number: usize| -> Vec<[Option<Fit>; 2]> {
             let term = &self.terms[number];
@@ -234,7 +235,7 @@ impl Composition {
         };
         if self.product {
             let all: Vec<_> = (0..self.terms.len()).flat_map(moved).collect();
-            let terms: Vec<&Term> = self.terms.iter().collect();
+            let terms: Vec<&DepartureTerm> = self.terms.iter().collect();
             written.term(&terms, &fit, &all, 0)?;
         } else {
             let mut place = 0;
@@ -243,7 +244,7 @@ impl Composition {
                 place += term.shape.count();
             }
         }
-        let Written { parameters, overrides, .. } = written;
+        let EffectText { parameters, overrides, .. } = written;
         let effect = ComposedEffect {
             name: self.name(setup),
             terms: self.terms.iter().map(|term| term.described(setup)).collect(),
@@ -264,14 +265,14 @@ impl Composition {
 
     fn name(&self, setup: &Setup<'_>) -> String {
         // a loop is one whatever its shape
-        let history = |term: &&Term| term.argument.history(setup).is_some();
+        let history = |term: &&DepartureTerm| term.argument.history(setup).is_some();
         if self.product
             && let Some(term) = self.terms.iter().find(history)
             && let Some(name) = term.cause(setup)
         {
             return name;
         }
-        let of = |term: &Term| {
+        let of = |term: &DepartureTerm| {
             if let Some(name) = term.cause(setup) {
                 return name;
             }
@@ -289,7 +290,7 @@ impl Composition {
     }
 }
 
-impl Term {
+impl DepartureTerm {
     /// The name of what does this on benches, of a function of the order of the rows.
     fn cause(&self, setup: &Setup<'_>) -> Option<String> {
         let history = self.argument.history(setup)?;
@@ -315,13 +316,13 @@ impl Term {
 }
 
 /// The text of an effect while it is written.
-struct Written<'s> {
+struct EffectText<'s> {
     sim: &'s OverridableModel,
     parameters: Vec<ComposedParameter>,
     overrides: Vec<(String, String)>,
 }
 
-impl Written<'_> {
+impl EffectText<'_> {
     /// A name for a parameter.
     fn named(&self, wanted: &str) -> String {
         let known = |name: &str| self.parameters.iter().any(|of| of.name == name);
@@ -355,7 +356,7 @@ impl Written<'_> {
     /// fit.
     fn term(
         &mut self,
-        terms: &[&Term],
+        terms: &[&DepartureTerm],
         fit: &Fit,
         moved: &[[Option<Fit>; 2]],
         place: usize,
@@ -438,9 +439,9 @@ impl Written<'_> {
     }
 }
 
-impl Written<'_> {
+impl EffectText<'_> {
     /// The function of a term as a formula; its parameters are added.
-    fn function(&mut self, term: &Term, phase: &str) -> Option<String> {
+    fn function(&mut self, term: &DepartureTerm, phase: &str) -> Option<String> {
         let sim = self.sim;
         let (argument, unit) = match term.argument {
             Argument::Nothing => return None,

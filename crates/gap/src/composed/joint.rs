@@ -4,7 +4,7 @@
 use gumption_engine::parallel;
 
 use super::term::{self, Argument};
-use super::{Composition, Search, Term};
+use super::{ComposedSearch, Composition, DepartureTerm};
 use crate::HistoryKind;
 use gumption_engine::linalg::dot;
 use gumption_engine::number::{elementary, largest_first};
@@ -34,7 +34,7 @@ const KEPT: usize = 12;
 /// One term does not do where it leaves residuals as large as these with less than this probability.
 const DOUBTFUL: f64 = 0.01;
 
-impl Search<'_> {
+impl ComposedSearch<'_> {
     /// Whether the best of the terms leaves more than the noise.
     pub(super) fn misfits(
         &self,
@@ -212,7 +212,7 @@ impl Search<'_> {
     ) -> Vec<Composition> {
         let setup = self.setup;
         let of_direction = |of: &&Composition| {
-            let Term { argument, shape, .. } = &of.terms[0];
+            let DepartureTerm { argument, shape, .. } = &of.terms[0];
             let history = argument.history(setup);
             history.is_some_and(|of| of.kind == HistoryKind::Direction)
                 && shape.function == Function::Linear
@@ -235,7 +235,7 @@ impl Search<'_> {
                 let grid: Vec<_> = shape.grid().into_iter().map(at).collect();
                 let on_grid = frame.on_grid(&grid)?;
                 let found = frame.refined(&shape, &values.at, on_grid);
-                let term = Term {
+                let term = DepartureTerm {
                     argument: condition,
                     shape,
                     shares: found.shares,
@@ -326,7 +326,7 @@ impl Composition {
     }
 }
 
-impl Term {
+impl DepartureTerm {
     /// Whether it makes the same quantity depart in the same way.
     fn is_way_of(&self, other: &Self) -> bool {
         self.target.names == other.target.names && self.kind == other.kind

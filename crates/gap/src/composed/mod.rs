@@ -34,7 +34,7 @@ use gumption_inference::setup::Setup;
 use gumption_inference::shape::{ComposedForm, Shape, Values};
 use gumption_inference::term_evidence::{Frame, OnGrid};
 use target::{Response, Target};
-use term::{Argument, Term};
+use term::{Argument, DepartureTerm};
 
 /// So many forms of the first grid are looked at closely.
 const REFINED: usize = 300;
@@ -63,7 +63,7 @@ const MOST_VALUES: usize = 20_000;
 /// A departure composed of terms, with its weight.
 #[derive(Clone, Debug)]
 pub(crate) struct Composition {
-    terms: Vec<Term>,
+    terms: Vec<DepartureTerm>,
     /// Whether the terms' functions are multiplied by each other rather than added.
     product: bool,
     /// Places of the effects of the list that it acts beside.
@@ -86,7 +86,7 @@ pub(crate) struct Compositions {
 }
 
 /// A target in the metric: one way of departing.
-struct Way<'m> {
+struct DepartureWay<'m> {
     target: usize,
     kind: DepartureKind,
     frame: Frame<'m>,
@@ -138,7 +138,7 @@ pub(crate) fn compose(
     let white = metric.white(&residuals);
     let targets = target::targets(setup);
     let responses: Vec<Response> = parallel::map(&targets, |target| target.in_data(setup));
-    let search = Search { setup, targets: &targets, responses: &responses };
+    let search = ComposedSearch { setup, targets: &targets, responses: &responses };
     let mut found = search.singles(&metric, &white, REFINED);
     let of_process = of_process(setup, discrepancy, &departures, &metric, &residuals);
     let best = found.iter().map(|of| of.ln_weight).fold(f64::NEG_INFINITY, f64::max);
@@ -152,7 +152,7 @@ pub(crate) fn compose(
 }
 
 /// What all searches of a case have in common.
-struct Search<'s> {
+struct ComposedSearch<'s> {
     setup: &'s Setup<'s>,
     targets: &'s [Target],
     responses: &'s [Response],
@@ -193,7 +193,7 @@ fn gain(of: &Metric<'_>, over: &Metric<'_>, residuals: &[f64]) -> f64 {
     ln(of) - ln(over)
 }
 
-impl Search<'_> {
+impl ComposedSearch<'_> {
     /// Departures of one term in a metric; so many forms of the first grid are looked at closely.
     fn singles(&self, metric: &Metric<'_>, white: &White, refined: usize) -> Vec<Composition> {
         let Self { setup, targets, .. } = *self;
@@ -207,7 +207,7 @@ impl Search<'_> {
         // all that follows from the order of the rows together is so much of one condition
         let is_history = |(argument, _): &&(Argument, Values)| argument.history(setup).is_some();
         let history = HISTORY / conditions.iter().filter(is_history).count().max(1) as f64;
-        let of_way = |(number, way): (usize, &Way<'_>)| {
+        let of_way = |(number, way): (usize, &DepartureWay<'_>)| {
             let own = way.value.as_ref().filter(|_| way.kind == DepartureKind::Additive);
             let own = own.map(|values| {
                 // a departure in proportion to the value itself is a proportional constant
@@ -273,7 +273,7 @@ impl Search<'_> {
                     .map_or(&nothing, |(_, values)| &values.at),
             };
             let found = way.frame.refined(&shape, at, found);
-            let term = Term {
+            let term = DepartureTerm {
                 target: targets[way.target].clone(),
                 kind: way.kind,
                 argument,
@@ -293,9 +293,9 @@ impl Search<'_> {
     }
 
     /// The ways in which the targets can depart, without those that do the same as one before.
-    fn ways<'m>(&'m self, metric: &'m Metric<'m>, white: &'m White) -> Vec<Way<'m>> {
+    fn ways<'m>(&'m self, metric: &'m Metric<'m>, white: &'m White) -> Vec<DepartureWay<'m>> {
         let Self { setup, targets, responses } = *self;
-        let mut ways: Vec<Way<'m>> = Vec::new();
+        let mut ways: Vec<DepartureWay<'m>> = Vec::new();
         let mut known: Vec<Vec<f64>> = Vec::new();
         for (number, (target, response)) in targets.iter().zip(responses).enumerate() {
             for kind in [DepartureKind::Additive, DepartureKind::Proportional] {
@@ -314,7 +314,7 @@ impl Search<'_> {
                 }
                 known.push(own);
                 let value = response.value.clone().and_then(Values::new);
-                ways.push(Way { target: number, kind, frame, value });
+                ways.push(DepartureWay { target: number, kind, frame, value });
             }
         }
         ways

@@ -54,7 +54,7 @@ pub(super) fn conditions(setup: &Setup<'_>) -> Vec<(Argument, Values)> {
 
 /// A term with its parameters.
 #[derive(Clone, Debug)]
-pub(super) struct Term {
+pub(super) struct DepartureTerm {
     pub(super) target: Target,
     pub(super) kind: DepartureKind,
     pub(super) argument: Argument,
@@ -64,7 +64,7 @@ pub(super) struct Term {
     pub(super) widths: Vec<f64>,
 }
 
-impl Term {
+impl DepartureTerm {
     /// The functions in rows, of which `values` are the target's own values there.
     pub(super) fn functions(
         &self,

@@ -90,7 +90,7 @@ pub(crate) fn evidence(
         let multiplier = amplitude * problem.scale(own);
         let variances = Some(Arc::new(variances));
         let kind = Weighted { form: place, multiplier, weight: 0.0, base: None, variances };
-        Part { step, ln, kind, scores }
+        WeighedForm { step, ln, kind, scores }
     };
     let problem = |place: usize| {
         let form = &discrepancy.forms[place];
@@ -110,10 +110,10 @@ pub(crate) fn evidence(
         Some(*end - forms.len()..*end)
     });
     let of_term = |places: Range<usize>| {
-        let mut found: Vec<Vec<Part>> = Vec::with_capacity(places.len());
+        let mut found: Vec<Vec<WeighedForm>> = Vec::with_capacity(places.len());
         for place in places {
             let problem = problem(place);
-            let mut parts: Vec<Part> = Vec::new();
+            let mut parts: Vec<WeighedForm> = Vec::new();
             // from the largest amplitude on, where the noise is least
             for step in (0..STEPS).rev().filter(is_coarse) {
                 let before = found.last().and_then(|parts| parts.iter().find(|p| p.step == step));
@@ -125,8 +125,10 @@ pub(crate) fn evidence(
         found
     };
     let ends: Vec<Range<usize>> = ends.collect();
-    let mut parts: Vec<Vec<Part>> = parallel::map(ends, of_term).into_iter().flatten().collect();
-    let best = |parts: &[Part]| parts.iter().map(|part| part.ln).fold(f64::NEG_INFINITY, f64::max);
+    let mut parts: Vec<Vec<WeighedForm>> =
+        parallel::map(ends, of_term).into_iter().flatten().collect();
+    let best =
+        |parts: &[WeighedForm]| parts.iter().map(|part| part.ln).fold(f64::NEG_INFINITY, f64::max);
     let leads = parts.iter().map(|parts| best(parts)).fold(floor, f64::max);
     parallel::map(parts.iter_mut().enumerate(), |(place, parts)| {
         if best(parts) + reach(place) <= leads - HOPELESS {
@@ -140,12 +142,12 @@ pub(crate) fn evidence(
             parts.push(part);
         }
     });
-    let parts = parts.into_iter().flatten().map(|Part { ln, kind, .. }| (ln, kind));
+    let parts = parts.into_iter().flatten().map(|WeighedForm { ln, kind, .. }| (ln, kind));
     weigh(parts.collect())
 }
 
 /// A form at an amplitude, with the logarithm of its share of the evidence.
-struct Part {
+struct WeighedForm {
     /// Which amplitude.
     step: usize,
     ln: f64,

@@ -16,7 +16,7 @@
 use gumption_engine::number::{COLUMN, elementary, largest_first, smallest_first};
 
 use crate::integral::mixture::{TEMPER, ln_share};
-use crate::integral::response_scan::{Plan, Scan};
+use crate::integral::response_scan::{Scan, ScanPlan};
 use crate::integral::search::{self, GAIN, Mode};
 use crate::likelihood::Likelihood;
 
@@ -83,7 +83,7 @@ pub(crate) fn resolved(likelihood: &Likelihood<'_>, modes: Vec<Mode>, most: usiz
     let mut whole = Vec::new();
     for (n, mode) in modes.into_iter().enumerate() {
         let own = edged.get(n).filter(|edged| !edged.is_empty());
-        let search = own.and_then(|edged| Search::at(likelihood, edged, &mode));
+        let search = own.and_then(|edged| ProfileSearch::at(likelihood, edged, &mode));
         let Some(search) = search else {
             search::join(&mut neighbourhoods, vec![mode.clone()], MOST_PARTS);
             search::join(&mut moved, vec![mode], most);
@@ -161,12 +161,12 @@ fn densities(likelihood: &Likelihood<'_>, points: &[Vec<f64>]) -> Vec<f64> {
 }
 
 /// What is searched about a mode.
-struct Search<'l, 'c> {
+struct ProfileSearch<'l, 'c> {
     likelihood: &'l Likelihood<'c>,
     /// The variables along which profiles are followed.
     edged: Vec<usize>,
     scan: Scan<'l, 'c>,
-    plan: Plan,
+    plan: ScanPlan,
 }
 
 /// A value of the parameter along which a profile goes.
@@ -194,13 +194,13 @@ struct Stretch {
 
 /// A point with the standard deviations along the parameters whose profiles were followed.
 #[derive(Clone)]
-struct Part {
+struct ProfiledPoint {
     ln_mass: f64,
     scores: Vec<f64>,
     deviations: Vec<(usize, f64)>,
 }
 
-impl<'l, 'c> Search<'l, 'c> {
+impl<'l, 'c> ProfileSearch<'l, 'c> {
     /// `None` where the response is linear in all of the edged variables: it has no edges then, but the
     /// mode is beside one of another variable.
     fn at(likelihood: &'l Likelihood<'c>, edged: &[usize], mode: &Mode) -> Option<Self> {
@@ -253,8 +253,11 @@ impl<'l, 'c> Search<'l, 'c> {
             order[..=at].rotate_right(1);
         }
         let mut last = last.map(|(_, values)| values);
-        let mut parts =
-            vec![Part { ln_mass: 0.0, scores: mode.scores.clone(), deviations: Vec::new() }];
+        let mut parts = vec![ProfiledPoint {
+            ln_mass: 0.0,
+            scores: mode.scores.clone(),
+            deviations: Vec::new(),
+        }];
         let mut wide = parts[0].clone();
         let mut kept = 1.0;
         for held in order {
@@ -277,7 +280,7 @@ impl<'l, 'c> Search<'l, 'c> {
                     let mut deviations = part.deviations.clone();
                     deviations.push((held, of.deviation));
                     let ln_mass = part.ln_mass + elementary::ln(of.share);
-                    Part { ln_mass, scores: of.scores, deviations }
+                    ProfiledPoint { ln_mass, scores: of.scores, deviations }
                 }));
             }
             if finer.is_empty() {
@@ -302,7 +305,7 @@ impl<'l, 'c> Search<'l, 'c> {
     }
 
     /// Parts as modes: as wide as the profiles are along the parameters whose profiles were followed.
-    fn modes(&self, parts: &[Part]) -> Vec<Mode> {
+    fn modes(&self, parts: &[ProfiledPoint]) -> Vec<Mode> {
         let points: Vec<Vec<f64>> = parts.iter().map(|part| part.scores.clone()).collect();
         let mut modes = search::at_points(self.likelihood, &points);
         for (mode, part) in modes.iter_mut().zip(parts) {
@@ -341,7 +344,7 @@ impl<'l, 'c> Search<'l, 'c> {
         values
     }
 
-    fn values(&self, plan: &Plan, base: &[f64], held: usize, scores: &[f64]) -> Vec<Value> {
+    fn values(&self, plan: &ScanPlan, base: &[f64], held: usize, scores: &[f64]) -> Vec<Value> {
         let points: Vec<Vec<f64>> = scores
             .iter()
             .map(|&score| {

@@ -29,7 +29,7 @@ const DEPTH: f64 = 10.0;
 const SPREAD: f64 = 0.6;
 
 /// A point of a ridge: the best of everything else with one score held.
-struct Point {
+struct RidgePoint {
     held: usize,
     best: Mode,
 }
@@ -63,7 +63,7 @@ pub(crate) fn mixture(
             points.extend(climb(likelihood, &between, best));
         }
         for held in shared..bounded.len() {
-            let own: Vec<&Point> = ridge(&points, held);
+            let own: Vec<&RidgePoint> = ridge(&points, held);
             if own.len() > 1 {
                 components.extend((0..own.len()).filter_map(|n| component(&own, n, &bounded)));
             }
@@ -89,24 +89,24 @@ fn follow(mode: &Mode, held: usize, value: f64) -> Vec<f64> {
 }
 
 /// The points reached from starts, those far below the best mode left out.
-fn climb(likelihood: &Likelihood<'_>, starts: &[(usize, Vec<f64>)], best: f64) -> Vec<Point> {
+fn climb(likelihood: &Likelihood<'_>, starts: &[(usize, Vec<f64>)], best: f64) -> Vec<RidgePoint> {
     search::profile(likelihood, starts)
         .into_iter()
         .filter(|(_, mode)| mode.cost < best + DEPTH)
-        .map(|(held, best)| Point { held, best })
+        .map(|(held, best)| RidgePoint { held, best })
         .collect()
 }
 
 /// The points of one ridge in order.
-fn ridge(points: &[Point], held: usize) -> Vec<&Point> {
-    let mut own: Vec<&Point> = points.iter().filter(|point| point.held == held).collect();
+fn ridge(points: &[RidgePoint], held: usize) -> Vec<&RidgePoint> {
+    let mut own: Vec<&RidgePoint> = points.iter().filter(|point| point.held == held).collect();
     smallest_first(&mut own, |a| a.best.scores[held]);
     own
 }
 
 /// Starts between neighbours of points that the straight line through their neighbours misses by
 /// more than a standard deviation.
-fn bends(points: &[Point]) -> Vec<(usize, Vec<f64>)> {
+fn bends(points: &[RidgePoint]) -> Vec<(usize, Vec<f64>)> {
     let last = points.iter().map(|point| point.held).max().unwrap_or(0);
     let mut starts = Vec::new();
     for held in 0..=last {
@@ -138,11 +138,11 @@ fn bends(points: &[Point]) -> Vec<(usize, Vec<f64>)> {
 /// A component about a point of a ridge: as wide as the others are known there, and along the ridge
 /// as long as the distance to its neighbours. Logarithm of its weight, mean and scale.
 fn component(
-    ridge: &[&Point],
+    ridge: &[&RidgePoint],
     n: usize,
     bounded: &[bool],
 ) -> Option<(f64, Vec<f64>, DMatrix<f64>)> {
-    let Point { held, best } = ridge[n];
+    let RidgePoint { held, best } = ridge[n];
     let before = &ridge[n.saturating_sub(1)].best.scores;
     let after = &ridge[(n + 1).min(ridge.len() - 1)].best.scores;
     let steps = if n == 0 || n + 1 == ridge.len() { 1.0 } else { 2.0 };

@@ -42,12 +42,12 @@ const PEAKS: usize = 6;
 const LINEAR: f64 = 1e-7;
 
 /// Which of the scanned parameters are linear, and the grids of the others.
-pub(crate) struct Plan {
+pub(crate) struct ScanPlan {
     pub(crate) linear: Vec<usize>,
     other: Vec<usize>,
 }
 
-impl Plan {
+impl ScanPlan {
     /// The same with one parameter held.
     pub(crate) fn without(&self, held: usize) -> Self {
         let rest = |of: &[usize]| of.iter().copied().filter(|&p| p != held).collect();
@@ -195,7 +195,7 @@ impl<'l, 'c> Scan<'l, 'c> {
 
     /// Whether the response is linear in each parameter and in those together; `None` where nothing
     /// is to be scanned.
-    pub(crate) fn plan(&self, all: Vec<usize>) -> Option<Plan> {
+    pub(crate) fn plan(&self, all: Vec<usize>) -> Option<ScanPlan> {
         if all.is_empty() {
             return None;
         }
@@ -244,11 +244,15 @@ impl<'l, 'c> Scan<'l, 'c> {
             }
         }
         let other = all.into_iter().filter(|p| !linear.contains(p)).collect();
-        Some(Plan { linear, other })
+        Some(ScanPlan { linear, other })
     }
 
     /// The least cost over the linear parameters at points, with the whole point and the response.
-    pub(crate) fn at(&self, plan: &Plan, points: &[Vec<f64>]) -> Vec<(f64, Vec<f64>, Whitened)> {
+    pub(crate) fn at(
+        &self,
+        plan: &ScanPlan,
+        points: &[Vec<f64>],
+    ) -> Vec<(f64, Vec<f64>, Whitened)> {
         let group = plan.linear.len() + 1;
         const STEP: f64 = 0.5;
         let mut asked = Vec::with_capacity(points.len() * group);
@@ -274,7 +278,7 @@ impl<'l, 'c> Scan<'l, 'c> {
 
     fn solved(
         &self,
-        plan: &Plan,
+        plan: &ScanPlan,
         middle: &[f64],
         residuals: &[Whitened],
     ) -> (f64, Vec<f64>, Whitened) {
@@ -341,7 +345,7 @@ impl<'l, 'c> Scan<'l, 'c> {
     }
 
     /// Scores of the non-linear parameters other than the scanned one, in all combinations.
-    fn combinations(&self, plan: &Plan, held: usize) -> Vec<Vec<f64>> {
+    fn combinations(&self, plan: &ScanPlan, held: usize) -> Vec<Vec<f64>> {
         let others: Vec<usize> = plan.other.iter().copied().filter(|&p| p != held).collect();
         let each = match others.len() {
             0 => 1,
@@ -369,7 +373,7 @@ impl<'l, 'c> Scan<'l, 'c> {
 
     fn scanned(
         &self,
-        plan: &Plan,
+        plan: &ScanPlan,
         held: usize,
         others: &[Vec<f64>],
         scores: &[f64],
@@ -412,7 +416,7 @@ impl<'l, 'c> Scan<'l, 'c> {
     }
 
     /// The scan over one parameter: values in order with their costs.
-    fn over(&self, plan: &Plan, held: usize) -> Vec<Scanned> {
+    fn over(&self, plan: &ScanPlan, held: usize) -> Vec<Scanned> {
         let others = self.combinations(plan, held);
         let most = self.most(held);
         let values = self.likelihood.data.len().max(1);

@@ -295,7 +295,7 @@ fn locals(likelihood: &Likelihood<'_>, points: &[Vec<f64>]) -> Vec<Local> {
             }
             column.0[(i + 1) * count..][..count].iter_mut().for_each(|score| *score += STEP);
         }
-        let mut moments = Moments::new(likelihood, count);
+        let mut moments = ColumnMoments::new(likelihood, count);
         likelihood.visit(&scores, count * (unknowns + 1), &mut moments);
         let local = |(number, point): (usize, &Vec<f64>)| {
             moments.local(number, likelihood.covariance, likelihood.data.len(), point)
@@ -314,7 +314,7 @@ type Points = [f64; SIDE_BY_SIDE];
 /// Sums for the points of one column. Its lanes are the points themselves, then all of them with the
 /// first score moved, and so on; what belongs to one point stands in the same lane of `Points`, in the
 /// block of sums of its number.
-struct Moments<'l> {
+struct ColumnMoments<'l> {
     basis: &'l [Vec<f64>],
     fitted: bool,
     points: usize,
@@ -353,7 +353,7 @@ struct NoiseShare {
 /// The lanes of a column, with room to read a whole block from any of them.
 type Lanes = [f64; COLUMN + SIDE_BY_SIDE];
 
-impl<'l> Moments<'l> {
+impl<'l> ColumnMoments<'l> {
     fn new(likelihood: &'l Likelihood<'_>, points: usize) -> Self {
         let unknowns = likelihood.unknowns();
         let basis = &likelihood.covariance.basis;
@@ -528,14 +528,14 @@ impl Block {
     }
 }
 
-impl Visitor for Moments<'_> {
+impl Visitor for ColumnMoments<'_> {
     fn row(&mut self, path: CodePath, row: usize, residuals: &[Column], ln_variances: &[Column]) {
         path.run(RowOfMoments { moments: self, row, residuals, ln_variances });
     }
 }
 
 struct RowOfMoments<'a, 'c> {
-    moments: &'a mut Moments<'c>,
+    moments: &'a mut ColumnMoments<'c>,
     row: usize,
     residuals: &'a [Column],
     ln_variances: &'a [Column],
@@ -550,7 +550,7 @@ impl Kernel for RowOfMoments<'_, '_> {
     #[inline(always)]
     fn run(self) {
         let Self { moments, row, residuals, ln_variances } = self;
-        let Moments { basis, fitted, points, moving, noise, blocks } = moments;
+        let ColumnMoments { basis, fitted, points, moving, noise, blocks } = moments;
         let outputs = residuals.len();
         let unknowns = moving.len() + noise.len();
         for (output, (residual, ln_variance)) in residuals.iter().zip(ln_variances).enumerate() {

@@ -33,8 +33,8 @@ pub(crate) fn worth_trying(weighings: &[Weighing<'_>]) -> Vec<CommonNoise> {
     if outputs < 2 || setup.linear.fitted || setup.data.rows() < LEAST_ROWS {
         return Vec::new();
     }
-    let left: Vec<(f64, Moments)> = parallel::map(&posterior.hypotheses, |hypothesis| {
-        let moments = Moments::of(setup, &Remainder::of(setup, hypothesis));
+    let left: Vec<(f64, NoiseMoments)> = parallel::map(&posterior.hypotheses, |hypothesis| {
+        let moments = NoiseMoments::of(setup, &Remainder::of(setup, hypothesis));
         (ln_weight_at_mode(setup, hypothesis), moments)
     });
     let free = vec![true; outputs];
@@ -68,14 +68,14 @@ pub(crate) fn worth_trying(weighings: &[Weighing<'_>]) -> Vec<CommonNoise> {
 
 /// What is left of the data, in stated standard uncertainties, and how it is spread over the outputs of a
 /// row.
-struct Moments {
+struct NoiseMoments {
     outputs: usize,
     /// Rows with the same covariance beside their noise.
-    groups: Vec<Group>,
+    groups: Vec<NoiseGroup>,
 }
 
 /// Rows whose inputs of their own add the same covariance to that of the noise.
-struct Group {
+struct NoiseGroup {
     rows: f64,
     /// Lower triangle of that covariance, in stated standard uncertainties.
     known: Vec<f64>,
@@ -97,10 +97,10 @@ struct Peak {
     ln: f64,
 }
 
-impl Moments {
+impl NoiseMoments {
     fn of(setup: &Setup<'_>, left: &Remainder) -> Self {
         let outputs = setup.data.outputs.len();
-        let mut groups: Vec<Group> = Vec::new();
+        let mut groups: Vec<NoiseGroup> = Vec::new();
         let roots = setup.covariance.roots.chunks_exact(triangle(outputs));
         for (row, (whitened, root)) in left.residuals.chunks_exact(outputs).zip(roots).enumerate() {
             let u: Vec<f64> = (0..outputs)
@@ -128,7 +128,7 @@ impl Moments {
                     let sums = group.squares.iter_mut().zip(squares);
                     sums.for_each(|(sum, square)| *sum += square);
                 }
-                None => groups.push(Group { rows: 1.0, known, squares }),
+                None => groups.push(NoiseGroup { rows: 1.0, known, squares }),
             }
         }
         Self { outputs, groups }
@@ -147,7 +147,7 @@ impl Moments {
             }
             noise.push(factors[i] * factors[i]);
         }
-        let of = |group: &Group| {
+        let of = |group: &NoiseGroup| {
             let mut block: Vec<f64> =
                 noise.iter().zip(&group.known).map(|(noise, known)| noise + known).collect();
             if packed::cholesky(&mut block, 0.0).is_err() {
@@ -394,11 +394,14 @@ mod tests {
 
     /// 40 rows of two outputs: half of the squares that stated uncertainties of 1 let expect, or twice
     /// those, correlated by 0.6; the same with inputs of each row.
-    fn moments(known: &[f64]) -> Moments {
+    fn moments(known: &[f64]) -> NoiseMoments {
         let (a, b) = (2.0f64, 0.5f64);
         let between = 0.6 * (a * b).sqrt();
         let squares = [a, between, b].map(|of| 40.0 * of).to_vec();
-        Moments { outputs: 2, groups: vec![Group { rows: 40.0, known: known.to_vec(), squares }] }
+        NoiseMoments {
+            outputs: 2,
+            groups: vec![NoiseGroup { rows: 40.0, known: known.to_vec(), squares }],
+        }
     }
 
     /// The density is that of normal residuals, by their matrices.
@@ -457,8 +460,8 @@ mod tests {
     #[test]
     fn outputs_that_take_part() {
         let squares = [1.0, -0.8, 1.0, 0.1, 0.05, 1.0].map(|of| 30.0 * of).to_vec();
-        let group = Group { rows: 30.0, known: vec![0.0; 6], squares };
-        let found = Moments { outputs: 3, groups: vec![group] }.patterns();
+        let group = NoiseGroup { rows: 30.0, known: vec![0.0; 6], squares };
+        let found = NoiseMoments { outputs: 3, groups: vec![group] }.patterns();
         assert_eq!(found[0], [-1.0, 1.0, 0.0]);
         assert_eq!(found.len(), 2);
         // + + and + -; the three pairs of them, and four of all three

@@ -49,7 +49,7 @@ pub(super) struct Sentence {
 
 /// Texts of one subject; the file names it.
 #[derive(Deserialize)]
-struct Section<T> {
+struct TextSection<T> {
     texts: Vec<T>,
 }
 
@@ -67,7 +67,7 @@ impl Texts {
 fn of_sections<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     from: D,
 ) -> Result<Vec<T>, D::Error> {
-    let sections = Vec::<Section<T>>::deserialize(from)?;
+    let sections = Vec::<TextSection<T>>::deserialize(from)?;
     Ok(sections.into_iter().flat_map(|section| section.texts).collect())
 }
 

@@ -2,8 +2,8 @@
 //! 7.8.6.2: which results, which specification, which rule).
 
 use super::CertificateReport;
-use super::sentences::{Said, about};
-use super::stated::{self, Stated};
+use super::sentences::{SentenceLanguage, about};
+use super::stated::{self, StatedRow};
 use super::units::printed;
 use super::words::Words;
 use crate::number::{Percent, exact, position, significant, to};
@@ -18,9 +18,9 @@ use gumption_engine::propagate::Conformity;
 const GUARD_DIGITS: u32 = 3;
 
 /// One statement for each row with a tolerance.
-pub(super) fn statements(report: &CertificateReport<'_>, of: Said) -> Vec<String> {
+pub(super) fn statements(report: &CertificateReport<'_>, of: SentenceLanguage) -> Vec<String> {
     let rows = stated::rows(report);
-    let one = |row: &Stated<'_>| {
+    let one = |row: &StatedRow<'_>| {
         let found = row.conformity()?;
         Some(about(&[row.number], of.words()) + &said(row, &found, of))
     };
@@ -33,7 +33,7 @@ pub(super) fn decisions(report: &CertificateReport<'_>) -> Vec<bool> {
     rows.iter().filter_map(|row| Some(row.conformity()?.conforms)).collect()
 }
 
-fn said(row: &Stated<'_>, found: &Conformity, of: Said) -> String {
+fn said(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> String {
     let words = of.words();
     // a risk that is the probability of conformity of a value that is rejected (JCGM 106, 9.3)
     let chance = if found.conforms { words.conforming } else { words.all_the_same };
@@ -67,7 +67,7 @@ fn said(row: &Stated<'_>, found: &Conformity, of: Said) -> String {
 }
 
 /// A probability in percent.
-fn percent(probability: Percent, of: Said) -> String {
+fn percent(probability: Percent, of: SentenceLanguage) -> String {
     let (place, number) = match &probability {
         Percent::At(number) => (0, number),
         Percent::MoreThan(number) => (1, number),
@@ -79,9 +79,9 @@ fn percent(probability: Percent, of: Said) -> String {
 /// What a probability rests on beside the measurement (ISO/IEC 17025, 7.8.6; JCGM 106:2012, 6.3), and
 /// what it is without.
 fn with_prior(
-    row: &Stated<'_>,
+    row: &StatedRow<'_>,
     found: &Conformity,
-    (trials, of): (Option<u64>, Said),
+    (trials, of): (Option<u64>, SentenceLanguage),
 ) -> Option<String> {
     let words = of.words();
     let share = found.without_prior?;
@@ -99,7 +99,7 @@ fn with_prior(
 }
 
 /// The value that was decided upon, where the one that is stated would show another decision.
-fn unrounded(row: &Stated<'_>, found: &Conformity, of: Said) -> Option<String> {
+fn unrounded(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> Option<String> {
     let shown = row.statement.rounded_value()?.value();
     let alike = |limits: &Tolerance| limits.holds(shown) == limits.holds(found.estimate);
     if alike(&found.tolerance) && found.acceptance.as_ref().is_none_or(alike) {
@@ -135,7 +135,7 @@ fn decision(found: &Conformity, words: &Words) -> &'static str {
     }
 }
 
-fn rule(row: &Stated<'_>, found: &Conformity, of: Said) -> String {
+fn rule(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> String {
     let words = of.words();
     if let (Some(factor), Some(width)) = (found.guard_factor, found.guard_band) {
         let place = position(width, GUARD_DIGITS);
@@ -167,7 +167,7 @@ fn rule(row: &Stated<'_>, found: &Conformity, of: Said) -> String {
 }
 
 /// Limits with their unit; to a place if there is one.
-fn limits(row: &Stated<'_>, of: &Tolerance, place: Option<i32>, words: &Words) -> String {
+fn limits(row: &StatedRow<'_>, of: &Tolerance, place: Option<i32>, words: &Words) -> String {
     let [both, lower, upper] = words.limits;
     let (low, high) = (of.lower.map(|end| to(end, place)), of.upper.map(|end| to(end, place)));
     let form = match (&low, &high) {

@@ -1,7 +1,7 @@
 //! One line for each row of the table, as stated, for spreadsheets.
 
 use super::CertificateReport;
-use super::stated::{self, Stated, UnitsAre};
+use super::stated::{self, StatedRow, UnitsAre};
 use crate::csv::{number, of_records, text};
 use crate::table::comparison;
 
@@ -44,7 +44,7 @@ pub fn csv(report: &CertificateReport<'_>) -> String {
     })
 }
 
-fn record(report: &CertificateReport<'_>, row: &Stated<'_>) -> Vec<String> {
+fn record(report: &CertificateReport<'_>, row: &StatedRow<'_>) -> Vec<String> {
     let ends = row.interval(report).map(|ends| ends.map(|end| end.text));
     let [low, high] = ends.unwrap_or_default();
     vec![

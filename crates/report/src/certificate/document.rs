@@ -1,6 +1,6 @@
 //! The certificate as a document.
 
-use super::sentences::{Beside, Said};
+use super::sentences::{SentenceLanguage, SentencePlace};
 use super::words::{self, Words, beside};
 use super::{
     CertificateReport, administrative, conformity, file_name, functions, measurement, sentences,
@@ -29,9 +29,11 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
     document.section(beside(languages, |w| w.results));
     document.table(sheets::results(report));
     document.section(beside(languages, |w| w.uncertainty));
-    for of in Said::on_page(report) {
-        document
-            .text_in(of.language.code(), sentences::coverage(report, of, Beside::Table).join(" "));
+    for of in SentenceLanguage::on_page(report) {
+        document.text_in(
+            of.language.code(),
+            sentences::coverage(report, of, SentencePlace::Table).join(" "),
+        );
     }
     functions::sections(&mut document, report);
     if sheets::are_correlated(report) {
@@ -55,7 +57,7 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
     }
     if !conformity::decisions(report).is_empty() {
         document.section(beside(languages, |w| w.conformity));
-        for of in Said::on_page(report) {
+        for of in SentenceLanguage::on_page(report) {
             document.list_in(of.language.code(), conformity::statements(report, of));
         }
     }

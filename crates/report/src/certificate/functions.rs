@@ -1,7 +1,7 @@
 //! Calibration functions as a certificate states them: parameters, and values with U over the range.
 
 use super::CertificateReport;
-use super::sentences::Said;
+use super::sentences::SentenceLanguage;
 use super::units::printed;
 use super::words::{beside, stacked};
 use crate::document::{Block, Document};
@@ -59,7 +59,7 @@ pub(super) fn title(of: &StatedFunction, languages: &[Language]) -> String {
 }
 
 /// The equation with its range, and what U is.
-pub(super) fn sentences(of: &StatedFunction, said: Said) -> [String; 2] {
+pub(super) fn sentences(of: &StatedFunction, said: SentenceLanguage) -> [String; 2] {
     let words = said.words();
     let [low, high] = of.curve.fit.points.range().map(|end| said.in_marks(&exact(end)));
     let equation = fits::equation(&of.curve);
@@ -114,7 +114,7 @@ pub(super) fn sections(document: &mut Document, report: &CertificateReport<'_>) 
     let languages = report.certificate.languages.as_slice();
     for of in &report.certificate.functions {
         document.section(title(of, languages));
-        for said in Said::on_page(report) {
+        for said in SentenceLanguage::on_page(report) {
             document.text_in(said.language.code(), sentences(of, said).join(" "));
         }
         document.table(values(report, of));

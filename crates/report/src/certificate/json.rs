@@ -1,8 +1,8 @@
 //! The certificate for programs.
 
 use super::functions::At;
-use super::sentences::{Beside, Said};
-use super::stated::{self, Stated};
+use super::sentences::{SentenceLanguage, SentencePlace};
+use super::stated::{self, StatedRow};
 use super::{
     CertificateReport, administrative, functions, measurement, regions, sentences, trials_made,
 };
@@ -24,8 +24,8 @@ pub fn json(report: &CertificateReport<'_>) -> String {
     let title = administrative::title(report);
     let rows = stated::rows(report);
     let about = administrative::lines(report);
-    let statements = Said::on_page(report).into_iter().map(|of| {
-        let said = sentences::coverage(report, of, Beside::Table);
+    let statements = SentenceLanguage::on_page(report).into_iter().map(|of| {
+        let said = sentences::coverage(report, of, SentencePlace::Table);
         (of.language.code(), list(said.iter().map(|said| Value::from(said.as_str()))))
     });
     let matrix = issued.correlations.iter();
@@ -106,9 +106,9 @@ fn function(report: &CertificateReport<'_>, of: &StatedFunction) -> Value {
     ])
 }
 
-fn one(report: &CertificateReport<'_>, row: &Stated<'_>) -> Value {
+fn one(report: &CertificateReport<'_>, row: &StatedRow<'_>) -> Value {
     let languages = &report.certificate.languages;
-    let Stated { statement, asked, quantity, .. } = row;
+    let StatedRow { statement, asked, quantity, .. } = row;
     let names = asked.task.model.conditions.iter().map(|condition| condition.name.as_str());
     let conditions = names.zip(row.conditions.iter().map(|value| Value::from(*value)));
     let set = asked.set.iter().map(|(name, value)| (name.as_str(), Value::from(value.as_str())));

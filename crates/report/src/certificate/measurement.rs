@@ -8,7 +8,7 @@ use super::words::{Words, beside, stacked};
 use super::{CertificateReport, file_name};
 use crate::document::Document;
 use crate::plain;
-use crate::sheet::{Kind, Sheet};
+use crate::sheet::{ColumnKind, Sheet};
 use crate::statement;
 use gumption_engine::task::Task;
 
@@ -20,7 +20,7 @@ const LEFT_OUT: &str = "…";
 
 /// What a model computes, as the certificate states it.
 #[derive(PartialEq, Eq)]
-pub(super) struct Stated {
+pub(super) struct StatedModel {
     /// Quantities with their equations, in the order in which they are computed.
     pub(super) equations: Vec<[String; 2]>,
     /// Symbols with their meaning, which may be empty, and unit; where they are very many those that have
@@ -30,15 +30,15 @@ pub(super) struct Stated {
 
 /// What is stated of each model file, by its place among those of the certificate. Models that would
 /// state the same stand once; those without equations, and those of columns of data, not at all.
-pub(super) fn stated(report: &CertificateReport<'_>) -> Vec<(usize, Stated)> {
-    let mut found: Vec<(usize, Stated)> = Vec::new();
+pub(super) fn stated(report: &CertificateReport<'_>) -> Vec<(usize, StatedModel)> {
+    let mut found: Vec<(usize, StatedModel)> = Vec::new();
     if !report.certificate.equations {
         return found;
     }
     for place in 0..report.models.len() {
         let mut asked = report.certificate.evaluations.iter();
         let Some(asked) = asked.find(|asked| asked.file == place) else { continue };
-        let of = Stated::of(&asked.task);
+        let of = StatedModel::of(&asked.task);
         if !of.equations.is_empty() && !found.iter().any(|(_, other)| *other == of) {
             found.push((place, of));
         }
@@ -46,7 +46,7 @@ pub(super) fn stated(report: &CertificateReport<'_>) -> Vec<(usize, Stated)> {
     found
 }
 
-impl Stated {
+impl StatedModel {
     fn of(task: &Task) -> Self {
         let equations = statement::equations(task.into()).into_iter();
         let more = statement::left_out(task.into()).map(|_| [LEFT_OUT.to_owned(), String::new()]);
@@ -88,7 +88,7 @@ pub(super) fn sections(document: &mut Document, report: &CertificateReport<'_>) 
         let mut sheet = Sheet::default();
         sheet.text(&header(|w| w.quantity), of.equations.iter().map(|[name, _]| name.clone()));
         let texts = of.equations.iter().map(|[_, text]| printed_formula(text));
-        sheet.push(&header(|w| w.equation), texts, Kind::Equations);
+        sheet.push(&header(|w| w.equation), texts, ColumnKind::Equations);
         document.table(sheet);
         if of.symbols.is_empty() {
             continue;

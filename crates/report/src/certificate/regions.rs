@@ -1,14 +1,14 @@
 //! Coverage regions of results that stand on the certificate (JCGM 102:2011, 6.5).
 
 use super::CertificateReport;
-use super::stated::{self, Stated};
+use super::stated::{self, StatedRow};
 use crate::regions::RegionSide;
 use gumption_engine::propagate::{JointRegion, RegionEvaluation};
 use serde_json::{Value, json};
 
 /// A region with the rows of its outputs.
 pub(super) struct Covered<'a> {
-    pub(super) rows: Vec<Stated<'a>>,
+    pub(super) rows: Vec<StatedRow<'a>>,
     pub(super) region: &'a RegionEvaluation,
 }
 
@@ -25,13 +25,13 @@ pub(super) fn covered<'a>(report: &CertificateReport<'a>) -> Vec<Covered<'a>> {
                 continue;
             }
             let stated = |output: &usize| {
-                let same = |other: &&Stated<'a>| {
+                let same = |other: &&StatedRow<'a>| {
                     (other.line.evaluation, other.line.row, other.line.output)
                         == (row.line.evaluation, row.line.row, *output)
                 };
                 rows.iter().find(same).filter(|row| !row.is_raised()).copied()
             };
-            let all: Option<Vec<Stated<'a>>> = region.outputs.iter().map(stated).collect();
+            let all: Option<Vec<StatedRow<'a>>> = region.outputs.iter().map(stated).collect();
             found.extend(all.map(|rows| Covered { rows, region }));
         }
     }

@@ -1,7 +1,7 @@
 //! The sentences that a certificate's uncertainties ask for.
 
 use super::CertificateReport;
-use super::stated::{self, Stated};
+use super::stated::{self, StatedRow};
 use super::words::{self, Words};
 use crate::document::with_comma;
 use crate::number::exact;
@@ -10,12 +10,12 @@ use gumption_analysis::certificate::contents::{Certificate, DecimalMark, Languag
 
 /// The language of sentences, and the decimal mark of their numbers.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Said {
+pub(super) struct SentenceLanguage {
     pub(super) language: Language,
     pub(super) mark: DecimalMark,
 }
 
-impl Said {
+impl SentenceLanguage {
     /// The languages of a page: all of its numbers have one decimal mark.
     pub(super) fn on_page(report: &CertificateReport<'_>) -> Vec<Self> {
         let Certificate { languages, decimal_mark, .. } = report.certificate;
@@ -42,7 +42,7 @@ impl Said {
 
 /// Where sentences stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Beside {
+pub(super) enum SentencePlace {
     /// A table, which has the degrees of freedom.
     Table,
     /// Numbers in D-SI, which have a coverage probability for every factor, and none.
@@ -50,20 +50,24 @@ pub(super) enum Beside {
 }
 
 /// The statement of coverage in a language.
-pub(super) fn coverage(report: &CertificateReport<'_>, of: Said, beside: Beside) -> Vec<String> {
+pub(super) fn coverage(
+    report: &CertificateReport<'_>,
+    of: SentenceLanguage,
+    beside: SentencePlace,
+) -> Vec<String> {
     let words = of.words();
     let rows = stated::rows(report);
     // the numbers of the rows whose factor is agreed, and whose probability is stated all the same
     let agreed: Vec<usize> = match beside {
-        Beside::Table => Vec::new(),
-        Beside::Dsi => {
+        SentencePlace::Table => Vec::new(),
+        SentencePlace::Dsi => {
             let groups = stated::groups(report).into_iter();
             let reaching = groups.filter(|rows| stated::reach_something(rows)).flatten();
             reaching.filter(|r| r.statement.basis == Basis::Fixed).map(|row| row.number).collect()
         }
     };
     let mut said = Vec::new();
-    let mut say = |sentence: &str, holds: &dyn Fn(&Stated<'_>) -> bool| {
+    let mut say = |sentence: &str, holds: &dyn Fn(&StatedRow<'_>) -> bool| {
         let held = rows.iter().filter(|row| holds(row)).map(|row| row.number);
         let held: Vec<usize> = held.collect();
         match held.len() {
@@ -72,7 +76,7 @@ pub(super) fn coverage(report: &CertificateReport<'_>, of: Said, beside: Beside)
             _ => said.push(about(&held, words) + sentence),
         }
     };
-    let raised = |row: &Stated<'_>| row.is_raised();
+    let raised = |row: &StatedRow<'_>| row.is_raised();
     for kind in kinds(&rows, &agreed) {
         say(&kind.sentence(of), &|row| kind.holds(row, &agreed));
     }
@@ -93,7 +97,7 @@ pub(super) fn coverage(report: &CertificateReport<'_>, of: Said, beside: Beside)
     say(words.confirmed, &|row| {
         !raised(row) && row.found.validation.is_some_and(|v| v.gum_valid == Some(true))
     });
-    if beside == Beside::Dsi {
+    if beside == SentencePlace::Dsi {
         said.extend(degrees_of_freedom(&rows, &agreed, of));
     }
     said.push(words.time.to_owned());
@@ -118,7 +122,7 @@ pub(super) fn in_marks(mark: DecimalMark, numbers: &str) -> String {
 
 /// The coverage probabilities and factors of rows whose uncertainty is the laboratory's capability, and
 /// whether they are about those of capabilities.
-fn raised_to(rows: &[Stated<'_>]) -> Vec<(Option<f64>, String, bool)> {
+fn raised_to(rows: &[StatedRow<'_>]) -> Vec<(Option<f64>, String, bool)> {
     let mut found = Vec::new();
     for row in rows.iter().filter(|row| row.is_raised()) {
         let is_about_95 = row.asked.task.settings.coverage.is_about_95();
@@ -131,12 +135,16 @@ fn raised_to(rows: &[Stated<'_>]) -> Vec<(Option<f64>, String, bool)> {
 }
 
 /// The degrees of freedom of the rows whose factor or probability follows from them.
-fn degrees_of_freedom(rows: &[Stated<'_>], agreed: &[usize], of: Said) -> Option<String> {
+fn degrees_of_freedom(
+    rows: &[StatedRow<'_>],
+    agreed: &[usize],
+    of: SentenceLanguage,
+) -> Option<String> {
     let words = of.words();
-    let follows = |row: &&Stated<'_>| {
+    let follows = |row: &&StatedRow<'_>| {
         !row.is_raised() && (row.statement.basis == Basis::Student || agreed.contains(&row.number))
     };
-    let one = |row: &Stated<'_>| {
+    let one = |row: &StatedRow<'_>| {
         let dof = of.in_marks(&row.evaluated_dof().text);
         format!("{} {}: {dof}", words.row, row.number)
     };
@@ -146,7 +154,7 @@ fn degrees_of_freedom(rows: &[Stated<'_>], agreed: &[usize], of: Said) -> Option
 
 /// A kind of statement: rows of one kind share a sentence.
 #[derive(Clone, Debug, PartialEq)]
-struct Kind {
+struct SentenceKind {
     basis: Basis,
     probability: Option<f64>,
     /// Whether an interval is from figures without the noise of trials.
@@ -157,8 +165,8 @@ struct Kind {
     agreed: bool,
 }
 
-impl Kind {
-    fn of(row: &Stated<'_>, agreed: &[usize]) -> Self {
+impl SentenceKind {
+    fn of(row: &StatedRow<'_>, agreed: &[usize]) -> Self {
         let named = matches!(row.statement.basis, Basis::Normal | Basis::Fixed);
         Self {
             basis: row.statement.basis,
@@ -169,11 +177,11 @@ impl Kind {
         }
     }
 
-    fn holds(&self, row: &Stated<'_>, agreed: &[usize]) -> bool {
+    fn holds(&self, row: &StatedRow<'_>, agreed: &[usize]) -> bool {
         !row.is_raised() && Self::of(row, agreed) == *self
     }
 
-    fn sentence(&self, of: Said) -> String {
+    fn sentence(&self, of: SentenceLanguage) -> String {
         let words = of.words();
         let sentence = match self.basis {
             Basis::Normal => words.normal,
@@ -188,11 +196,11 @@ impl Kind {
     }
 }
 
-fn kinds(rows: &[Stated<'_>], agreed: &[usize]) -> Vec<Kind> {
-    let mut kinds: Vec<Kind> = Vec::new();
+fn kinds(rows: &[StatedRow<'_>], agreed: &[usize]) -> Vec<SentenceKind> {
+    let mut kinds: Vec<SentenceKind> = Vec::new();
     // a capability is no multiple of an evaluated uncertainty
     let evaluated = rows.iter().filter(|row| !row.is_raised());
-    for kind in evaluated.map(|row| Kind::of(row, agreed)) {
+    for kind in evaluated.map(|row| SentenceKind::of(row, agreed)) {
         if !kinds.contains(&kind) {
             kinds.push(kind);
         }
@@ -201,7 +209,7 @@ fn kinds(rows: &[Stated<'_>], agreed: &[usize]) -> Vec<Kind> {
 }
 
 /// "approximately 95 %" for 0.9545, which accreditation practice prints so (EA-4/02, 5.1).
-fn probability(of: Said, p: Option<f64>) -> String {
+fn probability(of: SentenceLanguage, p: Option<f64>) -> String {
     match p {
         Some(0.9545) => of.words().approximately.replace("{p}", "95 %"),
         Some(p) => format!("{} %", of.in_marks(&exact(stated::percent_of_coverage(p)))),

@@ -2,7 +2,7 @@
 
 use super::CertificateReport;
 use super::sentences::in_marks;
-use super::stated::{self, Stated, UnitsAre};
+use super::stated::{self, StatedRow, UnitsAre};
 use super::units::printed;
 use super::words::{Words, stacked};
 use crate::number::{exact, rounded, significant};
@@ -23,24 +23,24 @@ pub(super) fn results(report: &CertificateReport<'_>) -> Sheet {
     let rows = stated::rows(report);
     let header = |word: fn(&Words) -> &'static str| stacked(languages, word);
     let mut sheet = Sheet::default();
-    sheet.figures(&header(|w| w.row), rows.iter().map(Stated::numbered));
+    sheet.figures(&header(|w| w.row), rows.iter().map(StatedRow::numbered));
     sheet.text(&header(|w| w.quantity), rows.iter().map(|row| row.name(languages)));
     conditions(&mut sheet, report, &rows, &header(|w| w.conditions));
     if rows.iter().any(|row| row.line.nominal.is_some()) {
-        sheet.figures(&header(|w| w.nominal), rows.iter().map(Stated::nominal));
+        sheet.figures(&header(|w| w.nominal), rows.iter().map(StatedRow::nominal));
     }
-    sheet.figures(&header(|w| w.value), rows.iter().map(Stated::value));
-    sheet.figures(&header(|w| w.expanded), rows.iter().map(Stated::expanded));
+    sheet.figures(&header(|w| w.value), rows.iter().map(StatedRow::value));
+    sheet.figures(&header(|w| w.expanded), rows.iter().map(StatedRow::expanded));
     sheet.units(
         &header(|w| w.unit),
         rows.iter().map(|row| plain(printed(&row.quantity.unit).text())),
     );
-    sheet.figures("k", rows.iter().map(Stated::factor));
+    sheet.figures("k", rows.iter().map(StatedRow::factor));
     // degrees of freedom play a part only where k follows from them
     if rows.iter().any(|row| !row.dof().text.is_empty()) {
-        sheet.figures("ν_eff", rows.iter().map(Stated::dof));
+        sheet.figures("ν_eff", rows.iter().map(StatedRow::dof));
     }
-    sheet.figures(&header(|w| w.probability), rows.iter().map(Stated::percent));
+    sheet.figures(&header(|w| w.probability), rows.iter().map(StatedRow::percent));
     let ends: Vec<Option<[Figure; 2]>> = rows.iter().map(|row| row.interval(report)).collect();
     if ends.iter().any(Option::is_some) {
         let end = |place: usize| {
@@ -64,7 +64,7 @@ const MOST_COLUMNS: usize = 3;
 fn conditions(
     sheet: &mut Sheet,
     report: &CertificateReport<'_>,
-    rows: &[Stated<'_>],
+    rows: &[StatedRow<'_>],
     header: &str,
 ) {
     let named = |quantity: &Quantity| match plain(printed(&quantity.unit).text()).as_str() {
@@ -79,7 +79,7 @@ fn conditions(
         }
     }
     if names.len() > MOST_COLUMNS {
-        let text = |row: &Stated<'_>| {
+        let text = |row: &StatedRow<'_>| {
             in_marks(
                 report.certificate.decimal_mark,
                 &row.circumstances(report, UnitsAre::Printed).join(", "),
@@ -88,7 +88,7 @@ fn conditions(
         sheet.text(header, rows.iter().map(text));
         return;
     }
-    let replaced = |row: &Stated<'_>| match row.line.label {
+    let replaced = |row: &StatedRow<'_>| match row.line.label {
         Some(_) => String::new(),
         None => {
             in_marks(report.certificate.decimal_mark, &row.replaced(UnitsAre::Printed).join(", "))
@@ -98,7 +98,7 @@ fn conditions(
         sheet.text(header, rows.iter().map(replaced));
     }
     for name in names {
-        let value = |row: &Stated<'_>| {
+        let value = |row: &StatedRow<'_>| {
             let shown = row.shown(report);
             match shown.iter().find(|(quantity, _)| named(quantity) == name) {
                 Some((_, value)) => Figure::of(*value, exact(*value)),
@@ -156,11 +156,11 @@ pub(super) fn are_correlated(report: &CertificateReport<'_>) -> bool {
 /// The unrounded figures, for workbooks.
 pub(super) fn unrounded(report: &CertificateReport<'_>) -> Sheet {
     let rows = stated::rows(report);
-    let column = |value: fn(&Stated<'_>) -> Option<f64>| -> Vec<Figure> {
+    let column = |value: fn(&StatedRow<'_>) -> Option<f64>| -> Vec<Figure> {
         rows.iter().map(|row| Figure::rounded(value(row), |value| value.to_string())).collect()
     };
     let mut sheet = Sheet::default();
-    sheet.figures("row", rows.iter().map(Stated::numbered));
+    sheet.figures("row", rows.iter().map(StatedRow::numbered));
     sheet.text("quantity", rows.iter().map(|row| plain(&row.quantity.name)));
     sheet.units("unit", rows.iter().map(|row| plain(printed(&row.quantity.unit).text())));
     sheet.figures("value", column(|row| Some(row.statement.value)));

@@ -38,7 +38,7 @@ pub(super) enum UnitsAre {
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stated<'a> {
+pub(super) struct StatedRow<'a> {
     /// Its number, from 1.
     pub(super) number: usize,
     pub(super) line: &'a Line,
@@ -53,13 +53,13 @@ pub(super) struct Stated<'a> {
 }
 
 /// All rows.
-pub(super) fn rows<'a>(report: &CertificateReport<'a>) -> Vec<Stated<'a>> {
+pub(super) fn rows<'a>(report: &CertificateReport<'a>) -> Vec<StatedRow<'a>> {
     let CertificateReport { certificate, issued, .. } = *report;
     let lines = certificate.lines.iter().zip(&issued.statements).enumerate();
     let rows = lines.filter_map(|(number, (line, statement))| {
         let asked = certificate.evaluations.get(line.evaluation)?;
         let row = issued.evaluations.get(line.evaluation)?.rows.get(line.row)?;
-        Some(Stated {
+        Some(StatedRow {
             number: number + 1,
             line,
             asked,
@@ -73,10 +73,10 @@ pub(super) fn rows<'a>(report: &CertificateReport<'a>) -> Vec<Stated<'a>> {
 }
 
 /// The rows of each output, in order of first appearance.
-pub(super) fn groups<'a>(report: &CertificateReport<'a>) -> Vec<Vec<Stated<'a>>> {
-    let mut groups: Vec<Vec<Stated<'a>>> = Vec::new();
+pub(super) fn groups<'a>(report: &CertificateReport<'a>) -> Vec<Vec<StatedRow<'a>>> {
+    let mut groups: Vec<Vec<StatedRow<'a>>> = Vec::new();
     for row in rows(report) {
-        let same = |group: &&mut Vec<Stated<'_>>| {
+        let same = |group: &&mut Vec<StatedRow<'_>>| {
             group.first().is_some_and(|first| {
                 let (a, b) = (first.quantity, row.quantity);
                 a.name == b.name && a.unit.text() == b.unit.text()
@@ -91,11 +91,11 @@ pub(super) fn groups<'a>(report: &CertificateReport<'a>) -> Vec<Vec<Stated<'a>>>
 }
 
 /// Whether all of these rows have a coverage probability, stated or reached.
-pub(super) fn reach_something(rows: &[Stated<'_>]) -> bool {
+pub(super) fn reach_something(rows: &[StatedRow<'_>]) -> bool {
     rows.iter().all(|row| row.reached().is_some())
 }
 
-impl Stated<'_> {
+impl StatedRow<'_> {
     /// Its number.
     pub(super) fn numbered(&self) -> Figure {
         Figure::of(self.number as f64, self.number.to_string())

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use super::sentences::{Beside, Said};
+use super::sentences::{SentenceLanguage, SentencePlace};
 use super::words::beside;
 use super::{
     CertificateReport, administrative, conformity, document, functions, sentences, sheets,
@@ -28,8 +28,8 @@ pub fn xlsx(report: &CertificateReport<'_>) -> io::Result<Vec<u8>> {
             row += 1;
         }
         row = leaf.table(row + 1, &sheets::results(report))? + 1;
-        for of in Said::on_page(report) {
-            for said in sentences::coverage(report, of, Beside::Table) {
+        for of in SentenceLanguage::on_page(report) {
+            for said in sentences::coverage(report, of, SentencePlace::Table) {
                 leaf.line(row, &said)?;
                 row += 1;
             }
@@ -57,8 +57,9 @@ pub fn xlsx(report: &CertificateReport<'_>) -> io::Result<Vec<u8>> {
             let mut leaf = book.leaf(&format!("Function {}", number + 1))?;
             leaf.title(0, &functions::title(of, languages))?;
             let mut row = 2;
-            for said in
-                Said::on_page(report).into_iter().flat_map(|said| functions::sentences(of, said))
+            for said in SentenceLanguage::on_page(report)
+                .into_iter()
+                .flat_map(|said| functions::sentences(of, said))
             {
                 leaf.line(row, &said)?;
                 row += 1;

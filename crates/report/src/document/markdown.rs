@@ -2,7 +2,7 @@
 
 use super::{Block, Document};
 use crate::number::align;
-use crate::sheet::{Column, Sheet};
+use crate::sheet::{Sheet, SheetColumn};
 use crate::table::one_line;
 
 /// The whole document, ending in a newline.
@@ -87,7 +87,7 @@ fn table(sheet: &Sheet, escape: Escape) -> String {
 }
 
 /// The header and the cells of a column, all of one width.
-fn cells(column: &Column, escape: Escape) -> Vec<String> {
+fn cells(column: &SheetColumn, escape: Escape) -> Vec<String> {
     let numeric = column.is_numeric();
     let body: Vec<String> = column.cells.iter().map(|cell| escape(cell)).collect();
     let body = if numeric { align(&body) } else { body };

@@ -1,7 +1,7 @@
 //! A document as a page of text for a terminal.
 
 use super::{Block, Document};
-use crate::sheet::{Kind, Sheet};
+use crate::sheet::{ColumnKind, Sheet};
 use crate::{Grid, plain, table::width, wrapped};
 
 /// Where somebody signs.
@@ -62,9 +62,11 @@ fn grid(sheet: &Sheet) -> Grid {
     for column in &sheet.columns {
         let cells = column.cells.iter().cloned();
         match column.kind {
-            Kind::Numbers => grid.numbers(&column.header, cells),
-            Kind::Text | Kind::Equations => grid.text_from(&column.header, LEAST_TEXT, cells),
-            Kind::Units => grid.units(&column.header, cells),
+            ColumnKind::Numbers => grid.numbers(&column.header, cells),
+            ColumnKind::Text | ColumnKind::Equations => {
+                grid.text_from(&column.header, LEAST_TEXT, cells)
+            }
+            ColumnKind::Units => grid.units(&column.header, cells),
         }
     }
     grid

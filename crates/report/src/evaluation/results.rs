@@ -17,7 +17,7 @@ use gumption_engine::task::{Coverage, Settings};
 
 /// The parts of the section of an output, in the order in which a page has them.
 #[derive(Debug, Default)]
-pub(super) struct Section {
+pub(super) struct OutputSection {
     pub(super) title: String,
     /// The result, what clause 8 says of it, and whether it conforms.
     pub(super) verdict: Document,
@@ -55,13 +55,14 @@ pub(super) fn section_of(
     report: &EvaluationReport<'_>,
     shown: &Shown<'_>,
     (row, output): (usize, usize),
-) -> Option<Section> {
+) -> Option<OutputSection> {
     let EvaluationReport { task, evaluation, .. } = *report;
     let found = evaluation.rows.get(row)?.outputs.get(output)?;
     let output_of = task.model.outputs.get(output)?;
     let quantity = &output_of.quantity;
     let digits = evaluation.settings.digits;
-    let mut section = Section { title: table::title_text(quantity), ..Section::default() };
+    let mut section =
+        OutputSection { title: table::title_text(quantity), ..OutputSection::default() };
     let mut said = verdict(&evaluation.settings, output_of, found);
     said.extend(comparison::differences(report, output_of, found, shown.language));
     section.verdict.blocks.push(Block::Verdict(said));

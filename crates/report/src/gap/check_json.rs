@@ -10,7 +10,7 @@ use gumption_gap::check::{
 };
 
 #[derive(Serialize)]
-struct Answer<'r> {
+struct CheckAnswer<'r> {
     title: &'r str,
     draws: usize,
     noise: CheckedNoise,
@@ -56,7 +56,7 @@ impl<'r> Smallest<'r> {
 /// The scores of data that were drawn with this noise, as JSON with keys in a fixed order. It ends in a
 /// newline.
 pub fn check_json(title: &str, noise: CheckedNoise, report: &BlindCheckScores) -> String {
-    let answer = Answer {
+    let answer = CheckAnswer {
         title,
         draws: report.draws,
         noise,

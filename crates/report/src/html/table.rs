@@ -4,14 +4,14 @@ use maud::{Markup, html};
 
 use super::{mathml, raised};
 use crate::number::align;
-use crate::sheet::{Column, Kind, Sheet};
+use crate::sheet::{ColumnKind, Sheet, SheetColumn};
 
 /// Rows up to which a table is kept on one printed page.
 const UNBROKEN: usize = 12;
 
 /// A table; numbers are padded so that their decimal points stand under each other.
 pub(crate) fn table(sheet: &Sheet) -> Markup {
-    let class = |column: &Column| column.is_numeric().then_some("number");
+    let class = |column: &SheetColumn| column.is_numeric().then_some("number");
     let columns: Vec<Vec<String>> = sheet
         .columns
         .iter()
@@ -45,9 +45,9 @@ pub(crate) fn table(sheet: &Sheet) -> Markup {
                             @for (place, (column, cells)) in sheet.columns.iter().zip(&columns).enumerate() {
                                 @let cell = cells.get(row).map_or("", String::as_str);
                                 @let text = match column.kind {
-                                    Kind::Units => raised(cell),
-                                    Kind::Equations => mathml::equation(cell),
-                                    Kind::Text | Kind::Numbers => html! { (cell) },
+                                    ColumnKind::Units => raised(cell),
+                                    ColumnKind::Equations => mathml::equation(cell),
+                                    ColumnKind::Text | ColumnKind::Numbers => html! { (cell) },
                                 };
                                 @if place == 0 && sheet.columns.len() > 1 && !cell.is_empty() {
                                     th scope="row" class=[class(column)] { (text) }

@@ -2,7 +2,7 @@
 //! them: all cells are numbers, all headings are names of quantities with their unit, which those files
 //! are held against.
 
-use super::{Figure, ObservationReport};
+use super::{FigureColumn, ObservationReport};
 use crate::csv::{number, of_records};
 
 /// The observations as comma-separated values: the conditions, the frequency in hertz, and for each
@@ -17,7 +17,7 @@ pub fn csv(observed: &ObservationReport<'_>) -> String {
     if is_uncertain {
         header.push(heading(&format!("u_{}", observed.frequency), "Hz"));
     }
-    let is_known = |of: &Figure| of.values.iter().any(|(_, u)| u.is_some());
+    let is_known = |of: &FigureColumn| of.values.iter().any(|(_, u)| u.is_some());
     for of in &figures {
         header.push(heading(&of.name, &of.unit));
         header.extend(is_known(of).then(|| heading(&format!("u_{}", of.name), &of.unit)));

@@ -30,7 +30,7 @@ const DOTS: usize = 160;
 const DEEPEST: f64 = 1e-9;
 
 /// What figures show beside their marks.
-struct Shown<'a> {
+struct ChannelFigures<'a> {
     trace: &'a RecordTrace,
     channel: &'a Channel,
     /// What peak values are multiplied by.
@@ -52,7 +52,7 @@ pub(super) fn record(
     let spurious: Vec<(f64, f64)> =
         spurious.map(|of| (of.cycles * found.rate.value, factor * of.amplitude)).collect();
     let has_spurious = !spurious.is_empty();
-    let shown = Shown { trace, channel, factor, spurious };
+    let shown = ChannelFigures { trace, channel, factor, spurious };
     let waveform = shown.waveform()?;
     let residuals = shown.residuals()?;
     let spectrum = shown.spectrum();
@@ -114,7 +114,7 @@ struct Axes {
     y: Axis,
 }
 
-impl Shown<'_> {
+impl ChannelFigures<'_> {
     fn label(&self, what: &str) -> String {
         match self.channel.unit.has_name() {
             true => format!("{what} in {}", plain(self.channel.unit.text())),

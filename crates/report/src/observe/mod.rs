@@ -51,7 +51,7 @@ pub struct ObservationReport<'a> {
 }
 
 /// A column of the answer: one figure of a channel.
-pub(super) struct Figure {
+pub(super) struct FigureColumn {
     /// Its name: `a_x_amplitude`, `a_x_amplitude_rms` where amplitudes are that, `a_x_phase_2`.
     pub(super) name: String,
     pub(super) unit: String,
@@ -76,7 +76,7 @@ impl ObservationReport<'_> {
     }
 
     /// All figures that every line has.
-    pub(super) fn figures(&self) -> Vec<Figure> {
+    pub(super) fn figures(&self) -> Vec<FigureColumn> {
         let mut figures = Vec::new();
         for (place, channel) in self.settings.channels.iter().enumerate() {
             let unit = channel.unit.text();
@@ -89,7 +89,7 @@ impl ObservationReport<'_> {
                     |values: &Vec<(f64, Option<f64>)>| values.iter().all(|(v, _)| v.is_finite());
                 if let Some(values) = values.filter(finite) {
                     let name = format!("{}_{name}", channel.name);
-                    figures.push(Figure { name, unit: unit.to_owned(), values });
+                    figures.push(FigureColumn { name, unit: unit.to_owned(), values });
                 }
             };
             let pair =

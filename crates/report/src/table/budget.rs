@@ -4,7 +4,7 @@ use super::columns::{self, BudgetColumn};
 use super::grid::Grid;
 use super::{coverage_text, in_unit, text, width};
 use crate::number::{coefficient, exact, position, rounded, significant, with_uncertainty};
-use crate::sheet::{Figure, Kind, Sheet};
+use crate::sheet::{ColumnKind, Figure, Sheet};
 use crate::subtotals::Subtotals;
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::InputFigures;
@@ -54,14 +54,14 @@ pub(crate) struct Budget<'a> {
 pub(super) struct Field {
     /// The header as words, and broken.
     pub(super) headers: [&'static str; 2],
-    pub(super) layout: Layout,
+    pub(super) layout: CellLayout,
     /// The cells: inputs, correlation coefficients, the output.
     pub(super) cells: Vec<String>,
 }
 
 /// How cells are set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Layout {
+pub(super) enum CellLayout {
     /// Texts that wrap if the page is too narrow.
     Text,
     /// Texts that wrap only above a width.
@@ -103,9 +103,9 @@ impl Budget<'_> {
         let mut sheet = Sheet { footer: true, ..Sheet::default() };
         for Field { headers: [header, _], layout, cells } in fields {
             let kind = match layout {
-                _ if header == UNIT => Kind::Units,
-                Layout::Numbers => Kind::Numbers,
-                Layout::Text | Layout::TextFrom(_) => Kind::Text,
+                _ if header == UNIT => ColumnKind::Units,
+                CellLayout::Numbers => ColumnKind::Numbers,
+                CellLayout::Text | CellLayout::TextFrom(_) => ColumnKind::Text,
             };
             sheet.push(header, cells, kind);
         }
@@ -118,9 +118,9 @@ impl Budget<'_> {
         let field = |(position, headers): (usize, [&'static str; 2])| Field {
             headers,
             layout: match position {
-                0 => Layout::Text,
-                3 | 4 => Layout::TextFrom(WORD),
-                _ => Layout::Numbers,
+                0 => CellLayout::Text,
+                3 | 4 => CellLayout::TextFrom(WORD),
+                _ => CellLayout::Numbers,
             },
             cells: lines.iter().map(|line| line[position].clone()).collect(),
         };
@@ -146,9 +146,9 @@ fn grid(fields: &[Field]) -> Grid {
         for Field { headers, layout, cells } in fields {
             let (header, cells) = (headers[form], cells.iter().cloned());
             match *layout {
-                Layout::Text => grid.text(header, cells),
-                Layout::TextFrom(width) => grid.text_from(header, width, cells),
-                Layout::Numbers => grid.numbers(header, cells),
+                CellLayout::Text => grid.text(header, cells),
+                CellLayout::TextFrom(width) => grid.text_from(header, width, cells),
+                CellLayout::Numbers => grid.numbers(header, cells),
             }
         }
         grid
@@ -157,7 +157,7 @@ fn grid(fields: &[Field]) -> Grid {
 }
 
 /// The cells of a line.
-type Line = [String; 9];
+type BudgetCells = [String; 9];
 
 /// A line of the budget that belongs to an input.
 pub(crate) enum InputRow<'a> {
@@ -192,10 +192,10 @@ pub(crate) fn input_rows<'a>(task: &'a Task, gum: &Gum) -> Vec<InputRow<'a>> {
 pub(crate) const COMPOSED: &str = "components";
 
 /// The line of a quantity that is made of components.
-fn composed(quantity: &Quantity, figures: &InputFigures, digits: u32) -> Line {
+fn composed(quantity: &Quantity, figures: &InputFigures, digits: u32) -> BudgetCells {
     let (estimate, uncertainty) =
         with_uncertainty(figures.estimate, figures.standard_uncertainty, digits);
-    let mut line = Line::default();
+    let mut line = BudgetCells::default();
     line[0] = text::plain(&quantity.name);
     line[1] = estimate;
     line[2] = uncertainty;
@@ -205,7 +205,7 @@ fn composed(quantity: &Quantity, figures: &InputFigures, digits: u32) -> Line {
     line
 }
 
-fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<Line> {
+fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<BudgetCells> {
     let inputs = input_rows(task, gum).into_iter().map(|row| {
         let (variable, line) = match row {
             InputRow::Composed(quantity, figures) => return composed(quantity, &figures, digits),
@@ -225,9 +225,9 @@ fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<Line> {
             percent(line.share),
         ]
     });
-    let mut lines: Vec<Line> = inputs.chain(coefficients(task, gum)).collect();
+    let mut lines: Vec<BudgetCells> = inputs.chain(coefficients(task, gum)).collect();
     let (estimate, combined) = with_uncertainty(gum.estimate, gum.standard_uncertainty, digits);
-    let mut total = Line::default();
+    let mut total = BudgetCells::default();
     total[0] = text::plain(&output.name);
     total[1] = estimate;
     total[2] = combined.clone();
@@ -241,10 +241,10 @@ fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<Line> {
 }
 
 /// The lines of the correlation coefficients; a single one if there are very many.
-fn coefficients(task: &Task, gum: &Gum) -> Vec<Line> {
+fn coefficients(task: &Task, gum: &Gum) -> Vec<BudgetCells> {
     let count = gum.correlations().count();
     if count > MOST_COEFFICIENTS {
-        let mut cells = Line::default();
+        let mut cells = BudgetCells::default();
         cells[0] = format!("{} coefficients", text::grouped(count as u64));
         cells[4] = "correlation".to_owned();
         cells[8] = percent(gum.correlations().map(|line| line.share).sum());
@@ -252,7 +252,7 @@ fn coefficients(task: &Task, gum: &Gum) -> Vec<Line> {
     }
     let line = |line: CorrelationLine| {
         let [a, b] = line.variables.map(|position| task.variables.get(position));
-        let mut cells = Line::default();
+        let mut cells = BudgetCells::default();
         cells[0] = format!("r({}, {})", text::plain(&a?.name), text::plain(&b?.name));
         cells[1] = coefficient(line.coefficient);
         cells[4] = "correlation".to_owned();

@@ -1,6 +1,6 @@
 //! Columns of the budget that are shown on request.
 
-use super::budget::{Budget, Field, InputRow, Layout, coefficient_lines, input_rows};
+use super::budget::{Budget, CellLayout, Field, InputRow, coefficient_lines, input_rows};
 use super::text;
 use crate::number::{MISSING, exact, significant};
 use gumption_engine::decimal::to_digits;
@@ -76,7 +76,7 @@ pub(super) fn fields(budget: &Budget<'_>, wanted: &[BudgetColumn]) -> Vec<(usize
 
 fn of(budget: &Budget<'_>, column: BudgetColumn) -> Vec<(usize, Field)> {
     let Budget { gum, digits, output, .. } = *budget;
-    let numbers = |headers, cells| Field { headers, layout: Layout::Numbers, cells };
+    let numbers = |headers, cells| Field { headers, layout: CellLayout::Numbers, cells };
     let blank = String::new;
     match column {
         BudgetColumn::Width => {
@@ -118,20 +118,21 @@ fn of(budget: &Budget<'_>, column: BudgetColumn) -> Vec<(usize, Field)> {
             let letter =
                 |_: &BudgetLine, variable: &Variable| variable.evaluation.letter().to_owned();
             let cells = cells(budget, letter, blank());
-            vec![(DISTRIBUTION, Field { headers: ["type"; 2], layout: Layout::Text, cells })]
+            vec![(DISTRIBUTION, Field { headers: ["type"; 2], layout: CellLayout::Text, cells })]
         }
         BudgetColumn::Group => {
             let group = |_: &BudgetLine, variable: &Variable| {
                 text::plain(variable.group.as_deref().unwrap_or_default())
             };
-            let (cells, layout) = (cells(budget, group, blank()), Layout::TextFrom(GROUP_WIDTH));
+            let (cells, layout) =
+                (cells(budget, group, blank()), CellLayout::TextFrom(GROUP_WIDTH));
             vec![(SHARE, Field { headers: ["group"; 2], layout, cells })]
         }
         BudgetColumn::About => {
             let about = |_: &BudgetLine, variable: &Variable| text::plain(&variable.about);
             let of_sum = |quantity: &Quantity, _: &InputFigures| text::plain(&quantity.about);
             let cells = all_cells(budget, about, of_sum, blank());
-            let layout = Layout::TextFrom(ABOUT_WIDTH);
+            let layout = CellLayout::TextFrom(ABOUT_WIDTH);
             vec![(SHARE, Field { headers: ["source of\nuncertainty"; 2], layout, cells })]
         }
     }

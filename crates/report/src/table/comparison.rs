@@ -368,7 +368,7 @@ pub(crate) fn stability(output: &Quantity, end: &Adaptive, trials: u64) -> Strin
 }
 
 /// A figure by all methods.
-struct Line {
+struct MethodsLine {
     /// Its name, and its name where it does not stand below another.
     names: [&'static str; 2],
     gum: String,
@@ -379,7 +379,7 @@ struct Line {
 
 /// The figures of all methods, and which methods there are.
 struct Lines<'a> {
-    lines: Vec<Line>,
+    lines: Vec<MethodsLine>,
     has_trials: bool,
     noiseless: Option<&'a Noiseless>,
 }
@@ -402,7 +402,9 @@ impl<'a> Lines<'a> {
 
     /// The columns of numbers with their headings.
     fn columns(&self) -> Vec<(&'static str, Vec<String>)> {
-        let of = |text: fn(&Line) -> &String| self.lines.iter().map(|l| text(l).clone()).collect();
+        let of = |text: fn(&MethodsLine) -> &String| {
+            self.lines.iter().map(|l| text(l).clone()).collect()
+        };
         let mut columns = vec![("GUM", of(|line| &line.gum))];
         if self.has_trials {
             columns.push(("Monte Carlo", of(|line| &line.monte_carlo)));
@@ -498,7 +500,7 @@ fn lines(
     trials: Option<&MonteCarlo>,
     noiseless: Option<&Noiseless>,
     digits: u32,
-) -> Vec<Line> {
+) -> Vec<MethodsLine> {
     let uncertainty = gum.map(|gum| gum.standard_uncertainty);
     let own = trials.and_then(|figures| figures.standard_uncertainty).or(uncertainty);
     let gum_position = uncertainty.and_then(|u| position(u, digits));
@@ -511,7 +513,7 @@ fn lines(
     let figure =
         |place: Option<i32>, names: [&'static str; 2], gum: Option<f64>, of_trials: OfTrials| {
             let (value, error) = of_trials.unwrap_or_default();
-            Line {
+            MethodsLine {
                 names,
                 gum: gum.map_or_else(missing, |value| to(value, gum_position)),
                 monte_carlo: value.map_or_else(missing, |value| {
@@ -561,10 +563,10 @@ fn lines(
 }
 
 /// Skewness and kurtosis: two decimals, fewer where the numerical standard error says so.
-fn shape(name: &'static str, value: Option<f64>, error: Option<f64>) -> Line {
+fn shape(name: &'static str, value: Option<f64>, error: Option<f64>) -> MethodsLine {
     let missing = || MISSING.to_owned();
     let figure = |value: f64| justified(value, Some(SHAPE_PLACE), error.unwrap_or(f64::NAN));
-    Line {
+    MethodsLine {
         names: [name; 2],
         gum: missing(),
         monte_carlo: value.map_or_else(missing, figure),

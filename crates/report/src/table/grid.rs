@@ -9,7 +9,7 @@ use comfy_table::{
 
 use super::USUAL;
 use crate::number::align;
-use crate::sheet::{Kind, Sheet};
+use crate::sheet::{ColumnKind, Sheet};
 
 /// Spaces between columns.
 const GAP: u16 = 2;
@@ -26,20 +26,20 @@ pub(super) const PAGE: usize = 1000;
 /// A table that is filled column by column.
 #[derive(Debug, Default)]
 pub struct Grid {
-    columns: Vec<Column>,
+    columns: Vec<GridColumn>,
     /// Whether the last row is set off by a line and kept to one line.
     footer: bool,
 }
 
 #[derive(Clone, Debug)]
-struct Column {
+struct GridColumn {
     header: String,
     cells: Vec<String>,
     alignment: CellAlignment,
     constraint: Option<ColumnConstraint>,
 }
 
-impl Column {
+impl GridColumn {
     /// The width that it needs where texts wrap as far as they may.
     fn least_width(&self) -> usize {
         match self.constraint {
@@ -78,9 +78,9 @@ impl Grid {
         for column in &sheet.columns {
             let cells = column.cells.iter().cloned();
             match column.kind {
-                Kind::Numbers => grid.numbers(&column.header, cells),
-                Kind::Text | Kind::Equations => grid.text(&column.header, cells),
-                Kind::Units => grid.units(&column.header, cells),
+                ColumnKind::Numbers => grid.numbers(&column.header, cells),
+                ColumnKind::Text | ColumnKind::Equations => grid.text(&column.header, cells),
+                ColumnKind::Units => grid.units(&column.header, cells),
             }
         }
         grid
@@ -138,19 +138,19 @@ impl Grid {
         alignment: CellAlignment,
         constraint: Option<ColumnConstraint>,
     ) {
-        self.columns.push(Column { header: header.to_owned(), cells, alignment, constraint });
+        self.columns.push(GridColumn { header: header.to_owned(), cells, alignment, constraint });
     }
 
     /// The width that nothing wraps at.
     pub(crate) fn natural_width(&self) -> usize {
         let gaps = self.columns.len().saturating_sub(1) * usize::from(GAP);
-        self.columns.iter().map(Column::width).sum::<usize>() + gaps
+        self.columns.iter().map(GridColumn::width).sum::<usize>() + gaps
     }
 
     /// The width at which texts that may wrap do so and nothing else does.
     pub(super) fn least_width(&self) -> usize {
         let gaps = self.columns.len().saturating_sub(1) * usize::from(GAP);
-        self.columns.iter().map(Column::least_width).sum::<usize>() + gaps
+        self.columns.iter().map(GridColumn::least_width).sum::<usize>() + gaps
     }
 
     /// The table with its header, ending in a newline.
@@ -170,20 +170,21 @@ impl Grid {
     /// takes all rows, so it is found once for all pages.
     fn squeezed_words(&self, width: usize) -> Option<Vec<u16>> {
         let squeezed = width < USUAL && self.natural_width() > width;
-        let word = |column: &Column| u16::try_from(column.word_width()).unwrap_or(u16::MAX) + GAP;
+        let word =
+            |column: &GridColumn| u16::try_from(column.word_width()).unwrap_or(u16::MAX) + GAP;
         squeezed.then(|| self.columns.iter().map(word).collect())
     }
 
     /// The width below which words would break.
     fn word_width(&self) -> usize {
         let gaps = self.columns.len().saturating_sub(1) * usize::from(GAP);
-        self.columns.iter().map(Column::word_width).sum::<usize>() + gaps
+        self.columns.iter().map(GridColumn::word_width).sum::<usize>() + gaps
     }
 
     /// Tables one below the other that begin with the same column, where one would be too wide.
     fn folded(&self, width: usize) -> String {
         let Some((first, rest)) = self.columns.split_first() else { return String::new() };
-        let of = |columns: Vec<Column>| Self { columns, footer: self.footer };
+        let of = |columns: Vec<GridColumn>| Self { columns, footer: self.footer };
         let mut grids = vec![of(vec![first.clone()])];
         for column in rest {
             let gap = usize::from(GAP) + column.word_width();

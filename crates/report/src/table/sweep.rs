@@ -29,8 +29,8 @@ pub(super) fn tables<'a>(
     let unvaried = fixed(conditions, rows, &varying);
     let sweep = Sweep { task, rows, digits, has_trials: rows.iter().any(has_trials) };
     let [wide, narrow] =
-        [WIDE, NARROW].map(|uncertainty| Layout { labels: Labels::Conditions, uncertainty });
-    let numbers = Layout { labels: Labels::Numbers, uncertainty: WIDE };
+        [WIDE, NARROW].map(|uncertainty| SweepLayout { labels: Labels::Conditions, uncertainty });
+    let numbers = SweepLayout { labels: Labels::Numbers, uncertainty: WIDE };
     let layouts = [wide, narrow];
     // what was measured in every row may stand among the conditions: where all of them leave no room
     // for the answer, those that tell the rows apart name them
@@ -216,7 +216,7 @@ pub(crate) fn shares(task: &Task, rows: &[RowEvaluation], output: usize) -> Opti
 /// All outputs of one row of conditions, a line each.
 pub(crate) fn summary(task: &Task, row: &RowEvaluation, digits: u32) -> Sheet {
     let outputs = &task.model.outputs;
-    let lines: Vec<Line> =
+    let lines: Vec<SweepLine> =
         (0..outputs.len()).map(|place| line(row.outputs.get(place), digits)).collect();
     let mut sheet = Sheet::default();
     sheet.text("output", outputs.iter().map(|output| text::plain(&output.quantity.name)));
@@ -233,7 +233,7 @@ const RAISED: &str = "to be stated\n(CMC)";
 const DECIDING: &str = "estimate\nthat decides";
 
 /// The columns of the answer.
-fn answer(sheet: &mut Sheet, lines: &[Line], has_trials: bool) {
+fn answer(sheet: &mut Sheet, lines: &[SweepLine], has_trials: bool) {
     let column = |position: usize| lines.iter().map(move |line| line.texts[position].clone());
     sheet.numbers("estimate", column(0));
     sheet.numbers("standard\nuncertainty", column(1));
@@ -247,7 +247,7 @@ fn answer(sheet: &mut Sheet, lines: &[Line], has_trials: bool) {
         sheet.numbers("to", column(5));
         sheet.text("GUM\ninterval", column(6));
         if lines.iter().any(|line| line.shortest == Some(true)) {
-            let kind = |line: &Line| match line.shortest {
+            let kind = |line: &SweepLine| match line.shortest {
                 Some(true) => "shortest".to_owned(),
                 Some(false) => "symmetric".to_owned(),
                 None => missing(),
@@ -302,7 +302,8 @@ fn conditions(sheet: &mut Sheet, task: &Task, rows: &[RowEvaluation], places: &[
 pub(crate) fn sheet(task: &Task, rows: &[RowEvaluation], output: usize, digits: u32) -> Sheet {
     let mut sheet = Sheet::default();
     conditions(&mut sheet, task, rows, &shown(task, rows));
-    let lines: Vec<Line> = rows.iter().map(|row| line(row.outputs.get(output), digits)).collect();
+    let lines: Vec<SweepLine> =
+        rows.iter().map(|row| line(row.outputs.get(output), digits)).collect();
     answer(&mut sheet, &lines, rows.iter().any(has_trials));
     sheet
 }
@@ -323,7 +324,7 @@ struct Sweep<'a> {
 
 /// How they are set.
 #[derive(Clone, Copy, Debug)]
-struct Layout {
+struct SweepLayout {
     labels: Labels,
     /// The word below "standard" and "expanded".
     uncertainty: &'static str,
@@ -400,7 +401,7 @@ fn chosen(
 
 impl Sweep<'_> {
     /// Whether all tables fit the page.
-    fn fits(&self, layout: Layout, varying: &[usize]) -> bool {
+    fn fits(&self, layout: SweepLayout, varying: &[usize]) -> bool {
         (0..self.task.model.outputs.len()).all(|output| {
             let mut pages = (0..self.rows.len()).step_by(PAGE);
             pages.all(|first| self.grid(output, layout, varying, first).natural_width() <= width())
@@ -409,7 +410,7 @@ impl Sweep<'_> {
 
     /// A page of the table of an output, which begins with the row at `first`: of a long sweep only
     /// one is in memory.
-    fn grid(&self, output: usize, layout: Layout, varying: &[usize], first: usize) -> Grid {
+    fn grid(&self, output: usize, layout: SweepLayout, varying: &[usize], first: usize) -> Grid {
         let rows = self.rows.get(first..).unwrap_or_default();
         let rows = &rows[..rows.len().min(PAGE)];
         let mut grid = Grid::default();
@@ -425,7 +426,7 @@ impl Sweep<'_> {
                 }
             }
         }
-        let lines: Vec<Line> =
+        let lines: Vec<SweepLine> =
             rows.iter().map(|row| line(row.outputs.get(output), self.digits)).collect();
         let column = |position: usize| lines.iter().map(move |line| line.texts[position].clone());
         let uncertainty = layout.uncertainty;
@@ -476,7 +477,7 @@ fn missing() -> String {
 }
 
 /// What stands in a line.
-struct Line {
+struct SweepLine {
     /// Estimate, u, U, k, the two ends of the Monte Carlo interval, the verdict.
     texts: [String; 7],
     /// Whether that interval is the shortest one, if there is one.
@@ -495,7 +496,7 @@ struct Line {
 
 /// The interval is the one that is stated of a result: the shortest where the output is skew
 /// (JCGM 101, 5.3.4), the symmetric one otherwise.
-fn line(output: Option<&OutputEvaluation>, digits: u32) -> Line {
+fn line(output: Option<&OutputEvaluation>, digits: u32) -> SweepLine {
     let gum = output.and_then(|output| output.gum.as_ref());
     let figures = output.and_then(|output| output.monte_carlo.as_ref());
     let gum_position = gum.and_then(|gum| position(gum.standard_uncertainty, digits));
@@ -534,7 +535,7 @@ fn line(output: Option<&OutputEvaluation>, digits: u32) -> Line {
         if is_propagated { texts[0].clone() } else { justified(found.estimate, own, error) }
     });
     let beside = output.and_then(|output| output.capability.as_deref());
-    Line {
+    SweepLine {
         stated: beside
             .and_then(|beside| beside.rounded(digits))
             .map_or_else(missing, |expanded| expanded.to_string()),

@@ -23,15 +23,15 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 const TOLERANCE_DIGITS: u32 = 2;
 
 #[derive(Serialize)]
-struct Answer<'a> {
+struct VerificationAnswer<'a> {
     gumption: &'static str,
-    rows: Vec<Line<'a>>,
+    rows: Vec<VerificationLine<'a>>,
     pass: usize,
     diff: usize,
 }
 
 #[derive(Serialize)]
-struct Line<'a> {
+struct VerificationLine<'a> {
     example: &'a str,
     output: Option<&'a str>,
     quantity: &'a str,
@@ -41,7 +41,7 @@ struct Line<'a> {
     verdict: &'static str,
 }
 
-impl<'a> Line<'a> {
+impl<'a> VerificationLine<'a> {
     fn of(example: &'a str, row: &'a RecomputedValue) -> Self {
         Self {
             example,
@@ -55,8 +55,8 @@ impl<'a> Line<'a> {
     }
 }
 
-fn lines(found: &[RecomputedExample]) -> impl Iterator<Item = Line<'_>> {
-    found.iter().flat_map(|e| e.rows.iter().map(|row| Line::of(&e.name, row)))
+fn lines(found: &[RecomputedExample]) -> impl Iterator<Item = VerificationLine<'_>> {
+    found.iter().flat_map(|e| e.rows.iter().map(|row| VerificationLine::of(&e.name, row)))
 }
 
 /// How many values agree, and how many do not.
@@ -69,7 +69,7 @@ fn counts(found: &[RecomputedExample]) -> (usize, usize) {
 /// The answer for programs: indented JSON that ends in a newline.
 pub fn json(found: &[RecomputedExample]) -> String {
     let (pass, diff) = counts(found);
-    let answer = Answer { gumption: VERSION, rows: lines(found).collect(), pass, diff };
+    let answer = VerificationAnswer { gumption: VERSION, rows: lines(found).collect(), pass, diff };
     pretty(&answer)
 }
 

@@ -34,7 +34,7 @@ pub(crate) enum NoFrequency<E> {
 
 /// A fit whose cycles were estimated.
 #[derive(Clone, Debug)]
-pub(crate) struct Found {
+pub(crate) struct EstimatedCycles {
     /// Cycles in a sample interval of the fundamental.
     pub(crate) cycles: f64,
     /// Their variance for residuals of variance 1.
@@ -47,7 +47,7 @@ pub(crate) fn estimate<E>(
     passes: &mut dyn SampleSource<Error = E>,
     guess: Option<f64>,
     multiples: &[u32],
-) -> Result<Found, NoFrequency<E>> {
+) -> Result<EstimatedCycles, NoFrequency<E>> {
     let samples = passes.frames();
     let start = match guess {
         Some(cycles) => cycles,
@@ -67,7 +67,7 @@ pub(crate) fn estimate<E>(
         let size = step.abs() * samples as f64;
         // rounding of a phase in double precision, or no further progress near it
         if size < 1e-14 || (size < 1e-10 && size >= last) {
-            return Ok(Found { cycles, variance });
+            return Ok(EstimatedCycles { cycles, variance });
         }
         last = size;
     }

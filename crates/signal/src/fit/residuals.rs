@@ -5,7 +5,7 @@ use crate::known_noise::KnownNoise;
 use crate::lattice;
 use crate::outlying::Farthest;
 use crate::passes::SampleSource;
-use crate::sine_fit::{Sums, ToneCoefficients, ToneDesign, Waves, dot};
+use crate::sine_fit::{ToneCoefficients, ToneDesign, ToneSums, Waves, dot};
 
 /// Lags at which the autocorrelation of residuals is looked at.
 pub(crate) const LAGS: usize = 16;
@@ -161,7 +161,7 @@ pub(crate) fn parts(design: &ToneDesign) -> Option<u64> {
 struct Gathered {
     at_first: ToneCoefficients,
     /// Sums of the residuals with the tones.
-    sums: Sums,
+    sums: ToneSums,
     squares: f64,
     products: [f64; LAGS],
     /// The last residuals of the block before.
@@ -196,7 +196,7 @@ impl Gathered {
         let tones = design.tones.len();
         Self {
             at_first: design.at_first(fit),
-            sums: Sums::plain(design),
+            sums: ToneSums::plain(design),
             squares: 0.0,
             products: [0.0; LAGS],
             last: Vec::new(),

@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 use crate::passes::BLOCK;
 use crate::phasor::at_turns;
 use crate::quantization::quantization_variance;
-use crate::sine_fit::{Sums, ToneCoefficients, ToneDesign, Waves};
+use crate::sine_fit::{ToneCoefficients, ToneDesign, ToneSums, Waves};
 use gumption_engine::number::elementary::{exp, hypot, sin_cos_turn};
 
 /// Terms of the sawtooth at most, and samples times terms.
@@ -76,7 +76,7 @@ impl Rounding {
             let larger = 1.0 + (place - 0.375) * resolution / size.max(resolution);
             moved(design, fit, between * ((3.0 * place) % 1.0), larger)
         });
-        let sums: Vec<Vec<[Sums; 2]>> =
+        let sums: Vec<Vec<[ToneSums; 2]>> =
             beside.map(|fit| Self::sums(design, &fit, resolution, terms)).collect();
         let summed: f64 = (1..=terms).map(share).sum();
         // terms that are left out turn so fast from one place to the next that they are as white as
@@ -113,9 +113,9 @@ impl Rounding {
         fit: &ToneCoefficients,
         resolution: f64,
         terms: u32,
-    ) -> Vec<[Sums; 2]> {
-        let plain = || [Sums::plain(design), Sums::plain(design)];
-        let mut sums: Vec<[Sums; 2]> = (0..terms).map(|_| plain()).collect();
+    ) -> Vec<[ToneSums; 2]> {
+        let plain = || [ToneSums::plain(design), ToneSums::plain(design)];
+        let mut sums: Vec<[ToneSums; 2]> = (0..terms).map(|_| plain()).collect();
         each(design, fit, |values, waves| {
             let once: Vec<(f64, f64)> = values
                 .iter()

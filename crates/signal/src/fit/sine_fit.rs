@@ -170,9 +170,9 @@ impl ToneDesign {
         &self,
         passes: &mut dyn SampleSource<Error = E>,
     ) -> Result<Vec<ToneCoefficients>, E> {
-        let mut sums: Vec<Sums> = Vec::new();
+        let mut sums: Vec<ToneSums> = Vec::new();
         self.each(passes, |_, channels, waves| {
-            sums.resize_with(channels.len(), || Sums::new(self));
+            sums.resize_with(channels.len(), || ToneSums::new(self));
             for (sums, values) in sums.iter_mut().zip(channels) {
                 sums.add(values, waves);
             }
@@ -182,7 +182,7 @@ impl ToneDesign {
 
     /// Fits values in memory.
     pub(crate) fn fit_values(&self, values: &[f64]) -> ToneCoefficients {
-        let mut sums = Sums::new(self);
+        let mut sums = ToneSums::new(self);
         let mut waves = self.waves();
         for (block, values) in values.chunks(BLOCK).enumerate() {
             self.fill(&mut waves, (block * BLOCK) as u64, values.len());
@@ -228,7 +228,7 @@ impl ToneDesign {
     }
 
     /// The least-squares solution for sums of products.
-    pub(crate) fn solve(&self, sums: &Sums) -> ToneCoefficients {
+    pub(crate) fn solve(&self, sums: &ToneSums) -> ToneCoefficients {
         let (even, odd) = self.to_middle(sums);
         let mut solution = self.coefficients(&(&self.even * even), &(&self.odd * odd));
         // the pilot was taken off every value
@@ -252,7 +252,7 @@ impl ToneDesign {
     }
 
     /// The sums, which count phases from the first sample, turned to the middle: even and odd ones.
-    fn to_middle(&self, sums: &Sums) -> (DVector<f64>, DVector<f64>) {
+    fn to_middle(&self, sums: &ToneSums) -> (DVector<f64>, DVector<f64>) {
         let (mut even, mut odd) = self.zeros();
         even[0] = sums.values;
         for (k, step) in self.steps.iter().enumerate() {
@@ -390,7 +390,7 @@ impl Waves {
 /// Sums of the values of a channel with the waves of the tones. The first value is taken off all, so
 /// that a large constant costs no digits.
 #[derive(Clone, Debug)]
-pub(crate) struct Sums {
+pub(crate) struct ToneSums {
     pilot: Option<f64>,
     pub(crate) values: f64,
     pub(crate) cosines: Vec<f64>,
@@ -398,7 +398,7 @@ pub(crate) struct Sums {
     drift: Vec<f64>,
 }
 
-impl Sums {
+impl ToneSums {
     pub(crate) fn new(design: &ToneDesign) -> Self {
         let zeros = |count| vec![0.0; count];
         let (tones, drift) = (design.tones.len(), zeros(design.drift));

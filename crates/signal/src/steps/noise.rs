@@ -41,14 +41,14 @@ impl Noise {
 /// The spectral density of noise at a frequency, as the variance of the white noise that has it
 /// everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Density {
+pub(crate) struct NoiseDensity {
     pub(crate) variance: f64,
     pub(crate) degrees_of_freedom: f64,
 }
 
 /// The density near `turns` a value: the mean of the periodogram at `count` frequencies on each
 /// side, as far as they lie between zero and half the rate.
-pub(crate) fn density(residuals: &[f64], turns: f64, count: usize) -> Density {
+pub(crate) fn density(residuals: &[f64], turns: f64, count: usize) -> NoiseDensity {
     let n = residuals.len() as f64;
     let (mut sum, mut taken) = (0.0, 0.0);
     for i in 0..count {
@@ -63,9 +63,9 @@ pub(crate) fn density(residuals: &[f64], turns: f64, count: usize) -> Density {
     }
     if taken == 0.0 {
         let variance = residuals.iter().map(|e| e * e).sum::<f64>() / n;
-        return Density { variance, degrees_of_freedom: 1.0 };
+        return NoiseDensity { variance, degrees_of_freedom: 1.0 };
     }
-    Density { variance: sum / taken, degrees_of_freedom: 2.0 * taken }
+    NoiseDensity { variance: sum / taken, degrees_of_freedom: 2.0 * taken }
 }
 
 /// The variance that sampling instants with a standard deviation of `jitter` seconds, independent

@@ -7,7 +7,7 @@ use std::io::{Cursor, Read};
 use quick_xml::events::{BytesStart, Event};
 use zip::ZipArchive;
 
-use super::rich::{self, Parts};
+use super::rich::{self, RichTextParts};
 use super::{
     COLUMNS, MOST_COLUMNS, MOST_OF_PART, MOST_ROWS, MOST_SHEETS, ROWS, attribute, date, place,
     reference,
@@ -145,7 +145,7 @@ impl Layout {
         let (mut row, mut column) = (0, 0);
         let (mut is_formula, mut has_value, mut in_value) = (false, false, false);
         let (mut value, mut has_other) = (String::new(), false);
-        let (mut parts, mut is_shared) = (Parts::default(), false);
+        let (mut parts, mut is_shared) = (RichTextParts::default(), false);
         loop {
             let event = match xml.read_event() {
                 Ok(Event::Eof) | Err(_) => break,
@@ -169,7 +169,7 @@ impl Layout {
                             value.clear();
                             let own = attribute(&element, "r").and_then(|r| place(&r));
                             (column, row) = own.unwrap_or(((column + 1).min(COLUMNS), row.max(1)));
-                            parts = Parts::default();
+                            parts = RichTextParts::default();
                             is_shared = attribute(&element, "t").is_some_and(|of| of == "s");
                             is_formula = false;
                             // a formula may give an empty text

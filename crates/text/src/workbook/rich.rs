@@ -8,7 +8,7 @@ use super::attribute;
 
 /// The parts of one text, as they are read.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Parts {
+pub(super) struct RichTextParts {
     /// What stands before the part that is read.
     before: String,
     text: String,
@@ -18,7 +18,7 @@ pub(super) struct Parts {
     found: Option<String>,
 }
 
-impl Parts {
+impl RichTextParts {
     /// Takes an event of the XML between the beginning and the end of the text.
     pub(super) fn take(&mut self, event: &Event<'_>) {
         match event {
@@ -81,7 +81,7 @@ impl Parts {
 /// What is doubtful of each of the texts that cells share, in their order.
 pub(super) fn shared(text: &str) -> Vec<Option<String>> {
     let mut xml = quick_xml::Reader::from_str(text);
-    let (mut found, mut parts) = (Vec::new(), Parts::default());
+    let (mut found, mut parts) = (Vec::new(), RichTextParts::default());
     loop {
         let event = match xml.read_event() {
             Ok(Event::Eof) | Err(_) => return found,
@@ -90,7 +90,7 @@ pub(super) fn shared(text: &str) -> Vec<Option<String>> {
         parts.take(&event);
         match event {
             Event::Start(element) if element.local_name().as_ref() == "si" => {
-                parts = Parts::default()
+                parts = RichTextParts::default()
             }
             Event::Empty(element) if element.local_name().as_ref() == "si" => found.push(None),
             Event::End(element) if element.local_name().as_ref() == "si" => {

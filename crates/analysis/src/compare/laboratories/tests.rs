@@ -153,7 +153,7 @@ fn laboratories_are_taken_out_without_another_inverse() {
         let r = if i == j { 1.0 } else { 0.3 / (1.0 + i.abs_diff(j) as f64) };
         r * u(i) * u(j)
     });
-    let results = Results { values: (0..n).map(value).collect(), covariance };
+    let results = CorrelatedResults { values: (0..n).map(value).collect(), covariance };
     let everybody: Vec<usize> = (0..n).collect();
     let precision = results.precision(&everybody).unwrap();
     for out in [&[0][..], &[8], &[2, 5], &[0, 1, 7], &[1, 3, 4, 8]] {

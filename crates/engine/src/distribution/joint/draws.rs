@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::rank_sample::RankSample;
-use super::{Group, Joint, paired};
+use super::{Joint, JointGroup, paired};
 use crate::distribution::{Distribution, Stream, StreamKey, normal};
 use crate::linalg::packed;
 use crate::number::{CodePath, Column, Kernel};
@@ -189,7 +189,7 @@ impl<'a> Draws<'a> {
     #[inline(always)]
     fn group(
         &mut self,
-        group: &Group,
+        group: &JointGroup,
         members: &[Member],
         scores: bool,
         registers: &mut [Column],

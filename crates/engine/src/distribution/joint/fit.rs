@@ -44,11 +44,11 @@ struct Pairs<'a> {
     margins: Vec<Margin<'a>>,
     /// The number of each member's shape.
     shapes: Vec<usize>,
-    found: HashMap<[usize; 2], Known>,
+    found: HashMap<[usize; 2], KnownPair>,
 }
 
 #[derive(Debug)]
-struct Known {
+struct KnownPair {
     pair: Pair,
     /// Coefficients of the normals, by the bits of those of the quantities.
     fits: HashMap<u64, Option<f64>>,
@@ -72,9 +72,9 @@ impl<'a> Pairs<'a> {
         Self { margins, shapes, found: HashMap::new() }
     }
 
-    fn known(&mut self, i: usize, j: usize) -> &mut Known {
+    fn known(&mut self, i: usize, j: usize) -> &mut KnownPair {
         let Self { margins, shapes, found } = self;
-        found.entry([shapes[i], shapes[j]]).or_insert_with(|| Known {
+        found.entry([shapes[i], shapes[j]]).or_insert_with(|| KnownPair {
             pair: Pair::new(&margins[i], &margins[j]),
             fits: HashMap::new(),
         })
@@ -86,7 +86,7 @@ impl<'a> Pairs<'a> {
 
     /// The coefficient of the normals of two members for that of the quantities.
     fn fit(&mut self, i: usize, j: usize, coefficient: f64) -> Option<f64> {
-        let Known { pair, fits } = self.known(i, j);
+        let KnownPair { pair, fits } = self.known(i, j);
         *fits.entry(coefficient.to_bits()).or_insert_with(|| pair.fit(coefficient))
     }
 }

@@ -21,10 +21,10 @@ const PAIRS: usize = 1000;
 /// Joint draws by what they depend on: the shapes of the linked quantities and their coefficients.
 /// Copies share what they hold.
 #[derive(Clone, Debug, Default)]
-pub struct Fits(Arc<Known>);
+pub struct Fits(Arc<KnownFits>);
 
 #[derive(Debug, Default)]
-struct Known {
+struct KnownFits {
     draws: Mutex<Draws>,
     profiles: Mutex<Profiles>,
 }

@@ -39,7 +39,7 @@ pub use error::CorrelationError;
 pub use fits::Fits;
 pub(crate) use linked::{Dependence, Linked};
 pub(crate) use links::connected;
-use profile::Table;
+use profile::QuantileTable;
 use profiles::{Profiled, Profiles};
 use rank_sample::{RankSample, rank_samples};
 pub use scores::FromScore;
@@ -77,7 +77,7 @@ enum MemberShape {
     /// The quantity, but for its location and scale.
     Plain,
     /// A value of this shape, that the table gives.
-    Tabulated(Standard, Arc<Table>),
+    Tabulated(Standard, Arc<QuantileTable>),
 }
 
 impl Member {
@@ -85,7 +85,7 @@ impl Member {
         Self { index, shape: MemberShape::Plain }
     }
 
-    fn table(&self) -> Option<&Table> {
+    fn table(&self) -> Option<&QuantileTable> {
         match &self.shape {
             MemberShape::Plain => None,
             MemberShape::Tabulated(_, table) => Some(table),
@@ -103,7 +103,7 @@ impl Member {
 
 /// Quantities that are drawn together.
 #[derive(Clone, Debug)]
-struct Group {
+struct JointGroup {
     members: Vec<Member>,
     /// Lower triangular factor of the correlation matrix, packed.
     factor: Vec<f64>,
@@ -114,7 +114,7 @@ struct Group {
 /// How a set of quantities is drawn, but for the locations and scales that each row has of its own.
 #[derive(Clone, Debug, Default)]
 pub struct Joint {
-    groups: Vec<Group>,
+    groups: Vec<JointGroup>,
     /// Outputs of saved results.
     rank_samples: Vec<RankSample>,
     /// Parameters of fits, each trial's from points of its own.
@@ -177,7 +177,7 @@ impl Joint {
                 continue;
             }
             let dof = members.first().map(|&m| distributions[m].drawn_dof());
-            joint.groups.push(Group {
+            joint.groups.push(JointGroup {
                 members: members.iter().map(|&m| Member::plain(m)).collect(),
                 factor: ensemble.coefficients.factor(),
                 dof: dof.filter(|dof| dof.is_finite()),
@@ -238,7 +238,7 @@ impl Joint {
             Arc::make_mut(&mut self.changes).extend(changes);
             self.copula.extend(members);
         }
-        self.groups.push(Group { members: drawn, factor: wanted.factor(), dof: None });
+        self.groups.push(JointGroup { members: drawn, factor: wanted.factor(), dof: None });
         Ok(())
     }
 

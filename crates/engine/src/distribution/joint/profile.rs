@@ -163,7 +163,7 @@ const OUTSIDE: i32 = PLACES as i32 - 1;
 /// The values of a quantity at standard normal ones: cells on \[-9, 9\]. Where there is none the
 /// figures are no numbers, and the quantile function itself has to be taken.
 #[derive(Clone, Debug)]
-pub(super) struct Table {
+pub(super) struct QuantileTable {
     distribution: Arc<Distribution>,
     mean: f64,
     /// For each power its coefficients by place.
@@ -172,7 +172,7 @@ pub(super) struct Table {
     high: Box<[f64; PLACES]>,
 }
 
-impl Table {
+impl QuantileTable {
     fn new(distribution: &Arc<Distribution>, mean: f64, cells: &[Option<Cell>]) -> Self {
         let none = || Box::new([f64::NAN; PLACES]);
         let (mut low, mut high) = (none(), none());
@@ -246,12 +246,12 @@ pub(super) struct Profile {
 
 impl Profile {
     /// The profile of a distribution that has a variance, and its table for draws.
-    pub(super) fn of(distribution: &Arc<Distribution>) -> (Self, Table) {
+    pub(super) fn of(distribution: &Arc<Distribution>) -> (Self, QuantileTable) {
         let mean =
             distribution.saved().map_or_else(|| distribution.mean(), SavedResult::drawn_mean);
         let std = distribution.standard_deviation();
         let (profile, cells) = Self::new(mean, std, |z| at_normal(distribution, z));
-        (profile, Table::new(distribution, mean, &cells))
+        (profile, QuantileTable::new(distribution, mean, &cells))
     }
 
     /// The profile of a rising function of z with this mean and standard deviation, and the cells

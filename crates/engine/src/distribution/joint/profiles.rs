@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::copula::{self, Margin};
-use super::profile::{Profile, Table};
+use super::profile::{Profile, QuantileTable};
 use super::standard::Standard;
 
 /// Profiles that are kept at a time.
@@ -18,7 +18,7 @@ pub(super) struct Profiles(Vec<(Standard, Arc<Profiled>)>);
 pub(super) struct Profiled {
     profile: Profile,
     terms: Vec<f64>,
-    pub(super) table: Arc<Table>,
+    pub(super) table: Arc<QuantileTable>,
 }
 
 impl Profiles {

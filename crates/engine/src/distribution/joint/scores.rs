@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use super::profile::{Profile, Table, at_normal};
+use super::profile::{Profile, QuantileTable, at_normal};
 use super::standard::{Standard, plain};
 use crate::distribution::Distribution;
 use crate::number::{CodePath, Column, Kernel};
@@ -14,14 +14,14 @@ use crate::number::{CodePath, Column, Kernel};
 pub struct FromScore {
     location: f64,
     scale: f64,
-    function: Function,
+    function: ScoreFunction,
 }
 
 #[derive(Clone, Debug)]
-enum Function {
+enum ScoreFunction {
     /// The score itself.
     Score,
-    Tabulated(Arc<Table>),
+    Tabulated(Arc<QuantileTable>),
     /// The quantile function of a quantity without a variance.
     Quantiles(Arc<Distribution>),
 }
@@ -34,21 +34,23 @@ impl FromScore {
         match shape.distribution() {
             None => {
                 let [location, scale] = plain(distribution);
-                Self { location, scale, function: Function::Score }
+                Self { location, scale, function: ScoreFunction::Score }
             }
             Some(standard) if standard.standard_deviation().is_finite() => {
                 let (_, table) = Profile::of(&standard);
-                Self { location, scale, function: Function::Tabulated(Arc::new(table)) }
+                Self { location, scale, function: ScoreFunction::Tabulated(Arc::new(table)) }
             }
-            Some(standard) => Self { location, scale, function: Function::Quantiles(standard) },
+            Some(standard) => {
+                Self { location, scale, function: ScoreFunction::Quantiles(standard) }
+            }
         }
     }
 
     /// Whether both have one shape, at another place or of another width.
     pub fn has_shape_of(&self, other: &Self) -> bool {
         match (&self.function, &other.function) {
-            (Function::Score, Function::Score) => true,
-            (Function::Tabulated(own), Function::Tabulated(other)) => own.is_of(other),
+            (ScoreFunction::Score, ScoreFunction::Score) => true,
+            (ScoreFunction::Tabulated(own), ScoreFunction::Tabulated(other)) => own.is_of(other),
             _ => false,
         }
     }
@@ -71,9 +73,9 @@ impl FromScore {
     #[inline(never)]
     pub fn standard_on(&self, path: CodePath, scores: &Column, out: &mut Column) {
         match &self.function {
-            Function::Score => out.0 = scores.0,
-            Function::Tabulated(table) => path.run(Tabulated { table, scores, out }),
-            Function::Quantiles(distribution) => quantiles(distribution, scores, out),
+            ScoreFunction::Score => out.0 = scores.0,
+            ScoreFunction::Tabulated(table) => path.run(Tabulated { table, scores, out }),
+            ScoreFunction::Quantiles(distribution) => quantiles(distribution, scores, out),
         }
     }
 
@@ -90,7 +92,7 @@ impl FromScore {
 }
 
 struct Tabulated<'a> {
-    table: &'a Table,
+    table: &'a QuantileTable,
     scores: &'a Column,
     out: &'a mut Column,
 }

@@ -5,13 +5,13 @@
 use std::collections::HashSet;
 
 use super::error::FormulaError;
-use super::syntax::{Kind, Operator, Tree};
+use super::syntax::{NodeKind, Operator, Tree};
 use super::typing::Scope;
 
 /// The brackets that stand for another number than the quantities of their dimension.
 pub(super) fn misread(text: &str, tree: &Tree, scope: &Scope) -> Vec<FormulaError> {
     let name = |node: usize| {
-        let node = tree.nodes.get(node).filter(|node| node.kind == Kind::Name)?;
+        let node = tree.nodes.get(node).filter(|node| node.kind == NodeKind::Name)?;
         text.get(node.span.clone())
     };
     // `p/[hPa]` knows the unit of `p`
@@ -19,15 +19,15 @@ pub(super) fn misread(text: &str, tree: &Tree, scope: &Scope) -> Vec<FormulaErro
         .nodes
         .iter()
         .filter_map(|node| match &node.kind {
-            Kind::Infix { operator: Operator::Divide, left, right, .. } => {
+            NodeKind::Infix { operator: Operator::Divide, left, right, .. } => {
                 name(*left).and_then(|name| scope.declared(name)).map(|_| *right)
             }
             _ => None,
         })
         .collect();
     let brackets = tree.nodes.iter().enumerate().filter_map(|(index, node)| match &node.kind {
-        Kind::Unit(unit) if !known.contains(&index) => Some((unit, &node.span)),
-        Kind::InUnit { unit, .. } => Some((unit, &node.span)),
+        NodeKind::Unit(unit) if !known.contains(&index) => Some((unit, &node.span)),
+        NodeKind::InUnit { unit, .. } => Some((unit, &node.span)),
         _ => None,
     });
     brackets

@@ -1,9 +1,9 @@
 //! Which parts of a formula are complex, and that what is done with them is known of complex numbers.
 
 use super::error::FormulaError;
-use super::function::{Function, Part};
+use super::function::{ComplexPart, Function};
 use super::message::excerpt;
-use super::syntax::{Kind, Operator, Tree};
+use super::syntax::{NodeKind, Operator, Tree};
 use super::typing::Scope;
 use crate::number::Unary;
 
@@ -23,10 +23,10 @@ pub(super) fn complexity(text: &str, tree: &Tree, scope: &Scope) -> (bool, Vec<F
             FormulaError::Complex { reason, span }
         };
         let found = match &node.kind {
-            Kind::Name => scope.is_complex(text.get(node.span.clone()).unwrap_or_default()),
-            Kind::Negate(x) => is(x),
-            Kind::InUnit { number, .. } => is(number),
-            Kind::Infix {
+            NodeKind::Name => scope.is_complex(text.get(node.span.clone()).unwrap_or_default()),
+            NodeKind::Negate(x) => is(x),
+            NodeKind::InUnit { number, .. } => is(number),
+            NodeKind::Infix {
                 operator:
                     Operator::Add
                     | Operator::Subtract
@@ -37,18 +37,18 @@ pub(super) fn complexity(text: &str, tree: &Tree, scope: &Scope) -> (bool, Vec<F
                 right,
                 ..
             } => is(left) || is(right),
-            Kind::Infix { operator, left, right, .. } => {
+            NodeKind::Infix { operator, left, right, .. } => {
                 let operand = [left, right].into_iter().find(|operand| is(operand));
                 let what = format!("`{}`", operator.name());
                 errors.extend(operand.map(|operand| refused(&what, *operand)));
                 false
             }
-            Kind::Call { function: Some(function), arguments, .. } => {
+            NodeKind::Call { function: Some(function), arguments, .. } => {
                 let operand = arguments.iter().find(|operand| is(operand));
                 match (function, operand) {
                     (_, None) => false,
-                    (Function::One(Unary::Abs) | Function::Part(Part::Conjugate), _)
-                    | (Function::Part(_), _) => *function == Function::Part(Part::Conjugate),
+                    (Function::One(Unary::Abs) | Function::Part(ComplexPart::Conjugate), _)
+                    | (Function::Part(_), _) => *function == Function::Part(ComplexPart::Conjugate),
                     (
                         Function::One(
                             Unary::Sqrt
@@ -72,7 +72,7 @@ pub(super) fn complexity(text: &str, tree: &Tree, scope: &Scope) -> (bool, Vec<F
                     }
                 }
             }
-            Kind::Curve { argument, .. } => {
+            NodeKind::Curve { argument, .. } => {
                 if is(argument) {
                     errors.push(refused("a calibration function", *argument));
                 }

@@ -6,11 +6,11 @@ use std::ops::Range;
 use super::error::{FormulaError, Operand};
 use super::evaluate::constants;
 use super::fraction::{Fraction, fractions};
-use super::function::{Function, Part};
+use super::function::{ComplexPart, Function};
 use super::message::excerpt;
 use super::scale::LevelPart;
 use super::suggest;
-use super::syntax::{Kind, NEGATION, Node, Operator, TableCall, Tree};
+use super::syntax::{NEGATION, Node, NodeKind, Operator, TableCall, Tree};
 use super::tie::Tie;
 use super::typing::{Scope, TableData, Typing};
 use crate::number::{Binary, Unary};
@@ -88,44 +88,44 @@ impl<'c> Checker<'c> {
     fn node(&mut self, index: usize, node: &Node) -> (Typing, Tie) {
         let free = |typing: Typing| (typing, Tie::of(typing));
         match &node.kind {
-            Kind::Number(0.0) => free(Typing::ANY),
-            Kind::Number(_) | Kind::Pi => free(Typing::NUMBER),
-            Kind::Name => free(self.name(&node.span)),
-            Kind::Unit(unit) => {
+            NodeKind::Number(0.0) => free(Typing::ANY),
+            NodeKind::Number(_) | NodeKind::Pi => free(Typing::NUMBER),
+            NodeKind::Name => free(self.name(&node.span)),
+            NodeKind::Unit(unit) => {
                 // one such unit is the size of a degree, not a temperature
                 let celsius_exponent = unit.celsius_exponent();
                 let typing = Typing { zero: None, celsius_exponent, ..Typing::in_unit(unit) };
                 (typing, Tie::None)
             }
-            Kind::Constant(constant) => free(Typing::of(constant.dimension())),
-            Kind::InUnit { number, unit } => {
+            NodeKind::Constant(constant) => free(Typing::of(constant.dimension())),
+            NodeKind::InUnit { number, unit } => {
                 self.refuse_unit_of_level(index, *number, unit);
                 free(self.in_unit(*number, unit, &node.span))
             }
-            Kind::Negate(x) => (self.typing(*x), self.tie(*x).times(-1.0)),
-            Kind::Infix { operator, operator_span, left, right } => {
+            NodeKind::Negate(x) => (self.typing(*x), self.tie(*x).times(-1.0)),
+            NodeKind::Infix { operator, operator_span, left, right } => {
                 self.infix(*operator, operator_span, (index, &node.span), [*left, *right])
             }
-            Kind::Joined { joint, span, left, right } => {
+            NodeKind::Joined { joint, span, left, right } => {
                 self.truths(joint.name(), span, &[*left, *right]);
                 free(Typing::NUMBER)
             }
-            Kind::Not { span, of } => {
+            NodeKind::Not { span, of } => {
                 self.truths(NEGATION, span, &[*of]);
                 free(Typing::NUMBER)
             }
-            Kind::Table { x, call } => free(self.table(*x, call)),
-            Kind::Solve { body, unknown, from, to } => {
+            NodeKind::Table { x, call } => free(self.table(*x, call)),
+            NodeKind::Solve { body, unknown, from, to } => {
                 free(self.solve(&node.span, body, unknown, [*from, *to]))
             }
-            Kind::Curve { curve, inverse, argument } => {
+            NodeKind::Curve { curve, inverse, argument } => {
                 free(self.curve(curve, *inverse, *argument))
             }
-            Kind::Call { function: None, name_span, .. } => {
+            NodeKind::Call { function: None, name_span, .. } => {
                 self.no_function(name_span);
                 free(Typing::ANY)
             }
-            Kind::Call { function: Some(function), name_span, arguments } => {
+            NodeKind::Call { function: Some(function), name_span, arguments } => {
                 if function.arity().admits(arguments.len()) {
                     free(self.call(*function, name_span, &node.span, arguments))
                 } else {
@@ -213,8 +213,9 @@ impl<'c> Checker<'c> {
             self.report(FormulaError::UnknownIsDefined { name, span });
             return typing;
         }
-        let is_unknown =
-            |node: &Node| node.kind == Kind::Name && self.text.get(node.span.clone()) == Some(name);
+        let is_unknown = |node: &Node| {
+            node.kind == NodeKind::Name && self.text.get(node.span.clone()) == Some(name)
+        };
         if !body.nodes.iter().any(is_unknown) && !body.has_solve() {
             let (name, span) = (name.to_owned(), unknown.clone());
             self.report(FormulaError::UnknownNotUsed { name, span });
@@ -442,7 +443,7 @@ impl<'c> Checker<'c> {
             }
             // the parser reads them as sums, and as nodes of their own
             Function::Sum | Function::Mean | Function::Table | Function::Solve => Typing::ANY,
-            Function::Part(Part::Argument) => {
+            Function::Part(ComplexPart::Argument) => {
                 self.without_zero(name, first);
                 Typing::NUMBER
             }
@@ -537,14 +538,14 @@ impl<'c> Checker<'c> {
         let is_number = |index: usize| self.fractions.get(index).is_some_and(Option::is_some);
         loop {
             index = match &self.tree.nodes.get(index)?.kind {
-                Kind::Name => return self.scope.given(self.slice(&self.tree.span(index))),
-                Kind::Negate(x) => *x,
-                Kind::Infix { operator: Operator::Multiply, left, right, .. }
+                NodeKind::Name => return self.scope.given(self.slice(&self.tree.span(index))),
+                NodeKind::Negate(x) => *x,
+                NodeKind::Infix { operator: Operator::Multiply, left, right, .. }
                     if is_number(*left) =>
                 {
                     *right
                 }
-                Kind::Infix { operator, left, right, .. } => match operator {
+                NodeKind::Infix { operator, left, right, .. } => match operator {
                     Operator::Add | Operator::Subtract => *left,
                     Operator::Multiply | Operator::Divide if is_number(*right) => *left,
                     _ => return None,

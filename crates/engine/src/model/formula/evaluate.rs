@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use super::dimension::check;
 use super::error::FormulaError;
-use super::function::{Function, Part};
+use super::function::{ComplexPart, Function};
 use super::suggest;
-use super::syntax::{Joint, Kind, Operator, Tree};
+use super::syntax::{Joint, NodeKind, Operator, Tree};
 use super::typing::{Scope, Typing};
 use crate::model::{NumberForm, Recorder, Root, Traced, in_unit};
 use crate::number::{Binary, Number, Routine, Unary};
@@ -32,7 +32,7 @@ pub(super) fn evaluate<T: Number>(
     let constants = constants(tree);
     let mut results: Vec<T> = Vec::with_capacity(tree.nodes.len());
     for node in &tree.nodes {
-        if let Kind::Infix { operator: Operator::Divide, left, right, .. } = &node.kind
+        if let NodeKind::Infix { operator: Operator::Divide, left, right, .. } = &node.kind
             && let Some((from, to)) = converted(text, tree, scope, [*left, *right])
         {
             let value = at(&results, *left);
@@ -44,7 +44,7 @@ pub(super) fn evaluate<T: Number>(
             continue;
         }
         let result = match &node.kind {
-            Kind::Name => {
+            NodeKind::Name => {
                 let name = text.get(node.span.clone()).unwrap_or_default();
                 let value = values.get(name).copied();
                 value.ok_or_else(|| FormulaError::UnknownName {
@@ -54,7 +54,7 @@ pub(super) fn evaluate<T: Number>(
                     known: scope.names().map(str::to_owned).collect(),
                 })?
             }
-            Kind::Call {
+            NodeKind::Call {
                 function: Some(function @ (Function::Kelvin | Function::Celsius)),
                 arguments,
                 ..
@@ -76,19 +76,19 @@ pub(super) fn evaluate<T: Number>(
                     _ => value,
                 }
             }
-            Kind::Infix { operator: Operator::Divide, left, right, .. }
+            NodeKind::Infix { operator: Operator::Divide, left, right, .. }
                 if typings.get(*left).is_some_and(|typing| typing.zero.is_some()) =>
             {
                 let zero = typings.get(*left).and_then(|typing| typing.zero);
                 let shift = match tree.nodes.get(*right).map(|node| &node.kind) {
-                    Some(Kind::Unit(unit)) if unit.zero().is_some() => {
+                    Some(NodeKind::Unit(unit)) if unit.zero().is_some() => {
                         Zero::shift(zero, unit.zero()).unwrap_or(0.0) - unit.offset()
                     }
                     _ => 0.0,
                 };
                 shifted(at(&results, *left), shift) / at(&results, *right)
             }
-            Kind::Curve { curve, inverse, argument } => {
+            NodeKind::Curve { curve, inverse, argument } => {
                 let typing = typings.get(*argument).copied().unwrap_or(Typing::ANY);
                 let from = if *inverse { &curve.y } else { &curve.x };
                 let argument = at(&results, *argument);
@@ -106,12 +106,14 @@ pub(super) fn evaluate<T: Number>(
                 })?;
                 curve.value(argument, &parameters, *inverse)
             }
-            Kind::InUnit { number, unit } => match tree.nodes.get(*number).map(|node| &node.kind) {
-                Some(Kind::Number(number)) => T::constant(unit.value_to_si(*number)),
-                _ if unit.offset() == 0.0 => at(&results, *number) * unit.factor(),
-                _ => at(&results, *number) * unit.factor() + unit.offset(),
-            },
-            Kind::Table { x, call } => match scope.table(call) {
+            NodeKind::InUnit { number, unit } => {
+                match tree.nodes.get(*number).map(|node| &node.kind) {
+                    Some(NodeKind::Number(number)) => T::constant(unit.value_to_si(*number)),
+                    _ if unit.offset() == 0.0 => at(&results, *number) * unit.factor(),
+                    _ => at(&results, *number) * unit.factor() + unit.offset(),
+                }
+            }
+            NodeKind::Table { x, call } => match scope.table(call) {
                 Some(Some(data)) => {
                     // the abscissas count from the zero of their column
                     let zero = typings.get(*x).and_then(|typing| typing.zero);
@@ -124,7 +126,7 @@ pub(super) fn evaluate<T: Number>(
                     return Err(FormulaError::TableOutOfPlace { file, span });
                 }
             },
-            Kind::Solve { body, unknown, from, to } => {
+            NodeKind::Solve { body, unknown, from, to } => {
                 let typing = [from, to].map(|end| typings.get(*end).copied());
                 let typing = typing.into_iter().flatten().find(|typing| typing.dimension.is_some());
                 let mut inner = scope.clone();
@@ -155,7 +157,7 @@ fn shifted<T: Number>(value: T, by: f64) -> T {
 /// The unit that the value of a node is the number in, if the node is a name whose units are not
 /// checked.
 fn declared<'s>(text: &str, tree: &Tree, scope: &'s Scope, index: usize) -> Option<&'s Unit> {
-    let node = tree.nodes.get(index).filter(|node| node.kind == Kind::Name)?;
+    let node = tree.nodes.get(index).filter(|node| node.kind == NodeKind::Name)?;
     scope.declared(text.get(node.span.clone())?)
 }
 
@@ -179,7 +181,7 @@ fn converted<'s>(
 ) -> Option<(&'s Unit, &'s Unit)> {
     let from = declared(text, tree, scope, left)?;
     let to = match tree.nodes.get(right).map(|node| &node.kind) {
-        Some(Kind::Unit(unit)) => unit.as_ref(),
+        Some(NodeKind::Unit(unit)) => unit.as_ref(),
         _ => return None,
     };
     let is_alike = from.is_compatible(to) && from.zero() == to.zero();
@@ -193,15 +195,20 @@ pub(super) fn constants(tree: &Tree) -> Vec<Option<f64>> {
     for node in &tree.nodes {
         let known = |index: &usize| constants.get(*index).is_some_and(Option::is_some);
         let is_constant = match &node.kind {
-            Kind::Number(_) | Kind::Pi => true,
-            Kind::Name | Kind::Unit(_) | Kind::Constant(_) | Kind::InUnit { .. } => false,
-            Kind::Table { .. } | Kind::Solve { .. } | Kind::Curve { .. } => false,
-            Kind::Joined { left, right, .. } => known(left) && known(right),
-            Kind::Not { of, .. } => known(of),
-            Kind::Negate(x) => known(x),
-            Kind::Infix { left, right, .. } => known(left) && known(right),
-            Kind::Call { function: None | Some(Function::Kelvin | Function::Celsius), .. } => false,
-            Kind::Call { arguments, .. } => arguments.iter().all(known),
+            NodeKind::Number(_) | NodeKind::Pi => true,
+            NodeKind::Name
+            | NodeKind::Unit(_)
+            | NodeKind::Constant(_)
+            | NodeKind::InUnit { .. } => false,
+            NodeKind::Table { .. } | NodeKind::Solve { .. } | NodeKind::Curve { .. } => false,
+            NodeKind::Joined { left, right, .. } => known(left) && known(right),
+            NodeKind::Not { of, .. } => known(of),
+            NodeKind::Negate(x) => known(x),
+            NodeKind::Infix { left, right, .. } => known(left) && known(right),
+            NodeKind::Call {
+                function: None | Some(Function::Kelvin | Function::Celsius), ..
+            } => false,
+            NodeKind::Call { arguments, .. } => arguments.iter().all(known),
         };
         let value = if is_constant { apply(&node.kind, &values, &constants) } else { None };
         constants.push(value);
@@ -211,34 +218,34 @@ pub(super) fn constants(tree: &Tree) -> Vec<Option<f64>> {
 }
 
 /// One node from those before it; `None` for a call that is wrong, and for a name.
-fn apply<T: Number>(kind: &Kind, results: &[T], constants: &[Option<f64>]) -> Option<T> {
+fn apply<T: Number>(kind: &NodeKind, results: &[T], constants: &[Option<f64>]) -> Option<T> {
     Some(match kind {
-        Kind::Number(value) => T::constant(*value),
-        Kind::Pi => T::constant(std::f64::consts::PI),
-        Kind::Name
-        | Kind::InUnit { .. }
-        | Kind::Table { .. }
-        | Kind::Solve { .. }
-        | Kind::Curve { .. } => return None,
-        Kind::Joined { joint, left, right, .. } => {
+        NodeKind::Number(value) => T::constant(*value),
+        NodeKind::Pi => T::constant(std::f64::consts::PI),
+        NodeKind::Name
+        | NodeKind::InUnit { .. }
+        | NodeKind::Table { .. }
+        | NodeKind::Solve { .. }
+        | NodeKind::Curve { .. } => return None,
+        NodeKind::Joined { joint, left, right, .. } => {
             let [x, y] = [left, right].map(|part| truth(at(results, *part)));
             match joint {
                 Joint::And => x * y,
                 Joint::Or => x.max(y),
             }
         }
-        Kind::Not { of, .. } => at(results, *of).binary(Binary::Equal, T::constant(0.0)),
-        Kind::Unit(unit) => T::constant(unit.factor()),
-        Kind::Constant(constant) => T::constant(constant.value()),
-        Kind::Negate(x) => -at(results, *x),
-        Kind::Infix { operator: Operator::Power, left, right, .. } => {
+        NodeKind::Not { of, .. } => at(results, *of).binary(Binary::Equal, T::constant(0.0)),
+        NodeKind::Unit(unit) => T::constant(unit.factor()),
+        NodeKind::Constant(constant) => T::constant(constant.value()),
+        NodeKind::Negate(x) => -at(results, *x),
+        NodeKind::Infix { operator: Operator::Power, left, right, .. } => {
             let exponent = constants.get(*right).copied().flatten();
             power(at(results, *left), at(results, *right), exponent)
         }
-        Kind::Infix { operator, left, right, .. } => {
+        NodeKind::Infix { operator, left, right, .. } => {
             infix(*operator, at(results, *left), at(results, *right))
         }
-        Kind::Call { function, arguments, .. } => {
+        NodeKind::Call { function, arguments, .. } => {
             let function = (*function)?;
             if !function.arity().admits(arguments.len()) {
                 return None;
@@ -250,10 +257,10 @@ fn apply<T: Number>(kind: &Kind, results: &[T], constants: &[Option<f64>]) -> Op
                 Function::Two(operation) | Function::Fold(operation) => {
                     arguments.fold(first, |result, argument| result.binary(operation, argument))
                 }
-                Function::Part(Part::Real) => first.real_part(),
-                Function::Part(Part::Imaginary) => first.imaginary_part(),
-                Function::Part(Part::Argument) => first.argument(),
-                Function::Part(Part::Conjugate) => first.conjugate(),
+                Function::Part(ComplexPart::Real) => first.real_part(),
+                Function::Part(ComplexPart::Imaginary) => first.imaginary_part(),
+                Function::Part(ComplexPart::Argument) => first.argument(),
+                Function::Part(ComplexPart::Conjugate) => first.conjugate(),
                 Function::If => {
                     let (yes, no) = (arguments.next()?, arguments.next()?);
                     first.binary(Binary::When, yes) + first.binary(Binary::Unless, no)
@@ -334,8 +341,8 @@ fn at<T: Number>(results: &[T], index: usize) -> T {
 }
 
 /// The error for a call that cannot be computed.
-fn wrong_call(text: &str, kind: &Kind) -> FormulaError {
-    let Kind::Call { function, name_span, arguments } = kind else {
+fn wrong_call(text: &str, kind: &NodeKind) -> FormulaError {
+    let NodeKind::Call { function, name_span, arguments } = kind else {
         return FormulaError::Empty;
     };
     let span = name_span.clone();

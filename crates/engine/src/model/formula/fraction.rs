@@ -1,6 +1,6 @@
 //! Exact rational constants, for the exponents of quantities with a dimension.
 
-use super::syntax::{Kind, Operator, Tree};
+use super::syntax::{NodeKind, Operator, Tree};
 use gumption_units::Exponent;
 
 /// A rational number in lowest terms with a positive denominator.
@@ -90,9 +90,9 @@ pub(super) fn fractions(text: &str, tree: &Tree) -> Vec<Option<Fraction>> {
     for node in &tree.nodes {
         let at = |index: usize| found.get(index).copied().flatten();
         let fraction = match &node.kind {
-            Kind::Number(_) => text.get(node.span.clone()).and_then(Fraction::of_decimal),
-            Kind::Negate(x) => at(*x).and_then(Fraction::negate),
-            Kind::Infix { operator, left, right, .. } => {
+            NodeKind::Number(_) => text.get(node.span.clone()).and_then(Fraction::of_decimal),
+            NodeKind::Negate(x) => at(*x).and_then(Fraction::negate),
+            NodeKind::Infix { operator, left, right, .. } => {
                 at(*left).zip(at(*right)).and_then(|(x, y)| match operator {
                     Operator::Add => x.add(y),
                     Operator::Subtract => x.add(y.negate()?),
@@ -102,17 +102,17 @@ pub(super) fn fractions(text: &str, tree: &Tree) -> Vec<Option<Fraction>> {
                     _ => None,
                 })
             }
-            Kind::Pi
-            | Kind::Name
-            | Kind::Unit(_)
-            | Kind::Constant(_)
-            | Kind::InUnit { .. }
-            | Kind::Table { .. }
-            | Kind::Solve { .. }
-            | Kind::Joined { .. }
-            | Kind::Not { .. }
-            | Kind::Curve { .. }
-            | Kind::Call { .. } => None,
+            NodeKind::Pi
+            | NodeKind::Name
+            | NodeKind::Unit(_)
+            | NodeKind::Constant(_)
+            | NodeKind::InUnit { .. }
+            | NodeKind::Table { .. }
+            | NodeKind::Solve { .. }
+            | NodeKind::Joined { .. }
+            | NodeKind::Not { .. }
+            | NodeKind::Curve { .. }
+            | NodeKind::Call { .. } => None,
         };
         found.push(fraction);
     }

@@ -26,12 +26,12 @@ pub(super) enum Function {
     /// The Celsius temperature of a thermodynamic one.
     Celsius,
     /// A part of a complex number.
-    Part(Part),
+    Part(ComplexPart),
 }
 
 /// What is taken of a complex number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum ComplexPart {
     Real,
     Imaginary,
     Argument,
@@ -63,10 +63,10 @@ const FUNCTIONS: [Function; 41] = [
     Function::Mean,
     Function::Kelvin,
     Function::Celsius,
-    Function::Part(Part::Real),
-    Function::Part(Part::Imaginary),
-    Function::Part(Part::Argument),
-    Function::Part(Part::Conjugate),
+    Function::Part(ComplexPart::Real),
+    Function::Part(ComplexPart::Imaginary),
+    Function::Part(ComplexPart::Argument),
+    Function::Part(ComplexPart::Conjugate),
     Function::One(Unary::Floor),
     Function::One(Unary::Ceil),
     Function::One(Unary::Round),
@@ -149,10 +149,10 @@ impl Function {
             Self::Solve => "solve",
             Self::Kelvin => "kelvin",
             Self::Celsius => "celsius",
-            Self::Part(Part::Real) => "re",
-            Self::Part(Part::Imaginary) => "im",
-            Self::Part(Part::Argument) => "arg",
-            Self::Part(Part::Conjugate) => "conj",
+            Self::Part(ComplexPart::Real) => "re",
+            Self::Part(ComplexPart::Imaginary) => "im",
+            Self::Part(ComplexPart::Argument) => "arg",
+            Self::Part(ComplexPart::Conjugate) => "conj",
         }
     }
 

@@ -2,8 +2,8 @@
 //! parentheses that are needed.
 
 use super::Formula;
-use super::function::{Function, Part};
-use super::syntax::{Kind, Node, Operator, Tree};
+use super::function::{ComplexPart, Function};
+use super::syntax::{Node, NodeKind, Operator, Tree};
 use crate::number::{Binary, Unary};
 
 /// Parts inside each other, at most; a formula that is deeper is shown as it was written.
@@ -64,7 +64,8 @@ impl Formula {
     pub fn layout(&self) -> Option<Layout> {
         let mut laid: Vec<Option<Laid>> = Vec::with_capacity(self.tree.nodes.len());
         for node in &self.tree.nodes {
-            let part = Parts { text: &self.text, tree: &self.tree, laid: &mut laid }.of(node)?;
+            let part =
+                LaidParts { text: &self.text, tree: &self.tree, laid: &mut laid }.of(node)?;
             if part.depth > DEEPEST {
                 return None;
             }
@@ -75,37 +76,39 @@ impl Formula {
 }
 
 /// What has been laid out so far.
-struct Parts<'f> {
+struct LaidParts<'f> {
     text: &'f str,
     tree: &'f Tree,
     laid: &'f mut Vec<Option<Laid>>,
 }
 
-impl Parts<'_> {
+impl LaidParts<'_> {
     fn of(&mut self, node: &Node) -> Option<Laid> {
         let written = self.text.get(node.span.clone())?.to_owned();
         Some(match &node.kind {
-            Kind::Number(_) => one(Layout::Number(written)),
-            Kind::Pi => one(Layout::Name("pi".to_owned())),
-            Kind::Name => one(Layout::Name(written)),
-            Kind::Unit(_) | Kind::Constant(_) => one(Layout::Text(within_brackets(&written))),
-            Kind::InUnit { number, .. } => {
+            NodeKind::Number(_) => one(Layout::Number(written)),
+            NodeKind::Pi => one(Layout::Name("pi".to_owned())),
+            NodeKind::Name => one(Layout::Name(written)),
+            NodeKind::Unit(_) | NodeKind::Constant(_) => {
+                one(Layout::Text(within_brackets(&written)))
+            }
+            NodeKind::InUnit { number, .. } => {
                 let number_text = self.text.get(self.tree.span(*number))?.to_owned();
                 self.take(*number)?;
                 let unit = written.get(number_text.len()..).unwrap_or_default();
                 let unit = Layout::Text(format!("\u{202f}{}", within_brackets(unit)));
                 row(Hold::Product, vec![Layout::Number(number_text), unit], 0)
             }
-            Kind::Negate(of) => {
+            NodeKind::Negate(of) => {
                 let of = self.take(*of)?;
                 let depth = of.depth;
                 row(Hold::Sum, vec![Layout::Sign("\u{2212}"), held(of, Hold::Product)], depth)
             }
-            Kind::Infix { operator, left, right, .. } => {
+            NodeKind::Infix { operator, left, right, .. } => {
                 let (left, right) = (self.take(*left)?, self.take(*right)?);
                 infix(*operator, left, right)
             }
-            Kind::Joined { joint, left, right, .. } => {
+            NodeKind::Joined { joint, left, right, .. } => {
                 let (left, right) = (self.take(*left)?, self.take(*right)?);
                 let depth = left.depth.max(right.depth);
                 let (left, right) = (held(left, Hold::Compared), held(right, Hold::Compared));
@@ -115,20 +118,21 @@ impl Parts<'_> {
                 };
                 row(Hold::Truth, vec![left, sign, right], depth)
             }
-            Kind::Not { of, .. } => {
+            NodeKind::Not { of, .. } => {
                 let of = self.take(*of)?;
                 let depth = of.depth;
                 row(Hold::Compared, vec![Layout::Sign("not\u{2002}"), held(of, Hold::One)], depth)
             }
-            Kind::Call { function: Some(function), arguments, .. } => {
+            NodeKind::Call { function: Some(function), arguments, .. } => {
                 let arguments: Option<Vec<Laid>> =
                     arguments.iter().map(|argument| self.take(*argument)).collect();
                 call(*function, arguments?)?
             }
             // as written: what is in them stands in texts of their own
-            Kind::Call { .. } | Kind::Table { .. } | Kind::Solve { .. } | Kind::Curve { .. } => {
-                one(Layout::Text(written))
-            }
+            NodeKind::Call { .. }
+            | NodeKind::Table { .. }
+            | NodeKind::Solve { .. }
+            | NodeKind::Curve { .. } => one(Layout::Text(written)),
         })
     }
 
@@ -189,7 +193,12 @@ fn call(function: Function, mut arguments: Vec<Laid>) -> Option<Laid> {
             of(Layout::Cases(Box::new(parts)), Hold::Sum)
         }
         Function::Two(Binary::Modulo)
-        | Function::Part(Part::Real | Part::Imaginary | Part::Argument | Part::Conjugate)
+        | Function::Part(
+            ComplexPart::Real
+            | ComplexPart::Imaginary
+            | ComplexPart::Argument
+            | ComplexPart::Conjugate,
+        )
         | Function::One(_)
         | Function::Two(_)
         | Function::Fold(_)

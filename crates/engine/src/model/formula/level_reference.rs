@@ -5,7 +5,7 @@
 use super::dimension::Checker;
 use super::function::Function;
 use super::scale_fault::ScaleFault;
-use super::syntax::{Kind, Operator};
+use super::syntax::{NodeKind, Operator};
 use super::typing::{LevelReference, Typing};
 use crate::number::Unary;
 use gumption_units::{Dimension, Unit, Zero};
@@ -17,7 +17,7 @@ const SQUARED_VOLTAGE: Dimension = Dimension::of([2, 4, -6, -2, 0, 0, 0]);
 
 /// A quantity that is written out, in coherent SI units.
 #[derive(Clone, Copy)]
-struct Written {
+struct WrittenQuantity {
     dimension: Dimension,
     value: f64,
 }
@@ -25,7 +25,7 @@ struct Written {
 /// The divisors of a level's argument.
 struct Divisors {
     /// Those that are written out.
-    written: Vec<Written>,
+    written: Vec<WrittenQuantity>,
     /// Whether a quantity with a dimension is among them that is not.
     quantity: bool,
     /// Whether the argument is a number that is the ratio of two quantities.
@@ -95,7 +95,7 @@ impl Checker<'_> {
             None => (self.constant(right).map(f64::abs), left),
         };
         match self.kind(logarithm) {
-            Some(Kind::Call { arguments, .. }) => {
+            Some(NodeKind::Call { arguments, .. }) => {
                 arguments.first().map_or(LevelReference::Unknown, |&argument| {
                     self.reference_of_argument(factor, argument)
                 })
@@ -123,10 +123,10 @@ impl Checker<'_> {
     /// A quantity and the constant that it is divided by, if it is one: `L/10`, `0.1*L`.
     fn divided(&self, index: usize) -> Option<(usize, Option<f64>)> {
         match self.kind(index)? {
-            Kind::Infix { operator: Operator::Divide, left, right, .. } => {
+            NodeKind::Infix { operator: Operator::Divide, left, right, .. } => {
                 Some((*left, self.constant(*right)))
             }
-            Kind::Infix { operator: Operator::Multiply, left, right, .. } => {
+            NodeKind::Infix { operator: Operator::Multiply, left, right, .. } => {
                 let (of, factor) = match self.constant(*left) {
                     Some(factor) => (*right, Some(factor)),
                     None => (*left, self.constant(*right)),
@@ -175,7 +175,7 @@ impl Checker<'_> {
             };
         }
         let divisors = self.divisors(argument);
-        let references: Vec<Written> =
+        let references: Vec<WrittenQuantity> =
             divisors.written.iter().copied().filter(|of| is_reference(of.dimension)).collect();
         match (factor, references.as_slice()) {
             // a number of decibels
@@ -209,15 +209,19 @@ impl Checker<'_> {
                 continue;
             }
             match self.kind(index) {
-                Some(Kind::Infix { operator: Operator::Multiply, left: a, right: b, .. }) => {
+                Some(NodeKind::Infix {
+                    operator: Operator::Multiply, left: a, right: b, ..
+                }) => {
                     left.extend([(*a, divides), (*b, divides)]);
                 }
-                Some(Kind::Infix { operator: Operator::Divide, left: a, right: b, .. }) => {
+                Some(NodeKind::Infix { operator: Operator::Divide, left: a, right: b, .. }) => {
                     left.extend([(*a, divides), (*b, !divides)]);
                 }
-                Some(Kind::Negate(x)) => left.push((*x, divides)),
-                Some(Kind::Call {
-                    function: Some(Function::One(Unary::Abs)), arguments, ..
+                Some(NodeKind::Negate(x)) => left.push((*x, divides)),
+                Some(NodeKind::Call {
+                    function: Some(Function::One(Unary::Abs)),
+                    arguments,
+                    ..
                 }) => {
                     left.extend(arguments.first().map(|&x| (x, divides)));
                 }
@@ -240,8 +244,8 @@ impl Checker<'_> {
     pub(super) fn refuse_other_reference(&mut self, index: usize, [left, right]: [usize; 2]) {
         for (power, quantity) in [(left, right), (right, left)] {
             let is_one = match self.kind(quantity) {
-                Some(Kind::Unit(_)) => true,
-                Some(Kind::InUnit { number, .. }) => self.constant(*number) == Some(1.0),
+                Some(NodeKind::Unit(_)) => true,
+                Some(NodeKind::InUnit { number, .. }) => self.constant(*number) == Some(1.0),
                 _ => false,
             };
             if let Some(written) = self.written(quantity).filter(|_| is_one) {
@@ -254,11 +258,17 @@ impl Checker<'_> {
     /// Refuses the unit of a level's number that is of the kind of its reference and not that reference,
     /// as in `(10^(L/10)) [W]` of a level in dBm.
     pub(super) fn refuse_unit_of_level(&mut self, index: usize, number: usize, unit: &Unit) {
-        let written = Written { dimension: unit.dimension(), value: unit.factor() };
+        let written = WrittenQuantity { dimension: unit.dimension(), value: unit.factor() };
         self.refuse_if_other(index, number, written, format!("1 [{unit}]"));
     }
 
-    fn refuse_if_other(&mut self, index: usize, power: usize, written: Written, quantity: String) {
+    fn refuse_if_other(
+        &mut self,
+        index: usize,
+        power: usize,
+        written: WrittenQuantity,
+        quantity: String,
+    ) {
         let Some((level, zero, divisor)) = self.taken_away(power) else { return };
         let is_of_kind = match (zero, divisor) {
             (Zero::Milliwatt | Zero::Watt, _) => written.dimension == POWER,
@@ -276,14 +286,15 @@ impl Checker<'_> {
 
     /// The name of a level in `10^(L/10)` or `10^(L/20)`, its zero and the divisor.
     fn taken_away(&self, index: usize) -> Option<(usize, Zero, f64)> {
-        let Kind::Infix { operator: Operator::Power, left, right, .. } = self.kind(index)? else {
+        let NodeKind::Infix { operator: Operator::Power, left, right, .. } = self.kind(index)?
+        else {
             return None;
         };
         let (level, divisor) = self.divided(*right)?;
         let divisor = divisor.filter(|divisor| matches!(*divisor, 10.0 | 20.0))?;
         let is_taken = self.constant(*left) == Some(10.0);
         let zero = self.typing(level).zero.filter(|_| is_taken)?;
-        (self.kind(level)? == &Kind::Name).then_some((level, zero, divisor))
+        (self.kind(level)? == &NodeKind::Name).then_some((level, zero, divisor))
     }
 
     /// Whether a node is a quantity that is written out.
@@ -292,20 +303,22 @@ impl Checker<'_> {
     }
 
     /// A quantity that is written out: `[mW]`, `2 [mW]`, `2*[mW]`.
-    fn written(&self, index: usize) -> Option<Written> {
+    fn written(&self, index: usize) -> Option<WrittenQuantity> {
         match self.kind(index)? {
-            Kind::Unit(unit) => Some(Written { dimension: unit.dimension(), value: unit.factor() }),
-            Kind::InUnit { number, unit } => Some(Written {
+            NodeKind::Unit(unit) => {
+                Some(WrittenQuantity { dimension: unit.dimension(), value: unit.factor() })
+            }
+            NodeKind::InUnit { number, unit } => Some(WrittenQuantity {
                 dimension: unit.dimension(),
                 value: self.constant(*number)? * unit.factor(),
             }),
-            Kind::Infix { operator: Operator::Multiply, left, right, .. } => {
+            NodeKind::Infix { operator: Operator::Multiply, left, right, .. } => {
                 let (number, of) = match self.constant(*left) {
                     Some(number) => (number, *right),
                     None => (self.constant(*right)?, *left),
                 };
                 let of = self.written(of)?;
-                Some(Written { value: number * of.value, ..of })
+                Some(WrittenQuantity { value: number * of.value, ..of })
             }
             _ => None,
         }
@@ -317,14 +330,14 @@ impl Checker<'_> {
         self.tree.nodes.iter().any(|node| {
             let inside = whole.start <= node.span.start && node.span.end <= whole.end;
             let unit = match &node.kind {
-                Kind::Unit(unit) | Kind::InUnit { unit, .. } => Some(unit),
+                NodeKind::Unit(unit) | NodeKind::InUnit { unit, .. } => Some(unit),
                 _ => None,
             };
             inside && unit.is_some_and(|unit| is_reference(unit.dimension()))
         })
     }
 
-    fn kind(&self, index: usize) -> Option<&Kind> {
+    fn kind(&self, index: usize) -> Option<&NodeKind> {
         self.tree.nodes.get(index).map(|node| &node.kind)
     }
 }
@@ -341,8 +354,8 @@ fn is_reference(dimension: Dimension) -> bool {
 
 /// What `factor*log10(x/reference)` is above: a power with the factor 10, a voltage with 20, or its
 /// square with 10.
-fn above(factor: f64, reference: Written) -> LevelReference {
-    let Written { dimension, value } = reference;
+fn above(factor: f64, reference: WrittenQuantity) -> LevelReference {
+    let WrittenQuantity { dimension, value } = reference;
     let zero = match (dimension, factor) {
         (POWER, 10.0) | (VOLTAGE, 20.0) => Zero::above(dimension, value),
         (SQUARED_VOLTAGE, 10.0) => Zero::above(VOLTAGE, value.sqrt()),

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::error::{FormulaError, NumberFault, Operand};
 use super::function::Function;
-use super::name::{Shown, is_name, looks_of};
+use super::name::{ShownChar, is_name, looks_of};
 use gumption_units::Dimension;
 
 /// The longest part of a formula that a message quotes, in characters.
@@ -96,7 +96,7 @@ impl fmt::Display for FormulaError {
                  other; give a part of the formula a name of its own"
             ),
             Self::UnexpectedCharacter { found, hint, suggestion, .. } => {
-                write!(f, "`{}` has no meaning in a formula", Shown(*found))?;
+                write!(f, "`{}` has no meaning in a formula", ShownChar(*found))?;
                 more(f, *hint, suggestion.as_deref())
             }
             Self::UnexpectedEnd { expected, opened, .. } => {

@@ -105,7 +105,7 @@ use super::Traced;
 use crate::number::{Number, smallest_first};
 use crate::regression::CurveFunction;
 use gumption_units::Unit;
-use syntax::{Kind, Tree};
+use syntax::{NodeKind, Tree};
 
 /// A formula that has been read.
 #[derive(Clone, Debug, PartialEq)]
@@ -155,7 +155,7 @@ impl Formula {
         let own = places.into_iter().filter_map(|span| Some((self.text.get(span.clone())?, span)));
         let parameters = self.tree.nodes.iter().flat_map(|node| {
             let parameters = match &node.kind {
-                Kind::Curve { curve, .. } => curve.parameters.as_slice(),
+                NodeKind::Curve { curve, .. } => curve.parameters.as_slice(),
                 _ => &[],
             };
             parameters.iter().map(|(name, _)| (name.as_str(), node.span.clone()))
@@ -212,7 +212,8 @@ impl Formula {
         &self,
         numbers_of: impl Fn(ValueSource<'_>) -> Option<Numbers<'u>>,
     ) -> Vec<FormulaError> {
-        let looks_up = |kind: &Kind| matches!(kind, Kind::Table { .. } | Kind::Curve { .. });
+        let looks_up =
+            |kind: &NodeKind| matches!(kind, NodeKind::Table { .. } | NodeKind::Curve { .. });
         if !self.tree.nodes.iter().any(|node| looks_up(&node.kind)) {
             return Vec::new();
         }
@@ -262,7 +263,7 @@ impl Formula {
     pub fn terms(&self) -> Vec<&str> {
         let terms = note_result::terms(&self.tree, &evaluate::constants(&self.tree)).into_iter();
         let names = terms.filter_map(|term| self.tree.nodes.get(term.index));
-        let names = names.filter(|node| node.kind == Kind::Name);
+        let names = names.filter(|node| node.kind == NodeKind::Name);
         names.filter_map(|node| self.text.get(node.span.clone())).collect()
     }
 
@@ -306,11 +307,11 @@ impl Formula {
     /// The names that `sin`, `cos` and `tan` take as they are, with the name of the function.
     pub fn angles(&self) -> impl Iterator<Item = (&'static str, &str)> {
         self.tree.nodes.iter().filter_map(|node| {
-            let Kind::Call { function: Some(function), arguments, .. } = &node.kind else {
+            let NodeKind::Call { function: Some(function), arguments, .. } = &node.kind else {
                 return None;
             };
             let [argument] = arguments.as_slice() else { return None };
-            let of = self.tree.nodes.get(*argument).filter(|of| of.kind == Kind::Name)?;
+            let of = self.tree.nodes.get(*argument).filter(|of| of.kind == NodeKind::Name)?;
             function.takes_angle().then_some((function.name(), self.text.get(of.span.clone())?))
         })
     }
@@ -319,7 +320,7 @@ impl Formula {
     /// its argument or, of `inverse(line, y)`, the whole call.
     pub fn curve_calls(&self) -> impl Iterator<Item = (&Arc<CurveFunction>, &str)> {
         self.tree.nodes.iter().filter_map(|node| {
-            let Kind::Curve { curve, inverse, argument } = &node.kind else { return None };
+            let NodeKind::Curve { curve, inverse, argument } = &node.kind else { return None };
             let span = if *inverse { node.span.clone() } else { self.tree.span(*argument) };
             Some((curve, self.text.get(span)?))
         })

@@ -117,10 +117,10 @@ impl fmt::Display for NameError {
         match self {
             Self::Empty => f.write_str("a name has at least one letter"),
             Self::Start { found } => {
-                write!(f, "a name begins with a letter or `_`, not with `{}`", Shown(*found))
+                write!(f, "a name begins with a letter or `_`, not with `{}`", ShownChar(*found))
             }
             Self::Character { found } => {
-                write!(f, "a name has letters, digits and `_` only, not `{}`", Shown(*found))
+                write!(f, "a name has letters, digits and `_` only, not `{}`", ShownChar(*found))
             }
             Self::Function => f.write_str("it is the name of a function"),
             Self::Operator => f.write_str("it is an operator of formulas"),
@@ -130,9 +130,9 @@ impl fmt::Display for NameError {
 }
 
 /// A character in a message: quotes as they are, control characters escaped.
-pub(super) struct Shown(pub(super) char);
+pub(super) struct ShownChar(pub(super) char);
 
-impl fmt::Display for Shown {
+impl fmt::Display for ShownChar {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             '\'' | '"' | '\\' => write!(f, "{}", self.0),

@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use super::evaluate::constants;
-use super::function::{Function, Part};
+use super::function::{ComplexPart, Function};
 use super::message::excerpt;
 use super::note_product::{Factors, factors};
 use super::note_result::taken_up;
 use super::numbers::{Numbers, Scaled, Use, ValueSource};
-use super::syntax::{Kind, Node, Operator, Tree};
+use super::syntax::{Node, NodeKind, Operator, Tree};
 use crate::number::{Binary, Unary};
 use gumption_units::{Dimension, Unit};
 
@@ -103,8 +103,8 @@ impl<'t, 'u> Walk<'t, 'u> {
     /// The largest of the plain numbers that a node chooses from.
     fn chosen(&self, node: &Node) -> Option<f64> {
         let parts = match &node.kind {
-            Kind::Negate(x) => std::slice::from_ref(x),
-            Kind::Call { function: Some(function @ Function::If), arguments, .. } => {
+            NodeKind::Negate(x) => std::slice::from_ref(x),
+            NodeKind::Call { function: Some(function @ Function::If), arguments, .. } => {
                 taken_up(*function, arguments)
             }
             _ => return None,
@@ -122,7 +122,7 @@ impl<'t, 'u> Walk<'t, 'u> {
         self.constants.get(index).copied().flatten()
     }
 
-    pub(super) fn node(&self, index: usize) -> Option<&'t Kind> {
+    pub(super) fn node(&self, index: usize) -> Option<&'t NodeKind> {
         self.tree.nodes.get(index).map(|node| &node.kind)
     }
 
@@ -163,7 +163,8 @@ impl<'t, 'u> Walk<'t, 'u> {
         let products = self.products();
         // of a width, `0.01*p` is a hundredth of p; `0.1 [V]*p/100` is none
         let is_share = |node: &Node, of: Scaled<'_>| {
-            let is_divided = matches!(node.kind, Kind::Infix { operator: Operator::Divide, .. });
+            let is_divided =
+                matches!(node.kind, NodeKind::Infix { operator: Operator::Divide, .. });
             let is_relative = of.unit.is_some_and(|unit| unit.turn().is_none());
             self.of == Use::Width && is_relative && (of.is_bare || !is_divided)
         };
@@ -172,8 +173,8 @@ impl<'t, 'u> Walk<'t, 'u> {
         let mut turned: Vec<Option<usize>> = Vec::with_capacity(self.tree.nodes.len());
         for (index, (node, product)) in self.tree.nodes.iter().zip(products).enumerate() {
             let operands = match &node.kind {
-                Kind::Infix { left, right, .. } => vec![*left, *right],
-                Kind::InUnit { number, .. } => vec![*number],
+                NodeKind::Infix { left, right, .. } => vec![*left, *right],
+                NodeKind::InUnit { number, .. } => vec![*number],
                 _ => Vec::new(),
             };
             let of = self.scaled(index);
@@ -208,7 +209,7 @@ impl<'t, 'u> Walk<'t, 'u> {
     fn products(&self) -> Vec<(usize, bool)> {
         let mut found: Vec<_> = (0..self.tree.nodes.len()).map(|index| (index, false)).collect();
         for (index, node) in self.tree.nodes.iter().enumerate().rev() {
-            let Kind::Infix {
+            let NodeKind::Infix {
                 operator: operator @ (Operator::Multiply | Operator::Divide),
                 left,
                 right,
@@ -270,30 +271,32 @@ impl<'t, 'u> Walk<'t, 'u> {
             source.and_then(numbers_of).map_or(Scaled::UNKNOWN, Scaled::of)
         };
         match &node.kind {
-            Kind::Name => {
+            NodeKind::Name => {
                 let name = self.text.get(node.span.clone());
                 taken_from(name.map(ValueSource::Name))
             }
-            Kind::Table { call, .. } => taken_from(Some(ValueSource::TableValue(call))),
-            Kind::Curve { curve, inverse: false, .. } => {
+            NodeKind::Table { call, .. } => taken_from(Some(ValueSource::TableValue(call))),
+            NodeKind::Curve { curve, inverse: false, .. } => {
                 taken_from(Some(ValueSource::CurveY(curve)))
             }
-            Kind::Curve { curve, inverse: true, .. } => {
+            NodeKind::Curve { curve, inverse: true, .. } => {
                 taken_from(Some(ValueSource::CurveX(curve)))
             }
-            Kind::Negate(x) => self.scaled(*x),
-            Kind::Unit(unit) => Scaled { factor: plain_factor(unit), ..Scaled::UNKNOWN },
+            NodeKind::Negate(x) => self.scaled(*x),
+            NodeKind::Unit(unit) => Scaled { factor: plain_factor(unit), ..Scaled::UNKNOWN },
             // a quantity of its own is no factor
-            Kind::InUnit { unit, .. } if unit.dimension() == Dimension::LENGTH => {
+            NodeKind::InUnit { unit, .. } if unit.dimension() == Dimension::LENGTH => {
                 Scaled::of(Numbers::Length)
             }
-            Kind::InUnit { unit, .. } if !unit.dimension().is_none() => Scaled::UNKNOWN,
-            Kind::InUnit { number, unit } => {
+            NodeKind::InUnit { unit, .. } if !unit.dimension().is_none() => Scaled::UNKNOWN,
+            NodeKind::InUnit { number, unit } => {
                 let number = self.scaled(*number);
                 Scaled { factor: number.factor * plain_factor(unit), ..number }
             }
-            Kind::Infix { operator, left, right, .. } => self.of_operands(*operator, *left, *right),
-            Kind::Call { function: Some(function), arguments, .. } => {
+            NodeKind::Infix { operator, left, right, .. } => {
+                self.of_operands(*operator, *left, *right)
+            }
+            NodeKind::Call { function: Some(function), arguments, .. } => {
                 self.of_call(*function, arguments)
             }
             _ => Scaled::UNKNOWN,
@@ -342,7 +345,7 @@ impl<'t, 'u> Walk<'t, 'u> {
         let alike = match function {
             Function::One(Unary::Asin | Unary::Acos | Unary::Atan)
             | Function::Two(Binary::Atan2)
-            | Function::Part(Part::Argument) => return Scaled::RADIANS,
+            | Function::Part(ComplexPart::Argument) => return Scaled::RADIANS,
             Function::One(Unary::Abs) | Function::Fold(_) => arguments,
             Function::Two(Binary::Modulo) => arguments.get(..1).unwrap_or_default(),
             Function::If => arguments.get(1..).unwrap_or_default(),

@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use super::function::Function;
 use super::note::{ANGLE_TWICE, FormulaNote, Walk};
 use super::numbers::{Scaled, Use};
-use super::syntax::{Kind, Node, Operator};
+use super::syntax::{Node, NodeKind, Operator};
 use crate::number::{Binary, Shortest, Unary};
 use gumption_units::{Turn, Unit};
 
@@ -21,14 +21,14 @@ const LARGEST_SHARE: f64 = 0.1;
 
 /// What a plain number stands beside.
 #[derive(Clone, Copy)]
-enum Beside<'u> {
+enum Neighbour<'u> {
     /// What is given in a unit.
     Unit(&'u Unit),
     /// An angle that a function gives.
     Angle,
 }
 
-impl<'u> Beside<'u> {
+impl<'u> Neighbour<'u> {
     fn of(scaled: Scaled<'u>) -> Option<Self> {
         let angle = || scaled.is_in_radians().then_some(Self::Angle);
         scaled.bare_unit().map(Self::Unit).or_else(angle)
@@ -50,12 +50,12 @@ impl<'u> Walk<'_, 'u> {
     /// The notes on a node about numbers without units.
     pub(super) fn of_node(&self, node: &Node) -> Option<FormulaNote> {
         match &node.kind {
-            Kind::Infix { operator, left, right, .. } => {
+            NodeKind::Infix { operator, left, right, .. } => {
                 let is_factor =
                     matches!(operator, Operator::Multiply | Operator::Divide | Operator::Power);
                 if is_factor { None } else { self.in_sum(node, *operator, [*left, *right]) }
             }
-            Kind::Call { function: Some(function), arguments, .. } => {
+            NodeKind::Call { function: Some(function), arguments, .. } => {
                 self.in_call(node, *function, arguments)
             }
             _ => None,
@@ -119,9 +119,9 @@ impl<'u> Walk<'_, 'u> {
         };
         let of = self.scaled(name);
         let square = of.square.filter(|_| operator == Operator::Add);
-        let square = square.map(|(name, unit)| (name, Beside::Unit(unit)));
+        let square = square.map(|(name, unit)| (name, Neighbour::Unit(unit)));
         let is_square = square.is_some();
-        let (name, beside) = square.or_else(|| Some((name, Beside::of(of)?)))?;
+        let (name, beside) = square.or_else(|| Some((name, Neighbour::of(of)?)))?;
         // `3^2`, or 9, beside the square of a quantity
         let number = match is_square {
             true => self.written(at).filter(|square| *square >= 0.0)?.sqrt(),
@@ -163,7 +163,7 @@ impl<'u> Walk<'_, 'u> {
 
     /// `min(p, 100)` of per cent: a number that is far from every share and angle.
     fn among(&self, node: &Node, function: Function, parts: &[usize]) -> Option<FormulaNote> {
-        let beside = |index: &usize| Some((*index, Beside::of(self.scaled(*index))?));
+        let beside = |index: &usize| Some((*index, Neighbour::of(self.scaled(*index))?));
         let (name, beside) = parts.iter().find_map(beside)?;
         let is_width = matches!(self.of, Use::Width | Use::Estimate(_));
         // the legs of a triangle are added, of which every number is wrong
@@ -188,7 +188,7 @@ impl<'u> Walk<'_, 'u> {
     /// `mod(a, 360)` of an angle in degrees, which is modulo 360 rad.
     fn period(&self, node: &Node, of: usize, period: usize) -> Option<FormulaNote> {
         let number = self.constant(period).filter(|number| *number != 0.0)?;
-        let beside = Beside::of(self.scaled(of))?;
+        let beside = Neighbour::of(self.scaled(of))?;
         let is_share_of_whole = number.abs() == 1.0 && !beside.is_angle();
         let is_of_radians = beside.is_angle() && (self.has_pi(period) || is_of_turn(number));
         let is_small = beside.unit().is_none() && number.abs() <= TAU;
@@ -199,7 +199,7 @@ impl<'u> Walk<'_, 'u> {
     /// `round(a)` of an angle in degrees, which is to whole radians.
     fn rounded(&self, node: &Node, function: Function, of: usize) -> Option<FormulaNote> {
         let scaled = self.scaled(of);
-        let beside = Beside::of(scaled)?;
+        let beside = Neighbour::of(scaled)?;
         let unit = beside.unit().or_else(|| self.unit_of_result())?;
         // `floor(1000*p)/1000` is of plain numbers, and right
         let is_plain = match beside.is_angle() {
@@ -223,12 +223,12 @@ impl<'u> Walk<'_, 'u> {
         &self,
         node: &Node,
         number: f64,
-        (name, beside): (usize, Beside<'_>),
+        (name, beside): (usize, Neighbour<'_>),
     ) -> FormulaNote {
         let written = Shortest(number);
         let (whole, quoted) = (self.quoted(&node.span), self.quoted(&self.tree.span(name)));
         let text = match beside {
-            Beside::Unit(unit) => {
+            Neighbour::Unit(unit) => {
                 let is = match unit.turn() {
                     Some(_) => format!("{written} rad"),
                     None => {
@@ -242,7 +242,7 @@ impl<'u> Walk<'_, 'u> {
                     self.is_given(name)
                 )
             }
-            Beside::Angle => {
+            Neighbour::Angle => {
                 let unit = self.unit_of_result().map_or("deg", Unit::text);
                 format!(
                     "in `{whole}`, {written} is {written} rad, as `{quoted}` is an angle in radians; \

@@ -6,7 +6,7 @@ use super::function::Function;
 use super::note::{FormulaNote, Walk};
 use super::note_result::terms;
 use super::numbers::{Use, is_same_factor};
-use super::syntax::{Kind, Node, Operator, Tree};
+use super::syntax::{Node, NodeKind, Operator, Tree};
 use super::typing::{RATE, Scope, Typing};
 use crate::number::Unary;
 use gumption_units::{Dimension, Exponent, Turn, Unit};
@@ -49,10 +49,14 @@ pub(super) fn torque<'u>(
         let (mut torques, mut rates) = (0, 0);
         for (index, is_divided) in operands {
             match (walk.node(index), unit_of(walk.slice(index))) {
-                (Some(Kind::Name), Some(unit)) if is_torque(unit) && !is_divided => torques += 1,
-                (Some(Kind::Name), Some(unit)) if is_bare_rate(unit) && !is_divided => rates += 1,
+                (Some(NodeKind::Name), Some(unit)) if is_torque(unit) && !is_divided => {
+                    torques += 1
+                }
+                (Some(NodeKind::Name), Some(unit)) if is_bare_rate(unit) && !is_divided => {
+                    rates += 1
+                }
                 // an efficiency
-                (Some(Kind::Name), Some(unit)) if unit.dimension().is_none() => {}
+                (Some(NodeKind::Name), Some(unit)) if unit.dimension().is_none() => {}
                 _ => return false,
             }
         }
@@ -126,7 +130,7 @@ impl Typed<'_> {
         };
         dimensions.retain(|(dimension, _)| !dimension.is_none());
         let has = |of, divided| dimensions.iter().any(is_one(of, divided));
-        matches!(node.kind, Kind::Infix { .. })
+        matches!(node.kind, NodeKind::Infix { .. })
             && dimensions.len() == 2
             && operands.len() == 2
             && (has(RESISTANCE, true) && has(CAPACITANCE, true)
@@ -136,10 +140,10 @@ impl Typed<'_> {
     /// The argument of a square root.
     fn radicand(&self, index: usize) -> Option<usize> {
         match self.walk.node(index)? {
-            Kind::Call { function: Some(Function::One(Unary::Sqrt)), arguments, .. } => {
+            NodeKind::Call { function: Some(Function::One(Unary::Sqrt)), arguments, .. } => {
                 arguments.first().copied()
             }
-            Kind::Infix { operator: Operator::Power, left, right, .. } => {
+            NodeKind::Infix { operator: Operator::Power, left, right, .. } => {
                 (self.walk.constant(*right)?.abs() == 0.5).then_some(*left)
             }
             _ => None,
@@ -152,7 +156,9 @@ impl Typed<'_> {
         let span = self.walk.tree.span(radicand);
         let nodes = self.walk.tree.nodes.iter().enumerate();
         let within = nodes.filter(|(_, node)| {
-            span.start <= node.span.start && node.span.end <= span.end && node.kind == Kind::Name
+            span.start <= node.span.start
+                && node.span.end <= span.end
+                && node.kind == NodeKind::Name
         });
         let has = |exponent: &Exponent| !exponent.is_zero();
         within.filter_map(|(index, _)| self.dimension(index)).any(|dimension| {

@@ -5,7 +5,7 @@ use super::dimension::check;
 use super::function::Function;
 use super::note::{FormulaNote, Walk};
 use super::numbers::Use;
-use super::syntax::{Kind, Node, Operator, Tree};
+use super::syntax::{Node, NodeKind, Operator, Tree};
 use super::typing::{Scope, Typing};
 use crate::number::Unary;
 use gumption_units::Dimension;
@@ -64,7 +64,7 @@ fn level<'t>(walk: &Walk<'t, '_>, node: &'t Node) -> Option<Level<'t>> {
     let (factor, operands) = walk.factor_and_operands(node);
     let [(logarithm, false)] = operands[..] else { return None };
     match walk.node(logarithm)? {
-        Kind::Call { function: Some(Function::One(Unary::Log10)), arguments, .. } => {
+        NodeKind::Call { function: Some(Function::One(Unary::Log10)), arguments, .. } => {
             Some(Level { node, factor: factor.abs(), argument: *arguments.first()? })
         }
         _ => None,
@@ -77,10 +77,13 @@ fn whole_products<'t>(walk: &Walk<'t, '_>) -> impl Iterator<Item = &'t Node> {
     let mut is_factor = vec![false; tree.nodes.len()];
     for node in &tree.nodes {
         let operands = match &node.kind {
-            Kind::Infix {
-                operator: Operator::Multiply | Operator::Divide, left, right, ..
+            NodeKind::Infix {
+                operator: Operator::Multiply | Operator::Divide,
+                left,
+                right,
+                ..
             } => [Some(*left), Some(*right)],
-            Kind::Negate(x) => [Some(*x), None],
+            NodeKind::Negate(x) => [Some(*x), None],
             _ => continue,
         };
         for operand in operands.into_iter().flatten() {

@@ -9,7 +9,7 @@ use super::function::Function;
 use super::note::{ANGLE_TWICE, FormulaNote, RATE_TWICE, RESULT_TWICE, SHARE_TWICE, Walk};
 use super::note_result::{taken_up, terms};
 use super::numbers::{Numbers, Use, ValueSource, is_same_factor};
-use super::syntax::{Kind, Node, Operator};
+use super::syntax::{Node, NodeKind, Operator};
 use super::typing::RATE;
 use crate::decimal::{to_15_digits, to_digits};
 use crate::number::elementary::{log10, pow};
@@ -241,9 +241,9 @@ pub(super) fn factors<'u>(
             parts.try_fold(first, |known, part| known.alike(part?))
         };
         let found = match &node.kind {
-            Kind::Number(number) => Factors::of_number(*number),
-            Kind::Pi => Factors::of_number(PI),
-            Kind::Name => {
+            NodeKind::Number(number) => Factors::of_number(*number),
+            NodeKind::Pi => Factors::of_number(PI),
+            NodeKind::Name => {
                 let name = walk.slice(index);
                 let of_equation = || {
                     let of = factors_of(name)?;
@@ -251,13 +251,13 @@ pub(super) fn factors<'u>(
                 };
                 given(ValueSource::Name(name)).or_else(of_equation)
             }
-            Kind::Constant(_) => Some(Factors::COHERENT),
-            Kind::Table { call, .. } => given(ValueSource::TableValue(call)),
-            Kind::Curve { curve, inverse: false, .. } => given(ValueSource::CurveY(curve)),
-            Kind::Curve { curve, inverse: true, .. } => given(ValueSource::CurveX(curve)),
-            Kind::Unit(unit) | Kind::InUnit { unit, .. } => Factors::in_unit(unit),
-            Kind::Negate(x) => of(x),
-            Kind::Infix { operator, left, right, .. } => match operator {
+            NodeKind::Constant(_) => Some(Factors::COHERENT),
+            NodeKind::Table { call, .. } => given(ValueSource::TableValue(call)),
+            NodeKind::Curve { curve, inverse: false, .. } => given(ValueSource::CurveY(curve)),
+            NodeKind::Curve { curve, inverse: true, .. } => given(ValueSource::CurveX(curve)),
+            NodeKind::Unit(unit) | NodeKind::InUnit { unit, .. } => Factors::in_unit(unit),
+            NodeKind::Negate(x) => of(x),
+            NodeKind::Infix { operator, left, right, .. } => match operator {
                 Operator::Multiply => of(left).zip(of(right)).map(|(x, y)| x.times(y)),
                 Operator::Divide => of(left).zip(of(right)).map(|(x, y)| x.times(y.to(-1.0))),
                 Operator::Power => {
@@ -274,7 +274,7 @@ pub(super) fn factors<'u>(
                 }
                 _ => None,
             },
-            Kind::Call { function: Some(function), arguments, .. } => match function {
+            NodeKind::Call { function: Some(function), arguments, .. } => match function {
                 Function::One(Unary::Sqrt) => arguments.first().and_then(of).map(|x| x.to(0.5)),
                 Function::One(Unary::Abs)
                 | Function::Fold(Binary::Min | Binary::Max | Binary::Hypot)
@@ -395,7 +395,7 @@ impl Walk<'_, '_> {
         operands.into_iter().any(|(index, _)| {
             let is_converted =
                 all.get(index).copied().flatten().is_some_and(|of| of.conversions != 1.0);
-            is_converted && matches!(self.node(index), Some(Kind::Name))
+            is_converted && matches!(self.node(index), Some(NodeKind::Name))
         })
     }
 
@@ -404,7 +404,9 @@ impl Walk<'_, '_> {
     fn of_summand(&self, all: &[Option<Factors>], node: &Node) -> Option<Told> {
         let of = |index: usize| all.get(index).copied().flatten();
         let (product, of, converted, to) = match &node.kind {
-            Kind::Infix { operator: Operator::Add | Operator::Subtract, left, right, .. } => {
+            NodeKind::Infix {
+                operator: Operator::Add | Operator::Subtract, left, right, ..
+            } => {
                 let to = |product: usize, beside: usize| {
                     let (found, other) = (of(product)?, of(beside)?);
                     let is_plain = self.constant(beside).is_some();
@@ -415,7 +417,7 @@ impl Walk<'_, '_> {
                 };
                 to(*right, *left).or_else(|| to(*left, *right))?
             }
-            Kind::Call { function: Some(Function::One(function)), arguments, .. }
+            NodeKind::Call { function: Some(Function::One(function)), arguments, .. }
                 if !matches!(function, Unary::Sqrt | Unary::Abs) =>
             {
                 let product = *arguments.first()?;
@@ -441,7 +443,7 @@ impl Walk<'_, '_> {
 
     /// `2 - log10(T)` of per cent: the absorbance of a transmittance that is a plain number already.
     pub(super) fn of_logarithm(&self, node: &Node) -> Option<FormulaNote> {
-        let Kind::Infix {
+        let NodeKind::Infix {
             operator: operator @ (Operator::Add | Operator::Subtract),
             left,
             right,
@@ -457,10 +459,10 @@ impl Walk<'_, '_> {
             _ => return None,
         };
         let (other, is_negative) = match self.node(other)? {
-            Kind::Negate(x) => (*x, !is_negative),
+            NodeKind::Negate(x) => (*x, !is_negative),
             _ => (other, is_negative),
         };
-        let Kind::Call { function: Some(Function::One(Unary::Log10)), arguments, .. } =
+        let NodeKind::Call { function: Some(Function::One(Unary::Log10)), arguments, .. } =
             self.node(other)?
         else {
             return None;

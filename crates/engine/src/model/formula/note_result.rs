@@ -5,13 +5,13 @@ use std::f64::consts::TAU;
 use super::function::Function;
 use super::note::{FormulaNote, RESULT_TWICE, Walk};
 use super::numbers::is_same_factor;
-use super::syntax::{Kind, Node, Operator, Tree};
+use super::syntax::{Node, NodeKind, Operator, Tree};
 use crate::number::{Binary, Unary, elementary};
 use gumption_units::{Turn, Unit};
 
 /// A node that a value is a sum, a small multiple or a choice of.
 #[derive(Clone, Copy)]
-pub(super) struct Term {
+pub(super) struct SummandNode {
     pub(super) index: usize,
     /// Whether it is a factor of a product among the terms, whose factors are looked at together: a chain
     /// of factors is walked once.
@@ -19,7 +19,7 @@ pub(super) struct Term {
 }
 
 /// The terms of a value, the whole among them.
-pub(super) fn terms(tree: &Tree, constants: &[Option<f64>]) -> Vec<Term> {
+pub(super) fn terms(tree: &Tree, constants: &[Option<f64>]) -> Vec<SummandNode> {
     let constant = |index: usize| constants.get(index).copied().flatten();
     // a larger factor, or one of 2 pi, may be a conversion itself
     let is_small = |index: usize| {
@@ -27,16 +27,17 @@ pub(super) fn terms(tree: &Tree, constants: &[Option<f64>]) -> Vec<Term> {
             constant(index).is_some_and(|x| (0.02..50.0).contains(&x.abs()) && !is_turn(x));
         is_small && !has_pi(tree, index)
     };
-    let term = |index: usize| Term { index, is_factor: false };
-    let factor = |index: usize| Term { index, is_factor: true };
+    let term = |index: usize| SummandNode { index, is_factor: false };
+    let factor = |index: usize| SummandNode { index, is_factor: true };
     let mut found = Vec::new();
-    let mut rest: Vec<Term> = tree.nodes.len().checked_sub(1).into_iter().map(term).collect();
+    let mut rest: Vec<SummandNode> =
+        tree.nodes.len().checked_sub(1).into_iter().map(term).collect();
     while let Some(next) = rest.pop() {
         let Some(node) = tree.nodes.get(next.index) else { continue };
         found.push(next);
         match &node.kind {
-            Kind::Negate(x) => rest.push(Term { index: *x, ..next }),
-            Kind::Infix { operator, left, right, .. } => match operator {
+            NodeKind::Negate(x) => rest.push(SummandNode { index: *x, ..next }),
+            NodeKind::Infix { operator, left, right, .. } => match operator {
                 Operator::Add | Operator::Subtract => rest.extend([*right, *left].map(term)),
                 Operator::Multiply if is_small(*left) => rest.push(factor(*right)),
                 Operator::Multiply | Operator::Divide if is_small(*right) => {
@@ -44,7 +45,7 @@ pub(super) fn terms(tree: &Tree, constants: &[Option<f64>]) -> Vec<Term> {
                 }
                 _ => {}
             },
-            Kind::Call { function: Some(function), arguments, .. } => {
+            NodeKind::Call { function: Some(function), arguments, .. } => {
                 rest.extend(taken_up(*function, arguments).iter().map(|index| term(*index)));
             }
             _ => {}
@@ -63,9 +64,9 @@ fn has_pi(tree: &Tree, number: usize) -> bool {
     let mut rest = vec![number];
     while let Some(index) = rest.pop() {
         match tree.nodes.get(index).map(|node| &node.kind) {
-            Some(Kind::Pi) => return true,
-            Some(Kind::Negate(x)) => rest.push(*x),
-            Some(Kind::Infix { left, right, .. }) => rest.extend([*left, *right]),
+            Some(NodeKind::Pi) => return true,
+            Some(NodeKind::Negate(x)) => rest.push(*x),
+            Some(NodeKind::Infix { left, right, .. }) => rest.extend([*left, *right]),
             _ => {}
         }
     }
@@ -93,7 +94,7 @@ impl Walk<'_, '_> {
         }
         let whole = self.tree.nodes.len().checked_sub(1)?;
         let terms = terms(self.tree, &self.constants);
-        let converts = |term: &Term| {
+        let converts = |term: &SummandNode| {
             self.converts_from(term.index, unit)
                 || unit.dimension().is_none() && self.converts_to(*term, unit, term.index == whole)
         };
@@ -133,7 +134,12 @@ impl Walk<'_, '_> {
 
     /// Whether a product converts plain numbers to a unit: by one of its factors, or by all of them
     /// together.
-    fn converts_to(&self, Term { index, is_factor }: Term, unit: &Unit, is_whole: bool) -> bool {
+    fn converts_to(
+        &self,
+        SummandNode { index, is_factor }: SummandNode,
+        unit: &Unit,
+        is_whole: bool,
+    ) -> bool {
         let Some(node) = self.tree.nodes.get(index).filter(|_| self.is_product(index)) else {
             return false;
         };
@@ -155,7 +161,7 @@ impl Walk<'_, '_> {
 
     pub(super) fn is_product(&self, index: usize) -> bool {
         let operator = match self.node(index) {
-            Some(Kind::Infix { operator, .. }) => *operator,
+            Some(NodeKind::Infix { operator, .. }) => *operator,
             _ => return false,
         };
         matches!(operator, Operator::Multiply | Operator::Divide) && self.constant(index).is_none()
@@ -167,19 +173,19 @@ impl Walk<'_, '_> {
         let mut rest = vec![(node, false)];
         while let Some((node, is_divided)) = rest.pop() {
             let parts = match &node.kind {
-                Kind::Infix { operator: Operator::Multiply, left, right, .. } => {
+                NodeKind::Infix { operator: Operator::Multiply, left, right, .. } => {
                     vec![(*right, is_divided), (*left, is_divided)]
                 }
-                Kind::Infix { operator: Operator::Divide, left, right, .. } => {
+                NodeKind::Infix { operator: Operator::Divide, left, right, .. } => {
                     vec![(*right, !is_divided), (*left, is_divided)]
                 }
-                Kind::Negate(x) => vec![(*x, is_divided)],
+                NodeKind::Negate(x) => vec![(*x, is_divided)],
                 _ => Vec::new(),
             };
             for (part, is_divided) in parts {
                 let is_product = self.is_product(part)
                     || self.constant(part).is_none()
-                        && matches!(self.node(part), Some(Kind::Negate(_)));
+                        && matches!(self.node(part), Some(NodeKind::Negate(_)));
                 match self.tree.nodes.get(part).filter(|_| is_product) {
                     Some(inner) => rest.push((inner, is_divided)),
                     None => found.push((part, is_divided)),
@@ -214,10 +220,10 @@ impl Walk<'_, '_> {
     /// Whether a product has a divisor that is no number, or a sum or a function among its factors.
     fn is_ratio(&self, node: &Node) -> bool {
         self.operands(node).into_iter().any(|(index, is_divided)| {
-            let is_name = matches!(self.node(index), Some(Kind::Name | Kind::Unit(_)));
+            let is_name = matches!(self.node(index), Some(NodeKind::Name | NodeKind::Unit(_)));
             let is_power = matches!(
                 self.node(index),
-                Some(Kind::Infix { operator: Operator::Power, .. } | Kind::InUnit { .. })
+                Some(NodeKind::Infix { operator: Operator::Power, .. } | NodeKind::InUnit { .. })
             );
             self.constant(index).is_none() && (is_divided || !is_name && !is_power)
         })
@@ -229,7 +235,7 @@ impl Walk<'_, '_> {
         let divisors = operands.iter().filter(|(_, is_divided)| *is_divided);
         let divisors: Vec<&str> = divisors.map(|(index, _)| self.slice(*index)).collect();
         operands.iter().filter(|(_, is_divided)| !is_divided).any(|(index, _)| {
-            let Some(Kind::Infix { operator: Operator::Subtract, left, right, .. }) =
+            let Some(NodeKind::Infix { operator: Operator::Subtract, left, right, .. }) =
                 self.node(*index)
             else {
                 return false;

@@ -8,7 +8,7 @@ use super::function::Function;
 use super::note::{FormulaNote, Walk};
 use super::note_result::terms;
 use super::numbers::{Use, is_same_factor};
-use super::syntax::{Kind, Node, Tree};
+use super::syntax::{Node, NodeKind, Tree};
 use super::typing::{RATE, Scope, Typing};
 use crate::number::Unary;
 use gumption_units::{Dimension, Exponent, Turn, Unit};
@@ -76,7 +76,9 @@ pub(super) fn periods<'u>(
 
 /// The argument that a function may take for an angle.
 fn taken_as_angle(node: &Node) -> Option<(Function, usize)> {
-    let Kind::Call { function: Some(function), arguments, .. } = &node.kind else { return None };
+    let NodeKind::Call { function: Some(function), arguments, .. } = &node.kind else {
+        return None;
+    };
     let is_exp = *function == Function::One(Unary::Exp);
     match arguments.as_slice() {
         [argument] if function.takes_angle() || is_exp => Some((*function, *argument)),
@@ -102,11 +104,11 @@ fn is_of_periods<'u>(
         }
         let name = walk.slice(index);
         match (walk.node(index), unit_of(name)) {
-            (Some(Kind::Name), Some(unit)) => of_periods |= unit.turn() == Some(Turn::Periods),
-            (Some(Kind::Name), None) if name == "i" && scope.is_complex(name) => {
+            (Some(NodeKind::Name), Some(unit)) => of_periods |= unit.turn() == Some(Turn::Periods),
+            (Some(NodeKind::Name), None) if name == "i" && scope.is_complex(name) => {
                 is_imaginary = true;
             }
-            (Some(Kind::InUnit { .. } | Kind::Unit(_)), _) => {}
+            (Some(NodeKind::InUnit { .. } | NodeKind::Unit(_)), _) => {}
             _ => return false,
         }
     }

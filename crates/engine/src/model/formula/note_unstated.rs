@@ -6,7 +6,7 @@ use super::error::FormulaError;
 use super::note::{FormulaNote, Walk};
 use super::note_result::taken_up;
 use super::numbers::{Numbers, Use, ValueSource};
-use super::syntax::{Kind, Node, Operator};
+use super::syntax::{Node, NodeKind, Operator};
 use crate::decimal;
 use gumption_units::{Turn, Unit};
 
@@ -27,11 +27,11 @@ impl<'u> Walk<'_, 'u> {
     /// A sum, a comparison or a choice of what is in a unit and of what has none.
     pub(super) fn unstated_beside(&self, node: &Node) -> Option<FormulaNote> {
         let sides: &[usize] = match &node.kind {
-            Kind::Infix { operator, left, right, .. } => match operator {
+            NodeKind::Infix { operator, left, right, .. } => match operator {
                 Operator::Multiply | Operator::Divide | Operator::Power => return None,
                 _ => &[*left, *right],
             },
-            Kind::Call { function: Some(function), arguments, .. } => {
+            NodeKind::Call { function: Some(function), arguments, .. } => {
                 taken_up(*function, arguments)
             }
             _ => return None,
@@ -82,11 +82,11 @@ impl<'u> Walk<'_, 'u> {
         let is_unstated = |of: ValueSource<'_>| numbers_of(of) == Some(Numbers::Unstated);
         let found = self.tree.nodes.iter().filter_map(|node| {
             let (argument, source) = match &node.kind {
-                Kind::Table { x, call } => (*x, ValueSource::TableArgument(call)),
-                Kind::Curve { curve, inverse: false, argument } => {
+                NodeKind::Table { x, call } => (*x, ValueSource::TableArgument(call)),
+                NodeKind::Curve { curve, inverse: false, argument } => {
                     (*argument, ValueSource::CurveX(curve))
                 }
-                Kind::Curve { curve, inverse: true, argument } => {
+                NodeKind::Curve { curve, inverse: true, argument } => {
                     (*argument, ValueSource::CurveY(curve))
                 }
                 _ => return None,

@@ -35,7 +35,7 @@ use super::function::Function;
 use super::lexer::{Lexer, Token, TokenKind};
 use super::message::excerpt;
 use super::name::is_name;
-use super::syntax::{Joint, Kind, NEGATION, Node, Operator, TableCall, Tree};
+use super::syntax::{Joint, NEGATION, Node, NodeKind, Operator, TableCall, Tree};
 use crate::model::InterpolationMethod;
 use crate::regression::CurveFunction;
 use gumption_units::Unit;
@@ -152,14 +152,14 @@ struct Parser<'t> {
 }
 
 /// What has been read: a node, and its place with the parentheses around it.
-struct Part {
+struct ReadNode {
     node: usize,
     outer: Range<usize>,
 }
 
 impl Parser<'_> {
     /// Reads operands and operators down to rank `least`.
-    fn expression(&mut self, least: Rank) -> Result<Part, FormulaError> {
+    fn expression(&mut self, least: Rank) -> Result<ReadNode, FormulaError> {
         let mut left = self.operand()?;
         let mut compared: Option<Range<usize>> = None;
         loop {
@@ -190,7 +190,8 @@ impl Parser<'_> {
             };
             let span = left.outer.start..right.outer.end;
             let (left_node, right_node) = (left.node, right.node);
-            let kind = Kind::Infix { operator, operator_span, left: left_node, right: right_node };
+            let kind =
+                NodeKind::Infix { operator, operator_span, left: left_node, right: right_node };
             left = self.push(kind, span);
         }
         Ok(left)
@@ -198,13 +199,13 @@ impl Parser<'_> {
 
     /// Reads what stands behind `and` or `or`; apart, to leave room on the stack.
     #[inline(never)]
-    fn joined(&mut self, joint: Joint, left: Part) -> Result<Part, FormulaError> {
+    fn joined(&mut self, joint: Joint, left: ReadNode) -> Result<ReadNode, FormulaError> {
         let (_, rank) = joint_ranks(joint);
         let span = self.token.span.clone();
         self.advance()?;
         let right = self.nested(&span, |parser| parser.expression(rank))?;
         let outer = left.outer.start..right.outer.end;
-        let kind = Kind::Joined { joint, span, left: left.node, right: right.node };
+        let kind = NodeKind::Joined { joint, span, left: left.node, right: right.node };
         Ok(self.push(kind, outer))
     }
 
@@ -217,7 +218,7 @@ impl Parser<'_> {
     }
 
     /// Reads an operand with its signs and the unit behind it.
-    fn operand(&mut self) -> Result<Part, FormulaError> {
+    fn operand(&mut self) -> Result<ReadNode, FormulaError> {
         let signed = matches!(self.token.kind, TokenKind::Operator(_));
         let part = self.primary()?;
         if signed || self.token.kind != TokenKind::Bracket {
@@ -229,7 +230,7 @@ impl Parser<'_> {
     /// Reads the unit behind a number; apart from [`Self::operand`], which calls itself in the end
     /// and so has little room on the stack.
     #[inline(never)]
-    fn number_of_units(&mut self, part: Part) -> Result<Part, FormulaError> {
+    fn number_of_units(&mut self, part: ReadNode) -> Result<ReadNode, FormulaError> {
         let place = self.token.span.clone();
         let span = part.outer.start..place.end;
         let text = self.slice(&span).to_owned();
@@ -239,8 +240,8 @@ impl Parser<'_> {
             Err(FormulaError::TwoReadings { text, span: span.clone(), readings })
         };
         let unit = match self.bracket(&place)? {
-            Kind::Unit(unit) => unit,
-            Kind::Constant(DefiningConstant::Planck) => {
+            NodeKind::Unit(unit) => unit,
+            NodeKind::Constant(DefiningConstant::Planck) => {
                 return two(format!("{number} {HOUR}"), format!("{number}*[h]"));
             }
             _ => {
@@ -253,20 +254,20 @@ impl Parser<'_> {
             let text = unit.text().trim();
             return two(format!("{number} [({text})^2]"), format!("({number} [{text}])^2"));
         }
-        Ok(self.push(Kind::InUnit { number: part.node, unit }, span))
+        Ok(self.push(NodeKind::InUnit { number: part.node, unit }, span))
     }
 
     /// What stands between brackets.
     #[inline(never)]
-    fn bracket(&self, place: &Range<usize>) -> Result<Kind, FormulaError> {
+    fn bracket(&self, place: &Range<usize>) -> Result<NodeKind, FormulaError> {
         let inside = self.slice(place);
         let inside = inside.strip_prefix('[').and_then(|text| text.strip_suffix(']'));
         let text = inside.unwrap_or_default();
         if let Some(constant) = DefiningConstant::named(text.trim()) {
-            return Ok(Kind::Constant(constant));
+            return Ok(NodeKind::Constant(constant));
         }
         match Unit::parse_among(text, self.units) {
-            Ok(unit) if !text.trim().is_empty() => Ok(Kind::Unit(Box::new(unit))),
+            Ok(unit) if !text.trim().is_empty() => Ok(NodeKind::Unit(Box::new(unit))),
             Ok(_) => Err(self.unexpected(OPERAND)),
             Err(error) => {
                 let (text, error) = (text.to_owned(), Box::new(error));
@@ -276,7 +277,7 @@ impl Parser<'_> {
     }
 
     /// Reads an operand with its signs.
-    fn primary(&mut self) -> Result<Part, FormulaError> {
+    fn primary(&mut self) -> Result<ReadNode, FormulaError> {
         let span = self.token.span.clone();
         match self.token.kind {
             TokenKind::Bracket => {
@@ -286,11 +287,11 @@ impl Parser<'_> {
             }
             TokenKind::Number(value) => {
                 self.advance()?;
-                Ok(self.push(Kind::Number(value), span))
+                Ok(self.push(NodeKind::Number(value), span))
             }
             TokenKind::Pi => {
                 self.advance()?;
-                Ok(self.push(Kind::Pi, span))
+                Ok(self.push(NodeKind::Pi, span))
             }
             TokenKind::Name => self.name_or_call(),
             TokenKind::Open => {
@@ -298,16 +299,18 @@ impl Parser<'_> {
                 let part = self.nested(&span, |parser| parser.expression(LOOSEST))?;
                 let outer = span.start..self.token.span.end;
                 self.close(AFTER_PART)?;
-                Ok(Part { outer, ..part })
+                Ok(ReadNode { outer, ..part })
             }
             TokenKind::Operator(sign @ (Operator::Subtract | Operator::Add)) => {
                 self.advance()?;
                 let part = self.nested(&span, |parser| parser.expression(SIGN))?;
                 let outer = span.start..part.outer.end;
                 Ok(match sign {
-                    Operator::Subtract if self.negate_literal(part.node) => Part { outer, ..part },
-                    Operator::Subtract => self.push(Kind::Negate(part.node), outer),
-                    _ => Part { outer, ..part },
+                    Operator::Subtract if self.negate_literal(part.node) => {
+                        ReadNode { outer, ..part }
+                    }
+                    Operator::Subtract => self.push(NodeKind::Negate(part.node), outer),
+                    _ => ReadNode { outer, ..part },
                 })
             }
             _ => Err(self.unexpected(OPERAND)),
@@ -317,11 +320,11 @@ impl Parser<'_> {
     /// Makes -5 degC of a minus sign before `5 [degC]`: the number is negative, not the temperature.
     fn negate_literal(&mut self, node: usize) -> bool {
         let number = match self.nodes.get(node).map(|node| &node.kind) {
-            Some(Kind::InUnit { number, unit }) if unit.zero().is_some() => *number,
+            Some(NodeKind::InUnit { number, unit }) if unit.zero().is_some() => *number,
             _ => return false,
         };
         match self.nodes.get_mut(number).map(|node| &mut node.kind) {
-            Some(Kind::Number(value)) => {
+            Some(NodeKind::Number(value)) => {
                 *value = -*value;
                 true
             }
@@ -330,7 +333,7 @@ impl Parser<'_> {
     }
 
     #[inline(never)]
-    fn name_or_call(&mut self) -> Result<Part, FormulaError> {
+    fn name_or_call(&mut self) -> Result<ReadNode, FormulaError> {
         let name_span = self.token.span.clone();
         let function = Function::named(self.slice(&name_span));
         self.advance()?;
@@ -342,7 +345,7 @@ impl Parser<'_> {
                 Some(function) if function.is_reserved() => {
                     Err(self.without_arguments(function, name_span))
                 }
-                _ => Ok(self.push(Kind::Name, name_span)),
+                _ => Ok(self.push(NodeKind::Name, name_span)),
             };
         }
         if function.is_none() && !self.curves.is_empty() {
@@ -358,7 +361,7 @@ impl Parser<'_> {
             while self.token.span.start < end {
                 self.advance()?;
             }
-            return Ok(self.push(Kind::Name, name_span.start..end));
+            return Ok(self.push(NodeKind::Name, name_span.start..end));
         }
         self.open()?;
         if let Some(function @ (Function::Table | Function::Solve)) = function {
@@ -372,7 +375,7 @@ impl Parser<'_> {
         {
             return Ok(self.summed(function, &arguments, (name_span, span)));
         }
-        Ok(self.push(Kind::Call { function, name_span, arguments }, span))
+        Ok(self.push(NodeKind::Call { function, name_span, arguments }, span))
     }
 
     /// Whether something follows that can be a truth, so that `not` is no name.
@@ -386,15 +389,19 @@ impl Parser<'_> {
 
     /// Reads what stands behind `not`.
     #[inline(never)]
-    fn negated(&mut self, span: Range<usize>) -> Result<Part, FormulaError> {
+    fn negated(&mut self, span: Range<usize>) -> Result<ReadNode, FormulaError> {
         let of = self.nested(&span, |parser| parser.expression(NOT))?;
         let outer = span.start..of.outer.end;
-        Ok(self.push(Kind::Not { span, of: of.node }, outer))
+        Ok(self.push(NodeKind::Not { span, of: of.node }, outer))
     }
 
     /// Reads a call whose arguments are not all formulas.
     #[inline(never)]
-    fn special(&mut self, function: Function, name: Range<usize>) -> Result<Part, FormulaError> {
+    fn special(
+        &mut self,
+        function: Function,
+        name: Range<usize>,
+    ) -> Result<ReadNode, FormulaError> {
         self.nested(&name, |parser| match function {
             Function::Table => parser.table(&name),
             _ => parser.solve(&name),
@@ -403,7 +410,7 @@ impl Parser<'_> {
 
     /// Reads the arguments of `table`: the abscissa, then texts.
     #[inline(never)]
-    fn table(&mut self, name_span: &Range<usize>) -> Result<Part, FormulaError> {
+    fn table(&mut self, name_span: &Range<usize>) -> Result<ReadNode, FormulaError> {
         let x = self.expression(LOOSEST)?.node;
         let mut texts: Vec<(String, Range<usize>)> = Vec::new();
         while self.token.kind == TokenKind::Comma {
@@ -443,12 +450,12 @@ impl Parser<'_> {
             return Err(count(6));
         }
         let call = Box::new(TableCall { file, columns, method, span: span.clone() });
-        Ok(self.push(Kind::Table { x, call }, span))
+        Ok(self.push(NodeKind::Table { x, call }, span))
     }
 
     /// Reads the arguments of `solve`: a formula, the name of the unknown, two ends.
     #[inline(never)]
-    fn solve(&mut self, name_span: &Range<usize>) -> Result<Part, FormulaError> {
+    fn solve(&mut self, name_span: &Range<usize>) -> Result<ReadNode, FormulaError> {
         if self.solves == MAX_SOLVES {
             let (span, limit) = (name_span.clone(), MAX_SOLVES);
             return Err(FormulaError::TooManySolves { span, limit });
@@ -470,7 +477,7 @@ impl Parser<'_> {
         let to = self.expression(LOOSEST)?.node;
         let span = name_span.start..self.token.span.end;
         self.close(AFTER_ARGUMENT)?;
-        Ok(self.push(Kind::Solve { body, unknown, from, to }, span))
+        Ok(self.push(NodeKind::Solve { body, unknown, from, to }, span))
     }
 
     fn comma(&mut self, expected: &'static str) -> Result<(), FormulaError> {
@@ -493,7 +500,7 @@ impl Parser<'_> {
     }
 
     /// `inverse(line, y)`, from its parenthesis on.
-    fn inverse(&mut self, name_span: &Range<usize>) -> Result<Part, FormulaError> {
+    fn inverse(&mut self, name_span: &Range<usize>) -> Result<ReadNode, FormulaError> {
         self.open()?;
         let (name, span) = (self.slice(&self.token.span).to_owned(), self.token.span.clone());
         let Some(curve) = self.curve(&name) else {
@@ -530,7 +537,7 @@ impl Parser<'_> {
         curve: &Arc<CurveFunction>,
         name_span: &Range<usize>,
         inverse: bool,
-    ) -> Result<Part, FormulaError> {
+    ) -> Result<ReadNode, FormulaError> {
         if inverse {
             self.advance()?;
         } else {
@@ -546,7 +553,7 @@ impl Parser<'_> {
             return Err(FormulaError::Curve { reason, span });
         };
         let curve = Arc::clone(curve);
-        Ok(self.push(Kind::Curve { curve, inverse, argument }, span))
+        Ok(self.push(NodeKind::Curve { curve, inverse, argument }, span))
     }
 
     /// `sum(a, b, c)` as `a + b + c`, and `mean` of them as that over 3.
@@ -556,21 +563,21 @@ impl Parser<'_> {
         function: Option<Function>,
         arguments: &[usize],
         (name_span, span): (Range<usize>, Range<usize>),
-    ) -> Part {
+    ) -> ReadNode {
         let mut nodes = arguments.iter().copied();
-        let mut part = Part { node: nodes.next().unwrap_or_default(), outer: span.clone() };
+        let mut part = ReadNode { node: nodes.next().unwrap_or_default(), outer: span.clone() };
         for right in nodes {
             let (operator, operator_span) = (Operator::Add, name_span.clone());
-            let kind = Kind::Infix { operator, operator_span, left: part.node, right };
+            let kind = NodeKind::Infix { operator, operator_span, left: part.node, right };
             part = self.push(kind, span.clone());
         }
         if function == Some(Function::Sum) {
             return part;
         }
-        let count = self.push(Kind::Number(arguments.len() as f64), name_span.clone());
+        let count = self.push(NodeKind::Number(arguments.len() as f64), name_span.clone());
         let (operator, operator_span) = (Operator::Divide, name_span);
         let (left, right) = (part.node, count.node);
-        self.push(Kind::Infix { operator, operator_span, left, right }, span)
+        self.push(NodeKind::Infix { operator, operator_span, left, right }, span)
     }
 
     /// Reads the arguments of a call up to its closing parenthesis.
@@ -623,9 +630,9 @@ impl Parser<'_> {
         Ok(())
     }
 
-    fn push(&mut self, kind: Kind, span: Range<usize>) -> Part {
+    fn push(&mut self, kind: NodeKind, span: Range<usize>) -> ReadNode {
         self.nodes.push(Node { kind, span: span.clone() });
-        Part { node: self.nodes.len() - 1, outer: span }
+        ReadNode { node: self.nodes.len() - 1, outer: span }
     }
 
     fn slice(&self, span: &Range<usize>) -> &str {

@@ -4,7 +4,7 @@
 use super::evaluate::constants;
 use super::function::Function;
 use super::note_result::taken_up;
-use super::syntax::{Kind, Node, Operator, Tree};
+use super::syntax::{Node, NodeKind, Operator, Tree};
 use crate::number::{Binary, Unary};
 
 /// What a name of a formula of conditions is, as far as its numbers can be taken for those of a share or an
@@ -32,7 +32,7 @@ pub struct PlainNumber {
 
 /// What a node is in a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Part {
+enum NodeRole {
     /// Plain numbers, of which one stands there, also beside numbers of units.
     Number(usize),
     /// A plain number beside ratios of quantities.
@@ -52,9 +52,9 @@ enum Part {
 }
 
 /// The parts of a formula.
-struct Parts {
+struct NodeRoles {
     constants: Vec<Option<f64>>,
-    parts: Vec<Part>,
+    parts: Vec<NodeRole>,
     is_width: bool,
 }
 
@@ -67,22 +67,24 @@ pub(super) fn plain_number(
     is_width: bool,
 ) -> Option<PlainNumber> {
     let parts = Vec::with_capacity(tree.nodes.len());
-    let mut all = Parts { constants: constants(tree), parts, is_width };
+    let mut all = NodeRoles { constants: constants(tree), parts, is_width };
     for (index, node) in tree.nodes.iter().enumerate() {
         let part = match (all.constants.get(index).copied().flatten(), &node.kind) {
-            (Some(_), _) => Part::Number(index),
-            (None, Kind::Name) => match kind_of(text.get(node.span.clone()).unwrap_or_default()) {
-                NameKind::Stated => Part::Stated,
-                NameKind::Unstated => Part::Number(index),
-                NameKind::Other => Part::Ratio,
-            },
+            (Some(_), _) => NodeRole::Number(index),
+            (None, NodeKind::Name) => {
+                match kind_of(text.get(node.span.clone()).unwrap_or_default()) {
+                    NameKind::Stated => NodeRole::Stated,
+                    NameKind::Unstated => NodeRole::Number(index),
+                    NameKind::Other => NodeRole::Ratio,
+                }
+            }
             _ => all.of_node(node),
         };
         all.parts.push(part);
     }
     let (at, is_alone) = match all.parts.last()? {
-        Part::Number(at) => (*at, true),
-        Part::Mixed(at) => (*at, false),
+        NodeRole::Number(at) => (*at, true),
+        NodeRole::Mixed(at) => (*at, false),
         _ => return None,
     };
     let number = all.constants.get(at).copied().flatten();
@@ -91,58 +93,62 @@ pub(super) fn plain_number(
     is_told.then_some(PlainNumber { text, number, is_alone })
 }
 
-impl Parts {
-    fn part(&self, index: usize) -> Part {
-        self.parts.get(index).copied().unwrap_or(Part::Ratio)
+impl NodeRoles {
+    fn part(&self, index: usize) -> NodeRole {
+        self.parts.get(index).copied().unwrap_or(NodeRole::Ratio)
     }
 
     fn constant(&self, index: usize) -> Option<f64> {
         self.constants.get(index).copied().flatten()
     }
 
-    fn of_node(&self, node: &Node) -> Part {
+    fn of_node(&self, node: &Node) -> NodeRole {
         match &node.kind {
-            Kind::InUnit { unit, .. } | Kind::Unit(unit) => match unit.dimension().is_none() {
-                true => Part::InUnit,
-                false => Part::OfUnits,
-            },
-            Kind::Negate(x) => self.part(*x),
-            Kind::Infix { operator, left, right, .. } => {
+            NodeKind::InUnit { unit, .. } | NodeKind::Unit(unit) => {
+                match unit.dimension().is_none() {
+                    true => NodeRole::InUnit,
+                    false => NodeRole::OfUnits,
+                }
+            }
+            NodeKind::Negate(x) => self.part(*x),
+            NodeKind::Infix { operator, left, right, .. } => {
                 let sides = [self.part(*left), self.part(*right)];
                 match operator {
                     Operator::Add | Operator::Subtract => self.together(&[*left, *right]),
                     Operator::Multiply => self.product(sides),
                     Operator::Divide => self.quotient(sides),
                     Operator::Power if self.constant(*right).is_some() => self.part(*left),
-                    _ => Part::Ratio,
+                    _ => NodeRole::Ratio,
                 }
             }
-            Kind::Call { function: Some(function), arguments, .. } => match function {
+            NodeKind::Call { function: Some(function), arguments, .. } => match function {
                 Function::One(Unary::Sqrt | Unary::Round | Unary::Floor | Unary::Ceil)
                 | Function::Two(Binary::Modulo) => {
-                    arguments.first().map_or(Part::Ratio, |argument| self.part(*argument))
+                    arguments.first().map_or(NodeRole::Ratio, |argument| self.part(*argument))
                 }
                 _ => match taken_up(*function, arguments) {
-                    [] => Part::Ratio,
+                    [] => NodeRole::Ratio,
                     parts => self.together(parts),
                 },
             },
             // their units are looked at where they are read
-            Kind::Table { .. } | Kind::Curve { .. } | Kind::Solve { .. } => Part::Stated,
-            _ => Part::Ratio,
+            NodeKind::Table { .. } | NodeKind::Curve { .. } | NodeKind::Solve { .. } => {
+                NodeRole::Stated
+            }
+            _ => NodeRole::Ratio,
         }
     }
 
     /// A sum of parts, or a choice of them.
-    fn together(&self, parts: &[usize]) -> Part {
+    fn together(&self, parts: &[usize]) -> NodeRole {
         let is_zero = |index: &&usize| self.constant(**index) == Some(0.0);
         let kept = parts.iter().filter(|index| !is_zero(index)).map(|index| self.part(*index));
-        let zero = parts.first().map_or(Part::Ratio, |index| self.part(*index));
+        let zero = parts.first().map_or(NodeRole::Ratio, |index| self.part(*index));
         kept.reduce(|x, y| self.both(x, y)).unwrap_or(zero)
     }
 
-    fn both(&self, x: Part, y: Part) -> Part {
-        use Part::{InUnit, Mixed, Number, OfUnits, Ratio, Stated, Whole, WholeOfUnits};
+    fn both(&self, x: NodeRole, y: NodeRole) -> NodeRole {
+        use NodeRole::{InUnit, Mixed, Number, OfUnits, Ratio, Stated, Whole, WholeOfUnits};
         match (x, y) {
             (Stated, _) | (_, Stated) => Stated,
             (Number(at), Number(_)) => Number(at),
@@ -166,8 +172,8 @@ impl Parts {
         }
     }
 
-    fn product(&self, sides: [Part; 2]) -> Part {
-        use Part::{InUnit, Mixed, Number, OfUnits, Ratio, Stated, Whole, WholeOfUnits};
+    fn product(&self, sides: [NodeRole; 2]) -> NodeRole {
+        use NodeRole::{InUnit, Mixed, Number, OfUnits, Ratio, Stated, Whole, WholeOfUnits};
         match sides {
             [Stated, _] | [_, Stated] => Stated,
             [InUnit, _] | [_, InUnit] => InUnit,
@@ -186,8 +192,8 @@ impl Parts {
         }
     }
 
-    fn quotient(&self, sides: [Part; 2]) -> Part {
-        use Part::{InUnit, Mixed, Number, OfUnits, Ratio, Stated, Whole, WholeOfUnits};
+    fn quotient(&self, sides: [NodeRole; 2]) -> NodeRole {
+        use NodeRole::{InUnit, Mixed, Number, OfUnits, Ratio, Stated, Whole, WholeOfUnits};
         match sides {
             [Stated, _] | [_, Stated | InUnit] => Stated,
             [InUnit, _] => InUnit,

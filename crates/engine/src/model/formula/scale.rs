@@ -8,7 +8,7 @@ use super::dimension::Checker;
 use super::error::FormulaError;
 use super::function::Function;
 use super::scale_fault::{ScaleFault, ScaledPlace};
-use super::syntax::{Kind, Node, Operator};
+use super::syntax::{Node, NodeKind, Operator};
 use super::tie::{Tie, borne, taken_up};
 use super::typing::{KelvinKind, LevelReference, Rate, Typing};
 use crate::number::Unary;
@@ -42,18 +42,18 @@ impl Checker<'_> {
                 && part(index) != LevelPart::Logarithm
         };
         match &node.kind {
-            Kind::Call { function, .. } if *function == Some(Function::One(Unary::Log10)) => {
+            NodeKind::Call { function, .. } if *function == Some(Function::One(Unary::Log10)) => {
                 LevelPart::Logarithm
             }
-            Kind::Negate(x) => part(*x),
-            Kind::Infix { operator: Operator::Multiply, left, right, .. } => {
+            NodeKind::Negate(x) => part(*x),
+            NodeKind::Infix { operator: Operator::Multiply, left, right, .. } => {
                 match (part(*left), part(*right)) {
                     (LevelPart::None, of) if is_plain(*left) => of,
                     (of, _) if is_plain(*right) => of,
                     _ => LevelPart::None,
                 }
             }
-            Kind::Infix { operator: Operator::Divide, left, right, .. } if is_plain(*right) => {
+            NodeKind::Infix { operator: Operator::Divide, left, right, .. } if is_plain(*right) => {
                 part(*left)
             }
             _ => LevelPart::None,
@@ -103,8 +103,8 @@ impl Checker<'_> {
     /// A Celsius temperature that is part of a product, quotient or power which needs a ratio.
     fn fault_of_product(&mut self, at: usize, of: usize) {
         let place = match self.tree.nodes.get(at).map(|node| &node.kind) {
-            Some(Kind::Infix { operator: Operator::Divide, .. }) => ScaledPlace::Quotient,
-            Some(Kind::Infix { operator: Operator::Power, .. }) => ScaledPlace::Power,
+            Some(NodeKind::Infix { operator: Operator::Divide, .. }) => ScaledPlace::Quotient,
+            Some(NodeKind::Infix { operator: Operator::Power, .. }) => ScaledPlace::Power,
             _ => ScaledPlace::Product,
         };
         let fault =
@@ -232,7 +232,8 @@ impl Checker<'_> {
 
     /// Whether a node is 273.15 K, written out, perhaps with fewer digits.
     fn is_ice_point(&self, index: usize) -> bool {
-        let Some(Kind::InUnit { number, unit }) = self.tree.nodes.get(index).map(|node| &node.kind)
+        let Some(NodeKind::InUnit { number, unit }) =
+            self.tree.nodes.get(index).map(|node| &node.kind)
         else {
             return false;
         };
@@ -411,7 +412,7 @@ impl Checker<'_> {
                 self.tie(left).times(1.0 / divisor),
             );
         }
-        if let Some(Kind::Unit(unit)) = self.tree.nodes.get(right).map(|node| &node.kind)
+        if let Some(NodeKind::Unit(unit)) = self.tree.nodes.get(right).map(|node| &node.kind)
             && unit.zero().is_some()
         {
             let unit = unit.as_ref().clone();
@@ -566,33 +567,33 @@ impl Checker<'_> {
 
     fn has_factor(&self, index: usize, turn: Turn) -> bool {
         match self.tree.nodes.get(index).map(|node| &node.kind) {
-            Some(Kind::Infix { operator: Operator::Multiply, left, right, .. }) => {
+            Some(NodeKind::Infix { operator: Operator::Multiply, left, right, .. }) => {
                 self.has_factor(*left, turn) || self.has_factor(*right, turn)
             }
-            Some(Kind::Negate(of)) => self.has_factor(*of, turn),
+            Some(NodeKind::Negate(of)) => self.has_factor(*of, turn),
             _ => self.typing(index).turn == Some(turn),
         }
     }
 
     fn is_unit(&self, index: usize, text: &str) -> bool {
         let kind = self.tree.nodes.get(index).map(|node| &node.kind);
-        matches!(kind, Some(Kind::Unit(unit)) if unit.text().trim() == text)
+        matches!(kind, Some(NodeKind::Unit(unit)) if unit.text().trim() == text)
     }
 
     /// Checks `10^(L/10)`, the only kind of power that a level is the exponent of.
     pub(super) fn check_level_as_exponent(&mut self, base: usize, exponent: usize) {
         let mut inner = exponent;
-        while let Some(Kind::Negate(x)) = self.tree.nodes.get(inner).map(|node| &node.kind) {
+        while let Some(NodeKind::Negate(x)) = self.tree.nodes.get(inner).map(|node| &node.kind) {
             inner = *x;
         }
         let is = |factor: Option<f64>, wanted: [f64; 2]| {
             factor.is_some_and(|factor| wanted.contains(&factor.abs()))
         };
         let is_right = match self.tree.nodes.get(inner).map(|node| &node.kind) {
-            Some(Kind::Infix { operator: Operator::Divide, right, .. }) => {
+            Some(NodeKind::Infix { operator: Operator::Divide, right, .. }) => {
                 is(self.constant(*right), [10.0, 20.0])
             }
-            Some(Kind::Infix { operator: Operator::Multiply, left, right, .. }) => {
+            Some(NodeKind::Infix { operator: Operator::Multiply, left, right, .. }) => {
                 let factor = self.constant(*left).or(self.constant(*right));
                 is(factor, [0.1, 0.05])
             }

@@ -22,13 +22,13 @@ pub(super) struct Tree {
 /// node are not part of it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Node {
-    pub(super) kind: Kind,
+    pub(super) kind: NodeKind,
     pub(super) span: Range<usize>,
 }
 
 /// What a node is. Operands are indices in the list of nodes.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Kind {
+pub(super) enum NodeKind {
     /// A number as written.
     Number(f64),
     /// The constant pi.
@@ -160,8 +160,8 @@ impl Tree {
     pub(super) fn names(&self, text: &str, places: &mut Vec<Range<usize>>) {
         for node in &self.nodes {
             match &node.kind {
-                Kind::Name => places.push(node.span.clone()),
-                Kind::Solve { body, unknown, .. } => {
+                NodeKind::Name => places.push(node.span.clone()),
+                NodeKind::Solve { body, unknown, .. } => {
                     let before = places.len();
                     body.names(text, places);
                     let is_other =
@@ -178,8 +178,8 @@ impl Tree {
     pub(super) fn tables<'t>(&'t self, calls: &mut Vec<&'t TableCall>) {
         for node in &self.nodes {
             match &node.kind {
-                Kind::Table { call, .. } => calls.push(call),
-                Kind::Solve { body, .. } => body.tables(calls),
+                NodeKind::Table { call, .. } => calls.push(call),
+                NodeKind::Solve { body, .. } => body.tables(calls),
                 _ => {}
             }
         }
@@ -189,17 +189,17 @@ impl Tree {
     /// temperature, and `t/[degF]` counts from another zero.
     pub(super) fn needs_typings(&self) -> bool {
         self.nodes.iter().any(|node| match &node.kind {
-            Kind::Call { function: Some(Function::Kelvin | Function::Celsius), .. } => true,
-            Kind::Unit(unit) => unit.zero().is_some(),
+            NodeKind::Call { function: Some(Function::Kelvin | Function::Celsius), .. } => true,
+            NodeKind::Unit(unit) => unit.zero().is_some(),
             // the range tells what the unknown is, and the columns what they count from
-            Kind::Solve { .. } | Kind::Curve { .. } | Kind::Table { .. } => true,
+            NodeKind::Solve { .. } | NodeKind::Curve { .. } | NodeKind::Table { .. } => true,
             _ => false,
         })
     }
 
     /// Whether there is an equation to solve in it.
     pub(super) fn has_solve(&self) -> bool {
-        self.nodes.iter().any(|node| matches!(node.kind, Kind::Solve { .. }))
+        self.nodes.iter().any(|node| matches!(node.kind, NodeKind::Solve { .. }))
     }
 
     /// The place of a node in the text; empty for a node that is not there.

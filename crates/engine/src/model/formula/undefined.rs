@@ -4,7 +4,7 @@
 use super::error::FormulaError;
 use super::function::Function;
 use super::message::excerpt;
-use super::syntax::{Kind, Tree};
+use super::syntax::{NodeKind, Tree};
 
 /// The first such part; none of a formula with a branch that need not be taken.
 pub(super) fn constant_part(
@@ -12,7 +12,8 @@ pub(super) fn constant_part(
     tree: &Tree,
     constants: &[Option<f64>],
 ) -> Option<FormulaError> {
-    let is_branch = |kind: &Kind| matches!(kind, Kind::Call { function: Some(Function::If), .. });
+    let is_branch =
+        |kind: &NodeKind| matches!(kind, NodeKind::Call { function: Some(Function::If), .. });
     if tree.nodes.iter().any(|node| is_branch(&node.kind)) {
         return None;
     }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::registers::{self, Arena};
-use super::{Slope, Slopes, Step};
+use super::{Slope, SlopeStep, Slopes};
 use crate::model::program::{Node, Program};
 use crate::number::{Binary, Number, Operand, Unary, derivative, smallest_first};
 
@@ -12,7 +12,7 @@ const MOST_STEPS: usize = 100_000;
 
 /// What is known of a node: its value, and its derivatives by the variables that it depends on.
 #[derive(Clone, Debug)]
-struct Known {
+struct NodeSlopes {
     value: Operand,
     gradient: BTreeMap<usize, Operand>,
 }
@@ -20,7 +20,7 @@ struct Known {
 /// Registers are numbered as they come; [`registers::assign`] assigns the final ones.
 #[derive(Debug, Default)]
 struct Builder {
-    steps: Vec<Step>,
+    steps: Vec<SlopeStep>,
     registers: [usize; 2],
     filled: [HashMap<u64, usize>; 2],
     /// Of the angles that a sine or a cosine was taken of, both.
@@ -35,12 +35,12 @@ pub(super) fn build(program: &Program, same: &[Option<f64>], wanted: usize) -> O
     let needed = program.needed_by(&[], program.outputs.iter().copied());
     let mut builder = Builder::default();
     let mut varying = Vec::new();
-    let mut known: Vec<Option<Known>> = Vec::with_capacity(program.nodes.len());
+    let mut known: Vec<Option<NodeSlopes>> = Vec::with_capacity(program.nodes.len());
     for (node, needed) in program.nodes.iter().zip(needed) {
         let at = |index: usize| known.get(index).and_then(Option::as_ref);
         let made = match *node {
             _ if !needed => None,
-            Node::Constant(c) => Some(Known::constant(c)),
+            Node::Constant(c) => Some(NodeSlopes::constant(c)),
             Node::Variable(v) => {
                 let value = same.get(v).copied().flatten().map_or_else(
                     || {
@@ -51,7 +51,7 @@ pub(super) fn build(program: &Program, same: &[Option<f64>], wanted: usize) -> O
                     Operand::Constant,
                 );
                 let own = (v < wanted).then_some((v, Operand::Constant(1.0)));
-                Some(Known { value, gradient: own.into_iter().collect() })
+                Some(NodeSlopes { value, gradient: own.into_iter().collect() })
             }
             Node::Unary(operation, x) => Some(builder.unary(operation, at(x)?)),
             Node::Binary(operation, x, y) => Some(builder.binary(operation, at(x)?, at(y)?)),
@@ -78,7 +78,7 @@ pub(super) fn build(program: &Program, same: &[Option<f64>], wanted: usize) -> O
     Some(registers::assign(made))
 }
 
-impl Known {
+impl NodeSlopes {
     fn constant(value: f64) -> Self {
         Self { value: Operand::Constant(value), gradient: BTreeMap::new() }
     }
@@ -107,19 +107,19 @@ impl Builder {
         }
     }
 
-    fn value(&mut self, step: impl FnOnce(usize) -> Step) -> Operand {
+    fn value(&mut self, step: impl FnOnce(usize) -> SlopeStep) -> Operand {
         let out = self.register(Arena::Values);
         self.steps.push(step(out));
         Operand::Register(out)
     }
 
-    fn unary(&mut self, operation: Unary, of: &Known) -> Known {
+    fn unary(&mut self, operation: Unary, of: &NodeSlopes) -> NodeSlopes {
         let x = match of.value {
             Operand::Constant(x) => {
                 let y = x.unary(operation);
                 let slope = Operand::Constant(derivative::unary(operation, x, y));
                 let gradient = self.chain_all(&of.gradient, slope);
-                return Known { value: Operand::Constant(y), gradient };
+                return NodeSlopes { value: Operand::Constant(y), gradient };
             }
             Operand::Register(x) => x,
         };
@@ -130,23 +130,28 @@ impl Builder {
                     (sin, Operand::Register(cos))
                 } else {
                     let slope = (!of.gradient.is_empty())
-                        .then(|| self.value(|out| Step::Unary(Unary::Negate, sin, out)));
+                        .then(|| self.value(|out| SlopeStep::Unary(Unary::Negate, sin, out)));
                     (cos, slope.unwrap_or(Operand::Constant(0.0)))
                 }
             }
             _ => {
                 let out = self.register(Arena::Values);
-                self.steps.push(Step::Unary(operation, x, out));
+                self.steps.push(SlopeStep::Unary(operation, x, out));
                 let slope = match operation {
                     _ if of.gradient.is_empty() => Operand::Constant(0.0),
                     Unary::Negate => Operand::Constant(-1.0),
                     Unary::Exp => Operand::Register(out),
-                    _ => self.value(|slope| Step::SlopeOfUnary { operation, x, y: out, slope }),
+                    _ => {
+                        self.value(|slope| SlopeStep::SlopeOfUnary { operation, x, y: out, slope })
+                    }
                 };
                 (out, slope)
             }
         };
-        Known { value: Operand::Register(value), gradient: self.chain_all(&of.gradient, slope) }
+        NodeSlopes {
+            value: Operand::Register(value),
+            gradient: self.chain_all(&of.gradient, slope),
+        }
     }
 
     /// Sine and cosine of an angle, which stand in a model together more often than not.
@@ -155,27 +160,27 @@ impl Builder {
             return both;
         }
         let [sin, cos] = [self.register(Arena::Values), self.register(Arena::Values)];
-        self.steps.push(Step::SinCos { angle, sin, cos });
+        self.steps.push(SlopeStep::SinCos { angle, sin, cos });
         self.angles.insert(angle, [sin, cos]);
         [sin, cos]
     }
 
-    fn binary(&mut self, operation: Binary, first: &Known, second: &Known) -> Known {
+    fn binary(&mut self, operation: Binary, first: &NodeSlopes, second: &NodeSlopes) -> NodeSlopes {
         let (x, y) = (first.value, second.value);
         let value = match (x, y) {
             (Operand::Constant(x), Operand::Constant(y)) => {
                 Operand::Constant(x.binary(operation, y))
             }
-            _ => self.value(|out| Step::Binary(operation, x, y, out)),
+            _ => self.value(|out| SlopeStep::Binary(operation, x, y, out)),
         };
         let mut variables: Vec<usize> =
             first.gradient.keys().chain(second.gradient.keys()).copied().collect();
         variables.sort_unstable();
         variables.dedup();
         if variables.is_empty() || operation.is_flat() {
-            return Known { value, gradient: BTreeMap::new() };
+            return NodeSlopes { value, gradient: BTreeMap::new() };
         }
-        let by_variable = |known: &Known, v: usize| known.gradient.get(&v).copied();
+        let by_variable = |known: &NodeSlopes, v: usize| known.gradient.get(&v).copied();
         let chosen = operation.chooses();
         let slopes = if chosen { [x, y] } else { self.slopes(operation, x, y, value) };
         let gradient = variables.into_iter().map(|v| {
@@ -187,7 +192,7 @@ impl Builder {
             };
             (v, out)
         });
-        Known { value, gradient: gradient.collect() }
+        NodeSlopes { value, gradient: gradient.collect() }
     }
 
     /// The derivatives of an operation by its operands.
@@ -210,13 +215,13 @@ impl Builder {
             _ => {
                 let [x, y, value] = [x, y, value].map(|of| self.fill(Arena::Values, of));
                 let slopes = [self.register(Arena::Values), self.register(Arena::Values)];
-                self.steps.push(Step::SlopesOfBinary { operation, x, y, value, slopes });
+                self.steps.push(SlopeStep::SlopesOfBinary { operation, x, y, value, slopes });
                 slopes.map(Operand::Register)
             }
         }
     }
 
-    fn gradient(&mut self, step: impl FnOnce(usize) -> Step) -> Operand {
+    fn gradient(&mut self, step: impl FnOnce(usize) -> SlopeStep) -> Operand {
         let out = self.register(Arena::Gradients);
         self.steps.push(step(out));
         Operand::Register(out)
@@ -236,7 +241,7 @@ impl Builder {
         }
         let gradient = self.fill(Arena::Gradients, gradient);
         let slope = self.fill(Arena::Values, slope);
-        self.gradient(|out| Step::Chain { gradient, slope, out })
+        self.gradient(|out| SlopeStep::Chain { gradient, slope, out })
     }
 
     fn chain_two(&mut self, of: [Option<Operand>; 2], slopes: [Operand; 2]) -> Operand {
@@ -254,7 +259,7 @@ impl Builder {
         }
         let gradients = [first, second].map(|of| self.fill(Arena::Gradients, of));
         let slopes = slopes.map(|of| self.fill(Arena::Values, of));
-        self.gradient(|out| Step::ChainTwo { gradients, slopes, out })
+        self.gradient(|out| SlopeStep::ChainTwo { gradients, slopes, out })
     }
 
     fn choose(&mut self, operation: Binary, of: [Operand; 2], by: [Option<Operand>; 2]) -> Operand {
@@ -271,6 +276,6 @@ impl Builder {
         }
         let [x, y] = of.map(|of| self.fill(Arena::Values, of));
         let gradients = by.map(|of| self.fill(Arena::Gradients, of));
-        self.gradient(|out| Step::Choose { operation, x, y, gradients, out })
+        self.gradient(|out| SlopeStep::Choose { operation, x, y, gradients, out })
     }
 }

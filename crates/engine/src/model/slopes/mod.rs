@@ -17,7 +17,7 @@ use crate::number::{
 /// One step over columns: on values, on derivatives of operations (which lie beside the values), or
 /// on derivatives by variables.
 #[derive(Clone, Copy, Debug)]
-enum Step {
+enum SlopeStep {
     Unary(Unary, usize, usize),
     Binary(Binary, Operand, Operand, usize),
     SinCos {
@@ -73,7 +73,7 @@ pub(crate) struct Slope {
 /// A program over columns of rows, with derivatives.
 #[derive(Clone, Debug)]
 pub(crate) struct Slopes {
-    steps: Vec<Step>,
+    steps: Vec<SlopeStep>,
     /// Numbers of registers: of values, of derivatives.
     registers: [usize; 2],
     /// Registers that hold the same number all the time, of values and of derivatives.
@@ -115,30 +115,32 @@ impl Slopes {
         let Columns { values, gradients } = columns;
         for step in &self.steps {
             match *step {
-                Step::Unary(operation, x, out) => apply_unary(values, operation, x, out),
-                Step::Binary(operation, x, y, out) => apply_binary(values, operation, x, y, out),
-                Step::SinCos { angle, sin, cos } => apply_sin_cos(values, angle, sin, cos),
-                Step::SlopeOfUnary { operation, x, y, slope } => {
+                SlopeStep::Unary(operation, x, out) => apply_unary(values, operation, x, out),
+                SlopeStep::Binary(operation, x, y, out) => {
+                    apply_binary(values, operation, x, y, out)
+                }
+                SlopeStep::SinCos { angle, sin, cos } => apply_sin_cos(values, angle, sin, cos),
+                SlopeStep::SlopeOfUnary { operation, x, y, slope } => {
                     slope_of_unary(values, operation, [x, y], slope);
                 }
-                Step::SlopesOfBinary { operation, x, y, value, slopes } => {
+                SlopeStep::SlopesOfBinary { operation, x, y, value, slopes } => {
                     slopes_of_binary(values, operation, [x, y, value], slopes);
                 }
-                Step::Chain { gradient, slope, out } => {
+                SlopeStep::Chain { gradient, slope, out } => {
                     let slope = &values[slope].0;
                     let ([gradient, _], out) = apart(gradients, [gradient; 2], out);
                     for i in 0..COLUMN {
                         out[i] = chain(gradient[i], slope[i]);
                     }
                 }
-                Step::ChainTwo { gradients: of, slopes: [by_x, by_y], out } => {
+                SlopeStep::ChainTwo { gradients: of, slopes: [by_x, by_y], out } => {
                     let (by_x, by_y) = (&values[by_x].0, &values[by_y].0);
                     let ([first, second], out) = apart(gradients, of, out);
                     for i in 0..COLUMN {
                         out[i] = chain(first[i], by_x[i]) + chain(second[i], by_y[i]);
                     }
                 }
-                Step::Choose { operation, x, y, gradients: of, out } => {
+                SlopeStep::Choose { operation, x, y, gradients: of, out } => {
                     let (x, y) = (&values[x].0, &values[y].0);
                     let (of, out) = apart(gradients, of, out);
                     choose(operation, [x, y], of, out);

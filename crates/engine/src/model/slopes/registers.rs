@@ -1,7 +1,7 @@
 //! Assignment of registers: one is free again once nothing more reads it, so that few columns are in
 //! use at a time.
 
-use super::{Slopes, Step};
+use super::{SlopeStep, Slopes};
 use crate::number::Operand;
 
 /// Values and derivatives of operations lie apart from derivatives by variables.
@@ -11,7 +11,7 @@ pub(super) enum Arena {
     Gradients = 1,
 }
 
-impl Step {
+impl SlopeStep {
     /// Shows every register of the step: those that are read, then those that are written (`true`).
     fn registers(&mut self, mut see: impl FnMut(Arena, &mut usize, bool)) {
         use Arena::{Gradients, Values};

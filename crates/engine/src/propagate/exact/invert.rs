@@ -116,7 +116,7 @@ pub(super) struct Sum<'t> {
 
 /// A way to the distribution: up to which argument, at how many of them.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Plan {
+pub(super) struct InversionPlan {
     /// The largest argument.
     pub(super) last: f64,
     /// What is left out of the distribution function beyond it, and of the density.
@@ -220,7 +220,7 @@ impl Sum<'_> {
     ///
     /// # Errors
     /// Why there is none.
-    pub(super) fn plan(&self) -> Result<Plan, String> {
+    pub(super) fn plan(&self) -> Result<InversionPlan, String> {
         let whole = self.try_plan(None);
         if let Some((plan, 0..=2)) = whole {
             return Ok(plan);
@@ -246,7 +246,7 @@ impl Sum<'_> {
     }
 
     /// The first wanted error that can be had, and which one it is.
-    fn try_plan(&self, without: Option<usize>) -> Option<(Plan, usize)> {
+    fn try_plan(&self, without: Option<usize>) -> Option<(InversionPlan, usize)> {
         let width = self.width(without);
         let (reach, heavy) = self.reach(without);
         if without.is_some() && heavy || width.is_nan() || width <= 0.0 {
@@ -294,8 +294,16 @@ impl Sum<'_> {
             let error = left_out(last);
             let step = (!heavy).then_some(step);
             let density_error = scale * self.left_out(last, power - 1, without, f64::INFINITY);
-            let plan =
-                Plan { last, error, density_error, step, panel, reach, peeled: without, width };
+            let plan = InversionPlan {
+                last,
+                error,
+                density_error,
+                step,
+                panel,
+                reach,
+                peeled: without,
+                width,
+            };
             return Some((plan, number));
         }
         None
@@ -352,7 +360,7 @@ fn fade(share: f64) -> f64 {
 
 impl Inversion {
     /// The sum of all terms, by a plan made from those of them that are closed, which come first.
-    pub(super) fn new(terms: &[Term], plan: Plan) -> Self {
+    pub(super) fn new(terms: &[Term], plan: InversionPlan) -> Self {
         let kept = || terms.iter().enumerate().filter(|(i, _)| Some(*i) != plan.peeled);
         let mut arguments: Vec<[f64; 2]> = Vec::new();
         if let Some(step) = plan.step {

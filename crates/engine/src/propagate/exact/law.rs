@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::invert::{At, Inversion};
 use super::separate::Outer;
 use crate::distribution::Distribution;
-use crate::propagate::shortest::{Interval, Purpose, Search};
+use crate::propagate::shortest::{Interval, Purpose, ShortestSearch};
 
 /// The distribution of an output.
 pub(super) enum Law {
@@ -26,7 +26,7 @@ pub(super) enum Law {
 
 /// A value and how far it may be off.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Found {
+pub(super) struct BoundedValue {
     pub(super) value: f64,
     pub(super) bound: f64,
 }
@@ -46,7 +46,7 @@ const FLAT: f64 = 0.01;
 
 impl Law {
     /// The value below which the output lies with probability `p`; `q` is 1 - `p` with its own digits.
-    pub(super) fn quantile(&self, p: f64, q: f64) -> Option<Found> {
+    pub(super) fn quantile(&self, p: f64, q: f64) -> Option<BoundedValue> {
         match self {
             Self::One { distribution, rising, function } => {
                 let [p, q] = if *rising { [p, q] } else { [q, p] };
@@ -55,7 +55,7 @@ impl Law {
                 let value = function(x);
                 let middle = function(distribution.quantile(0.5));
                 let bound = SPECIAL * (value - middle).abs() + 8.0 * f64::EPSILON * value.abs();
-                value.is_finite().then_some(Found { value, bound })
+                value.is_finite().then_some(BoundedValue { value, bound })
             }
             Self::Sum { inversion, outer, last, .. } => {
                 let p = if rises(outer) { p } else { q };
@@ -66,7 +66,7 @@ impl Law {
     }
 
     /// The output where the sum is `x` from its mean.
-    fn of_sum(&self, x: f64, at: At) -> Option<Found> {
+    fn of_sum(&self, x: f64, at: At) -> Option<BoundedValue> {
         let Self::Sum { inversion, mean, outer, .. } = self else {
             return None;
         };
@@ -75,7 +75,7 @@ impl Law {
         let slope = slope(outer, sum);
         let bound = 1.01 * slope * (inversion.error + 2e-16) / at.density
             + 4.0 * f64::EPSILON * (slope * (sum.abs() + mean.abs()) + value.abs());
-        (value.is_finite() && bound.is_finite()).then_some(Found { value, bound })
+        (value.is_finite() && bound.is_finite()).then_some(BoundedValue { value, bound })
     }
 
     /// The probability of values up to `y`.
@@ -116,7 +116,7 @@ impl Law {
 
     /// A quantile, and the density there with how far that may be off; to see where about something is
     /// that need not be what is known best.
-    fn end(&self, [p, q]: [f64; 2], purpose: Purpose) -> Option<(Found, [f64; 2])> {
+    fn end(&self, [p, q]: [f64; 2], purpose: Purpose) -> Option<(BoundedValue, [f64; 2])> {
         match self {
             Self::Sum { inversion, mean, outer, last, .. } => {
                 let (x, at) = solved(inversion, if rises(outer) { p } else { q }, last)?;
@@ -159,7 +159,7 @@ impl Law {
         p: f64,
         tails: [f64; 2],
         purpose: Purpose,
-    ) -> Option<([Found; 2], Interval)> {
+    ) -> Option<([BoundedValue; 2], Interval)> {
         let [below, above] = tails;
         if matches!(self, Self::Sum { inversion, .. } if below.min(above) < RESOLVED * inversion.error)
         {
@@ -177,7 +177,7 @@ impl Law {
     }
 
     /// Where the values begin and end, as far as it is known.
-    fn limits(&self) -> [Option<Found>; 2] {
+    fn limits(&self) -> [Option<BoundedValue>; 2] {
         match self {
             Self::One { .. } => {
                 let least = f64::MIN_POSITIVE;
@@ -185,7 +185,7 @@ impl Law {
             }
             Self::Sum { outer: Outer::Sum, .. } => [None; 2],
             Self::Sum { outer: Outer::Product { factor, shift }, .. } => {
-                let limit = Some(Found { value: *shift, bound: 0.0 });
+                let limit = Some(BoundedValue { value: *shift, bound: 0.0 });
                 if *factor > 0.0 { [limit, None] } else { [None, limit] }
             }
         }
@@ -207,11 +207,15 @@ impl Law {
 
     /// The shortest interval of probability `p`, with what its ends may be off, and whether it is the
     /// only one; `symmetric` is the probabilistically symmetric one.
-    pub(super) fn shortest(&self, p: f64, symmetric: [Found; 2]) -> Option<([Found; 2], bool)> {
+    pub(super) fn shortest(
+        &self,
+        p: f64,
+        symmetric: [BoundedValue; 2],
+    ) -> Option<([BoundedValue; 2], bool)> {
         let tail = 1.0 - p;
         let center = 0.5 * tail;
         let at = |tails: [f64; 2], purpose| Some(self.interval(p, tails, purpose)?.1);
-        let mut search = Search { tail, at };
+        let mut search = ShortestSearch { tail, at };
         let is_symmetric = self.is_symmetric();
         let least = if is_symmetric {
             search.about(at([center, center], Purpose::Find)?)

@@ -21,10 +21,10 @@ pub(super) use existence::{of_moments as moments_exist, pole_order};
 use std::sync::Arc;
 
 use self::invert::{Decay, Inversion, Sum};
-use self::law::{Found, Law};
+use self::law::{BoundedValue, Law};
 pub(super) use self::separate::is_linear;
-use self::separate::{Group, Leaf, Outer, Separated, separate};
-use self::term::{Inputs, Term};
+use self::separate::{Leaf, Outer, SeparateGroup, Separated, separate};
+use self::term::{Term, TermInputs};
 use crate::distribution::characteristic::Characteristic;
 use crate::distribution::{Dependence, Distribution, Joint, Normal, StudentT};
 use crate::model::{Node, Output, Program, Tolerance, fold};
@@ -163,7 +163,7 @@ pub(crate) fn evaluate(problem: &Problem<'_>) -> Result<Noiseless, String> {
     let node = program.outputs[problem.output];
     let folded = problem.folded();
     let linked = problem.joint.linked();
-    let inputs = Inputs {
+    let inputs = TermInputs {
         program,
         folded: &folded,
         distributions: &problem.row.distributions,
@@ -188,14 +188,18 @@ const SAME: f64 = 1e-6;
 /// Holds the parts against the formula at the inputs' expectations. A product has the sign there that
 /// the logarithms of its factors have lost: each factor keeps its own, or it is refused later. A root or
 /// a logarithm of what is below zero has no value there.
-fn checked(inputs: &Inputs<'_>, separated: Separated, node: usize) -> Result<Separated, String> {
-    let value = |group: &Group| {
-        let part = term::Part::new(inputs, group);
+fn checked(
+    inputs: &TermInputs<'_>,
+    separated: Separated,
+    node: usize,
+) -> Result<Separated, String> {
+    let value = |group: &SeparateGroup| {
+        let part = term::SubProgram::new(inputs, group);
         let of = |v: &usize| inputs.distributions.get(*v).map_or(f64::NAN, |of| term::middle(of));
         let values: Vec<f64> = group.variables.iter().map(of).collect();
         part.value(&values, &mut vec![0.0; part.leaves()])
     };
-    let whole = Group {
+    let whole = SeparateGroup {
         variables: separate::variables_of(inputs.program, inputs.folded, node),
         linked: Vec::new(),
         leaves: vec![Leaf { node, factor: 1.0, logarithm: false }],
@@ -233,14 +237,14 @@ fn checked(inputs: &Inputs<'_>, separated: Separated, node: usize) -> Result<Sep
 
 /// Expectation and standard deviation of an output; not finite where there are none.
 #[derive(Clone, Copy, Debug)]
-struct Moments {
+struct ExactMoments {
     mean: f64,
     std: f64,
     /// How far the two may be off.
     off: f64,
 }
 
-impl Moments {
+impl ExactMoments {
     /// Those that are known to rounding.
     fn known(mean: f64, std: f64) -> Self {
         Self { mean, std, off: 0.0 }
@@ -258,9 +262,9 @@ impl Moments {
 /// The distribution of the output, and its moments.
 fn distribution(
     problem: &Problem<'_>,
-    inputs: &Inputs<'_>,
+    inputs: &TermInputs<'_>,
     separated: &Separated,
-) -> Result<(Law, Moments), String> {
+) -> Result<(Law, ExactMoments), String> {
     if let ([group], Outer::Sum) = (separated.groups.as_slice(), separated.outer) {
         return one(inputs, group, separated.constant);
     }
@@ -289,7 +293,7 @@ fn distribution(
     let mean = separated.constant + terms.iter().map(|term| term.mean).sum::<f64>();
     let symmetric = terms.iter().all(|term| term.law.is_symmetric_unimodal());
     let moments = match separated.outer {
-        Outer::Sum => Moments::of_sum(separated.constant, &terms),
+        Outer::Sum => ExactMoments::of_sum(separated.constant, &terms),
         Outer::Product { factor, shift } => {
             let scale = factor * crate::number::elementary::exp(separated.constant);
             // the relative variance of a product, from those of its factors
@@ -318,7 +322,7 @@ fn distribution(
             let std = expectation.abs() * excess.max(0.0).sqrt();
             let of_square = 0.5 * off[1] * (expectation * expectation + std * std) / std;
             let off = f64::max(off[0] * expectation.abs(), of_square);
-            Moments { mean: shift + expectation, std, off }
+            ExactMoments { mean: shift + expectation, std, off }
         }
     };
     let outer = separated.outer;
@@ -327,7 +331,11 @@ fn distribution(
 }
 
 /// The distribution of a function of one quantity.
-fn one(inputs: &Inputs<'_>, group: &Group, constant: f64) -> Result<(Law, Moments), String> {
+fn one(
+    inputs: &TermInputs<'_>,
+    group: &SeparateGroup,
+    constant: f64,
+) -> Result<(Law, ExactMoments), String> {
     let closed = term::closed(inputs, group);
     let linear = |variable: Option<usize>| -> Option<Law> {
         let (leaf, v) = (group.leaves.first()?, variable?);
@@ -349,7 +357,7 @@ fn one(inputs: &Inputs<'_>, group: &Group, constant: f64) -> Result<(Law, Moment
         let factor = group.leaves[0].factor;
         let mean = constant + factor * term::middle(distribution);
         let std = factor.abs() * distribution.standard_deviation();
-        return Ok((law, Moments::known(mean, std)));
+        return Ok((law, ExactMoments::known(mean, std)));
     }
     if let Some(term) = closed {
         let scale = term.factor.abs();
@@ -369,7 +377,7 @@ fn one(inputs: &Inputs<'_>, group: &Group, constant: f64) -> Result<(Law, Moment
         let function = Box::new(move |x: f64| mean + x);
         return Ok((
             Law::One { distribution: Arc::new(made), rising: true, function },
-            Moments::known(mean, std),
+            ExactMoments::known(mean, std),
         ));
     }
     let [v] = group.variables.as_slice() else {
@@ -379,7 +387,7 @@ fn one(inputs: &Inputs<'_>, group: &Group, constant: f64) -> Result<(Law, Moment
         ));
     };
     let distribution = Arc::clone(&inputs.distributions[*v]);
-    let part = term::Part::new(inputs, group);
+    let part = term::SubProgram::new(inputs, group);
     let value = move |x: f64| {
         let mut signs = vec![0.0; part.leaves()];
         part.value(&[x], &mut signs).map_or(f64::NAN, |value| constant + value)
@@ -400,13 +408,13 @@ fn one(inputs: &Inputs<'_>, group: &Group, constant: f64) -> Result<(Law, Moment
     }
     let frequency = 1e-3 / (pairs[pairs.len() / 2][1] - pairs[0][1]).abs();
     let found = term::term(inputs, group, frequency, false)?;
-    let moments = Moments::of_sum(constant, &[found]);
+    let moments = ExactMoments::of_sum(constant, &[found]);
     Ok((Law::One { distribution, rising, function: Box::new(value) }, moments))
 }
 
 /// The figures of a distribution.
-fn figures(problem: &Problem<'_>, law: &Law, moments: Moments) -> Result<Noiseless, String> {
-    let Moments { mean, std, off } = moments;
+fn figures(problem: &Problem<'_>, law: &Law, moments: ExactMoments) -> Result<Noiseless, String> {
+    let ExactMoments { mean, std, off } = moments;
     let p = problem.probability();
     let tail = 0.5 * (1.0 - p);
     let missing =
@@ -416,7 +424,7 @@ fn figures(problem: &Problem<'_>, law: &Law, moments: Moments) -> Result<Noisele
     let symmetric = [found(tail, 1.0 - tail)?, found(1.0 - tail, tail)?];
     let length = symmetric[1].value - symmetric[0].value;
     let scale = if std.is_finite() && std > 0.0 { std } else { 0.25 * length };
-    let bounds = [median, symmetric[0], symmetric[1]].map(|found: Found| found.bound);
+    let bounds = [median, symmetric[0], symmetric[1]].map(|found: BoundedValue| found.bound);
     let mut bound = bounds.into_iter().fold(0.0, f64::max);
     if bound.is_nan() || bound > EXACT * scale {
         return Err(format!(
@@ -437,7 +445,7 @@ fn figures(problem: &Problem<'_>, law: &Law, moments: Moments) -> Result<Noisele
     }
     let shortest = law.shortest(p, symmetric);
     let unique = shortest.is_some_and(|(_, unique)| unique);
-    let known = |ends: &[Found; 2]| ends.iter().all(|end| end.bound <= OF_SHORTEST * scale);
+    let known = |ends: &[BoundedValue; 2]| ends.iter().all(|end| end.bound <= OF_SHORTEST * scale);
     let shortest = shortest.map(|(ends, _)| ends).filter(known);
     if let Some([low, high]) = &shortest {
         bound = bound.max(low.bound).max(high.bound);

@@ -17,7 +17,7 @@ pub(super) struct Leaf {
 
 /// A function of some inputs, on which no other group depends.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Group {
+pub(super) struct SeparateGroup {
     /// The inputs that it depends on, and those that depend on them, in order.
     pub(super) variables: Vec<usize>,
     /// The dependences among them.
@@ -41,7 +41,7 @@ pub(super) enum Outer {
 pub(super) struct Separated {
     /// What is added to the groups.
     pub(super) constant: f64,
-    pub(super) groups: Vec<Group>,
+    pub(super) groups: Vec<SeparateGroup>,
     pub(super) outer: Outer,
 }
 
@@ -53,7 +53,7 @@ const MOST_STEPS: usize = 1 << 24;
 /// A node with a factor, of its value or of the logarithm of its modulus.
 type Summand = (usize, f64, bool);
 
-struct Parts<'p> {
+struct SeparatedParts<'p> {
     program: &'p Program,
     folded: &'p [Option<f64>],
     constant: f64,
@@ -62,7 +62,7 @@ struct Parts<'p> {
     places: HashMap<(usize, bool), usize>,
 }
 
-impl<'p> Parts<'p> {
+impl<'p> SeparatedParts<'p> {
     fn new(program: &'p Program, folded: &'p [Option<f64>]) -> Self {
         Self { program, folded, constant: 0.0, leaves: Vec::new(), places: HashMap::new() }
     }
@@ -176,10 +176,10 @@ pub(super) fn variables_of(program: &Program, folded: &[Option<f64>], node: usiz
 }
 
 /// Puts summands together that depend on the same inputs or on linked ones.
-fn grouped(parts: &Parts<'_>, linked: &[Linked]) -> Vec<Group> {
+fn grouped(parts: &SeparatedParts<'_>, linked: &[Linked]) -> Vec<SeparateGroup> {
     // groups with the number of the leaf that came last, which is their order; one that went into
     // another has no leaves
-    let mut groups: Vec<(usize, Group)> = Vec::new();
+    let mut groups: Vec<(usize, SeparateGroup)> = Vec::new();
     let mut group_of: HashMap<usize, usize> = HashMap::new();
     let mut linked_by: HashMap<usize, Vec<usize>> = HashMap::new();
     for (place, link) in linked.iter().enumerate() {
@@ -202,7 +202,7 @@ fn grouped(parts: &Parts<'_>, linked: &[Linked]) -> Vec<Group> {
         let largest = common.iter().copied().max_by_key(|&place| groups[place].1.variables.len());
         let into = largest.unwrap_or(groups.len());
         if into == groups.len() {
-            groups.push((number, Group::default()));
+            groups.push((number, SeparateGroup::default()));
         }
         let mut leaves = vec![*leaf];
         for place in common {
@@ -224,7 +224,7 @@ fn grouped(parts: &Parts<'_>, linked: &[Linked]) -> Vec<Group> {
     }
     groups.retain(|(_, group)| !group.leaves.is_empty());
     groups.sort_unstable_by_key(|(last, _)| *last);
-    let in_order = |(_, mut group): (usize, Group)| {
+    let in_order = |(_, mut group): (usize, SeparateGroup)| {
         group.variables.sort_unstable();
         group.linked.sort_unstable();
         group.linked.dedup();
@@ -234,7 +234,7 @@ fn grouped(parts: &Parts<'_>, linked: &[Linked]) -> Vec<Group> {
 }
 
 /// How many independent quantities a group has.
-fn independent(group: &Group, linked: &[Linked]) -> usize {
+fn independent(group: &SeparateGroup, linked: &[Linked]) -> usize {
     let tied = group.linked.iter().map(|&l| match &linked[l].dependence {
         Dependence::Scores(_) => 0,
         Dependence::Student(..) | Dependence::Trials => linked[l].members.len() - 1,
@@ -248,7 +248,7 @@ pub(in crate::propagate) fn is_linear(
     folded: &[Option<f64>],
     node: usize,
 ) -> bool {
-    let mut parts = Parts::new(program, folded);
+    let mut parts = SeparatedParts::new(program, folded);
     parts.add_by_nodes(node, false);
     let is_variable = |leaf: &Leaf| matches!(program.nodes[leaf.node], Node::Variable(_));
     parts.leaves.iter().all(|leaf| !leaf.logarithm && is_variable(leaf))
@@ -261,7 +261,7 @@ pub(super) fn separate(
     output: usize,
     linked: &[Linked],
 ) -> Separated {
-    let parts = Parts::of(program, folded, output, false);
+    let parts = SeparatedParts::of(program, folded, output, false);
     let groups = grouped(&parts, linked);
     let sum = Separated { constant: parts.constant, groups, outer: Outer::Sum };
     let ([group], [leaf]) = (sum.groups.as_slice(), parts.leaves.as_slice()) else {
@@ -270,7 +270,7 @@ pub(super) fn separate(
     if leaf.logarithm || independent(group, linked) < 2 {
         return sum;
     }
-    let logarithms = Parts::of(program, folded, leaf.node, true);
+    let logarithms = SeparatedParts::of(program, folded, leaf.node, true);
     let groups = grouped(&logarithms, linked);
     if groups.len() < 2 {
         return sum;

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::invert::Decay;
-use super::separate::{Group, Leaf};
+use super::separate::{Leaf, SeparateGroup};
 use super::tails::{Beyond, PANELS, RINGS};
 use crate::distribution::characteristic::{Characteristic, Complex, Reach};
 use crate::distribution::{Dependence, Distribution, Linked};
@@ -75,7 +75,7 @@ impl Term {
 }
 
 /// What is known of the inputs of a row.
-pub(super) struct Inputs<'a> {
+pub(super) struct TermInputs<'a> {
     pub(super) program: &'a Program,
     /// The values of the nodes that do not vary.
     pub(super) folded: &'a [Option<f64>],
@@ -102,8 +102,8 @@ fn drawn_scale(distribution: &Distribution) -> f64 {
 /// # Errors
 /// Why it is not known.
 pub(super) fn term(
-    inputs: &Inputs<'_>,
-    group: &Group,
+    inputs: &TermInputs<'_>,
+    group: &SeparateGroup,
     frequency: f64,
     exponentials: bool,
 ) -> Result<Term, String> {
@@ -114,7 +114,7 @@ pub(super) fn term(
 }
 
 /// The summand of a group whose characteristic function has a closed form.
-pub(super) fn closed(inputs: &Inputs<'_>, group: &Group) -> Option<Term> {
+pub(super) fn closed(inputs: &TermInputs<'_>, group: &SeparateGroup) -> Option<Term> {
     let distribution = |v: usize| inputs.distributions.get(v).map(|d| &**d);
     let variable = |leaf: &Leaf| match inputs.program.nodes[leaf.node] {
         Node::Variable(v) if !leaf.logarithm => Some(v),
@@ -192,7 +192,7 @@ enum Coordinate {
 
 /// A place on a coordinate.
 #[derive(Clone, Copy)]
-struct Place {
+struct CoordinatePlace {
     /// The score, or the value of the quantity.
     at: f64,
     weight: f64,
@@ -226,7 +226,7 @@ const MOST_POINTS: usize = 40_000;
 
 impl Coordinate {
     /// The places of a rule, finer with every level.
-    fn places(&self, level: u32) -> Vec<Place> {
+    fn places(&self, level: u32) -> Vec<CoordinatePlace> {
         match self {
             Self::Score => {
                 let steps = 24 << level;
@@ -234,7 +234,11 @@ impl Coordinate {
                 let scale = step / std::f64::consts::TAU.sqrt();
                 let at = |k: u32| {
                     let at = -FARTHEST + step * f64::from(k);
-                    Place { at, weight: scale * elementary::exp(-0.5 * at * at), ring: None }
+                    CoordinatePlace {
+                        at,
+                        weight: scale * elementary::exp(-0.5 * at * at),
+                        ring: None,
+                    }
                 };
                 (0..=steps).map(at).collect()
             }
@@ -294,7 +298,7 @@ fn panel(
     (start, width): (f64, f64),
     pieces: u32,
     ring: Option<usize>,
-) -> impl Iterator<Item = Place> {
+) -> impl Iterator<Item = CoordinatePlace> {
     let width = width / f64::from(pieces);
     let piece = move |piece: u32| legendre::nodes().map(|node| (piece, node));
     (0..pieces).flat_map(piece).map(move |(piece, [node, weight])| {
@@ -303,7 +307,7 @@ fn panel(
             End::Lower => distribution.quantile(p),
             End::Upper => distribution.quantile_upper(p),
         };
-        Place { at, weight: weight * width, ring: ring.map(|ring| (end, ring)) }
+        CoordinatePlace { at, weight: weight * width, ring: ring.map(|ring| (end, ring)) }
     })
 }
 
@@ -324,7 +328,7 @@ pub(super) fn ring_at_end(
 
 /// Values and weights of a rule over the probability, finer towards both ends unless the quantile
 /// function is smooth there.
-fn probabilities(distribution: &Distribution, level: u32) -> Vec<Place> {
+fn probabilities(distribution: &Distribution, level: u32) -> Vec<CoordinatePlace> {
     let mut places = Vec::new();
     let pieces = 1 << level;
     for pair in edges(distribution).windows(2) {
@@ -350,7 +354,7 @@ fn probabilities(distribution: &Distribution, level: u32) -> Vec<Place> {
 }
 
 /// The independent quantities behind a group.
-fn coordinates(inputs: &Inputs<'_>, group: &Group) -> Result<Vec<Coordinate>, String> {
+fn coordinates(inputs: &TermInputs<'_>, group: &SeparateGroup) -> Result<Vec<Coordinate>, String> {
     let mut coordinates = Vec::new();
     for &v in &group.variables {
         let linked = group.linked.iter().map(|&l| &inputs.linked[l]);
@@ -387,19 +391,19 @@ fn at_score(distribution: &Distribution, z: f64) -> f64 {
 }
 
 /// The part of a program that some nodes need.
-pub(super) struct Part {
+pub(super) struct SubProgram {
     program: Program,
     /// Which nodes.
     leaves: Vec<Leaf>,
 }
 
-impl Part {
+impl SubProgram {
     /// How many summands there are.
     pub(super) fn leaves(&self) -> usize {
         self.leaves.len()
     }
 
-    pub(super) fn new(inputs: &Inputs<'_>, group: &Group) -> Self {
+    pub(super) fn new(inputs: &TermInputs<'_>, group: &SeparateGroup) -> Self {
         let leaves = group.leaves.iter().map(|leaf| leaf.node);
         // of a sum of many groups each needs few nodes of the program
         let needed = inputs.program.nodes_behind(inputs.folded, leaves);
@@ -478,13 +482,13 @@ impl Points {
 
 /// Points of the summand at one level.
 fn level_points(
-    inputs: &Inputs<'_>,
-    group: &Group,
-    part: &Part,
+    inputs: &TermInputs<'_>,
+    group: &SeparateGroup,
+    part: &SubProgram,
     coordinates: &[Coordinate],
     level: u32,
 ) -> Result<Points, String> {
-    let places: Vec<Vec<Place>> = coordinates.iter().map(|c| c.places(level)).collect();
+    let places: Vec<Vec<CoordinatePlace>> = coordinates.iter().map(|c| c.places(level)).collect();
     let count = places.iter().map(Vec::len).try_fold(1usize, usize::checked_mul);
     let count = count.filter(|&count| count <= MOST_POINTS).ok_or_else(|| {
         let names = coordinates.len();
@@ -544,7 +548,7 @@ const FARTHER: u32 = 150;
 /// # Errors
 /// A tail has no value.
 fn beyond<const N: usize>(
-    part: &Part,
+    part: &SubProgram,
     coordinates: &[Coordinate],
     points: &Points,
     of: [&dyn Fn(f64) -> f64; N],
@@ -599,8 +603,8 @@ fn beyond<const N: usize>(
 
 /// Turns scores into values, in place.
 fn place_values(
-    inputs: &Inputs<'_>,
-    group: &Group,
+    inputs: &TermInputs<'_>,
+    group: &SeparateGroup,
     coordinates: &[Coordinate],
     values: &mut [f64],
 ) {
@@ -647,7 +651,7 @@ const SAME: f64 = 3e-14;
 const MOST_DIFFERENT: f64 = 1e-11;
 
 /// Quantities that depend on each other are integrated over only where scores stand behind them.
-fn check_dependence(inputs: &Inputs<'_>, group: &Group) -> Result<(), String> {
+fn check_dependence(inputs: &TermInputs<'_>, group: &SeparateGroup) -> Result<(), String> {
     for &l in &group.linked {
         match inputs.linked[l].dependence {
             Dependence::Scores(_) => {}
@@ -664,13 +668,13 @@ fn check_dependence(inputs: &Inputs<'_>, group: &Group) -> Result<(), String> {
 
 /// The summand of a group by quadrature.
 fn points(
-    inputs: &Inputs<'_>,
-    group: &Group,
+    inputs: &TermInputs<'_>,
+    group: &SeparateGroup,
     frequency: f64,
     exponentials: bool,
 ) -> Result<Term, String> {
     check_dependence(inputs, group)?;
-    let part = Part::new(inputs, group);
+    let part = SubProgram::new(inputs, group);
     let coordinates = coordinates(inputs, group)?;
     let at = |level: u32| level_points(inputs, group, &part, &coordinates, level);
     let mut before = at(0)?;
@@ -730,9 +734,9 @@ const LOST: f64 = 1e-16;
 
 /// How the characteristic function of a group falls, as far as points tell: at each argument two
 /// levels of the quadrature agree.
-pub(super) fn decay(inputs: &Inputs<'_>, group: &Group) -> Result<Decay, String> {
+pub(super) fn decay(inputs: &TermInputs<'_>, group: &SeparateGroup) -> Result<Decay, String> {
     check_dependence(inputs, group)?;
-    let part = Part::new(inputs, group);
+    let part = SubProgram::new(inputs, group);
     let coordinates = coordinates(inputs, group)?;
     let at = |level: u32| {
         level_points(inputs, group, &part, &coordinates, level).map(|made| made.points)

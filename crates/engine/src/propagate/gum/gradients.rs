@@ -61,7 +61,7 @@ impl<'a> Gradients<'a> {
                     *value = estimate(row, variable);
                 }
             }
-            path.run(Run { slopes, columns: &mut columns });
+            path.run(GradientRun { slopes, columns: &mut columns });
             made.extend((0..rows.len()).map(|i| {
                 let of_outputs = slopes.outputs.iter().map(|output| {
                     let mut gradient = vec![0.0; variables];
@@ -85,12 +85,12 @@ impl<'a> Gradients<'a> {
 }
 
 /// The steps on one column of rows.
-pub(super) struct Run<'a> {
+pub(super) struct GradientRun<'a> {
     pub(super) slopes: &'a Slopes,
     pub(super) columns: &'a mut Columns,
 }
 
-impl Kernel for Run<'_> {
+impl Kernel for GradientRun<'_> {
     type Output = ();
 
     // most of the time of a row goes into its budget

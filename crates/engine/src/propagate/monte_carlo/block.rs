@@ -137,7 +137,7 @@ impl RowTrials {
             self.called(called, (path, block), workspace);
             return;
         }
-        let wanted = Wanted::Outputs;
+        let wanted = WantedValues::Outputs;
         path.run(BlockKernel { path, trials: self, block, workspace, wanted });
     }
 
@@ -150,7 +150,7 @@ impl RowTrials {
         workspace: &mut Workspace,
     ) {
         let mut drawn = vec![Vec::with_capacity(BLOCK); self.varying.len()];
-        let wanted = Wanted::All { drawn: &mut drawn };
+        let wanted = WantedValues::All { drawn: &mut drawn };
         path.run(BlockKernel { path, trials: self, block, workspace, wanted });
         let mut drawn = drawn.into_iter();
         let column = |bound: &Option<f64>| match bound {
@@ -176,7 +176,7 @@ impl RowTrials {
     #[cold]
     pub(crate) fn inputs_of(&self, path: CodePath, block: u64, trial: usize) -> Vec<f64> {
         let mut workspace = self.workspace();
-        let wanted = Wanted::Inputs { column: trial / COLUMN };
+        let wanted = WantedValues::Inputs { column: trial / COLUMN };
         path.run(BlockKernel { path, trials: self, block, workspace: &mut workspace, wanted });
         let registers = self.registers.iter().map(|&register| &workspace.registers[register]);
         registers.map(|column| column.0[trial % COLUMN]).collect()
@@ -199,12 +199,12 @@ struct BlockKernel<'a> {
     trials: &'a RowTrials,
     block: u64,
     workspace: &'a mut Workspace,
-    wanted: Wanted<'a>,
+    wanted: WantedValues<'a>,
 }
 
 /// What is asked of a block. Both stand in one kernel, so that drawing is compiled once for each
 /// code path.
-enum Wanted<'a> {
+enum WantedValues<'a> {
     /// The outputs' values in all trials.
     Outputs,
     /// The drawn values of all inputs in one column of trials, left in the registers.
@@ -224,11 +224,14 @@ impl Kernel for BlockKernel<'_> {
         let mut draws = Draws::new(&trials.varying, &trials.keys, path, block);
         let all: Vec<bool>;
         let (used, last) = match &wanted {
-            Wanted::Outputs => (&schedule.used, BLOCK),
-            Wanted::Inputs { .. } | Wanted::All { .. } => {
+            WantedValues::Outputs => (&schedule.used, BLOCK),
+            WantedValues::Inputs { .. } | WantedValues::All { .. } => {
                 all = vec![true; trials.varying.len()];
-                let last =
-                    if let Wanted::Inputs { column } = wanted { column * COLUMN } else { BLOCK };
+                let last = if let WantedValues::Inputs { column } = wanted {
+                    column * COLUMN
+                } else {
+                    BLOCK
+                };
                 (&all, last)
             }
         };
@@ -237,7 +240,7 @@ impl Kernel for BlockKernel<'_> {
             if first == last {
                 return;
             }
-            if let Wanted::All { drawn } = &mut wanted {
+            if let WantedValues::All { drawn } = &mut wanted {
                 for (values, &register) in drawn.iter_mut().zip(&trials.registers) {
                     values.extend(&registers[register].0);
                 }

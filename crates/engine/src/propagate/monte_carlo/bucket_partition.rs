@@ -51,7 +51,7 @@ pub(super) struct Region {
 
 /// Which bucket a value belongs in.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Layout {
+pub(super) struct BucketLayout {
     pub(super) low: f64,
     pub(super) high: f64,
     /// The low tail, about the median, the high tail.
@@ -61,7 +61,7 @@ pub(super) struct Layout {
 /// 2^52: adding it rounds and leaves the integer in the low bits.
 pub(super) const ROUND: f64 = 4_503_599_627_370_496.0;
 
-impl Layout {
+impl BucketLayout {
     fn new(kept: &[&[f64]], windows: &Windows, buckets: usize) -> Self {
         let region = |from: f64, to: f64, first: usize, count: usize| {
             let inverse = count as f64 / (to - from);
@@ -124,7 +124,7 @@ impl Layout {
 }
 
 /// The buckets of some values, as many as there is room for.
-fn buckets_of(path: CodePath, layout: &Layout, values: &[f64], out: &mut [u16]) {
+fn buckets_of(path: CodePath, layout: &BucketLayout, values: &[f64], out: &mut [u16]) {
     #[cfg(target_arch = "x86_64")]
     if path.instructions() == Instructions::Avx512 {
         // SAFETY: the machine has the instructions of a path.
@@ -136,7 +136,7 @@ fn buckets_of(path: CodePath, layout: &Layout, values: &[f64], out: &mut [u16]) 
 
 /// The same in plain loops.
 struct BucketKernel<'a> {
-    layout: &'a Layout,
+    layout: &'a BucketLayout,
     values: &'a [f64],
     out: &'a mut [u16],
 }
@@ -204,7 +204,7 @@ impl Kernel for CountingSort<'_> {
 impl BucketPartition {
     pub(super) fn new(path: CodePath, kept: &[&[f64]], windows: &Windows) -> Self {
         let count: usize = kept.iter().map(|part| part.len()).sum();
-        let layout = Layout::new(kept, windows, (count / PER_BUCKET).clamp(1, MOST_BUCKETS));
+        let layout = BucketLayout::new(kept, windows, (count / PER_BUCKET).clamp(1, MOST_BUCKETS));
         let ends = layout.ends();
         let buckets = ends[2];
         let mut bucket_of = vec![0u16; count];
@@ -382,7 +382,7 @@ mod tests {
         values.extend([-1.6, -0.05, 0.04, 1.7, -3.5, 3.25, -1e300, 1e300, 0.0, -0.0]);
         values.sort_unstable_by(f64::total_cmp);
         for windows in [windows, Windows::ALL] {
-            let layout = Layout::new(&[&values], &windows, 333);
+            let layout = BucketLayout::new(&[&values], &windows, 333);
             let of = |path: CodePath| {
                 let mut out = vec![0; values.len()];
                 buckets_of(path, &layout, &values, &mut out);

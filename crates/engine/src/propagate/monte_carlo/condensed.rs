@@ -31,12 +31,12 @@ pub(crate) struct Condensed {
 pub(super) struct CondensedBlock {
     whole: Accumulated,
     /// The two parts of a block in which a block of the adaptive procedure ends and the next begins.
-    parts: Option<[Part; 2]>,
+    parts: Option<[BlockPart; 2]>,
 }
 
 /// Some of a block's trials.
 #[derive(Debug, Default)]
-struct Part {
+struct BlockPart {
     trials: u64,
     /// For each output its sums, and which of the values that are kept of the block are of the part.
     outputs: Vec<(Sums, Range<usize>)>,
@@ -182,7 +182,7 @@ impl CondensedBlock {
                 let before = kept(&values[..from]);
                 (sums, before..before + kept(&values[from..to]))
             });
-            Part { trials: (to - from) as u64, outputs: outputs.collect() }
+            BlockPart { trials: (to - from) as u64, outputs: outputs.collect() }
         };
         let parts = is_divided.then(|| [of_part(0, edge), of_part(edge, count)]);
         let outputs = room.outputs.iter_mut().map(|output| AccumulatedOutput {
@@ -227,7 +227,7 @@ impl CondensedBlock {
         Some((sums, whole.kept.get(kept.clone())?))
     }
 
-    fn part(&self, share: Share) -> Option<&Part> {
+    fn part(&self, share: Share) -> Option<&BlockPart> {
         let [before, after] = self.parts.as_ref()?;
         match share {
             Share::Whole => None,

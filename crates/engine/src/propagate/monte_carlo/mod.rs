@@ -45,7 +45,7 @@ mod totals;
 mod windows;
 
 pub use adaptive::FIRST_STAGE;
-pub(crate) use adaptive::{Search, find_trials};
+pub(crate) use adaptive::{AdaptiveSearch, find_trials};
 pub(crate) use block::RowTrials;
 pub use block::stream_name;
 pub(crate) use convergence::settling;
@@ -58,7 +58,7 @@ pub use interval::Ranks;
 pub use joint_ranks::QuantilesAndRanks;
 pub(crate) use joint_ranks::{joint_ranks, quantiles_and_ranks};
 pub use parts::Damaged;
-pub(crate) use parts::{Gathered, Prepared, Reader, RowOutcome, RowPass, Writer, share};
+pub(crate) use parts::{ByteReader, Gathered, Prepared, RowOutcome, RowPass, Writer, share};
 pub(crate) use quantiles::quantiles;
 pub(crate) use repeat::{collected, repeat};
 pub(crate) use request::Request;

@@ -4,7 +4,7 @@
 //! later passes regenerate them and keep, or count more finely, only what lies in the few cells on
 //! which the wanted order statistics depend.
 
-use super::parts::{Damaged, Reader, Writer};
+use super::parts::{ByteReader, Damaged, Writer};
 use super::sorting::sort;
 
 /// Cells of the first pass.
@@ -73,7 +73,7 @@ struct GridIndex {
 
 /// What one pass over the trials found.
 #[derive(Clone, Debug)]
-pub(super) struct Tally {
+pub(super) struct PassTally {
     leaves: Vec<Counted>,
     kept: Vec<f64>,
 }
@@ -142,7 +142,7 @@ impl Grid {
     }
 
     /// A grid of at most so many cells, those within it included, which are then fewer.
-    fn read(from: &mut Reader<'_>, room: &mut usize, depth: usize) -> Result<Self, Damaged> {
+    fn read(from: &mut ByteReader<'_>, room: &mut usize, depth: usize) -> Result<Self, Damaged> {
         let [low, inverse] = from.reals()?;
         let count = from.at_most(*room as u64, "too many cells")? as usize;
         Damaged::unless(count > 0 && depth <= DEEPEST, "no cells")?;
@@ -179,8 +179,8 @@ impl Partition {
         Self { index: Index::of(&root), root }
     }
 
-    pub(super) fn tally(&self) -> Tally {
-        Tally { leaves: vec![Counted::NONE; self.index.leaves], kept: Vec::new() }
+    pub(super) fn tally(&self) -> PassTally {
+        PassTally { leaves: vec![Counted::NONE; self.index.leaves], kept: Vec::new() }
     }
 
     /// Keeps the values of the leaves for which `keep` says so, and splits those that `split` gives
@@ -209,7 +209,7 @@ impl Partition {
     }
 
     /// A partition from bytes.
-    pub(super) fn read(from: &mut Reader<'_>) -> Result<Self, Damaged> {
+    pub(super) fn read(from: &mut ByteReader<'_>) -> Result<Self, Damaged> {
         let mut room = MOST_CELLS;
         Ok(Self::of(Grid::read(from, &mut room, 0)?))
     }
@@ -222,7 +222,7 @@ impl Partition {
     }
 
     /// The leaves with what a pass found in them.
-    pub(super) fn leaves(&self, tally: &Tally) -> Vec<Leaf> {
+    pub(super) fn leaves(&self, tally: &PassTally) -> Vec<Leaf> {
         let kept = self.kept_leaves();
         let (mut below, mut index) = (0, 0);
         let found = tally.counted().zip(kept);
@@ -325,7 +325,7 @@ impl Counted {
     }
 }
 
-impl Tally {
+impl PassTally {
     /// Counts a block's values. Whether a cell is split is nothing that a processor can guess, and it
     /// waits for the memory where it guesses wrong: so all values are looked up before any is counted.
     pub(super) fn add(&mut self, partition: &Partition, values: &[f64]) {

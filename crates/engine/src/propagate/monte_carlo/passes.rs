@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::accumulate::drop_undefined;
 use super::block::RowTrials;
-use super::partition::{Leaf, Partition, Tally};
+use super::partition::{Leaf, Partition, PassTally};
 use super::plan::Plan;
 use super::products::{self, waves};
 use super::request::trials_in;
@@ -26,7 +26,7 @@ pub(super) struct Stretch {
     pub(super) undefined: u64,
     pub(super) first_undefined: Option<(u64, usize)>,
     pub(super) sums: SumTree,
-    pub(super) tallies: Vec<Tally>,
+    pub(super) tallies: Vec<PassTally>,
 }
 
 /// What one pass over all trials gives.
@@ -36,7 +36,7 @@ pub(super) struct Pass {
     pub(super) undefined: u64,
     pub(super) first_undefined: Option<(u64, usize)>,
     pub(super) totals: Totals,
-    pub(super) tallies: Vec<Tally>,
+    pub(super) tallies: Vec<PassTally>,
     /// Whether the run was stopped meanwhile; all of the other figures are of the trials until then.
     pub(super) stopped: bool,
 }
@@ -225,7 +225,7 @@ fn earlier(a: Option<(u64, usize)>, b: Option<(u64, usize)>) -> Option<(u64, usi
     }
 }
 
-fn merge(tallies: &mut [Tally], others: Vec<Tally>) {
+fn merge(tallies: &mut [PassTally], others: Vec<PassTally>) {
     for (tally, other) in tallies.iter_mut().zip(others) {
         tally.merge(other);
     }

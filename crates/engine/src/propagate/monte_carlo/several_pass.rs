@@ -88,9 +88,9 @@ pub(super) struct Passes {
     pub(super) partitions: Vec<Partition>,
     pub(super) whole: Option<Whole>,
     /// For each output its order statistics, once they are found.
-    pub(super) found: Vec<Option<Found>>,
+    pub(super) found: Vec<Option<OrderStatistics>>,
     /// What is known of them until then.
-    bounds: Vec<Option<Found>>,
+    bounds: Vec<Option<OrderStatistics>>,
 }
 
 impl Passes {
@@ -106,7 +106,7 @@ impl Passes {
         phase: Phase,
         partitions: Vec<Partition>,
         whole: Option<Whole>,
-        found: Vec<Option<Found>>,
+        found: Vec<Option<OrderStatistics>>,
     ) -> Self {
         let bounds = vec![None; found.len()];
         Self { phase, partitions, whole, found, bounds }
@@ -183,7 +183,7 @@ impl Passes {
                 continue;
             }
             let std = whole.totals.moments(output, plans[output].reference).std;
-            let mut search = Search::new(whole.trials, request.probability, std);
+            let mut search = OrderSearch::new(whole.trials, request.probability, std);
             let partition = &mut self.partitions[output];
             let leaves = partition.leaves(&tally);
             let kept = tally.into_sorted();
@@ -246,7 +246,7 @@ impl Passes {
 
 /// The figures of one output that are order statistics.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Found {
+pub(super) struct OrderStatistics {
     /// Lower end, upper end, median.
     pub(super) at: [f64; 3],
     pub(super) errors: [f64; 3],
@@ -258,14 +258,14 @@ pub(super) struct Found {
 
 /// The search for one output's order statistics.
 #[derive(Clone, Debug)]
-struct Search {
+struct OrderSearch {
     trials: u64,
     ranks: Ranks,
     std: f64,
-    found: Option<Found>,
+    found: Option<OrderStatistics>,
 }
 
-impl Search {
+impl OrderSearch {
     fn new(trials: u64, probability: f64, std: f64) -> Self {
         Self { trials, ranks: Ranks::new(trials, probability), std, found: None }
     }
@@ -304,7 +304,7 @@ impl Search {
             let extremes = [full().next().map(|l| l.least), full().next_back().map(|l| l.greatest)];
             let extremes = extremes.map(|end| end.unwrap_or(f64::NAN));
             let at = [b, e, median];
-            self.found = Some(Found { at, errors, extremes, shortest, exact });
+            self.found = Some(OrderStatistics { at, errors, extremes, shortest, exact });
         } else {
             // everything that this search still needs is wanted again in the next pass
             for rank in targets.ranks() {

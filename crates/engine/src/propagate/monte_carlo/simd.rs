@@ -11,7 +11,7 @@ use std::arch::x86_64::{
     _mm512_storeu_pd, _mm512_sub_pd,
 };
 
-use super::bucket_partition::{Layout, ROUND};
+use super::bucket_partition::{BucketLayout, ROUND};
 use super::plan::{LANES, Reference};
 use super::windows::Windows;
 
@@ -70,7 +70,7 @@ pub(super) fn keep(block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64
 /// # Safety
 /// As [`keep`].
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,popcnt")]
-pub(super) fn buckets(layout: &Layout, values: &[f64], out: &mut [u16]) {
+pub(super) fn buckets(layout: &BucketLayout, values: &[f64], out: &mut [u16]) {
     let [tail_low, median, tail_high] = layout.regions;
     let (low, high) = (_mm512_set1_pd(layout.low), _mm512_set1_pd(layout.high));
     let (zero, round) = (_mm512_setzero_pd(), _mm512_set1_pd(ROUND));

@@ -10,12 +10,12 @@ use crate::special;
 pub(super) struct Cdf {
     location: f64,
     scale: f64,
-    shape: Shape,
+    shape: CdfShape,
 }
 
-enum Shape {
+enum CdfShape {
     /// A tabulated symmetric distribution.
-    Table(Table),
+    Table(CdfTable),
     /// From -1 to 1.
     Rectangular,
     /// A triangle about 0 from minus the first to the second.
@@ -29,7 +29,7 @@ enum Shape {
 
 /// Distribution function and density over equal steps, with the cubic polynomial that has both at each
 /// step: exact to 1e-11.
-struct Table {
+struct CdfTable {
     cells: Vec<[f64; 2]>,
     end: f64,
     tail: Box<dyn Fn(f64) -> [f64; 2] + Send + Sync>,
@@ -38,7 +38,7 @@ struct Table {
 /// Steps in a scale.
 const STEPS: f64 = 128.0;
 
-impl Table {
+impl CdfTable {
     fn new(end: f64, at: impl Fn(f64) -> [f64; 2] + Send + Sync + 'static) -> Self {
         let count = (2.0 * end * STEPS) as usize;
         let cells = (0..=count).map(|k| at(-end + k as f64 / STEPS)).collect();
@@ -77,7 +77,7 @@ impl Cdf {
                 return Self {
                     location: mean,
                     scale,
-                    shape: Shape::Table(Table::new(9.0, normal)),
+                    shape: CdfShape::Table(CdfTable::new(9.0, normal)),
                 };
             }
             let half = 0.5 * dof;
@@ -87,7 +87,7 @@ impl Cdf {
                 let density = elementary::exp(-(half + 0.5) * libm::log1p(x * x / dof));
                 [special::student::cdf(x, dof), constant * density]
             };
-            Self { location: mean, scale, shape: Shape::Table(Table::new(20.0, at)) }
+            Self { location: mean, scale, shape: CdfShape::Table(CdfTable::new(20.0, at)) }
         };
         Some(match distribution {
             Distribution::Normal(_) | Distribution::StudentT(_) => {
@@ -97,19 +97,19 @@ impl Cdf {
                 student(readings.drawn_scale(), distribution.drawn_dof())
             }
             Distribution::Rectangular(shape) if shape.dof_is_infinite() => {
-                Self { location: mean, scale: u * 3f64.sqrt(), shape: Shape::Rectangular }
+                Self { location: mean, scale: u * 3f64.sqrt(), shape: CdfShape::Rectangular }
             }
             Distribution::Triangular(shape) => {
                 let [rise, fall] = shape.exact_sides()?;
                 let mode = mean - (fall - rise) / 3.0;
-                Self { location: mode, scale: 1.0, shape: Shape::Triangular(rise, fall) }
+                Self { location: mode, scale: 1.0, shape: CdfShape::Triangular(rise, fall) }
             }
             Distribution::Arcsine(_) => {
-                Self { location: mean, scale: u * 2f64.sqrt(), shape: Shape::Arcsine }
+                Self { location: mean, scale: u * 2f64.sqrt(), shape: CdfShape::Arcsine }
             }
             Distribution::Lognormal(shape) => {
                 let [location, scale] = shape.of_logarithm();
-                Self { location, scale, shape: Shape::Lognormal }
+                Self { location, scale, shape: CdfShape::Lognormal }
             }
             Distribution::LogUniform(_) => {
                 let ends = [distribution.quantile(1e-300), distribution.quantile_upper(1e-300)];
@@ -117,11 +117,11 @@ impl Cdf {
                 Self {
                     location: 0.5 * (low + high),
                     scale: 0.5 * (high - low),
-                    shape: Shape::LogUniform,
+                    shape: CdfShape::LogUniform,
                 }
             }
             Distribution::Exponential(_) => {
-                Self { location: 0.0, scale: mean, shape: Shape::Exponential }
+                Self { location: 0.0, scale: mean, shape: CdfShape::Exponential }
             }
             _ => return None,
         })
@@ -142,9 +142,9 @@ impl Cdf {
             }
         };
         match shape {
-            Shape::Table(table) => of(table.at(s)),
-            Shape::Rectangular => of(uniform(s)),
-            Shape::Triangular(rise, fall) => {
+            CdfShape::Table(table) => of(table.at(s)),
+            CdfShape::Rectangular => of(uniform(s)),
+            CdfShape::Triangular(rise, fall) => {
                 let width = rise + fall;
                 if s <= -rise {
                     [0.0, 0.0]
@@ -158,7 +158,7 @@ impl Cdf {
                     [1.0 - left * left / (width * fall), 2.0 * left / (width * fall)]
                 }
             }
-            Shape::Arcsine => {
+            CdfShape::Arcsine => {
                 if s <= -1.0 {
                     [0.0, 0.0]
                 } else if s >= 1.0 {
@@ -168,19 +168,19 @@ impl Cdf {
                     of([0.5 + elementary::asin(s) / PI, 1.0 / (PI * root)])
                 }
             }
-            Shape::Lognormal if x > 0.0 => {
+            CdfShape::Lognormal if x > 0.0 => {
                 let [cdf, density] = normal((elementary::ln(x) - location) / scale);
                 [cdf, density / (scale * x)]
             }
-            Shape::LogUniform if x > 0.0 => {
+            CdfShape::LogUniform if x > 0.0 => {
                 let [cdf, density] = uniform((elementary::ln(x) - location) / scale);
                 [cdf, density / (scale * x)]
             }
-            Shape::Exponential if s > 0.0 => {
+            CdfShape::Exponential if s > 0.0 => {
                 let left = elementary::exp(-s);
                 of([-libm::expm1(-s), left])
             }
-            Shape::Lognormal | Shape::LogUniform | Shape::Exponential => [0.0, 0.0],
+            CdfShape::Lognormal | CdfShape::LogUniform | CdfShape::Exponential => [0.0, 0.0],
         }
     }
 }

@@ -20,10 +20,10 @@ use crate::parallel;
 pub(super) use self::net::Coordinate;
 
 use self::cdf::Cdf;
-use self::pieces::Parts;
-use self::points::Inputs;
+use self::pieces::ColumnPieces;
+use self::points::NetInputs;
 use super::exact::{Accuracy, Noiseless, Problem, Scatter, moments_exist};
-use super::shortest::{Interval, Purpose, Search};
+use super::shortest::{Interval, Purpose, ShortestSearch};
 use crate::model::{Program, Schedule, ScheduledOutput};
 use crate::number::{COLUMN, CodePath, Column, largest_first};
 
@@ -81,7 +81,7 @@ struct Setup {
     /// The variables, in the order of the registers.
     varying: Vec<usize>,
     distributions: Vec<std::sync::Arc<crate::distribution::Distribution>>,
-    inputs: Inputs,
+    inputs: NetInputs,
     /// Places of inputs, the most important one first.
     order: Vec<usize>,
     linked: Vec<bool>,
@@ -100,7 +100,7 @@ struct Candidate {
     place: usize,
     cdf: Cdf,
     /// Where its effect is monotone, in each net; `None` where it is so everywhere.
-    parts: Option<Vec<Vec<Parts>>>,
+    parts: Option<Vec<Vec<ColumnPieces>>>,
 }
 
 impl Setup {
@@ -150,7 +150,7 @@ impl Setup {
         };
         let mut order: Vec<usize> = (0..varying.len()).collect();
         largest_first(&mut order, |&v| share(v));
-        let inputs = Inputs::new(&distributions, &varying, &linked, &order)?;
+        let inputs = NetInputs::new(&distributions, &varying, &linked, &order)?;
         let of_linked = |v: &usize| linked.iter().any(|set| set.members.contains(v));
         let linked = varying.iter().map(of_linked).collect();
         let middle = values.first().copied().filter(|value| value.is_finite()).unwrap_or(0.0);
@@ -265,17 +265,17 @@ struct Solved<'s> {
 
 struct SolvedNet {
     net: Net,
-    way: Way,
+    way: SolvingWay,
     registers: Vec<Column>,
 }
 
 /// How the integrated input is solved for.
-enum Way {
+enum SolvingWay {
     /// The output is monotone in it. Where each point was found last: the value of the input, the
     /// output there, and the slope.
     Whole(Vec<[Column; 3]>),
     /// It is so in parts.
-    Parts(Vec<Parts>),
+    Parts(Vec<ColumnPieces>),
 }
 
 /// Distribution function and density of the output by one randomization.
@@ -287,7 +287,7 @@ impl<'s> Solved<'s> {
         nets: Vec<Net>,
         place: usize,
         cdf: Cdf,
-        parts: Option<Vec<Vec<Parts>>>,
+        parts: Option<Vec<Vec<ColumnPieces>>>,
     ) -> Self {
         let distribution = &setup.distributions[place];
         let width = distribution.quantile_upper(0.16) - distribution.quantile(0.16);
@@ -309,13 +309,13 @@ impl<'s> Solved<'s> {
             net.columns.iter().map(start).collect()
         };
         let mut parts = parts.map(Vec::into_iter);
-        let ways: Vec<Option<Vec<Parts>>> =
+        let ways: Vec<Option<Vec<ColumnPieces>>> =
             nets.iter().map(|_| parts.as_mut().and_then(Iterator::next)).collect();
         let nets = parallel::map(nets.into_iter().zip(ways), |(net, parts)| {
             let mut registers = setup.registers();
             let way = match parts {
-                Some(parts) => Way::Parts(parts),
-                None => Way::Whole(starts(&net, &mut registers)),
+                Some(parts) => SolvingWay::Parts(parts),
+                None => SolvingWay::Whole(starts(&net, &mut registers)),
             };
             SolvedNet { net, way, registers }
         });
@@ -330,8 +330,8 @@ impl<'s> Solved<'s> {
         let Self { setup, place, ref cdf, ref mut nets, width, looked } = *self;
         let integrated = Integrated { setup, place, cdf, width, looked };
         let of = |SolvedNet { net, way, registers }: &mut SolvedNet| match way {
-            Way::Whole(last) => integrated.whole(net, last, registers, y, columns),
-            Way::Parts(parts) => integrated.in_parts(net, parts, registers, y, columns),
+            SolvingWay::Whole(last) => integrated.whole(net, last, registers, y, columns),
+            SolvingWay::Parts(parts) => integrated.in_parts(net, parts, registers, y, columns),
         };
         parallel::map(nets, of)
     }
@@ -434,7 +434,7 @@ fn mean(values: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
 }
 
 /// A figure with its standard error.
-type Figure = [f64; 2];
+type FigureWithError = [f64; 2];
 
 /// The distance, in widths of the output, over which the slope of its density is taken.
 const SLOPE_STEP: f64 = 0.05;
@@ -470,7 +470,7 @@ impl Solved<'_> {
         start: f64,
         scale: f64,
         columns: usize,
-    ) -> Result<Figure, String> {
+    ) -> Result<FigureWithError, String> {
         let mut y = start;
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         for _ in 0..MOST_STEPS {
@@ -622,9 +622,9 @@ impl Solved<'_> {
     fn shortest(
         &mut self,
         p: f64,
-        symmetric: [Figure; 2],
+        symmetric: [FigureWithError; 2],
         scale: f64,
-    ) -> Option<([Figure; 2], bool)> {
+    ) -> Option<([FigureWithError; 2], bool)> {
         let tail = 1.0 - p;
         let mut starts = symmetric.map(|end| end[0]);
         let at = |tails: [f64; 2], purpose| {
@@ -632,7 +632,7 @@ impl Solved<'_> {
             starts = found.ends;
             Some(found)
         };
-        let least = Search { tail, at }.least()?;
+        let least = ShortestSearch { tail, at }.least()?;
         let is_flat = least.range[1] - least.range[0] > FLAT * tail;
         let length = symmetric[1][0] - symmetric[0][0];
         if is_flat || least.includes(0.5 * tail) || least.interval.length() >= length {
@@ -664,7 +664,12 @@ impl Solved<'_> {
 
     /// The ends of an interval at which the density is the same, and their standard errors: each
     /// randomization would move them to F(high) - F(low) = p, and the same density at both.
-    fn balanced_errors(&mut self, p: f64, ends: [f64; 2], scale: f64) -> Option<[Figure; 2]> {
+    fn balanced_errors(
+        &mut self,
+        p: f64,
+        ends: [f64; 2],
+        scale: f64,
+    ) -> Option<[FigureWithError; 2]> {
         let all = usize::MAX;
         let density = |of: &[OfNet]| mean(of.iter().map(|of| of[1]))[0];
         let step = SLOPE_STEP * scale;

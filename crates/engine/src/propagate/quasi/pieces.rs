@@ -35,7 +35,7 @@ type Bound = [Column; 3];
 
 /// The parts at one column of points.
 #[derive(Debug)]
-pub(super) struct Parts {
+pub(super) struct ColumnPieces {
     /// From the lower end of the input to its upper one. Where a point has fewer turns than others of
     /// its column the last bounds are the same.
     bounds: Vec<Bound>,
@@ -60,7 +60,12 @@ fn run(
 
 /// The parts of all columns of a net; `None` where the output is flat or not finite somewhere, or turns
 /// too often.
-pub(super) fn parts(setup: &Setup, net: &Net, place: usize, cdf: &Cdf) -> Option<Vec<Parts>> {
+pub(super) fn parts(
+    setup: &Setup,
+    net: &Net,
+    place: usize,
+    cdf: &Cdf,
+) -> Option<Vec<ColumnPieces>> {
     let distribution = &setup.distributions[place];
     let nodes = distribution.quantiles_about_median(&NODES);
     let mut registers = setup.registers();
@@ -77,7 +82,7 @@ fn of_column(
     cdf: &Cdf,
     nodes: &[f64],
     registers: &mut [Column],
-) -> Option<Parts> {
+) -> Option<ColumnPieces> {
     let outputs: Vec<Column> = nodes
         .iter()
         .map(|&node| run(setup, column, place, &Column([node; COLUMN]), registers))
@@ -153,7 +158,7 @@ fn of_column(
         .windows(2)
         .map(|pair| Column(std::array::from_fn(|i| 0.5 * (pair[0][0].0[i] + pair[1][0].0[i]))));
     let last = last.collect();
-    Some(Parts { bounds, last })
+    Some(ColumnPieces { bounds, last })
 }
 
 /// Where the output turns, and how high it is there, by golden sections.
@@ -217,14 +222,14 @@ impl Integrated<'_> {
     pub(super) fn in_parts(
         &self,
         net: &Net,
-        parts: &mut [Parts],
+        parts: &mut [ColumnPieces],
         registers: &mut [Column],
         y: f64,
         columns: usize,
     ) -> OfNet {
         let (mut sums, mut count) = ([0.0; 2], 0.0);
         for (column, parts) in net.columns.iter().zip(parts).take(columns) {
-            let Parts { bounds, last } = parts;
+            let ColumnPieces { bounds, last } = parts;
             for (pair, last) in bounds.windows(2).zip(last) {
                 if let [from, to] = pair {
                     let found = self.part(column, [from, to], last, registers, y);

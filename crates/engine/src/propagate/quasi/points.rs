@@ -9,7 +9,7 @@ use crate::number::{COLUMN, Column};
 use crate::special;
 
 /// How the values of an input follow from its coordinate.
-enum Way {
+enum CoordinateWay {
     /// From the standard normal score.
     Score(FromScore),
     /// By the quantile function.
@@ -28,14 +28,14 @@ struct Set {
 }
 
 /// The inputs of a row that vary, as functions of the points of a net.
-pub(super) struct Inputs {
-    ways: Vec<Way>,
+pub(super) struct NetInputs {
+    ways: Vec<CoordinateWay>,
     /// The dimension of the net that each one takes.
     dimensions: Vec<usize>,
     sets: Vec<Set>,
 }
 
-impl Inputs {
+impl NetInputs {
     /// Inputs with these distributions; `order` are their places, the most important one first;
     /// members of `linked` count places among all variables, of which `varying` are these.
     ///
@@ -47,15 +47,15 @@ impl Inputs {
         linked: &[Linked],
         order: &[usize],
     ) -> Result<Self, String> {
-        let mut ways: Vec<Way> = Vec::with_capacity(distributions.len());
+        let mut ways: Vec<CoordinateWay> = Vec::with_capacity(distributions.len());
         for distribution in distributions {
             ways.push(match &**distribution {
                 shape if !shape.has_quantiles() => {
                     let name = shape.name();
                     return Err(format!("no quantiles are known of the distribution `{name}`"));
                 }
-                Distribution::Samples(_) => Way::Quantile(Arc::clone(distribution)),
-                _ => Way::Score(FromScore::of(distribution)),
+                Distribution::Samples(_) => CoordinateWay::Quantile(Arc::clone(distribution)),
+                _ => CoordinateWay::Score(FromScore::of(distribution)),
             });
         }
         let mut sets = Vec::new();
@@ -77,7 +77,7 @@ impl Inputs {
                 for &m in &members {
                     if let Distribution::Readings(readings) = &*distributions[m] {
                         let (location, scale) = (distributions[m].mean(), readings.drawn_scale());
-                        ways[m] = Way::Spherical { location, scale };
+                        ways[m] = CoordinateWay::Spherical { location, scale };
                     }
                 }
             }
@@ -106,7 +106,7 @@ impl Inputs {
             for (k, score) in scores.0.iter_mut().enumerate() {
                 let p = coordinate.at(first + k as u32);
                 *score = match (&self.ways[i], set) {
-                    (Way::Quantile(_), _) => p,
+                    (CoordinateWay::Quantile(_), _) => p,
                     (_, Some(dof)) => special::student::quantile(p, dof),
                     _ => special::normal::quantile(p),
                 };
@@ -135,13 +135,13 @@ impl Inputs {
         }
         for ((way, scores), out) in self.ways.iter().zip(&scores).zip(out) {
             match way {
-                Way::Score(from) => from.values(scores, out),
-                Way::Spherical { location, scale } => {
+                CoordinateWay::Score(from) => from.values(scores, out),
+                CoordinateWay::Spherical { location, scale } => {
                     for (out, score) in out.0.iter_mut().zip(&scores.0) {
                         *out = location + scale * score;
                     }
                 }
-                Way::Quantile(distribution) => {
+                CoordinateWay::Quantile(distribution) => {
                     for (out, &p) in out.0.iter_mut().zip(&scores.0) {
                         *out = if p < 0.5 {
                             distribution.quantile(p)

@@ -43,7 +43,7 @@ const LEAST_OUTSIDE: f64 = 50.0;
 const LARGEST_ERROR: f64 = 0.1;
 
 /// Places of a trial in as many coordinates as there are outputs; the others are not used.
-pub(super) type Place = [f64; MOST_OUTPUTS];
+pub(super) type TrialPlace = [f64; MOST_OUTPUTS];
 
 /// Trials that one thread works on before it takes others.
 const TOGETHER: usize = 8192;
@@ -73,7 +73,7 @@ const CELLS: [usize; 3] = [400, 110, 40];
 /// # Errors
 /// Why the trials do not carry it.
 pub(super) fn smallest(
-    trials: &[Place],
+    trials: &[TrialPlace],
     to_outputs: &[f64],
     probability: f64,
 ) -> Result<SmallestRegion, String> {
@@ -139,7 +139,7 @@ impl Smoothing {
 }
 
 /// Volumes with the three widths, as means of both halves, and their scatter with the narrowest.
-struct Found {
+struct FoundVolumes {
     volumes: [f64; 3],
     /// What the finite number of trials leaves of the level.
     scatter: f64,
@@ -147,7 +147,7 @@ struct Found {
     integration: f64,
 }
 
-impl Found {
+impl FoundVolumes {
     /// What the narrowest kernel still adds to the volume: differences of the three are continued as
     /// a geometric series, at the slowest as if the excess were proportional to the width, which it is
     /// where a density has edges; a smooth one has an excess of fourth order.
@@ -161,18 +161,18 @@ impl Found {
 }
 
 /// What makes coordinates of trials and the triangle of the outputs.
-type Way = fn(&[Place], &[f64]) -> Option<Coordinates>;
+type CoordinatesOf = fn(&[TrialPlace], &[f64]) -> Option<Coordinates>;
 
 /// The volumes in the coordinates in which they are the smallest; of each half those that make the
 /// density, and those that judge it.
 fn of_halves(
-    both: [(&[Place], &[Place]); 2],
+    both: [(&[TrialPlace], &[TrialPlace]); 2],
     to_outputs: &[f64],
     probability: f64,
     smoothing: &Smoothing,
-) -> Result<Found, String> {
-    let volumes = |way: Way, widths: &[f64]| -> Option<[Volumes; 2]> {
-        let of = |(maker, judge): (&[Place], &[Place])| {
+) -> Result<FoundVolumes, String> {
+    let volumes = |way: CoordinatesOf, widths: &[f64]| -> Option<[Volumes; 2]> {
+        let of = |(maker, judge): (&[TrialPlace], &[TrialPlace])| {
             let side = Side::new(way(maker, to_outputs)?, maker, judge, &smoothing.mesh);
             Some(side.volumes(widths, probability))
         };
@@ -182,7 +182,7 @@ fn of_halves(
     let mean = |of: &[Volumes; 2], width: usize| {
         0.5 * of.iter().map(|side| side.volumes[width]).sum::<f64>()
     };
-    let narrowest = |way: Way| Some((way, volumes(way, &smoothing.widths[2..])?));
+    let narrowest = |way: CoordinatesOf| Some((way, volumes(way, &smoothing.widths[2..])?));
     // an output that takes single values has no density, which mixed with others would not show
     let mut best = narrowest(Coordinates::outputs)
         .ok_or_else(|| "an output takes single values with a probability".to_owned())?;
@@ -193,7 +193,7 @@ fn of_halves(
     let (way, found) = best;
     let wider = volumes(way, &smoothing.widths[..2]).ok_or("no density can be estimated")?;
     let [first, second] = &found;
-    Ok(Found {
+    Ok(FoundVolumes {
         volumes: [mean(&wider, 0), mean(&wider, 1), mean(&found, 0)],
         scatter: 0.5 * hypot(first.scatter, second.scatter),
         integration: 0.5 * hypot(first.integration, second.integration),
@@ -204,9 +204,9 @@ fn of_halves(
 struct Side<'m> {
     mesh: &'m Mesh,
     coordinates: Coordinates,
-    maker: Vec<Place>,
+    maker: Vec<TrialPlace>,
     /// Each with the density of its coordinates.
-    judge: Vec<(Place, f64)>,
+    judge: Vec<(TrialPlace, f64)>,
 }
 
 /// Volumes with some widths of the kernel, and how far the last one scatters.
@@ -217,9 +217,14 @@ struct Volumes {
 }
 
 impl<'m> Side<'m> {
-    fn new(coordinates: Coordinates, maker: &[Place], judge: &[Place], mesh: &'m Mesh) -> Self {
-        let places = |trials: &[Place]| -> Vec<(Place, f64)> {
-            let some = |chunk: &[Place]| -> Vec<(Place, f64)> {
+    fn new(
+        coordinates: Coordinates,
+        maker: &[TrialPlace],
+        judge: &[TrialPlace],
+        mesh: &'m Mesh,
+    ) -> Self {
+        let places = |trials: &[TrialPlace]| -> Vec<(TrialPlace, f64)> {
+            let some = |chunk: &[TrialPlace]| -> Vec<(TrialPlace, f64)> {
                 chunk.iter().map(|place| coordinates.of(place)).collect()
             };
             parallel::map(trials.chunks(TOGETHER), some).concat()
@@ -242,7 +247,7 @@ impl<'m> Side<'m> {
             let some = |first: u32| {
                 let mut sums = vec![[0.0; 3]; densities.len()];
                 for point in first..(first + TOGETHER as u32).min(POINTS) {
-                    let mut place = Place::default();
+                    let mut place = TrialPlace::default();
                     for (i, net) in nets.iter().enumerate() {
                         let [low, high] = bounds[i];
                         place[i] = low + (high - low) * net.at(point);
@@ -286,7 +291,7 @@ impl<'m> Side<'m> {
     /// The level of the density that the probability lies above, between those of two standard
     /// deviations of the rank less and more.
     fn levels(&self, density: &Density<'_>, probability: f64) -> Levels {
-        let some = |chunk: &[(Place, f64)]| -> Vec<f64> {
+        let some = |chunk: &[(TrialPlace, f64)]| -> Vec<f64> {
             chunk.iter().map(|(place, own)| density.at(place) * own).collect()
         };
         let mut found = parallel::map(self.judge.chunks(TOGETHER), some).concat();
@@ -303,14 +308,14 @@ impl<'m> Side<'m> {
     /// A box about all trials within a region, and a cell of the mesh.
     fn bounds(&self, densities: &[Density<'_>], levels: &[Levels]) -> [[f64; 2]; MOST_OUTPUTS] {
         let none = [[f64::INFINITY, f64::NEG_INFINITY]; MOST_OUTPUTS];
-        let wider = |mut bounds: [[f64; 2]; MOST_OUTPUTS], place: &Place| {
+        let wider = |mut bounds: [[f64; 2]; MOST_OUTPUTS], place: &TrialPlace| {
             for ([low, high], x) in bounds.iter_mut().zip(place) {
                 (*low, *high) = (low.min(*x), high.max(*x));
             }
             bounds
         };
-        let some = |chunk: &[(Place, f64)]| {
-            let is_inside = |(place, own): &&(Place, f64)| {
+        let some = |chunk: &[(TrialPlace, f64)]| {
+            let is_inside = |(place, own): &&(TrialPlace, f64)| {
                 densities
                     .iter()
                     .zip(levels)

@@ -5,8 +5,8 @@ use super::unit::unit;
 use super::xml::Xml;
 use crate::certificate::CertificateReport;
 use crate::certificate::regions::{Covered, covered};
-use crate::certificate::sentences::Said;
-use crate::certificate::stated::Stated;
+use crate::certificate::sentences::SentenceLanguage;
+use crate::certificate::stated::StatedRow;
 use crate::certificate::units::printed;
 use crate::certificate::words::{self, Words, localized};
 use crate::number::{exact, rounded, significant};
@@ -18,20 +18,20 @@ use gumption_units::Unit;
 const FACTOR: i32 = -3;
 
 /// An element with what it is called, and the coverage factor in it.
-type Form = (&'static str, fn(&Words) -> &'static str, f64);
+type RegionForm = (&'static str, fn(&Words) -> &'static str, f64);
 
 /// A result for each region.
 pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
     for of in covered(report) {
         let Some(joint) = of.joint() else { continue };
-        let factors: Vec<Form> = [
+        let factors: Vec<RegionForm> = [
             joint.ellipsoid_k.map(|k| ("si:ellipsoidalRegion", (|w: &Words| w.ellipsoid) as _, k)),
             joint.box_k.map(|k| ("si:rectangularRegion", (|w: &Words| w.cuboid) as _, k)),
         ]
         .into_iter()
         .flatten()
         // D-SI has no coverage factor below 1
-        .filter(|(_, _, k): &Form| *k >= 1.0)
+        .filter(|(_, _, k): &RegionForm| *k >= 1.0)
         .collect();
         if factors.is_empty() {
             continue;
@@ -62,7 +62,8 @@ fn about(report: &CertificateReport<'_>, of: &Covered<'_>, language: Language) -
     if let Some(smallest) = found.and_then(|found| found.smallest.as_ref().ok()) {
         let units = of.rows.iter().map(|row| printed(&row.quantity.unit).text().trim().to_owned());
         let units: Vec<String> = units.filter(|unit| !matches!(unit.as_str(), "" | "1")).collect();
-        let number = Said::by_itself(report, language).in_marks(&significant(smallest.volume, 3));
+        let number = SentenceLanguage::by_itself(report, language)
+            .in_marks(&significant(smallest.volume, 3));
         let volume = format!("{number} {}", units.join("*"));
         said.push(words::of(language).smallest.replace("{volume}", volume.trim_end()));
     }
@@ -73,22 +74,22 @@ fn about(report: &CertificateReport<'_>, of: &Covered<'_>, language: Language) -
 /// The values: a complex number where the two outputs are the parts of one, else a list.
 fn quantity(
     xml: &mut Xml,
-    rows: &[Stated<'_>],
+    rows: &[StatedRow<'_>],
     joint: &JointRegion,
     inside: impl FnOnce(&mut Xml),
 ) {
     let value = |place: usize| joint.estimates.get(place).map_or_else(String::new, |v| exact(*v));
     if let [first, second] = rows
-        && let Some(parts) = Parts::of(first, second)
+        && let Some(parts) = ComplexCoordinates::of(first, second)
     {
         xml.element("si:complex", |xml| {
             let names = match parts {
-                Parts::Cartesian => ["si:valueReal", "si:valueImag"],
-                Parts::Polar => ["si:valueMagnitude", "si:valuePhase"],
+                ComplexCoordinates::Cartesian => ["si:valueReal", "si:valueImag"],
+                ComplexCoordinates::Polar => ["si:valueMagnitude", "si:valuePhase"],
             };
             names.into_iter().enumerate().for_each(|(at, name)| xml.leaf(name, &value(at)));
             xml.leaf("si:unit", &unit(&first.quantity.unit));
-            if parts == Parts::Polar {
+            if parts == ComplexCoordinates::Polar {
                 xml.leaf("si:unitPhase", &unit(&second.quantity.unit));
             }
             inside(xml);
@@ -111,13 +112,13 @@ fn quantity(
 
 /// What the two outputs of a complex quantity are.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Parts {
+enum ComplexCoordinates {
     Cartesian,
     Polar,
 }
 
-impl Parts {
-    fn of(first: &Stated<'_>, second: &Stated<'_>) -> Option<Self> {
+impl ComplexCoordinates {
+    fn of(first: &StatedRow<'_>, second: &StatedRow<'_>) -> Option<Self> {
         let (whole, part) = first.quantity.name.rsplit_once('.')?;
         let (other, second_part) = second.quantity.name.rsplit_once('.')?;
         let units = [first, second].map(|row| row.quantity.unit.text());
@@ -134,7 +135,7 @@ impl Parts {
 fn region(
     xml: &mut Xml,
     element: &str,
-    rows: &[Stated<'_>],
+    rows: &[StatedRow<'_>],
     joint: &JointRegion,
     [k, probability]: [f64; 2],
 ) {

@@ -6,9 +6,9 @@ use base64::engine::general_purpose::STANDARD;
 use super::unit::{definition, is_of_the_si, unit};
 use super::xml::Xml;
 use crate::certificate::functions::{self, At};
-use crate::certificate::sentences::Said;
+use crate::certificate::sentences::SentenceLanguage;
 use crate::certificate::stated;
-use crate::certificate::stated::{Stated, UnitsAre};
+use crate::certificate::stated::{StatedRow, UnitsAre};
 use crate::certificate::units::printed;
 use crate::certificate::words::{self, Words, localized};
 use crate::certificate::{CertificateReport, file_name, json, sentences};
@@ -70,12 +70,12 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
 fn result(
     xml: &mut Xml,
     report: &CertificateReport<'_>,
-    rows: &[Stated<'_>],
+    rows: &[StatedRow<'_>],
     languages: &[Language],
 ) {
     let Some(first) = rows.first() else { return };
     let lists = lists(rows);
-    let is_in_lists = |row: &Stated<'_>| {
+    let is_in_lists = |row: &StatedRow<'_>| {
         let mut lists = lists.iter();
         let own = lists.find(|list| list.iter().any(|other| other.number == row.number));
         own.is_some_and(|list| are_in_lists(list))
@@ -111,15 +111,15 @@ fn result(
 
 /// The rows of each list of a result. A list of D-SI has a number for every row, so that rows with a
 /// nominal value and rows without one are in two lists; that of the first row comes first.
-fn lists<'a>(rows: &[Stated<'a>]) -> Vec<Vec<Stated<'a>>> {
+fn lists<'a>(rows: &[StatedRow<'a>]) -> Vec<Vec<StatedRow<'a>>> {
     let first = rows.first().map(|row| row.line.nominal.is_some());
-    let is_as_first = |row: &Stated<'_>| Some(row.line.nominal.is_some()) == first;
+    let is_as_first = |row: &StatedRow<'_>| Some(row.line.nominal.is_some()) == first;
     let (as_first, others): (Vec<_>, Vec<_>) = rows.iter().copied().partition(is_as_first);
     [as_first, others].into_iter().filter(|rows| !rows.is_empty()).collect()
 }
 
 /// Which rows of the certificate these are.
-fn rows_of(rows: &[Stated<'_>], languages: &[Language]) -> Localized {
+fn rows_of(rows: &[StatedRow<'_>], languages: &[Language]) -> Localized {
     let numbers: Vec<usize> = rows.iter().map(|row| row.number).collect();
     let said = |language: &Language| {
         let said = sentences::about(&numbers, words::of(*language));
@@ -131,11 +131,11 @@ fn rows_of(rows: &[Stated<'_>], languages: &[Language]) -> Localized {
 /// `row 3: a_x, tilt = 35 deg`
 pub(super) fn named(
     report: &CertificateReport<'_>,
-    row: &Stated<'_>,
+    row: &StatedRow<'_>,
     language: Language,
 ) -> String {
     let mut parts = vec![row.name(&[language])];
-    let of = Said::by_itself(report, language);
+    let of = SentenceLanguage::by_itself(report, language);
     let circumstances = row.circumstances(report, UnitsAre::Printed);
     parts.extend(circumstances.iter().map(|part| of.in_marks(part)));
     format!("{} {}: {}", words::of(language).row, row.number, parts.join(", "))
@@ -143,7 +143,7 @@ pub(super) fn named(
 
 /// Whether the expanded uncertainties of these rows can stand in a list: D-SI has no coverage factor
 /// below 1, and none without a probability.
-fn are_in_lists(rows: &[Stated<'_>]) -> bool {
+fn are_in_lists(rows: &[StatedRow<'_>]) -> bool {
     let below = rows.iter().any(|row| row.statement.coverage_factor < 1.0);
     !below && stated::reach_something(rows)
 }
@@ -151,10 +151,10 @@ fn are_in_lists(rows: &[Stated<'_>]) -> bool {
 /// What an agreed factor makes of a row without a coverage probability, for which D-SI has no place.
 fn without_probability(
     report: &CertificateReport<'_>,
-    row: &Stated<'_>,
+    row: &StatedRow<'_>,
     language: Language,
 ) -> String {
-    let of = Said::by_itself(report, language);
+    let of = SentenceLanguage::by_itself(report, language);
     let [expanded, factor] = [row.expanded().text, row.factor().text].map(|n| of.in_marks(&n));
     format!(", U = {}, k = {factor}", in_unit(&expanded, &printed(&row.quantity.unit)))
 }
@@ -185,12 +185,12 @@ fn explained(xml: &mut Xml, of: &Unit) {
 fn conditions(
     xml: &mut Xml,
     report: &CertificateReport<'_>,
-    rows: &[Stated<'_>],
+    rows: &[StatedRow<'_>],
     languages: &[Language],
 ) {
     let Some(first) = rows.first() else { return };
     for (condition, _) in first.shown(report) {
-        let value = |row: &Stated<'_>| {
+        let value = |row: &StatedRow<'_>| {
             let same = |(c, _): &(&Quantity, f64)| {
                 c.name == condition.name && c.unit.text() == condition.unit.text()
             };
@@ -207,7 +207,7 @@ fn conditions(
     }
 }
 
-fn nominal(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
+fn nominal(xml: &mut Xml, rows: &[StatedRow<'_>], languages: &[Language]) {
     let values: Option<Vec<String>> = rows.iter().map(|row| row.line.nominal.map(exact)).collect();
     let (Some(values), Some(first)) = (values, rows.first()) else { return };
     xml.within("dcc:quantity", &[("refType", "basic_nominalValue")], |xml| {
@@ -218,9 +218,9 @@ fn nominal(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
 }
 
 /// The measured values with their expanded uncertainties.
-fn measured(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
+fn measured(xml: &mut Xml, rows: &[StatedRow<'_>], languages: &[Language]) {
     let Some(first) = rows.first() else { return };
-    let texts = |of: fn(&Stated<'_>) -> String| -> Vec<String> { rows.iter().map(of).collect() };
+    let texts = |of: fn(&StatedRow<'_>) -> String| -> Vec<String> { rows.iter().map(of).collect() };
     xml.within("dcc:quantity", &[("refType", "basic_measuredValue")], |xml| {
         xml.text("dcc:name", &localized(languages, |w| w.measured_value), languages);
         list(xml, &texts(|row| row.value().text), &first.quantity.unit, |xml| {
@@ -244,7 +244,7 @@ fn measured(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
 }
 
 /// The coverage probability, which D-SI asks for also where an agreed factor is all that is stated.
-fn probability(row: &Stated<'_>) -> String {
+fn probability(row: &StatedRow<'_>) -> String {
     match (row.statement.coverage_probability, row.reached()) {
         (Some(stated), _) => exact(stated),
         (None, Some(reached)) => {
@@ -256,7 +256,7 @@ fn probability(row: &Stated<'_>) -> String {
 
 /// The law that the factor belongs to; `None` where the trials contradict it, though its interval has
 /// the same digits as theirs.
-fn distribution(row: &Stated<'_>) -> Option<&'static str> {
+fn distribution(row: &StatedRow<'_>) -> Option<&'static str> {
     let is_contradicted = row.found.validation.is_some_and(|v| v.gum_valid == Some(false));
     match row.statement.basis {
         Basis::Normal | Basis::Student if is_contradicted && !row.is_raised() => None,
@@ -275,10 +275,10 @@ const INTERVAL: &str = "gumption_coverageInterval";
 fn intervals(
     xml: &mut Xml,
     report: &CertificateReport<'_>,
-    rows: &[Stated<'_>],
+    rows: &[StatedRow<'_>],
     languages: &[Language],
 ) {
-    let rows: Vec<(&Stated<'_>, [String; 2])> = rows
+    let rows: Vec<(&StatedRow<'_>, [String; 2])> = rows
         .iter()
         .filter_map(|row| Some((row, row.interval(report)?.map(|end| end.text))))
         .collect();
@@ -286,9 +286,9 @@ fn intervals(
     xml.within("dcc:quantity", &[("refType", INTERVAL)], |xml| {
         let name = localized(languages, |w| w.coverage_interval);
         xml.text("dcc:name", &name, languages);
-        let own: Vec<Stated<'_>> = rows.iter().map(|(row, _)| **row).collect();
+        let own: Vec<StatedRow<'_>> = rows.iter().map(|(row, _)| **row).collect();
         xml.text("dcc:description", &rows_of(&own, languages), languages);
-        let texts = |of: &dyn Fn(&Stated<'_>, &[String; 2]) -> String| -> String {
+        let texts = |of: &dyn Fn(&StatedRow<'_>, &[String; 2]) -> String| -> String {
             let texts: Vec<String> = rows.iter().map(|(row, ends)| of(row, ends)).collect();
             texts.join(" ")
         };
@@ -321,8 +321,9 @@ fn function(
     };
     let title = each(&|language| functions::title(of, &[language]));
     xml.text("dcc:name", &title, languages);
-    let said =
-        each(&|language| functions::sentences(of, Said::by_itself(report, language)).join(" "));
+    let said = each(&|language| {
+        functions::sentences(of, SentenceLanguage::by_itself(report, language)).join(" ")
+    });
     xml.text("dcc:description", &said, languages);
     let probability = exact(of.coverage.probability());
     let dof = curve.fit.degrees_of_freedom();

@@ -1,16 +1,16 @@
 //! The statements of a DCC: coverage, traceability, conformity, remarks.
 
 use super::xml::Xml;
-use crate::certificate::sentences::{Beside, Said};
+use crate::certificate::sentences::{SentenceLanguage, SentencePlace};
 use crate::certificate::words::{self, Words};
 use crate::certificate::{CertificateReport, conformity, sentences};
 use gumption_analysis::certificate::contents::{Language, Localized};
 
 pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
     let of = &report.certificate.administrative;
-    let own = |language: &Language| Said::by_itself(report, *language);
+    let own = |language: &Language| SentenceLanguage::by_itself(report, *language);
     let coverage = languages.iter().map(|language| {
-        (Some(*language), sentences::coverage(report, own(language), Beside::Dsi).join(" "))
+        (Some(*language), sentences::coverage(report, own(language), SentencePlace::Dsi).join(" "))
     });
     let norms = ["JCGM 100:2008", "JCGM 101:2008", "EA-4/02 M:2022"];
     statement(xml, &Localized { texts: coverage.collect() }, (None, &norms, None), languages);
@@ -42,12 +42,12 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
 
 /// What a statement is for readers that know the names of the good practice, the norms that it goes
 /// by, and whether something conforms.
-type Kind<'a> = (Option<&'a str>, &'a [&'a str], Option<bool>);
+type StatementKind<'a> = (Option<&'a str>, &'a [&'a str], Option<bool>);
 
 fn statement(
     xml: &mut Xml,
     text: &Localized,
-    (name, norms, conforms): Kind<'_>,
+    (name, norms, conforms): StatementKind<'_>,
     languages: &[Language],
 ) {
     let attributes: Vec<(&str, &str)> = name.iter().map(|name| ("refType", *name)).collect();

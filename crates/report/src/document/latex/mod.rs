@@ -6,7 +6,7 @@ mod text;
 pub(super) mod unit;
 
 use super::{Block, Document, FootPart};
-use crate::sheet::{Column, Kind, Sheet};
+use crate::sheet::{ColumnKind, Sheet, SheetColumn};
 use text::escaped;
 
 /// Rows up to which a table is kept on one page.
@@ -168,7 +168,7 @@ fn table(sheet: &Sheet, units: &mut unit::Declared) -> String {
 /// Letters of each column: what they need, and for paragraphs what the others leave.
 fn widths(sheet: &Sheet) -> Vec<usize> {
     let mut widths: Vec<usize> = sheet.columns.iter().map(width).collect();
-    let longest = |column: &Column| column.cells.iter().map(|cell| cell.chars().count()).max();
+    let longest = |column: &SheetColumn| column.cells.iter().map(|cell| cell.chars().count()).max();
     let longest: Vec<usize> =
         sheet.columns.iter().map(|column| longest(column).unwrap_or(0)).collect();
     let is_cut =
@@ -186,7 +186,7 @@ fn widths(sheet: &Sheet) -> Vec<usize> {
 }
 
 /// Letters that a column needs.
-fn width(column: &Column) -> usize {
+fn width(column: &SheetColumn) -> usize {
     let lines = column.header.lines().chain(column.cells.iter().map(String::as_str));
     let longest = lines.map(|line| line.chars().count()).max().unwrap_or(0);
     if !column.wraps() {
@@ -199,22 +199,22 @@ fn width(column: &Column) -> usize {
 }
 
 /// The form of a column.
-fn form(column: &Column, width: usize) -> String {
+fn form(column: &SheetColumn, width: usize) -> String {
     match column.kind {
-        Kind::Numbers => number_format(column),
-        Kind::Units => "l".to_owned(),
-        Kind::Text | Kind::Equations
+        ColumnKind::Numbers => number_format(column),
+        ColumnKind::Units => "l".to_owned(),
+        ColumnKind::Text | ColumnKind::Equations
             if column.cells.iter().any(|cell| cell.chars().count() > width) =>
         {
             let millimetres = (LETTER * width as f64).round();
             format!(">{{\\raggedright\\arraybackslash}}p{{{millimetres}mm}}")
         }
-        Kind::Text | Kind::Equations => "l".to_owned(),
+        ColumnKind::Text | ColumnKind::Equations => "l".to_owned(),
     }
 }
 
 /// How many digits a column of numbers reserves.
-fn number_format(column: &Column) -> String {
+fn number_format(column: &SheetColumn) -> String {
     let (mut whole, mut decimals, mut power) = (1, 0, None::<usize>);
     let (mut signed, mut power_signed) = (false, false);
     for cell in column.cells.iter().filter(|cell| is_number(cell)) {
@@ -239,7 +239,7 @@ fn is_number(cell: &str) -> bool {
     cell.parse::<f64>().is_ok_and(f64::is_finite) && !cell.starts_with(['+', '.'])
 }
 
-fn header(column: &Column) -> String {
+fn header(column: &SheetColumn) -> String {
     let lines: Vec<String> = column.header.lines().map(escaped).collect();
     let side = if column.is_numeric() { "r" } else { "l" };
     match lines.as_slice() {
@@ -249,16 +249,16 @@ fn header(column: &Column) -> String {
     }
 }
 
-fn cell(column: &Column, row: usize, units: &mut unit::Declared) -> String {
+fn cell(column: &SheetColumn, row: usize, units: &mut unit::Declared) -> String {
     let text = column.cell(row);
     match column.kind {
-        Kind::Text => escaped(text),
-        Kind::Equations => equation::equation(text),
-        Kind::Units if text.trim().is_empty() => String::new(),
-        Kind::Units => units.unit(text),
-        Kind::Numbers if is_number(text) => text.to_owned(),
-        Kind::Numbers if text.is_empty() => String::new(),
-        Kind::Numbers => format!("{{{}}}", escaped(text)),
+        ColumnKind::Text => escaped(text),
+        ColumnKind::Equations => equation::equation(text),
+        ColumnKind::Units if text.trim().is_empty() => String::new(),
+        ColumnKind::Units => units.unit(text),
+        ColumnKind::Numbers if is_number(text) => text.to_owned(),
+        ColumnKind::Numbers if text.is_empty() => String::new(),
+        ColumnKind::Numbers => format!("{{{}}}", escaped(text)),
     }
 }
 

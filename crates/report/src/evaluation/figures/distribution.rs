@@ -51,7 +51,7 @@ const DENSITIES: usize = 4;
 
 /// What stands below the density: its name, its ends, infinite where it has none, its estimate, and
 /// its colour.
-struct Row {
+struct IntervalRow {
     /// The method that found it; none for what the file states.
     method: Option<&'static str>,
     name: &'static str,
@@ -82,7 +82,7 @@ pub(in crate::evaluation) fn distribution(
     let y = |density: f64| TALL * (1.0 - (density / top).min(1.0));
     let mut rows = Vec::new();
     let mut row = |(method, name), ends: Option<[f64; 2]>, estimate, colour| {
-        rows.extend(ends.map(|ends| Row { method, name, ends, estimate, colour }));
+        rows.extend(ends.map(|ends| IntervalRow { method, name, ends, estimate, colour }));
     };
     row((Some(GUM), "GUM"), gum.and_then(Gum::interval), gum.map(|gum| gum.estimate), INK);
     let trials = found.located().map(|(value, _)| value);
@@ -175,7 +175,7 @@ fn axis(low: f64, high: f64, ends: impl Iterator<Item = f64>) -> Axis {
     Axis::linear(from, to)
 }
 
-impl Row {
+impl IntervalRow {
     /// Draws it at a height in pixels.
     fn draw(
         &self,

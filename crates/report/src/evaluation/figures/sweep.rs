@@ -24,7 +24,7 @@ const TALL: f64 = 210.0;
 const MOST: usize = 2000;
 
 /// A row.
-struct Point {
+struct SweepPoint {
     /// The condition's value.
     x: f64,
     estimate: f64,
@@ -62,7 +62,7 @@ pub(in crate::evaluation) fn sweep(
     };
     let condition = task.model.conditions.get(place)?;
     let quantity = &task.model.outputs.get(output)?.quantity;
-    let points: Vec<Point> = rows
+    let points: Vec<SweepPoint> = rows
         .iter()
         .take(MOST)
         .filter_map(|row| {
@@ -72,7 +72,7 @@ pub(in crate::evaluation) fn sweep(
             let group = groups.of(&row.conditions);
             let about = about(task, &named, row, (quantity, taken));
             let of_trials = matches!(taken, Taken::Interval { .. });
-            Some(Point { x, estimate, ends, of_trials, group, about })
+            Some(SweepPoint { x, estimate, ends, of_trials, group, about })
         })
         .filter(|of| [of.x, of.estimate, of.half()].iter().all(|number| number.is_finite()))
         .collect();
@@ -81,7 +81,7 @@ pub(in crate::evaluation) fn sweep(
     }
     let x = Axis::over(points.iter().map(|point| point.x));
     let values = Axis::around(points.iter().flat_map(|of| of.ends))?;
-    let most = points.iter().map(Point::half).fold(0.0, f64::max);
+    let most = points.iter().map(SweepPoint::half).fold(0.0, f64::max);
     let widths = Axis::linear(0.0, if most > 0.0 { 1.08 * most } else { 1.0 });
     let trials = points.iter().filter(|of| of.of_trials).count();
     let drawn = |width: f64| {
@@ -138,7 +138,7 @@ pub(in crate::evaluation) fn sweep(
     Some(Drawing::new(caption, drawn))
 }
 
-impl Point {
+impl SweepPoint {
     /// Half of the length of the interval: U, where it lies about the estimate.
     fn half(&self) -> f64 {
         0.5 * (self.ends[1] - self.ends[0])

@@ -67,14 +67,14 @@ const TOLERANCE: usize = 18;
 
 /// Where the figures of an output stand.
 #[derive(Clone, Copy, Debug)]
-enum Line {
+enum FigureLine {
     /// Below each other in a column.
     Column(u16),
     /// Beside each other from a place on.
     Row(u32, u16),
 }
 
-impl Line {
+impl FigureLine {
     /// The place of a figure.
     fn at(self, figure: usize) -> (u32, u16) {
         match self {
@@ -124,8 +124,11 @@ pub(super) fn write(
     for (number, row) in evaluation.rows.iter().enumerate() {
         for (output, (declared, found)) in task.model.outputs.iter().zip(&row.outputs).enumerate() {
             let quantity = &declared.quantity;
-            let line =
-                if task.swept { Line::Row(at, first) } else { Line::Column(output as u16 + 1) };
+            let line = if task.swept {
+                FigureLine::Row(at, first)
+            } else {
+                FigureLine::Column(output as u16 + 1)
+            };
             if task.swept {
                 for (column, &value) in (0..first).zip(&row.conditions) {
                     leaf.number((at, column), value, None, Look::Plain)?;
@@ -171,7 +174,7 @@ pub(super) fn write(
 /// The figures of an output.
 fn figures(
     leaf: &mut Leaf,
-    line: Line,
+    line: FigureLine,
     (output, found): (&Output, &OutputEvaluation),
     digits: u32,
     cells: Option<&[String; 7]>,
@@ -179,8 +182,10 @@ fn figures(
     let quantity = &output.quantity;
     let (row, column) = line.at(1);
     match line {
-        Line::Column(_) => leaf.word((row, column), &plain(quantity.unit.text()), Look::Plain)?,
-        Line::Row(..) => leaf.text(row, column, &plain(quantity.unit.text()))?,
+        FigureLine::Column(_) => {
+            leaf.word((row, column), &plain(quantity.unit.text()), Look::Plain)?
+        }
+        FigureLine::Row(..) => leaf.text(row, column, &plain(quantity.unit.text()))?,
     }
     if let Some(gum) = &found.gum {
         propagated(leaf, line, gum, digits, cells)?;
@@ -204,7 +209,7 @@ fn figures(
 /// The figures of the law of propagation.
 fn propagated(
     leaf: &mut Leaf,
-    line: Line,
+    line: FigureLine,
     gum: &Gum,
     digits: u32,
     cells: Option<&[String; 7]>,
@@ -240,7 +245,12 @@ fn propagated(
 }
 
 /// The figures of the trials.
-fn trials(leaf: &mut Leaf, line: Line, figures: &MonteCarlo, digits: u32) -> Result<(), XlsxError> {
+fn trials(
+    leaf: &mut Leaf,
+    line: FigureLine,
+    figures: &MonteCarlo,
+    digits: u32,
+) -> Result<(), XlsxError> {
     let own = figures.standard_uncertainty.and_then(|u| position(u, digits));
     let ends = place_of_ends(figures, figures.standard_uncertainty, digits);
     let values = [
@@ -299,7 +309,7 @@ const SAME: f64 = 1e-12;
 /// those of the evaluation.
 fn decided(
     leaf: &mut Leaf,
-    line: Line,
+    line: FigureLine,
     conformity: &Conformity,
     (output, found, digits): (&Output, &OutputEvaluation, u32),
 ) -> Result<(), XlsxError> {

@@ -12,7 +12,7 @@ const LARGEST: f64 = 1e150;
 
 /// One operation at some values of the variables.
 #[derive(Clone, Debug)]
-pub(super) struct Step {
+pub(super) struct TapeStep {
     pub(super) node: Node,
     pub(super) value: f64,
     /// What the result changes by with each operand; `None` where an operand does not vary.
@@ -30,7 +30,7 @@ pub(super) struct Step {
 /// All operations.
 #[derive(Clone, Debug)]
 pub(super) struct Tape {
-    pub(super) steps: Vec<Step>,
+    pub(super) steps: Vec<TapeStep>,
     /// For each output its step.
     pub outputs: Vec<usize>,
     /// For each variable its step, if the model uses it.
@@ -41,7 +41,7 @@ impl Tape {
     /// The tape at some values; `None` where a spreadsheet could not follow: a number that is not
     /// finite or very large, or a quantity that enters hundreds of operations.
     pub(super) fn of(program: &Program, variables: &[f64]) -> Option<Self> {
-        let mut steps: Vec<Step> = Vec::with_capacity(program.nodes.len());
+        let mut steps: Vec<TapeStep> = Vec::with_capacity(program.nodes.len());
         let mut places = vec![None; program.variables];
         for (place, &node) in program.nodes.iter().enumerate() {
             let (value, slopes, varies) = match node {
@@ -66,7 +66,7 @@ impl Tape {
                     let first = Dual::<2>::variable(a.value, 0);
                     let found = first.binary(operation, Dual::variable(b.value, 1));
                     let slope =
-                        |of: &Step, which: usize| of.varies.then_some(found.gradient[which]);
+                        |of: &TapeStep, which: usize| of.varies.then_some(found.gradient[which]);
                     (found.value, [slope(a, 0), slope(b, 1)], a.varies || b.varies)
                 }
             };
@@ -76,7 +76,7 @@ impl Tape {
             }
             let outputs = program.outputs.len();
             let (adjoints, reach, users) = (vec![0.0; outputs], vec![false; outputs], Vec::new());
-            steps.push(Step { node, value, slopes, adjoints, reach, users, varies });
+            steps.push(TapeStep { node, value, slopes, adjoints, reach, users, varies });
         }
         let mut tape = Self { steps, outputs: program.outputs.clone(), variables: places };
         tape.backward()?;

@@ -31,7 +31,7 @@ const LINES: usize = 24;
 const DASH: f64 = 0.008;
 
 /// A row: the condition, its group, what it shares with others on a line, and its values.
-struct Point {
+struct OverlayPoint {
     x: f64,
     group: usize,
     line: Vec<u64>,
@@ -41,7 +41,7 @@ struct Point {
 }
 
 /// Which value of a row is meant.
-type Of = fn(&Point) -> f64;
+type ValueOfPoint = fn(&OverlayPoint) -> f64;
 
 /// A panel for each condition that varies; `None` without values.
 pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawing> {
@@ -85,7 +85,7 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
     Some(Drawing::new(caption, drawn))
 }
 
-fn points(diagnosis: &Diagnosis, output: usize, over: Over, groups: &Groups) -> Vec<Point> {
+fn points(diagnosis: &Diagnosis, output: usize, over: Over, groups: &Groups) -> Vec<OverlayPoint> {
     let step = diagnosis.rows.len().div_ceil(POINTS).max(1);
     let rows = diagnosis.rows.iter().enumerate().step_by(step);
     rows.filter_map(|(number, row)| {
@@ -96,7 +96,7 @@ fn points(diagnosis: &Diagnosis, output: usize, over: Over, groups: &Groups) -> 
         let line = others.map(|(_, value)| value.to_bits()).collect();
         let group = groups.of(&row.conditions);
         let about = about(diagnosis, output, &row.conditions, &value);
-        let point = Point { x, group, line, value, about };
+        let point = OverlayPoint { x, group, line, value, about };
         let numbers = [x, value.measured, point.value.sim(), point.value.corrected()];
         numbers.iter().all(|number| number.is_finite()).then_some(point)
     })
@@ -126,7 +126,7 @@ fn about(diagnosis: &Diagnosis, output: usize, conditions: &[f64], value: &Value
 }
 
 /// Whether uncertainties are large enough to be seen beside the values.
-fn has_bars(points: &[Point]) -> bool {
+fn has_bars(points: &[OverlayPoint]) -> bool {
     let values = points.iter().map(|point| point.value.measured);
     let [low, high] =
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
@@ -135,7 +135,7 @@ fn has_bars(points: &[Point]) -> bool {
 
 fn panel(
     area: &Area<'_>,
-    points: &[Point],
+    points: &[OverlayPoint],
     labels: (String, String),
     y: &Axis,
     titles: &mut Titles,
@@ -161,13 +161,13 @@ fn panel(
 }
 
 /// The sim and the corrected sim: lines through what differs in this condition alone, else dashes.
-fn sims(chart: &Chart<'_>, x: &Axis, points: &[Point]) -> Drawn {
-    let mut lines: BTreeMap<&[u64], Vec<&Point>> = BTreeMap::new();
+fn sims(chart: &Chart<'_>, x: &Axis, points: &[OverlayPoint]) -> Drawn {
+    let mut lines: BTreeMap<&[u64], Vec<&OverlayPoint>> = BTreeMap::new();
     for point in points {
         lines.entry(&point.line).or_default().push(point);
     }
     let joined = lines.len() <= LINES && lines.values().any(|line| line.len() > 1);
-    let of: [(RGBColor, f64, Of); 2] =
+    let of: [(RGBColor, f64, ValueOfPoint); 2] =
         [(BEFORE, 1.25, |point| point.value.sim()), (AFTER, 1.75, |point| point.value.corrected())];
     for (colour, width, value) in of {
         for line in lines.values_mut().filter(|_| joined) {

@@ -16,7 +16,7 @@ const HEIGHT: f64 = 240.0;
 const MOST: usize = 400;
 
 /// A prediction: the condition, its value and standard uncertainty, what the sim says, its group.
-struct Point {
+struct PredictionPoint {
     x: f64,
     value: f64,
     u: f64,
@@ -47,13 +47,13 @@ pub(in crate::gap) fn draw(
     let named = &diagnosis.outputs[output];
     let over = Over::Condition(finest);
     let groups = groups::groups(diagnosis, over);
-    let points: Vec<Point> = rows
+    let points: Vec<PredictionPoint> = rows
         .iter()
         .filter_map(|row| {
             let (value, u) = *row.outputs.get(output)?;
             let group = groups.of(&row.conditions);
             let sim = *row.model.get(output)?;
-            Some(Point { x: *row.conditions.get(finest)?, value, u, sim, group })
+            Some(PredictionPoint { x: *row.conditions.get(finest)?, value, u, sim, group })
         })
         .filter(|of| [of.x, of.value, of.u, of.sim].iter().all(|number| number.is_finite()))
         .collect();

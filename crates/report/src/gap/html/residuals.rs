@@ -31,10 +31,10 @@ const POINTS: usize = 1500;
 const STROKES: usize = 240;
 
 /// A point: the condition, the residual, its standard uncertainty and its group.
-type Point = (f64, f64, f64, usize);
+type ResidualPoint = (f64, f64, f64, usize);
 
 /// Which residual and standard uncertainty are meant.
-type Of = fn(&Residual) -> (f64, f64);
+type ResidualOf = fn(&Residual) -> (f64, f64);
 
 /// Two panels for each condition that varies; `None` without values.
 pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawing> {
@@ -48,10 +48,10 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
     let label = if divided { "residual / u".to_owned() } else { unit_label(diagnosis, output) };
     let many = own.len() > POINTS;
     let groups: Vec<Groups> = over.iter().map(|over| groups::groups(diagnosis, *over)).collect();
-    let both: [(&str, RGBColor, Of); 2] =
+    let both: [(&str, RGBColor, ResidualOf); 2] =
         [("before", BEFORE, |r| r.before), ("after", AFTER, |r| r.after)];
     // one scale for both sides of all panels, so that what shrinks is seen to
-    let scaled = |residual: &Residual, of: Of| {
+    let scaled = |residual: &Residual, of: ResidualOf| {
         let (value, u) = of(residual);
         let scale = if divided { u } else { 1.0 };
         (value / scale, u / scale)
@@ -68,7 +68,7 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
                 let along = over.axis(diagnosis);
                 let sides = rows.split_evenly(halves);
                 for (side, (title, colour, of)) in sides.iter().zip(both) {
-                    let points: Vec<Point> = points
+                    let points: Vec<ResidualPoint> = points
                         .iter()
                         .map(|residual| {
                             let (value, u) = scaled(residual, of);
@@ -148,7 +148,7 @@ fn scale(points: impl Iterator<Item = (f64, f64)>) -> Axis {
 fn half(
     area: &Area<'_>,
     title: &str,
-    points: &[Point],
+    points: &[ResidualPoint],
     y: &Axis,
     (along, label): (String, String),
     colour: RGBColor,
@@ -172,17 +172,17 @@ fn half(
 }
 
 /// Neighbouring values together, so that there are at most so many groups.
-fn groups(points: &[Point], most: usize) -> Vec<Vec<Point>> {
+fn groups(points: &[ResidualPoint], most: usize) -> Vec<Vec<ResidualPoint>> {
     let mut sorted = points.to_vec();
     smallest_first(&mut sorted, |a| a.0);
-    let levels: Vec<Vec<Point>> =
-        sorted.chunk_by(|a, b| a.0 == b.0).map(<[Point]>::to_vec).collect();
+    let levels: Vec<Vec<ResidualPoint>> =
+        sorted.chunk_by(|a, b| a.0 == b.0).map(<[ResidualPoint]>::to_vec).collect();
     let size = levels.len().div_ceil(most).max(1);
-    levels.chunks(size).map(<[Vec<Point>]>::concat).collect()
+    levels.chunks(size).map(<[Vec<ResidualPoint>]>::concat).collect()
 }
 
 /// Twice the root mean square of the standard uncertainties at each value of the condition.
-fn band(chart: &Chart<'_>, x: &Axis, y: &Axis, points: &[Point]) -> Drawn {
+fn band(chart: &Chart<'_>, x: &Axis, y: &Axis, points: &[ResidualPoint]) -> Drawn {
     let groups = groups(points, STROKES);
     let edge: Vec<(f64, f64)> = groups
         .iter()
@@ -215,7 +215,7 @@ fn band(chart: &Chart<'_>, x: &Axis, y: &Axis, points: &[Point]) -> Drawn {
 }
 
 /// The range of the residuals of neighbouring values.
-fn strokes(chart: &Chart<'_>, x: &Axis, points: &[Point], colour: RGBColor) -> Drawn {
+fn strokes(chart: &Chart<'_>, x: &Axis, points: &[ResidualPoint], colour: RGBColor) -> Drawn {
     for group in groups(points, STROKES) {
         let mean = group.iter().map(|(x, ..)| x).sum::<f64>() / group.len() as f64;
         let [least, most] = group

@@ -4,7 +4,7 @@
 //! with a = pi j / (2 n) and j = 1, 3, ... for an even, j = 2, 4, ... and the pole -1 for an odd n.
 //! Source: A. V. Oppenheim, R. W. Schafer, Discrete-Time Signal Processing, appendix B.
 
-use super::section::{Section, Tap, cos_of};
+use super::section::{FilterSection, Tap, cos_of};
 use super::{Phasor, phasor};
 
 /// The dampings 2 cos(a) of the pairs of poles, and whether there is a single pole.
@@ -14,20 +14,21 @@ fn prototype(poles: usize) -> (Vec<f64>, bool) {
     ((0..poles / 2).map(|i| 2.0 * cos_of(first + 2 * i, poles)).collect(), single)
 }
 
-fn one_sided(poles: usize, w: f64, tap: Tap) -> Vec<Section> {
+fn one_sided(poles: usize, w: f64, tap: Tap) -> Vec<FilterSection> {
     let (pairs, single) = prototype(poles);
-    let mut sections: Vec<_> = pairs.into_iter().map(|k| Section::Second { w, k, tap }).collect();
+    let mut sections: Vec<_> =
+        pairs.into_iter().map(|k| FilterSection::Second { w, k, tap }).collect();
     if single {
-        sections.push(Section::First { w, tap });
+        sections.push(FilterSection::First { w, tap });
     }
     sections
 }
 
-pub(super) fn low_pass(poles: usize, w: f64) -> Vec<Section> {
+pub(super) fn low_pass(poles: usize, w: f64) -> Vec<FilterSection> {
     one_sided(poles, w, Tap::Low)
 }
 
-pub(super) fn high_pass(poles: usize, w: f64) -> Vec<Section> {
+pub(super) fn high_pass(poles: usize, w: f64) -> Vec<FilterSection> {
     one_sided(poles, w, Tap::High)
 }
 
@@ -35,7 +36,7 @@ pub(super) fn high_pass(poles: usize, w: f64) -> Vec<Section> {
 /// the middle of the band.
 ///
 /// Each pole p of the prototype becomes the two roots of s^2 - width p s + centre^2.
-pub(super) fn band_pass(half: usize, [low, high]: [f64; 2]) -> (Vec<Section>, f64) {
+pub(super) fn band_pass(half: usize, [low, high]: [f64; 2]) -> (Vec<FilterSection>, f64) {
     let (width, centre_squared) = (high - low, low * high);
     let (pairs, single) = prototype(half);
     let mut sections = Vec::with_capacity(half);
@@ -46,11 +47,11 @@ pub(super) fn band_pass(half: usize, [low, high]: [f64; 2]) -> (Vec<Section>, f6
         let half_width = p * (width / 2.0);
         let root = square_root(half_width * half_width - centre_squared);
         for r in [half_width + root, half_width - root] {
-            sections.push(Section::of_poles(-2.0 * r.re, r.norm_sqr(), Tap::Band));
+            sections.push(FilterSection::of_poles(-2.0 * r.re, r.norm_sqr(), Tap::Band));
         }
     }
     if single {
-        sections.push(Section::of_poles(width, centre_squared, Tap::Band));
+        sections.push(FilterSection::of_poles(width, centre_squared, Tap::Band));
     }
     let centre = Phasor::new(0.0, centre_squared.sqrt());
     let gain: Phasor = sections.iter().map(|part| part.response(centre)).product();

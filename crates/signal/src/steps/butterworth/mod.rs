@@ -15,7 +15,7 @@ mod tests;
 
 use std::f64::consts::PI;
 
-use section::Section;
+use section::FilterSection;
 
 use crate::unsuitable::within;
 use crate::{Changed, Measured, NoiseGain, Phasor, Signal, Unsuitable, phasor};
@@ -48,7 +48,7 @@ pub struct Butterworth {
 /// A Butterworth filter at a sampling rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Filter {
-    sections: Vec<Section>,
+    sections: Vec<FilterSection>,
     /// What the sections' product is multiplied by.
     scale: f64,
     both_ways: bool,
@@ -215,7 +215,7 @@ impl Filter {
     }
 
     fn impulse_length(&self) -> usize {
-        let slowest = self.sections.iter().map(Section::decay).fold(0.0, f64::max);
+        let slowest = self.sections.iter().map(FilterSection::decay).fold(0.0, f64::max);
         // poles side by side decay with a power of time before the exponential wins: twice as long
         let length = (2.0 * -37.0 / elementary::ln(slowest)).ceil().clamp(64.0, 5e7);
         length as usize

@@ -17,14 +17,14 @@ pub(super) enum Tap {
 
 /// A part.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Section {
+pub(super) enum FilterSection {
     /// w / (s + w) or s / (s + w).
     First { w: f64, tap: Tap },
     /// w^2, k w s or s^2 over s^2 + k w s + w^2.
     Second { w: f64, k: f64, tap: Tap },
 }
 
-impl Section {
+impl FilterSection {
     /// The complex gain at s.
     pub(super) fn response(&self, s: Phasor) -> Phasor {
         match *self {

@@ -1,6 +1,6 @@
 //! How formulas are read: ranks, tokens, limits.
 
-use super::super::syntax::{Kind, Tree};
+use super::super::syntax::{NodeKind, Tree};
 use super::*;
 
 /// The tree with parentheses around everything that has parts.
@@ -13,30 +13,30 @@ fn show(tree: &Tree, text: &str, place: usize) -> String {
     let node = &tree.nodes[place];
     let written = &text[node.span.clone()];
     match &node.kind {
-        Kind::Number(value) => value.to_string(),
-        Kind::Pi => "pi".to_owned(),
-        Kind::Name | Kind::Unit(_) | Kind::Constant(_) => written.to_owned(),
-        Kind::InUnit { number, unit } => format!("({} {unit})", show(tree, text, *number)),
-        Kind::Negate(x) => format!("(-{})", show(tree, text, *x)),
-        Kind::Infix { operator, left, right, .. } => {
+        NodeKind::Number(value) => value.to_string(),
+        NodeKind::Pi => "pi".to_owned(),
+        NodeKind::Name | NodeKind::Unit(_) | NodeKind::Constant(_) => written.to_owned(),
+        NodeKind::InUnit { number, unit } => format!("({} {unit})", show(tree, text, *number)),
+        NodeKind::Negate(x) => format!("(-{})", show(tree, text, *x)),
+        NodeKind::Infix { operator, left, right, .. } => {
             let (left, right) = (show(tree, text, *left), show(tree, text, *right));
             format!("({left}{}{right})", operator.name())
         }
-        Kind::Joined { joint, left, right, .. } => {
+        NodeKind::Joined { joint, left, right, .. } => {
             let (left, right) = (show(tree, text, *left), show(tree, text, *right));
             format!("({left} {} {right})", joint.name())
         }
-        Kind::Not { of, .. } => format!("(not {})", show(tree, text, *of)),
-        Kind::Table { x, call } => format!("table({},{})", show(tree, text, *x), call.file),
-        Kind::Solve { body, unknown, from, to } => {
+        NodeKind::Not { of, .. } => format!("(not {})", show(tree, text, *of)),
+        NodeKind::Table { x, call } => format!("table({},{})", show(tree, text, *x), call.file),
+        NodeKind::Solve { body, unknown, from, to } => {
             let whole = show(body, text, body.nodes.len() - 1);
             let [from, to] = [from, to].map(|end| show(tree, text, *end));
             format!("solve({whole},{},{from},{to})", &text[unknown.clone()])
         }
-        Kind::Curve { curve, argument, .. } => {
+        NodeKind::Curve { curve, argument, .. } => {
             format!("{}({})", curve.fit.name, show(tree, text, *argument))
         }
-        Kind::Call { name_span, arguments, .. } => {
+        NodeKind::Call { name_span, arguments, .. } => {
             let arguments: Vec<_> = arguments.iter().map(|a| show(tree, text, *a)).collect();
             format!("{}({})", &text[name_span.clone()], arguments.join(","))
         }

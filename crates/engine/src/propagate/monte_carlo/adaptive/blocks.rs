@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::parallel;
 
-use super::{FIGURES, Search};
+use super::{AdaptiveSearch, FIGURES};
 use crate::distribution::BLOCK;
 use crate::number::{CodePath, Kernel, at_rank};
 use crate::propagate::Control;
@@ -32,10 +32,10 @@ pub(super) fn figures(
     numbers: Range<u64>,
     size: u64,
     plans: &[Plan],
-    search: Search<'_>,
+    search: AdaptiveSearch<'_>,
     control: &Control<'_>,
 ) -> Vec<Vec<Option<Figures>>> {
-    let run = Run { size, plans, search, control };
+    let run = BlockRun { size, plans, search, control };
     let share: f64 = plans.iter().map(|plan| plan.kept).sum();
     let kept = 8.0 * share * ((numbers.end - numbers.start) * size) as f64;
     let keeps_all = plans.iter().any(|plan| plan.windows.keep_all());
@@ -67,14 +67,14 @@ pub(super) fn figures(
 
 /// How blocks are made.
 #[derive(Clone, Copy)]
-struct Run<'a> {
+struct BlockRun<'a> {
     size: u64,
     plans: &'a [Plan],
-    search: Search<'a>,
+    search: AdaptiveSearch<'a>,
     control: &'a Control<'a>,
 }
 
-impl Run<'_> {
+impl BlockRun<'_> {
     /// The figures of every output in a block, from what is kept of the blocks of trials; `None` if an
     /// end may lie where nothing is kept.
     fn figures_of_condensed<'b>(
@@ -130,8 +130,8 @@ impl Run<'_> {
         let Self { size, plans, search, control } = self;
         let path = control.path;
         let (first, last) = (number * size, (number + 1) * size);
-        let new = |plan: &Plan| Values::new(size, search.probability, *plan);
-        let mut values: Vec<Values> = plans.iter().map(new).collect();
+        let new = |plan: &Plan| BlockValues::new(size, search.probability, *plan);
+        let mut values: Vec<BlockValues> = plans.iter().map(new).collect();
         for block in first / BLOCK as u64..last.div_ceil(BLOCK as u64) {
             if control.is_stopped() {
                 break;
@@ -155,7 +155,7 @@ impl Run<'_> {
 /// Adds values to those of a block.
 struct Add<'a> {
     path: CodePath,
-    values: &'a mut Values,
+    values: &'a mut BlockValues,
     new: &'a [f64],
 }
 
@@ -166,19 +166,19 @@ impl Kernel for Add<'_> {
     fn run(self) {
         let Self { path, values, new } = self;
         match values {
-            Values::All(all) => {
+            BlockValues::All(all) => {
                 all.count += new.len() as u64;
                 all.sums.add(path, new, all.plan.reference);
                 all.kept.extend_from_slice(new);
             }
-            Values::Tails(tails) => new.iter().for_each(|&value| tails.push(value)),
+            BlockValues::Tails(tails) => new.iter().for_each(|&value| tails.push(value)),
         }
     }
 }
 
 /// The values of one output in a block.
 #[derive(Debug)]
-enum Values {
+enum BlockValues {
     All(Fenced),
     Tails(Tails),
 }
@@ -206,7 +206,7 @@ struct Tails {
     high: (Vec<f64>, usize),
 }
 
-impl Values {
+impl BlockValues {
     /// Of so many trials, of which some may not count.
     fn new(size: u64, probability: f64, plan: Plan) -> Self {
         if size <= HELD {
@@ -346,8 +346,8 @@ mod tests {
                 assert!((exact[0] - found[0]).abs() < 1e-6, "{exact:?}, {found:?}");
                 assert!((exact[1] / found[1] - 1.0).abs() < 1e-9, "{exact:?}, {found:?}");
             };
-            let mut values = Values::new(size.min(count), probability, plan(-9e5, None));
-            assert_eq!(matches!(values, Values::Tails(_)), count > HELD);
+            let mut values = BlockValues::new(size.min(count), probability, plan(-9e5, None));
+            assert_eq!(matches!(values, BlockValues::Tails(_)), count > HELD);
             for part in all.chunks(1000) {
                 path.run(Add { path, values: &mut values, new: part });
             }

@@ -55,7 +55,7 @@ const CONFIDENCE: f64 = 0.95;
 
 /// What the procedure is asked for.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Search<'a> {
+pub(crate) struct AdaptiveSearch<'a> {
     /// When to stop.
     pub(crate) rule: StoppingRule,
     /// Coverage probability.
@@ -73,7 +73,7 @@ pub(crate) struct Search<'a> {
     pub(crate) gum: &'a [f64],
 }
 
-impl Search<'_> {
+impl AdaptiveSearch<'_> {
     /// The block size M of 7.9.4 b).
     fn block_trials(&self) -> u64 {
         // a coverage probability of 0.95 must give 2000 in spite of its rounding
@@ -86,7 +86,7 @@ impl Search<'_> {
 /// ended. `trials` hold what was computed of them, as far as the memory for kept values goes.
 pub(crate) fn find_trials(
     trials: &mut RowTrials,
-    search: Search<'_>,
+    search: AdaptiveSearch<'_>,
     control: &Control<'_>,
 ) -> (u64, Vec<Adaptive>) {
     let size = search.block_trials();
@@ -131,7 +131,7 @@ pub(crate) fn find_trials(
 /// The blocks made so far.
 struct Blocks<'a> {
     trials: &'a mut RowTrials,
-    search: Search<'a>,
+    search: AdaptiveSearch<'a>,
     control: &'a Control<'a>,
     /// Trials in each.
     size: u64,

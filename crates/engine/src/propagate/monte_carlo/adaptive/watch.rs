@@ -1,7 +1,7 @@
 //! The figures of the blocks of one output: how they scatter, and the tolerance that they are to meet.
 
 use super::blocks::Figures;
-use super::{FIGURES, Search};
+use super::{AdaptiveSearch, FIGURES};
 use crate::propagate::validate::numerical_tolerance;
 
 /// The running comparison of one output's blocks.
@@ -43,19 +43,19 @@ impl Watch {
     }
 
     /// Whether the output has no variance, so that the ends of its interval are watched alone.
-    fn has_no_variance(search: Search<'_>, output: usize) -> bool {
+    fn has_no_variance(search: AdaptiveSearch<'_>, output: usize) -> bool {
         search.moment_order.get(output).is_some_and(|&dof| dof <= 2.0)
     }
 
     /// The figures that are watched.
-    fn watched(search: Search<'_>, output: usize) -> std::ops::Range<usize> {
+    fn watched(search: AdaptiveSearch<'_>, output: usize) -> std::ops::Range<usize> {
         if Self::has_no_variance(search, output) { 2..FIGURES } else { 0..FIGURES }
     }
 
     /// The tolerance from the standard deviation of all trials so far (7.9.4 i and j); from that of
     /// the law of propagation where there is none, or where there are no trials; and from a quarter of
     /// the interval, about that of a normal distribution, where the law has none either.
-    pub(super) fn tolerance(&self, search: Search<'_>, output: usize) -> f64 {
+    pub(super) fn tolerance(&self, search: AdaptiveSearch<'_>, output: usize) -> f64 {
         let size = self.trials / self.blocks;
         let all = ((self.within + size * self.scatter(0)) / (self.trials - 1.0)).sqrt();
         let by_gum = Self::has_no_variance(search, output) || self.blocks == 0.0;
@@ -72,7 +72,7 @@ impl Watch {
 
     /// Whether twice the standard deviation of the mean of every figure is within the tolerance
     /// (7.9.4 k).
-    pub(super) fn is_stable(&self, search: Search<'_>, output: usize) -> bool {
+    pub(super) fn is_stable(&self, search: AdaptiveSearch<'_>, output: usize) -> bool {
         if self.blocks < 2.0 {
             return false;
         }
@@ -86,7 +86,7 @@ impl Watch {
     /// So many blocks that the mean of every figure is within the tolerance with the confidence
     /// that belongs to the two-sided t factor `t` (Stein's second stage). Infinite where there is
     /// no scatter to tell it from.
-    pub(super) fn blocks_needed(&self, search: Search<'_>, output: usize, t: f64) -> f64 {
+    pub(super) fn blocks_needed(&self, search: AdaptiveSearch<'_>, output: usize, t: f64) -> f64 {
         if self.blocks < 2.0 {
             return f64::INFINITY;
         }

@@ -79,11 +79,11 @@ impl Writer {
 
 /// Bytes that are being read.
 #[derive(Clone, Debug)]
-pub(crate) struct Reader<'b> {
+pub(crate) struct ByteReader<'b> {
     rest: &'b [u8],
 }
 
-impl<'b> Reader<'b> {
+impl<'b> ByteReader<'b> {
     pub(crate) fn new(bytes: &'b [u8]) -> Self {
         Self { rest: bytes }
     }
@@ -180,29 +180,29 @@ mod tests {
         out.option(Some(3), Writer::number);
         out.option(None, Writer::number);
         let bytes = out.into_bytes();
-        let mut from = Reader::new(&bytes);
+        let mut from = ByteReader::new(&bytes);
         for number in numbers {
             assert_eq!(from.number(), Ok(number));
         }
         let list = from.list(6).unwrap();
         assert!(list.iter().zip(reals).all(|(a, b)| a.to_bits() == b.to_bits()));
-        assert_eq!(from.option(Reader::number), Ok(Some(3)));
-        assert_eq!(from.option(Reader::number), Ok(None));
+        assert_eq!(from.option(ByteReader::number), Ok(Some(3)));
+        assert_eq!(from.option(ByteReader::number), Ok(None));
         assert_eq!(from.end(), Ok(()));
     }
 
     /// Too large a number, a list that is longer than the bytes, and what ends early.
     #[test]
     fn what_is_no_number_is_told() {
-        let damaged = |bytes: &[u8]| Reader::new(bytes).number().is_err();
+        let damaged = |bytes: &[u8]| ByteReader::new(bytes).number().is_err();
         assert!(damaged(&[]) && damaged(&[0x80]) && damaged(&[0xff; 10]) && damaged(&[0xff; 9]));
-        assert_eq!(Reader::new(&[&[0xff; 9][..], &[1]].concat()).number(), Ok(u64::MAX));
+        assert_eq!(ByteReader::new(&[&[0xff; 9][..], &[1]].concat()).number(), Ok(u64::MAX));
         let mut huge = Writer::default();
         huge.number(u64::MAX);
         let huge = huge.into_bytes();
-        assert!(Reader::new(&huge).list(u64::MAX).is_err());
-        assert!(Reader::new(&[2]).flag().is_err());
-        assert!(Reader::new(&[0; 7]).real().is_err());
-        assert!(Reader::new(&[0]).end().is_err());
+        assert!(ByteReader::new(&huge).list(u64::MAX).is_err());
+        assert!(ByteReader::new(&[2]).flag().is_err());
+        assert!(ByteReader::new(&[0; 7]).real().is_err());
+        assert!(ByteReader::new(&[0]).end().is_err());
     }
 }

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 pub use encoding::Damaged;
-pub(crate) use encoding::{Reader, Writer};
+pub(crate) use encoding::{ByteReader, Writer};
 
 use super::accumulate::Accumulated;
 use super::block::RowTrials;
@@ -133,7 +133,7 @@ impl RowPass {
     /// # Errors
     /// Bytes that are no such pass.
     pub(crate) fn read(
-        from: &mut Reader<'_>,
+        from: &mut ByteReader<'_>,
         (outputs, inputs): (usize, usize),
         scores: usize,
     ) -> Result<Self, Damaged> {
@@ -219,7 +219,7 @@ impl<'a> Prepared<'a> {
     /// Bytes that are no such part.
     pub(crate) fn read(
         &self,
-        from: &mut Reader<'_>,
+        from: &mut ByteReader<'_>,
         chunks: Range<u64>,
     ) -> Result<RowPart, Damaged> {
         let chunk = |number| Accumulated::read(from, &self.plans, number, self.pass.trials);

@@ -3,17 +3,19 @@
 
 use std::ops::Range;
 
-use super::encoding::{Damaged, Reader, Writer};
+use super::encoding::{ByteReader, Damaged, Writer};
 use crate::distribution::BLOCK;
 use crate::propagate::monte_carlo::accumulate::{Accumulated, AccumulatedOutput};
 use crate::propagate::monte_carlo::figures::Adaptive;
 use crate::propagate::monte_carlo::figures::{Finished, MonteCarlo, NumericalError, Undefined};
-use crate::propagate::monte_carlo::partition::{Partition, Tally};
+use crate::propagate::monte_carlo::partition::{Partition, PassTally};
 use crate::propagate::monte_carlo::passes::{Look, Stretch};
 use crate::propagate::monte_carlo::plan::Plan;
 use crate::propagate::monte_carlo::quantiles::{self, QuantilePasses};
 use crate::propagate::monte_carlo::request::trials_in;
-use crate::propagate::monte_carlo::several_pass::{Found, MOST_PASSES, Passes, Phase, Whole};
+use crate::propagate::monte_carlo::several_pass::{
+    MOST_PASSES, OrderStatistics, Passes, Phase, Whole,
+};
 use crate::propagate::monte_carlo::shortest_scatter::{BATCHES, ShortestScatter, batch_blocks};
 use crate::propagate::monte_carlo::sums::Sums;
 use crate::propagate::monte_carlo::totals::{ChunkSums, SumTree, Totals};
@@ -42,7 +44,7 @@ fn write_place(out: &mut Writer, place: Option<(u64, usize)>) {
 
 /// The place of a trial in some blocks of the first `count` trials.
 fn read_place(
-    from: &mut Reader<'_>,
+    from: &mut ByteReader<'_>,
     blocks: &Range<u64>,
     count: u64,
 ) -> Result<Option<(u64, usize)>, Damaged> {
@@ -76,7 +78,7 @@ impl Sums {
     }
 
     /// Of so many trials, and of an output with so many after it.
-    fn read(from: &mut Reader<'_>, trials: u64, after: u64) -> Result<Self, Damaged> {
+    fn read(from: &mut ByteReader<'_>, trials: u64, after: u64) -> Result<Self, Damaged> {
         let inside = from.at_most(trials, "more values than trials")?;
         let powers = from.reals()?;
         let products = from.list(after)?;
@@ -93,7 +95,7 @@ impl ChunkSums {
         self.outputs.iter().for_each(|sums| sums.write(out));
     }
 
-    fn read(from: &mut Reader<'_>, most: u64, outputs: usize) -> Result<Self, Damaged> {
+    fn read(from: &mut ByteReader<'_>, most: u64, outputs: usize) -> Result<Self, Damaged> {
         let trials = from.at_most(most, "more trials than there can be")?;
         let count = from.number()?;
         let right = count == outputs as u64 || count == 0 && trials == 0;
@@ -121,7 +123,7 @@ impl SumTree {
     /// The tree over some of so many chunks of `count` trials: all of its branches together are just
     /// these, and have just so many trials.
     fn read(
-        from: &mut Reader<'_>,
+        from: &mut ByteReader<'_>,
         look: &Look<'_>,
         chunks: &Range<u64>,
         trials: u64,
@@ -142,7 +144,7 @@ impl SumTree {
     }
 }
 
-impl Tally {
+impl PassTally {
     fn write(&self, out: &mut Writer) {
         let mut empty = 0;
         for (count, [least, greatest]) in self.counted() {
@@ -162,7 +164,11 @@ impl Tally {
     }
 
     /// Of so many values in the cells of a partition.
-    fn read(from: &mut Reader<'_>, partition: &Partition, values: u64) -> Result<Self, Damaged> {
+    fn read(
+        from: &mut ByteReader<'_>,
+        partition: &Partition,
+        values: u64,
+    ) -> Result<Self, Damaged> {
         let kept = partition.kept_leaves();
         let mut tally = partition.tally();
         let (mut leaf, mut left, mut held) = (0, values, 0);
@@ -202,7 +208,7 @@ impl Stretch {
 
     /// Of some chunks.
     pub(super) fn read(
-        from: &mut Reader<'_>,
+        from: &mut ByteReader<'_>,
         look: &Look<'_>,
         chunks: &Range<u64>,
     ) -> Result<Self, Damaged> {
@@ -220,7 +226,7 @@ impl Stretch {
         };
         let partitions = look.partitions.iter();
         let tallies =
-            partitions.map(|of| Tally::read(from, of, trials)).collect::<Result<_, _>>()?;
+            partitions.map(|of| PassTally::read(from, of, trials)).collect::<Result<_, _>>()?;
         Ok(Self { trials, undefined, first_undefined, sums, tallies })
     }
 }
@@ -239,7 +245,7 @@ impl Accumulated {
 
     /// The chunk of a number of the first `count` trials.
     pub(super) fn read(
-        from: &mut Reader<'_>,
+        from: &mut ByteReader<'_>,
         plans: &[Plan],
         number: u64,
         count: u64,
@@ -273,12 +279,12 @@ impl ShortestScatter {
         out.flag(self.unique);
     }
 
-    pub(super) fn read(from: &mut Reader<'_>) -> Result<Self, Damaged> {
+    pub(super) fn read(from: &mut ByteReader<'_>) -> Result<Self, Damaged> {
         Ok(Self { errors: from.reals()?, unique: from.flag()? })
     }
 }
 
-impl Found {
+impl OrderStatistics {
     fn write(&self, out: &mut Writer) {
         out.reals(&self.at);
         out.reals(&self.errors);
@@ -287,7 +293,7 @@ impl Found {
         out.flag(self.exact);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damaged> {
+    fn read(from: &mut ByteReader<'_>) -> Result<Self, Damaged> {
         Ok(Self {
             at: from.reals()?,
             errors: from.reals()?,
@@ -305,7 +311,7 @@ impl Totals {
         self.groups.iter().for_each(|group| group.write(out));
     }
 
-    fn read(from: &mut Reader<'_>, trials: u64, outputs: usize) -> Result<Self, Damaged> {
+    fn read(from: &mut ByteReader<'_>, trials: u64, outputs: usize) -> Result<Self, Damaged> {
         let whole = ChunkSums::read(from, trials, outputs)?;
         Damaged::unless(whole.trials == trials, "sums of other trials")?;
         let groups = from.at_most(BATCHES as u64, "too many groups")?;
@@ -334,7 +340,11 @@ impl Passes {
     }
 
     /// Of so many outputs and trials.
-    pub(super) fn read(from: &mut Reader<'_>, outputs: usize, count: u64) -> Result<Self, Damaged> {
+    pub(super) fn read(
+        from: &mut ByteReader<'_>,
+        outputs: usize,
+        count: u64,
+    ) -> Result<Self, Damaged> {
         let most = u64::from(MOST_PASSES);
         let phase = match from.at_most(1 + most, "too many passes")? {
             0 => Phase::Coarse,
@@ -355,7 +365,7 @@ impl Passes {
         })?;
         let later = matches!(phase, Phase::All(before) if before > 0);
         Damaged::unless(whole.is_some() == later, "it does not say what was found")?;
-        let found = read_each(outputs as u64, || from.option(Found::read))?;
+        let found = read_each(outputs as u64, || from.option(OrderStatistics::read))?;
         Ok(Self::at(phase, partitions, whole, found))
     }
 }
@@ -371,7 +381,7 @@ impl QuantilePasses {
 
     /// Of so many outputs, and quantiles of each.
     pub(super) fn read(
-        from: &mut Reader<'_>,
+        from: &mut ByteReader<'_>,
         outputs: usize,
         scores: usize,
     ) -> Result<Self, Damaged> {
@@ -398,10 +408,10 @@ impl NumericalError {
         out.reals(&self.shortest_interval);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damaged> {
+    fn read(from: &mut ByteReader<'_>) -> Result<Self, Damaged> {
         let mut exists = [None; 4];
         for error in &mut exists {
-            *error = from.option(Reader::real)?;
+            *error = from.option(ByteReader::real)?;
         }
         let [estimate, standard_uncertainty, skewness, excess_kurtosis] = exists;
         Ok(Self {
@@ -426,7 +436,7 @@ impl Adaptive {
         out.flag(self.converged);
     }
 
-    fn read(from: &mut Reader<'_>) -> Result<Self, Damaged> {
+    fn read(from: &mut ByteReader<'_>) -> Result<Self, Damaged> {
         let rule = StoppingRule::ALL.get(from.number()? as usize);
         Ok(Self {
             rule: *rule.ok_or(Damaged::new("there is no such rule"))?,
@@ -453,11 +463,11 @@ impl MonteCarlo {
         out.option(self.adaptive.as_ref(), |out, adaptive| adaptive.write(out));
     }
 
-    fn read(from: &mut Reader<'_>, trials: u64) -> Result<Self, Damaged> {
+    fn read(from: &mut ByteReader<'_>, trials: u64) -> Result<Self, Damaged> {
         Damaged::unless(from.number()? == trials, "figures of other trials")?;
         let mut exists = [None; 4];
         for figure in &mut exists {
-            *figure = from.option(Reader::real)?;
+            *figure = from.option(ByteReader::real)?;
         }
         let [estimate, standard_uncertainty, skewness, excess_kurtosis] = exists;
         let [median, inside] = from.reals()?;
@@ -504,7 +514,7 @@ impl Finished {
     /// # Errors
     /// Bytes that are no such figures.
     pub(crate) fn read(
-        from: &mut Reader<'_>,
+        from: &mut ByteReader<'_>,
         outputs: usize,
         inputs: usize,
     ) -> Result<Self, Damaged> {
@@ -516,7 +526,7 @@ impl Finished {
         let pairs = count * count.saturating_sub(1) / 2;
         let correlations = from.list(pairs)?;
         Damaged::unless(correlations.len() as u64 == pairs, "correlations are missing")?;
-        let correlation_errors = read_each(pairs, || from.option(Reader::real))?;
+        let correlation_errors = read_each(pairs, || from.option(ByteReader::real))?;
         let undefined = from.option(|from| {
             let (count, trials) = (from.number()?, from.number()?);
             let first = from.list(inputs as u64)?;

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::{Place, TOGETHER};
+use super::{TOGETHER, TrialPlace};
 use crate::linalg::Eigen;
 use crate::parallel;
 
@@ -14,7 +14,7 @@ const LAST_STEPS: usize = 3;
 
 /// A rotation, row by row, after which the coordinates are as independent as a rotation makes them. The
 /// trials have no correlation and variance 1. Where they are normal every rotation is as good.
-pub(super) fn components(trials: &[Place], order: usize) -> Vec<f64> {
+pub(super) fn components(trials: &[TrialPlace], order: usize) -> Vec<f64> {
     let few = &trials[..trials.len().min(FEW)];
     let mut rotation = DMatrix::identity(order, order);
     for step in 0..STEPS + LAST_STEPS {
@@ -28,10 +28,10 @@ pub(super) fn components(trials: &[Place], order: usize) -> Vec<f64> {
 
 /// A step of the search, with the contrast ln(1 + y^2)/2, which a long tail hardly moves; `None` where
 /// it leads nowhere.
-fn improved(rotation: &DMatrix<f64>, trials: &[Place]) -> Option<DMatrix<f64>> {
+fn improved(rotation: &DMatrix<f64>, trials: &[TrialPlace]) -> Option<DMatrix<f64>> {
     let order = rotation.nrows();
     let rows: Vec<f64> = rotation.transpose().as_slice().to_vec();
-    let some = |chunk: &[Place]| {
+    let some = |chunk: &[TrialPlace]| {
         let mut sums = vec![0.0; order * order];
         let mut slopes = vec![0.0; order];
         for place in chunk {

@@ -1,7 +1,7 @@
 //! Coordinates in which trials are nearly normal.
 
 use super::components::components;
-use super::{Place, TOGETHER};
+use super::{TOGETHER, TrialPlace};
 use crate::linalg::packed;
 use crate::number::elementary::{exp, ln};
 use crate::parallel;
@@ -40,7 +40,7 @@ pub(super) enum Coordinates {
 impl Coordinates {
     /// Scores of the outputs, whose deviations this lower triangle makes of the places; `None` where
     /// one takes single values.
-    pub(super) fn outputs(trials: &[Place], to_outputs: &[f64]) -> Option<Self> {
+    pub(super) fn outputs(trials: &[TrialPlace], to_outputs: &[f64]) -> Option<Self> {
         let order = packed::rows(to_outputs).len();
         let mut combinations = vec![0.0; order * order];
         for (row, to) in combinations.chunks_mut(order).zip(packed::rows(to_outputs)) {
@@ -50,13 +50,13 @@ impl Coordinates {
     }
 
     /// Scores of components that are independent as far as there are any.
-    pub(super) fn components(trials: &[Place], to_outputs: &[f64]) -> Option<Self> {
+    pub(super) fn components(trials: &[TrialPlace], to_outputs: &[f64]) -> Option<Self> {
         let order = packed::rows(to_outputs).len();
         Self::scores(trials, order, components(trials, order))
     }
 
     /// The places with other distances.
-    pub(super) fn radial(trials: &[Place], to_outputs: &[f64]) -> Option<Self> {
+    pub(super) fn radial(trials: &[TrialPlace], to_outputs: &[f64]) -> Option<Self> {
         let order = packed::rows(to_outputs).len();
         let mut distances: Vec<f64> =
             trials.iter().map(|place| ln(length(&place[..order]))).collect();
@@ -67,7 +67,7 @@ impl Coordinates {
         Some(Self::Radial { distance: Monotone::of_quantiles(&mut distances, score)?, order })
     }
 
-    fn scores(trials: &[Place], order: usize, combinations: Vec<f64>) -> Option<Self> {
+    fn scores(trials: &[TrialPlace], order: usize, combinations: Vec<f64>) -> Option<Self> {
         let of_row = |row: &[f64]| {
             let mut values: Vec<f64> = trials.iter().map(|place| product(row, place)).collect();
             Monotone::of_quantiles(&mut values, special::normal::quantile)
@@ -75,7 +75,7 @@ impl Coordinates {
         let scores = parallel::map(combinations.chunks(order), of_row);
         let scores: Vec<Monotone> = scores.into_iter().collect::<Option<_>>()?;
         let mut root = covariance(trials, order, |place| {
-            let mut at = Place::default();
+            let mut at = TrialPlace::default();
             for ((at, row), score) in at.iter_mut().zip(combinations.chunks(order)).zip(&scores) {
                 *at = score.at(product(row, place)).0;
             }
@@ -88,8 +88,8 @@ impl Coordinates {
     }
 
     /// The coordinates of a place, and their density there.
-    pub(super) fn of(&self, place: &Place) -> (Place, f64) {
-        let mut at = Place::default();
+    pub(super) fn of(&self, place: &TrialPlace) -> (TrialPlace, f64) {
+        let mut at = TrialPlace::default();
         match self {
             Self::Scores { combinations, scores, root, determinant } => {
                 let mut density = *determinant;
@@ -115,7 +115,7 @@ impl Coordinates {
     }
 
     /// The density of the coordinates at these coordinates.
-    pub(super) fn density_at(&self, at: &Place) -> f64 {
+    pub(super) fn density_at(&self, at: &TrialPlace) -> f64 {
         match self {
             Self::Scores { scores, root, determinant, .. } => {
                 let rows = packed::rows(root).map(|row| product(row, at));
@@ -138,16 +138,20 @@ fn length(vector: &[f64]) -> f64 {
 
 /// A combination of a place's coordinates.
 #[inline]
-fn product(row: &[f64], place: &Place) -> f64 {
+fn product(row: &[f64], place: &TrialPlace) -> f64 {
     row.iter().zip(place).map(|(c, x)| c * x).sum()
 }
 
 /// The covariance matrix of what is made of the trials, as a packed triangle.
-fn covariance(trials: &[Place], order: usize, of: impl Fn(&Place) -> Place + Sync) -> Vec<f64> {
+fn covariance(
+    trials: &[TrialPlace],
+    order: usize,
+    of: impl Fn(&TrialPlace) -> TrialPlace + Sync,
+) -> Vec<f64> {
     let pairs: Vec<(usize, usize)> =
         (0..order).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
-    let some = |chunk: &[Place]| {
-        let (mut sums, mut products) = (Place::default(), vec![0.0; pairs.len()]);
+    let some = |chunk: &[TrialPlace]| {
+        let (mut sums, mut products) = (TrialPlace::default(), vec![0.0; pairs.len()]);
         for place in chunk {
             let at = of(place);
             sums.iter_mut().zip(at).for_each(|(sum, x)| *sum += x);
@@ -155,7 +159,7 @@ fn covariance(trials: &[Place], order: usize, of: impl Fn(&Place) -> Place + Syn
         }
         (sums, products)
     };
-    let none = (Place::default(), vec![0.0; pairs.len()]);
+    let none = (TrialPlace::default(), vec![0.0; pairs.len()]);
     let all = parallel::map(trials.chunks(TOGETHER), some).into_iter();
     let (sums, products) = all.fold(none, |(mut sums, mut products), (more, others)| {
         sums.iter_mut().zip(more).for_each(|(sum, x)| *sum += x);

@@ -1,6 +1,6 @@
 //! The density of trials that are nearly normal: a kernel estimate on a mesh.
 
-use super::{MOST_OUTPUTS, Place};
+use super::{MOST_OUTPUTS, TrialPlace};
 use crate::number::elementary::exp;
 use rayon::prelude::*;
 
@@ -48,7 +48,7 @@ pub(super) struct Density<'m> {
 impl<'m> Density<'m> {
     /// From the trials that lie within the mesh, with a normal kernel of this standard deviation. The
     /// trials are drawn together so that their variance, 1, is that of the estimate as well.
-    pub(super) fn of(mesh: &'m Mesh, trials: &[Place], width: f64) -> Self {
+    pub(super) fn of(mesh: &'m Mesh, trials: &[TrialPlace], width: f64) -> Self {
         let together = (1.0 - width * width).max(0.0).sqrt();
         let (inverse, cells) = (1.0 / mesh.step(), mesh.cells as f64);
         let mut values = vec![0.0_f32; mesh.size()];
@@ -77,7 +77,7 @@ impl<'m> Density<'m> {
     }
 
     /// The estimate, times a factor that is the same everywhere.
-    pub(super) fn at(&self, place: &Place) -> f64 {
+    pub(super) fn at(&self, place: &TrialPlace) -> f64 {
         let cells = self.mesh.cells;
         let inverse = 1.0 / self.mesh.step();
         let mut first = 0;
