@@ -9,6 +9,8 @@ use sha2::{Digest, Sha256};
 use super::{
     BLOCK, Digesting, InMemorySamples, MOST_IN_MEMORY, Measured, Reading, Recording, place,
 };
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Warning;
 
@@ -65,7 +67,7 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
         ));
     }
     let rate = scanned.rate(stated);
-    let of_preamble = passed_by.map(|fact| Warning::new(&reading.name, fact));
+    let of_preamble = passed_by.map(|text| Warning::new(&reading.name, fact!("preamble", text)));
     let mut warnings: Vec<Warning> = of_preamble.into_iter().collect();
     warnings.extend(scanned.suspects(rate.value, channels));
     if let Some(scatter) = scanned.clock.as_ref().map(Clock::scatter)
@@ -173,8 +175,8 @@ impl Extreme {
         self.value != 0.0 && self.count >= LEAST_AT_END && self.count > TIMES_NEXT * self.next_count
     }
 
-    fn name(&self) -> &'static str {
-        if self.sign > 0.0 { "highest" } else { "lowest" }
+    fn fact(&self) -> Fact {
+        if self.sign > 0.0 { fact!("highest") } else { fact!("lowest") }
     }
 }
 
@@ -322,8 +324,8 @@ impl<'r> Scanned<'r> {
                 name,
                 stated = stated.value,
                 whose,
-                found = Argument::Number(significant(found)),
-                times = Argument::Number(significant(stated.value / found)),
+                found = Argument::Number(significant(found).to_string()),
+                times = Argument::Number(significant(stated.value / found).to_string()),
             );
             Warning::new(name, fact)
         })
