@@ -37,6 +37,22 @@ impl Argument {
     pub fn number(text: impl Into<String>) -> Self {
         Self::Number(text.into())
     }
+
+    /// An enumeration with "and" before its last part.
+    pub fn all_of(mut parts: Vec<Fact>) -> Self {
+        match parts.pop() {
+            Some(last) if !parts.is_empty() => crate::fact!("all-of", parts, last).into(),
+            last => last.into(),
+        }
+    }
+
+    /// An enumeration with "or" before its last part.
+    pub fn one_of(mut parts: Vec<Fact>) -> Self {
+        match parts.pop() {
+            Some(last) if !parts.is_empty() => crate::fact!("one-of", parts, last).into(),
+            last => last.into(),
+        }
+    }
 }
 
 impl From<&str> for Argument {

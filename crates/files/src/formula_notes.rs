@@ -6,12 +6,12 @@ use std::collections::{HashMap, HashSet};
 use super::model_checks::Quantities;
 use super::model_reader::Equation;
 use super::scopes::report_formula;
+use gumption_engine::fact;
 use gumption_engine::model::formula::{
     Factors, Formula, KelvinKind, LevelReference, Numbers, Scope, TableCall, TableData, Typing,
     Use, ValueSource,
 };
 use gumption_engine::model::{Output, Quantity};
-use gumption_engine::number::Shortest;
 use gumption_engine::task::Warning;
 use gumption_text::json::{Json, Member};
 use gumption_text::object::Object;
@@ -45,7 +45,7 @@ pub(super) fn of_formulas(
         let is_length = scope.get(name).is_some_and(|of| of.dimension == Some(Dimension::LENGTH));
         let computed = formula.numbers(known).or(is_length.then_some(Numbers::Length));
         let computed = computed.filter(|_| of.check_units);
-        found.extend(notes.into_iter().map(|note| Warning::new(note.code, name, note.text)));
+        found.extend(notes.into_iter().map(|note| Warning::new(name, note.fact)));
         if let Some(computed) = computed {
             numbers.names.insert(name, computed);
         }
@@ -70,7 +70,7 @@ pub(super) fn of_formulas(
             let mut notes = formula.periods_as_radians(scope, unit_of);
             notes.extend(formula.torque_by_periods(unit_of));
             notes.extend(formula.level_of_other_kind(scope));
-            found.extend(notes.into_iter().map(|note| Warning::new(note.code, name, note.text)));
+            found.extend(notes.into_iter().map(|note| Warning::new(name, note.fact)));
         }
         let by_name: ByName<'_> = equations
             .iter()
@@ -166,13 +166,13 @@ fn converted_terms(
     numbers: &KnownNumbers<'_>,
     output: &Quantity,
 ) -> Vec<Warning> {
-    let what = format!("the output `{}`", output.name);
+    let what = fact!("result.named-output", name = &output.name);
     let known = |source: ValueSource<'_>| numbers.of(source);
     let intermediate = terms.iter().filter(|(name, _)| *name != output.name);
     let notes = intermediate.filter_map(|(name, formula)| {
         let factors_of = |name: &str| numbers.factors.get(name).copied();
         let note = formula.converted_to(known, factors_of, &output.unit, &what)?;
-        Some(Warning::new(note.code, *name, note.text))
+        Some(Warning::new(*name, note.fact))
     });
     notes.collect()
 }
@@ -184,7 +184,7 @@ fn angular_frequency(scope: &Scope, terms: &[(&str, &Formula)], unit: &Unit) -> 
     }
     terms.iter().find_map(|(name, formula)| {
         let note = formula.angular_frequency(scope)?;
-        Some(Warning::new(note.code, *name, note.text))
+        Some(Warning::new(*name, note.fact))
     })
 }
 
@@ -197,7 +197,7 @@ fn displaced(scope: &Scope, terms: &[(&str, &Formula)], unit: &Unit) -> Option<W
     }
     terms.iter().find_map(|(name, formula)| {
         let note = formula.of_revolutions(scope)?;
-        Some(Warning::new(note.code, *name, note.text))
+        Some(Warning::new(*name, note.fact))
     })
 }
 
@@ -206,13 +206,13 @@ fn drop_repeated(notes: &mut Vec<Warning>) {
     let mut told = HashSet::new();
     notes.retain(|note| {
         let is_of_result = matches!(
-            note.code,
+            note.code(),
             "result-converted-twice"
                 | "quantity-converted-twice"
                 | "radians-of-turns"
                 | "radians-as-periods"
         );
-        !is_of_result || told.insert((note.code, note.place.clone()))
+        !is_of_result || told.insert((note.code(), note.place.clone()))
     });
 }
 
@@ -245,12 +245,7 @@ fn angles_of_turns(equations: &[Equation<'_>], of: &Quantities) -> Vec<Warning> 
             if value.abs() <= std::f64::consts::TAU || !told.insert(name) {
                 return None;
             }
-            let shown = Shortest(value);
-            let text = format!(
-                "`{function}` takes `{name}` in radians, as it has no unit of angle, and {shown} rad are \
-                 more than a turn; one in degrees says `\"unit\": \"deg\"`"
-            );
-            Some(Warning::new("angle-of-turns", name, text))
+            Some(Warning::new(name, fact!("angle-of-turns", function, name, angle = value)))
         })
         .collect()
 }
@@ -286,15 +281,8 @@ pub(super) fn unused_inputs(
     let wholes: Vec<&str> = used.iter().filter_map(|name| Some(name.rsplit_once('.')?.0)).collect();
     used.extend(wholes);
     let unused = inputs.iter().filter(|member| !used.contains(member.key.as_str()));
-    unused
-        .map(|member| {
-            let text = format!(
-                "no equation uses the input `{}`: it contributes nothing to any uncertainty",
-                member.key
-            );
-            Warning::new(UNUSED_INPUT, &member.key, text)
-        })
-        .collect()
+    let names = unused.map(|member| &member.key);
+    names.map(|name| Warning::new(name, fact!("unused-input", name))).collect()
 }
 
 /// The formulas of inputs' estimates, which may use inputs that are constants.
@@ -326,7 +314,7 @@ pub(super) fn of_conditions(root: &Object<'_>, of: &Quantities) -> Vec<Warning> 
         let notes =
             formula.map(|formula| formula.notes(|source| numbers.of(source), |_| None, of).0);
         let notes = notes.into_iter().flatten();
-        found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
+        found.extend(notes.map(|note| Warning::new(name, note.fact)));
     };
     for input in members(root.get("inputs")) {
         let unit = given.get(input.key.as_str()).copied();
@@ -396,28 +384,17 @@ const PLACEHOLDER: &str = "where this is known from";
 pub(super) fn placeholders(of: &Quantities) -> Vec<Warning> {
     let named = of.inputs.quantities.iter().map(|input| &input.quantity);
     let left = named.filter(|quantity| quantity.about.trim() == PLACEHOLDER);
-    left.map(|quantity| {
-        let text = format!(
-            "the `about` of `{}` still says \"{PLACEHOLDER}\", as a new file does, and certificates print \
-             it: write from where it is known, or take the key out",
-            quantity.name
-        );
-        Warning::new("placeholder-about", &quantity.name, text)
-    })
-    .collect()
+    let names = left.map(|quantity| &quantity.name);
+    let note = |name| Warning::new(name, fact!("placeholder-about", name, about = PLACEHOLDER));
+    names.map(note).collect()
 }
 
 /// Quantities in `pH`, which is a picohenry and may be meant as the measure of acidity.
 fn picohenries(of: &Quantities) -> Option<Warning> {
     let inputs = of.inputs.quantities.iter().map(|input| &input.quantity);
     let mut all = inputs.chain(of.outputs.outputs.iter().map(|output| &output.quantity));
-    all.find(|quantity| quantity.unit.text().trim() == "pH").map(|quantity| {
-        let text = format!(
-            "the unit `pH` of `{}` is the picohenry; a pH value is a number, with the unit `1`",
-            quantity.name
-        );
-        Warning::new("picohenry", &quantity.name, text)
-    })
+    let name = &all.find(|quantity| quantity.unit.text().trim() == "pH")?.name;
+    Some(Warning::new(name, fact!("picohenry", name)))
 }
 
 /// The code of [`unused_inputs`].
@@ -427,13 +404,8 @@ pub(super) const UNUSED_INPUT: &str = "unused-input";
 fn decibels(scope: &Scope, output: &Output) -> Option<Warning> {
     let Quantity { name, unit, .. } = &output.quantity;
     let is_level = !scope.get(name)?.level.is_zero();
-    (is_level && is_plain(unit) && unit.level_exponent().is_zero()).then(|| {
-        let text = format!(
-            "`{name}` is a level, and is reported as its number of decibels, as formulas compute it; \
-             report it in `dB` or in `Np`"
-        );
-        Warning::new("level-as-number", name, text)
-    })
+    let is_told = is_level && is_plain(unit) && unit.level_exponent().is_zero();
+    is_told.then(|| Warning::new(name, fact!("level-as-number", name)))
 }
 
 /// A result that adds levels above a reference, as 5 dBm and 2 dBm.
@@ -441,14 +413,7 @@ fn sum_of_levels(scope: &Scope, output: &Output) -> Option<Warning> {
     let Quantity { name, unit, .. } = &output.quantity;
     let typing = scope.get(name)?;
     let adds = typing.zero.is_none() && typing.reference == LevelReference::Added;
-    adds.then(|| {
-        let text = format!(
-            "`{name}` in {unit} adds levels above a reference, or multiplies one, so that it is above no \
-             reference itself; the level of a sum of powers is `10*log10(10^(L1/10) + 10^(L2/10))`, \
-             and gains are in dB"
-        );
-        Warning::new("sum-of-levels", name, text)
-    })
+    adds.then(|| Warning::new(name, fact!("sum-of-levels", name, unit)))
 }
 
 /// A result in revolutions per minute of which nothing tells that it counts angle.
@@ -458,14 +423,8 @@ fn rate_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
     let unknown = typing.turn.is_none()
         && !typing.has_turns
         && typing.dimension.is_some_and(|of| !of.is_none());
-    (unit.counts_revolutions() && unknown && unit.turn().is_some()).then(|| {
-        let text = format!(
-            "`{name}` is taken for an angular frequency, of which 2*pi radians are a revolution, as \
-             nothing says that it counts revolutions; if it does, write `...*[rev]`, or give it in \
-             `1/min`"
-        );
-        Warning::new("rate-of-turns", name, text)
-    })
+    let is_told = unit.counts_revolutions() && unknown && unit.turn().is_some();
+    is_told.then(|| Warning::new(name, fact!("rate-of-turns", name)))
 }
 
 /// A result that counts angle, in a unit that counts nothing (`1/min`, `1`), of inputs in revolutions.
@@ -476,20 +435,14 @@ fn radians_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
     let is_rate = typing.dimension.is_some_and(|of| of.is_of_time() && !of.is_none());
     let counts_angle = typing.turn == Some(Turn::Angle) || typing.has_turns && is_rate;
     let counts_nothing = unit.turn() != Some(Turn::Angle) && unit.dimension().is_of_time();
-    let text = if counts_angle && counts_nothing {
-        format!(
-            "`{name}` counts angle and is reported in `{shown}` in radians, 2*pi for a revolution; if \
-             revolutions are meant, write `.../[rev]`, or report it in rpm or rev"
-        )
+    let fact = if counts_angle && counts_nothing {
+        fact!("radians-of-turns", name, unit = shown)
     } else if is_per_turn(typing) && !unit.counts_angle() {
-        format!(
-            "`{name}` is divided by what counts revolutions and is reported in `{shown}` per radian; if it \
-             is meant per revolution, write `...*[rev]`"
-        )
+        fact!("radians-of-turns.inverse", name, unit = shown)
     } else {
         return None;
     };
-    Some(Warning::new("radians-of-turns", name, text))
+    Some(Warning::new(name, fact))
 }
 
 /// Whether a quantity is per angle by an input in revolutions, and no torque, viscosity or damping, which
@@ -517,14 +470,8 @@ fn celsius_as_kelvin(scope: &Scope, outputs: &[Output]) -> Vec<Warning> {
             let counts_degrees = scope.get(&output.name).is_some_and(Typing::counts_degrees);
             counts_degrees && !output.unit.is_celsius()
         })
-        .map(|output| {
-            let text = format!(
-                "`{}` is a number of degrees Celsius by the unit of a coefficient, and is reported \
-                 in {} as a difference; write kelvin(...) for a thermodynamic temperature, or \
-                 report it in degC",
-                output.name, output.unit
-            );
-            Warning::new("celsius-as-kelvin", &output.name, text)
+        .map(|Quantity { name, unit, .. }| {
+            Warning::new(name, fact!("celsius-as-kelvin", name, unit))
         })
         .collect()
 }
@@ -536,14 +483,7 @@ fn difference_in_degrees(scope: &Scope, output: &Output) -> Option<Warning> {
     let is_temperature = unit.zero().is_some() && unit.level_exponent().is_zero();
     let typing = scope.get(name).filter(|_| is_temperature)?;
     let is_difference = typing.zero.is_none() && typing.kelvin == KelvinKind::Difference;
-    is_difference.then(|| {
-        let text = format!(
-            "`{name}` is a difference of temperatures, and is reported in {unit}, by which everything that \
-             takes it further takes it for a temperature; report it in K, or, where a correction is \
-             subtracted from a temperature, give the correction in K"
-        );
-        Warning::new("difference-in-degrees", name, text)
-    })
+    is_difference.then(|| Warning::new(name, fact!("difference-in-degrees", name, unit)))
 }
 
 #[cfg(test)]

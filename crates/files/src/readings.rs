@@ -6,6 +6,8 @@ use std::sync::Arc;
 
 use super::{keys, samples};
 use gumption_engine::decimal::{self, to_15_digits};
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::number::Shortest;
 use gumption_engine::regression::{CurveFunction, Spread};
 use gumption_engine::special;
@@ -22,7 +24,7 @@ use gumption_units::{Unit, nearest};
 pub(super) struct FileReadings {
     /// The readings, or the means of the groups.
     pub(super) values: Vec<f64>,
-    pub(super) note: Option<String>,
+    pub(super) note: Option<Fact>,
 }
 
 /// Whether the readings are named by columns of the conditions, so that every row has its own.
@@ -128,33 +130,24 @@ fn grouped(
     let within_dof = (values.len() - count) as f64;
     let whole = mean(&means);
     let of_means = squares(&means, whole) / (count as f64 - 1.0);
-    let shown = |x: f64| decimal::significant(x, 3);
+    let shown = |x: f64, digits| Argument::Number(decimal::significant(x, digits));
     let sizes: Vec<usize> = groups.iter().map(|(_, members)| members.len()).collect();
     let size = sizes.first().copied().unwrap_or(0);
     let balanced = sizes.iter().all(|of| *of == size);
     let repeatability = (within / within_dof).sqrt();
-    let mut note = format!(
-        "`{name}` is the mean of {count} groups of readings; its standard uncertainty is that of the \
-         means of the groups, with {} degrees of freedom (JCGM 100, H.5)",
-        count - 1
-    );
-    if within_dof > 0.0 && repeatability > 0.0 {
-        note.push_str(&format!("; standard deviation within groups {}", shown(repeatability)));
-        if balanced {
+    let within = (within_dof > 0.0 && repeatability > 0.0).then(|| {
+        let between = if balanced {
             let ratio = size as f64 * of_means / (repeatability * repeatability);
             let between = (of_means - repeatability * repeatability / size as f64).max(0.0).sqrt();
             let p = f_upper(ratio, count as f64 - 1.0, within_dof);
-            note.push_str(&format!(
-                ", between groups {}, F = {} (probability of a larger one without an effect of the \
-                 groups {})",
-                shown(between),
-                shown(ratio),
-                decimal::significant(p, 2)
-            ));
+            let (deviation, ratio) = (shown(between, 3), shown(ratio, 3));
+            fact!("groups.between", deviation, ratio, probability = shown(p, 2))
         } else {
-            note.push_str("; the groups are not equally large, and their means count alike");
-        }
-    }
+            fact!("groups.of-other-sizes")
+        };
+        fact!("groups.within", deviation = shown(repeatability, 3), between)
+    });
+    let note = fact!("nested-readings", name, groups = count, dof = count - 1, within);
     Some(FileReadings { values: means, note: Some(note) })
 }
 
@@ -171,7 +164,7 @@ const LEAST_FOR_AUTOCORRELATION: usize = 10;
 /// test of the slope of a straight line, two-sided), or a positive autocorrelation (von Neumann's
 /// ratio, by its normal approximation). Each finds something in one of 100 sets of independent normal
 /// readings.
-pub(super) fn dependence(name: &str, values: &[f64]) -> Option<String> {
+pub(super) fn dependence(name: &str, values: &[f64]) -> Option<Fact> {
     let n = values.len() as f64;
     if values.len() < LEAST_FOR_DRIFT {
         return None;
@@ -188,14 +181,8 @@ pub(super) fn dependence(name: &str, values: &[f64]) -> Option<String> {
     let left = (squares - slope * slope * of_times).max(0.0);
     let critical = special::student::two_sided_factor(0.99, n - 2.0);
     if slope * slope * of_times * (n - 2.0) > critical * critical * left {
-        return Some(format!(
-            "`{name}`: the {} readings drift: a straight line through them changes by {} from the \
-             first to the last; one as steep comes from independent readings in at most 1 case of \
-             100. s/sqrt(n) holds for independent readings only (JCGM 100, 4.2.7): correct the drift, \
-             or state what it leaves",
-            values.len(),
-            decimal::significant(slope * (n - 1.0), 3)
-        ));
+        let change = Argument::Number(decimal::significant(slope * (n - 1.0), 3));
+        return Some(fact!("dependent-readings.drift", name, count = values.len(), change));
     }
     if values.len() < LEAST_FOR_AUTOCORRELATION {
         return None;
@@ -204,14 +191,8 @@ pub(super) fn dependence(name: &str, values: &[f64]) -> Option<String> {
     let score = (steps / squares - 2.0) / (4.0 * (n - 2.0) / (n * n - 1.0)).sqrt();
     let critical = special::normal::quantile(0.01);
     (score < critical).then(|| {
-        format!(
-            "`{name}`: the {} readings are not independent: each is near the one before it (von \
-             Neumann's ratio {}, 2 for independent readings; one as small comes from those in at most \
-             1 case of 100). s/sqrt(n) is too small then (JCGM 100, 4.2.7): take readings further \
-             apart, or means of groups",
-            values.len(),
-            decimal::significant(steps / squares, 3)
-        )
+        let ratio = Argument::Number(decimal::significant(steps / squares, 3));
+        fact!("dependent-readings", name, count = values.len(), ratio)
     })
 }
 
