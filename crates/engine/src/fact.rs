@@ -30,6 +30,12 @@ impl Fact {
     pub fn code(&self) -> &'static str {
         self.key.split_once('.').map_or(self.key, |(code, _)| code)
     }
+
+    /// What stands at a place of the sentence.
+    pub fn argument(&self, name: &str) -> Option<&Argument> {
+        let argument = self.arguments.iter().find(|(known, _)| *known == name);
+        argument.map(|(_, argument)| argument)
+    }
 }
 
 impl Argument {

@@ -490,12 +490,22 @@ fn difference_in_degrees(scope: &Scope, output: &Output) -> Option<Warning> {
 mod tests {
     use std::path::Path;
 
+    use super::*;
     use crate::read_text;
+    use gumption_engine::fact::{Argument, Fact};
 
     /// Notes of a file, each with what it is about.
-    fn notes(text: &str) -> Vec<(&'static str, String, String)> {
+    fn notes(text: &str) -> Vec<(&'static str, String, Fact)> {
         let file = read_text("m", text, Path::new(""), &[]).unwrap();
-        file.warnings.into_iter().map(|note| (note.code, note.place, note.text)).collect()
+        file.warnings.into_iter().map(|note| (note.code(), note.place, note.fact)).collect()
+    }
+
+    /// The text of an argument that is one.
+    fn text_of<'f>(fact: &'f Fact, argument: &str) -> Option<&'f str> {
+        match fact.argument(argument)? {
+            Argument::Text(text) | Argument::Number(text) => Some(text),
+            _ => None,
+        }
     }
 
     /// 0.1 rad beside degrees, in an estimate, a width and a limit; not where it says its unit.
@@ -512,7 +522,7 @@ mod tests {
         let found = of("phi_nom + 0.1", "0.001*phi_nom + 0.05", "phi_nom + 2");
         let all: Vec<_> = found.iter().map(|(code, name, _)| (*code, name.as_str())).collect();
         assert_eq!(all, [("bare-number", "phi"), ("bare-number", "phi"), ("bare-number", "p")]);
-        assert!(found[0].2.contains("0.1 [deg]"), "{}", found[0].2);
+        assert_eq!(text_of(&found[0].2, "meant"), Some("0.1 [deg]"), "{found:?}");
         assert_eq!(of("phi_nom + 0.1 [deg]", "0.001*phi_nom + 0.05 [deg]", "30 deg"), []);
     }
 
@@ -565,7 +575,7 @@ mod tests {
                 inputs.map(input).join(", ")
             ));
             let found = found.into_iter().filter(|(code, ..)| *code == "result-converted-twice");
-            found.map(|(.., text)| text).collect::<Vec<_>>()
+            found.map(|(.., fact)| fact).collect::<Vec<_>>()
         };
         let masses = [("m", "mg"), ("V", "mL"), ("P", "1")];
         for (inputs, equations, unit, factor) in [
@@ -579,10 +589,8 @@ mod tests {
             ([("x", "V"), ("a", "1"), ("b", "1")], r#""y": "sqrt(x^2*a*b)*1e6""#, "uV", "1000000"),
         ] {
             let found = of(inputs, equations, unit);
-            assert!(
-                found.len() == 1 && found[0].contains(&format!("factor of {factor}")),
-                "{equations}: {found:?}"
-            );
+            let factors: Vec<_> = found.iter().map(|fact| text_of(fact, "factor")).collect();
+            assert_eq!(factors, [Some(factor)], "{equations}: {found:?}");
         }
         for (inputs, equations, unit) in [
             (masses, r#""y": "m*P/V""#, "mg/L"),
@@ -594,7 +602,7 @@ mod tests {
             // a coefficient of a sum whose terms are in different units
             ([("x", "mm"), ("a", "m"), ("b", "1")], r#""y": "b*(x + 1000*a)""#, "mm"),
         ] {
-            assert_eq!(of(inputs, equations, unit), Vec::<String>::new(), "{equations}");
+            assert_eq!(of(inputs, equations, unit), [], "{equations}");
         }
     }
 
@@ -790,14 +798,15 @@ mod tests {
             assert_eq!(found.len(), 1, "{equation}: {found:?}");
             found[0].2.clone()
         };
-        for (equation, quoted) in [
-            ("2*pi*n/60*T", "`2*pi*n/60` converts"),
-            ("2*pi*n*T/60", "`2*pi*n*T/60` converts"),
-            ("T*2*pi*n", "`T*2*pi*n` converts"),
-            ("n/60*T", "factor of 1/60 that converts from the units of its quantities to W"),
-        ] {
-            assert!(of(equation).contains(quoted), "{equation}: {}", of(equation));
+        for (equation, quoted) in
+            [("2*pi*n/60*T", "2*pi*n/60"), ("2*pi*n*T/60", "2*pi*n*T/60"), ("T*2*pi*n", "T*2*pi*n")]
+        {
+            assert_eq!(of(equation), fact!("rate-converted-twice", formula = quoted, unit = "rpm"));
         }
+        let found = of("n/60*T");
+        assert_eq!(text_of(&found, "factor"), Some("1/60"));
+        let to = fact!("converted-to.coherent-unit", unit = "W");
+        assert_eq!(found.argument("to"), Some(&to.into()));
     }
 
     /// A choice of plain numbers is one beside a share.
@@ -981,28 +990,29 @@ mod tests {
                 "equations": {{"b": "2*c", "y": "{equation}"}}, "outputs": {{"y": {{"unit": "{unit}"}}}}}}"#
             );
             let file = read_text("m", &text, folder.path(), &[]).unwrap();
-            let notes = file.warnings.into_iter().filter(|note| note.code == "unit-left-out");
-            notes.map(|note| note.text).collect::<Vec<_>>()
+            let notes = file.warnings.into_iter().filter(|note| note.code() == "unit-left-out");
+            notes.map(|note| note.fact).collect::<Vec<_>>()
         };
         for (equation, unit, said) in [
-            ("a + c", "deg", "`c` has no unit"),
-            ("a - 2*c/3", "deg", "of which 1 is 57.2957795131 deg, beside `a` in deg"),
-            ("a + b", "deg", "`b` has no unit"),
-            (
-                "p + (c - d)",
-                "%",
-                "of which 1 is 100 %, beside `p` in %; state its unit, `%` or `1`",
-            ),
-            ("max(p, c)", "%", "`c` has no unit"),
-            ("if(a > c, 1, 2)", "1", "`c` has no unit"),
-            ("c", "deg", "in which the output is reported; state its unit, `deg` or `rad`"),
-            ("c - d", "ppm", "`c - d` has no unit"),
-            ("a + f(c)", "deg", "`f(c)` has no unit"),
-            ("a + inverse(g, a)", "deg", "`inverse(g, a)` has no unit"),
-            ("a + table(c, 't.csv')", "deg", "`table(c, 't.csv')` has no unit"),
+            ("a + c", "deg", [("formula", "c")].as_slice()),
+            ("a - 2*c/3", "deg", &[("one", "57.2957795131"), ("unit", "deg"), ("beside", "a")]),
+            ("a + b", "deg", &[("formula", "b")]),
+            ("p + (c - d)", "%", &[("one", "100"), ("unit", "%"), ("beside", "p"), ("plain", "1")]),
+            ("max(p, c)", "%", &[("formula", "c")]),
+            ("if(a > c, 1, 2)", "1", &[("formula", "c")]),
+            ("c", "deg", &[("unit", "deg"), ("plain", "rad")]),
+            ("c - d", "ppm", &[("formula", "c - d")]),
+            ("a + f(c)", "deg", &[("formula", "f(c)")]),
+            ("a + inverse(g, a)", "deg", &[("formula", "inverse(g, a)")]),
+            ("a + table(c, 't.csv')", "deg", &[("formula", "table(c, 't.csv')")]),
         ] {
             let found = of(equation, unit);
-            assert!(found.len() == 1 && found[0].contains(said), "{equation}: {found:?}");
+            let is_output = equation.starts_with('c');
+            let key = if is_output { "unit-left-out.output" } else { "unit-left-out" };
+            assert!(found.len() == 1 && found[0].key == key, "{equation}: {found:?}");
+            for (argument, text) in said {
+                assert_eq!(text_of(&found[0], argument), Some(*text), "{equation}: {found:?}");
+            }
         }
         for (equation, unit) in [
             ("a + e", "deg"),
@@ -1018,7 +1028,7 @@ mod tests {
             ("a + table(c, 'u.csv')", "deg"),
             ("1 - c", "%"),
         ] {
-            assert_eq!(of(equation, unit), Vec::<String>::new(), "{equation}");
+            assert_eq!(of(equation, unit), [], "{equation}");
         }
     }
 

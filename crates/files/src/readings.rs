@@ -329,10 +329,16 @@ mod tests {
         let [mean, u, dof] = known(&file, 0);
         assert!((mean - 10.000_097).abs() < 0.5e-6, "{mean}");
         assert!((u - 18e-6).abs() < 0.5e-6 && dof == 9.0, "{u} {dof}");
-        let note = file.warnings[0].text.as_str();
         // published: 85 uV within days, 43 uV between them, F = 2.25 by rounded numbers
-        assert!(note.contains("within groups 0.0000849, between groups 0.0000426"), "{note}");
-        assert!(note.contains("F = 2.26"), "{note}");
+        let Some(Argument::Fact(within)) = file.warnings[0].fact.argument("within") else {
+            panic!("{:?}", file.warnings);
+        };
+        assert_eq!(within.argument("deviation"), Some(&Argument::number("0.0000849")));
+        let Some(Argument::Fact(between)) = within.argument("between") else {
+            panic!("{within:?}");
+        };
+        assert_eq!(between.argument("deviation"), Some(&Argument::number("0.0000426")));
+        assert_eq!(between.argument("ratio"), Some(&Argument::number("2.26")));
     }
 
     /// Columns of the conditions' table, and degrees of freedom by a formula.
@@ -381,7 +387,7 @@ mod tests {
             {"name": "rep", "distribution": "readings", "values": [1, 1, 1]},
             {"name": "res", "distribution": "rectangular", "half_width": 0.05}]}"#;
         let file = model(components, "", &[]).unwrap();
-        assert!(file.warnings[0].text.contains("no scatter"));
+        assert_eq!(file.warnings[0].fact, fact!("no-scatter", name = "x/rep"));
         let alone = r#"{"unit": "V", "distribution": "readings", "values": [1, 1, 1]}"#;
         assert!(model(alone, "", &[]).unwrap_err().to_string().contains("no scatter"));
     }
@@ -434,9 +440,11 @@ mod tests {
     fn drifting_readings_are_noticed() {
         let drift: Vec<f64> = (1..=12).map(|i| 1.0 + f64::from(i) / 1000.0).collect();
         let note = dependence("x", &drift).unwrap();
-        assert!(note.contains("drift") && note.contains("0.0110"), "{note}");
+        let change = Argument::number("0.0110");
+        let count = drift.len();
+        assert_eq!(note, fact!("dependent-readings.drift", name = "x", count, change));
         let wave: Vec<f64> = (0..24).map(|i| elementary::sin(f64::from(i) * 0.5)).collect();
-        assert!(dependence("x", &wave).unwrap().contains("von Neumann"));
+        assert_eq!(dependence("x", &wave).unwrap().key, "dependent-readings");
         let alternating: Vec<f64> = (0..12).map(|i| f64::from(i % 2)).collect();
         assert_eq!(dependence("x", &alternating), None);
         assert_eq!(dependence("x", &drift[..5]), None);
