@@ -32,12 +32,34 @@ impl Fact {
     pub fn code(&self) -> &'static str {
         self.key.split_once('.').map_or(self.key, |(code, _)| code)
     }
+
+    /// What stands at a place of the sentence.
+    pub fn argument(&self, name: &str) -> Option<&Argument> {
+        let argument = self.arguments.iter().find(|(known, _)| *known == name);
+        argument.map(|(_, argument)| argument)
+    }
 }
 
 impl Argument {
     /// A number with its unit, as it is printed with a decimal point.
     pub fn number(printed: impl fmt::Display) -> Self {
         Self::Number(printed.to_string())
+    }
+
+    /// An enumeration with "and" before its last part.
+    pub fn all_of(mut parts: Vec<Fact>) -> Self {
+        match parts.pop() {
+            Some(last) if !parts.is_empty() => crate::fact!("all-of", parts, last).into(),
+            last => last.into(),
+        }
+    }
+
+    /// An enumeration with "or" before its last part.
+    pub fn one_of(mut parts: Vec<Fact>) -> Self {
+        match parts.pop() {
+            Some(last) if !parts.is_empty() => crate::fact!("one-of", parts, last).into(),
+            last => last.into(),
+        }
     }
 }
 

@@ -115,10 +115,9 @@ impl ModelReader<'_> {
             .flat_map(|(_, formula)| formula.names())
             .map(|(name, _)| name)
             .collect();
-        let of_file = file
-            .warnings
-            .into_iter()
-            .filter(|note| note.code != UNUSED_INPUT || !by_effects.contains(note.place.as_str()));
+        let of_file = file.warnings.into_iter().filter(|note| {
+            note.code() != UNUSED_INPUT || !by_effects.contains(note.place.as_str())
+        });
         warnings.splice(0..0, of_file.collect::<Vec<_>>());
         let candidates = placed.into_iter().map(|placed| placed.candidate).collect();
         let case = Case {

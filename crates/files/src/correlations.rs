@@ -10,6 +10,8 @@ use super::links;
 use super::sharing;
 use gumption_engine::decimal;
 use gumption_engine::distribution::{Correlation, CorrelationError, Distribution, Fits};
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::task::{Trials, Warning};
 use gumption_text::json::{Json, Node};
 use gumption_text::object::Object;
@@ -87,7 +89,7 @@ impl CorrelationsReader<'_> {
     /// Adds the coefficients between results of one certificate, where the file states no others.
     fn certified(&mut self) -> Option<Warning> {
         let certified = &self.inputs.certified;
-        let mut kept: Vec<String> = Vec::new();
+        let mut kept: Vec<Fact> = Vec::new();
         for (place, (second, b, file)) in certified.iter().enumerate() {
             for (first, a, _) in certified.iter().take(place).filter(|(.., of)| of == file) {
                 let pair = (self.by_name.get(first.as_str()), self.by_name.get(second.as_str()));
@@ -103,15 +105,13 @@ impl CorrelationsReader<'_> {
                     coefficient: r,
                 });
                 self.places.push(self.inputs.places.get(second_index).cloned().unwrap_or(0..0));
-                let r = decimal::rounded(r, -3);
-                kept.push(format!("`{first}` and `{second}` ({r}, from `{file}`)"));
+                let coefficient = Argument::number(decimal::rounded(r, -3));
+                kept.push(fact!("pair.certified", first, second, coefficient, file));
             }
         }
-        let text = format!(
-            "correlation coefficients between results of one certificate are kept: {}",
-            links::some(&kept)
-        );
-        (!kept.is_empty()).then(|| Warning::new("certificate-correlation", "", text))
+        let note =
+            |kept| Warning::new("", fact!("certificate-correlation", pairs = links::some(kept)));
+        (!kept.is_empty()).then(|| note(kept))
     }
 
     /// Notes on coefficients of what has no uncertainty.
@@ -122,14 +122,9 @@ impl CorrelationsReader<'_> {
         declared
             .filter_map(|of| {
                 let place = [of.first, of.second].into_iter().find(constant)?;
-                let of_both = [name(of.first)?, name(of.second)?];
-                let text = format!(
-                    "the correlation of `{}` and `{}` has no effect, as `{}` has no uncertainty",
-                    of_both[0],
-                    of_both[1],
-                    name(place)?
-                );
-                Some(Warning::new("correlation-with-constant", name(place)?, text))
+                let (first, second, constant) = (name(of.first)?, name(of.second)?, name(place)?);
+                let fact = fact!("correlation-with-constant", first, second, constant);
+                Some(Warning::new(constant, fact))
             })
             .collect()
     }
@@ -326,23 +321,22 @@ impl CorrelationsReader<'_> {
             }
             turns -= 1;
         }
-        let moved: Vec<String> = self
+        let moved: Vec<Fact> = self
             .found
             .iter()
             .zip(stated)
             .filter(|(c, stated)| c.coefficient != *stated)
             .map(|(c, stated)| {
                 let [first, second] = [c.first, c.second].map(|v| self.name(v));
-                let [from, to] = [stated, c.coefficient].map(|r| decimal::rounded(r, -4));
-                format!("{first} and {second} ({from} to {to})")
+                let [from, to] =
+                    [stated, c.coefficient].map(|r| Argument::number(decimal::rounded(r, -4)));
+                fact!("pair.moved", first, second, from, to)
             })
             .collect();
-        let text = format!(
-            "correlation coefficients of a certificate that its results cannot have with the \
-             distributions that they are read with are the nearest possible: {}",
-            links::some(&moved)
-        );
-        (!moved.is_empty()).then(|| Warning::new("certificate-correlation-moved", "", text))
+        let note = |moved| {
+            Warning::new("", fact!("certificate-correlation-moved", pairs = links::some(moved)))
+        };
+        (!moved.is_empty()).then(|| note(moved))
     }
 
     /// What contradicts the coefficients in some row.
@@ -401,14 +395,14 @@ impl CorrelationsReader<'_> {
         links::is_linked(self.inputs, c.first, c.second)
     }
 
-    fn name(&self, variable: usize) -> String {
-        format!("`{}`", self.inputs.variables.get(variable).map_or("", |v| v.name.as_str()))
+    fn name(&self, variable: usize) -> &str {
+        self.inputs.variables.get(variable).map_or("", |v| v.name.as_str())
     }
 
     fn report(&self, root: &Object<'_>, error: &CorrelationError) {
         let concerned = self.found.iter().position(|c| error.concerns(c));
         let place = concerned.and_then(|p| self.places.get(p)).unwrap_or(root.place());
-        let mut reason = error.describe(&|v| self.name(v));
+        let mut reason = error.describe(&|v| format!("`{}`", self.name(v)));
         if concerned.is_some_and(|place| place >= self.from_certificates) {
             reason +=
                 "; the coefficient is the certificate's: state one in `correlations`, such as 0";

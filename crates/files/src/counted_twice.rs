@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use gumption_engine::distribution::{Root, RootFigures, RootName};
+use gumption_engine::fact;
 use gumption_engine::task::{Task, Warning};
 
 /// Digits to which the figures of one quantity agree, whichever file they were read from.
@@ -57,13 +58,8 @@ pub(super) fn notes(task: &Task) -> Vec<Warning> {
             let certified = certified.get(&root.name).copied();
             if let Some(place) = certified.filter(|place| !are_correlated(*place, result)) {
                 let name = task.variables.get(place).map_or("", |variable| variable.name.as_str());
-                let text = format!(
-                    "`{name}` is a value of a certificate that the result `{}` was evaluated from as \
-                     well, and counts as independent of it; evaluate both in one model, or state their \
-                     correlation",
-                    variable.name
-                );
-                found.push(Warning::new("counted-twice", name, text));
+                let fact = fact!("counted-twice.certificate", name, result = &variable.name);
+                found.push(Warning::new(name, fact));
                 continue;
             }
             let place = places.get(&*root.name.name).copied();
@@ -71,13 +67,8 @@ pub(super) fn notes(task: &Task) -> Vec<Warning> {
             let place = place.filter(|place| *place != result && is_same(root, *place));
             if place.is_some_and(|place| !are_correlated(place, result)) {
                 let name = &*root.name.name;
-                let text = format!(
-                    "`{name}` has the name and the figures of an input that the result `{}` was \
-                     evaluated from, and counts as independent of it; if they are one quantity, \
-                     evaluate both in one model, or state their correlation",
-                    variable.name
-                );
-                found.push(Warning::new("counted-twice", name, text));
+                let fact = fact!("counted-twice", name, result = &variable.name);
+                found.push(Warning::new(name, fact));
             }
         }
     }

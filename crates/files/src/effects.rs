@@ -9,6 +9,8 @@ use super::keys;
 use super::results::ResultFiles;
 use super::scopes::report_formula;
 use gumption_engine::distribution::Distribution;
+use gumption_engine::fact;
+use gumption_engine::fact::Argument;
 use gumption_engine::model::formula;
 use gumption_engine::model::formula::{Formula, FormulaError};
 use gumption_engine::task::{Trials, Warning};
@@ -239,20 +241,20 @@ impl EffectsReader<'_> {
         }
         let own = sim.scope.get(&member.key).and_then(|typing| typing.dimension);
         let misfit = match formula.check(&scope) {
-            Err(errors) => errors.first().map(ToString::to_string),
+            Err(errors) => errors.first().map(|error| Argument::from(error.to_string())),
             Ok(typing) => match (typing.dimension, own) {
-                (Some(found), Some(own)) if found != own => Some(format!(
-                    "the formula gives {}, but `{}` is {}",
-                    found.describe(),
-                    member.key,
-                    own.describe()
-                )),
+                (Some(found), Some(own)) if found != own => {
+                    let [found, own] = [found, own].map(|of| of.describe());
+                    let quantity = &member.key;
+                    Some(fact!("effect-dimension.other", found, quantity, own).into())
+                }
                 _ => None,
             },
         };
         if let Some(misfit) = misfit {
-            let text = format!("effect `{}`, override of `{}`: {misfit}", effect.name, member.key);
-            self.warnings.push(Warning::new("effect-dimension", &effect.name, text));
+            let (name, quantity) = (&effect.name, &member.key);
+            let fact = fact!("effect-dimension", name, quantity, misfit);
+            self.warnings.push(Warning::new(name, fact));
         }
         Some(formula)
     }

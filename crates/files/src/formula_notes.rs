@@ -6,12 +6,12 @@ use std::collections::{HashMap, HashSet};
 use super::model_checks::Quantities;
 use super::model_reader::Equation;
 use super::scopes::report_formula;
+use gumption_engine::fact;
 use gumption_engine::model::formula::{
     Factors, Formula, KelvinKind, LevelReference, Numbers, Scope, TableCall, TableData, Typing,
     Use, ValueSource,
 };
 use gumption_engine::model::{Output, Quantity};
-use gumption_engine::number::Shortest;
 use gumption_engine::task::Warning;
 use gumption_text::json::{Json, Member};
 use gumption_text::object::Object;
@@ -45,7 +45,7 @@ pub(super) fn of_formulas(
         let is_length = scope.get(name).is_some_and(|of| of.dimension == Some(Dimension::LENGTH));
         let computed = formula.numbers(known).or(is_length.then_some(Numbers::Length));
         let computed = computed.filter(|_| of.check_units);
-        found.extend(notes.into_iter().map(|note| Warning::new(note.code, name, note.text)));
+        found.extend(notes.into_iter().map(|note| Warning::new(name, note.fact)));
         if let Some(computed) = computed {
             numbers.names.insert(name, computed);
         }
@@ -70,7 +70,7 @@ pub(super) fn of_formulas(
             let mut notes = formula.periods_as_radians(scope, unit_of);
             notes.extend(formula.torque_by_periods(unit_of));
             notes.extend(formula.level_of_other_kind(scope));
-            found.extend(notes.into_iter().map(|note| Warning::new(note.code, name, note.text)));
+            found.extend(notes.into_iter().map(|note| Warning::new(name, note.fact)));
         }
         let by_name: ByName<'_> = equations
             .iter()
@@ -166,13 +166,13 @@ fn converted_terms(
     numbers: &KnownNumbers<'_>,
     output: &Quantity,
 ) -> Vec<Warning> {
-    let what = format!("the output `{}`", output.name);
+    let what = fact!("result.named-output", name = &output.name);
     let known = |source: ValueSource<'_>| numbers.of(source);
     let intermediate = terms.iter().filter(|(name, _)| *name != output.name);
     let notes = intermediate.filter_map(|(name, formula)| {
         let factors_of = |name: &str| numbers.factors.get(name).copied();
         let note = formula.converted_to(known, factors_of, &output.unit, &what)?;
-        Some(Warning::new(note.code, *name, note.text))
+        Some(Warning::new(*name, note.fact))
     });
     notes.collect()
 }
@@ -184,7 +184,7 @@ fn angular_frequency(scope: &Scope, terms: &[(&str, &Formula)], unit: &Unit) -> 
     }
     terms.iter().find_map(|(name, formula)| {
         let note = formula.angular_frequency(scope)?;
-        Some(Warning::new(note.code, *name, note.text))
+        Some(Warning::new(*name, note.fact))
     })
 }
 
@@ -197,7 +197,7 @@ fn displaced(scope: &Scope, terms: &[(&str, &Formula)], unit: &Unit) -> Option<W
     }
     terms.iter().find_map(|(name, formula)| {
         let note = formula.of_revolutions(scope)?;
-        Some(Warning::new(note.code, *name, note.text))
+        Some(Warning::new(*name, note.fact))
     })
 }
 
@@ -206,13 +206,13 @@ fn drop_repeated(notes: &mut Vec<Warning>) {
     let mut told = HashSet::new();
     notes.retain(|note| {
         let is_of_result = matches!(
-            note.code,
+            note.code(),
             "result-converted-twice"
                 | "quantity-converted-twice"
                 | "radians-of-turns"
                 | "radians-as-periods"
         );
-        !is_of_result || told.insert((note.code, note.place.clone()))
+        !is_of_result || told.insert((note.code(), note.place.clone()))
     });
 }
 
@@ -245,12 +245,7 @@ fn angles_of_turns(equations: &[Equation<'_>], of: &Quantities) -> Vec<Warning> 
             if value.abs() <= std::f64::consts::TAU || !told.insert(name) {
                 return None;
             }
-            let shown = Shortest(value);
-            let text = format!(
-                "`{function}` takes `{name}` in radians, as it has no unit of angle, and {shown} rad are \
-                 more than a turn; one in degrees says `\"unit\": \"deg\"`"
-            );
-            Some(Warning::new("angle-of-turns", name, text))
+            Some(Warning::new(name, fact!("angle-of-turns", function, name, angle = value)))
         })
         .collect()
 }
@@ -286,15 +281,8 @@ pub(super) fn unused_inputs(
     let wholes: Vec<&str> = used.iter().filter_map(|name| Some(name.rsplit_once('.')?.0)).collect();
     used.extend(wholes);
     let unused = inputs.iter().filter(|member| !used.contains(member.key.as_str()));
-    unused
-        .map(|member| {
-            let text = format!(
-                "no equation uses the input `{}`: it contributes nothing to any uncertainty",
-                member.key
-            );
-            Warning::new(UNUSED_INPUT, &member.key, text)
-        })
-        .collect()
+    let names = unused.map(|member| &member.key);
+    names.map(|name| Warning::new(name, fact!("unused-input", name))).collect()
 }
 
 /// The formulas of inputs' estimates, which may use inputs that are constants.
@@ -326,7 +314,7 @@ pub(super) fn of_conditions(root: &Object<'_>, of: &Quantities) -> Vec<Warning> 
         let notes =
             formula.map(|formula| formula.notes(|source| numbers.of(source), |_| None, of).0);
         let notes = notes.into_iter().flatten();
-        found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
+        found.extend(notes.map(|note| Warning::new(name, note.fact)));
     };
     for input in members(root.get("inputs")) {
         let unit = given.get(input.key.as_str()).copied();
@@ -396,28 +384,17 @@ const PLACEHOLDER: &str = "where this is known from";
 pub(super) fn placeholders(of: &Quantities) -> Vec<Warning> {
     let named = of.inputs.quantities.iter().map(|input| &input.quantity);
     let left = named.filter(|quantity| quantity.about.trim() == PLACEHOLDER);
-    left.map(|quantity| {
-        let text = format!(
-            "the `about` of `{}` still says \"{PLACEHOLDER}\", as a new file does, and certificates print \
-             it: write from where it is known, or take the key out",
-            quantity.name
-        );
-        Warning::new("placeholder-about", &quantity.name, text)
-    })
-    .collect()
+    let names = left.map(|quantity| &quantity.name);
+    let note = |name| Warning::new(name, fact!("placeholder-about", name, about = PLACEHOLDER));
+    names.map(note).collect()
 }
 
 /// Quantities in `pH`, which is a picohenry and may be meant as the measure of acidity.
 fn picohenries(of: &Quantities) -> Option<Warning> {
     let inputs = of.inputs.quantities.iter().map(|input| &input.quantity);
     let mut all = inputs.chain(of.outputs.outputs.iter().map(|output| &output.quantity));
-    all.find(|quantity| quantity.unit.text().trim() == "pH").map(|quantity| {
-        let text = format!(
-            "the unit `pH` of `{}` is the picohenry; a pH value is a number, with the unit `1`",
-            quantity.name
-        );
-        Warning::new("picohenry", &quantity.name, text)
-    })
+    let name = &all.find(|quantity| quantity.unit.text().trim() == "pH")?.name;
+    Some(Warning::new(name, fact!("picohenry", name)))
 }
 
 /// The code of [`unused_inputs`].
@@ -427,13 +404,8 @@ pub(super) const UNUSED_INPUT: &str = "unused-input";
 fn decibels(scope: &Scope, output: &Output) -> Option<Warning> {
     let Quantity { name, unit, .. } = &output.quantity;
     let is_level = !scope.get(name)?.level.is_zero();
-    (is_level && is_plain(unit) && unit.level_exponent().is_zero()).then(|| {
-        let text = format!(
-            "`{name}` is a level, and is reported as its number of decibels, as formulas compute it; \
-             report it in `dB` or in `Np`"
-        );
-        Warning::new("level-as-number", name, text)
-    })
+    let is_told = is_level && is_plain(unit) && unit.level_exponent().is_zero();
+    is_told.then(|| Warning::new(name, fact!("level-as-number", name)))
 }
 
 /// A result that adds levels above a reference, as 5 dBm and 2 dBm.
@@ -441,14 +413,7 @@ fn sum_of_levels(scope: &Scope, output: &Output) -> Option<Warning> {
     let Quantity { name, unit, .. } = &output.quantity;
     let typing = scope.get(name)?;
     let adds = typing.zero.is_none() && typing.reference == LevelReference::Added;
-    adds.then(|| {
-        let text = format!(
-            "`{name}` in {unit} adds levels above a reference, or multiplies one, so that it is above no \
-             reference itself; the level of a sum of powers is `10*log10(10^(L1/10) + 10^(L2/10))`, \
-             and gains are in dB"
-        );
-        Warning::new("sum-of-levels", name, text)
-    })
+    adds.then(|| Warning::new(name, fact!("sum-of-levels", name, unit)))
 }
 
 /// A result in revolutions per minute of which nothing tells that it counts angle.
@@ -458,14 +423,8 @@ fn rate_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
     let unknown = typing.turn.is_none()
         && !typing.has_turns
         && typing.dimension.is_some_and(|of| !of.is_none());
-    (unit.counts_revolutions() && unknown && unit.turn().is_some()).then(|| {
-        let text = format!(
-            "`{name}` is taken for an angular frequency, of which 2*pi radians are a revolution, as \
-             nothing says that it counts revolutions; if it does, write `...*[rev]`, or give it in \
-             `1/min`"
-        );
-        Warning::new("rate-of-turns", name, text)
-    })
+    let is_told = unit.counts_revolutions() && unknown && unit.turn().is_some();
+    is_told.then(|| Warning::new(name, fact!("rate-of-turns", name)))
 }
 
 /// A result that counts angle, in a unit that counts nothing (`1/min`, `1`), of inputs in revolutions.
@@ -476,20 +435,14 @@ fn radians_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
     let is_rate = typing.dimension.is_some_and(|of| of.is_of_time() && !of.is_none());
     let counts_angle = typing.turn == Some(Turn::Angle) || typing.has_turns && is_rate;
     let counts_nothing = unit.turn() != Some(Turn::Angle) && unit.dimension().is_of_time();
-    let text = if counts_angle && counts_nothing {
-        format!(
-            "`{name}` counts angle and is reported in `{shown}` in radians, 2*pi for a revolution; if \
-             revolutions are meant, write `.../[rev]`, or report it in rpm or rev"
-        )
+    let fact = if counts_angle && counts_nothing {
+        fact!("radians-of-turns", name, unit = shown)
     } else if is_per_turn(typing) && !unit.counts_angle() {
-        format!(
-            "`{name}` is divided by what counts revolutions and is reported in `{shown}` per radian; if it \
-             is meant per revolution, write `...*[rev]`"
-        )
+        fact!("radians-of-turns.inverse", name, unit = shown)
     } else {
         return None;
     };
-    Some(Warning::new("radians-of-turns", name, text))
+    Some(Warning::new(name, fact))
 }
 
 /// Whether a quantity is per angle by an input in revolutions, and no torque, viscosity or damping, which
@@ -517,14 +470,8 @@ fn celsius_as_kelvin(scope: &Scope, outputs: &[Output]) -> Vec<Warning> {
             let counts_degrees = scope.get(&output.name).is_some_and(Typing::counts_degrees);
             counts_degrees && !output.unit.is_celsius()
         })
-        .map(|output| {
-            let text = format!(
-                "`{}` is a number of degrees Celsius by the unit of a coefficient, and is reported \
-                 in {} as a difference; write kelvin(...) for a thermodynamic temperature, or \
-                 report it in degC",
-                output.name, output.unit
-            );
-            Warning::new("celsius-as-kelvin", &output.name, text)
+        .map(|Quantity { name, unit, .. }| {
+            Warning::new(name, fact!("celsius-as-kelvin", name, unit))
         })
         .collect()
 }
@@ -536,26 +483,29 @@ fn difference_in_degrees(scope: &Scope, output: &Output) -> Option<Warning> {
     let is_temperature = unit.zero().is_some() && unit.level_exponent().is_zero();
     let typing = scope.get(name).filter(|_| is_temperature)?;
     let is_difference = typing.zero.is_none() && typing.kelvin == KelvinKind::Difference;
-    is_difference.then(|| {
-        let text = format!(
-            "`{name}` is a difference of temperatures, and is reported in {unit}, by which everything that \
-             takes it further takes it for a temperature; report it in K, or, where a correction is \
-             subtracted from a temperature, give the correction in K"
-        );
-        Warning::new("difference-in-degrees", name, text)
-    })
+    is_difference.then(|| Warning::new(name, fact!("difference-in-degrees", name, unit)))
 }
 
 #[cfg(test)]
 mod tests {
     use std::path::Path;
 
+    use super::*;
     use crate::read_text;
+    use gumption_engine::fact::{Argument, Fact};
 
     /// Notes of a file, each with what it is about.
-    fn notes(text: &str) -> Vec<(&'static str, String, String)> {
+    fn notes(text: &str) -> Vec<(&'static str, String, Fact)> {
         let file = read_text("m", text, Path::new(""), &[]).unwrap();
-        file.warnings.into_iter().map(|note| (note.code, note.place, note.text)).collect()
+        file.warnings.into_iter().map(|note| (note.code(), note.place, note.fact)).collect()
+    }
+
+    /// The text of an argument that is one.
+    fn text_of<'f>(fact: &'f Fact, argument: &str) -> Option<&'f str> {
+        match fact.argument(argument)? {
+            Argument::Text(text) | Argument::Number(text) => Some(text),
+            _ => None,
+        }
     }
 
     /// 0.1 rad beside degrees, in an estimate, a width and a limit; not where it says its unit.
@@ -572,7 +522,7 @@ mod tests {
         let found = of("phi_nom + 0.1", "0.001*phi_nom + 0.05", "phi_nom + 2");
         let all: Vec<_> = found.iter().map(|(code, name, _)| (*code, name.as_str())).collect();
         assert_eq!(all, [("bare-number", "phi"), ("bare-number", "phi"), ("bare-number", "p")]);
-        assert!(found[0].2.contains("0.1 [deg]"), "{}", found[0].2);
+        assert_eq!(text_of(&found[0].2, "meant"), Some("0.1 [deg]"), "{found:?}");
         assert_eq!(of("phi_nom + 0.1 [deg]", "0.001*phi_nom + 0.05 [deg]", "30 deg"), []);
     }
 
@@ -625,7 +575,7 @@ mod tests {
                 inputs.map(input).join(", ")
             ));
             let found = found.into_iter().filter(|(code, ..)| *code == "result-converted-twice");
-            found.map(|(.., text)| text).collect::<Vec<_>>()
+            found.map(|(.., fact)| fact).collect::<Vec<_>>()
         };
         let masses = [("m", "mg"), ("V", "mL"), ("P", "1")];
         for (inputs, equations, unit, factor) in [
@@ -639,10 +589,8 @@ mod tests {
             ([("x", "V"), ("a", "1"), ("b", "1")], r#""y": "sqrt(x^2*a*b)*1e6""#, "uV", "1000000"),
         ] {
             let found = of(inputs, equations, unit);
-            assert!(
-                found.len() == 1 && found[0].contains(&format!("factor of {factor}")),
-                "{equations}: {found:?}"
-            );
+            let factors: Vec<_> = found.iter().map(|fact| text_of(fact, "factor")).collect();
+            assert_eq!(factors, [Some(factor)], "{equations}: {found:?}");
         }
         for (inputs, equations, unit) in [
             (masses, r#""y": "m*P/V""#, "mg/L"),
@@ -654,7 +602,7 @@ mod tests {
             // a coefficient of a sum whose terms are in different units
             ([("x", "mm"), ("a", "m"), ("b", "1")], r#""y": "b*(x + 1000*a)""#, "mm"),
         ] {
-            assert_eq!(of(inputs, equations, unit), Vec::<String>::new(), "{equations}");
+            assert_eq!(of(inputs, equations, unit), [], "{equations}");
         }
     }
 
@@ -850,14 +798,15 @@ mod tests {
             assert_eq!(found.len(), 1, "{equation}: {found:?}");
             found[0].2.clone()
         };
-        for (equation, quoted) in [
-            ("2*pi*n/60*T", "`2*pi*n/60` converts"),
-            ("2*pi*n*T/60", "`2*pi*n*T/60` converts"),
-            ("T*2*pi*n", "`T*2*pi*n` converts"),
-            ("n/60*T", "factor of 1/60 that converts from the units of its quantities to W"),
-        ] {
-            assert!(of(equation).contains(quoted), "{equation}: {}", of(equation));
+        for (equation, quoted) in
+            [("2*pi*n/60*T", "2*pi*n/60"), ("2*pi*n*T/60", "2*pi*n*T/60"), ("T*2*pi*n", "T*2*pi*n")]
+        {
+            assert_eq!(of(equation), fact!("rate-converted-twice", formula = quoted, unit = "rpm"));
         }
+        let found = of("n/60*T");
+        assert_eq!(text_of(&found, "factor"), Some("1/60"));
+        let to = fact!("converted-to.coherent-unit", unit = "W");
+        assert_eq!(found.argument("to"), Some(&to.into()));
     }
 
     /// A choice of plain numbers is one beside a share.
@@ -1041,28 +990,29 @@ mod tests {
                 "equations": {{"b": "2*c", "y": "{equation}"}}, "outputs": {{"y": {{"unit": "{unit}"}}}}}}"#
             );
             let file = read_text("m", &text, folder.path(), &[]).unwrap();
-            let notes = file.warnings.into_iter().filter(|note| note.code == "unit-left-out");
-            notes.map(|note| note.text).collect::<Vec<_>>()
+            let notes = file.warnings.into_iter().filter(|note| note.code() == "unit-left-out");
+            notes.map(|note| note.fact).collect::<Vec<_>>()
         };
         for (equation, unit, said) in [
-            ("a + c", "deg", "`c` has no unit"),
-            ("a - 2*c/3", "deg", "of which 1 is 57.2957795131 deg, beside `a` in deg"),
-            ("a + b", "deg", "`b` has no unit"),
-            (
-                "p + (c - d)",
-                "%",
-                "of which 1 is 100 %, beside `p` in %; state its unit, `%` or `1`",
-            ),
-            ("max(p, c)", "%", "`c` has no unit"),
-            ("if(a > c, 1, 2)", "1", "`c` has no unit"),
-            ("c", "deg", "in which the output is reported; state its unit, `deg` or `rad`"),
-            ("c - d", "ppm", "`c - d` has no unit"),
-            ("a + f(c)", "deg", "`f(c)` has no unit"),
-            ("a + inverse(g, a)", "deg", "`inverse(g, a)` has no unit"),
-            ("a + table(c, 't.csv')", "deg", "`table(c, 't.csv')` has no unit"),
+            ("a + c", "deg", [("formula", "c")].as_slice()),
+            ("a - 2*c/3", "deg", &[("one", "57.2957795131"), ("unit", "deg"), ("beside", "a")]),
+            ("a + b", "deg", &[("formula", "b")]),
+            ("p + (c - d)", "%", &[("one", "100"), ("unit", "%"), ("beside", "p"), ("plain", "1")]),
+            ("max(p, c)", "%", &[("formula", "c")]),
+            ("if(a > c, 1, 2)", "1", &[("formula", "c")]),
+            ("c", "deg", &[("unit", "deg"), ("plain", "rad")]),
+            ("c - d", "ppm", &[("formula", "c - d")]),
+            ("a + f(c)", "deg", &[("formula", "f(c)")]),
+            ("a + inverse(g, a)", "deg", &[("formula", "inverse(g, a)")]),
+            ("a + table(c, 't.csv')", "deg", &[("formula", "table(c, 't.csv')")]),
         ] {
             let found = of(equation, unit);
-            assert!(found.len() == 1 && found[0].contains(said), "{equation}: {found:?}");
+            let is_output = equation.starts_with('c');
+            let key = if is_output { "unit-left-out.output" } else { "unit-left-out" };
+            assert!(found.len() == 1 && found[0].key == key, "{equation}: {found:?}");
+            for (argument, text) in said {
+                assert_eq!(text_of(&found[0], argument), Some(*text), "{equation}: {found:?}");
+            }
         }
         for (equation, unit) in [
             ("a + e", "deg"),
@@ -1078,7 +1028,7 @@ mod tests {
             ("a + table(c, 'u.csv')", "deg"),
             ("1 - c", "%"),
         ] {
-            assert_eq!(of(equation, unit), Vec::<String>::new(), "{equation}");
+            assert_eq!(of(equation, unit), [], "{equation}");
         }
     }
 

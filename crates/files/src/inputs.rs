@@ -15,6 +15,8 @@ use super::samples;
 use super::shapes::{self, Estimate, Fields};
 use gumption_engine::decimal;
 use gumption_engine::distribution::{Constant, Distribution, EvaluationType, Samples};
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{InputQuantity, Quantity};
 use gumption_engine::number::Shortest;
@@ -92,6 +94,7 @@ pub(super) fn read(
     Some(inputs)
 }
 
+<<<<<<< HEAD
 /// A phase of more than a turn, which is in radians as it has no unit.
 fn phase_of_turns(name: &str, found: f64) -> Warning {
     let found = Shortest(found);
@@ -103,6 +106,9 @@ fn phase_of_turns(name: &str, found: f64) -> Warning {
 }
 
 struct InputReader<'a, 'i> {
+=======
+struct Reader<'a, 'i> {
+>>>>>>> 1cb3c0e8626e4ae65db00ec4eab658b8261318ad
     object: Object<'a>,
     name: &'a str,
     conditions: &'a dyn ConditionValues,
@@ -125,7 +131,7 @@ impl<'a> InputReader<'a, '_> {
         if is_certificate && object.get("components").is_none() {
             self.certificate = self.results.of_certificate(&object);
             let certificate = self.certificate.clone();
-            self.certified(self.name.to_owned(), &object, certificate.as_ref());
+            self.certified(self.name, &object, certificate.as_ref());
         }
         let unit = self.unit().unwrap_or_else(|| {
             self.inputs.without_unit.push(self.name.to_owned());
@@ -214,7 +220,9 @@ impl<'a> InputReader<'a, '_> {
                     let found = part.get(key)?.value.number()?;
                     (found.abs() > std::f64::consts::TAU).then_some(found)
                 });
-                let note = turned.map(|found| phase_of_turns(name, found));
+                // without a unit it is in radians
+                let fact = |angle| fact!("angle-of-turns.phase", name, angle);
+                let note = turned.map(|found| Warning::new(name, fact(found)));
                 self.inputs.warnings.extend(note);
             }
             let own = self.inputs.quantities.get(known).map(|of| of.quantity.unit.clone());
@@ -394,13 +402,8 @@ impl<'a> InputReader<'a, '_> {
         let same_elsewhere = !differs && self.conditions.rows() > 1;
         self.note_of_zero_width(self.name, &zero_width, same_elsewhere);
         if !zero_share.is_empty() {
-            let text = format!(
-                "the share of reading in the width of `{}` is 0{}, as its estimate is; of another \
-                 quantity's value it would be `20 ppm of 10 V`",
-                self.name,
-                self.in_rows(&zero_share, same_elsewhere)
-            );
-            self.inputs.warnings.push(Warning::new("share-of-zero", self.name, text));
+            let (name, rows) = (self.name, self.in_rows(&zero_share, same_elsewhere));
+            self.inputs.warnings.push(Warning::new(name, fact!("share-of-zero", name, rows)));
         }
         match drawn.pop() {
             Some(distribution) if !differs => self.inputs.known.always(variable, distribution),
@@ -414,11 +417,7 @@ impl<'a> InputReader<'a, '_> {
     /// Tells that limits move along with an estimate that replaces another one.
     fn note_of_moved_limits(&mut self) {
         let name = self.name;
-        let text = format!(
-            "the `limits` of `{name}` move along with its new estimate; where they stay, as those of a \
-             concentration that cannot be negative, write `{name}.mean=...` for the value before they cut"
-        );
-        self.inputs.warnings.push(Warning::new("limits-moved", name, text));
+        self.inputs.warnings.push(Warning::new(name, fact!("limits-moved", name)));
     }
 
     /// Tells in which rows (from 1) a width becomes 0.
@@ -426,22 +425,18 @@ impl<'a> InputReader<'a, '_> {
         if rows.is_empty() {
             return;
         }
-        let text = format!(
-            "the width of `{of}` follows its estimate and becomes 0{}; it is a constant there",
-            self.in_rows(rows, same_elsewhere)
-        );
-        self.inputs.warnings.push(Warning::new("width-zero", self.name, text));
+        let fact = fact!("width-zero", of, rows = self.in_rows(rows, same_elsewhere));
+        self.inputs.warnings.push(Warning::new(self.name, fact));
     }
 
-    /// Words for some rows (from 1) of the conditions, if there are several.
-    fn in_rows(&self, rows: &[usize], same_elsewhere: bool) -> String {
-        match rows {
-            [first, more @ ..] if self.conditions.rows() > 1 => {
-                let others = if !more.is_empty() || same_elsewhere { " and others" } else { "" };
-                format!(" in row {first}{others}")
-            }
-            _ => String::new(),
-        }
+    /// Which rows (from 1) of the conditions, if there are several.
+    fn in_rows(&self, rows: &[usize], same_elsewhere: bool) -> Option<Fact> {
+        let [row, more @ ..] = rows else { return None };
+        let has_others = !more.is_empty() || same_elsewhere;
+        (self.conditions.rows() > 1).then(|| match has_others {
+            true => fact!("in-row.and-others", row = *row),
+            false => fact!("in-row", row = *row),
+        })
     }
 
     /// Readings that the distribution is to be tested against.
@@ -520,86 +515,37 @@ impl<'a> InputReader<'a, '_> {
         if kind.name != "readings" {
             return;
         }
-        let mut notes: Vec<(&'static str, String)> = Vec::new();
-        notes.extend(read.and_then(|read| read.note.clone()).map(|note| ("nested-readings", note)));
-        match drawn {
+        let of_groups = read.and_then(|read| read.note.clone());
+        let of_scatter = match drawn {
             Some(Distribution::Readings(readings)) => {
                 readings::refuse_branches(object, readings.values(), unit);
-                let note = readings::dependence(name, readings.values());
-                notes.extend(note.map(|note| ("dependent-readings", note)));
+                readings::dependence(name, readings.values())
             }
-            Some(Distribution::Rectangular(_)) => {
-                let note = format!(
-                    "`{name}`: the scatter of the readings is below what the resolution leaves \
-                     unknown, which is taken in its place as a rectangular distribution (JCGM 100, \
-                     F.2.2.1)"
-                );
-                notes.push(("resolution-taken", note));
-            }
-            Some(Distribution::Constant(_)) => {
-                let note = format!(
-                    "`{name}`: all readings are equal and show no scatter; it is a constant beside \
-                     the other components, one of which has to be the resolution"
-                );
-                notes.push(("no-scatter", note));
-            }
-            _ => {}
-        }
-        for (code, note) in notes {
-            self.inputs.warnings.push(Warning::new(code, name, note));
-        }
+            Some(Distribution::Rectangular(_)) => Some(fact!("resolution-taken", name)),
+            Some(Distribution::Constant(_)) => Some(fact!("no-scatter", name)),
+            _ => None,
+        };
+        let notes = of_groups.into_iter().chain(of_scatter);
+        self.inputs.warnings.extend(notes.map(|fact| Warning::new(name, fact)));
     }
 
     /// Notes that a variable is a result of a certificate of our own, and what is taken from one
     /// that states an uncertainty twice.
-    fn certified(&mut self, name: String, object: &Object<'_>, of: Option<&FromCertificate>) {
-        let file = object.text("file").unwrap_or("").to_owned();
-        if of.is_some_and(|of| of.of_interval) {
-            let text = format!(
-                "`{name}`: where `{file}` states a standard uncertainty with a coverage interval, it is \
-                 taken in place of U over k, whose digits are rounded"
-            );
-            self.inputs.warnings.push(Warning::new("interval-uncertainty", &name, text));
-        }
-        if let Some(called) = of.and_then(|of| of.unknown_distribution.as_ref()) {
-            let text = format!(
-                "`{name}`: `{file}` calls its distribution `{called}`, which is none that is known here; \
-                 a normal distribution with its standard uncertainty is taken"
-            );
-            self.inputs.warnings.push(Warning::new("certificate-distribution", &name, text));
-        }
-        if of.is_some_and(|of| of.is_difference) {
-            let text = format!(
-                "`{name}`: `{file}` gives a difference of temperatures, such as an error or a correction, \
-                 which is taken in K; if it is a temperature, say `\"difference\": false`"
-            );
-            self.inputs.warnings.push(Warning::new("certificate-difference", &name, text));
-        }
-        if of.is_some_and(|of| of.is_without) {
-            let text = format!(
-                "`{name}`: `{file}` states no uncertainty for this value, which is taken as exact; one that \
-                 stands in a text, or with another quantity, has to be stated in the model file"
-            );
-            self.inputs.warnings.push(Warning::new("certificate-exact", &name, text));
-        }
-        if of.is_some_and(|of| of.is_before) {
-            let text = format!(
-                "`{name}`: by its status in `{file}` the value was found before an adjustment or a repair; \
-                 what holds after it stands elsewhere, if the certificate has it (`gumption dcc`)"
-            );
-            self.inputs.warnings.push(Warning::new("certificate-before-adjustment", &name, text));
-        }
-        if of.is_some_and(|of| of.is_asymmetric) {
-            let text = format!(
-                "`{name}`: `{file}` states a coverage interval that is not symmetric about the value; the \
-                 value and its standard uncertainty are taken, and nothing of the asymmetry"
-            );
-            self.inputs.warnings.push(Warning::new("certificate-asymmetric", &name, text));
-        }
-        let place = of.map(|of| (name.clone(), of.place.clone()));
-        self.inputs.from_certificates.extend(place);
-        let certified = of.and_then(|of| of.certified.clone());
-        self.inputs.certified.extend(certified.map(|of| (name, of, file)));
+    fn certified(&mut self, name: &str, object: &Object<'_>, of: Option<&FromCertificate>) {
+        let file = object.text("file").unwrap_or("");
+        let Some(of) = of else { return };
+        let called = of.unknown_distribution.as_ref();
+        let mut notes = Vec::new();
+        notes.extend(of.of_interval.then(|| fact!("interval-uncertainty", name, file)));
+        notes.extend(called.map(|called| fact!("certificate-distribution", name, file, called)));
+        notes.extend(of.is_difference.then(|| fact!("certificate-difference", name, file)));
+        notes.extend(of.is_without.then(|| fact!("certificate-exact", name, file)));
+        notes.extend(of.is_before.then(|| fact!("certificate-before-adjustment", name, file)));
+        notes.extend(of.is_asymmetric.then(|| fact!("certificate-asymmetric", name, file)));
+        self.inputs.warnings.extend(notes.into_iter().map(|fact| Warning::new(name, fact)));
+        self.inputs.from_certificates.push((name.to_owned(), of.place.clone()));
+        let certified = of.certified.clone();
+        self.inputs.certified.extend(certified.map(|of| (name.to_owned(), of, file.to_owned())));
     }
 
     /// Adds a variable of the budget.
@@ -803,16 +749,9 @@ impl<'a> InputReader<'a, '_> {
         if !(are_of_quantity && apart) {
             return;
         }
-        let shown = |value| in_unit(value, unit);
-        let text = format!(
-            "the readings of `{part}` have the mean {}, more than three of its standard uncertainties \
-             from {}, the estimate that `{}` is given: only their scatter counts; leave the estimate \
-             out to take their mean",
-            shown(mean),
-            shown(total),
-            self.name
-        );
-        self.inputs.warnings.push(Warning::new("readings-apart", self.name, text));
+        let (name, [mean, estimate]) = (self.name, [mean, total].map(|of| in_unit(of, unit)));
+        let fact = fact!("readings-apart", part, mean, estimate, name);
+        self.inputs.warnings.push(Warning::new(name, fact));
     }
 
     /// Tells of a component whose own estimate is not 0: it is added to that of its input.
@@ -820,16 +759,10 @@ impl<'a> InputReader<'a, '_> {
         if own.abs() <= ROUNDING_OF_LIMITS * u {
             return;
         }
-        let shown = |value| in_unit(value, unit);
-        let text = format!(
-            "the estimate {} of the component `{part}` is added to {}, that of `{}`: together {}; \
-             components are deviations, about 0",
-            shown(own),
-            shown(total),
-            self.name,
-            shown(own + total)
-        );
-        self.inputs.warnings.push(Warning::new("component-estimate", self.name, text));
+        let name = self.name;
+        let [own, total, sum] = [own, total, own + total].map(|of| in_unit(of, unit));
+        let fact = fact!("component-estimate", own, part, total, name, sum);
+        self.inputs.warnings.push(Warning::new(name, fact));
     }
 
     /// Tells of a component that is a saved result with an estimate: only how it varies counts.
@@ -837,12 +770,8 @@ impl<'a> InputReader<'a, '_> {
         if saved == 0.0 {
             return;
         }
-        let text = format!(
-            "the component `{part}` is a saved result of {}, of which only the deviation from it counts; a \
-             correction is to be an input of its own that an equation adds",
-            in_unit(saved, unit)
-        );
-        self.inputs.warnings.push(Warning::new("component-result", self.name, text));
+        let fact = fact!("component-result", part, estimate = in_unit(saved, unit));
+        self.inputs.warnings.push(Warning::new(self.name, fact));
     }
 
     /// The components as written, each with a variable of its own; `None` if one is faulty.
@@ -893,7 +822,7 @@ impl<'a> InputReader<'a, '_> {
                 if kind.name == "dcc" {
                     certificate = self.results.of_certificate(&component);
                     let Some(of) = &certificate else { continue };
-                    self.certified(full.clone(), &component, Some(of));
+                    self.certified(&full, &component, Some(of));
                 }
                 let object = component;
                 let read = (read, certificate);
@@ -959,6 +888,6 @@ fn is_without_width(kind: &FileShape, distribution: &Distribution) -> bool {
 }
 
 /// A value as notes show it.
-fn in_unit(value: f64, unit: &Unit) -> String {
-    unit.after(&Shortest(decimal::to_15_digits(value)).to_string())
+fn in_unit(value: f64, unit: &Unit) -> Argument {
+    Argument::Number(unit.after(&Shortest(decimal::to_15_digits(value)).to_string()))
 }

@@ -6,6 +6,8 @@ use std::sync::Arc;
 use super::model_reader::Equation;
 use super::scopes::place_in_formula;
 use gumption_engine::decimal;
+use gumption_engine::fact;
+use gumption_engine::fact::Argument;
 use gumption_engine::model::formula::{TableCall, TableData};
 use gumption_engine::model::{Interpolation, InterpolationMethod, NumberForm, TableFault};
 use gumption_engine::task::Warning;
@@ -160,23 +162,22 @@ fn note(quantity: &str, call: &TableCall, data: &TableData, form: NumberForm) ->
         NumberForm::Coherent => y.factor(),
     };
     let [low, high] = data.table.range().map(|end| decimal::significant(given(end, x), 6));
-    let (method, other) = match call.method {
-        InterpolationMethod::Cubic => ("a cubic spline", "straight lines"),
-        InterpolationMethod::Linear => ("straight lines", "a cubic spline"),
-    };
+    let (low, high) = (Argument::Number(low), in_unit(high, x));
     let difference = decimal::significant(data.table.method_difference() / factor, 2);
-    let text = format!(
-        "`{quantity}` takes values from {method} through the {} points of `{}` ({low} to \
-         {high}{}); {other} differ by at most {difference}{} half way between them, which is in no \
-         uncertainty unless an input states it",
-        data.table.points(),
-        call.file,
-        spaced(x),
-        spaced(y),
-    );
-    Warning::new("interpolated", quantity, text)
+    let difference = in_unit(difference, y);
+    let (points, file) = (data.table.points(), &call.file);
+    let fact = match call.method {
+        InterpolationMethod::Cubic => {
+            fact!("interpolated", quantity, points, file, low, high, difference)
+        }
+        InterpolationMethod::Linear => {
+            fact!("interpolated.linear", quantity, points, file, low, high, difference)
+        }
+    };
+    Warning::new(quantity, fact)
 }
 
-fn spaced(unit: &Unit) -> String {
-    if unit.text().is_empty() || unit.text() == "1" { String::new() } else { format!(" {unit}") }
+fn in_unit(number: String, unit: &Unit) -> Argument {
+    let is_plain = unit.text().is_empty() || unit.text() == "1";
+    Argument::Number(if is_plain { number } else { format!("{number} {unit}") })
 }

@@ -4,6 +4,8 @@ use std::collections::HashMap;
 
 use super::input_set::InputSet;
 use gumption_engine::distribution::{Correlation, Root, SavedResult};
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::task::Warning;
 
 /// How many pairs a note names.
@@ -22,64 +24,49 @@ pub(super) fn links(inputs: &InputSet) -> (Vec<Correlation>, Vec<Warning>) {
     for (place, &(second, b)) in saved.iter().enumerate() {
         for &(first, a) in saved.iter().take(place) {
             let (of_a, of_b) = (a.origin(), b.origin());
+            let names = [name(first), name(second)];
             let one_file = of_a.file == of_b.file && of_a.output != of_b.output;
             if one_file && (of_a.ranks.is_none() || of_b.ranks.is_none()) {
-                old.push(format!("`{}` and `{}`", name(first), name(second)));
+                old.push(fact!("pair", first = names[0], second = names[1]));
             }
             let coefficient = a.drawn_coefficient(b);
             if let Some(coefficient) = coefficient.filter(|_| a.is_linked(b)) {
                 found.push(Correlation { first, second, coefficient });
                 if coefficient != 0.0 {
-                    kept.push(format!(
-                        "`{}` and `{}` ({coefficient:.3})",
-                        name(first),
-                        name(second)
-                    ));
+                    let coefficient = Argument::Number(format!("{coefficient:.3}"));
+                    let [first, second] = names;
+                    kept.push(fact!("pair.correlated", first, second, coefficient));
                 }
             } else if may_depend(a, b) {
-                let text = format!(
-                    "`{}` and `{}` may depend on each other, because their results go back to the \
-                     same model file, but one of them has no finite sensitivity coefficients, so \
-                     the dependence cannot be told; they are taken as independent",
-                    name(first),
-                    name(second)
-                );
-                warnings.push(Warning::new("result-dependence-unknown", name(second), text));
+                let [first, second] = names;
+                let fact = fact!("result-dependence-unknown", first, second);
+                warnings.push(Warning::new(second, fact));
             }
             if of_a.file != of_b.file {
-                apart.extend(namesakes(a, b).into_iter().map(|(input, reason)| {
-                    format!("`{input}` of `{}` and `{}` ({reason})", name(first), name(second))
-                }));
+                let [first, second] = names;
+                apart.extend(
+                    namesakes(a, b).into_iter().map(|(input, reason)| {
+                        fact!("pair.with-input", input, first, second, reason)
+                    }),
+                );
             }
         }
     }
     if !kept.is_empty() {
-        let text = format!("the correlation of saved results is kept: {}", some(&kept));
-        warnings.push(Warning::new("result-correlation", "", text));
+        warnings.push(Warning::new("", fact!("result-correlation", pairs = some(kept))));
     }
     if !apart.is_empty() {
-        let text = format!(
-            "results of one model file that took an input for different quantities are independent in \
-             it: {}; if it is one quantity, evaluate the results in one model, or state their \
-             correlation",
-            some(&apart)
-        );
-        warnings.push(Warning::new("result-inputs-differ", "", text));
+        warnings.push(Warning::new("", fact!("result-inputs-differ", pairs = some(apart))));
     }
     if !old.is_empty() {
-        let text = format!(
-            "of {} only the correlation coefficients are known, not how they vary together, because \
-             their result was saved by an older version; save it again",
-            some(&old)
-        );
-        warnings.push(Warning::new("result-without-ranks", "", text));
+        warnings.push(Warning::new("", fact!("result-without-ranks", pairs = some(old))));
     }
     (found, warnings)
 }
 
 /// The inputs of the same name in the same model file that both results go back to and that are not the
 /// same quantity, and why not.
-fn namesakes(a: &SavedResult, b: &SavedResult) -> Vec<(String, &'static str)> {
+fn namesakes(a: &SavedResult, b: &SavedResult) -> Vec<(String, Fact)> {
     let (of_a, of_b) = (&a.origin().roots, &b.origin().roots);
     let mut places: HashMap<(&str, &str), Vec<&Root>> = HashMap::new();
     for (root, _) in of_b {
@@ -100,29 +87,29 @@ fn namesakes(a: &SavedResult, b: &SavedResult) -> Vec<(String, &'static str)> {
 }
 
 /// Why two inputs of one name are not the same quantity.
-fn reason(a: &Root, b: &Root) -> &'static str {
+fn reason(a: &Root, b: &Root) -> Fact {
     let (of_a, of_b) = (&a.occasion, &b.occasion);
     let stated = |root: &Root| [&root.occasion.data, &root.occasion.row].map(Option::is_some);
     if stated(a) != stated(b) || of_a.follows.is_some() != of_b.follows.is_some() {
-        "one was saved by an older version, which did not tell its data and its row"
+        fact!("other-input.unknown-row")
     } else if of_a.row != of_b.row {
-        "of different rows"
+        fact!("other-input.row")
     } else if of_a.follows != of_b.follows {
-        "with other values set"
+        fact!("other-input.values-set")
     } else if a.figures() != b.figures() {
-        "with another estimate or standard uncertainty"
+        fact!("other-input.figures")
     } else if of_a.certified.is_some() != of_b.certified.is_some() {
-        "one was saved by an older version, which did not tell its place in its certificate"
+        fact!("other-input.unknown-place")
     } else {
-        "with the same figures, but from files of different content"
+        fact!("other-input.content")
     }
 }
 
 /// The first of some pairs, and how many more there are.
-pub(super) fn some(pairs: &[String]) -> String {
-    let more = pairs.len().saturating_sub(NAMED);
-    let rest = if more > 0 { format!(" and {more} more pairs") } else { String::new() };
-    pairs.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ") + &rest
+pub(super) fn some(mut pairs: Vec<Fact>) -> Fact {
+    let count = pairs.len().saturating_sub(NAMED);
+    pairs.truncate(NAMED);
+    fact!("pairs", pairs, more = (count > 0).then(|| fact!("pairs.more", count)))
 }
 
 /// Whether two results that are not linked come from the same model file, or one from a result of

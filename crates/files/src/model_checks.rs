@@ -10,6 +10,8 @@ use super::input_set::InputSet;
 use super::model_reader::{Equation, ModelBody};
 use super::outputs::Outputs;
 use super::scopes::{coherent, condition_scope, give_units, report_formula};
+use gumption_engine::fact;
+use gumption_engine::fact::Fact;
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{
     Formula, KelvinKind, LevelReference, Scope, TableCall, TableData, Typing, check_name, looks_of,
@@ -315,11 +317,7 @@ pub(super) fn imaginary_unit_hidden(
     let is_used = |formula: &Formula| formula.names().any(|(name, _)| name == IMAGINARY_UNIT);
     let is_hidden =
         has_complex(of) && is_quantity(IMAGINARY_UNIT, of, equations) && formulas.any(is_used);
-    is_hidden.then(|| {
-        let text = "`i` is the quantity of that name in the formulas of this file, and not the \
-                    imaginary unit; if you mean that, give the quantity another name";
-        Warning::new("imaginary-unit", IMAGINARY_UNIT, text.to_owned())
-    })
+    is_hidden.then(|| Warning::new(IMAGINARY_UNIT, fact!("imaginary-unit")))
 }
 
 /// The name of the imaginary unit.
@@ -396,32 +394,23 @@ pub(super) fn units_not_checked(root: &Object<'_>, of: &Quantities) -> Warning {
     let outputs = outputs.outputs.iter().map(|output| &output.quantity);
     let quantities: Vec<&Quantity> = inputs.chain(&conditions.quantities).chain(outputs).collect();
     let converted = |quantity: &&&Quantity| quantity.unit.factor() != 1.0;
-    let shown: Vec<String> = quantities
+    let shown: Vec<Fact> = quantities
         .iter()
         .filter(|quantity| !quantity.unit.factors().is_empty())
         .take(MOST_SHOWN)
-        .map(|quantity| format!("`{}` in {}", quantity.name, quantity.unit))
+        .map(|Quantity { name, unit, .. }| fact!("quantity-in-unit", name, unit))
         .collect();
-    let numbers = match shown.as_slice() {
-        [] => "units are not checked: every quantity is a plain number".to_owned(),
-        shown => format!(
-            "units are not checked: formulas compute with the numbers in the declared units ({}{})",
-            shown.join(", "),
-            if quantities.len() > shown.len() { ", ..." } else { "" }
-        ),
+    let more = (quantities.len() > shown.len()).then(|| fact!("more-quantities"));
+    let numbers = match shown.is_empty() {
+        true => fact!("units-not-checked.plain"),
+        false => fact!("units-not-checked", quantities = shown, more),
     };
     let is_new = root.get("format").is_some_and(|member| member.value.number() == Some(2.0));
-    match quantities.iter().find(converted) {
-        Some(quantity) if !is_new => {
-            let text = format!(
-                "CHECK THIS RESULT: {numbers}. Earlier versions converted them to SI units first, \
-                 such as `{}` from {}, and gave other results for this file. If its formulas are \
-                 written for the declared units, they are right now: say so with \"format\": 2. If \
-                 they are written for SI units, declare the quantities in SI units",
-                quantity.name, quantity.unit
-            );
-            Warning::new("units-not-checked-changed", "check_units", text)
+    let fact = match quantities.iter().find(converted).filter(|_| !is_new) {
+        Some(Quantity { name, unit, .. }) => {
+            fact!("units-not-checked-changed", numbers, name, unit)
         }
-        _ => Warning::new("units-not-checked", "check_units", numbers),
-    }
+        None => numbers,
+    };
+    Warning::new("check_units", fact)
 }

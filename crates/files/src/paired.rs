@@ -100,6 +100,7 @@ mod tests {
     use std::path::Path;
 
     use crate::{FileReader, read_text};
+    use gumption_engine::fact;
     use gumption_engine::number::CodePath;
     use gumption_engine::propagate::gum::{Dof, Gum};
     use gumption_engine::propagate::{Control, Evaluation, evaluate, trial_hash, warnings};
@@ -217,7 +218,7 @@ mod tests {
         ] {
             let (evaluation, said) = run(inputs, rest, equation);
             assert_eq!(gum(&evaluation).standard_uncertainty, 0.0, "{equation}");
-            assert!(said.iter().all(|warning| warning.code != "non-linear"), "{said:?}");
+            assert!(said.iter().all(|warning| warning.code() != "non-linear"), "{said:?}");
         }
     }
 
@@ -236,7 +237,7 @@ mod tests {
             gum(&evaluation).correlations().map(|line| line.variables).collect();
         // 2 is the constant that the component is added to
         assert_eq!(pairs, [[0, 1], [0, 3], [1, 3]]);
-        assert!(said.iter().all(|warning| warning.code != "gaussian-copula"));
+        assert!(said.iter().all(|warning| warning.code() != "gaussian-copula"));
     }
 
     #[test]
@@ -291,9 +292,9 @@ mod tests {
         let declared = "\"correlations\": [[\"a\", \"c\", 0.5]],";
         let (evaluation, said) = run(&inputs, declared, "a + b + c");
         assert_eq!(evaluation.copula, [0, 2]);
-        let note = said.iter().find(|w| w.code == "gaussian-copula").unwrap();
-        assert!(note.text.starts_with("`a`, `c` are drawn by a Gaussian copula"), "{}", note.text);
+        let note = said.iter().find(|w| w.code() == "gaussian-copula").unwrap();
+        assert_eq!(note.fact, fact!("gaussian-copula", names = vec!["`a`", "`c`"]));
         let (_, said) = run(&inputs, "", "a + b + c");
-        assert!(said.iter().all(|warning| warning.code != "gaussian-copula"));
+        assert!(said.iter().all(|warning| warning.code() != "gaussian-copula"));
     }
 }

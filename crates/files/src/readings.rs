@@ -6,6 +6,8 @@ use std::sync::Arc;
 
 use super::{keys, samples};
 use gumption_engine::decimal::{self, to_15_digits};
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::number::Shortest;
 use gumption_engine::regression::{CurveFunction, Spread};
 use gumption_engine::special;
@@ -22,7 +24,7 @@ use gumption_units::{Unit, nearest};
 pub(super) struct FileReadings {
     /// The readings, or the means of the groups.
     pub(super) values: Vec<f64>,
-    pub(super) note: Option<String>,
+    pub(super) note: Option<Fact>,
 }
 
 /// Whether the readings are named by columns of the conditions, so that every row has its own.
@@ -128,33 +130,24 @@ fn grouped(
     let within_dof = (values.len() - count) as f64;
     let whole = mean(&means);
     let of_means = squares(&means, whole) / (count as f64 - 1.0);
-    let shown = |x: f64| decimal::significant(x, 3);
+    let shown = |x: f64, digits| Argument::Number(decimal::significant(x, digits));
     let sizes: Vec<usize> = groups.iter().map(|(_, members)| members.len()).collect();
     let size = sizes.first().copied().unwrap_or(0);
     let balanced = sizes.iter().all(|of| *of == size);
     let repeatability = (within / within_dof).sqrt();
-    let mut note = format!(
-        "`{name}` is the mean of {count} groups of readings; its standard uncertainty is that of the \
-         means of the groups, with {} degrees of freedom (JCGM 100, H.5)",
-        count - 1
-    );
-    if within_dof > 0.0 && repeatability > 0.0 {
-        note.push_str(&format!("; standard deviation within groups {}", shown(repeatability)));
-        if balanced {
+    let within = (within_dof > 0.0 && repeatability > 0.0).then(|| {
+        let between = if balanced {
             let ratio = size as f64 * of_means / (repeatability * repeatability);
             let between = (of_means - repeatability * repeatability / size as f64).max(0.0).sqrt();
             let p = f_upper(ratio, count as f64 - 1.0, within_dof);
-            note.push_str(&format!(
-                ", between groups {}, F = {} (probability of a larger one without an effect of the \
-                 groups {})",
-                shown(between),
-                shown(ratio),
-                decimal::significant(p, 2)
-            ));
+            let (deviation, ratio) = (shown(between, 3), shown(ratio, 3));
+            fact!("groups.between", deviation, ratio, probability = shown(p, 2))
         } else {
-            note.push_str("; the groups are not equally large, and their means count alike");
-        }
-    }
+            fact!("groups.of-other-sizes")
+        };
+        fact!("groups.within", deviation = shown(repeatability, 3), between)
+    });
+    let note = fact!("nested-readings", name, groups = count, dof = count - 1, within);
     Some(FileReadings { values: means, note: Some(note) })
 }
 
@@ -171,7 +164,7 @@ const LEAST_FOR_AUTOCORRELATION: usize = 10;
 /// test of the slope of a straight line, two-sided), or a positive autocorrelation (von Neumann's
 /// ratio, by its normal approximation). Each finds something in one of 100 sets of independent normal
 /// readings.
-pub(super) fn dependence(name: &str, values: &[f64]) -> Option<String> {
+pub(super) fn dependence(name: &str, values: &[f64]) -> Option<Fact> {
     let n = values.len() as f64;
     if values.len() < LEAST_FOR_DRIFT {
         return None;
@@ -188,14 +181,8 @@ pub(super) fn dependence(name: &str, values: &[f64]) -> Option<String> {
     let left = (squares - slope * slope * of_times).max(0.0);
     let critical = special::student::two_sided_factor(0.99, n - 2.0);
     if slope * slope * of_times * (n - 2.0) > critical * critical * left {
-        return Some(format!(
-            "`{name}`: the {} readings drift: a straight line through them changes by {} from the \
-             first to the last; one as steep comes from independent readings in at most 1 case of \
-             100. s/sqrt(n) holds for independent readings only (JCGM 100, 4.2.7): correct the drift, \
-             or state what it leaves",
-            values.len(),
-            decimal::significant(slope * (n - 1.0), 3)
-        ));
+        let change = Argument::Number(decimal::significant(slope * (n - 1.0), 3));
+        return Some(fact!("dependent-readings.drift", name, count = values.len(), change));
     }
     if values.len() < LEAST_FOR_AUTOCORRELATION {
         return None;
@@ -204,14 +191,8 @@ pub(super) fn dependence(name: &str, values: &[f64]) -> Option<String> {
     let score = (steps / squares - 2.0) / (4.0 * (n - 2.0) / (n * n - 1.0)).sqrt();
     let critical = special::normal::quantile(0.01);
     (score < critical).then(|| {
-        format!(
-            "`{name}`: the {} readings are not independent: each is near the one before it (von \
-             Neumann's ratio {}, 2 for independent readings; one as small comes from those in at most \
-             1 case of 100). s/sqrt(n) is too small then (JCGM 100, 4.2.7): take readings further \
-             apart, or means of groups",
-            values.len(),
-            decimal::significant(steps / squares, 3)
-        )
+        let ratio = Argument::Number(decimal::significant(steps / squares, 3));
+        fact!("dependent-readings", name, count = values.len(), ratio)
     })
 }
 
@@ -348,10 +329,16 @@ mod tests {
         let [mean, u, dof] = known(&file, 0);
         assert!((mean - 10.000_097).abs() < 0.5e-6, "{mean}");
         assert!((u - 18e-6).abs() < 0.5e-6 && dof == 9.0, "{u} {dof}");
-        let note = file.warnings[0].text.as_str();
         // published: 85 uV within days, 43 uV between them, F = 2.25 by rounded numbers
-        assert!(note.contains("within groups 0.0000849, between groups 0.0000426"), "{note}");
-        assert!(note.contains("F = 2.26"), "{note}");
+        let Some(Argument::Fact(within)) = file.warnings[0].fact.argument("within") else {
+            panic!("{:?}", file.warnings);
+        };
+        assert_eq!(within.argument("deviation"), Some(&Argument::number("0.0000849")));
+        let Some(Argument::Fact(between)) = within.argument("between") else {
+            panic!("{within:?}");
+        };
+        assert_eq!(between.argument("deviation"), Some(&Argument::number("0.0000426")));
+        assert_eq!(between.argument("ratio"), Some(&Argument::number("2.26")));
     }
 
     /// Columns of the conditions' table, and degrees of freedom by a formula.
@@ -400,7 +387,7 @@ mod tests {
             {"name": "rep", "distribution": "readings", "values": [1, 1, 1]},
             {"name": "res", "distribution": "rectangular", "half_width": 0.05}]}"#;
         let file = model(components, "", &[]).unwrap();
-        assert!(file.warnings[0].text.contains("no scatter"));
+        assert_eq!(file.warnings[0].fact, fact!("no-scatter", name = "x/rep"));
         let alone = r#"{"unit": "V", "distribution": "readings", "values": [1, 1, 1]}"#;
         assert!(model(alone, "", &[]).unwrap_err().to_string().contains("no scatter"));
     }
@@ -453,9 +440,11 @@ mod tests {
     fn drifting_readings_are_noticed() {
         let drift: Vec<f64> = (1..=12).map(|i| 1.0 + f64::from(i) / 1000.0).collect();
         let note = dependence("x", &drift).unwrap();
-        assert!(note.contains("drift") && note.contains("0.0110"), "{note}");
+        let change = Argument::number("0.0110");
+        let count = drift.len();
+        assert_eq!(note, fact!("dependent-readings.drift", name = "x", count, change));
         let wave: Vec<f64> = (0..24).map(|i| elementary::sin(f64::from(i) * 0.5)).collect();
-        assert!(dependence("x", &wave).unwrap().contains("von Neumann"));
+        assert_eq!(dependence("x", &wave).unwrap().key, "dependent-readings");
         let alternating: Vec<f64> = (0..12).map(|i| f64::from(i % 2)).collect();
         assert_eq!(dependence("x", &alternating), None);
         assert_eq!(dependence("x", &drift[..5]), None);

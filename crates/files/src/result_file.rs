@@ -16,6 +16,7 @@ use gumption_engine::distribution::{
     Constant, Distribution, Occasion, Origin, Root, RootCorrelation, RootFigures, RootName, Saved,
     SavedResult, Scores,
 };
+use gumption_engine::fact;
 use gumption_engine::task::Warning;
 use gumption_text::json::{Json, Node};
 use gumption_text::object::Object;
@@ -172,13 +173,9 @@ impl<'a> Reader<'a> {
             }
         }
         let file = &self.log.source.name;
-        let note = |code, text| (vec![Warning::new(code, file, text)], false);
+        let note = |fact| (vec![Warning::new(file, fact)], false);
         let Some(stated) = self.root.get(integrity::DIGEST) else {
-            let text = format!(
-                "`{file}` has no digest of itself, as those of older versions: whether it was \
-                 changed since it was saved cannot be told"
-            );
-            return note("result-without-digest", text);
+            return note(fact!("result-without-digest", file));
         };
         // it is JSON, and its root an object: this was read before
         let Ok(content) = serde_json::from_str::<Map<String, Value>>(&self.log.source.text) else {
@@ -191,18 +188,9 @@ impl<'a> Reader<'a> {
         }
         let changed = integrity::changed(&content);
         if self.accepted {
-            let where_ = match changed.as_slice() {
-                [] => String::new(),
-                some => {
-                    let some: Vec<&str> =
-                        some.iter().take(MOST_CHANGES).map(String::as_str).collect();
-                    format!(" ({})", some.join(", "))
-                }
-            };
-            let text = format!(
-                "`{file}` was changed since it was saved{where_}, and is taken all the same"
-            );
-            return note("result-changed", text);
+            let parts: Vec<&String> = changed.iter().take(MOST_CHANGES).collect();
+            let parts = (!parts.is_empty()).then(|| fact!("changed-parts", parts));
+            return note(fact!("result-changed", file, parts));
         }
         for part in changed.iter().take(MOST_CHANGES) {
             let place = self.place_of(part).unwrap_or(&stated.key_span);

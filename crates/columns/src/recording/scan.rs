@@ -9,6 +9,8 @@ use sha2::{Digest, Sha256};
 use super::{
     BLOCK, Digesting, InMemorySamples, MOST_IN_MEMORY, Measured, Reading, Recording, place,
 };
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::number::Shortest;
 use gumption_engine::fact;
 use gumption_engine::fact::{Argument, Fact};
@@ -67,7 +69,7 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
         ));
     }
     let rate = scanned.rate(stated);
-    let of_preamble = passed_by.map(|fact| Warning::new(&reading.name, fact));
+    let of_preamble = passed_by.map(|text| Warning::new(&reading.name, fact!("preamble", text)));
     let mut warnings: Vec<Warning> = of_preamble.into_iter().collect();
     warnings.extend(scanned.suspects(rate.value, channels));
     if let Some(scatter) = scanned.clock.as_ref().map(Clock::scatter)
@@ -324,8 +326,13 @@ impl<'r> Scanned<'r> {
                 name,
                 stated = stated.value,
                 whose,
+<<<<<<< HEAD
                 found = Argument::number(significant(found)),
                 times = Argument::number(significant(stated.value / found)),
+=======
+                found = Argument::Number(significant(found).to_string()),
+                times = Argument::Number(significant(stated.value / found).to_string()),
+>>>>>>> 1cb3c0e8626e4ae65db00ec4eab658b8261318ad
             );
             Warning::new(name, fact)
         })

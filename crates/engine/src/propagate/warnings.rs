@@ -339,9 +339,8 @@ fn of_difference(
     if (u - linear).abs() <= f64::max(NOTEWORTHY * linear, 3.0 * error).max(rounding) {
         return;
     }
-    let percent = |from: f64| {
-        Argument::Number(format!("{:.0} %", 100.0 * (from / linear - 1.0).abs()))
-    };
+    let percent =
+        |from: f64| Argument::Number(format!("{:.0} %", 100.0 * (from / linear - 1.0).abs()));
     // what is not finite without such a distribution left the range of double precision
     let has_t = output.drawn_dof.is_finite() || drawn.is_finite();
     let by_dof = drawn > (1.0 + NOTEWORTHY) * linear && has_t;
@@ -393,8 +392,7 @@ fn fewest(output: &OutputEvaluation) -> Option<Fact> {
 /// What the terms of second order of the law of propagation make of it, and which products matter
 /// though nothing is seen of them at the estimates.
 fn second_order(task: &Task, gum: &Gum, second: &SecondOrder) -> Fact {
-    let number =
-        |value: f64| Argument::Number(significant(value, task.settings.digits.max(2)));
+    let number = |value: f64| Argument::Number(significant(value, task.settings.digits.max(2)));
     let name = |v: usize| task.variables.get(v).map_or("", |variable| variable.name.as_str());
     let lines: HashMap<usize, BudgetLine> =
         gum.budget().map(|line| (line.variable, line)).collect();

@@ -3,6 +3,8 @@
 use super::super::effect_context::EffectContext;
 use super::measured::Measured;
 use super::{ANY_BENCH, Catalogue, Entry};
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::model::Output;
 use gumption_engine::model::formula::Formula;
 use gumption_gap::OverridableModel;
@@ -31,55 +33,43 @@ impl Misfit {
     }
 
     /// What is missing and what would be needed, after "it".
-    pub(super) fn reason(&self, shipped: &Catalogue, sim: &OverridableModel) -> String {
-        let called = |name: &str| {
-            let quoted = shipped.alternatives(name).into_iter().map(|name| format!("`{name}`"));
-            quoted.collect::<Vec<_>>().join(" or ")
+    pub(super) fn reason(&self, shipped: &Catalogue, sim: &OverridableModel) -> Fact {
+        let called = |name: &String| {
+            let names = shipped.alternatives(name).into_iter();
+            Argument::one_of(names.map(|name| fact!("quoted", name)).collect())
         };
-        let all =
-            |names: &[String]| names.iter().map(|name| called(name)).collect::<Vec<_>>().join(", ");
-        let overrides: Vec<String> =
-            self.overrides.iter().map(|name| kind_in_words(name).unwrap_or(called(name))).collect();
-        let overrides = overrides.join(", ");
-        let mut reason = "does not fit this sim".to_owned();
+        let all = |names: &[String]| names.iter().map(called).collect::<Vec<_>>();
+        let overrides = self.overrides.iter().map(|key| match key.as_str() {
+            "{amplitude}" => fact!("observed.amplitudes").into(),
+            "{phase}" => fact!("observed.phases").into(),
+            _ => called(key),
+        });
+        let overrides: Vec<Argument> = overrides.collect();
         let mut needs = Vec::new();
         if !self.reads.is_empty() {
-            needs.push(format!("needs {}", all(&self.reads)));
+            needs.push(fact!("misfit.needs", quantities = all(&self.reads)));
         }
-        if !self.missing.is_empty() {
-            reason.push_str(&format!(", which has no {}", all(&self.missing)));
-            needs.push(format!("changes {overrides}"));
+        let why = if !self.missing.is_empty() {
+            needs.push(fact!("misfit.changes", quantities = overrides));
+            fact!("misfit.missing", quantities = all(&self.missing))
         } else if let Some(prior) = &self.unsized_prior {
-            reason.push_str(&format!(": its prior is {prior}, which the data do not give"));
+            fact!("misfit.prior", prior)
         } else {
-            reason.push_str(&format!(", which has none of what it changes: {overrides}"));
-        }
+            fact!("misfit.unchanged", quantities = overrides)
+        };
         let conditions = &sim.conditions;
         let known = |name: &&str| conditions.iter().any(|condition| condition.name == *name);
-        let targets = self.overrides.iter().flat_map(|name| shipped.alternatives(name));
-        if let Some(condition) = targets.into_iter().find(known).filter(|_| !self.acts) {
-            reason.push_str(&format!(
-                "; the condition `{condition}` is set and known: make it a quantity that is \
-                 computed from the condition, or an input whose mean is the condition"
-            ));
-        }
-        if !needs.is_empty() {
-            let bench = match self.bench.as_str() {
-                ANY_BENCH => "it".to_owned(),
-                bench => format!("on the bench `{bench}` it"),
-            };
-            reason.push_str(&format!("; {bench} {}", needs.join(" and ")));
-        }
-        reason
-    }
-}
-
-/// A kind of outputs in words, for a key that stands for one of each.
-fn kind_in_words(key: &str) -> Option<String> {
-    match key {
-        "{amplitude}" => Some("each observed output that is no phase".to_owned()),
-        "{phase}" => Some("each observed output that is a phase".to_owned()),
-        _ => None,
+        let mut targets = self.overrides.iter().flat_map(|name| shipped.alternatives(name));
+        let condition = targets.find(known).filter(|_| !self.acts);
+        let condition = condition.map(|name| fact!("misfit.condition", name));
+        let needs = (!needs.is_empty()).then(|| {
+            let needs = Argument::all_of(needs);
+            match self.bench.as_str() {
+                ANY_BENCH => fact!("misfit.anywhere", needs),
+                bench => fact!("misfit.on-bench", bench, needs),
+            }
+        });
+        fact!("misfit", why, condition, needs)
     }
 }
 

@@ -22,6 +22,8 @@ use super::effect_context::EffectContext;
 use super::effects::{self, Placed};
 use super::results::ResultFiles;
 use fit::Misfit;
+use gumption_engine::fact;
+use gumption_engine::fact::Fact;
 use gumption_engine::task::Warning;
 use gumption_text::json::{self, Json, Member, Node};
 use gumption_text::object::Object;
@@ -160,10 +162,6 @@ pub fn catalogue() -> EffectListing {
 /// The value of `catalogue` that stands for every effect that can act on the sim.
 const ALL: &str = "all";
 
-/// Why an effect of what came before does not fit.
-const NO_HISTORY: &str = "does not fit these data: the order of their rows does not tell what it needs \
-                          apart from the conditions, as where a condition only rises";
-
 /// Adds the effects that a case asks for after its own; one that does not fit the sim is left out with
 /// a note. Without a sim, because the model has mistakes, only their names are checked.
 pub(super) fn read(
@@ -213,20 +211,19 @@ pub(super) fn read(
             log.report(&node.span, DiagnosticKind::Effect { name, reason });
             clean = false;
         } else if let (Some(sim), Some(here)) = (&sim, &here) {
-            let mut left_out = |reason: &str| {
-                let text = format!("the effect `{name}` is left out: it {reason}");
-                warnings.push(Warning::new("effect-misfit", name, text));
+            let mut left_out = |reason: Fact| {
+                warnings.push(Warning::new(name, fact!("effect-misfit", name, reason)))
             };
             let mut names: Vec<&str> =
                 here.entries.iter().filter(is_named).map(|of| &*of.name).collect();
             names.dedup();
             if names.is_empty() {
-                left_out(NO_HISTORY);
+                left_out(fact!("misfit.history"));
             }
             for name in names {
                 match one(here, name, sim, results, &mut notes) {
                     Ok(candidate) => own.push(Placed { candidate, place: node.span.clone() }),
-                    Err(reason) => left_out(&reason),
+                    Err(reason) => left_out(reason),
                 }
             }
         }
@@ -261,19 +258,19 @@ fn one(
     sim: &EffectContext<'_>,
     results: &ResultFiles<'_>,
     warnings: &mut Vec<Warning>,
-) -> Result<gumption_gap::Candidate, String> {
+) -> Result<gumption_gap::Candidate, Fact> {
     let member = chosen(shipped, name, sim).map_err(|misfit| misfit.reason(shipped, sim.sim))?;
     let log = Collector::new(shipped.source.clone());
     let read = effects::read_one(&log, &member, Some(sim.sim), results, warnings);
     match read.filter(|_| log.is_clean()) {
         Some(placed) if !sim.is_changed_by(&placed.candidate.effect) => {
-            Err("changes no observed output".to_owned())
+            Err(fact!("misfit.no-change"))
         }
         Some(placed) => Ok(placed.candidate),
         None => {
             let diagnostics = log.into_diagnostics();
             let first = diagnostics.0.first().map(|diagnostic| diagnostic.kind.to_string());
-            Err(format!("cannot act on this sim: {}", first.unwrap_or_default()))
+            Err(fact!("misfit.refused", error = first.unwrap_or_default()))
         }
     }
 }

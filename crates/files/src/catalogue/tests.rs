@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::super::effect_context::EffectContext;
 use super::super::{CaseFile, FileReader};
 use super::{ANY_BENCH, Catalogue, TEXT, catalogue, fit};
+use gumption_engine::fact;
 use gumption_engine::model::formula::is_name;
 use gumption_engine::task::Warning;
 use gumption_gap::{History, HistoryKind};
@@ -231,7 +232,7 @@ fn every_effect_fits_its_bench_without_a_warning() {
                 panic!("{} on {}: {kinds:?}", entry.name, bench.name);
             });
             // an input of the bench that is there for other effects
-            let of_effect = |note: &&Warning| note.code != "unused-input";
+            let of_effect = |note: &&Warning| note.code() != "unused-input";
             let said: Vec<&Warning> = file.warnings.iter().filter(of_effect).collect();
             assert!(said.is_empty(), "{}: {said:?}", entry.name);
             assert_eq!(file.case.candidates[0].effect.name, entry.name);
@@ -536,8 +537,9 @@ fn an_effect_that_does_not_fit_says_what_it_needs() {
     let says = |bench: &Bench, name: &str| {
         let file = bench.read(&[name]).unwrap();
         assert!(file.case.candidates.is_empty(), "{name} was taken");
-        let notes = file.warnings.into_iter().filter(|note| note.code == "effect-misfit");
-        notes.map(|note| note.text).collect::<Vec<_>>().join("\n")
+        let notes = file.warnings.into_iter().filter(|note| note.code() == "effect-misfit");
+        let said = notes.map(|note| sentence(&note.fact, Language::English));
+        said.collect::<Vec<_>>().join("\n")
     };
     let text = says(&CHAIN, "lateral-mode");
     for needed in
@@ -582,7 +584,7 @@ fn all_are_those_that_fit_one_by_one() {
         assert!(!fitting.is_empty() && fitting.len() < names.len());
         assert_eq!(all.iter().copied().collect::<BTreeSet<_>>(), fitting, "{}", bench.name);
         assert!(file.case.shipped.is_empty());
-        assert!(file.warnings.iter().all(|note| note.code != "effect-misfit"));
+        assert!(file.warnings.iter().all(|note| note.code() != "effect-misfit"));
     }
 }
 
@@ -619,9 +621,13 @@ fn effects_of_what_came_before() {
     assert_close("hysteresis", &with(&LOOP, "hysteresis", &[0.5, 0.3], row(8)), &[2.0]);
     let note = |bench: &Bench, name: &str| {
         let file = bench.read(&[name]).unwrap();
-        file.warnings.into_iter().find(|note| note.code == "effect-misfit").map(|note| note.text)
+        file.warnings.into_iter().find(|note| note.code() == "effect-misfit").map(|note| note.fact)
     };
-    assert!(note(&OTHER, "hysteresis").unwrap().contains("only rises"));
+    let reason = fact!("misfit.history");
+    assert_eq!(
+        note(&OTHER, "hysteresis"),
+        Some(fact!("effect-misfit", name = "hysteresis", reason))
+    );
 }
 
 /// Overrides of outputs that a sim does not have are left out.

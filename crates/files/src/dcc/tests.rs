@@ -63,7 +63,7 @@ fn expanded([u, k, p, law]: [&str; 4]) -> String {
 }
 
 fn has_note(file: &ModelFile, code: &str) -> bool {
-    file.warnings.iter().any(|note| note.code == code)
+    file.warnings.iter().any(|note| note.code() == code)
 }
 
 fn certificate(version: &str, quantities: &str) -> String {
@@ -129,7 +129,7 @@ fn values_of_all_versions() {
     let rectangular = REAL.replace("normal<", "uniform<").replace("Factor>2<", "Factor>1.65<");
     let file = model(&certificate("3.2.1", &rectangular), r#""id": "v""#, "").unwrap();
     assert_eq!(file.task.rows[0].distributions[0].name(), "rectangular");
-    assert!(file.warnings.iter().all(|note| note.code != "certificate-distribution"));
+    assert!(file.warnings.iter().all(|note| note.code() != "certificate-distribution"));
     // sqrt(2) sin(0.475 pi) of the arcsine distribution is 1.41
     for (called, k, name, is_noted) in [
         ("Gaussian", 2.0, "normal", false),
@@ -141,7 +141,7 @@ fn values_of_all_versions() {
         let file = model(&certificate("3.2.1", &text), r#""id": "v""#, "").unwrap();
         near(known(&file, 0), [5.0112, 0.0046 / k]);
         assert_eq!(file.task.rows[0].distributions[0].name(), name, "{called}");
-        let noted = file.warnings.iter().any(|note| note.code == "certificate-distribution");
+        let noted = file.warnings.iter().any(|note| note.code() == "certificate-distribution");
         assert_eq!(noted, is_noted, "{called}");
     }
 }
@@ -451,12 +451,12 @@ fn coverage_intervals_are_no_further_values() {
         {
             near(known(&file, row), expected);
         }
-        assert!(file.warnings.iter().any(|note| note.code == "interval-uncertainty"));
+        assert!(file.warnings.iter().any(|note| note.code() == "interval-uncertainty"));
         let file = model(&xml, &format!(r#"{kind}, "index": 0"#), "").unwrap();
         near(known(&file, 0), [0.11, 0.06749]);
         let file = model(&xml, &format!(r#"{kind}, "index": 2"#), "").unwrap();
         near(known(&file, 0), [0.17, 0.09]);
-        assert!(file.warnings.iter().all(|note| note.code != "interval-uncertainty"));
+        assert!(file.warnings.iter().all(|note| note.code() != "interval-uncertainty"));
     }
     // one row: the value stands twice, and there is one
     let one = INTERVAL

@@ -3,6 +3,8 @@
 use std::sync::Arc;
 
 use gumption_engine::decimal::to_digits;
+use gumption_engine::fact;
+use gumption_engine::fact::Argument;
 use gumption_engine::model::formula::Typing;
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::number::{Shortest, elementary};
@@ -73,15 +75,9 @@ pub(crate) fn notes(
         // digits of the range, where it is short beside its distance from zero, as of dates
         let far = low.abs().max(high.abs()).max(x.abs()) / (high - low);
         let digits = DIGITS + elementary::log10(far.clamp(1.0, FARTHEST)).ceil() as u32;
-        let of = |x: f64| curve.x.after(&Shortest(to_digits(x, digits)).to_string());
-        let text = format!(
-            "`{name}` is used at x = {}, and its points lie from {} to {}: beyond them nothing says that \
-             the form holds, and the stated uncertainty supposes that it does",
-            of(x),
-            of(low),
-            of(high)
-        );
-        notes.push(Warning::new("extrapolation", name, text));
+        let [x, low, high] = [x, low, high]
+            .map(|x| Argument::Number(curve.x.after(&Shortest(to_digits(x, digits)).to_string())));
+        notes.push(Warning::new(name, fact!("extrapolation", name, x, low, high)));
     }
     notes
 }

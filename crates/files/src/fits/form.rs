@@ -4,6 +4,8 @@ use std::collections::HashMap;
 
 use super::super::scopes::report_formula;
 use super::parameter_units;
+use gumption_engine::fact;
+use gumption_engine::fact::Fact;
 use gumption_engine::model::formula::{Formula, Scope, Typing, check_name};
 use gumption_engine::model::{NumberForm, Program, Recorder, Traced};
 use gumption_text::DiagnosticKind;
@@ -38,7 +40,7 @@ pub(super) struct Made {
     /// Values near them.
     pub(super) start: Vec<f64>,
     /// What is to be known of their units.
-    pub(super) note: Option<String>,
+    pub(super) note: Option<Fact>,
 }
 
 impl<'a> FitForm<'a> {
@@ -169,12 +171,7 @@ impl<'a> FitForm<'a> {
             fit.log.report(&member.value.span, DiagnosticKind::Value { key, found, reason });
             return None;
         }
-        let note = is_unchecked.then(|| {
-            format!(
-                "units are not checked in the formula of `{fit_name}`: it computes with x in {x} and \
-                 y in {y}, and its parameters are plain numbers; give those of `start` with units"
-            )
-        });
+        let note = is_unchecked.then(|| fact!("fit-units-not-checked", name = fit_name, x, y));
         let note = note.filter(|_| !x.factors().is_empty() || !y.factors().is_empty());
         for ((_, unit, _), inferred) in
             start.parameters.iter_mut().zip(inferred.into_iter().flatten())

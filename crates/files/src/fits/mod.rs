@@ -16,6 +16,8 @@ use super::input_set::InputSet;
 use super::keys;
 use form::FitForm;
 use gumption_engine::distribution::{Distribution, EvaluationType, Fitted};
+use gumption_engine::fact;
+use gumption_engine::fact::Argument;
 use gumption_engine::model::formula::check_name;
 use gumption_engine::model::{InputQuantity, NumberForm, Quantity};
 use gumption_engine::regression::{
@@ -169,9 +171,7 @@ impl FitReader<'_, '_> {
             }
             (FitForm::Formula(..), Some(made)) => {
                 let curve = Curve::Program(made.program);
-                self.set.warnings.extend(
-                    made.note.map(|text| Warning::new("fit-units-not-checked", self.name, text)),
-                );
+                self.set.warnings.extend(made.note.map(|fact| Warning::new(self.name, fact)));
                 let fitted = Regression::of(self.name, &curve, &points, &made.start);
                 (fitted, Some(made.parameters))
             }
@@ -216,15 +216,11 @@ impl FitReader<'_, '_> {
             return None;
         }
         if fitted.is_valid() == Some(false) {
-            let text = format!(
-                "the points do not agree with `{}`: chi-squared is {:.4} with {} degrees of freedom, \
-                 above its 95 % quantile {:.4}; the form or the stated uncertainties are wrong",
-                self.name,
-                fitted.chi2,
-                fitted.dof,
-                fitted.limit_of_chi2().unwrap_or(f64::NAN)
-            );
-            self.set.warnings.push(Warning::new("fit-not-valid", self.name, text));
+            let name = self.name;
+            let [chi2, limit] = [fitted.chi2, fitted.limit_of_chi2().unwrap_or(f64::NAN)]
+                .map(|number| Argument::Number(format!("{number:.4}")));
+            let fact = fact!("fit-not-valid", name, chi2, dof = fitted.dof, limit);
+            self.set.warnings.push(Warning::new(name, fact));
         }
         let fit = Arc::new(fitted);
         Some(CurveFunction::new(fit, units, parameters, numbers))

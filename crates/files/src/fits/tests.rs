@@ -342,7 +342,7 @@ fn units_of_parameters_follow() {
     let of = |form: &str, start: &str, unit: &str| {
         let file = read_text("t", &text(form, start, unit), Path::new(""), &[]);
         let file = file.unwrap_or_else(|error| panic!("{form}: {error}"));
-        file.warnings.iter().map(|warning| warning.code).collect::<Vec<_>>()
+        file.warnings.iter().map(|warning| warning.code()).collect::<Vec<_>>()
     };
     assert!(of(form, r#"{"a": 1, "b": 1.5, "c": 2}"#, "N").is_empty());
     for (b, said) in [("1,5 mV/V", "such as `1.5`"), ("1 500 mV/V", "without blanks")] {

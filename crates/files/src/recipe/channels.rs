@@ -9,6 +9,7 @@ use super::recordings::{RecordingFile, SearchFile};
 use super::{check_name, steps};
 use gumption_columns::gravity;
 use gumption_columns::recording::{ColumnName, Conversion, Wanted};
+use gumption_engine::fact;
 use gumption_engine::task::Warning;
 use gumption_signal::{Channel, ChannelRateSearch};
 use gumption_text::json::Member;
@@ -244,11 +245,7 @@ impl ChannelFile {
         let acceleration = super::quantity::own_unit("m/s^2").dimension();
         let meant = gravity::meant(self.own_unit.text(), acceleration)?;
         let (name, unit) = (&self.channel.name, &self.own_unit);
-        let text = format!(
-            "`{name}`: its unit `{unit}` is that of a mass, of grams; an acceleration in units of \
-             standard gravity is in `{meant}`"
-        );
-        Some(Warning::new("grams", name.clone(), text))
+        Some(Warning::new(name, fact!("grams", name, unit, meant = &meant)))
     }
 
     /// Its column, and what its raw values become.

@@ -60,7 +60,7 @@ pub fn sentence(fact: &Fact, language: Language) -> String {
         rest.split_once('{').and_then(|(before, rest)| Some((before, rest.split_once('}')?)))
     {
         said += before;
-        if let Some((_, argument)) = fact.arguments.iter().find(|(known, _)| *known == name) {
+        if let Some(argument) = fact.argument(name) {
             said += &of_argument(argument, language);
         }
         rest = after;

@@ -102,6 +102,7 @@ pub use syntax::TableCall;
 pub use typing::{KelvinKind, LevelReference, Rate, Scope, TableData, Typing};
 
 use super::Traced;
+use crate::fact::Fact;
 use crate::number::{Number, smallest_first};
 use crate::regression::CurveFunction;
 use gumption_units::Unit;
@@ -241,13 +242,13 @@ impl Formula {
     }
 
     /// A factor of the value, or of a term of it, that converts to a unit in which `what` is reported,
-    /// which converts it once more: `(a - b)/b*1e6 + c` in ppm.
+    /// which converts it once more: `(a - b)/b*1e6 + c` in ppm. `what` is a part of the note.
     pub fn converted_to<'u>(
         &self,
         numbers_of: impl Fn(ValueSource<'_>) -> Option<Numbers<'u>>,
         factors_of: impl Fn(&str) -> Option<Factors>,
         unit: &'u Unit,
-        what: &str,
+        what: &Fact,
     ) -> Option<FormulaNote> {
         let walk = note::Walk::new(&self.text, &self.tree, &numbers_of, Use::Quantity);
         let of_products = || {

@@ -8,7 +8,13 @@ use super::message::excerpt;
 use super::note_product::{Factors, factors};
 use super::note_result::taken_up;
 use super::numbers::{Numbers, Scaled, Use, ValueSource};
+<<<<<<< HEAD
 use super::syntax::{Node, NodeKind, Operator, Tree};
+=======
+use super::syntax::{Kind, Node, Operator, Tree};
+use crate::fact;
+use crate::fact::Fact;
+>>>>>>> 1cb3c0e8626e4ae65db00ec4eab658b8261318ad
 use crate::number::{Binary, Unary};
 use gumption_units::{Dimension, Unit};
 
@@ -27,12 +33,22 @@ pub(super) const RESULT_TWICE: &str = "result-converted-twice";
 /// A note on a formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FormulaNote {
-    /// A short name of what it is about.
-    pub code: &'static str,
-    /// What is said.
-    pub text: String,
+    /// What was found.
+    pub fact: Fact,
     /// Where in the formula, a half-open range of bytes.
     pub span: Range<usize>,
+}
+
+impl FormulaNote {
+    /// What was found of a node.
+    pub(super) fn at(node: &Node, fact: Fact) -> Self {
+        Self { fact, span: node.span.clone() }
+    }
+
+    /// A short name of what it is about.
+    pub fn code(&self) -> &'static str {
+        self.fact.code()
+    }
 }
 
 /// The notes on a formula. `numbers_of` gives what the numbers of a name, a column or a coordinate are in,
@@ -53,14 +69,15 @@ pub(super) fn notes<'u>(
     found.extend(walk.conversions());
     found.extend(tree.nodes.iter().filter_map(|node| walk.of_logarithm(node)));
     let result = match of {
-        Use::Output(unit) => Some((unit, "the output")),
-        Use::Estimate(unit) => Some((unit, "the quantity")),
+        Use::Output(unit) => Some((unit, fact!("result.output"))),
+        Use::Estimate(unit) => Some((unit, fact!("result.quantity"))),
         Use::Quantity | Use::Width => None,
     };
+    let result = result.as_ref().map(|(unit, what)| (*unit, what));
     let twice = result.and_then(|(unit, what)| walk.of_ratio(unit, what));
     if let Some(twice) = twice {
         // the factor of `c*100/p` that is reported in % may be meant for either
-        found.retain(|note| !(note.code == SHARE_TWICE && note.span == twice.span));
+        found.retain(|note| !(note.code() == SHARE_TWICE && note.span == twice.span));
         found.push(twice);
     }
     let all = factors(&walk, &numbers_of, factors_of);
@@ -238,27 +255,15 @@ impl<'t, 'u> Walk<'t, 'u> {
 
     /// `phi*pi/180` of an angle in degrees, `p/100` and `c*100/p` of per cent.
     fn converted_twice(&self, node: &Node, unit: &Unit) -> FormulaNote {
-        let quoted = self.quoted(&node.span);
-        let (code, text) = if unit.turn().is_none() {
-            let text = format!(
-                "`{quoted}` converts from {unit} once more: formulas have a share in {unit} as a plain \
-                 number already, so that its name is enough"
-            );
-            (SHARE_TWICE, text)
+        let formula = self.quoted(&node.span);
+        let fact = if unit.turn().is_none() {
+            fact!("share-converted-twice", formula, unit)
         } else if !unit.dimension().is_none() {
-            let text = format!(
-                "`{quoted}` converts to radians per second once more: formulas have what is given in \
-                 {unit} in radians per second already, so that its name is enough"
-            );
-            (RATE_TWICE, text)
+            fact!("rate-converted-twice", formula, unit)
         } else {
-            let text = format!(
-                "`{quoted}` converts to radians once more: formulas have an angle in {unit} in radians \
-                 already, so that its name is enough"
-            );
-            (ANGLE_TWICE, text)
+            fact!("angle-converted-twice", formula, unit)
         };
-        FormulaNote { code, text, span: node.span.clone() }
+        FormulaNote::at(node, fact)
     }
 
     /// What the numbers of a node are in, of those before it.

@@ -4,14 +4,17 @@
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use super::function::Function;
-use super::note::{ANGLE_TWICE, FormulaNote, Walk};
+use super::note::{FormulaNote, Walk};
 use super::numbers::{Scaled, Use};
+<<<<<<< HEAD
 use super::syntax::{Node, NodeKind, Operator};
+=======
+use super::syntax::{Kind, Node, Operator};
+use crate::fact;
+use crate::fact::Fact;
+>>>>>>> 1cb3c0e8626e4ae65db00ec4eab658b8261318ad
 use crate::number::{Binary, Shortest, Unary};
 use gumption_units::{Turn, Unit};
-
-/// The code of numbers without a unit beside a quantity in one.
-const BARE: &str = "bare-number";
 
 /// Beside an angle in degrees, smaller numbers are hardly degrees.
 const SMALLEST_ANGLE: f64 = 0.01;
@@ -82,26 +85,18 @@ impl<'u> Walk<'_, 'u> {
     /// `sin(30)`, which is of 30 rad.
     fn turns(&self, node: &Node, function: Function, argument: usize) -> Option<FormulaNote> {
         let angle = self.constant(argument).filter(|angle| angle.abs() > TAU)?;
-        let text = self.slice(argument);
-        let note = format!(
-            "`{}` takes radians, and {text} rad are more than a turn; an angle in degrees is written \
-             `{text} [deg]`",
-            function.name()
-        );
         let is_told = angle.is_finite() && !self.has_pi(argument);
-        is_told.then(|| note_at(node, "angle-of-turns", note))
+        is_told.then(|| {
+            let (function, angle) = (function.name(), self.slice(argument));
+            FormulaNote::at(node, fact!("angle-of-turns.constant", function, angle))
+        })
     }
 
     /// `sin(t)` of a number of degrees, `t = atan(x)*180/pi`.
     fn degrees(&self, node: &Node, function: Function, argument: usize) -> Option<FormulaNote> {
         self.scaled(argument).counts_degrees().then(|| {
-            let text = format!(
-                "`{}` takes radians, and `{}` is a number of degrees, by its factor of 180/pi; leave \
-                 that factor out, as formulas have angles in radians",
-                function.name(),
-                self.quoted(&self.tree.span(argument))
-            );
-            note_at(node, ANGLE_TWICE, text)
+            let (function, argument) = (function.name(), self.quoted(&self.tree.span(argument)));
+            FormulaNote::at(node, fact!("angle-converted-twice.degrees", function, argument))
         })
     }
 
@@ -207,14 +202,14 @@ impl<'u> Walk<'_, 'u> {
             false => scaled.factor.abs() == 1.0,
         };
         let (name, quoted) = (function.name(), self.quoted(&self.tree.span(of)));
-        let to = if beside.is_angle() { "whole radians" } else { "whole plain numbers" };
         is_plain.then(|| {
-            let text = format!(
-                "`{}` is computed to {to}, as formulas compute, and not to whole {unit}; those are \
-                 `{name}({quoted}/[{unit}])*[{unit}]`",
-                self.quoted(&node.span)
-            );
-            note_at(node, "rounded-as-number", text)
+            let formula = self.quoted(&node.span);
+            let meant = format!("{name}({quoted}/[{unit}])*[{unit}]");
+            let fact = match beside.is_angle() {
+                true => fact!("rounded-as-number.radians", formula, unit, meant),
+                false => fact!("rounded-as-number", formula, unit, meant),
+            };
+            FormulaNote::at(node, fact)
         })
     }
 
@@ -225,6 +220,7 @@ impl<'u> Walk<'_, 'u> {
         number: f64,
         (name, beside): (usize, Neighbour<'_>),
     ) -> FormulaNote {
+<<<<<<< HEAD
         let written = Shortest(number);
         let (whole, quoted) = (self.quoted(&node.span), self.quoted(&self.tree.span(name)));
         let text = match beside {
@@ -234,36 +230,48 @@ impl<'u> Walk<'_, 'u> {
                     None => {
                         let converted = Shortest(unit.from_si(number));
                         format!("the number {written}, that is {converted} {unit}")
+=======
+        let (formula, quantity) = (self.quoted(&node.span), self.quoted(&self.tree.span(name)));
+        let in_unit = |unit: &str| format!("{} [{unit}]", Shortest(number));
+        let fact = match beside {
+            Beside::Unit(unit) => {
+                let (given, meant) = (self.given(name, unit), in_unit(unit.text()));
+                match unit.turn() {
+                    Some(_) => {
+                        fact!("bare-number.radians", formula, number, quantity, given, unit, meant)
+>>>>>>> 1cb3c0e8626e4ae65db00ec4eab658b8261318ad
                     }
-                };
-                format!(
-                    "in `{whole}`, {written} is {is}, as `{quoted}` is {} in {unit}; {written} {unit} are \
-                     written `{written} [{unit}]`",
-                    self.is_given(name)
-                )
+                    None => {
+                        let converted = unit.from_si(number);
+                        fact!(
+                            "bare-number",
+                            formula,
+                            number,
+                            converted,
+                            quantity,
+                            given,
+                            unit,
+                            meant
+                        )
+                    }
+                }
             }
             Neighbour::Angle => {
                 let unit = self.unit_of_result().map_or("deg", Unit::text);
-                format!(
-                    "in `{whole}`, {written} is {written} rad, as `{quoted}` is an angle in radians; \
-                     {written} {unit} are written `{written} [{unit}]`"
-                )
+                let meant = in_unit(unit);
+                fact!("bare-number.angle", formula, number, quantity, unit, meant)
             }
         };
-        note_at(node, BARE, text)
+        FormulaNote::at(node, fact)
     }
 
     /// How a quantity comes to its unit.
-    fn is_given(&self, name: usize) -> &'static str {
+    fn given(&self, name: usize, unit: &Unit) -> Fact {
         match self.scaled(name).is_computed {
-            true => "computed from what is given",
-            false => "given",
+            true => fact!("beside.computed", unit),
+            false => fact!("beside.given", unit),
         }
     }
-}
-
-fn note_at(node: &Node, code: &'static str, text: String) -> FormulaNote {
-    FormulaNote { code, text, span: node.span.clone() }
 }
 
 /// Whether a unit is a ratio of like units, `mV/V`, and no share.

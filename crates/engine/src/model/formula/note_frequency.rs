@@ -8,6 +8,7 @@ use super::note_result::terms;
 use super::numbers::{Use, is_same_factor};
 use super::syntax::{Node, NodeKind, Operator, Tree};
 use super::typing::{RATE, Scope, Typing};
+use crate::fact;
 use crate::number::Unary;
 use gumption_units::{Dimension, Exponent, Turn, Unit};
 
@@ -27,12 +28,8 @@ pub(super) fn angular(text: &str, tree: &Tree, scope: &Scope) -> Option<FormulaN
     let terms = terms(tree, &walk.constants).into_iter().filter(|term| !term.is_factor);
     let index = terms.map(|term| term.index).find(|index| typed.is_angular(*index))?;
     let span = tree.span(index);
-    let quoted = walk.quoted(&span);
-    let text = format!(
-        "`{quoted}` is an angular frequency, in radians per second, by what it is made of, and is reported \
-         as a frequency; that is `({quoted})/(2*pi)`, and an angular frequency is reported in `rad/s`"
-    );
-    Some(FormulaNote { code: "radians-as-periods", text, span })
+    let formula = walk.quoted(&span);
+    Some(FormulaNote { fact: fact!("radians-as-periods", formula), span })
 }
 
 /// A torque in N m times what is in 1/min or Hz. `unit_of` gives the units of names that are given in one.
@@ -62,12 +59,8 @@ pub(super) fn torque<'u>(
         }
         torques == 1 && rates == 1 && is_same_factor(factor, 1.0)
     })?;
-    let quoted = walk.quoted(&node.span);
-    let text = format!(
-        "`{quoted}` multiplies a torque by periods, as its rate counts no angle, and the work of a torque is \
-         by radians; the power is `2*pi*{quoted}`, or give the rate in `rpm`"
-    );
-    Some(FormulaNote { code: "periods-as-radians", text, span: node.span.clone() })
+    let formula = walk.quoted(&node.span);
+    Some(FormulaNote::at(node, fact!("periods-as-radians.torque", formula)))
 }
 
 /// Whether a unit is that of a torque and not of an energy: `N m`, `kN*m`.

@@ -7,6 +7,7 @@ use super::note::{FormulaNote, Walk};
 use super::numbers::Use;
 use super::syntax::{Node, NodeKind, Operator, Tree};
 use super::typing::{Scope, Typing};
+use crate::fact;
 use crate::number::Unary;
 use gumption_units::Dimension;
 
@@ -36,18 +37,13 @@ pub(super) fn of_other_kind(text: &str, tree: &Tree, scope: &Scope) -> Option<Fo
     let typings = check(text, tree, scope, true).typings;
     levels.into_iter().find_map(|Level { node, factor, argument }| {
         let compared = compared(&walk, argument, &typings)?;
-        let (kind, right) = match factor {
-            10.0 if ROOT_POWER.contains(&compared) => ("root-power quantities", "20"),
-            20.0 if POWER.contains(&compared) => ("powers", "10"),
+        let formula = walk.quoted(&node.span);
+        let fact = match factor {
+            10.0 if ROOT_POWER.contains(&compared) => fact!("level-of-other-kind", formula),
+            20.0 if POWER.contains(&compared) => fact!("level-of-other-kind.powers", formula),
             _ => return None,
         };
-        let quoted = walk.quoted(&node.span);
-        let text = format!(
-            "`{quoted}` is {factor} times the logarithm of a ratio of {kind}, whose level is {right} times \
-             it; powers have 10, and voltages, currents, sound pressures and the like, whose squares are \
-             powers, have 20"
-        );
-        Some(FormulaNote { code: "level-of-other-kind", text, span: node.span.clone() })
+        Some(FormulaNote::at(node, fact))
     })
 }
 

@@ -12,6 +12,8 @@ use super::numbers::{Numbers, Use, ValueSource, is_same_factor};
 use super::syntax::{Node, NodeKind, Operator};
 use super::typing::RATE;
 use crate::decimal::{to_15_digits, to_digits};
+use crate::fact;
+use crate::fact::{Argument, Fact};
 use crate::number::elementary::{log10, pow};
 use crate::number::{Binary, Shortest, Unary};
 use gumption_units::{Turn, Unit};
@@ -190,9 +192,10 @@ struct Converted {
 }
 
 /// A factor in six digits, as somebody writes it: 1/60 for 0.0166667.
-fn shown(factor: f64) -> String {
+fn shown(factor: f64) -> Argument {
     let [own, inverse] = [factor, 1.0 / factor].map(|x| Shortest(to_digits(x, 6)).to_string());
-    if own.len() > 8 && inverse.len() + 1 < own.len() { format!("1/{inverse}") } else { own }
+    let is_inverse = own.len() > 8 && inverse.len() + 1 < own.len();
+    Argument::Number(if is_inverse { format!("1/{inverse}") } else { own })
 }
 
 /// What of a number is a conversion: not that of 2, 9.81 or 4 pi; of 4000 it is 1000.
@@ -295,7 +298,7 @@ impl Walk<'_, '_> {
     pub(super) fn of_products(
         &self,
         all: &[Option<Factors>],
-        result: Option<(&Unit, &str)>,
+        result: Option<(&Unit, &Fact)>,
         found: &mut Vec<FormulaNote>,
     ) -> Option<Factors> {
         let whole = all.last().copied().flatten();
@@ -317,9 +320,10 @@ impl Walk<'_, '_> {
                 other.span.start < note.span.end && note.span.start < other.span.end
             };
             let is_result = |other: &FormulaNote| {
-                [RESULT_TWICE, QUANTITY_TWICE].contains(&other.code) && is_about(other)
+                [RESULT_TWICE, QUANTITY_TWICE].contains(&other.code()) && is_about(other)
             };
-            let is_part = |other: &FormulaNote| OF_PARTS.contains(&other.code) && is_within(other);
+            let is_part =
+                |other: &FormulaNote| OF_PARTS.contains(&other.code()) && is_within(other);
             if found.iter().any(is_result) || !has_rest && found.iter().any(is_part) {
                 continue;
             }
@@ -327,7 +331,7 @@ impl Walk<'_, '_> {
             found.push(note);
         }
         let is_told = found.iter().any(|note| {
-            OF_PARTS.contains(&note.code) || [RESULT_TWICE, QUANTITY_TWICE].contains(&note.code)
+            OF_PARTS.contains(&note.code()) || [RESULT_TWICE, QUANTITY_TWICE].contains(&note.code())
         });
         whole.map(|whole| Factors { is_told: whole.is_told || is_told, ..whole })
     }
@@ -338,7 +342,7 @@ impl Walk<'_, '_> {
         all: &[Option<Factors>],
         index: usize,
         unit: &Unit,
-        what: &str,
+        what: &Fact,
     ) -> Option<Told> {
         let node = self.tree.nodes.get(index)?;
         let of = all.get(index).copied().flatten().filter(|of| !of.is_told)?;
@@ -351,21 +355,9 @@ impl Walk<'_, '_> {
         if of.own == 0 || is_other {
             return None;
         }
-        let told = |code, Converted { factor, has_rest, has_turns }, words: String| {
-            let quoted = self.quoted(&node.span);
-            let with = if of.of_equations { ", with the equations that it takes up," } else { "" };
-            let factor = shown(factor);
-            let or_turns = match has_turns {
-                true => "; a rate of revolutions is multiplied by 2*pi in its place",
-                false => "",
-            };
-            let text = format!(
-                "`{quoted}` has{with} the factor of {factor} that converts from the units of its quantities to \
-                 {words}; leave the factor out, or let it be an input of its own if it is no conversion\
-                 {or_turns}"
-            );
-            Told { note: FormulaNote { code, text, span: node.span.clone() }, has_rest }
-        };
+        let formula = self.quoted(&node.span);
+        let with = of.of_equations.then(|| fact!("with-equations"));
+        let or_turns = |of: &Converted| of.has_turns.then(|| fact!("or-turns"));
         let constants = self.operands(node).into_iter().filter_map(|(index, is_divided)| {
             let number = self.constant(index).filter(|number| *number != 0.0)?;
             Some(if is_divided { 1.0 / number } else { number })
@@ -373,18 +365,19 @@ impl Walk<'_, '_> {
         // what one equation converts another may convert back
         let constants: Vec<f64> = if of.of_equations { Vec::new() } else { constants.collect() };
         if let Some(converted) = of.converts_to(unit.factor(), &constants) {
-            let words = match unit.factor() == 1.0 {
-                true => format!("{unit}, in which formulas have them already"),
-                false => format!(
-                    "{unit}, and {what} in {unit} is converted, too: formulas compute in coherent SI units"
-                ),
+            let to = match unit.factor() == 1.0 {
+                true => fact!("converted-to.coherent-unit", unit),
+                false => fact!("converted-to.unit", unit, what = what.clone()),
             };
-            return Some(told(RESULT_TWICE, converted, words));
+            let (factor, or_turns) = (shown(converted.factor), or_turns(&converted));
+            let fact = fact!("result-converted-twice.product", formula, with, factor, to, or_turns);
+            return Some(Told::of(node, fact, &converted));
         }
         // `0.001*U*k` of mV may be a share of it
         let converted = of.converts_to(1.0, &[]).filter(|_| of.is_sure())?;
-        let words = "coherent SI units, in which formulas have them already".to_owned();
-        Some(told(QUANTITY_TWICE, converted, words))
+        let (factor, or_turns) = (shown(converted.factor), or_turns(&converted));
+        let fact = fact!("quantity-converted-twice.product", formula, with, factor, or_turns);
+        Some(Told::of(node, fact, &converted))
     }
 
     /// Whether the one factor of a product that is no number is an equation.
@@ -413,7 +406,7 @@ impl Walk<'_, '_> {
                     let is_sure = is_plain || found.is_sure() && other.has_one_size();
                     let size = if is_plain { 1.0 } else { other.size };
                     let converted = found.converts_to(size, &[]).filter(|_| is_sure)?;
-                    Some((product, found, converted, "those of what stands beside it"))
+                    Some((product, found, converted, fact!("converted-to.beside")))
                 };
                 to(*right, *left).or_else(|| to(*left, *right))?
             }
@@ -421,24 +414,18 @@ impl Walk<'_, '_> {
                 if !matches!(function, Unary::Sqrt | Unary::Abs) =>
             {
                 let product = *arguments.first()?;
-                (product, of(product)?, of(product)?.converts_to(1.0, &[])?, "a plain number")
+                let converted = of(product)?.converts_to(1.0, &[])?;
+                (product, of(product)?, converted, fact!("converted-to.number"))
             }
             _ => return None,
         };
         if of.own < 2 || of.is_told {
             return None;
         }
-        let span = self.tree.span(product);
-        let text = format!(
-            "`{}` has the factor of {} that converts from the units of its quantities to {to}, which formulas \
-             have done already; leave the factor out",
-            self.quoted(&span),
-            shown(converted.factor),
-        );
-        Some(Told {
-            note: FormulaNote { code: QUANTITY_TWICE, text, span },
-            has_rest: converted.has_rest,
-        })
+        let node = self.tree.nodes.get(product)?;
+        let (formula, factor) = (self.quoted(&node.span), shown(converted.factor));
+        let fact = fact!("quantity-converted-twice", formula, factor, to);
+        Some(Told::of(node, fact, &converted))
     }
 
     /// `2 - log10(T)` of per cent: the absorbance of a transmittance that is a plain number already.
@@ -476,14 +463,12 @@ impl Walk<'_, '_> {
         let is_conversion =
             unit.factor() != 1.0 && !of.is_divisor && (number - expected).abs() < 1e-9;
         is_conversion.then(|| {
-            let text = format!(
-                "`{}` converts from {unit} once more, by {}, the logarithm of {}: formulas have a share in {unit} \
-                 as a plain number already; leave it out",
-                self.quoted(&node.span),
-                Shortest(number.abs()),
-                Shortest(to_15_digits(1.0 / unit.factor())),
-            );
-            FormulaNote { code: SHARE_TWICE, text, span: node.span.clone() }
+            let (formula, number) = (self.quoted(&node.span), number.abs());
+            let of = to_15_digits(1.0 / unit.factor());
+            FormulaNote::at(
+                node,
+                fact!("share-converted-twice.logarithm", formula, unit, number, of),
+            )
         })
     }
 }
@@ -492,4 +477,10 @@ impl Walk<'_, '_> {
 struct Told {
     note: FormulaNote,
     has_rest: bool,
+}
+
+impl Told {
+    fn of(node: &Node, fact: Fact, converted: &Converted) -> Self {
+        Self { note: FormulaNote::at(node, fact), has_rest: converted.has_rest }
+    }
 }

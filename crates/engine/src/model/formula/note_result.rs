@@ -3,9 +3,15 @@
 use std::f64::consts::TAU;
 
 use super::function::Function;
-use super::note::{FormulaNote, RESULT_TWICE, Walk};
+use super::note::{FormulaNote, Walk};
 use super::numbers::is_same_factor;
+<<<<<<< HEAD
 use super::syntax::{Node, NodeKind, Operator, Tree};
+=======
+use super::syntax::{Kind, Node, Operator, Tree};
+use crate::fact;
+use crate::fact::Fact;
+>>>>>>> 1cb3c0e8626e4ae65db00ec4eab658b8261318ad
 use crate::number::{Binary, Unary, elementary};
 use gumption_units::{Turn, Unit};
 
@@ -86,7 +92,7 @@ pub(super) fn taken_up(function: Function, arguments: &[usize]) -> &[usize] {
 
 impl Walk<'_, '_> {
     /// `(a - b)/b*100` that is reported in %, also as a term of a sum. `what` is what is in the unit.
-    pub(super) fn of_ratio(&self, unit: &Unit, what: &str) -> Option<FormulaNote> {
+    pub(super) fn of_ratio(&self, unit: &Unit, what: &Fact) -> Option<FormulaNote> {
         // a share, an angle, or a ratio of like units: mV/V; a rate in degrees per second
         let is_scaled = unit.level_exponent().is_zero() && unit.turn() != Some(Turn::Periods);
         if !is_scaled || unit.factor() == 1.0 {
@@ -101,22 +107,17 @@ impl Walk<'_, '_> {
         let index = terms.into_iter().find(converts)?.index;
         let node = self.tree.nodes.get(index)?;
         // without a unit, the other terms of a sum would be wrong, and so would what is from another unit
-        let or_plain = match index == whole && !self.converts_from(index, unit) {
-            true => format!(", or give {what} without a unit"),
-            false => String::new(),
+        let may_be_plain = index == whole && !self.converts_from(index, unit);
+        let or_plain = may_be_plain.then(|| fact!("or-without-unit", what = what.clone()));
+        let computed = match unit.turn() {
+            Some(_) if !unit.dimension().is_none() => fact!("computed.rates"),
+            Some(_) => fact!("computed.angles"),
+            None if unit.is_relative() => fact!("computed.shares"),
+            None => fact!("computed.ratios"),
         };
-        let text = format!(
-            "`{}` converts to {unit}, and so does {what} in {unit}, once more: formulas compute {}; \
-             leave the factor out{or_plain}",
-            self.quoted(&node.span),
-            match unit.turn() {
-                Some(_) if !unit.dimension().is_none() => "in radians per second",
-                Some(_) => "angles in radians",
-                None if unit.is_relative() => "shares as plain numbers",
-                None => "ratios as plain numbers",
-            },
-        );
-        Some(FormulaNote { code: RESULT_TWICE, text, span: node.span.clone() })
+        let (formula, what) = (self.quoted(&node.span), what.clone());
+        let fact = fact!("result-converted-twice", formula, unit, what, computed, or_plain);
+        Some(FormulaNote::at(node, fact))
     }
 
     /// Whether a product converts from the unit of its name to another one: `3600*a` of degrees that is

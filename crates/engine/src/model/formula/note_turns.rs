@@ -10,6 +10,7 @@ use super::note_result::terms;
 use super::numbers::{Use, is_same_factor};
 use super::syntax::{Node, NodeKind, Tree};
 use super::typing::{RATE, Scope, Typing};
+use crate::fact;
 use crate::number::Unary;
 use gumption_units::{Dimension, Exponent, Turn, Unit};
 
@@ -35,12 +36,8 @@ pub(super) fn of_revolutions(text: &str, tree: &Tree, scope: &Scope) -> Option<F
     let is_wrong = |node: &&Node| Product::of(&walk, node, &typings).is_per_revolution();
     let terms = terms(tree, &walk.constants).into_iter().filter(|term| !term.is_factor);
     let node = terms.filter_map(|term| tree.nodes.get(term.index)).find(is_wrong)?;
-    let quoted = walk.quoted(&node.span);
-    let text = format!(
-        "`{quoted}` multiplies by radians, 2*pi for a revolution, as formulas have what is given in \
-         revolutions; by revolutions it is `{quoted}/[rev]`"
-    );
-    Some(FormulaNote { code: "radians-of-turns", text, span: node.span.clone() })
+    let formula = walk.quoted(&node.span);
+    Some(FormulaNote::at(node, fact!("radians-of-turns.product", formula)))
 }
 
 /// Functions of angles of what counts periods.
@@ -62,13 +59,8 @@ pub(super) fn periods<'u>(
             typing.turn == Some(Turn::Periods) && typing.dimension == Some(Dimension::NONE);
         let is_wrong = counts_periods && is_of_periods(&walk, argument, scope, function, &unit_of);
         is_wrong.then(|| {
-            let quoted = walk.quoted(&tree.span(argument));
-            let text = format!(
-                "`{}` takes radians, and `{quoted}` counts periods, 2*pi radians each; the angle is \
-                 `2*pi*{quoted}`",
-                function.name()
-            );
-            FormulaNote { code: "periods-as-radians", text, span: node.span.clone() }
+            let (function, argument) = (function.name(), walk.quoted(&tree.span(argument)));
+            FormulaNote::at(node, fact!("periods-as-radians", function, argument))
         })
     });
     found.collect()

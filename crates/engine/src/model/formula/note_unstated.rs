@@ -8,10 +8,9 @@ use super::note_result::taken_up;
 use super::numbers::{Numbers, Use, ValueSource};
 use super::syntax::{Node, NodeKind, Operator};
 use crate::decimal;
+use crate::fact;
+use crate::fact::Argument;
 use gumption_units::{Turn, Unit};
-
-/// The code of notes on numbers of which no unit is said.
-const LEFT_OUT: &str = "unit-left-out";
 
 /// The unit of plain numbers that count what a unit does: radians of an angle.
 fn plain(unit: &Unit) -> &'static str {
@@ -19,8 +18,8 @@ fn plain(unit: &Unit) -> &'static str {
 }
 
 /// How many of a unit a plain 1 is.
-fn one_in(unit: &Unit) -> String {
-    decimal::exact(unit.from_si(1.0))
+fn one_in(unit: &Unit) -> Argument {
+    Argument::Number(decimal::exact(unit.from_si(1.0)))
 }
 
 impl<'u> Walk<'_, 'u> {
@@ -39,15 +38,9 @@ impl<'u> Walk<'_, 'u> {
         let in_unit = |side: &usize| Some((*side, self.scaled(*side).bare_unit()?));
         let (beside, unit) = sides.iter().find_map(in_unit)?;
         let unstated = sides.iter().find(|side| self.is_unstated(**side))?;
-        let text = format!(
-            "`{}` has no unit, so that formulas take its numbers as plain ones, of which 1 is {} {unit}, \
-             beside `{}` in {unit}; state its unit, `{unit}` or `{}`",
-            self.quoted(&self.tree.span(*unstated)),
-            one_in(unit),
-            self.quoted(&self.tree.span(beside)),
-            plain(unit)
-        );
-        Some(FormulaNote { code: LEFT_OUT, text, span: node.span.clone() })
+        let [formula, beside] = [*unstated, beside].map(|of| self.quoted(&self.tree.span(of)));
+        let (one, plain) = (one_in(unit), plain(unit));
+        Some(FormulaNote::at(node, fact!("unit-left-out", formula, one, unit, beside, plain)))
     }
 
     /// Whether no unit is said of the numbers of a node, nor converts it them.
@@ -63,14 +56,8 @@ impl<'u> Walk<'_, 'u> {
         let whole = self.tree.nodes.len().checked_sub(1)?;
         let is_told = is_scaled && self.is_unstated(whole);
         let last = self.tree.nodes.last().filter(|_| is_told)?;
-        let text = format!(
-            "`{}` has no unit, so that formulas take its numbers as plain ones, of which 1 is {} {unit}, in \
-             which the output is reported; state its unit, `{unit}` or `{}`",
-            self.quoted(&last.span),
-            one_in(unit),
-            plain(unit)
-        );
-        Some(FormulaNote { code: LEFT_OUT, text, span: last.span.clone() })
+        let (formula, one, plain) = (self.quoted(&last.span), one_in(unit), plain(unit));
+        Some(FormulaNote::at(last, fact!("unit-left-out.output", formula, one, unit, plain)))
     }
 
     /// Arguments in a unit, of tables and calibration functions of which it is not said in what their
