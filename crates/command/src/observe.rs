@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::options::{self, AllowedFolders, AnswerOptions, Interactive, Seed};
 use super::{CommandLine, Exit, Failure, run};
+use gumption_engine::fact;
 use gumption_engine::task::Warning;
 use gumption_files::{FileReader, RecipeFile};
 use gumption_report::observe::{self as report, ObservationReport};
@@ -118,10 +119,13 @@ fn observed(file: &RecipeFile, row: usize, traced: bool) -> Result<ObservedRow, 
     let (observation, traces) = found.map_err(|refused| file.refusal(row, &refused))?;
     let mut warnings = opened.warnings;
     let several = file.rows.len() > 1;
-    for (code, channel, text) in &observation.notes {
-        let name = opened.settings.channels.get(*channel).map_or("", |of| of.name.as_str());
-        let text = if several { format!("row {}, {text}", row + 1) } else { text.clone() };
-        warnings.push(Warning::new(code, name, text));
+    for note in &observation.notes {
+        let name = opened.settings.channels.get(note.channel).map_or("", |of| of.name.as_str());
+        let warning = Warning::new(name, note.fact.clone());
+        warnings.push(match several {
+            true => warning.within(fact!("in-row", row = row + 1)),
+            false => warning,
+        });
     }
     Ok(ObservedRow { observation, traces, warnings, digests: opened.digests })
 }

@@ -19,6 +19,8 @@ use super::weighed_noise::WeighedNoise;
 use super::{next, prior_conflict, replication, shrink, strength};
 use crate::{Candidate, Case, OverrideError};
 use gumption_engine::decimal::significant;
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::Formula;
 use gumption_engine::number::{elementary, largest_first};
@@ -181,36 +183,26 @@ fn diagnosed(
         gap(&Setup::new(case), verdict.kind)
     };
     let mut notes = notes(&setup, &posterior, &verdict, &shrinkage, &gap, &noise, &winner);
-    notes.extend(periodic.filter(|_| !is_composed).map(|of| DiagnosisNote {
-        code: "periodic-residuals",
-        text: periodic_text(case, &setup, of),
-    }));
+    let mut note = |fact: Fact| notes.push(DiagnosisNote { fact });
+    if let Some(found) = periodic.filter(|_| !is_composed) {
+        note(periodic_note(case, &setup, found));
+    }
     // where nothing is left to explain, an effect of another size has only noise to fit
     let is_explained =
         verdict.kind == HypothesisKind::None && gap.p_value.is_some_and(|p| p > UNLIKELY);
     let prior_conflicts = if is_explained { Vec::new() } else { prior_conflicts };
-    notes.extend(prior_conflicts.iter().map(|conflict| DiagnosisNote {
-        code: "prior-conflict",
-        text: prior_conflict::note(conflict),
-    }));
+    prior_conflicts.iter().map(prior_conflict::note).for_each(&mut note);
     if wide_priors {
-        let text = prior_widths::note(&verdict.effects);
-        notes.push(DiagnosisNote { code: "wide-priors", text });
+        prior_widths::note(&verdict.effects).into_iter().for_each(&mut note);
     }
     if let Some(count) = partly_defined.filter(|count| *count > 0) {
-        let text = format!(
-            "In {count} of {} rows of the prediction hypotheses of some probability have no value (a root \
-             or logarithm of a negative number, a division by zero). They are left out there; where they \
-             are more probable than the others nothing is predicted.",
-            at.map_or(0, <[Row]>::len)
-        );
-        notes.push(DiagnosisNote { code: "undefined-prediction", text });
+        let rows = at.map_or(0, <[Row]>::len);
+        note(fact!("undefined-prediction", count, rows));
     }
-    if let Some(note) = at.and_then(|at| extrapolated(&setup, &posterior, &verdict, at)) {
-        notes.push(note);
-    }
+    let extrapolated = at.and_then(|at| extrapolated(&setup, &posterior, &verdict, at));
+    extrapolated.into_iter().for_each(&mut note);
     if interrupted {
-        notes.insert(0, DiagnosisNote { code: "interrupted", text: INTERRUPTED.to_owned() });
+        notes.insert(0, DiagnosisNote { fact: fact!("interrupted") });
     }
     let present = present(&setup, &posterior, probability);
     let replication = replication::report(&setup, &posterior, probability);
@@ -265,60 +257,39 @@ fn extrapolated(
     posterior: &Posterior,
     verdict: &MostProbable,
     at: &[Row],
-) -> Option<DiagnosisNote> {
+) -> Option<Fact> {
     let outside = departure_prediction::outside(setup, at);
-    let reason = if posterior.departs() > departure::WORTH_TELLING {
-        "No effect of the list says how the departure goes on there: smooth and composed departures \
-         are averaged with less regard to their probabilities, and the standard uncertainty is \
-         enlarged with the distance."
+    let rows = at.len();
+    if outside == 0 {
+        None
+    } else if posterior.departs() > departure::WORTH_TELLING {
+        Some(fact!("extrapolation", outside, rows))
     } else if verdict.kind == HypothesisKind::Explained {
-        "The effects go on there as their formulas say, and the data do not show whether they do: \
-         hypotheses that agree on the data may differ there, and are averaged with their \
-         probabilities."
+        Some(fact!("extrapolation.effects", outside, rows))
     } else {
-        return None;
-    };
-    (outside > 0).then(|| DiagnosisNote {
-        code: "extrapolation",
-        text: format!(
-            "{outside} of {} rows of the prediction lie outside of the conditions of the data. {reason}",
-            at.len()
-        ),
-    })
+        None
+    }
 }
 
 /// What is to be said of a sine in what the verdict leaves.
-fn periodic_text(case: &Case, setup: &Setup<'_>, found: PeriodicResiduals) -> String {
+fn periodic_note(case: &Case, setup: &Setup<'_>, found: PeriodicResiduals) -> Fact {
     let PeriodicResiduals { output, condition, line } = found;
-    let quantity = &case.model.outputs[setup.data.outputs[output]].quantity;
-    let amplitude = quantity.unit.after(&significant(line.amplitude, 2));
+    let Quantity { name, unit, .. } = &case.model.outputs[setup.data.outputs[output]].quantity;
+    let amplitude = Argument::Number(unit.after(&significant(line.amplitude, 2)));
+    let percent = Argument::Number(format!("{:.0}", 100.0 * line.share));
     let period = significant(1.0 / line.frequency, 3);
-    let (along, advice) = match condition.and_then(|of| case.model.conditions.get(of)) {
-        Some(of) => {
-            let (name, unit) = (&of.name, &of.unit);
-            let per = if unit.text().is_empty() { String::new() } else { format!(" [{unit}]") };
-            let along = format!("`{name}` with a period of {}", unit.after(&period));
-            (along, format!("sin(2*pi*{name}/({period}{per}) + phi)"))
-        }
-        None => (
-            format!("the rows, in their order, with a period of {period} rows"),
-            "sin(2*pi*row/... + phi) of a condition that says when or where they were taken"
-                .to_owned(),
-        ),
+    let Some(along) = condition.and_then(|of| case.model.conditions.get(of)) else {
+        let period = Argument::Number(period);
+        return fact!("periodic-residuals.rows", name, period, amplitude, percent);
     };
-    format!(
-        "What is left of `{name}` follows a sine along {along} and of the amplitude {amplitude}, which is \
-         {:.0} % of its variance (as much by chance in one of a million tables): a disturbance that comes \
-         round, and no larger noise. Give it as an effect, such as `{name} + k*{advice}`.",
-        100.0 * line.share,
-        name = quantity.name
-    )
+    let (condition, unit) = (&along.name, &along.unit);
+    let divisor = match unit.text() {
+        "" => period.clone(),
+        _ => format!("{period} [{unit}]"),
+    };
+    let period = Argument::Number(unit.after(&period));
+    fact!("periodic-residuals", name, condition, period, amplitude, percent, divisor)
 }
-
-/// The note of a diagnosis that was interrupted.
-const INTERRUPTED: &str = "The diagnosis was interrupted; this is what was known then. Hypotheses may \
-     be missing, their probabilities are rough, and what had not been begun (other noises, regions, \
-     cross-validation, what to measure next) is left out.";
 
 /// A candidate in words.
 fn described(candidate: &Candidate) -> DescribedEffect {

@@ -3,6 +3,8 @@
 use std::ops::Range;
 
 use super::composed::ComposedEffect;
+use gumption_engine::fact;
+use gumption_engine::fact::Fact;
 use gumption_engine::task::ModelStatement;
 use gumption_inference::noise::{noise_model, shared_noise};
 use gumption_inference::scan::GapRegion;
@@ -632,13 +634,9 @@ pub struct PriorConflict {
 }
 
 impl PriorConflict {
-    /// What the distance is counted in and from, in words.
-    pub fn counted_in(&self) -> &'static str {
-        if self.bounded {
-            "widths of your prior beyond its bound"
-        } else {
-            "standard deviations of your prior from its mean"
-        }
+    /// What the distance is counted in and from.
+    pub fn counted_in(&self) -> Fact {
+        if self.bounded { fact!("widths-beyond-bound") } else { fact!("deviations-from-mean") }
     }
 }
 
@@ -813,8 +811,13 @@ impl DepartureShape {
 /// Something to bear in mind when the answer is read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DiagnosisNote {
-    /// Short fixed name.
-    pub code: &'static str,
-    /// The sentence.
-    pub text: String,
+    /// What was found.
+    pub fact: Fact,
+}
+
+impl DiagnosisNote {
+    /// A short fixed name, such as `far-input`.
+    pub fn code(&self) -> &'static str {
+        self.fact.code()
+    }
 }

@@ -4,6 +4,8 @@ use super::diagnosis::PriorConflict;
 use super::parameters::parameters;
 use crate::Case;
 use gumption_engine::distribution::Distribution;
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::number::{elementary, largest_first};
 use gumption_inference::noise::weighing::Weighing;
 
@@ -71,17 +73,23 @@ fn distance(prior: &Distribution, value: f64) -> (f64, bool) {
     }
 }
 
-/// The sentence of the note.
-pub(crate) fn note(conflict: &PriorConflict) -> String {
-    let PriorConflict { effects, parameter, prior_distance, probability, widened, .. } = conflict;
+/// What is to be said of a conflict.
+pub(crate) fn note(conflict: &PriorConflict) -> Fact {
+    let PriorConflict { effect, effects, parameter, prior_distance, probability, widened, .. } =
+        conflict;
     let who = match &effects[..] {
-        [effect] => format!("{effect} alone"),
-        several => gumption_units::listed(several, " and "),
+        [others @ .., last] if !others.is_empty() => {
+            fact!("effects-together", others = others.to_vec(), last)
+        }
+        _ => fact!("effect-alone", effect),
     };
-    format!(
-        "{who} would explain the data with {} of a size that is {prior_distance:.1} {} \
-         (probability {probability:.2}, with priors {widened} times as wide).",
-        parameter.name,
-        conflict.counted_in()
+    fact!(
+        "prior-conflict",
+        who,
+        parameter = &parameter.name,
+        distance = Argument::Number(format!("{prior_distance:.1}")),
+        counted_in = conflict.counted_in(),
+        probability = Argument::Number(format!("{probability:.2}")),
+        widened = *widened,
     )
 }

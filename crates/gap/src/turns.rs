@@ -2,7 +2,9 @@
 
 use super::departure::ends;
 use gumption_engine::decimal::to_15_digits;
-use gumption_engine::number::{Shortest, smallest_first};
+use gumption_engine::fact;
+use gumption_engine::fact::Fact;
+use gumption_engine::number::smallest_first;
 use gumption_inference::setup::Setup;
 use gumption_units::Turn;
 
@@ -13,7 +15,7 @@ const JUMP: f64 = 0.75;
 /// What is to be said of an output that is an angle but is not said to be periodic: that values are
 /// more than half a turn from the sim, or that they lie within one turn and jump by nearly a whole one
 /// between neighbouring conditions, which no smooth effect does.
-pub(crate) fn note(setup: &Setup<'_>) -> Option<String> {
+pub(crate) fn note(setup: &Setup<'_>) -> Option<Fact> {
     let data = &setup.data;
     let residuals = data.nominal_residuals();
     residuals.iter().enumerate().find_map(|(output, residuals)| {
@@ -26,18 +28,11 @@ pub(crate) fn note(setup: &Setup<'_>) -> Option<String> {
         let (name, count) = (&quantity.name, residuals.len());
         let (lower, upper) = ends(&data.values[output]);
         let far = residuals.iter().filter(|residual| residual.abs() > 0.5 * turn).count();
-        let seen = if far > 0 {
-            format!("{far} of {count} values of {name} are more than half a turn from the sim")
-        } else if upper - lower <= turn && jumps(setup, residuals, JUMP * turn) {
-            format!(
-                "What the sim leaves of {name} jumps by nearly a turn between neighbouring conditions, \
-                 and all values lie within one turn"
-            )
-        } else {
-            return None;
-        };
-        let turn = Shortest(turn);
-        Some(format!("{seen}: an output that comes round says `\"periodic\": {turn}`."))
+        if far > 0 {
+            return Some(fact!("whole-turns", far, count, name, turn));
+        }
+        let jumps = upper - lower <= turn && jumps(setup, residuals, JUMP * turn);
+        jumps.then(|| fact!("whole-turns.jumps", name, turn))
     })
 }
 

@@ -4,6 +4,8 @@
 //! an output. Of effects a gain comes nearest, with a prior that excludes it, or a departure that no one
 //! would think of.
 
+use gumption_engine::fact;
+use gumption_engine::fact::Fact;
 use gumption_engine::number::{elementary, median};
 use gumption_inference::setup::Setup;
 
@@ -25,9 +27,6 @@ const LEAST_RATIOS: usize = 4;
 /// Values of the sim below this share of the largest one give no ratios.
 const LEAST_SIM: f64 = 1e-3;
 
-/// What makes a power of ten.
-const OF_TEN: &str = "a prefix, or per cent";
-
 /// Powers of ten of prefixes, at most.
 const MOST_POWER: i32 = 12;
 
@@ -38,7 +37,7 @@ pub(crate) struct UnitSlip {
     /// The median of the ratios.
     pub(crate) ratio: f64,
     /// What makes such a factor.
-    pub(crate) cause: &'static str,
+    pub(crate) cause: Fact,
     /// The rows that have it, counted from 0, where others agree with the sim; none: all have it.
     pub(crate) rows: Option<Vec<usize>>,
 }
@@ -60,7 +59,8 @@ pub(crate) fn found(setup: &Setup<'_>) -> Option<UnitSlip> {
             return None;
         }
         if let Some((rows, ratio)) = of_some_rows(&by_row) {
-            return Some(UnitSlip { output, ratio, cause: OF_TEN, rows: Some(rows) });
+            let cause = fact!("slip-of.prefix");
+            return Some(UnitSlip { output, ratio, cause, rows: Some(rows) });
         }
         let ratios: Vec<f64> = by_row.into_iter().map(|(_, ratio)| ratio).collect();
         let ratio = median(ratios.clone())?;
@@ -92,23 +92,23 @@ fn power_of_ten(ratio: f64, near: f64) -> Option<f64> {
 }
 
 /// What makes a factor of this size.
-fn cause(ratio: f64) -> Option<&'static str> {
+fn cause(ratio: f64) -> Option<Fact> {
     const TURN: f64 = std::f64::consts::TAU;
     const DEGREE: f64 = std::f64::consts::PI / 180.0;
-    const KNOWN: [(f64, &str); 6] = [
-        (1.0, "a sign"),
-        (TURN, "a frequency in Hz for one in rad/s"),
-        (60.0, "a time in minutes for one in seconds, or minutes for degrees"),
-        (3600.0, "a time in hours for one in seconds"),
-        (DEGREE, "an angle in degrees for one in rad"),
-        (std::f64::consts::SQRT_2, "an effective value for a peak value"),
+    let known = [
+        (1.0, fact!("slip-of.sign")),
+        (TURN, fact!("slip-of.turn")),
+        (60.0, fact!("slip-of.minute")),
+        (3600.0, fact!("slip-of.hour")),
+        (DEGREE, fact!("slip-of.degree")),
+        (std::f64::consts::SQRT_2, fact!("slip-of.peak")),
     ];
     let is_near = |of: f64| (ratio.abs() / of - 1.0).abs() < NEAR;
     let is_prefix = |power: f64| power != 0.0 && power.abs() <= f64::from(MOST_POWER);
     if power_of_ten(ratio, NEAR).is_some_and(is_prefix) {
-        return Some(OF_TEN);
+        return Some(fact!("slip-of.prefix"));
     }
-    KNOWN.into_iter().find_map(|(factor, cause)| {
+    known.into_iter().find_map(|(factor, cause)| {
         let is_it = if factor == 1.0 {
             ratio < 0.0 && is_near(1.0)
         } else {
@@ -140,19 +140,19 @@ mod tests {
 
     #[test]
     fn factors_of_slips() {
-        for (ratio, said) in [
-            (0.001, Some("a prefix, or per cent")),
-            (-998.0, Some("a prefix, or per cent")),
-            (-1.0, Some("a sign")),
-            (6.3, Some("a frequency in Hz for one in rad/s")),
-            (57.3, Some("an angle in degrees for one in rad")),
-            (0.71, Some("an effective value for a peak value")),
+        for (ratio, key) in [
+            (0.001, Some("slip-of.prefix")),
+            (-998.0, Some("slip-of.prefix")),
+            (-1.0, Some("slip-of.sign")),
+            (6.3, Some("slip-of.turn")),
+            (57.3, Some("slip-of.degree")),
+            (0.71, Some("slip-of.peak")),
             (1.0, None),
             (1.02, None),
             (2.0, None),
             (0.9, None),
         ] {
-            assert_eq!(cause(ratio), said, "{ratio}");
+            assert_eq!(cause(ratio).map(|cause| cause.key), key, "{ratio}");
         }
     }
 }

@@ -76,6 +76,7 @@ pub use derivative::Derivative;
 pub use effects::StepEffect;
 pub use measured::Measured;
 pub use noise::{Noise, NoiseGain, jitter_variance};
+pub use note::ChannelNote;
 pub use observation::{ChannelObservation, Observation, ToneComponent};
 pub use passes::{BLOCK, BlockVisitor, InMemorySamples, SampleSource, in_blocks};
 pub use periodic::{Harmonic, Harmonics, Periodic};

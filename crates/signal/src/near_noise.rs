@@ -2,9 +2,10 @@
 //! large on average.
 
 use super::budget::UncertaintySource;
-use super::note::{Note, short};
+use super::note::{ChannelNote, short};
 use super::observation::{ChannelObservation, ToneComponent};
 use super::recipe::RecipeSettings;
+use gumption_engine::fact;
 use gumption_engine::number::elementary;
 
 /// The probability with which noise alone reaches an amplitude that is near it.
@@ -12,20 +13,19 @@ const OFTEN: f64 = 0.05;
 
 /// The note on a channel in which none of the components that are asked for stands out of the noise, the
 /// first of them told; where one does the others are not there, which is nothing to tell.
-pub(super) fn note(settings: &RecipeSettings, of: &ChannelObservation) -> Option<Note> {
+pub(super) fn note(settings: &RecipeSettings, of: &ChannelObservation) -> Option<ChannelNote> {
     let by_noise: Vec<f64> = of.components.iter().filter_map(probability).collect();
     if by_noise.len() < of.components.len() || by_noise.iter().any(|by_noise| *by_noise <= OFTEN) {
         return None;
     }
     let (component, by_noise) = of.components.iter().zip(by_noise).next()?;
-    let text = format!(
-        "`{}`: noise alone makes an amplitude as large as that at {} Hz in {} % of all records; the phase \
-         there is hardly known, and the amplitude is too large on average",
-        settings.channels[of.channel].name,
-        short(component.frequency.value, 6),
-        short(100.0 * by_noise, 2)
+    let fact = fact!(
+        "near-noise",
+        name = &settings.channels[of.channel].name,
+        frequency = short(component.frequency.value, 6),
+        percent = short(100.0 * by_noise, 2),
     );
-    Some(("near-noise", of.channel, text))
+    Some(ChannelNote { channel: of.channel, fact })
 }
 
 /// The probability with which noise alone makes an amplitude as large as that of a component; `None`

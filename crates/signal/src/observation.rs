@@ -2,6 +2,7 @@
 
 use super::Measured;
 use super::budget::BudgetedValue;
+use super::note::ChannelNote;
 use super::spurious::Spurious;
 use super::surroundings::Finding;
 
@@ -63,6 +64,6 @@ pub struct ChannelObservation {
 pub struct Observation {
     /// For each frequency, the channels in their order.
     pub frequencies: Vec<Vec<ChannelObservation>>,
-    /// What to bear in mind: a fixed short name, the channel, and the sentence.
-    pub notes: Vec<(&'static str, usize, String)>,
+    /// What to bear in mind.
+    pub notes: Vec<ChannelNote>,
 }

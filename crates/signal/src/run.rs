@@ -11,7 +11,7 @@ use super::coloured::Memory;
 use super::common_noise::correlation;
 use super::effects::StepEffect;
 use super::near_noise;
-use super::note::{Note, short};
+use super::note::{ChannelNote, in_unit, short};
 use super::observation::{ChannelObservation, Observation};
 use super::passes::{InMemorySamples, SampleSource, gathered};
 use super::recipe::{Frequency, Method, RecipeSettings, TimeBase};
@@ -25,7 +25,9 @@ use super::track::ChannelRecording;
 use super::unexplained;
 use super::values::observed;
 use super::{Measured, Signal};
-use gumption_engine::number::{elementary, smallest_first};
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
+use gumption_engine::number::{Shortest, elementary, smallest_first};
 
 /// A channel that went through its steps.
 struct Stepped {
@@ -35,7 +37,7 @@ struct Stepped {
     held: InMemorySamples,
     findings: Vec<Finding>,
     through: Option<Through>,
-    notes: Vec<Note>,
+    notes: Vec<ChannelNote>,
 }
 
 /// Takes amplitudes, phases and what goes with them from the recordings of one row.
@@ -95,7 +97,7 @@ fn row<P: SampleSource>(
         analysed.extend(group.analyse(&mut recording.passes)?);
         track += 1;
     }
-    let mut of_steps: Vec<Note> = Vec::new();
+    let mut of_steps: Vec<ChannelNote> = Vec::new();
     for of in stepped {
         let channels = [(of.channel, 0)];
         let (base, clock) = (of.base, of.clock);
@@ -233,8 +235,10 @@ fn through_steps<P: SampleSource>(
         if let (Some(effect), Some(through)) = (after.effect, &mut through) {
             let found = through_filter(settings, channel, of, &effect, &through.before);
             let found = found.map_err(refused)?;
-            notes.extend(found.iter().map(|finding| not_corrected(settings, channel, finding)));
-            findings.extend(found);
+            for (finding, fact) in found {
+                findings.push(finding);
+                notes.push(ChannelNote { channel, fact });
+            }
             Rc::make_mut(&mut through.effects).0.push(effect);
         }
     }
@@ -247,14 +251,14 @@ fn through_steps<P: SampleSource>(
 const LEAST_GAIN: f64 = 1e-4;
 
 /// What a filter does to the components that are asked for: a mistake where it takes one of them out,
-/// findings where its gain is not corrected.
+/// findings where its gain is not corrected, each with what to bear in mind about it.
 fn through_filter(
     settings: &RecipeSettings,
     channel: usize,
     step: &ChannelStep,
     effect: &StepEffect,
     before: &Analysed,
-) -> Result<Vec<Finding>, String> {
+) -> Result<Vec<(Finding, Fact)>, String> {
     let StepEffect::Filtered { filter, correct } = effect else { return Ok(Vec::new()) };
     let mut findings = Vec::new();
     let rate = before.base.rate;
@@ -267,7 +271,7 @@ fn through_filter(
                 ..of
             };
             let passage = filter.passage(frequency, rate.standard_uncertainty / rate.value);
-            let hertz = gumption_engine::number::Shortest(frequency.value);
+            let hertz = Shortest(frequency.value);
             if *correct && passage.gain.value < LEAST_GAIN {
                 return Err(format!(
                     "the filter lets {:.1e} of the component at {hertz} Hz of channel `{}` pass; that \
@@ -282,23 +286,20 @@ fn through_filter(
                     standard_uncertainty: passage.phase.standard_uncertainty * times,
                     ..passage.phase
                 };
-                let name = |what: &str| format!("{what} of the {} at {hertz} Hz", step.name());
-                findings.push(Finding::of(&name("gain"), "1", passage.gain));
-                findings.push(Finding::of(&name("phase"), settings.phase.name(), phase));
+                let label = |what: &str| format!("{what} of the {} at {hertz} Hz", step.name());
+                let (name, step, at) =
+                    (&settings.channels[channel].name, step.name(), frequency.value);
+                let value = Argument::Number(format!("{:.6}", passage.gain.value));
+                let fact = fact!("filter-not-corrected", name, step, at, value);
+                findings.push((Finding::of(&label("gain"), "1", passage.gain), fact));
+                let unit = settings.phase.name();
+                let value = Argument::Number(format!("{:.6} {unit}", phase.value));
+                let fact = fact!("filter-not-corrected.phase", name, step, at, value);
+                findings.push((Finding::of(&label("phase"), unit, phase), fact));
             }
         }
     }
     Ok(findings)
-}
-
-/// What to bear in mind about a gain that is left in the answer.
-fn not_corrected(settings: &RecipeSettings, channel: usize, finding: &Finding) -> Note {
-    let unit = if finding.unit == "1" { "" } else { &finding.unit };
-    let text = format!(
-        "`{}`: {}, {:.6} {unit}",
-        settings.channels[channel].name, finding.name, finding.value
-    );
-    ("filter-not-corrected", channel, format!("{}, is not corrected", text.trim_end()))
 }
 
 fn signal(base: TimeBase, values: Option<&Vec<f64>>) -> Signal {
@@ -325,126 +326,72 @@ fn held<P: SampleSource>(
 }
 
 /// What to bear in mind about fits.
-fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
+fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<ChannelNote> {
     let mut notes = Vec::new();
     for of in analysed {
         let name = &settings.channels[of.channel].name;
+        let channel = of.channel;
+        let note = |fact: Fact| ChannelNote { channel, fact };
         let residuals = &of.residuals;
         let expected = residuals.known.as_ref().is_some_and(|known| known.factors.is_some());
         if residuals.correlated && !expected {
             let lag = residuals.autocorrelation.first().copied().unwrap_or(0.0);
+            let coefficient = Argument::Number(format!("{lag:.2}"));
             let way = match (&residuals.coloured, residuals.parts) {
-                (_, 1..) => format!(
-                    "the noise near each frequency is taken from {} parts of the record",
-                    residuals.parts
-                ),
-                (Some(coloured), _) if coloured.fits => {
-                    "the noise near each frequency is that of a \
-                     process of first order, which the residuals have"
-                        .to_owned()
-                }
-                _ => "the record is too short to tell the noise near each frequency, so standard \
-                     uncertainties may be too small"
-                    .to_owned(),
+                (_, parts @ 1..) => fact!("noise-of-parts", parts),
+                (Some(coloured), _) if coloured.fits => fact!("noise-of-process"),
+                _ => fact!("noise-unknown"),
             };
-            let suspected = residuals.memory == Memory::Suspected;
-            let (code, are) = if suspected {
-                ("short-record", "may be correlated, which the record is too short to tell")
-            } else {
-                ("correlated-residuals", "are correlated")
-            };
-            let text =
-                format!("`{name}`: the residuals {are} (coefficient {lag:.2} at lag 1); {way}");
-            notes.push((code, of.channel, text));
+            notes.push(note(match residuals.memory {
+                Memory::Suspected => fact!("short-record.suspected", name, coefficient, way),
+                _ => fact!("correlated-residuals", name, coefficient, way),
+            }));
         }
         notes.extend(through::note(name, of));
         if residuals.memory == Memory::Open && !expected {
-            let text = format!(
-                "`{name}`: the record is too short to tell white noise from noise with a memory; the \
-                 standard uncertainties are those of white noise, and may be too small"
-            );
-            notes.push(("short-record", of.channel, text));
+            notes.push(note(fact!("short-record", name)));
         }
         let found: Vec<Spurious> = of.fitted_besides().collect();
         if !found.is_empty() {
             let unit = unit_text(settings, of);
-            let each = found.iter().map(|found| {
-                let hertz = short(found.cycles * of.base.rate.value, 6);
-                format!("{hertz} Hz (amplitude {}{unit})", short(found.amplitude, 3))
+            let tones = found.iter().map(|found| {
+                let frequency = short(found.cycles * of.base.rate.value, 6);
+                fact!("other-tone", frequency, amplitude = in_unit(found.amplitude, 3, &unit))
             });
-            let each = each.collect::<Vec<_>>().join(", ");
-            let text = format!(
-                "`{name}`: something oscillates that the recipe does not name, at {each}; it is \
-                 fitted together with the named frequencies and counts as noise in the \
-                 signal-to-noise ratio"
-            );
-            notes.push(("found-tone", of.channel, text));
+            let tones: Vec<Fact> = tones.collect();
+            notes.push(note(fact!("found-tone", name, tones)));
         }
         if clear_degree(&of.design, &of.fit, residuals) > 0 {
-            let unit = unit_text(settings, of);
-            let text = format!(
-                "`{name}`: the level drifts by {}{unit} over the record; a polynomial of degree {} is \
-                 fitted together with the named frequencies, the offset is the mean over the record \
-                 with the drift's standard deviation in its uncertainty, and the drift counts as noise \
-                 in the signal-to-noise ratio",
-                short(of.drift_range(), 2),
-                of.design.drift
-            );
-            notes.push(("found-drift", of.channel, text));
+            let range = in_unit(of.drift_range(), 2, &unit_text(settings, of));
+            notes.push(note(fact!("found-drift", name, range, degree = of.design.drift)));
         }
         if of.besides.too_near {
-            let text = format!(
-                "`{name}`: something oscillates within {} Hz (one over the record's length) of a \
-                 named frequency, or that one grows, fades or wanders; this record cannot tell them \
-                 apart, amplitude and phase are those of both together, and only a longer record \
-                 tells more",
-                short(of.base.rate.value / of.design.samples as f64, 2)
-            );
-            notes.push(("tones-too-near", of.channel, text));
+            let within = short(of.base.rate.value / of.design.samples as f64, 2);
+            notes.push(note(fact!("tones-too-near", name, within)));
         }
         notes.extend(unexplained::notes(settings, of));
         let known = residuals.known.as_ref().map(|known| known.before);
         let flickers = residuals.coloured.as_ref().is_some_and(|coloured| coloured.flickers);
         let flickers = known.map_or(flickers, |before| before.flickers);
         if known.map_or_else(|| unexplained::level_wanders(of), |before| before.wanders) {
-            let text = format!(
-                "`{name}`: the level wanders and does not come back within the record; the \
-                 uncertainty of the offset is that of the record's first value. A steady drift, which \
-                 is no noise, leaks into amplitudes and phases more than their uncertainties say: the \
-                 step `remove-trend` takes a straight line out"
-            );
-            notes.push(("wandering-level", of.channel, text));
+            notes.push(note(fact!("wandering-level", name)));
         } else if flickers {
-            let text = format!(
-                "`{name}`: the noise grows towards the lowest frequencies of the record, as 1/f noise \
-                 does, which has no level of its own; the uncertainty of the offset is that against \
-                 the mean of a record ten times as long"
-            );
-            notes.push(("wandering-level", of.channel, text));
+            notes.push(note(fact!("wandering-level.flicker", name)));
         }
         let stated = settings.channels[of.channel].resolution;
         if of.resolution > stated {
-            let unit = unit_text(settings, of);
-            let known = if stated > 0.0 { "a finer" } else { "no" };
             // as many digits as single precision has
-            let step = format!("{:.5e}", of.resolution).parse().unwrap_or(of.resolution);
-            let text = format!(
-                "`{name}`: {known} resolution is stated, but the values are multiples of {}{unit}, \
-                 which is taken for it",
-                gumption_engine::number::Shortest(step)
-            );
-            notes.push(("looks-quantized", of.channel, text));
+            let step = in_unit(of.resolution, 6, &unit_text(settings, of));
+            notes.push(note(match stated > 0.0 {
+                true => fact!("looks-quantized.finer", name, step),
+                false => fact!("looks-quantized", name, step),
+            }));
         }
         if let Some(rounding) = of.rounding.as_ref().filter(|rounding| rounding.repeated > 0.05)
             && let Some(phases) = rounding.phases
         {
-            let text = format!(
-                "`{name}`: the {} samples fall on {phases} different phases of the oscillation, and \
-                 there is too little noise to blur the rounding, so that it averages out over these \
-                 only",
-                of.design.samples
-            );
-            notes.push(("coherent-sampling", of.channel, text));
+            let samples = of.design.samples;
+            notes.push(note(fact!("coherent-sampling", name, samples, phases)));
         }
         let reference = settings.reference.and_then(|channel| {
             analysed.iter().find(|other| other.channel == channel && channel != of.channel)
@@ -452,11 +399,8 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
         let common = reference
             .and_then(|reference| correlation(of, reference, of.fundamentals.first()?.cycles));
         if let Some(common) = common.filter(|common| common.abs() > 0.1) {
-            let text = format!(
-                "`{name}`: its noise and that of the reference have something in common (the errors \
-                 of the two phases are correlated, {common:.2}); the phase's uncertainty allows for it"
-            );
-            notes.push(("common-noise", of.channel, text));
+            let coefficient = Argument::Number(format!("{common:.2}"));
+            notes.push(note(fact!("common-noise", name, coefficient)));
         }
         for (number, fundamental) in of.fundamentals.iter().enumerate() {
             let Some((step, variance)) = residuals.cycles.get(number) else { continue };
@@ -469,14 +413,9 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
             let least = (5.0 * elementary::hypot(stated, noise)).max(1e-10 * fundamental.cycles);
             if fundamental.of_estimate == 0.0 && step.abs() > least {
                 let hertz = |cycles: f64| cycles * of.base.rate.value;
-                let text = format!(
-                    "`{name}`: the recording fits a frequency that differs by {:.2e} Hz from {} Hz, \
-                     more than their uncertainties allow; look at the sampling rate, or let the \
-                     frequency be estimated",
-                    hertz(*step),
-                    gumption_engine::number::Shortest(hertz(fundamental.cycles)),
-                );
-                notes.push(("frequency-differs", of.channel, text));
+                let by = Argument::Number(format!("{:.2e}", hertz(*step)));
+                let frequency = hertz(fundamental.cycles);
+                notes.push(note(fact!("frequency-differs", name, by, frequency)));
             }
         }
     }

@@ -7,8 +7,13 @@ use super::analysed::{Analysed, local, shares};
 use super::coloured::Memory;
 use super::effects::{Coloured, Effects, StepEffect};
 use super::known_noise::{KnownNoise, NoiseSource, SeenBefore};
+<<<<<<< HEAD
 use super::note::Note;
 use super::passes::ChannelValues;
+=======
+use super::note::ChannelNote;
+use super::passes::Values;
+>>>>>>> 2ed1eed6d8889f77811103bf31050afc9968f03c
 use super::periodic::{HarmonicNoise, Harmonics};
 use super::quantization::amplitude_error;
 use super::residuals::{Residuals, parts};
@@ -16,6 +21,8 @@ use super::sine_fit::{Tone, ToneDesign};
 use super::spurious::{Spurious, lines};
 use super::transform;
 use super::unexplained::level_wanders;
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 
 /// Bins on each side of a line that have its power.
 const OF_LINE: f64 = 2.5;
@@ -249,39 +256,23 @@ impl Through {
 }
 
 /// The note on a channel whose noise was not white before its steps and is not measured after them.
-pub(super) fn note(name: &str, of: &Analysed) -> Option<Note> {
+pub(super) fn note(name: &str, of: &Analysed) -> Option<ChannelNote> {
     let known = of.residuals.known.as_ref()?;
     let SeenBefore { memory, coefficient, .. } = known.before;
+    let note = |fact: Fact| Some(ChannelNote { channel: of.channel, fact });
     let way = match known.source {
-        NoiseSource::Measured => return None,
         NoiseSource::White if memory == Memory::Open => {
-            let text = format!(
-                "`{name}`: before the steps the record is too short to tell white noise from noise \
-                 with a memory; the standard uncertainties are those of white noise that goes \
-                 through them, and may be too small"
-            );
-            return Some(("short-record", of.channel, text));
+            return note(fact!("short-record.white-before-steps", name));
         }
-        NoiseSource::White => return None,
-        NoiseSource::Process => {
-            "the noise near each frequency is that of a process of first order, which they have, \
-             after the steps"
-        }
-        NoiseSource::Even => {
-            "the record is too short to tell the noise near each frequency, which is taken as even \
-             over what the steps let pass, so standard uncertainties may be too small"
-        }
+        NoiseSource::Measured | NoiseSource::White => return None,
+        NoiseSource::Process => fact!("noise-of-process.before-steps"),
+        NoiseSource::Even => fact!("noise-even"),
     };
-    let (code, are) = match memory {
-        Memory::Suspected => {
-            ("short-record", "may be correlated, which the record is too short to tell")
-        }
-        _ => ("correlated-residuals", "are correlated"),
-    };
-    let text = format!(
-        "`{name}`: before the steps the residuals {are} (coefficient {coefficient:.2} at lag 1); {way}"
-    );
-    Some((code, of.channel, text))
+    let coefficient = Argument::Number(format!("{coefficient:.2}"));
+    note(match memory {
+        Memory::Suspected => fact!("short-record.before-steps", name, coefficient, way),
+        _ => fact!("correlated-residuals.before-steps", name, coefficient, way),
+    })
 }
 
 /// The noise near the harmonics of a signal that went through steps, or of a plain one; none where it

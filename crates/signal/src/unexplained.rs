@@ -3,9 +3,11 @@
 
 use super::analysed::{Analysed, local, unit_text};
 use super::beside::amplitude;
-use super::note::{Note, short};
+use super::note::{ChannelNote, in_unit, short};
 use super::recipe::{Amplitude, RecipeSettings};
 use super::spurious::{self, Spurious};
+use gumption_engine::fact;
+use gumption_engine::fact::Fact;
 use std::f64::consts::TAU;
 
 /// Turns over the record within which what is left is of the fitted tone itself.
@@ -30,7 +32,7 @@ pub(super) fn level_wanders(of: &Analysed) -> bool {
 }
 
 /// The notes about a channel.
-pub(super) fn notes(settings: &RecipeSettings, of: &Analysed) -> Vec<Note> {
+pub(super) fn notes(settings: &RecipeSettings, of: &Analysed) -> Vec<ChannelNote> {
     let mut notes = Vec::new();
     notes.extend(tone(settings, of));
     notes.extend(samples(settings, of));
@@ -48,26 +50,27 @@ fn strongest_asked(settings: &RecipeSettings, of: &Analysed) -> Option<(f64, f64
 }
 
 /// A tone that is stronger than those that are asked for, or most of what they leave.
-fn tone(settings: &RecipeSettings, of: &Analysed) -> Option<Note> {
+fn tone(settings: &RecipeSettings, of: &Analysed) -> Option<ChannelNote> {
     let name = &settings.channels[of.channel].name;
     let unit = unit_text(settings, of);
-    let peak = if settings.amplitude == Amplitude::Rms { " (peak)" } else { "" };
-    let size = |amplitude: f64| format!("{}{unit}{peak}", short(amplitude, 3));
+    let size = |amplitude: f64| {
+        let amplitude = in_unit(amplitude, 3, &unit);
+        match settings.amplitude {
+            Amplitude::Rms => fact!("peak-amplitude", amplitude).into(),
+            _ => amplitude,
+        }
+    };
     let (hertz, asked) = strongest_asked(settings, of)?;
     let rate = of.base.rate.value;
-    let question = |found: f64| {
-        let other = |times: f64, words: &str| {
+    let other_unit = |found: f64| {
+        let other = |times: f64, unit: &str| {
             let is_same = (found * times / hertz - 1.0).abs() < SAME;
-            is_same.then(|| format!(" ({} {words} is {} Hz)", short(hertz, 6), short(found, 4)))
+            let (number, hertz) = (short(hertz, 6), short(found, 4));
+            is_same.then(|| fact!("frequency-in-other-unit", number, unit, hertz))
         };
-        let other = other(TAU, "rad/s").or_else(|| other(60.0, "rpm")).unwrap_or_default();
-        format!(
-            "more than the {} at {} Hz; look at the frequency and the sampling rate{other}",
-            size(asked),
-            short(hertz, 6)
-        )
+        other(TAU, "rad/s").or_else(|| other(60.0, "rpm"))
     };
-    let note = |text: String| Some(("strong-tone", of.channel, format!("`{name}`: {text}")));
+    let note = |fact: Fact| Some(ChannelNote { channel: of.channel, fact });
     // fitted as a multiple, or beside the tones that the recipe names
     let fitted = of.design.tones.iter().enumerate();
     let fitted = fitted.filter(|(_, tone)| {
@@ -83,44 +86,32 @@ fn tone(settings: &RecipeSettings, of: &Analysed) -> Option<Note> {
         fitted.filter(|fitted| left.is_none_or(|left| left.amplitude <= fitted.2))
     {
         let at = tone.cycles * rate;
-        let what = if tone.beside {
-            "a tone that the recipe does not name".to_owned()
-        } else {
-            format!(
-                "the multiple {} of a frequency, which `components` does not name,",
-                tone.multiple
-            )
-        };
-        return note(format!(
-            "{what} has an amplitude of {} at {} Hz, {}",
-            size(found),
-            short(at, 6),
-            question(at)
-        ));
+        let (size, asked, other_unit) = (size(found), size(asked), other_unit(at));
+        let (at, hertz) = (short(at, 6), short(hertz, 6));
+        return note(match tone.beside {
+            true => fact!("strong-tone.beside", name, size, at, asked, hertz, other_unit),
+            false => {
+                let multiple = tone.multiple;
+                fact!("strong-tone", name, multiple, size, at, asked, hertz, other_unit)
+            }
+        });
     }
     let left = left?;
     let at = left.cycles * rate;
     if left.amplitude > asked {
-        return note(format!(
-            "a tone of {} at about {} Hz is in the residuals, {}",
-            size(left.amplitude),
-            short(at, 4),
-            question(at)
-        ));
+        let (size, asked, other_unit) = (size(left.amplitude), size(asked), other_unit(at));
+        let (at, hertz) = (short(at, 4), short(hertz, 6));
+        return note(fact!("strong-tone.left", name, size, at, asked, hertz, other_unit));
     }
     let residuals = &of.residuals;
     let expected = residuals.known.as_ref().is_some_and(|known| known.factors.is_some());
     let share = left.amplitude * left.amplitude / 2.0 / residuals.variance;
-    (residuals.correlated && !expected && share > MOST_OF_RESIDUALS).then(|| {
-        let text = format!(
-            "`{name}`: most of the residuals is a tone of {} at about {} Hz, which is not fitted and \
-             counts as noise{}",
-            size(left.amplitude),
-            short(at, 4),
-            of_higher_multiple(settings, of, left)
-        );
-        ("tone-in-residuals", of.channel, text)
-    })
+    if !residuals.correlated || expected || share <= MOST_OF_RESIDUALS {
+        return None;
+    }
+    let (size, at) = (size(left.amplitude), short(at, 4));
+    let multiple = higher_multiple(settings, of, left);
+    note(fact!("tone-in-residuals", name, size, at, multiple))
 }
 
 /// The strongest tone that is not fitted, unless it is what a fitted one leaves of itself.
@@ -138,43 +129,34 @@ fn left(of: &Analysed) -> Option<Spurious> {
 }
 
 /// That a tone is a multiple above those that are fitted.
-fn of_higher_multiple(settings: &RecipeSettings, of: &Analysed, found: Spurious) -> String {
+fn higher_multiple(settings: &RecipeSettings, of: &Analysed, found: Spurious) -> Option<Fact> {
     let count = of.residuals.first.len() as f64;
     let multiple = of.fundamentals.iter().find_map(|fundamental| {
         let multiple = (found.cycles / fundamental.cycles).round();
         let apart = (multiple * fundamental.cycles - found.cycles).abs() * count;
         (multiple > f64::from(settings.harmonics) && apart < 1.5).then_some(multiple)
     });
-    multiple.map_or(String::new(), |multiple| {
-        format!(
-            ": the multiple {multiple} of the frequency, and `harmonics` is {}",
-            settings.harmonics
-        )
-    })
+    multiple.map(|multiple| fact!("higher-multiple", multiple, harmonics = settings.harmonics))
 }
 
 /// The few samples that are far beyond the rest.
-fn samples(settings: &RecipeSettings, of: &Analysed) -> Option<Note> {
+fn samples(settings: &RecipeSettings, of: &Analysed) -> Option<ChannelNote> {
     let residuals = &of.residuals;
     let (few, deviation) = residuals.farthest.few(&residuals.first, of.resolution)?;
     let name = &settings.channels[of.channel].name;
     let unit = unit_text(settings, of);
-    let each = few.iter().take(NAMED).map(|sample| {
+    let named = few.iter().take(NAMED).map(|sample| {
         let at = of.base.start + sample.sample as f64 / of.base.rate.value;
-        format!("{}{unit} at {} s", short(sample.value, 6), short(at, 8))
+        fact!("far-sample", value = in_unit(sample.value, 6, &unit), at = short(at, 8))
     });
-    let each = each.collect::<Vec<_>>().join(", ");
-    let more = match few.len() - few.len().min(NAMED) {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
+    let samples: Vec<Fact> = named.collect();
+    let count = few.len() - samples.len();
+    let more = (count > 0).then(|| fact!("and-more", count));
     let far = few.first().map_or(0.0, |sample| sample.residual.abs() / deviation);
-    let text = format!(
-        "`{name}`: {each}{more} {} far beyond the rest, up to {} robust standard deviations of the \
-         residuals from the fit; if that is a spike or a number for a missing value, mend the \
-         recording or leave that part out with `from` and `to`, as it counts like every other sample",
-        if few.len() == 1 { "is" } else { "are" },
-        short(far, 2)
-    );
-    Some(("far-samples", of.channel, text))
+    let far = short(far, 2);
+    let fact = match few.len() {
+        1 => fact!("far-samples.one", name, samples, far),
+        _ => fact!("far-samples", name, samples, more, far),
+    };
+    Some(ChannelNote { channel: of.channel, fact })
 }

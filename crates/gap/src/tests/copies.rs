@@ -2,6 +2,8 @@
 
 use super::cases::{candidate, case, normal, observed};
 use crate::{Case, Diagnosis, DiagnosisOptions, HypothesisKind, diagnose};
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::task::Sharing;
 use gumption_inference::noise::copies::Copies;
 
@@ -30,9 +32,21 @@ fn diagnosed(case: &Case) -> Diagnosis {
     diagnose(case, None, DiagnosisOptions::new(1), &|_| {}).unwrap()
 }
 
-fn note(found: &Diagnosis) -> Option<&str> {
-    let note = found.notes.iter().find(|note| note.code == "copied-rows");
-    note.map(|note| note.text.as_str())
+fn note(found: &Diagnosis) -> Option<&Fact> {
+    let note = found.notes.iter().find(|note| note.code() == "copied-rows");
+    note.map(|note| &note.fact)
+}
+
+/// Rows that follow each other, as a note has them.
+fn rows(first: usize, last: usize) -> Argument {
+    vec![fact!("range-of-rows", first, last)].into()
+}
+
+/// The note that all rows of the first table repeat, of which this is said.
+fn repeated(last: usize, said: Fact) -> Fact {
+    let none = || Argument::List(Vec::new());
+    let firsts = fact!("several-rows", rows = rows(1, 10), more = none());
+    fact!("copied-rows", rows = rows(11, last), more = none(), firsts, said)
 }
 
 /// Ten rows twice and thrice tell what ten rows tell, to the last bit. Two readings with u = 1, read to
@@ -44,17 +58,7 @@ fn a_table_that_is_repeated_counts_once() {
     let once = diagnosed(&table(1, Some(1.0)));
     assert_eq!(once.most_probable.kind, HypothesisKind::None);
     assert_eq!(note(&once), None);
-    let said = [
-        "Rows 11 to 20 have the conditions and, to all digits, the values of rows 1 to 10. Independent \
-         readings with the stated uncertainties would repeat so often with a probability below 1e-11: \
-         what repeats was copied, or its uncertainty is one that the rows share, and tells nothing new. \
-         Such rows count once, 10 of 20.",
-        "Rows 11 to 30 have the conditions and, to all digits, the values of rows 1 to 10. Independent \
-         readings with the stated uncertainties would repeat so often with a probability below 1e-15: \
-         what repeats was copied, or its uncertainty is one that the rows share, and tells nothing new. \
-         Such rows count once, 10 of 30.",
-    ];
-    for (times, said) in [2, 3].into_iter().zip(said) {
+    for (times, below) in [(2, "1e-11"), (3, "1e-15")] {
         let found = diagnosed(&table(times, Some(1.0)));
         assert_eq!(found.most_probable.kind, once.most_probable.kind);
         assert_eq!(found.gap.chi2.to_bits(), once.gap.chi2.to_bits());
@@ -64,7 +68,9 @@ fn a_table_that_is_repeated_counts_once() {
             assert_eq!(found.effects, once.effects);
             assert_eq!(found.probability.to_bits(), once.probability.to_bits());
         }
-        assert_eq!(note(&found), Some(said));
+        let (below, counted, all) = (Argument::number(below), 10_usize, 10 * times);
+        let said = fact!("copies-count-once", below, counted, all);
+        assert_eq!(note(&found), Some(&repeated(all, said)));
     }
 }
 
@@ -84,8 +90,7 @@ fn honest_repeats_are_kept() {
     let copies = Copies::of(&all);
     assert!((copies.chance.unwrap() - 0.0041).abs() < 1e-4, "{copies:?}");
     assert_eq!(copies.counted(&all).len(), 20);
-    let text = copies.note(&all).unwrap();
-    assert!(text.contains("values of rows 1 to 10. Chance seldom does that"), "{text}");
+    assert_eq!(copies.note(&all), Some(repeated(20, fact!("copies-by-chance"))));
     // a step of 0.1 is told by the values that differ, whatever their digits: three of four rows at each
     // place are the same, as a converter's are
     let mut coarse = table(4, Some(0.05));
@@ -97,8 +102,8 @@ fn honest_repeats_are_kept() {
     // without uncertainties nobody can tell
     let unknown = table(2, None);
     assert_eq!(Copies::of(&unknown).counted(&unknown).len(), 20);
-    let text = Copies::of(&unknown).note(&unknown).unwrap();
-    assert!(text.contains("Without stated uncertainties it cannot be told whether they were"));
+    let said = Copies::of(&unknown).note(&unknown);
+    assert_eq!(said, Some(repeated(20, fact!("copies-unknown"))));
 }
 
 /// Rows that differ in an uncertainty or a condition are none, and a zero at the end of a number is a

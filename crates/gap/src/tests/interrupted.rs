@@ -12,7 +12,7 @@ fn what_is_known_is_handed_back() {
     let options = DiagnosisOptions::new(1);
     let found = diagnose_until(&line(), None, options, &|_| {}, &stop).unwrap();
     assert!(found.interrupted);
-    assert_eq!(found.notes[0].code, "interrupted");
+    assert_eq!(found.notes[0].code(), "interrupted");
     let sum: f64 = found.hypotheses.iter().map(|h| h.probability).sum();
     assert!((sum - 1.0).abs() < 1e-9, "{sum}");
     assert!(found.next.proposals.is_empty() && found.regions.is_empty());

@@ -3,12 +3,15 @@
 use super::cases::{candidate, case, formulas, normal, observed, quantity};
 use crate::diagnosis::{DepartureShape, SuspectValue};
 use crate::{
-    Candidate, Case, Diagnosis, DiagnosisOptions, Effect, HypothesisKind, Prior, diagnose,
+    Candidate, Case, Diagnosis, DiagnosisNote, DiagnosisOptions, Effect, HypothesisKind, Prior,
+    diagnose,
 };
 use gumption_engine::distribution::{
     Arcsine, Distribution, Gamma, LogUniform, Rectangular, SplitNormal, StreamKey, Trapezoidal,
     Triangular, Truncated,
 };
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::number::elementary;
 use gumption_engine::task::{Row, Sharing};
 
@@ -44,6 +47,17 @@ fn line_with(residuals: &[f64]) -> Case {
 
 fn diagnosed(case: &Case, seed: u64) -> Diagnosis {
     diagnose(case, None, DiagnosisOptions::new(seed), &|_| {}).unwrap()
+}
+
+/// The note with this code.
+fn noted(notes: Vec<DiagnosisNote>, code: &str) -> Option<Fact> {
+    notes.into_iter().map(|note| note.fact).find(|fact| fact.code() == code)
+}
+
+/// What stands at a place of a fact.
+fn argument<'f>(fact: &'f Fact, name: &str) -> &'f Argument {
+    let found = fact.arguments.iter().find(|(known, _)| *known == name);
+    &found.unwrap_or_else(|| panic!("{name}: {fact:?}")).1
 }
 
 /// The values that are off more likely than not, by their rows.
@@ -233,24 +247,26 @@ fn predictions_leave_out_what_has_no_value_there() {
     assert_eq!(found.most_probable.effects, ["offset"]);
     let (value, u) = found.prediction.unwrap()[0].outputs[0];
     assert!((value - 21.6).abs() < 0.2 && u > 0.0 && u < 0.2, "{value} {u}");
-    assert!(found.notes.iter().any(|note| note.code == "undefined-prediction"));
+    let said = fact!("undefined-prediction", count = 1_usize, rows = 1_usize);
+    assert_eq!(noted(found.notes, "undefined-prediction"), Some(said));
 }
 
 /// A row that was copied has a note; rows that share their conditions, or values of few digits, none.
 #[test]
 fn copied_rows_are_told() {
     let residuals: Vec<f64> = normals(30, 4).into_iter().map(|z| 0.1 * z).collect();
-    let noted = |values: [f64; 2]| {
+    let copied_rows = |values: [f64; 2]| {
         let mut case = line_with(&residuals);
         case.task.rows[7] = case.task.rows[6].clone();
         case.observed[0].as_mut().unwrap().values[6..8].copy_from_slice(&values);
-        let found = diagnosed(&case, 1);
-        found.notes.into_iter().find(|note| note.code == "copied-rows").map(|note| note.text)
+        noted(diagnosed(&case, 1).notes, "copied-rows")
     };
-    let text = noted([4.012_34, 4.012_34]).unwrap();
-    assert!(text.starts_with("Row 8 has the conditions and, to all digits, the values of row 7."));
-    assert_eq!(noted([4.012_34, 4.012_35]), None);
-    assert_eq!(noted([4.01, 4.01]), None);
+    let copied = copied_rows([4.012_34, 4.012_34]).unwrap();
+    assert_eq!(copied.key, "copied-rows.one");
+    assert_eq!(argument(&copied, "copy"), &Argument::from(8_usize));
+    assert_eq!(argument(&copied, "first"), &Argument::from(7_usize));
+    assert_eq!(copied_rows([4.012_34, 4.012_35]), None);
+    assert_eq!(copied_rows([4.01, 4.01]), None);
 }
 
 #[test]
@@ -426,7 +442,7 @@ fn a_value_that_was_typed_wrong_is_found() {
 /// goes with the condition, and a table in the order of its condition, are not.
 #[test]
 fn a_drift_along_the_rows_is_told() {
-    let noted = |drift: f64, places: &dyn Fn(usize) -> usize| {
+    let drifting = |drift: f64, places: &dyn Fn(usize) -> usize| {
         let residuals: Vec<f64> = normals(30, 4).into_iter().map(|z| 0.1 * z).collect();
         let ordered = line_with(&residuals);
         let mut case = ordered.clone();
@@ -436,14 +452,15 @@ fn a_drift_along_the_rows_is_told() {
             let value = ordered.observed[0].as_ref().unwrap().values[place];
             case.observed[0].as_mut().unwrap().values[row] = value + drift * row as f64;
         }
-        diagnosed(&case, 1).notes.into_iter().find(|note| note.code == "row-drift")
+        noted(diagnosed(&case, 1).notes, "row-drift")
     };
     let mixed = |row: usize| row * 11 % 30;
-    let text = noted(0.05, &mixed).unwrap().text;
+    let drift = drifting(0.05, &mixed).unwrap();
     // the noise is found to be the scatter about the mean: 14.5 u over sqrt(12)
-    assert!(text.contains("drifts along the rows, from the first to the last by 3."), "{text}");
-    assert_eq!(noted(0.0, &mixed).map(|note| note.text), None);
-    assert_eq!(noted(0.05, &|row| row).map(|note| note.text), None);
+    let Argument::Number(change) = argument(&drift, "change") else { panic!("{drift:?}") };
+    assert!(change.starts_with("3."), "{change}");
+    assert_eq!(drifting(0.0, &mixed), None);
+    assert_eq!(drifting(0.05, &|row| row), None);
 }
 
 /// A wave over the rows that no condition knows is not only noise that is stated too small: the residuals
@@ -451,7 +468,7 @@ fn a_drift_along_the_rows_is_told() {
 /// without any memory.
 #[test]
 fn a_wave_along_the_rows_is_told() {
-    let noted = |wave: f64, scale: f64| {
+    let waving = |wave: f64, scale: f64| {
         let z = normals(30, 4).into_iter().enumerate();
         let turn = |row: usize| (std::f64::consts::TAU * 1.3 * row as f64 / 30.0).sin();
         let residuals: Vec<f64> = z.map(|(row, z)| 0.1 * scale * z + wave * turn(row)).collect();
@@ -464,11 +481,12 @@ fn a_wave_along_the_rows_is_told() {
         }
         let found = diagnosed(&case, 1);
         assert_eq!(found.most_probable.kind, HypothesisKind::None);
-        found.notes.into_iter().find(|note| note.code == "row-drift").map(|note| note.text)
+        noted(found.notes, "row-drift")
     };
-    let text = noted(0.5, 1.0).unwrap();
-    assert!(text.contains("`y` changes slowly along the rows"), "{text}");
-    assert_eq!((noted(0.0, 1.0), noted(0.0, 5.0)), (None, None));
+    let wave = waving(0.5, 1.0).unwrap();
+    assert_eq!(wave.key, "row-drift.memory");
+    assert_eq!(argument(&wave, "name"), &Argument::from("y"));
+    assert_eq!((waving(0.0, 1.0), waving(0.0, 5.0)), (None, None));
 }
 
 #[test]
@@ -500,7 +518,7 @@ fn an_effect_far_outside_its_prior_is_named() {
     // 0.3 is six standard deviations of the prior; the slope is known to 0.002
     assert_eq!(conflict.effect, "slope");
     assert!((conflict.prior_distance - 6.0).abs() < 0.2, "{conflict:?}");
-    assert!(found.notes.iter().any(|note| note.code == "prior-conflict"));
+    assert!(found.notes.iter().any(|note| note.code() == "prior-conflict"));
     assert!(present(&found, "slope") > 0.5);
 }
 
@@ -536,7 +554,7 @@ fn a_prior_in_a_mistaken_unit_is_told() {
     let conflict = found.prior_conflicts.iter().find(|of| of.effects == ["offset"]).unwrap();
     assert!((conflict.prior_distance - 100.0).abs() < 0.5, "{conflict:?}");
     assert_eq!(conflict.widened, 1000.0);
-    assert!(found.notes.iter().any(|note| note.code == "prior-conflict"));
+    assert!(found.notes.iter().any(|note| note.code() == "prior-conflict"));
 }
 
 #[test]
@@ -586,7 +604,7 @@ fn priors_that_are_much_too_wide_do_not_hide_an_effect() {
         case.candidates[0].priors = vec![normal(0.0, 0.4 * scale)];
         case.candidates[1].priors = vec![normal(0.0, 0.05 * scale)];
         let found = diagnosed(&case, 1);
-        let is_told = found.notes.iter().any(|note| note.code == "wide-priors");
+        let is_told = found.notes.iter().any(|note| note.code() == "wide-priors");
         (found.most_probable.effects, found.most_probable.probability, is_told)
     };
     for scale in [1.0, 3.0, 10.0] {
@@ -817,12 +835,11 @@ fn too_many_settings_are_told() {
             let error = size * numbers[row / 2] + 0.1 * numbers[300 + row];
             observed.values[row] = 1.0 + 0.5 * x + error;
         }
-        diagnosed(&case, 1).notes.into_iter().find(|note| note.code == "many-settings")
+        noted(diagnosed(&case, 1).notes, "many-settings")
     };
-    let said = of(0.5).unwrap().text;
-    assert!(said.contains("about 4.0 times") && said.contains("up to 200"), "{said}");
-    assert!(said.contains("here are 300"), "{said}");
-    assert!(of(0.0).is_none());
+    let (ratio, most, errors) = (Argument::number("4.0"), 200_usize, 300_usize);
+    assert_eq!(of(0.5), Some(fact!("many-settings", name = "y", ratio, most, errors)));
+    assert_eq!(of(0.0), None);
 }
 
 /// What comes back with a value that was left in between is no error of a setting.
@@ -853,10 +870,9 @@ fn equal_readings_are_known_to_half_a_step() {
     for stated in [true, false] {
         let found = read(0.0, stated);
         assert_eq!(found.most_probable.kind, HypothesisKind::None, "{stated}");
-        let note = found.notes.iter().find(|note| note.code == "resolution").unwrap();
-        let said = "rounded to 0.1, more coarsely than their noise: what that may have changed counts as a \
-                    standard uncertainty of 0.029,";
-        assert!(note.text.contains(said), "{}", note.text);
+        let [resolution, deviation] = ["0.1", "0.029"].map(Argument::number);
+        let said = fact!("resolution", name = "y", resolution, deviation);
+        assert_eq!(noted(found.notes, "resolution"), Some(said));
         assert_eq!(read(0.2, stated).most_probable.effects, ["offset"], "{stated}");
     }
 }
@@ -938,13 +954,12 @@ fn an_input_that_is_off_is_named() {
         );
         let found = diagnosed(&case, 1);
         assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained);
-        found.notes.into_iter().find(|note| note.code == "far-input").map(|note| note.text)
+        noted(found.notes, "far-input")
     };
     // the noise of 30 rows moves it by 0.1/sqrt(8555)/0.002 = 0.5 standard uncertainties
     let said = of(0.012, 0.0).unwrap();
-    let found = (0..=30).map(|n| 4.5 + 0.1 * f64::from(n));
-    let said_of =
-        |distance: f64| said.contains(&format!("were {distance:.1} standard uncertainties above"));
-    assert!(said.contains("`a` alone") && found.into_iter().any(said_of), "{said}");
+    assert_eq!((said.key, argument(&said, "input")), ("far-input", &Argument::from("a")));
+    let Argument::Number(distance) = argument(&said, "distance") else { panic!("{said:?}") };
+    assert!((4.5..=7.5).contains(&distance.parse::<f64>().unwrap()), "{distance}");
     assert_eq!(of(0.0, 0.01), None);
 }

@@ -13,6 +13,8 @@ use std::f64::consts::PI;
 
 use crate::Case;
 use gumption_engine::decimal::Decimal;
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::number::{ascending, elementary};
 
 /// Repeated rows count once where chance makes so many of them with less than this probability.
@@ -95,52 +97,41 @@ impl Copies {
     }
 
     /// What is to be said of them.
-    pub fn note(&self, case: &Case) -> Option<String> {
+    pub fn note(&self, case: &Case) -> Option<Fact> {
         let (first, copy) = self.pairs.first().filter(|_| self.told)?;
         let one = self.pairs.len() == 1;
-        let repeated = if one {
-            format!(
-                "Row {} has the conditions and, to all digits, the values of row {}.",
-                copy + 1,
-                first + 1
-            )
-        } else {
-            let mut firsts: Vec<usize> = self.pairs.iter().map(|(first, _)| *first).collect();
-            firsts.sort_unstable();
-            firsts.dedup();
-            let copies: Vec<usize> = self.pairs.iter().map(|(_, copy)| *copy).collect();
-            format!(
-                "{} have the conditions and, to all digits, the values of {}.",
-                capitalized(&named(&copies)),
-                named(&firsts)
-            )
-        };
         let said = if self.count_once() {
+            let below = Argument::Number(bound(self.chance.unwrap_or(NO_CHANCE)));
             let all = case.task.rows.len();
-            format!(
-                "Independent readings with the stated uncertainties would repeat {} with a \
-                 probability below {}: what repeats was copied, or its uncertainty is one that the \
-                 rows share, and tells nothing new. Such rows count once, {} of {all}.",
-                if one { "one another" } else { "so often" },
-                bound(self.chance.unwrap_or(NO_CHANCE)),
-                all - self.pairs.len()
-            )
+            let counted = all - self.pairs.len();
+            match one {
+                true => fact!("copies-count-once.one", below, counted, all),
+                false => fact!("copies-count-once", below, counted, all),
+            }
         } else {
-            let why = match self.chance {
-                None => "Without stated uncertainties it cannot be told whether",
-                Some(_) => "Chance seldom does that, but it cannot be excluded that",
-            };
-            format!(
-                "{why} {} measured, so {} with noise of {} own. If {} copied, that makes the \
-                 diagnosis too sure, or finds a gap that is not there: leave such rows out unless \
-                 they were measured.",
-                if one { "it was" } else { "they were" },
-                if one { "it counts" } else { "they count" },
-                if one { "its" } else { "their" },
-                if one { "it was" } else { "they were" },
-            )
+            match (self.chance, one) {
+                (None, true) => fact!("copies-unknown.one"),
+                (None, false) => fact!("copies-unknown"),
+                (Some(_), true) => fact!("copies-by-chance.one"),
+                (Some(_), false) => fact!("copies-by-chance"),
+            }
         };
-        Some(format!("{repeated} {said}"))
+        if one {
+            return Some(fact!("copied-rows.one", copy = copy + 1, first = first + 1, said));
+        }
+        let mut firsts: Vec<usize> = self.pairs.iter().map(|(first, _)| *first).collect();
+        firsts.sort_unstable();
+        firsts.dedup();
+        let copies: Vec<usize> = self.pairs.iter().map(|(_, copy)| *copy).collect();
+        let [rows, more] = named(&copies);
+        let firsts_of = match firsts[..] {
+            [row] => fact!("one-row", row = row + 1),
+            _ => {
+                let [rows, more] = named(&firsts);
+                fact!("several-rows", rows, more)
+            }
+        };
+        Some(fact!("copied-rows", rows, more, firsts = firsts_of, said))
     }
 }
 
@@ -239,8 +230,8 @@ fn bound(probability: f64) -> String {
     format!("1e{power}")
 }
 
-/// Rows as a user counts them, neighbours as ranges.
-fn named(rows: &[usize]) -> String {
+/// Rows as a user counts them, neighbours as ranges, and how many more there are.
+fn named(rows: &[usize]) -> [Argument; 2] {
     const MOST: usize = 8;
     let mut ranges: Vec<[usize; 2]> = Vec::new();
     for &row in rows {
@@ -249,19 +240,16 @@ fn named(rows: &[usize]) -> String {
             _ => ranges.push([row, row]),
         }
     }
-    let range = |[first, last]: &[usize; 2]| match last - first {
-        0 => (first + 1).to_string(),
-        1 => format!("{}, {}", first + 1, last + 1),
-        _ => format!("{} to {}", first + 1, last + 1),
+    let range = |[first, last]: &[usize; 2]| -> Argument {
+        let [first, last] = [first + 1, last + 1];
+        match last - first {
+            0 => first.into(),
+            1 => vec![first, last].into(),
+            _ => fact!("range-of-rows", first, last).into(),
+        }
     };
-    let said: Vec<String> = ranges.iter().take(MOST).map(range).collect();
-    let more: usize = ranges.iter().skip(MOST).map(|[first, last]| last - first + 1).sum();
-    let word = if rows.len() == 1 { "row" } else { "rows" };
-    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-    format!("{word} {}{more}", said.join(", "))
-}
-
-fn capitalized(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+    let said: Vec<Argument> = ranges.iter().take(MOST).map(range).collect();
+    let count: usize = ranges.iter().skip(MOST).map(|[first, last]| last - first + 1).sum();
+    let more = (count > 0).then(|| fact!("and-more", count));
+    [said.into(), more.into()]
 }

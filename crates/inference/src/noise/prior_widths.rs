@@ -14,6 +14,8 @@ use crate::noise::weighing::{Weighing, ln_total};
 use crate::posterior::{self, Effort, Posterior, WeighedHypothesis};
 use crate::setup::Setup;
 use gumption_engine::distribution::{Distribution, LogUniform, Normal, Rectangular, Truncated};
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::parallel;
 use gumption_units::{Turn, Unit};
@@ -263,17 +265,16 @@ pub fn hidden(weighings: &[Weighing<'_>]) -> Vec<Vec<usize>> {
         .collect()
 }
 
-/// The sentence of the note where these effects are named for their narrower priors.
-pub fn note(effects: &[String]) -> String {
-    let (who, is) = match effects {
-        [effect] => (effect.clone(), "is"),
-        several => (several.join(" with "), "are"),
-    };
-    format!(
-        "The priors of the effects' parameters are so wide that a departure of any form is more \
-         probable than {who}; with priors {NARROWER} times narrower {who} {is} more \
-         probable. Make priors no wider than you would bet."
-    )
+/// What is to be said where these effects are named for their narrower priors.
+pub fn note(effects: &[String]) -> Option<Fact> {
+    let times = NARROWER;
+    let (effect, others) = effects.split_first()?;
+    if others.is_empty() {
+        return Some(fact!("wide-priors", effect, times));
+    }
+    let together = |first: Argument, second: &String| fact!("effect-with", first, second).into();
+    let effects = others.iter().fold(Argument::from(effect), together);
+    Some(fact!("wide-priors.several", effects, times))
 }
 
 /// Whether a prior has all angles there are, so that no other is beyond it.

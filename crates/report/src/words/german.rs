@@ -155,6 +155,7 @@ const FILES: Sentences = &[
 /// Facts about recordings.
 #[rustfmt::skip]
 const SIGNALS: Sentences = &[
+<<<<<<< HEAD
     ("preamble", "`{name}`: Zeile {first} steht über der Kopfzeile in Zeile {header} und wird nicht gelesen"),
     ("preamble.lines", "`{name}`: Zeilen {first} bis {last} stehen über der Kopfzeile in Zeile {header} und \
         werden nicht gelesen"),
@@ -174,16 +175,252 @@ const SIGNALS: Sentences = &[
     ("lowest", "kleinste"),
     ("sample-of-time", "Abtastwert {sample}, die Zeit"),
     ("sample-of-channel", "Abtastwert {sample}, Kanal `{channel}`"),
+=======
+    ("near-noise", "`{name}`: Rauschen allein ergibt in {percent} % aller Aufzeichnungen eine Amplitude, die \
+        so groß ist wie die bei {frequency} Hz; die Phase ist dort kaum bekannt und die Amplitude im Mittel zu \
+        groß"),
+    ("strong-tone", "`{name}`: Das Vielfache {multiple} einer Frequenz, das `components` nicht nennt, hat bei \
+        {at} Hz die Amplitude {size}, mehr als die {asked} bei {hertz} Hz; Frequenz und Abtastrate sind zu \
+        prüfen{other_unit}"),
+    ("strong-tone.beside", "`{name}`: Eine Schwingung, die das Rezept nicht nennt, hat bei {at} Hz die \
+        Amplitude {size}, mehr als die {asked} bei {hertz} Hz; Frequenz und Abtastrate sind zu \
+        prüfen{other_unit}"),
+    ("strong-tone.left", "`{name}`: In den Residuen ist bei etwa {at} Hz eine Schwingung von {size}, mehr als \
+        die {asked} bei {hertz} Hz; Frequenz und Abtastrate sind zu prüfen{other_unit}"),
+    ("frequency-in-other-unit", " ({number} {unit} sind {hertz} Hz)"),
+    ("peak-amplitude", "{amplitude} (Scheitelwert)"),
+    ("tone-in-residuals", "`{name}`: Den größten Teil der Residuen macht eine Schwingung von {size} bei etwa \
+        {at} Hz aus, die nicht angepasst wird und als Rauschen zählt{multiple}"),
+    ("higher-multiple", ": das Vielfache {multiple} der Frequenz, und `harmonics` ist {harmonics}"),
+    ("far-samples", "`{name}`: {samples}{more} liegen weit außerhalb der übrigen, bis zu {far} robuste \
+        Standardabweichungen der Residuen von der Anpassung entfernt; ist das eine Störspitze oder eine Zahl \
+        für einen fehlenden Wert, so ist die Aufzeichnung zu berichtigen oder dieser Teil mit `from` und `to` \
+        wegzulassen, weil er wie jeder andere Abtastwert zählt"),
+    ("far-samples.one", "`{name}`: {samples} liegt weit außerhalb der übrigen, bis zu {far} robuste \
+        Standardabweichungen der Residuen von der Anpassung entfernt; ist das eine Störspitze oder eine Zahl \
+        für einen fehlenden Wert, so ist die Aufzeichnung zu berichtigen oder dieser Teil mit `from` und `to` \
+        wegzulassen, weil er wie jeder andere Abtastwert zählt"),
+    ("far-sample", "{value} bei {at} s"),
+    ("and-more", " und {count} weitere"),
+    ("filter-not-corrected", "`{name}`: Die Verstärkung des Schritts `{step}` bei {at} Hz, {value}, wird nicht \
+        korrigiert"),
+    ("filter-not-corrected.phase", "`{name}`: Die Phase des Schritts `{step}` bei {at} Hz, {value}, wird nicht \
+        korrigiert"),
+    ("correlated-residuals", "`{name}`: Die Residuen sind korreliert (Koeffizient {coefficient} bei der \
+        Verschiebung 1); {way}"),
+    ("correlated-residuals.before-steps", "`{name}`: Vor den Schritten sind die Residuen korreliert \
+        (Koeffizient {coefficient} bei der Verschiebung 1); {way}"),
+    ("short-record", "`{name}`: Die Aufzeichnung ist zu kurz, um weißes Rauschen von Rauschen mit Gedächtnis \
+        zu unterscheiden; die Standardunsicherheiten setzen weißes Rauschen voraus und sind vielleicht zu \
+        klein"),
+    ("short-record.white-before-steps", "`{name}`: Vor den Schritten ist die Aufzeichnung zu kurz, um weißes \
+        Rauschen von Rauschen mit Gedächtnis zu unterscheiden; die Standardunsicherheiten setzen weißes \
+        Rauschen voraus, das die Schritte durchläuft, und sind vielleicht zu klein"),
+    ("short-record.suspected", "`{name}`: Die Residuen sind vielleicht korreliert, wofür die Aufzeichnung zu \
+        kurz ist (Koeffizient {coefficient} bei der Verschiebung 1); {way}"),
+    ("short-record.before-steps", "`{name}`: Vor den Schritten sind die Residuen vielleicht korreliert, wofür \
+        die Aufzeichnung zu kurz ist (Koeffizient {coefficient} bei der Verschiebung 1); {way}"),
+    ("noise-of-parts", "das Rauschen nahe jeder Frequenz wird aus {parts} Teilen der Aufzeichnung bestimmt"),
+    ("noise-of-process", "das Rauschen nahe jeder Frequenz wird einem Prozess erster Ordnung entnommen, der \
+        die Residuen beschreibt"),
+    ("noise-of-process.before-steps", "das Rauschen nahe jeder Frequenz nach den Schritten wird einem Prozess \
+        erster Ordnung entnommen, der diese Residuen beschreibt"),
+    ("noise-even", "die Aufzeichnung ist zu kurz, um das Rauschen nahe jeder Frequenz zu bestimmen; es gilt \
+        als gleichmäßig über das, was die Schritte durchlassen, so dass Standardunsicherheiten vielleicht zu \
+        klein sind"),
+    ("noise-unknown", "die Aufzeichnung ist zu kurz, um das Rauschen nahe jeder Frequenz zu bestimmen, so dass \
+        Standardunsicherheiten vielleicht zu klein sind"),
+    ("found-tone", "`{name}`: Etwas schwingt, das das Rezept nicht nennt, bei {tones}; es wird zusammen mit \
+        den genannten Frequenzen angepasst und zählt im Signal-Rausch-Verhältnis als Rauschen"),
+    ("other-tone", "{frequency} Hz (Amplitude {amplitude})"),
+    ("found-drift", "`{name}`: Der Pegel driftet über die Aufzeichnung um {range}; ein Polynom vom Grad \
+        {degree} wird zusammen mit den genannten Frequenzen angepasst, der Offset ist der Mittelwert über die \
+        Aufzeichnung mit der Standardabweichung der Drift in seiner Unsicherheit, und die Drift zählt im \
+        Signal-Rausch-Verhältnis als Rauschen"),
+    ("tones-too-near", "`{name}`: Etwas schwingt innerhalb von {within} Hz (eins durch die Länge der \
+        Aufzeichnung) um eine genannte Frequenz, oder die Schwingung bei dieser Frequenz wächst, klingt ab \
+        oder wandert; diese Aufzeichnung kann beides nicht unterscheiden, Amplitude und Phase gehören zu \
+        beidem zusammen, und nur eine längere Aufzeichnung sagt mehr"),
+    ("wandering-level", "`{name}`: Der Pegel wandert und kehrt innerhalb der Aufzeichnung nicht zurück; die \
+        Unsicherheit des Offsets bezieht sich auf den ersten Wert der Aufzeichnung. Eine stetige Drift, die \
+        kein Rauschen ist, verfälscht Amplituden und Phasen mehr, als deren Unsicherheiten sagen: Der Schritt \
+        `remove-trend` entfernt eine Gerade"),
+    ("wandering-level.flicker", "`{name}`: Das Rauschen wächst zu den tiefsten Frequenzen der Aufzeichnung \
+        hin, wie es 1/f-Rauschen tut, das keinen eigenen Pegel hat; die Unsicherheit des Offsets bezieht sich \
+        auf den Mittelwert einer zehnmal so langen Aufzeichnung"),
+    ("looks-quantized", "`{name}`: Es ist keine Auflösung angegeben, doch die Werte sind Vielfache von {step}; \
+        dies gilt als Auflösung"),
+    ("looks-quantized.finer", "`{name}`: Es ist eine feinere Auflösung angegeben, doch die Werte sind \
+        Vielfache von {step}; dies gilt als Auflösung"),
+    ("coherent-sampling", "`{name}`: Die {samples} Abtastwerte fallen auf {phases} verschiedene Phasen der \
+        Schwingung, und das Rauschen ist zu klein, um die Rundung zu verwischen, so dass sie sich nur über \
+        diese ausmittelt"),
+    ("common-noise", "`{name}`: Das Rauschen und das der Referenz haben etwas gemeinsam (die Abweichungen der \
+        beiden Phasen sind korreliert, {coefficient}); die Unsicherheit der Phase trägt dem Rechnung"),
+    ("frequency-differs", "`{name}`: Zur Aufzeichnung passt eine Frequenz, die um {by} Hz von {frequency} Hz \
+        abweicht, mehr, als die Unsicherheiten zulassen; die Abtastrate ist zu prüfen oder die Frequenz \
+        schätzen zu lassen"),
+>>>>>>> 2ed1eed6d8889f77811103bf31050afc9968f03c
 ];
 
 /// Facts about a diagnosis.
 #[rustfmt::skip]
 const GAP: Sentences = &[
+    ("interrupted", "Die Diagnose wurde abgebrochen; dies war bis dahin bekannt. Hypothesen fehlen vielleicht, \
+        ihre Wahrscheinlichkeiten sind grob, und was noch nicht begonnen war (anderes Rauschen, Bereiche, \
+        Kreuzvalidierung, die nächsten Messungen), ist weggelassen"),
+    ("estimated-noise", "Das Rauschen von Ergebnisgrößen ohne angegebene Unsicherheiten ist aus wiederholten \
+        Zeilen und Residuen zusammen geschätzt"),
+    ("estimated-noise.from-residuals", "Es gibt weder angegebene Unsicherheiten noch wiederholte Zeilen; das \
+        Rauschen ist daher aus den Residuen selbst geschätzt: Eine Abweichung, die wie Rauschen aussieht, ist \
+        nicht davon zu unterscheiden, und der Chi-Quadrat-Test sagt nichts"),
+    ("resolution", "Die Werte von {name} sind auf {resolution} gerundet, gröber als ihr Rauschen: Was das \
+        verändert haben kann, zählt als Standardunsicherheit von {deviation}, dieselbe für gleiche Werte unter \
+        gleichen Bedingungen"),
+    ("many-settings", "Was von {name} bleibt, ist in den Zeilen jeder Einstellung ähnlich, als hätten sie eine \
+        gemeinsame Abweichung vom etwa {ratio}-Fachen des Rauschens einer Zeile. Solche Abweichungen werden \
+        bis zu {most} Einstellungen mal Ergebnisgrößen abgewogen, und hier sind es {errors}: Anzugeben ist \
+        eine Eingangsgröße, die für jede Einstellung einen Wert hat (`per`), oder die Mittelwerte der \
+        Einstellungen mit ihren Unsicherheiten"),
+    ("unit-slip", "Die Werte von {name} sind {rows} etwa das {ratio}-Fache dessen, was die Simulation sagt: \
+        {cause} ergibt einen solchen Faktor; die Einheiten der Daten und der Simulation sind zu prüfen, bevor \
+        ein Effekt geglaubt wird"),
+    ("slip-in-all-rows", "in allen Zeilen"),
+    ("slip-in-rows", "in den Zeilen {first} bis {last} (in den übrigen stimmen sie mit ihr überein)"),
+    ("slip-in-rows.some", "in {count} der Zeilen {first} bis {last} (in den übrigen stimmen sie mit ihr \
+        überein)"),
+    ("slip-of.prefix", "ein Vorsatz oder Prozent"),
+    ("slip-of.sign", "ein Vorzeichen"),
+    ("slip-of.turn", "eine Frequenz in Hz statt in rad/s"),
+    ("slip-of.minute", "eine Zeit in Minuten statt in Sekunden oder ein Winkel in Minuten statt in Grad"),
+    ("slip-of.hour", "eine Zeit in Stunden statt in Sekunden"),
+    ("slip-of.degree", "ein Winkel in Grad statt in rad"),
+    ("slip-of.peak", "ein Effektivwert statt eines Scheitelwerts"),
+    ("far-input", "Die Eingangsgröße `{input}` allein würde die Daten erklären, wenn sie {distance} \
+        Standardunsicherheiten über ihrem Schätzwert läge{others}. Das ist keine Hypothese, weil \
+        Eingangsgrößen sind, was von ihnen angegeben ist: Zu prüfen ist, woher der Wert kommt und wie seine \
+        Unsicherheit ermittelt wurde"),
+    ("far-input.below", "Die Eingangsgröße `{input}` allein würde die Daten erklären, wenn sie {distance} \
+        Standardunsicherheiten unter ihrem Schätzwert läge{others}. Das ist keine Hypothese, weil \
+        Eingangsgrößen sind, was von ihnen angegeben ist: Zu prüfen ist, woher der Wert kommt und wie seine \
+        Unsicherheit ermittelt wurde"),
+    ("other-far-inputs", ". Das gilt auch für {inputs}, weiter von ihren Schätzwerten entfernt"),
+    ("whole-turns", "{far} von {count} Werten von {name} liegen mehr als eine halbe Umdrehung von der \
+        Simulation entfernt: Eine Ergebnisgröße, die sich nach einer Umdrehung wiederholt, hat `\"periodic\": \
+        {turn}`"),
+    ("whole-turns.jumps", "Was die Simulation von {name} übrig lässt, springt zwischen benachbarten \
+        Bedingungen um fast eine Umdrehung, und alle Werte liegen innerhalb einer Umdrehung: Eine \
+        Ergebnisgröße, die sich nach einer Umdrehung wiederholt, hat `\"periodic\": {turn}`"),
+    ("poor-integral", "Zwei unabhängige Integrale derselben Hypothese unterscheiden sich im Logarithmus der \
+        Evidenz um {apart}; die Wahrscheinlichkeiten sind Mittelwerte über diese Abweichung und deshalb \
+        weniger sicher"),
+    ("poor-integral.few-draws", "Die Evidenz des Befundes beruht auf nur {draws} effektiven Ziehungen \
+        (Standardfehler ihres Logarithmus {error}); die Wahrscheinlichkeiten sind Mittelwerte über diese \
+        Abweichung und deshalb weniger sicher"),
+    ("look-alikes", "Diese Daten können die Hypothesen in der Gruppe des Befundes nicht unterscheiden: Ihre \
+        Vorhersagen stimmen innerhalb der Unsicherheiten überein, und zwischen ihnen entscheidet das \
+        Vorwissen: ihre Wahrscheinlichkeiten und wie weit ihre Größen reichen können"),
+    ("small-gap", "Die Lücke liegt unter 3 Standardunsicherheiten der Daten; der beseitigte Anteil wäre daher \
+        ein Verhältnis zweier Rauschwerte und wird nicht angegeben"),
+    ("poor-fit", "Der Befund ist die beste der Hypothesen, lässt aber unter ausgelassenen Bedingungen ein \
+        Chi-Quadrat von {chi_square} je Wert übrig: Etwas fehlt noch"),
+    ("scatter", "Die Residuen sind {times}-mal so groß, wie ihre Unsicherheiten zulassen, aber ohne ein \
+        Muster, das ein Effekt oder eine glatte Diskrepanz ergäbe: Das angegebene Rauschen ist wahrscheinlich \
+        zu klein, oder einzelne Werte sind falsch"),
+    ("curved-sim", "Bei den Schätzwerten der Eingangsgrößen sind die Residuen {times}-mal so groß, wie das \
+        Fortpflanzungsgesetz zulässt, doch Werte innerhalb dessen, was von den Eingangsgrößen bekannt ist, \
+        erklären sie: Die Simulation ist dort in ihren Eingangsgrößen nicht linear"),
+    ("row-drift", "Was der Befund von `{name}` übrig lässt, driftet über die Zeilen, von der ersten bis zur \
+        letzten um das {change}-Fache der Standardabweichung, die sich für das Rauschen ergibt (so steil durch \
+        Zufall in einer von 10 000 Tabellen). Wurden die Zeilen in dieser Reihenfolge aufgenommen, so ändert \
+        sich etwas mit der Zeit: Anzugeben ist die Zeit als Bedingung oder ein Effekt, der driftet; ohne dies \
+        gefundene Größen sind Mittelwerte über die Zeilen"),
+    ("row-drift.best-hypothesis", "Was die beste Hypothese von `{name}` übrig lässt, driftet über die Zeilen, \
+        von der ersten bis zur letzten um das {change}-Fache der Standardabweichung, die sich für das Rauschen \
+        ergibt (so steil durch Zufall in einer von 10 000 Tabellen). Wurden die Zeilen in dieser Reihenfolge \
+        aufgenommen, so ändert sich etwas mit der Zeit: Anzugeben ist die Zeit als Bedingung oder ein Effekt, \
+        der driftet; ohne dies gefundene Größen sind Mittelwerte über die Zeilen"),
+    ("row-drift.memory", "Was von `{name}` bleibt, ändert sich langsam über die Zeilen: Benachbarte haben den \
+        Korrelationskoeffizienten {coefficient} (so groß durch Zufall in einer von 10 000 Tabellen). Wurden \
+        die Zeilen in dieser Reihenfolge aufgenommen, so ändert sich etwas mit der Zeit, und die angegebenen \
+        Unsicherheiten können richtig sein: Anzugeben ist die Zeit als Bedingung oder ein Effekt, der sich mit \
+        ihr ändert"),
+    ("copied-rows", "Die Zeilen {rows}{more} haben die Bedingungen und auf alle Stellen die Werte der \
+        {firsts}. {said}"),
+    ("copied-rows.one", "Zeile {copy} hat die Bedingungen und auf alle Stellen die Werte der Zeile {first}. \
+        {said}"),
+    ("one-row", "Zeile {row}"),
+    ("several-rows", "Zeilen {rows}{more}"),
+    ("range-of-rows", "{first} bis {last}"),
+    ("copies-count-once", "Unabhängige Messwerte mit den angegebenen Unsicherheiten würden sich mit einer \
+        Wahrscheinlichkeit unter {below} so oft wiederholen: Was sich wiederholt, wurde kopiert, oder seine \
+        Unsicherheit ist den Zeilen gemeinsam, und es sagt nichts Neues. Solche Zeilen zählen einmal, \
+        {counted} von {all}"),
+    ("copies-count-once.one", "Unabhängige Messwerte mit den angegebenen Unsicherheiten würden einander mit \
+        einer Wahrscheinlichkeit unter {below} wiederholen: Was sich wiederholt, wurde kopiert, oder seine \
+        Unsicherheit ist den Zeilen gemeinsam, und es sagt nichts Neues. Solche Zeilen zählen einmal, \
+        {counted} von {all}"),
+    ("copies-unknown", "Ohne angegebene Unsicherheiten ist nicht zu sagen, ob sie gemessen wurden; sie zählen \
+        daher mit eigenem Rauschen. Wurden sie kopiert, so macht das die Diagnose zu sicher oder findet eine \
+        Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht gemessen wurden"),
+    ("copies-unknown.one", "Ohne angegebene Unsicherheiten ist nicht zu sagen, ob sie gemessen wurde; sie \
+        zählt daher mit eigenem Rauschen. Wurde sie kopiert, so macht das die Diagnose zu sicher oder findet \
+        eine Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht gemessen wurden"),
+    ("copies-by-chance", "Durch Zufall geschieht das selten, doch es ist nicht auszuschließen, dass sie \
+        gemessen wurden; sie zählen daher mit eigenem Rauschen. Wurden sie kopiert, so macht das die Diagnose \
+        zu sicher oder findet eine Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht \
+        gemessen wurden"),
+    ("copies-by-chance.one", "Durch Zufall geschieht das selten, doch es ist nicht auszuschließen, dass sie \
+        gemessen wurde; sie zählt daher mit eigenem Rauschen. Wurde sie kopiert, so macht das die Diagnose zu \
+        sicher oder findet eine Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht \
+        gemessen wurden"),
+    ("few-conditions", "Es gibt nur {count} verschiedene Bedingungen; Effekte, die sich anderswo \
+        unterscheiden, sehen hier gleich aus"),
+    ("few-conditions.one", "Es gibt nur eine Bedingung; Effekte, die sich anderswo unterscheiden, sehen hier \
+        gleich aus"),
+    ("periodic-residuals", "Was von `{name}` bleibt, folgt längs `{condition}` einem Sinus mit der Periode \
+        {period} und der Amplitude {amplitude}, die {percent} % der Varianz ausmacht (so viel durch Zufall in \
+        einer von einer Million Tabellen): eine Störung, die wiederkehrt, und kein größeres Rauschen. Sie ist \
+        als Effekt anzugeben, etwa `{name} + k*sin(2*pi*{condition}/({divisor}) + phi)`"),
+    ("periodic-residuals.rows", "Was von `{name}` bleibt, folgt längs der Zeilen in ihrer Reihenfolge einem \
+        Sinus mit einer Periode von {period} Zeilen und der Amplitude {amplitude}, die {percent} % der Varianz \
+        ausmacht (so viel durch Zufall in einer von einer Million Tabellen): eine Störung, die wiederkehrt, \
+        und kein größeres Rauschen. Sie ist als Effekt anzugeben, etwa `{name} + k*sin(2*pi*row/... + phi)` \
+        mit einer Bedingung, die sagt, wann oder wo die Zeilen aufgenommen wurden"),
+    ("prior-conflict", "{who} würde die Daten mit einer Größe von {parameter} erklären, die {distance} \
+        {counted_in} liegt (Wahrscheinlichkeit {probability}, mit {widened}-mal so breiten \
+        A-priori-Verteilungen)"),
+    ("effect-alone", "{effect} allein"),
+    ("effects-together", "{others} zusammen mit {last}"),
+    ("widths-beyond-bound", "Breiten der A-priori-Verteilung jenseits ihrer Grenze"),
+    ("deviations-from-mean", "Standardabweichungen der A-priori-Verteilung von ihrem Erwartungswert entfernt"),
+    ("wide-priors", "Die A-priori-Verteilungen der Parameter der Effekte sind so breit, dass eine Abweichung \
+        beliebiger Form wahrscheinlicher ist als {effect}; mit {times}-mal so schmalen A-priori-Verteilungen \
+        ist {effect} wahrscheinlicher. A-priori-Verteilungen sollten nicht breiter sein, als man darauf wetten \
+        würde"),
+    ("wide-priors.several", "Die A-priori-Verteilungen der Parameter der Effekte sind so breit, dass eine \
+        Abweichung beliebiger Form wahrscheinlicher ist als {effects}; mit {times}-mal so schmalen \
+        A-priori-Verteilungen sind {effects} wahrscheinlicher. A-priori-Verteilungen sollten nicht breiter \
+        sein, als man darauf wetten würde"),
+    ("effect-with", "{first} mit {second}"),
+    ("undefined-prediction", "In {count} von {rows} Zeilen der Vorhersage haben Hypothesen von einiger \
+        Wahrscheinlichkeit keinen Wert (eine Wurzel oder ein Logarithmus einer negativen Zahl, eine Division \
+        durch null). Sie bleiben dort weg; wo sie wahrscheinlicher sind als die übrigen, wird nichts \
+        vorhergesagt"),
+    ("extrapolation", "{outside} von {rows} Zeilen der Vorhersage liegen außerhalb der Bedingungen der Daten. \
+        Kein Effekt der Liste sagt, wie die Abweichung dort weitergeht: Glatte und zusammengesetzte \
+        Abweichungen werden mit weniger Rücksicht auf ihre Wahrscheinlichkeiten gemittelt, und die \
+        Standardunsicherheit wird mit der Entfernung vergrößert"),
+    ("extrapolation.effects", "{outside} von {rows} Zeilen der Vorhersage liegen außerhalb der Bedingungen der \
+        Daten. Die Effekte gehen dort so weiter, wie ihre Formeln sagen, und die Daten zeigen nicht, ob sie \
+        das tun: Hypothesen, die bei den Daten übereinstimmen, können sich dort unterscheiden und werden mit \
+        ihren Wahrscheinlichkeiten gemittelt"),
 ];
 
 /// Facts that only a command knows.
 #[rustfmt::skip]
 const COMMANDS: Sentences = &[
+<<<<<<< HEAD
     ("of-model", "{model}: "),
     ("few-trials.audit", "{trials} Versuche sind zu wenige, um zu sagen, wie Annahmen das Ergebnis bewegen; es \
         werden {made} gemacht"),
@@ -212,4 +449,7 @@ const COMMANDS: Sentences = &[
     ("drawn-together.ranks", "{names} werden gemeinsam gezogen; sie haben einen gemeinsamen Sobol-Index. Mit \
         einer anderen Form bleibt die Abhängigkeit ihrer Ränge, so dass sich der Korrelationskoeffizient etwas \
         bewegt"),
+=======
+    ("in-row", "Zeile {row}, "),
+>>>>>>> 2ed1eed6d8889f77811103bf31050afc9968f03c
 ];

@@ -7,6 +7,8 @@ use super::simulated::Bench;
 use super::study::figures;
 use crate::study::Errors;
 use crate::{ChannelStep, Method};
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 
 /// A bench, what it is about, and the figures that count.
 pub(super) struct Situation {
@@ -231,20 +233,23 @@ fn standard_scores_of_30_recordings() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// The notes of one recording.
-fn notes(bench: &Bench) -> Vec<(&'static str, String)> {
+/// The first note of one recording with this code.
+fn noted(bench: &Bench, code: &str) -> Option<Fact> {
     let observation = bench.observe(bench.values(1));
-    observation.notes.into_iter().map(|(code, _, text)| (code, text)).collect()
+    observation.notes.into_iter().map(|note| note.fact).find(|fact| fact.code() == code)
+}
+
+/// What stands at a place of a fact.
+fn argument<'f>(fact: &'f Fact, name: &str) -> &'f Argument {
+    let found = fact.arguments.iter().find(|(known, _)| *known == name);
+    &found.unwrap_or_else(|| panic!("{name}: {fact:?}")).1
 }
 
 #[test]
 fn what_is_seen_in_a_recording_is_said() {
-    let found = |bench: &Bench, wanted: &str| {
-        notes(bench).into_iter().find(|(code, _)| *code == wanted).map(|(_, text)| text)
-    };
     let plain = plain();
     for code in ["looks-quantized", "coherent-sampling", "common-noise", "wandering-level"] {
-        assert_eq!(found(&plain, code), None);
+        assert_eq!(noted(&plain, code), None);
     }
     let coherent = Bench {
         hertz: 8.0,
@@ -254,26 +259,24 @@ fn what_is_seen_in_a_recording_is_said() {
         hidden: true,
         ..plain.clone()
     };
-    let text = found(&coherent, "looks-quantized").unwrap();
-    assert!(
-        text.contains("no resolution is stated, but the values are multiples of 0.05"),
-        "{text}"
-    );
-    let text = found(&coherent, "coherent-sampling").unwrap();
-    assert!(text.contains("the 1000 samples fall on 125 different phases"), "{text}");
+    let (step, name) = (Argument::number("0.05"), "a");
+    let quantized = noted(&coherent, "looks-quantized");
+    assert_eq!(quantized, Some(fact!("looks-quantized", name, step)));
+    let phases = noted(&coherent, "coherent-sampling").unwrap();
+    assert_eq!(argument(&phases, "samples"), &Argument::number("1000"));
+    assert_eq!(argument(&phases, "phases"), &Argument::number("125"));
     let stated = Bench { hidden: false, ..coherent };
-    assert_eq!(found(&stated, "looks-quantized"), None);
-    let text = found(&Bench { memory: 1.0, ..plain.clone() }, "wandering-level").unwrap();
-    assert!(text.contains("does not come back within the record"), "{text}");
+    assert_eq!(noted(&stated, "looks-quantized"), None);
+    let wandering = noted(&Bench { memory: 1.0, ..plain.clone() }, "wandering-level");
+    assert_eq!(wandering, Some(fact!("wandering-level", name)));
     // phases that are near each other: the errors of phases a quarter of a turn apart have nothing
     // in common
     let near = vec![vec![(1.0, 0.3), (0.02, 1.0)], vec![(0.9, 0.1), (0.01, 0.4)]];
     let common = Bench { common: 0.6, channels: near, ..plain.clone() };
-    let text = found(&common, "common-noise").unwrap();
-    assert!(text.contains("have something in common"), "{text}");
+    assert_eq!(noted(&common, "common-noise").unwrap().key, "common-noise");
     // within its uncertainty a frequency that is off is no news; far outside it is
     let off = Bench { frequency_uncertainty: 0.01, ..plain.clone() };
-    assert_eq!(found(&off, "frequency-differs"), None);
+    assert_eq!(noted(&off, "frequency-differs"), None);
 }
 
 /// Records that wander off each by itself are correlated by chance, and noise in common is found all
@@ -284,7 +287,7 @@ fn what_is_seen_in_a_recording_is_said() {
 fn independent_walks_have_nothing_in_common() {
     let said = |bench: &Bench, seed: u64| {
         let notes = bench.observe(bench.values(seed)).notes;
-        notes.into_iter().any(|(code, ..)| code == "common-noise")
+        notes.into_iter().any(|note| note.code() == "common-noise")
     };
     // noise with a memory of a tenth of the record, and means of every second value of a long one
     let memory = Bench { memory: 0.98, ..walks(0.0) };
@@ -304,26 +307,28 @@ fn independent_walks_have_nothing_in_common() {
 fn a_tone_beside_is_fitted_or_said_to_be_too_near() {
     let plain = plain();
     let of = |hertz: f64| Bench { beside: Some((hertz, 0.2)), ..plain.clone() };
-    let found = |bench: &Bench, wanted: &str| {
-        notes(bench).into_iter().find(|(code, _)| *code == wanted).map(|(_, text)| text)
-    };
     for code in ["found-tone", "tones-too-near"] {
-        assert_eq!(found(&plain, code), None);
+        assert_eq!(noted(&plain, code), None);
     }
-    let text = found(&of(1.3), "found-tone").unwrap();
-    assert!(
-        text.contains("at 8.599") && !text.contains("),") && text.contains("does not name"),
-        "{text}"
-    );
-    let text = found(&of(0.1), "tones-too-near").unwrap();
-    assert!(text.contains("within 0.32 Hz"), "{text}");
-    assert_eq!(found(&of(0.1), "found-tone"), None);
+    // the frequency of the only tone
+    let found = |bench: &Bench| {
+        let fact = noted(bench, "found-tone")?;
+        let Argument::List(tones) = argument(&fact, "tones") else { panic!("{fact:?}") };
+        let [Argument::Fact(tone)] = &tones[..] else { panic!("{tones:?}") };
+        let Argument::Number(frequency) = argument(tone, "frequency") else { panic!("{tone:?}") };
+        Some(frequency.clone())
+    };
+    let frequency = found(&of(1.3)).unwrap();
+    assert!(frequency.starts_with("8.599"), "{frequency}");
+    let near = noted(&of(0.1), "tones-too-near").unwrap();
+    assert_eq!(argument(&near, "within"), &Argument::number("0.32"));
+    assert_eq!(found(&of(0.1)), None);
     // of the channel where it is alone
     let mut held = plain.values(1);
     held.channels[1] = of(0.1).values(1).channels.remove(1);
     let notes = plain.observe(held).notes;
     let channels: Vec<_> =
-        notes.iter().filter(|of| of.0 == "tones-too-near").map(|of| of.1).collect();
+        notes.iter().filter(|of| of.code() == "tones-too-near").map(|of| of.channel).collect();
     assert_eq!(channels, [1]);
     // the 97th multiple of 20.1 Hz is folded to 50.3 Hz
     let hum = Bench {
@@ -333,8 +338,9 @@ fn a_tone_beside_is_fitted_or_said_to_be_too_near() {
         beside: Some((29.9, 0.3)),
         ..Bench::default()
     };
-    let text = self::notes(&hum).into_iter().find(|(code, _)| *code == "found-tone").unwrap().1;
-    assert!(text.contains("at 50 Hz") || text.contains("at 49.99") || text.contains("at 50.00"));
+    let frequency = found(&hum).unwrap();
+    let is_it = frequency == "50" || ["49.99", "50.00"].iter().any(|of| frequency.starts_with(of));
+    assert!(is_it, "{frequency}");
     let bench = of(1.3);
     let observation = bench.observe(bench.values(1));
     let first = &observation.frequencies[0][0];
@@ -361,7 +367,11 @@ fn a_drift_is_fitted() {
         }
         let observation = bench.observe(held);
         for channel in [0, 1] {
-            assert!(observation.notes.iter().any(|of| (of.0, of.1) == ("found-drift", channel)));
+            let is_told = observation
+                .notes
+                .iter()
+                .any(|of| (of.code(), of.channel) == ("found-drift", channel));
+            assert!(is_told);
         }
         let second = &observation.frequencies[0][1].components[0];
         let first = &observation.frequencies[0][0].components[0];
@@ -387,8 +397,9 @@ fn a_drift_is_fitted() {
         assert!(square / count < 2.0, "{}", square / count);
     }
     let walk = Bench { memory: 1.0, noise: 0.002, ..bench };
-    let drifts =
-        |seed: &u64| walk.observe(walk.values(*seed)).notes.iter().any(|of| of.0 == "found-drift");
+    let drifts = |seed: &u64| {
+        walk.observe(walk.values(*seed)).notes.iter().any(|of| of.code() == "found-drift")
+    };
     assert_eq!((0..40).filter(drifts).count(), 0);
 }
 
@@ -400,7 +411,7 @@ fn a_wrong_frequency_stays_wrong() {
     let held = bench.values(1);
     let wrong = Bench { hertz: 7.4, frequency_uncertainty: 0.001, ..bench.clone() };
     let observation = wrong.observe(held.clone());
-    assert!(observation.notes.iter().any(|(code, ..)| *code == "frequency-differs"));
+    assert!(observation.notes.iter().any(|note| note.code() == "frequency-differs"));
     let near = Bench { hertz: 7.303, frequency_uncertainty: 0.002, ..bench };
     let amplitude = |bench: &Bench| {
         let observation = bench.observe(held.clone());
@@ -433,7 +444,7 @@ fn of_coarse_steps(bench: &Bench) -> (Vec<(String, f64)>, usize) {
             ..bench.clone()
         };
         let observation = bench.observe(bench.values(seed));
-        noticed += observation.notes.iter().filter(|(code, ..)| *code == "looks-quantized").count();
+        noticed += observation.notes.iter().filter(|of| of.code() == "looks-quantized").count();
         let [root, of] = observation.frequencies[0].as_slice() else { panic!() };
         let figures = figures(&bench, of, root).into_iter();
         let figures = figures.filter(|(name, ..)| MAIN.contains(&name.as_str()));
@@ -504,12 +515,10 @@ fn amplitudes_that_noise_alone_makes_are_told() {
             vec![vec![(1.0, 0.2), (0.1, 0.3)], vec![(first * u, 0.7), (second * u, 0.1)]];
         let bench = Bench { channels, ..Bench::default() };
         let notes = (1..=60).flat_map(|seed| bench.observe(bench.values(seed)).notes);
-        let near: Vec<String> = notes
-            .filter_map(|(code, channel, text)| {
-                (code == "near-noise" && channel == 1).then_some(text)
-            })
-            .collect();
-        assert!(near.iter().all(|text| text.contains("as that at 10.3 Hz in ")), "{near:?}");
+        let near = notes.filter(|of| of.code() == "near-noise" && of.channel == 1);
+        let near: Vec<Fact> = near.map(|note| note.fact).collect();
+        let is_first = |of: &Fact| *argument(of, "frequency") == Argument::number("10.3");
+        assert!(near.iter().all(is_first), "{near:?}");
         near.len()
     };
     assert!((45..=60).contains(&told(0.0, 0.0)));

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::simulated::Bench;
 use crate::{Band, Butterworth, ChannelStep, Measured, Response};
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::parallel;
 
 fn low_pass() -> ChannelStep {
@@ -124,7 +125,8 @@ fn benches() -> Vec<(String, Bench)> {
 #[ignore = "ten minutes"]
 fn scores() {
     for (about, of) in benches() {
-        let notes: Vec<&str> = of.observe(of.values(3)).notes.iter().map(|note| note.0).collect();
+        let notes: Vec<&str> =
+            of.observe(of.values(3)).notes.iter().map(|note| note.code()).collect();
         let found = ratios(&of, 60, FIGURES);
         let found: Vec<String> =
             found.iter().map(|(name, ratio)| format!("{name} {ratio:.2}")).collect();
@@ -169,17 +171,24 @@ fn noise_with_a_memory_goes_through_steps() {
 /// of five periods a process that fits, or, with a hum that none does, nothing. White noise has no note.
 #[test]
 fn what_the_noise_after_steps_is_taken_from_is_said() {
-    let said = |bench: &Bench| {
-        let notes = bench.observe(bench.values(3)).notes.into_iter();
-        let notes = notes.filter(|(_, channel, _)| *channel == 1);
-        notes.map(|(code, _, text)| format!("{code}: {text}")).collect::<Vec<_>>().join("\n")
+    // the keys of the notes, and of the ways to the noise
+    let said = |bench: &Bench| -> Vec<(&'static str, Option<&'static str>)> {
+        let notes = bench.observe(bench.values(3)).notes.into_iter().filter(|of| of.channel == 1);
+        let way = |fact: &Fact| {
+            fact.arguments.iter().find_map(|(name, argument)| match argument {
+                Argument::Fact(way) if *name == "way" => Some(way.key),
+                _ => None,
+            })
+        };
+        notes.map(|note| (note.fact.key, way(&note.fact))).collect()
     };
     let of_process = said(&bench(0.95, 685, vec![derivative()]));
-    assert!(of_process.contains("correlated-residuals"), "{of_process}");
-    assert!(of_process.contains("before the steps"), "{of_process}");
-    assert!(of_process.contains("process of first order"), "{of_process}");
-    assert!(!said(&bench(0.0, 685, vec![derivative()])).contains("residuals"));
+    let wanted = ("correlated-residuals.before-steps", Some("noise-of-process.before-steps"));
+    assert!(of_process.contains(&wanted), "{of_process:?}");
+    // of both channels' noise, and of nothing else
+    assert_eq!(said(&bench(0.0, 685, vec![derivative()])), [("common-noise", None)]);
     // a hum that no process describes: nothing tells the noise beside it
     let hum = Bench { beside: Some((0.9, 0.8)), ..bench(0.0, 685, vec![low_pass()]) };
-    assert!(said(&hum).contains("is taken as even over what the steps let pass"), "{}", said(&hum));
+    let of_hum = said(&hum);
+    assert!(of_hum.iter().any(|(_, way)| *way == Some("noise-even")), "{of_hum:?}");
 }
