@@ -94,21 +94,7 @@ pub(super) fn read(
     Some(inputs)
 }
 
-<<<<<<< HEAD
-/// A phase of more than a turn, which is in radians as it has no unit.
-fn phase_of_turns(name: &str, found: f64) -> Warning {
-    let found = Shortest(found);
-    let text = format!(
-        "`{name}` is {found} rad, which are more than a turn, as a phase without a unit is in radians; \
-         one in degrees says `\"unit\": \"deg\"`"
-    );
-    Warning::new("angle-of-turns", name, text)
-}
-
 struct InputReader<'a, 'i> {
-=======
-struct Reader<'a, 'i> {
->>>>>>> 1cb3c0e8626e4ae65db00ec4eab658b8261318ad
     object: Object<'a>,
     name: &'a str,
     conditions: &'a dyn ConditionValues,

@@ -7,13 +7,8 @@ use super::analysed::{Analysed, local, shares};
 use super::coloured::Memory;
 use super::effects::{Coloured, Effects, StepEffect};
 use super::known_noise::{KnownNoise, NoiseSource, SeenBefore};
-<<<<<<< HEAD
-use super::note::Note;
-use super::passes::ChannelValues;
-=======
 use super::note::ChannelNote;
-use super::passes::Values;
->>>>>>> 2ed1eed6d8889f77811103bf31050afc9968f03c
+use super::passes::ChannelValues;
 use super::periodic::{HarmonicNoise, Harmonics};
 use super::quantization::amplitude_error;
 use super::residuals::{Residuals, parts};

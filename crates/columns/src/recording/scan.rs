@@ -12,8 +12,6 @@ use super::{
 use gumption_engine::fact;
 use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::number::Shortest;
-use gumption_engine::fact;
-use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::task::Warning;
 
 /// Equal values at the highest or lowest value that make a channel suspect, at least.
@@ -326,13 +324,8 @@ impl<'r> Scanned<'r> {
                 name,
                 stated = stated.value,
                 whose,
-<<<<<<< HEAD
                 found = Argument::number(significant(found)),
                 times = Argument::number(significant(stated.value / found)),
-=======
-                found = Argument::Number(significant(found).to_string()),
-                times = Argument::Number(significant(stated.value / found).to_string()),
->>>>>>> 1cb3c0e8626e4ae65db00ec4eab658b8261318ad
             );
             Warning::new(name, fact)
         })

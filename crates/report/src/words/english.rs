@@ -146,7 +146,6 @@ const FILES: Sentences = &[
 /// Facts about recordings.
 #[rustfmt::skip]
 const SIGNALS: Sentences = &[
-<<<<<<< HEAD
     ("preamble", "`{name}`: line {first} stands above the header in line {header} and is not read"),
     ("preamble.lines", "`{name}`: lines {first} to {last} stand above the header in line {header} and are not \
         read"),
@@ -166,7 +165,6 @@ const SIGNALS: Sentences = &[
     ("lowest", "lowest"),
     ("sample-of-time", "sample {sample}, the time"),
     ("sample-of-channel", "sample {sample}, channel `{channel}`"),
-=======
     ("near-noise", "`{name}`: noise alone makes an amplitude as large as the one at {frequency} Hz in \
         {percent} % of all records; the phase there is hardly known, and the amplitude is too large on \
         average"),
@@ -241,7 +239,6 @@ const SIGNALS: Sentences = &[
         of the two phases are correlated, {coefficient}); the phase's uncertainty allows for it"),
     ("frequency-differs", "`{name}`: the recording fits a frequency that differs by {by} Hz from {frequency} \
         Hz, more than their uncertainties allow; look at the sampling rate, or let the frequency be estimated"),
->>>>>>> 2ed1eed6d8889f77811103bf31050afc9968f03c
 ];
 
 /// Facts about a diagnosis.
@@ -380,7 +377,6 @@ const GAP: Sentences = &[
 /// Facts that only a command knows.
 #[rustfmt::skip]
 const COMMANDS: Sentences = &[
-<<<<<<< HEAD
     ("of-model", "{model}: "),
     ("few-trials.audit", "{trials} trials are too few to tell how assumptions move the result; {made} are made"),
     ("more-than-two-digits", "U is stated to {digits} significant digits; an accredited certificate may have \
@@ -404,7 +400,5 @@ const COMMANDS: Sentences = &[
     ("drawn-together", "{names} are drawn together; they have one Sobol index as a set"),
     ("drawn-together.ranks", "{names} are drawn together; they have one Sobol index as a set. With another \
         shape the dependence of their ranks is kept, so that the correlation coefficient moves a little"),
-=======
     ("in-row", "row {row}, "),
->>>>>>> 2ed1eed6d8889f77811103bf31050afc9968f03c
 ];

@@ -155,7 +155,6 @@ const FILES: Sentences = &[
 /// Facts about recordings.
 #[rustfmt::skip]
 const SIGNALS: Sentences = &[
-<<<<<<< HEAD
     ("preamble", "`{name}`: Zeile {first} steht über der Kopfzeile in Zeile {header} und wird nicht gelesen"),
     ("preamble.lines", "`{name}`: Zeilen {first} bis {last} stehen über der Kopfzeile in Zeile {header} und \
         werden nicht gelesen"),
@@ -175,7 +174,6 @@ const SIGNALS: Sentences = &[
     ("lowest", "kleinste"),
     ("sample-of-time", "Abtastwert {sample}, die Zeit"),
     ("sample-of-channel", "Abtastwert {sample}, Kanal `{channel}`"),
-=======
     ("near-noise", "`{name}`: Rauschen allein ergibt in {percent} % aller Aufzeichnungen eine Amplitude, die \
         so groß ist wie die bei {frequency} Hz; die Phase ist dort kaum bekannt und die Amplitude im Mittel zu \
         groß"),
@@ -260,7 +258,6 @@ const SIGNALS: Sentences = &[
     ("frequency-differs", "`{name}`: Zur Aufzeichnung passt eine Frequenz, die um {by} Hz von {frequency} Hz \
         abweicht, mehr, als die Unsicherheiten zulassen; die Abtastrate ist zu prüfen oder die Frequenz \
         schätzen zu lassen"),
->>>>>>> 2ed1eed6d8889f77811103bf31050afc9968f03c
 ];
 
 /// Facts about a diagnosis.
@@ -420,7 +417,6 @@ const GAP: Sentences = &[
 /// Facts that only a command knows.
 #[rustfmt::skip]
 const COMMANDS: Sentences = &[
-<<<<<<< HEAD
     ("of-model", "{model}: "),
     ("few-trials.audit", "{trials} Versuche sind zu wenige, um zu sagen, wie Annahmen das Ergebnis bewegen; es \
         werden {made} gemacht"),
@@ -449,7 +445,5 @@ const COMMANDS: Sentences = &[
     ("drawn-together.ranks", "{names} werden gemeinsam gezogen; sie haben einen gemeinsamen Sobol-Index. Mit \
         einer anderen Form bleibt die Abhängigkeit ihrer Ränge, so dass sich der Korrelationskoeffizient etwas \
         bewegt"),
-=======
     ("in-row", "Zeile {row}, "),
->>>>>>> 2ed1eed6d8889f77811103bf31050afc9968f03c
 ];

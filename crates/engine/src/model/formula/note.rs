@@ -8,13 +8,9 @@ use super::message::excerpt;
 use super::note_product::{Factors, factors};
 use super::note_result::taken_up;
 use super::numbers::{Numbers, Scaled, Use, ValueSource};
-<<<<<<< HEAD
 use super::syntax::{Node, NodeKind, Operator, Tree};
-=======
-use super::syntax::{Kind, Node, Operator, Tree};
 use crate::fact;
 use crate::fact::Fact;
->>>>>>> 1cb3c0e8626e4ae65db00ec4eab658b8261318ad
 use crate::number::{Binary, Unary};
 use gumption_units::{Dimension, Unit};
 

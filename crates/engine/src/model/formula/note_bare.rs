@@ -6,13 +6,9 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use super::function::Function;
 use super::note::{FormulaNote, Walk};
 use super::numbers::{Scaled, Use};
-<<<<<<< HEAD
 use super::syntax::{Node, NodeKind, Operator};
-=======
-use super::syntax::{Kind, Node, Operator};
 use crate::fact;
 use crate::fact::Fact;
->>>>>>> 1cb3c0e8626e4ae65db00ec4eab658b8261318ad
 use crate::number::{Binary, Shortest, Unary};
 use gumption_units::{Turn, Unit};
 
@@ -220,26 +216,14 @@ impl<'u> Walk<'_, 'u> {
         number: f64,
         (name, beside): (usize, Neighbour<'_>),
     ) -> FormulaNote {
-<<<<<<< HEAD
-        let written = Shortest(number);
-        let (whole, quoted) = (self.quoted(&node.span), self.quoted(&self.tree.span(name)));
-        let text = match beside {
-            Neighbour::Unit(unit) => {
-                let is = match unit.turn() {
-                    Some(_) => format!("{written} rad"),
-                    None => {
-                        let converted = Shortest(unit.from_si(number));
-                        format!("the number {written}, that is {converted} {unit}")
-=======
         let (formula, quantity) = (self.quoted(&node.span), self.quoted(&self.tree.span(name)));
         let in_unit = |unit: &str| format!("{} [{unit}]", Shortest(number));
         let fact = match beside {
-            Beside::Unit(unit) => {
+            Neighbour::Unit(unit) => {
                 let (given, meant) = (self.given(name, unit), in_unit(unit.text()));
                 match unit.turn() {
                     Some(_) => {
                         fact!("bare-number.radians", formula, number, quantity, given, unit, meant)
->>>>>>> 1cb3c0e8626e4ae65db00ec4eab658b8261318ad
                     }
                     None => {
                         let converted = unit.from_si(number);

@@ -5,13 +5,9 @@ use std::f64::consts::TAU;
 use super::function::Function;
 use super::note::{FormulaNote, Walk};
 use super::numbers::is_same_factor;
-<<<<<<< HEAD
 use super::syntax::{Node, NodeKind, Operator, Tree};
-=======
-use super::syntax::{Kind, Node, Operator, Tree};
 use crate::fact;
 use crate::fact::Fact;
->>>>>>> 1cb3c0e8626e4ae65db00ec4eab658b8261318ad
 use crate::number::{Binary, Unary, elementary};
 use gumption_units::{Turn, Unit};
 
