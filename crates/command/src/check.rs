@@ -1,5 +1,7 @@
 //! `gumption check`
 
+use gumption_report::words;
+use gumption_report::words::Note;
 use std::path::{Path, PathBuf};
 
 use clap::Args;

@@ -1,5 +1,6 @@
 //! Options that several commands share.
 
+use gumption_report::words::{self, Language};
 use std::borrow::Cow;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};

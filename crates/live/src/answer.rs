@@ -1,5 +1,6 @@
 //! The answer to a model that is being edited: its mistakes, or its results.
 
+use gumption_report::{plain, words};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 

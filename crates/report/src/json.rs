@@ -16,7 +16,7 @@ use gumption_engine::propagate::{
     Accuracy, CapabilityStatement, Conformity, Evaluation, Noiseless, OutputEvaluation,
     RowEvaluation, SecondOrder, validate,
 };
-use gumption_engine::task::{Task, Trials, Warning};
+use gumption_engine::task::{Task, Trials};
 
 /// The answer as JSON, keys in a fixed order, numbers in the shortest text that reads back as the
 /// same number, `null` for what is infinite or not defined. It ends in a newline.
@@ -51,7 +51,7 @@ struct EvaluationAnswer<'a> {
     results: EvaluationResults<'a>,
     #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
     fits: Vec<(&'a str, FitSide<'a>)>,
-    warnings: Vec<Note<'a>>,
+    warnings: Vec<crate::words::Note<'a>>,
     provenance: Origin<'a>,
 }
 
@@ -500,13 +500,6 @@ struct Validation {
 }
 
 #[derive(Serialize)]
-struct Remark<'a> {
-    code: &'static str,
-    r#where: &'a str,
-    text: &'a str,
-}
-
-#[derive(Serialize)]
 struct Origin<'a> {
     model_sha256: &'a str,
     seed: u64,
@@ -548,7 +541,7 @@ impl<'a> EvaluationAnswer<'a> {
             inputs: InputsSide { task },
             results,
             fits: task.curves.iter().map(|c| (c.fit.name.as_str(), FitSide::of(c))).collect(),
-            warnings: words::notes(warnings),
+            warnings: crate::words::notes(warnings),
             provenance: Origin {
                 model_sha256: &provenance.model_sha256,
                 seed: evaluation.settings.seed,

@@ -39,7 +39,7 @@ pub(super) fn of(report: &AuditReport<'_>) -> Document {
     }
     if !report.warnings.is_empty() {
         document.section("Notes");
-        document.blocks.push(Block::List(words::lines(report.warnings)));
+        document.blocks.push(Block::List(crate::words::lines(report.warnings)));
     }
     document.section("To repeat this");
     let provenance = report.provenance;

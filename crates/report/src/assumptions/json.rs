@@ -31,8 +31,7 @@ pub fn json(report: &AuditReport<'_>) -> String {
         entries.extend(audit.rows.iter().map(|row| ("outputs", outputs(report, row))));
     }
     entries.push(("evidence", list(audit.evidence.iter().map(|of| agreement(report, of)))));
-    let warnings = words::notes(report.warnings);
-    entries.push(("warnings", to_value(warnings)));
+    entries.push(("warnings", crate::words::listed(report.warnings)));
     let files = report.provenance.files.iter();
     let files = files.map(|(name, digest)| (name.as_str(), Value::from(digest.as_str())));
     let provenance = object([

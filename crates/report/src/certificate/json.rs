@@ -30,7 +30,6 @@ pub fn json(report: &CertificateReport<'_>) -> String {
     });
     let matrix = issued.correlations.iter();
     let matrix = matrix.map(|row| list(row.iter().map(|r| Value::from(*r))));
-    let warnings = words::notes(report.warnings);
     let mut answer = vec![
         ("gumption", Value::from(env!("CARGO_PKG_VERSION"))),
         ("title", title.as_str().into()),
@@ -46,7 +45,7 @@ pub fn json(report: &CertificateReport<'_>) -> String {
         ("correlations", list(matrix)),
         ("statements", object(statements)),
         ("measurement", measured(report)),
-        ("warnings", to_value(warnings)),
+        ("warnings", crate::words::listed(report.warnings)),
         ("provenance", provenance(report)),
     ];
     let covered: Vec<Value> = regions::covered(report).iter().map(|of| of.json()).collect();

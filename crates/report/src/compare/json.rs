@@ -11,8 +11,7 @@ use serde_json::Value;
 
 /// The comparison as JSON, ending in a newline.
 pub fn json(compare: &Compare, warnings: &[Warning]) -> String {
-    let warnings = words::notes(warnings);
-    let warnings = ("warnings", to_value(warnings));
+    let warnings = ("warnings", crate::words::listed(warnings));
     let version = ("gumption", Value::from(env!("CARGO_PKG_VERSION")));
     match compare {
         Compare::Pairs { compared, units, rounding, .. } => {

@@ -8,7 +8,7 @@ use super::{Compare, figure, sheets, words};
 use crate::document::{self, Block, Document, sentence};
 use crate::html::{figure as numbered, page, table as html_table};
 use crate::sheet::Sheet;
-use crate::{Grid, plain, table::width, wrapped};
+use crate::{Grid, table::width, wrapped};
 use gumption_engine::task::Warning;
 
 fn sheet(compare: &Compare) -> Sheet {

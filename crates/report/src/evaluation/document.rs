@@ -51,7 +51,7 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
     }
     if !warnings.is_empty() {
         document.section("Notes");
-        document.blocks.push(Block::List(words::lines(warnings)));
+        document.blocks.push(Block::List(crate::words::lines(warnings)));
     }
     repeat::section(&mut document, report, shown);
     document

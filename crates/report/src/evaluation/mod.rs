@@ -32,7 +32,7 @@ pub struct Shown<'a> {
     /// What the command line replaces in the model file, as it was typed.
     pub replaced: &'a [String],
     /// The language of the notes.
-    pub language: Language,
+    pub language: crate::words::Language,
     /// The text of the model file, for pages that show it.
     pub model: &'a str,
 }

@@ -41,7 +41,7 @@ pub(super) fn of(observed: &ObservationReport<'_>) -> Document {
     }
     if !observed.warnings.is_empty() {
         document.section("Notes");
-        document.blocks.push(Block::List(words::lines(observed.warnings)));
+        document.blocks.push(Block::List(crate::words::lines(observed.warnings)));
     }
     document.section("To repeat this");
     let digests = &observed.provenance.files;

@@ -19,7 +19,6 @@ pub fn json(observed: &ObservationReport<'_>) -> String {
         ]);
         (figure.name, column)
     });
-    let warnings = words::notes(observed.warnings);
     let files = observed.provenance.files.iter();
     let provenance = object([
         ("recipe_sha256", Value::from(observed.provenance.model_sha256.as_str())),
@@ -36,7 +35,7 @@ pub fn json(observed: &ObservationReport<'_>) -> String {
         ("method", settings.method.name().into()),
         ("rows", list(observed.lines().map(|(values, channels)| row(observed, values, channels)))),
         ("columns", object(columns)),
-        ("warnings", to_value(warnings)),
+        ("warnings", crate::words::listed(observed.warnings)),
         ("provenance", provenance),
     ]))
 }

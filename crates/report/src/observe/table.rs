@@ -26,7 +26,7 @@ pub fn table(observed: &ObservationReport<'_>) -> String {
     }
     if !observed.warnings.is_empty() {
         page.push('\n');
-        for said in words::lines(observed.warnings) {
+        for said in crate::words::lines(observed.warnings) {
             page += &wrapped(&format!("Note: {said}."));
         }
     }

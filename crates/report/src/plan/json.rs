@@ -20,7 +20,6 @@ pub fn json(report: &PlanReport<'_>) -> String {
         let names = task.model.conditions.iter().map(|condition| condition.name.as_str());
         object(names.zip(row.conditions.iter().map(|&value| Value::from(value))))
     });
-    let notes = words::notes(warnings);
     let trials: Value = match task.settings.trials {
         Trials::Fixed(count) => count.into(),
         Trials::Adaptive => "adaptive".into(),
@@ -53,7 +52,7 @@ pub fn json(report: &PlanReport<'_>) -> String {
         ("check", plan.check.as_ref().map(|found| check(report, found)).into()),
         ("interval", plan.interval.as_ref().map(|found| interval(report, found)).into()),
         ("missed_rows", list(rows)),
-        ("warnings", to_value(notes)),
+        ("warnings", crate::words::listed(warnings)),
         ("provenance", origin),
     ]))
 }

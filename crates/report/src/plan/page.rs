@@ -2,7 +2,7 @@
 
 use super::{PlanReport, figure, sheets, words};
 use crate::document::{self, Block, Document};
-use crate::{Grid, plain, statement, table::width, wrapped};
+use crate::{Grid, statement, table::width, wrapped};
 
 /// The plan as a page of text.
 pub fn table(report: &PlanReport<'_>) -> String {
@@ -48,7 +48,7 @@ fn document(report: &PlanReport<'_>) -> Document {
     }
     if !report.warnings.is_empty() {
         document.section("Notes");
-        document.blocks.push(Block::List(words::lines(report.warnings)));
+        document.blocks.push(Block::List(crate::words::lines(report.warnings)));
     }
     document
 }

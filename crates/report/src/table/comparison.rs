@@ -1,5 +1,6 @@
 //! The two methods side by side, and the verdict of JCGM 101, clause 8.
 
+use crate::words::{Language, note};
 use super::grid::Grid;
 use super::{coverage_text, in_unit, text, width};
 use crate::EvaluationReport;

@@ -1,5 +1,6 @@
 //! Markdown, LaTeX and HTML: what they show is what the JSON answer has, rounded once.
 
+use gumption_engine::fact;
 use std::path::Path;
 
 use roxmltree::Document;

@@ -12,7 +12,9 @@ use std::sync::LazyLock;
 use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::task::Warning;
 use serde::Serialize;
+use serde_json::Value;
 
+use crate::answer::{list, object};
 use crate::plain;
 
 /// A language in which the facts of all rooms have words.
@@ -98,6 +100,13 @@ pub fn notes<'w>(warnings: &'w [Warning]) -> Vec<Note<'w>> {
         text: note(warning, Language::English),
     };
     warnings.iter().map(as_note).collect()
+}
+
+/// The same as JSON.
+pub(crate) fn listed(warnings: &[Warning]) -> Value {
+    list(notes(warnings).into_iter().map(|note| {
+        object([("code", note.code), ("where", note.r#where), ("text", note.text.as_str())])
+    }))
 }
 
 fn of_argument(argument: &Argument, language: Language) -> String {

@@ -222,7 +222,7 @@ fn about(
     if !report.warnings.is_empty() {
         leaf.title(row + 1, "Notes")?;
         row += 2;
-        for said in words::lines(report.warnings) {
+        for said in crate::words::lines(report.warnings) {
             leaf.line(row, &said)?;
             row += 1;
         }
