@@ -179,7 +179,9 @@ fn headings_are_words_and_symbols() {
     let of_t = u("Lab,Value,U (95 %),dof\nA,10,4,10\nB,11,4,inf\n");
     assert!((of_t - 4.0 / 2.228_139).abs() < 1e-6);
     let read = noted("label,date,x,U,method\na,2024,1,1,m\nb,2025,1,1,n\n").unwrap();
-    assert_eq!(read.warnings[0].text, "the columns `date` and `method` are not read");
+    let names = ["date", "method"].map(|name| fact!("quoted", name)).into();
+    let names = Argument::all_of(names);
+    assert_eq!(read.warnings[0].fact, fact!("columns-not-read", names));
 }
 
 /// Factors beside probabilities and units in headings: `k=2, 95 %` was 0.0295, and units beside a factor
@@ -496,9 +498,11 @@ fn angles_are_compared_on_one_branch() {
     assert!((compared.difference + 0.07).abs() < 1e-12, "{compared:?}");
     assert!((compared.normalized_error - 0.07 / 0.02f64.sqrt()).abs() < 1e-9);
     assert_eq!(pairs[1].results[1].value, 10.1);
-    let codes: Vec<&str> = found.warnings.iter().map(|of| of.code).collect();
+    let codes: Vec<&str> = found.warnings.iter().map(|of| of.code()).collect();
     assert_eq!(codes, ["angle-branch"]);
-    assert!(found.warnings[0].text.ends_with("0.02 deg of `a, second` as 360.02 deg"));
+    let [angle, compared] = ["0.02 deg", "360.02 deg"].map(Argument::number);
+    let moved = fact!("angle-branch.moved", angle, name = "a, second", compared);
+    assert_eq!(found.warnings[0].fact.argument("angles"), Some(&moved.into()));
     let text = "Lab,x [deg],U [arcmin]\nA,0.02,6\nB,359.95,6\nC,0.03,6\n";
     let values: Vec<f64> = laboratories(text).iter().map(|of| of.result.value).collect();
     assert_eq!(values, [0.02, -0.05, 0.03]);
