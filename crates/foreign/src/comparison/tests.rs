@@ -141,7 +141,8 @@ fn uncertainties_in_per_cent_are_shares_of_the_values() {
     // half a unit of `4` is 0.5 %
     assert!((found[0].result.rounding[1] / 0.251 - 1.0).abs() < 1e-12);
     let said = noted(text).unwrap().warnings;
-    assert_eq!(said[0].text, "uncertainties in `%` are shares of the values");
+    let units = fact!("quoted", name = "%");
+    assert_eq!(said[0].fact, fact!("relative-uncertainties", units));
     // per cent of per cent are per cent, and words decide what is doubtful
     assert_eq!(laboratories("label,x [%],U [%]\na,50,4\nb,51,3\n")[0].result.expanded, 4.0);
     let found = laboratories("label,x [ppm],U (% of reading)\na,50,4\nb,51,3\n");
@@ -348,8 +349,8 @@ mod of_workbooks {
                     warnings,
                     ..
                 }) => {
-                    let said = warnings.iter().map(|warning| warning.text.clone());
-                    Ok((laboratories[0].label.clone(), said.collect::<String>()))
+                    let said = warnings.into_iter().map(|warning| warning.fact);
+                    Ok((laboratories[0].label.clone(), said.collect::<Vec<_>>()))
                 }
                 Ok(other) => panic!("{other:?}"),
                 Err(said) => Err(said.to_string()),
@@ -359,7 +360,9 @@ mod of_workbooks {
         let new: &[&[&str]] = &[&["Lab", "Value", "u"], &["C", "5", "1"], &["D", "6", "1"]];
         let words: &[&[&str]] = &[&["Read me"]];
         let (label, said) = read(&[("old", true, old), ("final", false, new)], None).unwrap();
-        assert_eq!((&*label, &*said), ("C", "sheet `final` is read, not `old` (hidden)"));
+        let others = fact!("quoted.hidden", name = "old");
+        let chosen = fact!("sheet-chosen", sheet = "final", others);
+        assert_eq!((&*label, said), ("C", vec![chosen]));
         let found = read(&[("Read me", false, words), ("final", false, new)], None).unwrap();
         assert_eq!(found.0, "C");
         let two = [("old", false, old), ("final", false, new)];
@@ -480,8 +483,11 @@ fn nominal_values_and_reference_laboratories() {
         "label,Nominal value,x,U\na,10,1,1\nb,10,2,1\n",
     ] {
         let read = noted(text).unwrap_or_else(|error| panic!("{text}: {error}"));
-        let said: Vec<&str> = read.warnings.iter().map(|of| of.text.as_str()).collect();
-        assert!(said.len() == 1 && said[0].to_lowercase().contains("nominal"), "{text}: {said:?}");
+        let [said] = &read.warnings[..] else { panic!("{text}: {:?}", read.warnings) };
+        let Some(Argument::Text(name)) = said.fact.argument("name") else {
+            panic!("{text}: {said:?}");
+        };
+        assert!(said.fact.key == "columns-not-read.one" && name.to_lowercase().contains("nominal"));
     }
     let found = laboratories("label,x,U\nPilot,10,1\nReference laboratory,10,1\n");
     assert_eq!(found.len(), 2);
