@@ -23,6 +23,7 @@ mod width_change;
 use std::collections::HashSet;
 use std::sync::Arc;
 
+use gumption_engine::fact;
 use gumption_engine::parallel;
 
 pub use alternatives::Kept;

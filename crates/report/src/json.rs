@@ -692,7 +692,7 @@ impl From<validate::Validation> for Validation {
 
 impl<'a> Remark<'a> {
     fn of(warning: &'a Warning) -> Self {
-        Self { code: warning.code, r#where: &warning.place, text: &warning.text }
+        Self { code: warning.code(), r#where: &warning.place, text: Box::leak(crate::words::note(warning, crate::words::Language::English).into_boxed_str()) }
     }
 }
 

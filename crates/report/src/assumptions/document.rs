@@ -39,7 +39,7 @@ pub(super) fn of(report: &AuditReport<'_>) -> Document {
     }
     if !report.warnings.is_empty() {
         document.section("Notes");
-        let notes = report.warnings.iter().map(|warning| plain(&warning.text));
+        let notes = report.warnings.iter().map(|warning| plain(&crate::words::note(warning, crate::words::Language::English)));
         document.blocks.push(Block::List(notes.collect()));
     }
     document.section("To repeat this");

@@ -33,9 +33,9 @@ pub fn json(report: &AuditReport<'_>) -> String {
     entries.push(("evidence", list(audit.evidence.iter().map(|of| agreement(report, of)))));
     let warnings = report.warnings.iter().map(|warning| {
         object([
-            ("code", Value::from(warning.code)),
+            ("code", Value::from(warning.code())),
             ("where", warning.place.as_str().into()),
-            ("text", warning.text.as_str().into()),
+            ("text", crate::words::note(warning, crate::words::Language::English).into()),
         ])
     });
     entries.push(("warnings", list(warnings)));

@@ -32,9 +32,9 @@ pub fn json(report: &CertificateReport<'_>) -> String {
     let matrix = matrix.map(|row| list(row.iter().map(|r| Value::from(*r))));
     let warnings = report.warnings.iter().map(|warning| {
         object([
-            ("code", Value::from(warning.code)),
+            ("code", Value::from(warning.code())),
             ("where", warning.place.as_str().into()),
-            ("text", warning.text.as_str().into()),
+            ("text", crate::words::note(warning, crate::words::Language::English).into()),
         ])
     });
     let mut answer = vec![

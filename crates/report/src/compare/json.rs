@@ -13,9 +13,9 @@ use serde_json::Value;
 pub fn json(compare: &Compare, warnings: &[Warning]) -> String {
     let warnings = warnings.iter().map(|warning| {
         object([
-            ("code", Value::from(warning.code)),
+            ("code", Value::from(warning.code())),
             ("where", warning.place.as_str().into()),
-            ("text", warning.text.as_str().into()),
+            ("text", crate::words::note(warning, crate::words::Language::English).into()),
         ])
     });
     let warnings = ("warnings", list(warnings));

@@ -62,7 +62,7 @@ pub fn html(compare: &Compare, warnings: &[Warning]) -> String {
         h1 { (title) }
         div.verdict { @for said in words::verdict(compare) { p { (said) } } }
         @if !warnings.is_empty() {
-            ul { @for warning in warnings { li { (sentence(&plain(&warning.text))) } } }
+            ul { @for warning in warnings { li { (sentence(&plain(&crate::words::note(warning, crate::words::Language::English)))) } } }
         }
         (html_table(&sheet(compare)))
         (numbered(1, &drawing))
@@ -79,7 +79,7 @@ pub fn markdown(compare: &Compare, warnings: &[Warning]) -> String {
     let verdict = words::verdict(compare);
     document.blocks.push(Block::Text(verdict.join(" ")));
     if !warnings.is_empty() {
-        let said = warnings.iter().map(|warning| sentence(&plain(&warning.text)));
+        let said = warnings.iter().map(|warning| sentence(&plain(&crate::words::note(warning, crate::words::Language::English))));
         document.blocks.push(Block::List(said.collect()));
     }
     document.blocks.push(Block::Table(sheet(compare)));

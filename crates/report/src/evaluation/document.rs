@@ -51,7 +51,7 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
     }
     if !warnings.is_empty() {
         document.section("Notes");
-        let notes = warnings.iter().map(|warning| plain(&warning.text));
+        let notes = warnings.iter().map(|warning| plain(&crate::words::note(warning, crate::words::Language::English)));
         document.blocks.push(Block::List(notes.collect()));
     }
     repeat::section(&mut document, report, shown);

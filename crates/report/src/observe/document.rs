@@ -41,7 +41,7 @@ pub(super) fn of(observed: &ObservationReport<'_>) -> Document {
     }
     if !observed.warnings.is_empty() {
         document.section("Notes");
-        let notes = observed.warnings.iter().map(|warning| plain(&warning.text));
+        let notes = observed.warnings.iter().map(|warning| plain(&crate::words::note(warning, crate::words::Language::English)));
         document.blocks.push(Block::List(notes.collect()));
     }
     document.section("To repeat this");

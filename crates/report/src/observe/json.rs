@@ -21,9 +21,9 @@ pub fn json(observed: &ObservationReport<'_>) -> String {
     });
     let warnings = observed.warnings.iter().map(|warning| {
         object([
-            ("code", Value::from(warning.code)),
+            ("code", Value::from(warning.code())),
             ("where", warning.place.as_str().into()),
-            ("text", warning.text.as_str().into()),
+            ("text", crate::words::note(warning, crate::words::Language::English).into()),
         ])
     });
     let files = observed.provenance.files.iter();

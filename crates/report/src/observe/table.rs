@@ -27,7 +27,7 @@ pub fn table(observed: &ObservationReport<'_>) -> String {
     if !observed.warnings.is_empty() {
         page.push('\n');
         for warning in observed.warnings {
-            page += &wrapped(&format!("Note: {}.", warning.text.trim_end_matches('.')));
+            page += &wrapped(&format!("Note: {}.", crate::words::note(warning, crate::words::Language::English).trim_end_matches('.')));
         }
     }
     page

@@ -22,9 +22,9 @@ pub fn json(report: &PlanReport<'_>) -> String {
     });
     let notes = warnings.iter().map(|warning| {
         object([
-            ("code", warning.code),
+            ("code", warning.code()),
             ("where", warning.place.as_str()),
-            ("text", warning.text.as_str()),
+            ("text", &*Box::leak(crate::words::note(warning, crate::words::Language::English).into_boxed_str())),
         ])
     });
     let trials: Value = match task.settings.trials {

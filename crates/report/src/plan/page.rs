@@ -48,7 +48,7 @@ fn document(report: &PlanReport<'_>) -> Document {
     }
     if !report.warnings.is_empty() {
         document.section("Notes");
-        let notes = report.warnings.iter().map(|warning| plain(&warning.text));
+        let notes = report.warnings.iter().map(|warning| plain(&crate::words::note(warning, crate::words::Language::English)));
         document.blocks.push(Block::List(notes.collect()));
     }
     document

@@ -131,8 +131,8 @@ pub(crate) fn differences(
 ) -> Vec<String> {
     let name = &output.quantity.name;
     let own = report.warnings.iter().filter(|warning| warning.place == *name);
-    let own = own.filter(|warning| DIFFERENCES.contains(&warning.code));
-    let mut said: Vec<String> = own.map(|warning| sentence(&warning.text)).collect();
+    let own = own.filter(|warning| DIFFERENCES.contains(&warning.code()));
+    let mut said: Vec<String> = own.map(|warning| sentence(&crate::words::note(warning, crate::words::Language::English))).collect();
     let settings = &report.evaluation.settings;
     let gum = figures.gum.as_ref();
     if let (Coverage::Factor { factor, fixed: true }, Some(Dof::Finite(_)), Some(_)) =

@@ -223,7 +223,7 @@ fn about(
         leaf.title(row + 1, "Notes")?;
         row += 2;
         for warning in report.warnings {
-            leaf.line(row, &plain(&warning.text))?;
+            leaf.line(row, &plain(&crate::words::note(warning, crate::words::Language::English)))?;
             row += 1;
         }
     }
