@@ -80,7 +80,7 @@ impl Check {
         let answer = match self.answer.format {
             Format::Json => {
                 let errors = found.0.iter().map(Mistake::from).collect();
-                let warnings = notes.iter().map(CheckNote::from).collect();
+                let warnings = words::notes(notes);
                 let verdict = Verdict { ok: right, errors, warnings };
                 pretty(&verdict)
             }

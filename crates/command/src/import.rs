@@ -15,6 +15,7 @@ use super::{Exit, Failure, diagnostics, output};
 use gumption_foreign::{
     Coefficients, ImportOptions, ImportedBudget, Question, RefusedBudget, import_budget,
 };
+use gumption_report::words::{Language, sentence};
 use gumption_report::{budget_template, pretty};
 
 /// Make a model file of a budget in a spreadsheet (CSV, or the sheet of an XLSX file that holds one).
@@ -87,7 +88,7 @@ struct ImportAnswer<'a> {
     ok: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<Value>,
-    notes: &'a [String],
+    notes: Vec<String>,
     errors: Vec<Mistake>,
     questions: &'a [Question],
 }
@@ -140,15 +141,17 @@ impl Import {
         if let Ok(ImportedBudget { notes, .. }) = &result
             && !self.quiet
         {
-            used.iter().chain(notes).for_each(|note| say_line(&format!("note: {note}")));
+            let notes = notes.iter().map(|note| sentence(note, Language::English));
+            used.iter().cloned().chain(notes).for_each(|note| say_line(&format!("note: {note}")));
         }
         let place = file.map_or(AnswerPlace::StandardOutput, AnswerPlace::File);
         match (result, self.format) {
             (Ok(made), Format::Json) => {
                 let model = serde_json::from_str(&made.text).ok();
                 let (errors, questions) = (Vec::new(), &[][..]);
-                let answer =
-                    ImportAnswer { ok: true, model, notes: &made.notes, errors, questions };
+                let notes = made.notes.iter().map(|note| sentence(note, Language::English));
+                let notes = notes.collect();
+                let answer = ImportAnswer { ok: true, model, notes, errors, questions };
                 place.write(&pretty(&answer))?;
             }
             (Ok(made), _) => place.write(&made.text)?,
@@ -190,7 +193,7 @@ impl Import {
     fn refused(&self, place: AnswerPlace, refused: &RefusedBudget) -> Result<Exit, Failure> {
         let errors = refused.diagnostics.0.iter().map(Mistake::from).collect();
         let questions = &refused.questions;
-        let answer = ImportAnswer { ok: false, model: None, notes: &[], errors, questions };
+        let answer = ImportAnswer { ok: false, model: None, notes: Vec::new(), errors, questions };
         place.write(&pretty(&answer))?;
         if !self.quiet {
             say(&diagnostics::render(&refused.diagnostics, true));

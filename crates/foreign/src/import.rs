@@ -32,8 +32,11 @@ use std::path::Path;
 
 use ask::ReadSheet;
 pub use ask::{Question, RefusedBudget};
+use ask::{Sheet, beginning};
 use columns::{Column, identifier};
 use equation::Equation;
+use gumption_engine::fact;
+use gumption_engine::fact::Fact;
 use gumption_files::open::{FileKind, are_results};
 use gumption_text::{Collector, DiagnosticKind, SourceText, bytes, workbook};
 use mark::{MarkedCell, doubt};
@@ -46,8 +49,8 @@ use table::Header;
 pub struct ImportedBudget {
     /// The model file, as JSON text that ends in a newline.
     pub text: String,
-    /// What is worth knowing of how the sheet was read, in sentences.
-    pub notes: Vec<String>,
+    /// What is worth knowing of how the sheet was read.
+    pub notes: Vec<Fact>,
 }
 
 /// Reads a budget from a CSV file or from the sheet of an XLSX file that holds one; of a workbook that this
@@ -158,14 +161,14 @@ impl ReadSheet<'_> {
     /// Says what the columns are.
     fn note_columns(&self, header: &Header) {
         let shown = header.columns.iter().filter(|(_, column)| *column != Column::Ignored);
-        let shown: Vec<String> = shown
+        let shown: Vec<Fact> = shown
             .map(|(place, column)| {
-                let unit =
-                    header.unit(*place).map_or_else(String::new, |unit| format!(" in {unit}"));
-                format!("`{}` as {}{unit}", header.heading(*place), column.name())
+                let heading = beginning(header.heading(*place));
+                let unit = header.unit(*place).map(|unit| fact!("import.in-unit", unit));
+                fact!("import.column", heading, name = column.name(), unit)
             })
             .collect();
-        self.note(format!("row {}: columns {}", header.first + 1, shown.join(", ")));
+        self.note(fact!("import.columns", row = header.first + 1, columns = shown));
     }
 
     /// The names that the rows below the headings would have in formulas.

@@ -35,8 +35,8 @@ impl Misfit {
     /// What is missing and what would be needed, after "it".
     pub(super) fn reason(&self, shipped: &Catalogue, sim: &OverridableModel) -> Fact {
         let called = |name: &String| {
-            let names = shipped.alternatives(name).into_iter();
-            Argument::one_of(names.map(|name| fact!("quoted", name)).collect())
+            let names = shipped.alternatives(name).into_iter().map(|name| fact!("quoted", name));
+            Argument::from(names.reduce(|parts, last| fact!("one-of", parts, last)))
         };
         let all = |names: &[String]| names.iter().map(called).collect::<Vec<_>>();
         let overrides = self.overrides.iter().map(|key| match key.as_str() {

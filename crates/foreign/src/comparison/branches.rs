@@ -4,6 +4,8 @@
 use super::ComparisonReader;
 use gumption_analysis::compare::StatedResult;
 use gumption_engine::decimal::{Decimal, to_15_digits, to_position};
+use gumption_engine::fact;
+use gumption_engine::fact::Argument;
 use gumption_engine::number::Shortest;
 use gumption_text::angle_branches::{branches, turn};
 use gumption_units::Unit;
@@ -52,7 +54,9 @@ impl ComparisonReader<'_> {
             let before = result.value;
             result.value = moved(result.value, turns * turn);
             result.printed[0] = moved(result.printed[0], turns * turn);
-            self.moved.push(format!("{} of `{name}` as {}", said(before), said(result.value)));
+            let [angle, compared] =
+                [before, result.value].map(|value| Argument::Number(said(value)));
+            self.moved.push(fact!("angle-branch.moved", angle, name = &*name, compared));
         }
         Ok(())
     }

@@ -5,6 +5,8 @@ use super::headings::{self, HeadingMeaning, Role, UnitOfHeading};
 use super::numbers::Numbers;
 use crate::import::columns;
 use crate::import::coverage::HeaderCoverage;
+use gumption_engine::fact;
+use gumption_engine::fact::Argument;
 use gumption_engine::task::Warning;
 use gumption_text::{DiagnosticKind, column_heading};
 
@@ -208,13 +210,14 @@ impl Columns {
         if !others.is_empty() {
             let mut places = others;
             places.sort_unstable();
-            let names: Vec<String> =
-                places.iter().map(|place| format!("`{}`", heading(*place))).collect();
-            let (columns, are) =
-                if names.len() == 1 { ("column", "is") } else { ("columns", "are") };
-            let text =
-                format!("the {columns} {} {are} not read", gumption_units::listed(&names, " and "));
-            warnings.push(Warning::new("columns-not-read", "", text));
+            let fact = match places[..] {
+                [place] => fact!("columns-not-read.one", name = heading(place)),
+                _ => {
+                    let names = places.iter().map(|place| fact!("quoted", name = heading(*place)));
+                    fact!("columns-not-read", names = Argument::all_of(names.collect()))
+                }
+            };
+            warnings.push(Warning::new("", fact));
         }
         let mut units = Vec::new();
         let mut coverages = Vec::new();

@@ -20,6 +20,8 @@ use std::path::Path;
 use super::answer;
 use columns::Columns;
 use gumption_analysis::compare::{Laboratory, ResultPair, StatedResult};
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::task::Warning;
 use gumption_files::open::no_table;
 use gumption_text::text_table::{TextTable, alone};
@@ -119,7 +121,7 @@ fn read(
         log.report(&place, kind);
         return log.finish(None);
     }
-    let said = content.said.map(|said| Warning::new("sheet-chosen", "", said));
+    let said = content.said.map(|fact| Warning::new("", fact));
     let mut warnings: Vec<Warning> = said.into_iter().collect();
     let table = TextTable::parse(&log, &source).and_then(|cells| {
         let numbers = Numbers::new(&log, &cells, content.sheet.as_ref());
@@ -152,7 +154,7 @@ struct ComparisonReader<'a> {
     /// The unit of each row that was read.
     units: Vec<String>,
     /// Angles that are compared on another branch, in words.
-    moved: Vec<String>,
+    moved: Vec<Fact>,
     options: ComparisonOptions<'a>,
 }
 
@@ -378,31 +380,20 @@ impl ComparisonReader<'_> {
 
     /// That uncertainties are shares of the values.
     fn relative(&self) -> Option<Warning> {
-        let units: Vec<String> = self.shares.iter().map(|unit| format!("`{unit}`")).collect();
-        (!units.is_empty()).then(|| {
-            let text = format!(
-                "uncertainties in {} are shares of the values",
-                gumption_units::listed(&units, " and ")
-            );
-            Warning::new("relative-uncertainties", "", text)
-        })
+        let units: Vec<Fact> = self.shares.iter().map(|name| fact!("quoted", name)).collect();
+        let fact = |units| fact!("relative-uncertainties", units = Argument::all_of(units));
+        (!units.is_empty()).then(|| Warning::new("", fact(units)))
     }
 
     /// That angles are compared on another branch than the one they are written on.
     fn turned(&self) -> Option<Warning> {
         const MOST: usize = 5;
-        let count = self.moved.len();
-        let mut said: Vec<String> = self.moved.iter().take(MOST).cloned().collect();
-        if count > MOST {
-            said.push(format!("{} more", count - MOST));
+        let mut moved: Vec<Fact> = self.moved.iter().take(MOST).cloned().collect();
+        if self.moved.len() > MOST {
+            moved.push(fact!("more", count = self.moved.len() - MOST));
         }
-        (count > 0).then(|| {
-            let text = format!(
-                "angles are compared within half a turn of each other: {}",
-                gumption_units::listed(&said, " and ")
-            );
-            Warning::new("angle-branch", "", text)
-        })
+        let fact = |moved| fact!("angle-branch", angles = Argument::all_of(moved));
+        (!moved.is_empty()).then(|| Warning::new("", fact(moved)))
     }
 
     /// The run's result for a row: the output of that label, at the conditions of the row; with its unit

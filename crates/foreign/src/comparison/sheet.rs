@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use super::headings::{self, HeadingMeaning, Role};
+use gumption_engine::fact::Fact;
 use gumption_text::workbook::choice::{self, Wanted};
 use gumption_text::workbook::{Book, Layout};
 use gumption_text::{DiagnosticKind, bytes, workbook};
@@ -15,7 +16,7 @@ pub(super) struct Content {
     /// Where its cells stand in a workbook.
     pub(super) sheet: Option<Cells>,
     /// Which of several sheets it is.
-    pub(super) said: Option<String>,
+    pub(super) said: Option<Fact>,
 }
 
 /// Where the cells of a table stand in a workbook: its lines are the rows of the sheet.

@@ -141,7 +141,8 @@ fn uncertainties_in_per_cent_are_shares_of_the_values() {
     // half a unit of `4` is 0.5 %
     assert!((found[0].result.rounding[1] / 0.251 - 1.0).abs() < 1e-12);
     let said = noted(text).unwrap().warnings;
-    assert_eq!(said[0].text, "uncertainties in `%` are shares of the values");
+    let units = fact!("quoted", name = "%");
+    assert_eq!(said[0].fact, fact!("relative-uncertainties", units));
     // per cent of per cent are per cent, and words decide what is doubtful
     assert_eq!(laboratories("label,x [%],U [%]\na,50,4\nb,51,3\n")[0].result.expanded, 4.0);
     let found = laboratories("label,x [ppm],U (% of reading)\na,50,4\nb,51,3\n");
@@ -179,7 +180,9 @@ fn headings_are_words_and_symbols() {
     let of_t = u("Lab,Value,U (95 %),dof\nA,10,4,10\nB,11,4,inf\n");
     assert!((of_t - 4.0 / 2.228_139).abs() < 1e-6);
     let read = noted("label,date,x,U,method\na,2024,1,1,m\nb,2025,1,1,n\n").unwrap();
-    assert_eq!(read.warnings[0].text, "the columns `date` and `method` are not read");
+    let names = ["date", "method"].map(|name| fact!("quoted", name)).into();
+    let names = Argument::all_of(names);
+    assert_eq!(read.warnings[0].fact, fact!("columns-not-read", names));
 }
 
 /// Factors beside probabilities and units in headings: `k=2, 95 %` was 0.0295, and units beside a factor
@@ -346,8 +349,8 @@ mod of_workbooks {
                     warnings,
                     ..
                 }) => {
-                    let said = warnings.iter().map(|warning| warning.text.clone());
-                    Ok((laboratories[0].label.clone(), said.collect::<String>()))
+                    let said = warnings.into_iter().map(|warning| warning.fact);
+                    Ok((laboratories[0].label.clone(), said.collect::<Vec<_>>()))
                 }
                 Ok(other) => panic!("{other:?}"),
                 Err(said) => Err(said.to_string()),
@@ -357,7 +360,9 @@ mod of_workbooks {
         let new: &[&[&str]] = &[&["Lab", "Value", "u"], &["C", "5", "1"], &["D", "6", "1"]];
         let words: &[&[&str]] = &[&["Read me"]];
         let (label, said) = read(&[("old", true, old), ("final", false, new)], None).unwrap();
-        assert_eq!((&*label, &*said), ("C", "sheet `final` is read, not `old` (hidden)"));
+        let others = fact!("quoted.hidden", name = "old");
+        let chosen = fact!("sheet-chosen", sheet = "final", others);
+        assert_eq!((&*label, said), ("C", vec![chosen]));
         let found = read(&[("Read me", false, words), ("final", false, new)], None).unwrap();
         assert_eq!(found.0, "C");
         let two = [("old", false, old), ("final", false, new)];
@@ -478,8 +483,11 @@ fn nominal_values_and_reference_laboratories() {
         "label,Nominal value,x,U\na,10,1,1\nb,10,2,1\n",
     ] {
         let read = noted(text).unwrap_or_else(|error| panic!("{text}: {error}"));
-        let said: Vec<&str> = read.warnings.iter().map(|of| of.text.as_str()).collect();
-        assert!(said.len() == 1 && said[0].to_lowercase().contains("nominal"), "{text}: {said:?}");
+        let [said] = &read.warnings[..] else { panic!("{text}: {:?}", read.warnings) };
+        let Some(Argument::Text(name)) = said.fact.argument("name") else {
+            panic!("{text}: {said:?}");
+        };
+        assert!(said.fact.key == "columns-not-read.one" && name.to_lowercase().contains("nominal"));
     }
     let found = laboratories("label,x,U\nPilot,10,1\nReference laboratory,10,1\n");
     assert_eq!(found.len(), 2);
@@ -496,9 +504,11 @@ fn angles_are_compared_on_one_branch() {
     assert!((compared.difference + 0.07).abs() < 1e-12, "{compared:?}");
     assert!((compared.normalized_error - 0.07 / 0.02f64.sqrt()).abs() < 1e-9);
     assert_eq!(pairs[1].results[1].value, 10.1);
-    let codes: Vec<&str> = found.warnings.iter().map(|of| of.code).collect();
+    let codes: Vec<&str> = found.warnings.iter().map(|of| of.code()).collect();
     assert_eq!(codes, ["angle-branch"]);
-    assert!(found.warnings[0].text.ends_with("0.02 deg of `a, second` as 360.02 deg"));
+    let [angle, compared] = ["0.02 deg", "360.02 deg"].map(Argument::number);
+    let moved = fact!("angle-branch.moved", angle, name = "a, second", compared);
+    assert_eq!(found.warnings[0].fact.argument("angles"), Some(&moved.into()));
     let text = "Lab,x [deg],U [arcmin]\nA,0.02,6\nB,359.95,6\nC,0.03,6\n";
     let values: Vec<f64> = laboratories(text).iter().map(|of| of.result.value).collect();
     assert_eq!(values, [0.02, -0.05, 0.03]);

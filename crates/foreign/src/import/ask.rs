@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::grid::Cells;
 use super::options::ImportOptions;
 use gumption_columns::separator::DecimalMarks;
+use gumption_engine::fact::Fact;
 use gumption_text::{Collector, DiagnosticKind, Diagnostics};
 
 /// What a sheet does not say.
@@ -61,7 +62,7 @@ pub(super) struct ReadSheet<'a> {
     pub(super) log: &'a Collector,
     pub(super) options: &'a ImportOptions,
     pub(super) marks: RefCell<DecimalMarks>,
-    pub(super) notes: RefCell<Vec<String>>,
+    pub(super) notes: RefCell<Vec<Fact>>,
     pub(super) questions: RefCell<Vec<Question>>,
 }
 
@@ -96,19 +97,25 @@ impl ReadSheet<'_> {
     }
 
     /// Keeps what is worth knowing of how the sheet was read.
-    pub(super) fn note(&self, note: impl AsRef<str>) {
-        self.notes.borrow_mut().push(shortened(note.as_ref()));
+    pub(super) fn note(&self, note: Fact) {
+        self.notes.borrow_mut().push(note);
     }
 }
 
 /// A sentence whose quotes are no longer than a cell that people write: of a longer one the beginning.
 pub(super) fn shortened(sentence: &str) -> String {
-    const MOST: usize = 120;
-    let parts = sentence.split('`').enumerate().map(|(place, part)| {
-        match part.char_indices().nth(MOST).filter(|_| place % 2 == 1) {
-            Some((end, _)) if part.len() > 2 * MOST => format!("{}…", &part[..end]),
-            _ => part.to_owned(),
-        }
+    let parts = sentence.split('`').enumerate().map(|(place, part)| match place % 2 {
+        1 => beginning(part),
+        _ => part.to_owned(),
     });
     parts.collect::<Vec<_>>().join("`")
+}
+
+/// A quote that is no longer than a cell that people write: of a longer one the beginning.
+pub(super) fn beginning(quote: &str) -> String {
+    const MOST: usize = 120;
+    match quote.char_indices().nth(MOST) {
+        Some((end, _)) if quote.len() > 2 * MOST => format!("{}…", &quote[..end]),
+        _ => quote.to_owned(),
+    }
 }

@@ -8,6 +8,8 @@ use super::columns::{self, Column};
 use super::options::ImportOptions;
 use super::table::line_of;
 use gumption_columns::separator::{DecimalMarks, Separator};
+use gumption_engine::fact;
+use gumption_engine::fact::Fact;
 use gumption_files::open::no_table;
 use gumption_text::SourceText;
 use gumption_text::text_table::record;
@@ -79,8 +81,8 @@ impl Cells {
     }
 
     /// Writes what merged cells hold into all rows that they span, in columns of what several rows can
-    /// have in common; what was taken, as sentences.
-    fn spread_merged(&mut self, line: usize) -> Vec<String> {
+    /// have in common; gives what was taken.
+    fn spread_merged(&mut self, line: usize) -> Vec<Fact> {
         const COMMON: [Column; 7] = [
             Column::Unit,
             Column::UnitOfUncertainty,
@@ -107,12 +109,8 @@ impl Cells {
                     }
                 }
             }
-            said.push(format!(
-                "the merged cell `{}` counts for rows {} to {}",
-                text.trim(),
-                first + 1,
-                last + 1
-            ));
+            let (text, first, last) = (text.trim(), first + 1, last + 1);
+            said.push(fact!("import.merged-cell", text, first, last));
         }
         said
     }
@@ -145,7 +143,7 @@ pub(super) fn of_sheet(
     rows: Vec<Vec<String>>,
     layout: Layout,
     options: &ImportOptions,
-) -> (Cells, String, Vec<String>) {
+) -> (Cells, String, Vec<Fact>) {
     let (cells, text) = of_rows(rows);
     let mut cells = Cells { layout, ..cells };
     let said = line_of(&cells, options).map(|line| cells.spread_merged(line)).unwrap_or_default();

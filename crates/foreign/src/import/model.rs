@@ -12,6 +12,7 @@ use super::rows::{Row, RowKind, Rows, is_same_unit};
 use super::stated::StatedFigure;
 use super::table::Header;
 use gumption_engine::decimal::to_15_digits;
+use gumption_engine::fact;
 use gumption_engine::model::formula::{Formula, Scope, Typing};
 use gumption_engine::number::Shortest;
 use gumption_engine::propagate::gum::{self, Gum};
@@ -183,7 +184,7 @@ impl ReadSheet<'_> {
             self.numbers_of_units(&text, &without, last)?;
         }
         for (name, formula) in &formulas {
-            self.note(format!("the equation {name} = {formula}"));
+            self.note(fact!("import.equation", name, formula));
         }
         Some(ImportedModel { text, factors: None })
     }
@@ -232,7 +233,7 @@ impl ReadSheet<'_> {
         }
         let unit = last.map(|dimension| dimension.usual_unit()).unwrap_or_default();
         if !unit.is_empty() {
-            self.note(format!("the result is in `{unit}`, the coherent unit of its equation"));
+            self.note(fact!("import.unit-of-result", unit = &unit));
         }
         unit
     }
@@ -284,7 +285,7 @@ impl ReadSheet<'_> {
         let constant = self.constant(header, (rows, &factors), sum, (of_result, &whole))?;
         let mut terms: Vec<String> = Vec::new();
         if constant != 0.0 {
-            self.note(format!("the constant {} is added, which makes the estimate of the result: the model is linear about the estimates", written(constant)));
+            self.note(fact!("import.constant", constant));
             terms.push(written(constant));
         }
         terms.extend(rows.iter().zip(&factors).map(|(row, factor)| match *factor {
@@ -292,12 +293,9 @@ impl ReadSheet<'_> {
             factor => format!("({})*{}", written(to_15_digits(factor)), row.name),
         }));
         let formulas = [(of_result.name.clone(), terms.join(" + "))];
-        self.note(format!(
-            "{} = {}: the sum of the quantities times their sensitivity coefficients, in {}",
-            formulas[0].0,
-            formulas[0].1,
-            if unit.is_empty() { "1" } else { &unit }
-        ));
+        let [(name, formula)] = &formulas;
+        let shown = if unit.is_empty() { "1" } else { &unit };
+        self.note(fact!("import.sum", name, formula, unit = shown));
         let text = document(title, rows, &formulas, &unit, false);
         if let Some(mistakes) = mistakes_of(&text) {
             self.fail(header.first, format!("the model of this budget has mistakes: {mistakes}"));

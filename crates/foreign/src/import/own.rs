@@ -8,7 +8,8 @@ use serde_json::{Map, Value, json};
 use super::ImportedBudget;
 use super::number::number;
 use gumption_engine::distribution::Distribution;
-use gumption_engine::number::Shortest;
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::task::Task;
 use gumption_files::carried;
 use gumption_files::read_text;
@@ -50,9 +51,7 @@ pub(super) fn of_workbook(
     reader.sheet(&inputs);
     let OwnBudgetReader { root, changed, replaced, .. } = reader;
     let made = if changed.is_empty() {
-        let unchanged = "the model file of this workbook; no estimate, standard uncertainty, degrees of \
-                         freedom or correlation was changed, and other cells are not looked at";
-        Some(ImportedBudget { text, notes: vec![unchanged.to_owned()] })
+        Some(ImportedBudget { text, notes: vec![fact!("import.unchanged")] })
     } else {
         serde_json::to_string_pretty(&root).ok().map(|text| ImportedBudget {
             text: text + "\n",
@@ -71,9 +70,9 @@ struct OwnBudgetReader<'a> {
     log: &'a Collector,
     task: &'a Task,
     root: Value,
-    changed: Vec<String>,
+    changed: Vec<Fact>,
     /// Inputs that have another shape now.
-    replaced: Vec<String>,
+    replaced: Vec<Fact>,
 }
 
 impl OwnBudgetReader<'_> {
@@ -168,17 +167,14 @@ impl OwnBudgetReader<'_> {
             let reason = format!("`{name}` cannot be changed here; change it in the model file");
             return self.fail(0, &reason);
         };
-        let shown = |value: f64| Shortest(value).to_string();
-        let whole = [
-            ("estimate", estimate, of.mean()),
-            ("standard uncertainty", std, of.standard_uncertainty()),
-            ("degrees of freedom", dof, of.dof()),
-        ];
-        for (what, now, before) in whole {
-            self.changed.extend(now.map(|now| {
-                format!("`{name}`: {what} {} instead of {}", shown(now), shown(before))
-            }));
-        }
+        let name = name.as_str();
+        self.changed.extend(
+            estimate.map(|now| fact!("import.changed-estimate", name, now, before = of.mean())),
+        );
+        let before = of.standard_uncertainty();
+        self.changed.extend(std.map(|now| fact!("import.changed-uncertainty", name, now, before)));
+        self.changed
+            .extend(dof.map(|now| fact!("import.changed-dof", name, now, before = of.dof())));
         let kept = estimate.is_none_or(|value| moved(object, value))
             && std.is_none_or(|value| widened(object, value, &of))
             && dof.is_none_or(|value| with_dof(object, value));
@@ -202,10 +198,7 @@ impl OwnBudgetReader<'_> {
         for key in ["about", "type", "group", "per"] {
             normal.extend(object.get(key).map(|value| (key.to_owned(), value.clone())));
         }
-        self.replaced.push(format!(
-            "`{name}` is normal now: what it was ({}) does not go with the changed cells",
-            of.name()
-        ));
+        self.replaced.push(fact!("import.normal-now", name, distribution = of.name()));
         *object = normal;
     }
 
@@ -223,7 +216,8 @@ impl OwnBudgetReader<'_> {
             root.remove("coverage_factor_fixed");
             root.insert("coverage_probability".to_owned(), json!(now));
         }
-        self.changed.push(format!("coverage probability {now} instead of {before}"));
+        let [now, before] = [now, before].map(|of| Argument::number(of.to_string()));
+        self.changed.push(fact!("import.changed-probability", now, before));
     }
 
     fn condition(&self, line: usize, name: &str, cell: &str, table: usize) {
@@ -252,7 +246,8 @@ impl OwnBudgetReader<'_> {
             return;
         }
         if set_coefficient(&mut self.root, a, b, now) {
-            self.changed.push(format!("{name} = {now}"));
+            let coefficient = Argument::number(now.to_string());
+            self.changed.push(fact!("import.changed-correlation", name, coefficient));
         } else if known.is_some() {
             let reason = format!("`{name}` is not stated in the model file, so change it there");
             self.fail(line, &reason);

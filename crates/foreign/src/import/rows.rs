@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::ask::ReadSheet;
+use super::ask::{ReadSheet, beginning};
 use super::both::sides;
 use super::columns::{self, Column, identifier};
 use super::concise::concise;
@@ -13,6 +13,7 @@ use super::table::Header;
 use super::widths::{StatedShape, divisor_of, without_factor};
 use super::words;
 use gumption_engine::decimal::to_15_digits;
+use gumption_engine::fact;
 use gumption_engine::model::formula::{Formula, check_name};
 use gumption_engine::number::Shortest;
 use gumption_text::named_shape::NamedShape;
@@ -182,7 +183,8 @@ impl ReadSheet<'_> {
                     }
                 }
                 RowKind::Ignored => {
-                    self.note(format!("row {} `{}` is not read", line + 1, self.first_cell(line)))
+                    let text = beginning(self.first_cell(line));
+                    self.note(fact!("import.row-not-read", row = line + 1, text));
                 }
                 kind => found.of_result.push(OfResult { line, kind }),
             }
@@ -244,11 +246,8 @@ impl ReadSheet<'_> {
                 return None;
             }
             if !is_equation {
-                self.note(format!(
-                    "row {} `{}` has no numbers and is not read",
-                    line + 1,
-                    self.first_cell(line)
-                ));
+                let text = beginning(self.first_cell(line));
+                self.note(fact!("import.row-without-numbers", row = line + 1, text));
             }
             return None;
         }
@@ -304,11 +303,8 @@ impl ReadSheet<'_> {
         if is_used {
             let has_width = self.has_uncertainty(header, line);
             if !has_width {
-                self.note(format!(
-                    "row {} `{}` has no uncertainty and is a constant of the equation",
-                    line + 1,
-                    names[0]
-                ));
+                let text = beginning(names[0]);
+                self.note(fact!("import.row-constant", row = line + 1, text));
             }
             return Some(if has_width { RowKind::Quantity } else { RowKind::Constant });
         }
@@ -524,7 +520,8 @@ impl ReadSheet<'_> {
             number += 1;
         }
         if name != words {
-            self.note(format!("row {}: `{words}` is called `{name}`", line + 1));
+            let (words, name) = (beginning(words), beginning(&name));
+            self.note(fact!("import.row-named", row = line + 1, words, name));
         }
         let mut row = Row { line, name, about: self.about(header, line), ..Row::default() };
         // estimate, perhaps with its uncertainty behind it
@@ -1014,10 +1011,8 @@ fn shape_of_std(sheet: &ReadSheet, header: &Header, line: usize) -> Option<&'sta
     let text = header.cell(sheet.cells, line, Column::Distribution);
     let shape = NamedShape::of(text)?;
     if shape == NamedShape::Unknown {
-        sheet.note(format!(
-            "row {}: of `{text}` the standard uncertainty is taken, as of a normal distribution",
-            line + 1
-        ));
+        let text = beginning(text);
+        sheet.note(fact!("import.distribution", row = line + 1, text));
     }
     shape.name().filter(|name| divisor_of(name).is_some())
 }

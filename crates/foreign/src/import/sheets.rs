@@ -5,6 +5,8 @@ use super::columns::Column;
 use super::grid::{self, Cells};
 use super::options::ImportOptions;
 use super::table::{Header, line_of};
+use gumption_engine::fact;
+use gumption_engine::fact::Fact;
 use gumption_files::open::FROM_CERTIFICATES;
 use gumption_text::DiagnosticKind;
 use gumption_text::workbook::choice::{self, Wanted};
@@ -16,7 +18,7 @@ pub(super) struct Chosen {
     /// The text of messages.
     pub(super) text: String,
     /// What is worth knowing of the choice and of merged cells.
-    pub(super) said: Vec<String>,
+    pub(super) said: Vec<Fact>,
 }
 
 impl Chosen {
@@ -65,7 +67,7 @@ impl ReadSheet<'_> {
         let hidden = &self.cells.layout().hidden_columns;
         for (place, column) in &header.columns {
             if hidden.contains(&(*place as u32)) && *column != Column::Ignored {
-                self.note(format!("{} is hidden, and is read", header.named(*place)));
+                self.note(fact!("import.hidden-column", column = header.column(*place)));
             }
         }
         self.log.is_clean()

@@ -1,6 +1,6 @@
 //! The heading row of a budget: which column holds what, and in which unit.
 
-use super::ask::ReadSheet;
+use super::ask::{ReadSheet, beginning};
 use super::both::sides;
 use super::columns::{self, Column};
 use super::concise::concise;
@@ -9,6 +9,8 @@ use super::grid::{Cells, is_empty};
 use super::heading::unit_of_header;
 use super::number::number_with_unit;
 use super::options::ImportOptions;
+use gumption_engine::fact;
+use gumption_engine::fact::Fact;
 use gumption_text::named_shape::NamedShape;
 use gumption_text::workbook::letters;
 use gumption_units::{Unit, listed};
@@ -152,7 +154,7 @@ impl Header {
                 None => self.unknown(sheet, place),
                 // an option has named the column of that kind
                 Some(column) if self.place(column).is_some() && !column.may_repeat() => {
-                    sheet.note(format!("{} is not read", self.named(place)));
+                    sheet.note(fact!("import.column-not-read", column = self.column(place)));
                     self.columns.push((place, Column::Ignored));
                 }
                 Some(column) => match by_words.iter_mut().find(|(of, _)| *of == column) {
@@ -198,7 +200,7 @@ impl Header {
         };
         if !texts.iter().any(counts) {
             if !texts.is_empty() {
-                sheet.note(format!("{} is kept as a remark", self.named(place)));
+                sheet.note(fact!("import.column-remark", column = self.column(place)));
             }
             return self.columns.push((place, Column::Remark));
         }
@@ -465,6 +467,12 @@ impl Header {
     /// A column with its letter and its heading.
     pub(super) fn named(&self, place: usize) -> String {
         format!("column {} `{}`", letters(place as u32), self.heading(place))
+    }
+
+    /// The same as a part of a note.
+    pub(super) fn column(&self, place: usize) -> Fact {
+        let heading = beginning(self.heading(place));
+        fact!("import.named-column", letter = letters(place as u32), heading)
     }
 
     /// The unit that a column states.

@@ -3,13 +3,14 @@
 //! A stated divisor or coverage factor divides; without one the distribution says what a half-width is divided
 //! by, and the heading the coverage factor. Two statements that differ are asked, and so is none.
 
-use super::ask::ReadSheet;
+use super::ask::{ReadSheet, beginning};
 use super::columns::{self, Column};
 use super::coverage::{HeaderCoverage, Statement};
 use super::number::constant;
 use super::rows::Row;
 use super::table::Header;
 use super::words;
+use gumption_engine::fact;
 use gumption_engine::number::Shortest;
 use gumption_text::named_shape::NamedShape;
 use gumption_text::workbook::letters;
@@ -373,11 +374,8 @@ impl ReadSheet<'_> {
             return Err(());
         };
         if at_least.len() < text.len() {
-            self.note(format!(
-                "line {}: {} degrees of freedom are taken of `{text}`",
-                line + 1,
-                Shortest(dof)
-            ));
+            let text = beginning(text);
+            self.note(fact!("import.dof", line = line + 1, dof, text));
         }
         if beside.is_some_and(|beside| beside != dof) {
             self.fail(line, format!("the row says {} degrees of freedom, and another number beside its distribution", Shortest(dof)));

@@ -136,11 +136,276 @@ const EVALUATION: Sentences = &[
 /// Facts about formulas.
 #[rustfmt::skip]
 const FORMULAS: Sentences = &[
+    ("share-converted-twice", "`{formula}` converts from {unit} once more: formulas have a share in {unit} \
+        as a plain number already, so that its name is enough"),
+    ("share-converted-twice.logarithm", "`{formula}` converts from {unit} once more, by {number}, the \
+        logarithm of {of}: formulas have a share in {unit} as a plain number already; leave it out"),
+    ("rate-converted-twice", "`{formula}` converts to radians per second once more: formulas have what is \
+        given in {unit} in radians per second already, so that its name is enough"),
+    ("angle-converted-twice", "`{formula}` converts to radians once more: formulas have an angle in {unit} \
+        in radians already, so that its name is enough"),
+    ("angle-converted-twice.degrees", "`{function}` takes radians, and `{argument}` is a number of degrees, \
+        by its factor of 180/pi; leave that factor out, because formulas have angles in radians"),
+    ("angle-of-turns", "`{function}` takes `{name}` in radians, because it has no unit of angle, and {angle} \
+        rad are more than a turn; for an angle in degrees state `\"unit\": \"deg\"`"),
+    ("angle-of-turns.constant", "`{function}` takes radians, and {angle} rad are more than a turn; an angle \
+        in degrees is written `{angle} [deg]`"),
+    ("angle-of-turns.phase", "`{name}` is {angle} rad, which are more than a turn, because a phase without a \
+        unit is in radians; for one in degrees state `\"unit\": \"deg\"`"),
+    ("rounded-as-number", "`{formula}` is computed to whole plain numbers, as formulas compute, and not to \
+        whole {unit}; those are `{meant}`"),
+    ("rounded-as-number.radians", "`{formula}` is computed to whole radians, as formulas compute, and not to \
+        whole {unit}; those are `{meant}`"),
+    ("bare-number", "in `{formula}`, {number} is the number {number}, that is {converted} {unit}, because \
+        `{quantity}` is {given}; {number} {unit} are written `{meant}`"),
+    ("bare-number.radians", "in `{formula}`, {number} is {number} rad, because `{quantity}` is {given}; \
+        {number} {unit} are written `{meant}`"),
+    ("bare-number.angle", "in `{formula}`, {number} is {number} rad, because `{quantity}` is an angle in \
+        radians; {number} {unit} are written `{meant}`"),
+    ("beside.given", "given in {unit}"),
+    ("beside.computed", "computed from what is given in {unit}"),
+    ("radians-as-periods", "`{formula}` is an angular frequency, in radians per second, by what it is made \
+        of, and is reported as a frequency; that is `({formula})/(2*pi)`, and an angular frequency is \
+        reported in `rad/s`"),
+    ("periods-as-radians", "`{function}` takes radians, and `{argument}` counts periods, 2*pi radians each; \
+        the angle is `2*pi*{argument}`"),
+    ("periods-as-radians.torque", "`{formula}` multiplies a torque by periods, because its rate counts no \
+        angle, and the work of a torque is by radians; the power is `2*pi*{formula}`, or give the rate in \
+        `rpm`"),
+    ("level-of-other-kind", "`{formula}` is 10 times the logarithm of a ratio of root-power quantities, \
+        whose level is 20 times it; powers have 10, and voltages, currents, sound pressures and the like, \
+        whose squares are powers, have 20"),
+    ("level-of-other-kind.powers", "`{formula}` is 20 times the logarithm of a ratio of powers, whose level \
+        is 10 times it; powers have 10, and voltages, currents, sound pressures and the like, whose squares \
+        are powers, have 20"),
+    ("radians-of-turns", "`{name}` counts angle and is reported in `{unit}` in radians, 2*pi for a \
+        revolution; if revolutions are meant, write `.../[rev]`, or report it in rpm or rev"),
+    ("radians-of-turns.inverse", "`{name}` is divided by what counts revolutions and is reported in `{unit}` \
+        per radian; if it is meant per revolution, write `...*[rev]`"),
+    ("radians-of-turns.product", "`{formula}` multiplies by radians, 2*pi for a revolution, because formulas \
+        have in radians what is given in revolutions; by revolutions it is `{formula}/[rev]`"),
+    ("rate-of-turns", "`{name}` is taken for an angular frequency, of which 2*pi radians are a revolution, \
+        because nothing says that it counts revolutions; if it does, write `...*[rev]`, or give it in \
+        `1/min`"),
+    ("result-converted-twice", "`{formula}` converts to {unit}, and so does {what} in {unit}, once more: \
+        formulas compute {computed}; leave the factor out{or_plain}"),
+    ("result-converted-twice.product", "`{formula}` has{with} the factor of {factor} that converts from the \
+        units of its quantities to {to}; leave the factor out, or let it be an input of its own if it is no \
+        conversion{or_turns}"),
+    ("quantity-converted-twice", "`{formula}` has the factor of {factor} that converts from the units of its \
+        quantities to {to}, which formulas have done already; leave the factor out"),
+    ("quantity-converted-twice.product", "`{formula}` has{with} the factor of {factor} that converts from \
+        the units of its quantities to coherent SI units, in which formulas have them already; leave the \
+        factor out, or let it be an input of its own if it is no conversion{or_turns}"),
+    ("converted-to.coherent-unit", "{unit}, in which formulas have them already"),
+    ("converted-to.unit", "{unit}, and {what} in {unit} is converted, too: formulas compute in coherent SI \
+        units"),
+    ("converted-to.beside", "those of what stands beside it"),
+    ("converted-to.number", "a plain number"),
+    ("with-equations", ", with the equations that it takes up,"),
+    ("or-turns", "; a rate of revolutions is multiplied by 2*pi in its place"),
+    ("or-without-unit", ", or give {what} without a unit"),
+    ("computed.rates", "in radians per second"),
+    ("computed.angles", "angles in radians"),
+    ("computed.shares", "shares as plain numbers"),
+    ("computed.ratios", "ratios as plain numbers"),
+    ("result.output", "the output"),
+    ("result.quantity", "the quantity"),
+    ("result.named-output", "the output `{name}`"),
+    ("unit-left-out", "`{formula}` has no unit, so that formulas take its numbers as plain ones, of which 1 \
+        is {one} {unit}, beside `{beside}` in {unit}; state its unit, `{unit}` or `{plain}`"),
+    ("unit-left-out.output", "`{formula}` has no unit, so that formulas take its numbers as plain ones, of \
+        which 1 is {one} {unit}, in which the output is reported; state its unit, `{unit}` or `{plain}`"),
+    ("level-as-number", "`{name}` is a level, and is reported as its number of decibels, as formulas compute \
+        it; report it in `dB` or in `Np`"),
+    ("sum-of-levels", "`{name}` in {unit} adds levels above a reference, or multiplies one, so that it is \
+        above no reference itself; the level of a sum of powers is `10*log10(10^(L1/10) + 10^(L2/10))`, and \
+        gains are in dB"),
+    ("celsius-as-kelvin", "`{name}` is a number of degrees Celsius by the unit of a coefficient, and is \
+        reported in {unit} as a difference; write kelvin(...) for a thermodynamic temperature, or report it \
+        in degC"),
+    ("difference-in-degrees", "`{name}` is a difference of temperatures, and is reported in {unit}, so that \
+        everything that uses it takes it for a temperature; report it in K, or, where a correction is \
+        subtracted from a temperature, give the correction in K"),
+    ("picohenry", "the unit `pH` of `{name}` is the picohenry; a pH value is a number, with the unit `1`"),
+    ("imaginary-unit", "`i` is the quantity of that name in the formulas of this file, and not the imaginary \
+        unit; if you mean that, give the quantity another name"),
+    ("unused-input", "no equation uses the input `{name}`: it contributes nothing to any uncertainty"),
 ];
 
 /// Facts about models, tables, certificates and other files.
 #[rustfmt::skip]
 const FILES: Sentences = &[
+    ("all-of", "{parts} and {last}"),
+    ("one-of", "{parts} or {last}"),
+    ("more", "{count} more"),
+    ("quoted", "`{name}`"),
+    ("quoted.hidden", "`{name}` (hidden)"),
+    ("placeholder-about", "the `about` of `{name}` still says \"{about}\", as a new file does, and \
+        certificates print it: write from where it is known, or take the key out"),
+    ("units-not-checked", "units are not checked: formulas compute with the numbers in the declared units \
+        ({quantities}{more})"),
+    ("units-not-checked.plain", "units are not checked: every quantity is a plain number"),
+    ("units-not-checked-changed", "CHECK THIS RESULT: {numbers}. Earlier versions converted them to SI units \
+        first, such as `{name}` from {unit}, and gave other results for this file. If its formulas are \
+        written for the declared units, they are right now: say so with \"format\": 2. If they are written \
+        for SI units, declare the quantities in SI units"),
+    ("quantity-in-unit", "`{name}` in {unit}"),
+    ("more-quantities", ", ..."),
+    ("width-zero", "the width of `{of}` follows its estimate and becomes 0{rows}; it is a constant there"),
+    ("share-of-zero", "the share of reading in the width of `{name}` is 0{rows}, like its estimate; of \
+        another quantity's value it would be `20 ppm of 10 V`"),
+    ("in-row", " in row {row}"),
+    ("in-row.and-others", " in row {row} and others"),
+    ("limits-moved", "the `limits` of `{name}` move along with its new estimate; where they stay, like the \
+        limits of a concentration that cannot be negative, write `{name}.mean=...` for the value before they \
+        cut"),
+    ("readings-apart", "the readings of `{part}` have the mean {mean}, more than three of its standard \
+        uncertainties from {estimate}, the stated estimate of `{name}`: only their scatter counts; leave the \
+        estimate out to take their mean"),
+    ("component-estimate", "the estimate {own} of the component `{part}` is added to {total}, the estimate \
+        of `{name}`: together {sum}; components are deviations, about 0"),
+    ("component-result", "the component `{part}` is a saved result of {estimate}, of which only the \
+        deviation from it counts; a correction is to be an input of its own that an equation adds"),
+    ("resolution-taken", "`{name}`: the scatter of the readings is below what the resolution leaves unknown, \
+        which is taken in its place as a rectangular distribution (JCGM 100, F.2.2.1)"),
+    ("no-scatter", "`{name}`: all readings are equal and show no scatter; it is a constant beside the other \
+        components, one of which has to be the resolution"),
+    ("nested-readings", "`{name}` is the mean of {groups} groups of readings; its standard uncertainty comes \
+        from the means of the groups, with {dof} degrees of freedom (JCGM 100, H.5){within}"),
+    ("groups.within", "; standard deviation within groups {deviation}{between}"),
+    ("groups.between", ", between groups {deviation}, F = {ratio} (probability of a larger one without an \
+        effect of the groups {probability})"),
+    ("groups.of-other-sizes", "; the groups are not equally large, and their means count alike"),
+    ("dependent-readings", "`{name}`: the {count} readings are not independent: each is near the one before \
+        it (von Neumann's ratio {ratio}, 2 for independent readings; one as small comes from those in at \
+        most 1 case of 100). s/sqrt(n) is too small then (JCGM 100, 4.2.7): take readings further apart, or \
+        means of groups"),
+    ("dependent-readings.drift", "`{name}`: the {count} readings drift: a straight line through them changes \
+        by {change} from the first to the last; one as steep comes from independent readings in at most 1 \
+        case of 100. s/sqrt(n) holds for independent readings only (JCGM 100, 4.2.7): correct the drift, or \
+        state what it leaves"),
+    ("interpolated", "`{quantity}` takes values from a cubic spline through the {points} points of `{file}` \
+        ({low} to {high}); straight lines differ by at most {difference} half way between them, which is in \
+        no uncertainty unless an input states it"),
+    ("interpolated.linear", "`{quantity}` takes values from straight lines through the {points} points of \
+        `{file}` ({low} to {high}); a cubic spline differs by at most {difference} half way between them, \
+        which is in no uncertainty unless an input states it"),
+    ("fit-not-valid", "the points do not agree with `{name}`: chi-squared is {chi2} with {dof} degrees of \
+        freedom, above its 95 % quantile {limit}; the form or the stated uncertainties are wrong"),
+    ("fit-units-not-checked", "units are not checked in the formula of `{name}`: it computes with x in {x} \
+        and y in {y}, and its parameters are plain numbers; give the parameters of `start` with units"),
+    ("extrapolation", "`{name}` is used at x = {x}, and its points lie from {low} to {high}: beyond them \
+        nothing says that the form holds, and the stated uncertainty supposes that it does"),
+    ("interval-uncertainty", "`{name}`: where `{file}` states a standard uncertainty with a coverage \
+        interval, it is taken in place of U over k, whose digits are rounded"),
+    ("certificate-distribution", "`{name}`: `{file}` calls its distribution `{called}`, which is not known \
+        here; a normal distribution with its standard uncertainty is taken"),
+    ("certificate-difference", "`{name}`: `{file}` gives a difference of temperatures, such as an error or a \
+        correction, which is taken in K; if it is a temperature, say `\"difference\": false`"),
+    ("certificate-exact", "`{name}`: `{file}` states no uncertainty for this value, which is taken as exact; \
+        one that stands in a text, or with another quantity, has to be stated in the model file"),
+    ("certificate-before-adjustment", "`{name}`: by its status in `{file}` the value was found before an \
+        adjustment or a repair; what holds after it stands elsewhere, if the certificate has it (`gumption \
+        dcc`)"),
+    ("certificate-asymmetric", "`{name}`: `{file}` states a coverage interval that is not symmetric about \
+        the value; the value and its standard uncertainty are taken, and nothing of the asymmetry"),
+    ("certificate-correlation", "correlation coefficients between results of one certificate are kept: \
+        {pairs}"),
+    ("certificate-correlation-moved", "correlation coefficients of a certificate that its results cannot \
+        have with the distributions that they are read with are the nearest possible: {pairs}"),
+    ("correlation-with-constant", "the correlation of `{first}` and `{second}` has no effect, because \
+        `{constant}` has no uncertainty"),
+    ("pairs", "{pairs}{more}"),
+    ("pairs.more", " and {count} more pairs"),
+    ("pair", "`{first}` and `{second}`"),
+    ("pair.correlated", "`{first}` and `{second}` ({coefficient})"),
+    ("pair.certified", "`{first}` and `{second}` ({coefficient}, from `{file}`)"),
+    ("pair.moved", "`{first}` and `{second}` ({from} to {to})"),
+    ("pair.with-input", "`{input}` of `{first}` and `{second}` ({reason})"),
+    ("other-input.unknown-row", "one was saved by an older version, which did not tell its data and its row"),
+    ("other-input.row", "of different rows"),
+    ("other-input.values-set", "with other values set"),
+    ("other-input.figures", "with another estimate or standard uncertainty"),
+    ("other-input.unknown-place", "one was saved by an older version, which did not tell its place in its \
+        certificate"),
+    ("other-input.content", "with the same figures, but from files of different content"),
+    ("result-correlation", "the correlation of saved results is kept: {pairs}"),
+    ("result-dependence-unknown", "`{first}` and `{second}` may depend on each other, because their results \
+        go back to the same model file, but one of them has no finite sensitivity coefficients, so the \
+        dependence cannot be told; they are taken as independent"),
+    ("result-inputs-differ", "results of one model file that took an input for different quantities are \
+        independent in it: {pairs}; if it is one quantity, evaluate the results in one model, or state their \
+        correlation"),
+    ("result-without-ranks", "of {pairs} only the correlation coefficients are known, not how they vary \
+        together, because their result was saved by an older version; save it again"),
+    ("result-without-digest", "`{file}` has no digest of itself, like those of older versions: whether it \
+        was changed since it was saved cannot be told"),
+    ("result-changed", "`{file}` was changed since it was saved{parts}, and is taken all the same"),
+    ("changed-parts", " ({parts})"),
+    ("counted-twice", "`{name}` has the name and the figures of an input that the result `{result}` was \
+        evaluated from, and counts as independent of it; if they are one quantity, evaluate both in one \
+        model, or state their correlation"),
+    ("counted-twice.certificate", "`{name}` is a value of a certificate that the result `{result}` was \
+        evaluated from as well, and counts as independent of it; evaluate both in one model, or state their \
+        correlation"),
+    ("grams", "`{name}`: its unit `{unit}` is the unit of a mass, of grams; an acceleration in units of \
+        standard gravity is in `{meant}`"),
+    ("effect-dimension", "effect `{name}`, override of `{quantity}`: {misfit}"),
+    ("effect-dimension.other", "the formula gives {found}, but `{quantity}` is {own}"),
+    ("effect-misfit", "the effect `{name}` is left out: it {reason}"),
+    ("misfit", "does not fit this sim{why}{condition}{needs}"),
+    ("misfit.missing", ", which has no {quantities}"),
+    ("misfit.prior", ": its prior is {prior}, which the data do not give"),
+    ("misfit.unchanged", ", which has none of what it changes: {quantities}"),
+    ("misfit.condition", "; the condition `{name}` is set and known: make it a quantity that is computed \
+        from the condition, or an input whose mean is the condition"),
+    ("misfit.anywhere", "; it {needs}"),
+    ("misfit.on-bench", "; on the bench `{bench}` it {needs}"),
+    ("misfit.needs", "needs {quantities}"),
+    ("misfit.changes", "changes {quantities}"),
+    ("misfit.history", "does not fit these data: the order of their rows does not tell what it needs apart \
+        from the conditions, such as where a condition only rises"),
+    ("misfit.no-change", "changes no observed output"),
+    ("misfit.refused", "cannot act on this sim: {error}"),
+    ("observed.amplitudes", "each observed output that is no phase"),
+    ("observed.phases", "each observed output that is a phase"),
+    ("sheet-chosen", "sheet `{sheet}` is read, not {others}"),
+    ("relative-uncertainties", "uncertainties in {units} are shares of the values"),
+    ("angle-branch", "angles are compared within half a turn of each other: {angles}"),
+    ("angle-branch.moved", "{angle} of `{name}` as {compared}"),
+    ("columns-not-read", "the columns {names} are not read"),
+    ("columns-not-read.one", "the column `{name}` is not read"),
+    ("import.columns", "row {row}: columns {columns}"),
+    ("import.column", "`{heading}` as {name}{unit}"),
+    ("import.in-unit", " in {unit}"),
+    ("import.named-column", "column {letter} `{heading}`"),
+    ("import.hidden-column", "{column} is hidden, and is read"),
+    ("import.column-not-read", "{column} is not read"),
+    ("import.column-remark", "{column} is kept as a remark"),
+    ("import.merged-cell", "the merged cell `{text}` counts for rows {first} to {last}"),
+    ("import.row-not-read", "row {row} `{text}` is not read"),
+    ("import.row-without-numbers", "row {row} `{text}` has no numbers and is not read"),
+    ("import.row-constant", "row {row} `{text}` has no uncertainty and is a constant of the equation"),
+    ("import.row-named", "row {row}: `{words}` is called `{name}`"),
+    ("import.distribution", "row {row}: of `{text}` the standard uncertainty is taken, as of a normal \
+        distribution"),
+    ("import.dof", "line {line}: {dof} degrees of freedom are taken of `{text}`"),
+    ("import.equation", "the equation {name} = {formula}"),
+    ("import.unit-of-result", "the result is in `{unit}`, the coherent unit of its equation"),
+    ("import.constant", "the constant {constant} is added, which makes the estimate of the result: the model \
+        is linear about the estimates"),
+    ("import.sum", "{name} = {formula}: the sum of the quantities times their sensitivity coefficients, in \
+        {unit}"),
+    ("import.unchanged", "the model file of this workbook; no estimate, standard uncertainty, degrees of \
+        freedom or correlation was changed, and other cells are not looked at"),
+    ("import.changed-estimate", "`{name}`: estimate {now} instead of {before}"),
+    ("import.changed-uncertainty", "`{name}`: standard uncertainty {now} instead of {before}"),
+    ("import.changed-dof", "`{name}`: degrees of freedom {now} instead of {before}"),
+    ("import.changed-probability", "coverage probability {now} instead of {before}"),
+    ("import.changed-correlation", "{name} = {coefficient}"),
+    ("import.normal-now", "`{name}` is normal now: what it was ({distribution}) does not go with the changed \
+        cells"),
 ];
 
 /// Facts about recordings.

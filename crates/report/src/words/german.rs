@@ -145,11 +145,294 @@ const EVALUATION: Sentences = &[
 /// Facts about formulas.
 #[rustfmt::skip]
 const FORMULAS: Sentences = &[
+    ("share-converted-twice", "`{formula}` rechnet noch einmal aus {unit} um: Formeln haben einen Anteil in \
+        {unit} schon als Zahl, so dass sein Name genügt"),
+    ("share-converted-twice.logarithm", "`{formula}` rechnet mit {number}, dem Logarithmus von {of}, noch \
+        einmal aus {unit} um: Formeln haben einen Anteil in {unit} schon als Zahl; die Zahl entfällt"),
+    ("rate-converted-twice", "`{formula}` rechnet noch einmal in Radiant je Sekunde um: Formeln haben, was \
+        in {unit} angegeben ist, schon in Radiant je Sekunde, so dass sein Name genügt"),
+    ("angle-converted-twice", "`{formula}` rechnet noch einmal in Radiant um: Formeln haben einen Winkel in \
+        {unit} schon in Radiant, so dass sein Name genügt"),
+    ("angle-converted-twice.degrees", "`{function}` nimmt Radiant, und `{argument}` ist durch den Faktor \
+        180/pi eine Zahl von Grad; der Faktor entfällt, denn Formeln haben Winkel in Radiant"),
+    ("angle-of-turns", "`{function}` nimmt `{name}` in Radiant, da es keine Winkeleinheit hat, und {angle} \
+        rad sind mehr als eine Umdrehung; ein Winkel in Grad hat `\"unit\": \"deg\"`"),
+    ("angle-of-turns.constant", "`{function}` nimmt Radiant, und {angle} rad sind mehr als eine Umdrehung; \
+        ein Winkel in Grad wird `{angle} [deg]` geschrieben"),
+    ("angle-of-turns.phase", "`{name}` ist {angle} rad, mehr als eine Umdrehung, denn eine Phase ohne \
+        Einheit ist in Radiant angegeben; eine in Grad hat `\"unit\": \"deg\"`"),
+    ("rounded-as-number", "`{formula}` wird auf ganze Zahlen gerechnet, wie Formeln rechnen, und nicht auf \
+        ganze {unit}; diese gibt `{meant}`"),
+    ("rounded-as-number.radians", "`{formula}` wird auf ganze Radiant gerechnet, wie Formeln rechnen, und \
+        nicht auf ganze {unit}; diese gibt `{meant}`"),
+    ("bare-number", "in `{formula}` ist {number} die Zahl {number}, das sind {converted} {unit}, denn \
+        `{quantity}` ist {given}; {number} {unit} werden `{meant}` geschrieben"),
+    ("bare-number.radians", "in `{formula}` ist {number} der Winkel {number} rad, denn `{quantity}` ist \
+        {given}; {number} {unit} werden `{meant}` geschrieben"),
+    ("bare-number.angle", "in `{formula}` ist {number} der Winkel {number} rad, denn `{quantity}` ist ein \
+        Winkel in Radiant; {number} {unit} werden `{meant}` geschrieben"),
+    ("beside.given", "in {unit} angegeben"),
+    ("beside.computed", "aus dem berechnet, was in {unit} angegeben ist"),
+    ("radians-as-periods", "`{formula}` ist nach dem, woraus es besteht, eine Kreisfrequenz in Radiant je \
+        Sekunde und wird als Frequenz angegeben; diese ist `({formula})/(2*pi)`, und eine Kreisfrequenz wird \
+        in `rad/s` angegeben"),
+    ("periods-as-radians", "`{function}` nimmt Radiant, und `{argument}` zählt Perioden von je 2*pi Radiant; \
+        der Winkel ist `2*pi*{argument}`"),
+    ("periods-as-radians.torque", "`{formula}` multipliziert ein Drehmoment mit Perioden, denn die Drehzahl \
+        darin zählt keinen Winkel, und die Arbeit eines Drehmoments gilt je Radiant; die Leistung ist \
+        `2*pi*{formula}`, oder die Drehzahl ist in `rpm` anzugeben"),
+    ("level-of-other-kind", "`{formula}` ist das 10-fache des Logarithmus eines Verhältnisses von \
+        Leistungswurzelgrößen, deren Pegel das 20-fache ist; Leistungen haben 10, und Spannungen, Ströme, \
+        Schalldrücke und dergleichen, deren Quadrate Leistungen sind, haben 20"),
+    ("level-of-other-kind.powers", "`{formula}` ist das 20-fache des Logarithmus eines Verhältnisses von \
+        Leistungen, deren Pegel das 10-fache ist; Leistungen haben 10, und Spannungen, Ströme, Schalldrücke \
+        und dergleichen, deren Quadrate Leistungen sind, haben 20"),
+    ("radians-of-turns", "`{name}` zählt Winkel und wird in `{unit}` in Radiant angegeben, 2*pi je \
+        Umdrehung; sind Umdrehungen gemeint, ist `.../[rev]` zu schreiben oder rpm oder rev als Einheit \
+        anzugeben"),
+    ("radians-of-turns.inverse", "`{name}` ist durch etwas geteilt, das Umdrehungen zählt, und wird in \
+        `{unit}` je Radiant angegeben; ist es je Umdrehung gemeint, ist `...*[rev]` zu schreiben"),
+    ("radians-of-turns.product", "`{formula}` multipliziert mit Radiant, 2*pi je Umdrehung, denn Formeln \
+        haben in Radiant, was in Umdrehungen angegeben ist; mit Umdrehungen ist es `{formula}/[rev]`"),
+    ("rate-of-turns", "`{name}` gilt als Kreisfrequenz, von der 2*pi Radiant eine Umdrehung sind, denn \
+        nichts sagt, dass es Umdrehungen zählt; wenn es das tut, ist `...*[rev]` zu schreiben oder die \
+        Einheit `1/min` anzugeben"),
+    ("result-converted-twice", "`{formula}` rechnet in {unit} um, und {what} in {unit} noch einmal: Formeln \
+        rechnen mit {computed}; der Faktor entfällt{or_plain}"),
+    ("result-converted-twice.product", "`{formula}` hat{with} den Faktor {factor}, der aus den Einheiten der \
+        Größen in {to}; der Faktor entfällt, oder er ist eine eigene Eingangsgröße, wenn er nichts \
+        umrechnet{or_turns}"),
+    ("quantity-converted-twice", "`{formula}` hat den Faktor {factor}, der aus den Einheiten der Größen in \
+        {to} umrechnet, was Formeln schon getan haben; der Faktor entfällt"),
+    ("quantity-converted-twice.product", "`{formula}` hat{with} den Faktor {factor}, der aus den Einheiten \
+        der Größen in kohärente SI-Einheiten umrechnet, in denen Formeln sie schon haben; der Faktor \
+        entfällt, oder er ist eine eigene Eingangsgröße, wenn er nichts umrechnet{or_turns}"),
+    ("converted-to.coherent-unit", "{unit} umrechnet, worin Formeln sie schon haben"),
+    ("converted-to.unit", "{unit} umrechnet, und {what} in {unit} wird auch umgerechnet: Formeln rechnen in \
+        kohärenten SI-Einheiten"),
+    ("converted-to.beside", "die Einheit dessen, was daneben steht,"),
+    ("converted-to.number", "eine bloße Zahl"),
+    ("with-equations", " mit den Gleichungen, die es aufnimmt,"),
+    ("or-turns", "; eine Drehzahl wird statt dessen mit 2*pi multipliziert"),
+    ("or-without-unit", ", oder {what} hat keine Einheit"),
+    ("computed.rates", "Radiant je Sekunde"),
+    ("computed.angles", "Winkeln in Radiant"),
+    ("computed.shares", "Anteilen als Zahlen"),
+    ("computed.ratios", "Verhältnissen als Zahlen"),
+    ("result.output", "die Ausgangsgröße"),
+    ("result.quantity", "die Größe"),
+    ("result.named-output", "die Ausgangsgröße `{name}`"),
+    ("unit-left-out", "`{formula}` hat keine Einheit, so dass Formeln die Zahlen als bloße nehmen, von denen \
+        1 gleich {one} {unit} ist, neben `{beside}` in {unit}; anzugeben ist die Einheit, `{unit}` oder \
+        `{plain}`"),
+    ("unit-left-out.output", "`{formula}` hat keine Einheit, so dass Formeln die Zahlen als bloße nehmen, \
+        von denen 1 gleich {one} {unit} ist, worin die Ausgangsgröße angegeben wird; anzugeben ist die \
+        Einheit, `{unit}` oder `{plain}`"),
+    ("level-as-number", "`{name}` ist ein Pegel und wird als Zahl der Dezibel angegeben, wie Formeln sie \
+        rechnen; die Einheit `dB` oder `Np` ist anzugeben"),
+    ("sum-of-levels", "`{name}` in {unit} addiert Pegel über einem Bezugswert oder vervielfacht einen und \
+        hat so selbst keinen Bezugswert; der Pegel einer Summe von Leistungen ist `10*log10(10^(L1/10) + \
+        10^(L2/10))`, und Verstärkungen sind in dB"),
+    ("celsius-as-kelvin", "`{name}` ist nach der Einheit eines Koeffizienten eine Zahl von Grad Celsius und \
+        wird in {unit} als Differenz angegeben; kelvin(...) steht für eine thermodynamische Temperatur, oder \
+        sie ist in degC anzugeben"),
+    ("difference-in-degrees", "`{name}` ist eine Differenz von Temperaturen und wird in {unit} angegeben, so \
+        dass alles, was sie weiter verwendet, sie für eine Temperatur nimmt; sie ist in K anzugeben, oder, \
+        wo eine Korrektion von einer Temperatur abgezogen wird, die Korrektion in K"),
+    ("picohenry", "die Einheit `pH` von `{name}` ist das Pikohenry; ein pH-Wert ist eine Zahl mit der \
+        Einheit `1`"),
+    ("imaginary-unit", "`i` ist in den Formeln dieser Datei die Größe dieses Namens und nicht die imaginäre \
+        Einheit; ist diese gemeint, braucht die Größe einen anderen Namen"),
+    ("unused-input", "keine Gleichung verwendet die Eingangsgröße `{name}`: Sie trägt zu keiner Unsicherheit \
+        bei"),
 ];
 
 /// Facts about models, tables, certificates and other files.
 #[rustfmt::skip]
 const FILES: Sentences = &[
+    ("all-of", "{parts} und {last}"),
+    ("one-of", "{parts} oder {last}"),
+    ("more", "{count} weitere"),
+    ("quoted", "`{name}`"),
+    ("quoted.hidden", "`{name}` (ausgeblendet)"),
+    ("placeholder-about", "`about` von `{name}` hat noch den Text einer neuen Datei, \"{about}\", und \
+        Kalibrierscheine drucken ihn: Angeben, woher die Größe bekannt ist, oder den Schlüssel weglassen"),
+    ("units-not-checked", "Einheiten werden nicht geprüft: Die Formeln rechnen mit den Zahlen in den \
+        angegebenen Einheiten ({quantities}{more})"),
+    ("units-not-checked.plain", "Einheiten werden nicht geprüft: Jede Größe ist eine bloße Zahl"),
+    ("units-not-checked-changed", "DIESES ERGEBNIS PRÜFEN: {numbers}. Frühere Versionen rechneten sie erst \
+        in SI-Einheiten um, etwa `{name}` aus {unit}, und gaben für diese Datei andere Ergebnisse. Sind die \
+        Formeln für die angegebenen Einheiten geschrieben, so stimmen sie jetzt: \"format\": 2 sagt es. Sind \
+        sie für SI-Einheiten geschrieben, so sind die Größen in SI-Einheiten anzugeben"),
+    ("quantity-in-unit", "`{name}` in {unit}"),
+    ("more-quantities", ", ..."),
+    ("width-zero", "die Breite von `{of}` folgt ihrem Schätzwert und wird{rows} 0; dort ist sie eine \
+        Konstante"),
+    ("share-of-zero", "der Anteil vom Messwert in der Breite von `{name}` ist{rows} 0, wie ihr Schätzwert; \
+        vom Wert einer anderen Größe wäre er `20 ppm of 10 V`"),
+    ("in-row", " in Zeile {row}"),
+    ("in-row.and-others", " in Zeile {row} und anderen"),
+    ("limits-moved", "die `limits` von `{name}` verschieben sich mit dem neuen Schätzwert; wo sie bleiben, \
+        wie bei einer Konzentration, die nicht negativ sein kann, steht `{name}.mean=...` für den Wert, \
+        bevor sie begrenzen"),
+    ("readings-apart", "die Ablesungen von `{part}` haben den Mittelwert {mean}, mehr als drei seiner \
+        Standardunsicherheiten von {estimate} entfernt, dem Schätzwert, der für `{name}` angegeben ist: Nur \
+        ihre Streuung zählt; ohne den angegebenen Schätzwert gilt ihr Mittelwert"),
+    ("component-estimate", "der Schätzwert {own} des Anteils `{part}` wird zu {total} addiert, dem \
+        Schätzwert von `{name}`: zusammen {sum}; Anteile sind Abweichungen, um 0 herum"),
+    ("component-result", "der Anteil `{part}` ist ein gespeichertes Ergebnis von {estimate}, von dem nur die \
+        Abweichung davon zählt; eine Korrektion ist eine eigene Eingangsgröße, die eine Gleichung addiert"),
+    ("resolution-taken", "`{name}`: Die Streuung der Messwerte liegt unter dem, was die Auflösung offen \
+        lässt; dies steht an ihrer Stelle als Rechteckverteilung (JCGM 100, F.2.2.1)"),
+    ("no-scatter", "`{name}`: Alle Messwerte sind gleich und zeigen keine Streuung; sie sind eine Konstante \
+        neben den anderen Komponenten, von denen eine die Auflösung sein muss"),
+    ("nested-readings", "`{name}` ist der Mittelwert von {groups} Gruppen von Messwerten; die \
+        Standardunsicherheit ist die der Gruppenmittel mit {dof} Freiheitsgraden (JCGM 100, H.5){within}"),
+    ("groups.within", "; Standardabweichung innerhalb der Gruppen {deviation}{between}"),
+    ("groups.between", ", zwischen den Gruppen {deviation}, F = {ratio} (Wahrscheinlichkeit eines größeren \
+        ohne eine Wirkung der Gruppen {probability})"),
+    ("groups.of-other-sizes", "; die Gruppen sind nicht gleich groß, und ihre Mittelwerte zählen gleich"),
+    ("dependent-readings", "`{name}`: Die {count} Messwerte sind nicht unabhängig: Jeder liegt nahe am \
+        vorigen (von-Neumann-Verhältnis {ratio}, 2 bei unabhängigen Messwerten; ein so kleines kommt bei \
+        diesen in höchstens 1 von 100 Fällen vor). s/sqrt(n) ist dann zu klein (JCGM 100, 4.2.7): Messwerte \
+        in größeren Abständen oder Mittelwerte von Gruppen helfen"),
+    ("dependent-readings.drift", "`{name}`: Die {count} Messwerte driften: Eine Gerade durch sie ändert sich \
+        vom ersten zum letzten um {change}; eine so steile kommt bei unabhängigen Messwerten in höchstens 1 \
+        von 100 Fällen vor. s/sqrt(n) gilt nur für unabhängige Messwerte (JCGM 100, 4.2.7): Die Drift ist zu \
+        korrigieren, oder es ist anzugeben, was sie übrig lässt"),
+    ("interpolated", "`{quantity}` nimmt Werte von kubischen Splines durch die {points} Punkte von `{file}` \
+        ({low} bis {high}); Geraden weichen auf halbem Weg zwischen ihnen um höchstens {difference} ab, was \
+        in keiner Unsicherheit steckt, wenn keine Eingangsgröße es angibt"),
+    ("interpolated.linear", "`{quantity}` nimmt Werte von Geraden durch die {points} Punkte von `{file}` \
+        ({low} bis {high}); kubische Splines weichen auf halbem Weg zwischen ihnen um höchstens {difference} \
+        ab, was in keiner Unsicherheit steckt, wenn keine Eingangsgröße es angibt"),
+    ("fit-not-valid", "die Punkte passen nicht zu `{name}`: Chi-Quadrat ist {chi2} mit {dof} \
+        Freiheitsgraden, über seinem 95-%-Quantil {limit}; die Form oder die angegebenen Unsicherheiten sind \
+        falsch"),
+    ("fit-units-not-checked", "in der Formel von `{name}` werden Einheiten nicht geprüft: Sie rechnet mit x \
+        in {x} und y in {y}, und ihre Parameter sind bloße Zahlen; die von `start` sind mit Einheiten \
+        anzugeben"),
+    ("extrapolation", "`{name}` wird bei x = {x} verwendet, und die Punkte liegen zwischen {low} und {high}: \
+        Darüber hinaus sagt nichts, dass die Form gilt, und die angegebene Unsicherheit setzt es voraus"),
+    ("interval-uncertainty", "`{name}`: Wo `{file}` mit einem Überdeckungsintervall eine \
+        Standardunsicherheit angibt, wird diese genommen und nicht U geteilt durch k, deren Stellen gerundet \
+        sind"),
+    ("certificate-distribution", "`{name}`: `{file}` nennt die Verteilung `{called}`, die hier nicht bekannt \
+        ist; genommen wird eine Normalverteilung mit der angegebenen Standardunsicherheit"),
+    ("certificate-difference", "`{name}`: `{file}` gibt eine Differenz von Temperaturen an, etwa eine \
+        Abweichung oder eine Korrektion, die in K genommen wird; ist es eine Temperatur, sagt es \
+        `\"difference\": false`"),
+    ("certificate-exact", "`{name}`: `{file}` gibt für diesen Wert keine Unsicherheit an, so dass er als \
+        genau gilt; eine, die in einem Text oder bei einer anderen Größe steht, ist in der Modelldatei \
+        anzugeben"),
+    ("certificate-before-adjustment", "`{name}`: Nach seinem Status in `{file}` wurde der Wert vor einer \
+        Justierung oder Reparatur ermittelt; was danach gilt, steht an anderer Stelle, wenn der \
+        Kalibrierschein es hat (`gumption dcc`)"),
+    ("certificate-asymmetric", "`{name}`: `{file}` gibt ein Überdeckungsintervall an, das nicht symmetrisch \
+        um den Wert liegt; genommen werden der Wert und die Standardunsicherheit und nichts von der \
+        Asymmetrie"),
+    ("certificate-correlation", "Korrelationskoeffizienten zwischen Ergebnissen eines Kalibrierscheins \
+        bleiben erhalten: {pairs}"),
+    ("certificate-correlation-moved", "Korrelationskoeffizienten eines Kalibrierscheins, die seine \
+        Ergebnisse mit den Verteilungen, mit denen sie gelesen werden, nicht haben können, sind die nächsten \
+        möglichen: {pairs}"),
+    ("correlation-with-constant", "die Korrelation von `{first}` und `{second}` hat keine Wirkung, denn \
+        `{constant}` hat keine Unsicherheit"),
+    ("pairs", "{pairs}{more}"),
+    ("pairs.more", " und {count} weitere Paare"),
+    ("pair", "`{first}` und `{second}`"),
+    ("pair.correlated", "`{first}` und `{second}` ({coefficient})"),
+    ("pair.certified", "`{first}` und `{second}` ({coefficient}, aus `{file}`)"),
+    ("pair.moved", "`{first}` und `{second}` ({from} zu {to})"),
+    ("pair.with-input", "`{input}` von `{first}` und `{second}` ({reason})"),
+    ("other-input.unknown-row", "eine wurde von einer älteren Version gespeichert, die weder Daten noch \
+        Zeile angab"),
+    ("other-input.row", "aus verschiedenen Zeilen"),
+    ("other-input.values-set", "mit anderen gesetzten Werten"),
+    ("other-input.figures", "mit anderem Schätzwert oder anderer Standardunsicherheit"),
+    ("other-input.unknown-place", "eine wurde von einer älteren Version gespeichert, die die Stelle im \
+        Kalibrierschein nicht angab"),
+    ("other-input.content", "mit denselben Angaben, aber aus Dateien mit verschiedenem Inhalt"),
+    ("result-correlation", "die Korrelation gespeicherter Ergebnisse bleibt erhalten: {pairs}"),
+    ("result-dependence-unknown", "`{first}` und `{second}` hängen vielleicht voneinander ab, weil ihre \
+        Ergebnisse auf dieselbe Modelldatei zurückgehen; da eine der Größen keine endlichen \
+        Empfindlichkeitskoeffizienten hat, ist die Abhängigkeit nicht zu sagen; sie werden als unabhängig \
+        genommen"),
+    ("result-inputs-differ", "Ergebnisse einer Modelldatei, die eine Eingangsgröße für verschiedene Größen \
+        nahmen, sind in ihr unabhängig: {pairs}; ist es eine Größe, sind die Ergebnisse in einem Modell \
+        auszuwerten, oder ihre Korrelation ist anzugeben"),
+    ("result-without-ranks", "von {pairs} sind nur die Korrelationskoeffizienten bekannt, nicht wie sie \
+        gemeinsam schwanken, weil ihr Ergebnis von einer älteren Version gespeichert wurde; es ist neu zu \
+        speichern"),
+    ("result-without-digest", "`{file}` hat keine Prüfsumme seiner selbst, wie die älterer Versionen: Ob es \
+        seit dem Speichern geändert wurde, ist nicht zu sagen"),
+    ("result-changed", "`{file}` wurde seit dem Speichern geändert{parts} und wird dennoch genommen"),
+    ("changed-parts", " ({parts})"),
+    ("counted-twice", "`{name}` hat den Namen und die Werte einer Eingangsgröße, aus der das Ergebnis \
+        `{result}` ermittelt wurde, und gilt als unabhängig davon; sind sie eine Größe, sind beide in einem \
+        Modell auszuwerten, oder ihre Korrelation ist anzugeben"),
+    ("counted-twice.certificate", "`{name}` ist ein Wert eines Kalibrierscheins, aus dem auch das Ergebnis \
+        `{result}` ermittelt wurde, und gilt als unabhängig davon; beide sind in einem Modell auszuwerten, \
+        oder ihre Korrelation ist anzugeben"),
+    ("grams", "`{name}`: Die Einheit `{unit}` ist die einer Masse, das Gramm; eine Beschleunigung in \
+        Einheiten der Normfallbeschleunigung steht in `{meant}`"),
+    ("effect-dimension", "Effekt `{name}`, Ersatz für `{quantity}`: {misfit}"),
+    ("effect-dimension.other", "die Formel gibt {found}, aber `{quantity}` ist {own}"),
+    ("effect-misfit", "der Effekt `{name}` entfällt: Er {reason}"),
+    ("misfit", "passt nicht zu diesem Modell{why}{condition}{needs}"),
+    ("misfit.missing", ", das {quantities} nicht hat"),
+    ("misfit.prior", ": Seine A-priori-Verteilung ist {prior}, was die Daten nicht geben"),
+    ("misfit.unchanged", ", das nichts von dem hat, was er ändert: {quantities}"),
+    ("misfit.condition", "; die Bedingung `{name}` ist eingestellt und bekannt: Sie ist durch eine Größe zu \
+        ersetzen, die aus der Bedingung berechnet wird, oder durch eine Eingangsgröße, deren Mittelwert die \
+        Bedingung ist"),
+    ("misfit.anywhere", "; er {needs}"),
+    ("misfit.on-bench", "; für den Prüfstand `{bench}` gilt: Er {needs}"),
+    ("misfit.needs", "braucht {quantities}"),
+    ("misfit.changes", "ändert {quantities}"),
+    ("misfit.history", "passt nicht zu diesen Daten: Die Reihenfolge ihrer Zeilen trennt das, was er \
+        braucht, nicht von den Bedingungen, wie dort, wo eine Bedingung nur steigt"),
+    ("misfit.no-change", "ändert keine beobachtete Ausgangsgröße"),
+    ("misfit.refused", "kann auf dieses Modell nicht wirken: {error}"),
+    ("observed.amplitudes", "jede beobachtete Ausgangsgröße, die keine Phase ist"),
+    ("observed.phases", "jede beobachtete Ausgangsgröße, die eine Phase ist"),
+    ("sheet-chosen", "gelesen wird das Blatt `{sheet}`, nicht {others}"),
+    ("relative-uncertainties", "Unsicherheiten in {units} sind Anteile der Werte"),
+    ("angle-branch", "Winkel werden innerhalb einer halben Umdrehung voneinander verglichen: {angles}"),
+    ("angle-branch.moved", "{angle} von `{name}` als {compared}"),
+    ("columns-not-read", "die Spalten {names} werden nicht gelesen"),
+    ("columns-not-read.one", "die Spalte `{name}` wird nicht gelesen"),
+    ("import.columns", "Zeile {row}: Spalten {columns}"),
+    ("import.column", "`{heading}` als {name}{unit}"),
+    ("import.in-unit", " in {unit}"),
+    ("import.named-column", "Spalte {letter} `{heading}`"),
+    ("import.hidden-column", "{column} ist ausgeblendet und wird gelesen"),
+    ("import.column-not-read", "{column} wird nicht gelesen"),
+    ("import.column-remark", "{column} bleibt als Bemerkung erhalten"),
+    ("import.merged-cell", "die verbundene Zelle `{text}` gilt für die Zeilen {first} bis {last}"),
+    ("import.row-not-read", "Zeile {row} `{text}` wird nicht gelesen"),
+    ("import.row-without-numbers", "Zeile {row} `{text}` hat keine Zahlen und wird nicht gelesen"),
+    ("import.row-constant", "Zeile {row} `{text}` hat keine Unsicherheit und ist eine Konstante der \
+        Gleichung"),
+    ("import.row-named", "Zeile {row}: `{words}` heißt `{name}`"),
+    ("import.distribution", "Zeile {row}: Von `{text}` wird die Standardunsicherheit genommen, wie von einer \
+        Normalverteilung"),
+    ("import.dof", "Zeile {line}: Von `{text}` werden {dof} Freiheitsgrade genommen"),
+    ("import.equation", "die Gleichung {name} = {formula}"),
+    ("import.unit-of-result", "das Ergebnis ist in `{unit}`, der kohärenten Einheit seiner Gleichung"),
+    ("import.constant", "die Konstante {constant} wird addiert, die den Schätzwert des Ergebnisses ergibt: \
+        Das Modell ist um die Schätzwerte linear"),
+    ("import.sum", "{name} = {formula}: die Summe der Größen mal ihren Empfindlichkeitskoeffizienten, in \
+        {unit}"),
+    ("import.unchanged", "die Modelldatei dieser Arbeitsmappe; kein Schätzwert, keine Standardunsicherheit, \
+        keine Freiheitsgrade und keine Korrelation wurden geändert, und andere Zellen werden nicht beachtet"),
+    ("import.changed-estimate", "`{name}`: Schätzwert {now} statt {before}"),
+    ("import.changed-uncertainty", "`{name}`: Standardunsicherheit {now} statt {before}"),
+    ("import.changed-dof", "`{name}`: Freiheitsgrade {now} statt {before}"),
+    ("import.changed-probability", "Überdeckungswahrscheinlichkeit {now} statt {before}"),
+    ("import.changed-correlation", "{name} = {coefficient}"),
+    ("import.normal-now", "`{name}` ist jetzt normalverteilt: Die bisherige Verteilung ({distribution}) \
+        passt nicht zu den geänderten Zellen"),
 ];
 
 /// Facts about recordings.

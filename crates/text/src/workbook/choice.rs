@@ -2,6 +2,8 @@
 
 use super::{Book, SheetName};
 use crate::DiagnosticKind;
+use gumption_engine::fact;
+use gumption_engine::fact::{Argument, Fact};
 
 /// What a sheet is to hold, in words.
 #[derive(Debug)]
@@ -15,14 +17,14 @@ pub struct Wanted {
 }
 
 /// The sheet of that name, or the one that is shown and holds what is wanted; the first one that is shown
-/// where none does. With it, which of several sheets it is, as a sentence.
+/// where none does. With it, which of several sheets it is.
 pub fn of<T>(
     book: &mut Book,
     name: Option<&str>,
     wanted: &Wanted,
     mut read: impl FnMut(&mut Book, &SheetName) -> Result<T, DiagnosticKind>,
     holds: impl Fn(&T) -> bool,
-) -> Result<(T, Option<String>), DiagnosticKind> {
+) -> Result<(T, Option<Fact>), DiagnosticKind> {
     let unreadable = |message| DiagnosticKind::Unreadable { message };
     let sheets = book.sheets();
     if let Some(name) = name {
@@ -71,21 +73,33 @@ pub fn of<T>(
 }
 
 /// Which of several sheets it is.
-fn told(own: &SheetName, sheets: &[SheetName]) -> Option<String> {
-    let others: Vec<&SheetName> = sheets.iter().filter(|sheet| *sheet != own).collect();
-    let others = (!others.is_empty()).then(|| list(others.into_iter(), "or"))?;
-    Some(format!("sheet `{}` is read, not {others}", own.name))
+fn told(own: &SheetName, sheets: &[SheetName]) -> Option<Fact> {
+    let others = sheets.iter().filter(|sheet| *sheet != own);
+    let mut others: Vec<Fact> = others
+        .map(|SheetName { name, is_hidden, .. }| match is_hidden {
+            true => fact!("quoted.hidden", name),
+            false => fact!("quoted", name),
+        })
+        .collect();
+    if others.len() > MOST_NAMED {
+        let count = others.split_off(MOST_NAMED).len();
+        others.push(fact!("more", count));
+    }
+    (!others.is_empty())
+        .then(|| fact!("sheet-chosen", sheet = &own.name, others = Argument::one_of(others)))
 }
 
-/// Names of sheets in a sentence; not more than the first ten.
+/// Sheets that a sentence names, at most.
+const MOST_NAMED: usize = 10;
+
+/// Names of sheets in a sentence.
 fn list<'a>(sheets: impl Iterator<Item = &'a SheetName>, and: &str) -> String {
-    const MOST: usize = 10;
     let named = |sheet: &SheetName| {
         format!("`{}`{}", sheet.name, if sheet.is_hidden { " (hidden)" } else { "" })
     };
     let mut names: Vec<String> = sheets.map(named).collect();
-    if names.len() > MOST {
-        let rest = names.split_off(MOST).len();
+    if names.len() > MOST_NAMED {
+        let rest = names.split_off(MOST_NAMED).len();
         names.push(format!("{rest} more"));
     }
     gumption_units::listed(&names, &format!(" {and} "))
