@@ -72,7 +72,8 @@ impl Gap {
         };
         // a page on standard output has the notes itself
         if self.answer.format != Format::Table || self.answer.is_to_file() {
-            self.answer.note(diagnosis.notes.iter().map(|note| note.text.as_str()));
+            let notes: Vec<String> = diagnosis.notes.iter().map(report::gap::note).collect();
+            self.answer.note(notes.iter().map(String::as_str));
         }
         place.write(&answer)?;
         Ok(if diagnosis.interrupted { Exit::Interrupted } else { Exit::Done })
