@@ -72,7 +72,7 @@ impl Gap {
         };
         // a page on standard output has the notes itself
         if self.answer.format != GapFormat::Table || self.answer.is_to_file() {
-            self.answer.note(diagnosis.notes.iter().map(|note| note.text.as_str()));
+            self.answer.note(diagnosis.notes.iter().map(report::gap::note));
         }
         place.write(&answer)?;
         Ok(if diagnosis.interrupted { Exit::Interrupted } else { Exit::Done })

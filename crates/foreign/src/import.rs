@@ -30,9 +30,8 @@ mod words;
 use std::cell::RefCell;
 use std::path::Path;
 
-use ask::ReadSheet;
 pub use ask::{Question, RefusedBudget};
-use ask::{Sheet, beginning};
+use ask::{ReadSheet, beginning};
 use columns::{Column, identifier};
 use equation::Equation;
 use gumption_engine::fact;

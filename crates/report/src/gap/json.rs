@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use super::words::note;
 use super::{composed, departure, strength};
 use crate::answer::{list, object, pretty};
 use crate::number::exact;
@@ -62,7 +63,7 @@ pub fn json(diagnosis: &Diagnosis) -> String {
     entries.extend([
         ("rows", rows(diagnosis)),
         ("interrupted", json!(diagnosis.interrupted)),
-        ("notes", list(notes.map(|note| json!({"code": note.code, "message": note.text})))),
+        ("notes", list(notes.map(|of| json!({"code": of.code(), "message": note(of)})))),
         ("coverage_probability", json!(diagnosis.probability)),
         ("seed", json!(diagnosis.seed)),
         ("version", json!(env!("CARGO_PKG_VERSION"))),

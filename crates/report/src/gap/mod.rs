@@ -23,6 +23,7 @@ pub use html::html;
 pub use json::json;
 pub use markdown::markdown;
 pub use table::table;
+pub use words::note;
 
 #[cfg(test)]
 mod tests;

@@ -5,8 +5,9 @@ use super::digits::{self, condition, p_equals, percent, percent_of, probability,
 use crate::number::{degrees_of_freedom, exact, position, rounded, significant, with_uncertainty};
 use crate::plain;
 use crate::statement::Measurement;
+use crate::words::{Language, sentence};
 use gumption_gap::{
-    Diagnosis, GapPart, GapRegion, Hypothesis, HypothesisKind, LeftBeside, NamedQuantity,
+    Diagnosis, DiagnosisNote, GapPart, GapRegion, Hypothesis, HypothesisKind, LeftBeside, NamedQuantity,
     NoiseEstimate, PriorConflict, ProposalKind, ProposedMeasurement, SettingError, Shrunk,
     UncertaintyFactor,
 };
@@ -58,7 +59,7 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
         );
     }
     match verdict.kind {
-        HypothesisKind::None if diagnosis.notes.iter().any(|note| note.code == "scatter") => {
+        HypothesisKind::None if diagnosis.notes.iter().any(|note| note.code() == "scatter") => {
             format!(
                 "There is no gap that an effect or a discrepancy explains {how_sure}, but the data \
              scatter by more than their uncertainties."
@@ -253,7 +254,7 @@ pub(super) fn conflicts(diagnosis: &Diagnosis) -> Vec<String> {
     if !verdict.prior_conflict {
         return Vec::new();
     }
-    let sentence = |conflict: &PriorConflict| {
+    let contradicts = |conflict: &PriorConflict| {
         let parameter = &conflict.parameter;
         let (estimate, u) = with_uncertainty(
             parameter.estimate,
@@ -262,7 +263,7 @@ pub(super) fn conflicts(diagnosis: &Diagnosis) -> Vec<String> {
         );
         let unit = unit(&parameter.unit).map(|unit| format!(" {unit}")).unwrap_or_default();
         let distance = significant(conflict.prior_distance, 2);
-        let counted_in = conflict.counted_in();
+        let counted_in = sentence(&conflict.counted_in(), Language::English);
         format!(
             "That contradicts its prior: {} = {estimate}{unit} with standard uncertainty {u} is \
              {distance} {counted_in}.",
@@ -273,7 +274,7 @@ pub(super) fn conflicts(diagnosis: &Diagnosis) -> Vec<String> {
         .prior_conflicts
         .iter()
         .filter(|conflict| conflict.effects == verdict.effects)
-        .map(sentence)
+        .map(contradicts)
         .collect()
 }
 
@@ -397,14 +398,14 @@ pub(super) const ODDS: &str = "Odds: how much more probable the first hypothesis
 
 /// That the diagnosis was interrupted.
 pub(super) fn interrupted(diagnosis: &Diagnosis) -> Option<String> {
-    let note = diagnosis.notes.iter().find(|note| note.code == "interrupted");
-    note.filter(|_| diagnosis.interrupted).map(|note| plain(&note.text))
+    let note = diagnosis.notes.iter().find(|note| note.code() == "interrupted");
+    note.filter(|_| diagnosis.interrupted).map(|note| plain(&self::note(note)))
 }
 
 /// Rows that repeat others, which the verdict depends on.
 pub(super) fn copies(diagnosis: &Diagnosis) -> Option<String> {
-    let note = diagnosis.notes.iter().find(|note| note.code == COPIED_ROWS);
-    note.map(|note| plain(&note.text))
+    let note = diagnosis.notes.iter().find(|note| note.code() == COPIED_ROWS);
+    note.map(|note| plain(&self::note(note)))
 }
 
 /// The note that stands beside the verdict.
@@ -827,10 +828,15 @@ pub(super) fn noise(diagnosis: &Diagnosis) -> Vec<String> {
     diagnosis.noise.iter().filter_map(sentence).collect()
 }
 
+/// A note in sentences.
+pub fn note(note: &DiagnosisNote) -> String {
+    sentence(&note.fact, Language::English) + "."
+}
+
 /// What to bear in mind, without what stands beside the verdict and what the section on shrinkage says
 /// by itself.
 pub(super) fn notes(diagnosis: &Diagnosis) -> Vec<String> {
     let elsewhere = ["small-gap", COPIED_ROWS];
-    let notes = diagnosis.notes.iter().filter(|note| !elsewhere.contains(&note.code));
-    notes.map(|note| plain(&note.text)).collect()
+    let notes = diagnosis.notes.iter().filter(|note| !elsewhere.contains(&note.code()));
+    notes.map(|note| plain(&self::note(note))).collect()
 }

@@ -9,6 +9,7 @@ mod table;
 use serde_json::Value;
 
 use crate::Provenance;
+use gumption_engine::fact;
 use gumption_engine::task::ModelStatement;
 use gumption_gap::{
     DepartureForm, DepartureKind, DepartureOver, DepartureShape, DescribedEffect, Diagnosis,
@@ -273,10 +274,7 @@ fn diagnosis() -> Diagnosis {
             widened: 10.0,
             probability: 0.81,
         }],
-        notes: vec![DiagnosisNote {
-            code: "few-conditions",
-            text: "There are only few conditions.".into(),
-        }],
+        notes: vec![DiagnosisNote { fact: fact!("few-conditions", count = 3_usize) }],
         probability: 0.95,
         seed: 1,
     }
@@ -320,7 +318,7 @@ fn hostile() -> Diagnosis {
     let separated = next.separates.iter_mut().flatten().flatten().flatten();
     let equivalent = next.equivalent.iter_mut().flatten().flatten();
     separated.chain(equivalent).for_each(|effect| *effect = name(effect));
-    hostile.notes[0].text = name("note");
+    hostile.notes[0].fact = fact!("few-conditions", count = name("note"));
     hostile
 }
 

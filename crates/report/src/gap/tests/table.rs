@@ -217,9 +217,10 @@ fn a_condition_without_a_range_is_told() {
 #[test]
 fn copied_rows_stand_beside_the_verdict() {
     let mut copied = diagnosis();
-    let text = "Row 8 has the conditions of row 7.".to_owned();
-    copied.notes.push(DiagnosisNote { code: "copied-rows", text });
+    let said = fact!("copies-unknown.one");
+    let fact = fact!("copied-rows.one", copy = 8_usize, first = 7_usize, said);
+    copied.notes.push(DiagnosisNote { fact });
     let page = page(&copied);
-    assert_eq!(page.matches("Row 8 has the conditions of row 7.").count(), 1);
+    assert_eq!(page.matches("Row 8 has the conditions and").count(), 1);
     assert!(page.find("Row 8 has").unwrap() < page.find("The sim").unwrap(), "{page}");
 }
