@@ -5,10 +5,12 @@ use std::path::Path;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use gumption_foreign::{ImportOptions, import_budget_bytes};
+use gumption_report::words;
 use serde::Deserialize;
 use serde_json::{Value as Json, json};
 
 use crate::LiveError;
+use crate::language::Language;
 
 /// A request of the call `import`.
 #[derive(Debug, Deserialize)]
@@ -17,6 +19,9 @@ pub(crate) struct ImportRequest {
     name: String,
     /// Its content.
     base64: String,
+    /// The language of the notes.
+    #[serde(default)]
+    lang: Language,
 }
 
 /// The model file of a budget.
@@ -27,7 +32,11 @@ pub(crate) fn imported(asked: &ImportRequest) -> Result<Json, LiveError> {
     // a name alone, so that nothing is looked for anywhere
     let name = Path::new(&asked.name).file_name().unwrap_or_default();
     match import_budget_bytes(Path::new(name), bytes, &ImportOptions::default()) {
-        Ok(made) => Ok(json!({"text": made.text, "notes": made.notes})),
+        Ok(made) => {
+            let language = asked.lang.of_words();
+            let notes = made.notes.iter().map(|note| words::sentence(note, language));
+            Ok(json!({"text": made.text, "notes": notes.collect::<Vec<_>>()}))
+        }
         Err(found) => {
             let found: Vec<String> =
                 found.diagnostics.0.iter().take(20).map(ToString::to_string).collect();
