@@ -3,6 +3,7 @@
 use super::{ObservationReport, figures, sheets, table};
 use crate::document::{Block, Document};
 use crate::plain;
+use crate::words::{Language, note};
 use gumption_signal::{ChannelObservation, RecordTrace};
 
 /// Figures of a page at most; it is some megabytes then.
@@ -41,7 +42,8 @@ pub(super) fn of(observed: &ObservationReport<'_>) -> Document {
     }
     if !observed.warnings.is_empty() {
         document.section("Notes");
-        let notes = observed.warnings.iter().map(|warning| plain(&warning.text));
+        let notes =
+            observed.warnings.iter().map(|warning| plain(&note(warning, Language::English)));
         document.blocks.push(Block::List(notes.collect()));
     }
     document.section("To repeat this");

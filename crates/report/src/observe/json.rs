@@ -2,6 +2,7 @@
 
 use super::ObservationReport;
 use crate::answer::{list, object, pretty};
+use crate::words::{Language, note};
 use gumption_signal::{ChannelObservation, Measured, ToneComponent};
 use serde_json::Value;
 
@@ -21,9 +22,9 @@ pub fn json(observed: &ObservationReport<'_>) -> String {
     });
     let warnings = observed.warnings.iter().map(|warning| {
         object([
-            ("code", Value::from(warning.code)),
+            ("code", Value::from(warning.code())),
             ("where", warning.place.as_str().into()),
-            ("text", warning.text.as_str().into()),
+            ("text", note(warning, Language::English).into()),
         ])
     });
     let files = observed.provenance.files.iter();

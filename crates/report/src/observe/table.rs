@@ -2,6 +2,7 @@
 
 use super::{ObservationReport, sheets};
 use crate::number::{exact, significant, with_uncertainty};
+use crate::words::{Language, note};
 use crate::{Grid, table::width, wrapped};
 use gumption_signal::{Amplitude, ChannelObservation};
 
@@ -27,7 +28,7 @@ pub fn table(observed: &ObservationReport<'_>) -> String {
     if !observed.warnings.is_empty() {
         page.push('\n');
         for warning in observed.warnings {
-            page += &wrapped(&format!("Note: {}.", warning.text.trim_end_matches('.')));
+            page += &wrapped(&format!("Note: {}.", note(warning, Language::English)));
         }
     }
     page
