@@ -7,9 +7,9 @@ use crate::plain;
 use crate::statement::Measurement;
 use crate::words::{Language, sentence};
 use gumption_gap::{
-    Diagnosis, DiagnosisNote, GapPart, GapRegion, Hypothesis, HypothesisKind, LeftBeside, NamedQuantity,
-    NoiseEstimate, PriorConflict, ProposalKind, ProposedMeasurement, SettingError, Shrunk,
-    UncertaintyFactor,
+    Diagnosis, DiagnosisNote, GapPart, GapRegion, Hypothesis, HypothesisKind, LeftBeside,
+    NamedQuantity, NoiseEstimate, PriorConflict, ProposalKind, ProposedMeasurement, SettingError,
+    Shrunk, UncertaintyFactor,
 };
 use gumption_units::listed;
 
