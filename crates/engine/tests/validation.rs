@@ -27,7 +27,7 @@ fn too_few_trials_decide_nothing() {
         let figures = output.monte_carlo.as_ref().unwrap();
         let errors = figures.errors.symmetric_interval.map(f64::is_finite);
         let note = warnings(&file.task, &evaluation);
-        let noted = note.iter().any(|w| w.code == "interval-of-extremes");
+        let noted = note.iter().any(|w| w.code() == "interval-of-extremes");
         assert_eq!(errors.contains(&false), noted);
         assert_eq!(figures.errors.shortest_interval[0].is_finite(), !noted);
         (output.validation.unwrap().gum_valid, noted)

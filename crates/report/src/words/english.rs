@@ -339,7 +339,7 @@ const FILES: Sentences = &[
         correlation"),
     ("result-without-ranks", "of {pairs} only the correlation coefficients are known, not how they vary \
         together, because their result was saved by an older version; save it again"),
-    ("result-without-digest", "`{file}` has no digest of itself, like those of older versions: whether it \
+    ("result-without-digest", "`{file}` has no digest of itself, like files of older versions: whether it \
         was changed since it was saved cannot be told"),
     ("result-changed", "`{file}` was changed since it was saved{parts}, and is taken all the same"),
     ("changed-parts", " ({parts})"),

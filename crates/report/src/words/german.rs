@@ -364,8 +364,8 @@ const FILES: Sentences = &[
     ("result-without-ranks", "von {pairs} sind nur die Korrelationskoeffizienten bekannt, nicht wie sie \
         gemeinsam schwanken, weil ihr Ergebnis von einer älteren Version gespeichert wurde; es ist neu zu \
         speichern"),
-    ("result-without-digest", "`{file}` hat keine Prüfsumme seiner selbst, wie die älterer Versionen: Ob es \
-        seit dem Speichern geändert wurde, ist nicht zu sagen"),
+    ("result-without-digest", "`{file}` hat keine Prüfsumme seiner selbst, wie Dateien älterer Versionen: Ob \
+        es seit dem Speichern geändert wurde, ist nicht zu sagen"),
     ("result-changed", "`{file}` wurde seit dem Speichern geändert{parts} und wird dennoch genommen"),
     ("changed-parts", " ({parts})"),
     ("counted-twice", "`{name}` hat den Namen und die Werte einer Eingangsgröße, aus der das Ergebnis \
