@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 /// Codes of the notes on a file that has no mistake.
 fn codes(file: &Value) -> Vec<&'static str> {
     let notes = check_text("m.json", &file.to_string(), Path::new(""));
-    notes.unwrap_or_else(|faults| panic!("{file}\n{faults}")).iter().map(|note| note.code).collect()
+    notes.unwrap_or_else(|faults| panic!("{file}\n{faults}")).iter().map(|note| note.code()).collect()
 }
 
 fn normal(unit: &str, mean: f64) -> Value {
@@ -268,7 +268,7 @@ fn formulas_of_several_equations() {
             "outputs": {"y": {"unit": result}}});
         let notes = check_text("m.json", &file.to_string(), Path::new(""));
         let notes = notes.unwrap_or_else(|faults| panic!("{file}\n{faults}"));
-        let found: Vec<_> = notes.iter().map(|note| (note.code, note.place.as_str())).collect();
+        let found: Vec<_> = notes.iter().map(|note| (note.code(), note.place.as_str())).collect();
         assert_eq!(found, Vec::from_iter(wanted), "{file}");
     }
 }

@@ -1,5 +1,6 @@
 //! `gumption assumptions`
 
+use gumption_engine::fact;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};

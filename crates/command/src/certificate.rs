@@ -2,6 +2,8 @@
 
 mod rounding;
 
+use gumption_engine::fact;
+use gumption_engine::fact::Argument;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -10,7 +10,6 @@ use serde::Serialize;
 use super::exit::say;
 use super::options::{self, AnswerOptions, Format, Trust};
 use super::{CommandLine, Exit, Failure, diagnostics};
-use gumption_engine::task::Warning;
 use gumption_report::{plain, pretty};
 use gumption_text::{Diagnostic, Diagnostics};
 
@@ -80,7 +79,7 @@ impl Check {
         let answer = match self.answer.format {
             Format::Json => {
                 let errors = found.0.iter().map(Mistake::from).collect();
-                let warnings = words::notes(notes);
+                let warnings = words::notes(&notes);
                 let verdict = Verdict { ok: right, errors, warnings };
                 pretty(&verdict)
             }

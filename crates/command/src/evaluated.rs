@@ -16,6 +16,7 @@ use gumption_engine::propagate::{Control, Evaluation, convergence, histograms, w
 use gumption_engine::task::{Task, Trials};
 use gumption_files::ModelFile;
 use gumption_report as report;
+use gumption_report::words;
 use gumption_report::{BudgetColumn, EvaluationReport, Shown, TableStyle};
 
 /// How the answer of an evaluation is given, and what is left beside it.
@@ -110,6 +111,7 @@ impl Evaluated {
             histograms: &histograms,
             convergence: &convergence,
             replaced,
+            language: words::Language::English,
             model: text,
         };
         // what fails is told when all that can be written is

@@ -123,7 +123,7 @@ fn observed(file: &RecipeFile, row: usize, traced: bool) -> Result<ObservedRow, 
         let name = opened.settings.channels.get(note.channel).map_or("", |of| of.name.as_str());
         let warning = Warning::new(name, note.fact.clone());
         warnings.push(match several {
-            true => warning.within(fact!("in-row", row = row + 1)),
+            true => warning.within(fact!("of-row", row = row + 1)),
             false => warning,
         });
     }

@@ -1,5 +1,6 @@
 //! A finished run, and what is made of it when it is asked for.
 
+use gumption::report::words;
 use std::sync::Arc;
 
 use gumption::command::Failure;
@@ -104,6 +105,7 @@ impl Ran {
             histograms: &drawn,
             convergence: &settled,
             replaced: &self.replaced,
+            language: words::Language::English,
             model: &self.file.source.text,
         };
         let text = match format {
@@ -323,6 +325,6 @@ impl Run {
 pub(crate) type Note = (&'static str, String, String);
 
 pub(crate) fn notes(warnings: &[Warning]) -> Vec<Note> {
-    let notes = gumption::report::words::notes(warnings).into_iter();
+    let notes = words::notes(warnings).into_iter();
     notes.map(|note| (note.code, note.r#where.to_owned(), note.text)).collect()
 }

@@ -1,12 +1,14 @@
 //! The answer for programs.
 
+use gumption_engine::fact;
 use super::*;
 use crate as report;
 
 #[test]
 fn whole_answer_in_the_order_of_the_contract() {
     let mut case = only_z(Case::new(plane_at(35.0, 2000)));
-    case.warnings.push(Warning::new("few-trials", "", "2000 trials are few"));
+    let fact = fact!("few-trials", trials = 2000_u64, probability = 0.95, needed = 200_000_u64);
+    case.warnings.push(Warning::new("", fact));
     // sensitivities and figures from trials have digits that are not the point here
     insta::with_settings!({filters => vec![
         (r"-?\d+\.\d{6,}(e-?\d+)?", "[number]"),
@@ -177,7 +179,7 @@ fn whole_answer_in_the_order_of_the_contract() {
             {
               "code": "few-trials",
               "where": "",
-              "text": "2000 trials are few"
+              "text": "2000 trials are few for a coverage probability of 0.95: JCGM 101, 7.2.2 advises at least 200000"
             }
           ],
           "provenance": {

@@ -1,5 +1,6 @@
 //! Markdown, LaTeX and HTML: what they show is what the JSON answer has, rounded once.
 
+use crate::words::Language;
 use gumption_engine::fact;
 use std::path::Path;
 
@@ -28,6 +29,7 @@ fn pages(case: &Case, columns: &[BudgetColumn]) -> [(&'static str, String, Rows)
         histograms: &histograms,
         convergence: &settled,
         replaced: &replaced,
+        language: Language::English,
         model,
     };
     let markdown = markdown(&report, &shown);

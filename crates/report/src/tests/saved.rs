@@ -1,5 +1,6 @@
 //! Results that become inputs: what is saved and read back is what was evaluated.
 
+use gumption_engine::fact::Argument;
 use std::path::Path;
 
 use crate::{EvaluationReport, Provenance, saved};

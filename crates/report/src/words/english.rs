@@ -3,7 +3,8 @@
 use super::Sentences;
 
 /// The sentences of all rooms.
-pub(super) const ROOMS: [Sentences; 6] = [EVALUATION, FORMULAS, FILES, SIGNALS, GAP, COMMANDS];
+pub(super) const ROOMS: [Sentences; 7] =
+    [EVALUATION, FORMULAS, FILES, SIGNALS, GAP, COMMANDS, PARTS];
 
 /// Facts of the engine about an evaluation.
 #[rustfmt::skip]
@@ -26,15 +27,6 @@ const EVALUATION: Sentences = &[
         cancel, evaluate the whole in one model"),
     ("trials-off", "`{name}`: figures of the trials are farther from those without their noise than {errors} \
         numerical standard errors: {far}"),
-    ("moved", "{figure} by {by}"),
-    ("figure.estimate", "its estimate"),
-    ("figure.standard-uncertainty", "its standard uncertainty"),
-    ("figure.median", "its median"),
-    ("figure.inside", "its probability within the tolerance"),
-    ("figure.symmetric-lower", "its lower end of the symmetric interval"),
-    ("figure.symmetric-upper", "its upper end of the symmetric interval"),
-    ("figure.shortest-lower", "its lower end of the shortest interval"),
-    ("figure.shortest-upper", "its upper end of the shortest interval"),
     ("raised-to-cmc", "the expanded uncertainty of `{name}` is below the laboratory's capability (CMC) of \
         {cmc} and raised to it: {expanded} is to be stated"),
     ("raised-to-cmc.rows", "the expanded uncertainty of `{name}` is below the laboratory's capability (CMC) \
@@ -43,8 +35,6 @@ const EVALUATION: Sentences = &[
         (CMC) of {cmc}, and must not be stated (ILAC-P14)"),
     ("below-cmc.rows", "the expanded uncertainty of `{name}` is below the laboratory's capability (CMC) in \
         {count} of {of} rows, and must not be stated there (ILAC-P14)"),
-    ("at", " at {conditions}"),
-    ("condition", "{name} = {value}"),
     ("gum-undefined", "`{name}`{at}: the estimate or a sensitivity coefficient is not finite at the inputs' \
         estimates, so there is no GUM evaluation"),
     ("gum-dof-undefined", "`{name}`{at}: correlated inputs have finite degrees of freedom, for which the \
@@ -67,34 +57,15 @@ const EVALUATION: Sentences = &[
     ("no-variance.no-expectation", "`{name}`{at}: an input is drawn from a t distribution with {dof} degrees \
         of freedom, which has no expectation and no variance, so the trials have no estimate and no standard \
         uncertainty; the coverage intervals stand, and the value is the estimate by the law of propagation"),
-    ("difference.above", "is {percent} above that of the GUM"),
-    ("difference.below", "is {percent} below that of the GUM"),
-    ("difference.from-zero", "is not zero as that of the GUM is"),
-    ("beyond-bounds", "beyond all bounds"),
-    ("in-brackets", " ({dof})"),
     ("few-dof", "`{name}`{at}: the Monte Carlo standard uncertainty {difference} because some inputs have few \
         degrees of freedom{dof}: their t distributions have a larger standard deviation, which accounts for \
         {alone}. {conclusion}"),
-    ("few-dof-not-allowed-for", "Neither is wrong; no coverage factor of the GUM allows for it here"),
-    ("few-dof-allowed-for", "Neither is wrong; the GUM allows for it in the coverage factor"),
-    ("few-dof-long-tails", "The GUM allows for it in its coverage factor, that of a t distribution, whose \
-        long tails these inputs do not have"),
     ("non-linear", "`{name}`{at}: the Monte Carlo standard uncertainty {difference} because the model is not \
         linear over the uncertainties of its inputs{few_dof}{second}. Take the Monte Carlo figures"),
-    ("non-linear-few-dof", "; few degrees of freedom{dof} alone would bring it {alone} above"),
-    ("non-linear-terms", "; {said}"),
     ("non-linear.second-order", "`{name}`{at}: {second}"),
     ("non-linear.results", "`{name}`{at}: the Monte Carlo standard uncertainty {difference} because of saved \
         results whose trials have another standard deviation than their standard uncertainty ({results}), as \
         their models are not linear. Take the Monte Carlo figures"),
-    ("second-order", "with its terms of second order (JCGM 100, 5.1.2, note) the law of propagation gives \
-        {with_terms} instead of {linear}{products}"),
-    ("second-order-products", "; {products}"),
-    ("squared", "`{name}` squared"),
-    ("times", "`{first}` times `{second}`"),
-    ("contributes", "{product} contributes {contribution}"),
-    ("contributes.hidden", "{product} contributes {contribution}, though their sensitivity coefficients \
-        vanish here"),
     ("correlations-by-propagation", "`{name}`: its trials have no standard deviation that means something, so \
         its correlation coefficients are those of the law of propagation"),
     ("correlations-by-propagation.none", "`{name}`: its trials have no standard deviation that means \
@@ -103,10 +74,6 @@ const EVALUATION: Sentences = &[
         propagation, as of a normal or t distribution (JCGM 106, 7.2); trials show whether that holds"),
     ("heavy-tails", "`{name}`{at}: trials far out, of which a run has few or none, carry its moments, so that \
         trials tell {missing} (JCGM 101, 3.6, note 1); median and coverage intervals stand, and {value}"),
-    ("no-deviation", "no standard deviation"),
-    ("no-moments", "no expectation and no standard deviation"),
-    ("value-by-propagation", "the value is the estimate by the law of propagation"),
-    ("value-is-median", "the value is the median"),
     ("interval-of-extremes", "`{name}`{at}: {trials} trials are so few for this coverage probability that \
         the Monte Carlo interval is that of the extreme ones, which has no numerical standard error; clause 8 \
         is left undecided"),
@@ -162,8 +129,6 @@ const FORMULAS: Sentences = &[
         {number} {unit} are written `{meant}`"),
     ("bare-number.angle", "in `{formula}`, {number} is {number} rad, because `{quantity}` is an angle in \
         radians; {number} {unit} are written `{meant}`"),
-    ("beside.given", "given in {unit}"),
-    ("beside.computed", "computed from what is given in {unit}"),
     ("radians-as-periods", "`{formula}` is an angular frequency, in radians per second, by what it is made \
         of, and is reported as a frequency; that is `({formula})/(2*pi)`, and an angular frequency is \
         reported in `rad/s`"),
@@ -197,21 +162,6 @@ const FORMULAS: Sentences = &[
     ("quantity-converted-twice.product", "`{formula}` has{with} the factor of {factor} that converts from \
         the units of its quantities to coherent SI units, in which formulas have them already; leave the \
         factor out, or let it be an input of its own if it is no conversion{or_turns}"),
-    ("converted-to.coherent-unit", "{unit}, in which formulas have them already"),
-    ("converted-to.unit", "{unit}, and {what} in {unit} is converted, too: formulas compute in coherent SI \
-        units"),
-    ("converted-to.beside", "those of what stands beside it"),
-    ("converted-to.number", "a plain number"),
-    ("with-equations", ", with the equations that it takes up,"),
-    ("or-turns", "; a rate of revolutions is multiplied by 2*pi in its place"),
-    ("or-without-unit", ", or give {what} without a unit"),
-    ("computed.rates", "in radians per second"),
-    ("computed.angles", "angles in radians"),
-    ("computed.shares", "shares as plain numbers"),
-    ("computed.ratios", "ratios as plain numbers"),
-    ("result.output", "the output"),
-    ("result.quantity", "the quantity"),
-    ("result.named-output", "the output `{name}`"),
     ("unit-left-out", "`{formula}` has no unit, so that formulas take its numbers as plain ones, of which 1 \
         is {one} {unit}, beside `{beside}` in {unit}; state its unit, `{unit}` or `{plain}`"),
     ("unit-left-out.output", "`{formula}` has no unit, so that formulas take its numbers as plain ones, of \
@@ -236,11 +186,6 @@ const FORMULAS: Sentences = &[
 /// Facts about models, tables, certificates and other files.
 #[rustfmt::skip]
 const FILES: Sentences = &[
-    ("all-of", "{parts} and {last}"),
-    ("one-of", "{parts} or {last}"),
-    ("more", "{count} more"),
-    ("quoted", "`{name}`"),
-    ("quoted.hidden", "`{name}` (hidden)"),
     ("placeholder-about", "the `about` of `{name}` still says \"{about}\", as a new file does, and \
         certificates print it: write from where it is known, or take the key out"),
     ("units-not-checked", "units are not checked: formulas compute with the numbers in the declared units \
@@ -250,13 +195,9 @@ const FILES: Sentences = &[
         first, such as `{name}` from {unit}, and gave other results for this file. If its formulas are \
         written for the declared units, they are right now: say so with \"format\": 2. If they are written \
         for SI units, declare the quantities in SI units"),
-    ("quantity-in-unit", "`{name}` in {unit}"),
-    ("more-quantities", ", ..."),
     ("width-zero", "the width of `{of}` follows its estimate and becomes 0{rows}; it is a constant there"),
     ("share-of-zero", "the share of reading in the width of `{name}` is 0{rows}, like its estimate; of \
         another quantity's value it would be `20 ppm of 10 V`"),
-    ("in-row", " in row {row}"),
-    ("in-row.and-others", " in row {row} and others"),
     ("limits-moved", "the `limits` of `{name}` move along with its new estimate; where they stay, like the \
         limits of a concentration that cannot be negative, write `{name}.mean=...` for the value before they \
         cut"),
@@ -273,10 +214,6 @@ const FILES: Sentences = &[
         components, one of which has to be the resolution"),
     ("nested-readings", "`{name}` is the mean of {groups} groups of readings; its standard uncertainty comes \
         from the means of the groups, with {dof} degrees of freedom (JCGM 100, H.5){within}"),
-    ("groups.within", "; standard deviation within groups {deviation}{between}"),
-    ("groups.between", ", between groups {deviation}, F = {ratio} (probability of a larger one without an \
-        effect of the groups {probability})"),
-    ("groups.of-other-sizes", "; the groups are not equally large, and their means count alike"),
     ("dependent-readings", "`{name}`: the {count} readings are not independent: each is near the one before \
         it (von Neumann's ratio {ratio}, 2 for independent readings; one as small comes from those in at \
         most 1 case of 100). s/sqrt(n) is too small then (JCGM 100, 4.2.7): take readings further apart, or \
@@ -316,20 +253,6 @@ const FILES: Sentences = &[
         have with the distributions that they are read with are the nearest possible: {pairs}"),
     ("correlation-with-constant", "the correlation of `{first}` and `{second}` has no effect, because \
         `{constant}` has no uncertainty"),
-    ("pairs", "{pairs}{more}"),
-    ("pairs.more", " and {count} more pairs"),
-    ("pair", "`{first}` and `{second}`"),
-    ("pair.correlated", "`{first}` and `{second}` ({coefficient})"),
-    ("pair.certified", "`{first}` and `{second}` ({coefficient}, from `{file}`)"),
-    ("pair.moved", "`{first}` and `{second}` ({from} to {to})"),
-    ("pair.with-input", "`{input}` of `{first}` and `{second}` ({reason})"),
-    ("other-input.unknown-row", "one was saved by an older version, which did not tell its data and its row"),
-    ("other-input.row", "of different rows"),
-    ("other-input.values-set", "with other values set"),
-    ("other-input.figures", "with another estimate or standard uncertainty"),
-    ("other-input.unknown-place", "one was saved by an older version, which did not tell its place in its \
-        certificate"),
-    ("other-input.content", "with the same figures, but from files of different content"),
     ("result-correlation", "the correlation of saved results is kept: {pairs}"),
     ("result-dependence-unknown", "`{first}` and `{second}` may depend on each other, because their results \
         go back to the same model file, but one of them has no finite sensitivity coefficients, so the \
@@ -342,7 +265,6 @@ const FILES: Sentences = &[
     ("result-without-digest", "`{file}` has no digest of itself, like files of older versions: whether it \
         was changed since it was saved cannot be told"),
     ("result-changed", "`{file}` was changed since it was saved{parts}, and is taken all the same"),
-    ("changed-parts", " ({parts})"),
     ("counted-twice", "`{name}` has the name and the figures of an input that the result `{result}` was \
         evaluated from, and counts as independent of it; if they are one quantity, evaluate both in one \
         model, or state their correlation"),
@@ -354,58 +276,12 @@ const FILES: Sentences = &[
     ("effect-dimension", "effect `{name}`, override of `{quantity}`: {misfit}"),
     ("effect-dimension.other", "the formula gives {found}, but `{quantity}` is {own}"),
     ("effect-misfit", "the effect `{name}` is left out: it {reason}"),
-    ("misfit", "does not fit this sim{why}{condition}{needs}"),
-    ("misfit.missing", ", which has no {quantities}"),
-    ("misfit.prior", ": its prior is {prior}, which the data do not give"),
-    ("misfit.unchanged", ", which has none of what it changes: {quantities}"),
-    ("misfit.condition", "; the condition `{name}` is set and known: make it a quantity that is computed \
-        from the condition, or an input whose mean is the condition"),
-    ("misfit.anywhere", "; it {needs}"),
-    ("misfit.on-bench", "; on the bench `{bench}` it {needs}"),
-    ("misfit.needs", "needs {quantities}"),
-    ("misfit.changes", "changes {quantities}"),
-    ("misfit.history", "does not fit these data: the order of their rows does not tell what it needs apart \
-        from the conditions, such as where a condition only rises"),
-    ("misfit.no-change", "changes no observed output"),
-    ("misfit.refused", "cannot act on this sim: {error}"),
-    ("observed.amplitudes", "each observed output that is no phase"),
-    ("observed.phases", "each observed output that is a phase"),
     ("sheet-chosen", "sheet `{sheet}` is read, not {others}"),
     ("relative-uncertainties", "uncertainties in {units} are shares of the values"),
     ("angle-branch", "angles are compared within half a turn of each other: {angles}"),
     ("angle-branch.moved", "{angle} of `{name}` as {compared}"),
     ("columns-not-read", "the columns {names} are not read"),
     ("columns-not-read.one", "the column `{name}` is not read"),
-    ("import.columns", "row {row}: columns {columns}"),
-    ("import.column", "`{heading}` as {name}{unit}"),
-    ("import.in-unit", " in {unit}"),
-    ("import.named-column", "column {letter} `{heading}`"),
-    ("import.hidden-column", "{column} is hidden, and is read"),
-    ("import.column-not-read", "{column} is not read"),
-    ("import.column-remark", "{column} is kept as a remark"),
-    ("import.merged-cell", "the merged cell `{text}` counts for rows {first} to {last}"),
-    ("import.row-not-read", "row {row} `{text}` is not read"),
-    ("import.row-without-numbers", "row {row} `{text}` has no numbers and is not read"),
-    ("import.row-constant", "row {row} `{text}` has no uncertainty and is a constant of the equation"),
-    ("import.row-named", "row {row}: `{words}` is called `{name}`"),
-    ("import.distribution", "row {row}: of `{text}` the standard uncertainty is taken, as of a normal \
-        distribution"),
-    ("import.dof", "line {line}: {dof} degrees of freedom are taken of `{text}`"),
-    ("import.equation", "the equation {name} = {formula}"),
-    ("import.unit-of-result", "the result is in `{unit}`, the coherent unit of its equation"),
-    ("import.constant", "the constant {constant} is added, which makes the estimate of the result: the model \
-        is linear about the estimates"),
-    ("import.sum", "{name} = {formula}: the sum of the quantities times their sensitivity coefficients, in \
-        {unit}"),
-    ("import.unchanged", "the model file of this workbook; no estimate, standard uncertainty, degrees of \
-        freedom or correlation was changed, and other cells are not looked at"),
-    ("import.changed-estimate", "`{name}`: estimate {now} instead of {before}"),
-    ("import.changed-uncertainty", "`{name}`: standard uncertainty {now} instead of {before}"),
-    ("import.changed-dof", "`{name}`: degrees of freedom {now} instead of {before}"),
-    ("import.changed-probability", "coverage probability {now} instead of {before}"),
-    ("import.changed-correlation", "{name} = {coefficient}"),
-    ("import.normal-now", "`{name}` is normal now: what it was ({distribution}) does not go with the changed \
-        cells"),
 ];
 
 /// Facts about recordings.
@@ -419,17 +295,11 @@ const SIGNALS: Sentences = &[
     ("sampling-rates-differ", "`{name}`: the recipe states a sampling rate of {stated} Hz, but {whose} {found} \
         Hz; the recipe's is used, so that frequencies come out {times} times what the file says; where the \
         file is right, leave out `sampling_rate`"),
-    ("of-time-column", "its time column has"),
-    ("of-header", "its header says"),
     ("flat-channel", "`{name}`, channel `{channel}`: all values are {value}"),
     ("saturated", "`{name}`, {at}: {count} of {of} values are {value}, the {end} of the recording, and {next} \
         the next one to it; the channel may be saturated"),
     ("saturated.in-a-row", "`{name}`, {at}: {count} values in a row are {value}, the {end} of the recording; \
         the channel may be saturated"),
-    ("highest", "highest"),
-    ("lowest", "lowest"),
-    ("sample-of-time", "sample {sample}, the time"),
-    ("sample-of-channel", "sample {sample}, channel `{channel}`"),
     ("near-noise", "`{name}`: noise alone makes an amplitude as large as the one at {frequency} Hz in \
         {percent} % of all records; the phase there is hardly known, and the amplitude is too large on \
         average"),
@@ -440,19 +310,14 @@ const SIGNALS: Sentences = &[
         Hz, more than the {asked} at {hertz} Hz; look at the frequency and the sampling rate{other_unit}"),
     ("strong-tone.left", "`{name}`: a tone of {size} at about {at} Hz is in the residuals, more than the \
         {asked} at {hertz} Hz; look at the frequency and the sampling rate{other_unit}"),
-    ("frequency-in-other-unit", " ({number} {unit} is {hertz} Hz)"),
-    ("peak-amplitude", "{amplitude} (peak)"),
     ("tone-in-residuals", "`{name}`: most of the residuals is a tone of {size} at about {at} Hz, which is not \
         fitted and counts as noise{multiple}"),
-    ("higher-multiple", ": the multiple {multiple} of the frequency, and `harmonics` is {harmonics}"),
     ("far-samples", "`{name}`: {samples}{more} are far beyond the rest, up to {far} robust standard deviations \
         of the residuals from the fit; if that is a spike or a number for a missing value, correct the \
         recording or leave that part out with `from` and `to`, because it counts like every other sample"),
     ("far-samples.one", "`{name}`: {samples} is far beyond the rest, up to {far} robust standard deviations of \
         the residuals from the fit; if that is a spike or a number for a missing value, correct the recording \
         or leave that part out with `from` and `to`, because it counts like every other sample"),
-    ("far-sample", "{value} at {at} s"),
-    ("and-more", " and {count} more"),
     ("filter-not-corrected", "`{name}`: gain of the {step} at {at} Hz, {value}, is not corrected"),
     ("filter-not-corrected.phase", "`{name}`: phase of the {step} at {at} Hz, {value}, is not corrected"),
     ("correlated-residuals", "`{name}`: the residuals are correlated (coefficient {coefficient} at lag 1); \
@@ -468,18 +333,8 @@ const SIGNALS: Sentences = &[
         tell (coefficient {coefficient} at lag 1); {way}"),
     ("short-record.before-steps", "`{name}`: before the steps the residuals may be correlated, which the \
         record is too short to tell (coefficient {coefficient} at lag 1); {way}"),
-    ("noise-of-parts", "the noise near each frequency is taken from {parts} parts of the record"),
-    ("noise-of-process", "the noise near each frequency is taken from a process of first order that describes \
-        the residuals"),
-    ("noise-of-process.before-steps", "the noise near each frequency after the steps is taken from a process \
-        of first order that describes these residuals"),
-    ("noise-even", "the record is too short to tell the noise near each frequency, which is taken as even over \
-        what the steps let pass, so standard uncertainties may be too small"),
-    ("noise-unknown", "the record is too short to tell the noise near each frequency, so standard \
-        uncertainties may be too small"),
     ("found-tone", "`{name}`: something oscillates that the recipe does not name, at {tones}; it is fitted \
         together with the named frequencies and counts as noise in the signal-to-noise ratio"),
-    ("other-tone", "{frequency} Hz (amplitude {amplitude})"),
     ("found-drift", "`{name}`: the level drifts by {range} over the record; a polynomial of degree {degree} is \
         fitted together with the named frequencies, the offset is the mean over the record with the drift's \
         standard deviation in its uncertainty, and the drift counts as noise in the signal-to-noise ratio"),
@@ -526,23 +381,12 @@ const GAP: Sentences = &[
         of the settings with their uncertainties"),
     ("unit-slip", "The values of {name} are about {ratio} times what the sim says {rows}: {cause} makes such a \
         factor; look at the unit of the data and of the sim before you believe an effect"),
-    ("slip-in-all-rows", "in all rows"),
-    ("slip-in-rows", "in the rows {first} to {last}, and agree with it in the others"),
-    ("slip-in-rows.some", "in {count} of the rows {first} to {last}, and agree with it in the others"),
-    ("slip-of.prefix", "a prefix, or per cent"),
-    ("slip-of.sign", "a sign"),
-    ("slip-of.turn", "a frequency in Hz for one in rad/s"),
-    ("slip-of.minute", "a time in minutes for one in seconds, or minutes for degrees"),
-    ("slip-of.hour", "a time in hours for one in seconds"),
-    ("slip-of.degree", "an angle in degrees for one in rad"),
-    ("slip-of.peak", "an effective value for a peak value"),
     ("far-input", "The input `{input}` alone would explain the data if it were {distance} standard \
         uncertainties above its estimate{others}. That is no hypothesis, because inputs are what they are \
         stated to be: look at where the value comes from and how its uncertainty was found"),
     ("far-input.below", "The input `{input}` alone would explain the data if it were {distance} standard \
         uncertainties below its estimate{others}. That is no hypothesis, because inputs are what they are \
         stated to be: look at where the value comes from and how its uncertainty was found"),
-    ("other-far-inputs", ". So would {inputs}, further from their estimates"),
     ("whole-turns", "{far} of {count} values of {name} are more than half a turn from the sim: an output that \
         comes round says `\"periodic\": {turn}`"),
     ("whole-turns.jumps", "What the sim leaves of {name} jumps by nearly a turn between neighbouring \
@@ -560,9 +404,6 @@ const GAP: Sentences = &[
         of two noises and is not stated"),
     ("poor-fit", "The verdict is the best of the hypotheses but leaves a chi-square of {chi_square} per value \
         on conditions that were left out: something is still missing"),
-    ("scatter", "The residuals are {times} times as large as their uncertainties allow, but without a pattern \
-        that an effect or a smooth discrepancy would make: the stated noise is probably too small, or values \
-        are wrong one by one"),
     ("curved-sim", "At the estimates of the inputs the residuals are {times} times as large as the law of \
         propagation allows, but values within what is known of the inputs explain them: the sim is not linear \
         in its inputs there"),
@@ -581,27 +422,7 @@ const GAP: Sentences = &[
         right: give the time as a condition, or an effect that changes with it"),
     ("copied-rows", "Rows {rows}{more} have the conditions and, to all digits, the values of {firsts}. {said}"),
     ("copied-rows.one", "Row {copy} has the conditions and, to all digits, the values of row {first}. {said}"),
-    ("one-row", "row {row}"),
     ("several-rows", "rows {rows}{more}"),
-    ("range-of-rows", "{first} to {last}"),
-    ("copies-count-once", "Independent readings with the stated uncertainties would repeat so often with a \
-        probability below {below}: what repeats was copied, or its uncertainty is one that the rows share, and \
-        tells nothing new. Such rows count once, {counted} of {all}"),
-    ("copies-count-once.one", "Independent readings with the stated uncertainties would repeat one another \
-        with a probability below {below}: what repeats was copied, or its uncertainty is one that the rows \
-        share, and tells nothing new. Such rows count once, {counted} of {all}"),
-    ("copies-unknown", "Without stated uncertainties it cannot be told whether they were measured, so they \
-        count with noise of their own. If they were copied, that makes the diagnosis too sure, or finds a gap \
-        that is not there: leave such rows out unless they were measured"),
-    ("copies-unknown.one", "Without stated uncertainties it cannot be told whether it was measured, so it \
-        counts with noise of its own. If it was copied, that makes the diagnosis too sure, or finds a gap that \
-        is not there: leave such rows out unless they were measured"),
-    ("copies-by-chance", "Chance seldom does that, but it cannot be excluded that they were measured, so they \
-        count with noise of their own. If they were copied, that makes the diagnosis too sure, or finds a gap \
-        that is not there: leave such rows out unless they were measured"),
-    ("copies-by-chance.one", "Chance seldom does that, but it cannot be excluded that it was measured, so it \
-        counts with noise of its own. If it was copied, that makes the diagnosis too sure, or finds a gap that \
-        is not there: leave such rows out unless they were measured"),
     ("few-conditions", "There are only {count} different conditions; effects that differ elsewhere look alike \
         here"),
     ("few-conditions.one", "There is only one condition; effects that differ elsewhere look alike here"),
@@ -616,17 +437,12 @@ const GAP: Sentences = &[
         they were taken"),
     ("prior-conflict", "{who} would explain the data with {parameter} of a size that is {distance} \
         {counted_in} (probability {probability}, with priors {widened} times as wide)"),
-    ("effect-alone", "{effect} alone"),
-    ("effects-together", "{others} and {last}"),
-    ("widths-beyond-bound", "widths of your prior beyond its bound"),
-    ("deviations-from-mean", "standard deviations of your prior from its mean"),
     ("wide-priors", "The priors of the effects' parameters are so wide that a departure of any form is more \
         probable than {effect}; with priors {times} times narrower {effect} is more probable. Make priors no \
         wider than you would bet"),
     ("wide-priors.several", "The priors of the effects' parameters are so wide that a departure of any form is \
         more probable than {effects}; with priors {times} times narrower {effects} are more probable. Make \
         priors no wider than you would bet"),
-    ("effect-with", "{first} with {second}"),
     ("undefined-prediction", "In {count} of {rows} rows of the prediction hypotheses of some probability have \
         no value (a root or logarithm of a negative number, a division by zero). They are left out there; \
         where they are more probable than the others nothing is predicted"),
@@ -642,7 +458,6 @@ const GAP: Sentences = &[
 /// Facts that only a command knows.
 #[rustfmt::skip]
 const COMMANDS: Sentences = &[
-    ("of-model", "{model}: "),
     ("few-trials.audit", "{trials} trials are too few to tell how assumptions move the result; {made} are made"),
     ("more-than-two-digits", "U is stated to {digits} significant digits; an accredited certificate may have \
         at most two (ILAC-P14:09/2020, 5.3)"),
@@ -665,5 +480,196 @@ const COMMANDS: Sentences = &[
     ("drawn-together", "{names} are drawn together; they have one Sobol index as a set"),
     ("drawn-together.ranks", "{names} are drawn together; they have one Sobol index as a set. With another \
         shape the dependence of their ranks is kept, so that the correlation coefficient moves a little"),
-    ("in-row", "row {row}, "),
+];
+
+/// Facts that stand within others, and the notes that import gives without a code.
+#[rustfmt::skip]
+const PARTS: Sentences = &[
+    ("moved", "{figure} by {by}"),
+    ("figure.estimate", "its estimate"),
+    ("figure.standard-uncertainty", "its standard uncertainty"),
+    ("figure.median", "its median"),
+    ("figure.inside", "its probability within the tolerance"),
+    ("figure.symmetric-lower", "its lower end of the symmetric interval"),
+    ("figure.symmetric-upper", "its upper end of the symmetric interval"),
+    ("figure.shortest-lower", "its lower end of the shortest interval"),
+    ("figure.shortest-upper", "its upper end of the shortest interval"),
+    ("at", " at {conditions}"),
+    ("condition", "{name} = {value}"),
+    ("difference.above", "is {percent} above that of the GUM"),
+    ("difference.below", "is {percent} below that of the GUM"),
+    ("difference.from-zero", "is not zero as that of the GUM is"),
+    ("beyond-bounds", "beyond all bounds"),
+    ("in-brackets", " ({dof})"),
+    ("few-dof-not-allowed-for", "Neither is wrong; no coverage factor of the GUM allows for it here"),
+    ("few-dof-allowed-for", "Neither is wrong; the GUM allows for it in the coverage factor"),
+    ("few-dof-long-tails", "The GUM allows for it in its coverage factor, that of a t distribution, whose \
+        long tails these inputs do not have"),
+    ("non-linear-few-dof", "; few degrees of freedom{dof} alone would bring it {alone} above"),
+    ("non-linear-terms", "; {said}"),
+    ("second-order", "with its terms of second order (JCGM 100, 5.1.2, note) the law of propagation gives \
+        {with_terms} instead of {linear}{products}"),
+    ("second-order-products", "; {products}"),
+    ("squared", "`{name}` squared"),
+    ("times", "`{first}` times `{second}`"),
+    ("contributes", "{product} contributes {contribution}"),
+    ("contributes.hidden", "{product} contributes {contribution}, though their sensitivity coefficients \
+        vanish here"),
+    ("no-deviation", "no standard deviation"),
+    ("no-moments", "no expectation and no standard deviation"),
+    ("value-by-propagation", "the value is the estimate by the law of propagation"),
+    ("value-is-median", "the value is the median"),
+    ("beside.given", "given in {unit}"),
+    ("beside.computed", "computed from what is given in {unit}"),
+    ("converted-to.coherent-unit", "{unit}, in which formulas have them already"),
+    ("converted-to.unit", "{unit}, and {what} in {unit} is converted, too: formulas compute in coherent SI \
+        units"),
+    ("converted-to.beside", "those of what stands beside it"),
+    ("converted-to.number", "a plain number"),
+    ("with-equations", ", with the equations that it takes up,"),
+    ("or-turns", "; a rate of revolutions is multiplied by 2*pi in its place"),
+    ("or-without-unit", ", or give {what} without a unit"),
+    ("computed.rates", "in radians per second"),
+    ("computed.angles", "angles in radians"),
+    ("computed.shares", "shares as plain numbers"),
+    ("computed.ratios", "ratios as plain numbers"),
+    ("result.output", "the output"),
+    ("result.quantity", "the quantity"),
+    ("result.named-output", "the output `{name}`"),
+    ("all-of", "{parts} and {last}"),
+    ("one-of", "{parts} or {last}"),
+    ("more", "{count} more"),
+    ("quoted", "`{name}`"),
+    ("quoted.hidden", "`{name}` (hidden)"),
+    ("quantity-in-unit", "`{name}` in {unit}"),
+    ("more-quantities", ", ..."),
+    ("in-row", " in row {row}"),
+    ("in-row.and-others", " in row {row} and others"),
+    ("groups.within", "; standard deviation within groups {deviation}{between}"),
+    ("groups.between", ", between groups {deviation}, F = {ratio} (probability of a larger one without an \
+        effect of the groups {probability})"),
+    ("groups.of-other-sizes", "; the groups are not equally large, and their means count alike"),
+    ("pairs", "{pairs}{more}"),
+    ("pairs.more", " and {count} more pairs"),
+    ("pair", "`{first}` and `{second}`"),
+    ("pair.correlated", "`{first}` and `{second}` ({coefficient})"),
+    ("pair.certified", "`{first}` and `{second}` ({coefficient}, from `{file}`)"),
+    ("pair.moved", "`{first}` and `{second}` ({from} to {to})"),
+    ("pair.with-input", "`{input}` of `{first}` and `{second}` ({reason})"),
+    ("other-input.unknown-row", "one was saved by an older version, which did not tell its data and its row"),
+    ("other-input.row", "of different rows"),
+    ("other-input.values-set", "with other values set"),
+    ("other-input.figures", "with another estimate or standard uncertainty"),
+    ("other-input.unknown-place", "one was saved by an older version, which did not tell its place in its \
+        certificate"),
+    ("other-input.content", "with the same figures, but from files of different content"),
+    ("changed-parts", " ({parts})"),
+    ("misfit", "does not fit this sim{why}{condition}{needs}"),
+    ("misfit.missing", ", which has no {quantities}"),
+    ("misfit.prior", ": its prior is {prior}, which the data do not give"),
+    ("misfit.unchanged", ", which has none of what it changes: {quantities}"),
+    ("misfit.condition", "; the condition `{name}` is set and known: make it a quantity that is computed \
+        from the condition, or an input whose mean is the condition"),
+    ("misfit.anywhere", "; it {needs}"),
+    ("misfit.on-bench", "; on the bench `{bench}` it {needs}"),
+    ("misfit.needs", "needs {quantities}"),
+    ("misfit.changes", "changes {quantities}"),
+    ("misfit.history", "does not fit these data: the order of their rows does not tell what it needs apart \
+        from the conditions, such as where a condition only rises"),
+    ("misfit.no-change", "changes no observed output"),
+    ("misfit.refused", "cannot act on this sim: {error}"),
+    ("observed.amplitudes", "each observed output that is no phase"),
+    ("observed.phases", "each observed output that is a phase"),
+    ("import.columns", "row {row}: columns {columns}"),
+    ("import.column", "`{heading}` as {name}{unit}"),
+    ("import.in-unit", " in {unit}"),
+    ("import.named-column", "column {letter} `{heading}`"),
+    ("import.hidden-column", "{column} is hidden, and is read"),
+    ("import.column-not-read", "{column} is not read"),
+    ("import.column-remark", "{column} is kept as a remark"),
+    ("import.merged-cell", "the merged cell `{text}` counts for rows {first} to {last}"),
+    ("import.row-not-read", "row {row} `{text}` is not read"),
+    ("import.row-without-numbers", "row {row} `{text}` has no numbers and is not read"),
+    ("import.row-constant", "row {row} `{text}` has no uncertainty and is a constant of the equation"),
+    ("import.row-named", "row {row}: `{words}` is called `{name}`"),
+    ("import.distribution", "row {row}: of `{text}` the standard uncertainty is taken, as of a normal \
+        distribution"),
+    ("import.dof", "line {line}: {dof} degrees of freedom are taken of `{text}`"),
+    ("import.equation", "the equation {name} = {formula}"),
+    ("import.unit-of-result", "the result is in `{unit}`, the coherent unit of its equation"),
+    ("import.constant", "the constant {constant} is added, which makes the estimate of the result: the model \
+        is linear about the estimates"),
+    ("import.sum", "{name} = {formula}: the sum of the quantities times their sensitivity coefficients, in \
+        {unit}"),
+    ("import.unchanged", "the model file of this workbook; no estimate, standard uncertainty, degrees of \
+        freedom or correlation was changed, and other cells are not looked at"),
+    ("import.changed-estimate", "`{name}`: estimate {now} instead of {before}"),
+    ("import.changed-uncertainty", "`{name}`: standard uncertainty {now} instead of {before}"),
+    ("import.changed-dof", "`{name}`: degrees of freedom {now} instead of {before}"),
+    ("import.changed-probability", "coverage probability {now} instead of {before}"),
+    ("import.changed-correlation", "{name} = {coefficient}"),
+    ("import.normal-now", "`{name}` is normal now: what it was ({distribution}) does not go with the changed \
+        cells"),
+    ("of-time-column", "its time column has"),
+    ("of-header", "its header says"),
+    ("highest", "highest"),
+    ("lowest", "lowest"),
+    ("sample-of-time", "sample {sample}, the time"),
+    ("sample-of-channel", "sample {sample}, channel `{channel}`"),
+    ("frequency-in-other-unit", " ({number} {unit} is {hertz} Hz)"),
+    ("peak-amplitude", "{amplitude} (peak)"),
+    ("higher-multiple", ": the multiple {multiple} of the frequency, and `harmonics` is {harmonics}"),
+    ("far-sample", "{value} at {at} s"),
+    ("and-more", " and {count} more"),
+    ("noise-of-parts", "the noise near each frequency is taken from {parts} parts of the record"),
+    ("noise-of-process", "the noise near each frequency is taken from a process of first order that describes \
+        the residuals"),
+    ("noise-of-process.before-steps", "the noise near each frequency after the steps is taken from a process \
+        of first order that describes these residuals"),
+    ("noise-even", "the record is too short to tell the noise near each frequency, which is taken as even over \
+        what the steps let pass, so standard uncertainties may be too small"),
+    ("noise-unknown", "the record is too short to tell the noise near each frequency, so standard \
+        uncertainties may be too small"),
+    ("other-tone", "{frequency} Hz (amplitude {amplitude})"),
+    ("slip-in-all-rows", "in all rows"),
+    ("slip-in-rows", "in the rows {first} to {last}, and agree with it in the others"),
+    ("slip-in-rows.some", "in {count} of the rows {first} to {last}, and agree with it in the others"),
+    ("slip-of.prefix", "a prefix, or per cent"),
+    ("slip-of.sign", "a sign"),
+    ("slip-of.turn", "a frequency in Hz for one in rad/s"),
+    ("slip-of.minute", "a time in minutes for one in seconds, or minutes for degrees"),
+    ("slip-of.hour", "a time in hours for one in seconds"),
+    ("slip-of.degree", "an angle in degrees for one in rad"),
+    ("slip-of.peak", "an effective value for a peak value"),
+    ("other-far-inputs", ". So would {inputs}, further from their estimates"),
+    ("scatter", "The residuals are {times} times as large as their uncertainties allow, but without a pattern \
+        that an effect or a smooth discrepancy would make: the stated noise is probably too small, or values \
+        are wrong one by one"),
+    ("one-row", "row {row}"),
+    ("range-of-rows", "{first} to {last}"),
+    ("copies-count-once", "Independent readings with the stated uncertainties would repeat so often with a \
+        probability below {below}: what repeats was copied, or its uncertainty is one that the rows share, and \
+        tells nothing new. Such rows count once, {counted} of {all}"),
+    ("copies-count-once.one", "Independent readings with the stated uncertainties would repeat one another \
+        with a probability below {below}: what repeats was copied, or its uncertainty is one that the rows \
+        share, and tells nothing new. Such rows count once, {counted} of {all}"),
+    ("copies-unknown", "Without stated uncertainties it cannot be told whether they were measured, so they \
+        count with noise of their own. If they were copied, that makes the diagnosis too sure, or finds a gap \
+        that is not there: leave such rows out unless they were measured"),
+    ("copies-unknown.one", "Without stated uncertainties it cannot be told whether it was measured, so it \
+        counts with noise of its own. If it was copied, that makes the diagnosis too sure, or finds a gap that \
+        is not there: leave such rows out unless they were measured"),
+    ("copies-by-chance", "Chance seldom does that, but it cannot be excluded that they were measured, so they \
+        count with noise of their own. If they were copied, that makes the diagnosis too sure, or finds a gap \
+        that is not there: leave such rows out unless they were measured"),
+    ("copies-by-chance.one", "Chance seldom does that, but it cannot be excluded that it was measured, so it \
+        counts with noise of its own. If it was copied, that makes the diagnosis too sure, or finds a gap that \
+        is not there: leave such rows out unless they were measured"),
+    ("effect-alone", "{effect} alone"),
+    ("effects-together", "{others} and {last}"),
+    ("widths-beyond-bound", "widths of your prior beyond its bound"),
+    ("deviations-from-mean", "standard deviations of your prior from its mean"),
+    ("effect-with", "{first} with {second}"),
+    ("of-model", "{model}: "),
+    ("of-row", "row {row}, "),
 ];

@@ -3,7 +3,8 @@
 use super::Sentences;
 
 /// The sentences of all rooms.
-pub(super) const ROOMS: [Sentences; 6] = [EVALUATION, FORMULAS, FILES, SIGNALS, GAP, COMMANDS];
+pub(super) const ROOMS: [Sentences; 7] =
+    [EVALUATION, FORMULAS, FILES, SIGNALS, GAP, COMMANDS, PARTS];
 
 /// Facts of the engine about an evaluation.
 #[rustfmt::skip]
@@ -26,15 +27,6 @@ const EVALUATION: Sentences = &[
         Ergebnisses fast aufheben, ist das Ganze in einem Modell auszuwerten"),
     ("trials-off", "`{name}`: Angaben der Versuche liegen weiter von denen ohne ihr Rauschen als {errors} \
         numerische Standardfehler: {far}"),
-    ("moved", "{figure} um {by}"),
-    ("figure.estimate", "der Schätzwert"),
-    ("figure.standard-uncertainty", "die Standardunsicherheit"),
-    ("figure.median", "der Median"),
-    ("figure.inside", "die Wahrscheinlichkeit innerhalb der Toleranz"),
-    ("figure.symmetric-lower", "das untere Ende des symmetrischen Intervalls"),
-    ("figure.symmetric-upper", "das obere Ende des symmetrischen Intervalls"),
-    ("figure.shortest-lower", "das untere Ende des kürzesten Intervalls"),
-    ("figure.shortest-upper", "das obere Ende des kürzesten Intervalls"),
     ("raised-to-cmc", "die erweiterte Unsicherheit von `{name}` liegt unter der Messmöglichkeit (CMC) des \
         Laboratoriums von {cmc} und wird auf sie angehoben: Anzugeben ist {expanded}"),
     ("raised-to-cmc.rows", "die erweiterte Unsicherheit von `{name}` liegt in {count} von {of} Zeilen unter \
@@ -43,8 +35,6 @@ const EVALUATION: Sentences = &[
         (CMC) des Laboratoriums von {cmc} und darf nicht angegeben werden (ILAC-P14)"),
     ("below-cmc.rows", "die erweiterte Unsicherheit von `{name}` liegt in {count} von {of} Zeilen unter der \
         Messmöglichkeit (CMC) des Laboratoriums und darf dort nicht angegeben werden (ILAC-P14)"),
-    ("at", " bei {conditions}"),
-    ("condition", "{name} = {value}"),
     ("gum-undefined", "`{name}`{at}: Der Schätzwert oder ein Empfindlichkeitskoeffizient ist bei den \
         Schätzwerten der Eingangsgrößen nicht endlich, so dass es keine Auswertung nach dem GUM gibt"),
     ("gum-dof-undefined", "`{name}`{at}: Korrelierte Eingangsgrößen haben endliche Freiheitsgrade, für die die \
@@ -69,37 +59,17 @@ const EVALUATION: Sentences = &[
         Freiheitsgraden gezogen, die keinen Erwartungswert und keine Varianz hat, so dass die Versuche keinen \
         Schätzwert und keine Standardunsicherheit haben; die Überdeckungsintervalle gelten, und der Wert ist \
         der Schätzwert nach dem Fortpflanzungsgesetz"),
-    ("difference.above", "liegt {percent} über der des GUM"),
-    ("difference.below", "liegt {percent} unter der des GUM"),
-    ("difference.from-zero", "ist nicht null wie die des GUM"),
-    ("beyond-bounds", "über alle Schranken"),
-    ("in-brackets", " ({dof})"),
     ("few-dof", "`{name}`{at}: Die Standardunsicherheit der Monte-Carlo-Methode {difference}, weil einige \
         Eingangsgrößen wenige Freiheitsgrade haben{dof}: Ihre t-Verteilungen haben eine größere \
         Standardabweichung, was {alone} ausmacht. {conclusion}"),
-    ("few-dof-not-allowed-for", "Keine von beiden ist falsch; kein Erweiterungsfaktor des GUM trägt dem hier \
-        Rechnung"),
-    ("few-dof-allowed-for", "Keine von beiden ist falsch; der GUM trägt dem im Erweiterungsfaktor Rechnung"),
-    ("few-dof-long-tails", "Der GUM trägt dem in seinem Erweiterungsfaktor Rechnung, dem einer t-Verteilung, \
-        deren lange Ausläufer diese Eingangsgrößen nicht haben"),
     ("non-linear", "`{name}`{at}: Die Standardunsicherheit der Monte-Carlo-Methode {difference}, weil das \
         Modell über die Unsicherheiten seiner Eingangsgrößen nicht linear ist{few_dof}{second}. Die Angaben \
         der Monte-Carlo-Methode sind zu nehmen"),
-    ("non-linear-few-dof", "; wenige Freiheitsgrade{dof} allein brächten sie {alone} darüber"),
-    ("non-linear-terms", "; {said}"),
     ("non-linear.second-order", "`{name}`{at}: {second}"),
     ("non-linear.results", "`{name}`{at}: Die Standardunsicherheit der Monte-Carlo-Methode {difference} wegen \
         gespeicherter Ergebnisse, deren Versuche eine andere Standardabweichung als ihre Standardunsicherheit \
         haben ({results}), da ihre Modelle nicht linear sind. Die Angaben der Monte-Carlo-Methode sind zu \
         nehmen"),
-    ("second-order", "mit seinen Gliedern zweiter Ordnung (JCGM 100, 5.1.2, Anmerkung) gibt das \
-        Fortpflanzungsgesetz {with_terms} statt {linear}{products}"),
-    ("second-order-products", "; {products}"),
-    ("squared", "`{name}` im Quadrat"),
-    ("times", "`{first}` mal `{second}`"),
-    ("contributes", "{product} ergibt {contribution}"),
-    ("contributes.hidden", "{product} ergibt {contribution}, obwohl die Empfindlichkeitskoeffizienten hier \
-        verschwinden"),
     ("correlations-by-propagation", "`{name}`: Die Versuche haben keine Standardabweichung, die etwas \
         bedeutet; die Korrelationskoeffizienten sind daher die des Fortpflanzungsgesetzes"),
     ("correlations-by-propagation.none", "`{name}`: Die Versuche haben keine Standardabweichung, die etwas \
@@ -110,10 +80,6 @@ const EVALUATION: Sentences = &[
     ("heavy-tails", "`{name}`{at}: Weit außen liegende Versuche, von denen ein Lauf wenige oder keine hat, \
         tragen die Momente, so dass die Versuche {missing} angeben (JCGM 101, 3.6, Anmerkung 1); Median und \
         Überdeckungsintervalle gelten, und {value}"),
-    ("no-deviation", "keine Standardabweichung"),
-    ("no-moments", "weder Erwartungswert noch Standardabweichung"),
-    ("value-by-propagation", "der Wert ist der Schätzwert nach dem Fortpflanzungsgesetz"),
-    ("value-is-median", "der Wert ist der Median"),
     ("interval-of-extremes", "`{name}`{at}: {trials} Versuche sind für diese Überdeckungswahrscheinlichkeit so \
         wenige, dass das Monte-Carlo-Intervall das der äußersten ist, das keinen numerischen Standardfehler \
         hat; Abschnitt 8 bleibt unentschieden"),
@@ -171,8 +137,6 @@ const FORMULAS: Sentences = &[
         {given}; {number} {unit} werden `{meant}` geschrieben"),
     ("bare-number.angle", "in `{formula}` ist {number} der Winkel {number} rad, denn `{quantity}` ist ein \
         Winkel in Radiant; {number} {unit} werden `{meant}` geschrieben"),
-    ("beside.given", "in {unit} angegeben"),
-    ("beside.computed", "aus dem berechnet, was in {unit} angegeben ist"),
     ("radians-as-periods", "`{formula}` ist nach dem, woraus es besteht, eine Kreisfrequenz in Radiant je \
         Sekunde und wird als Frequenz angegeben; diese ist `({formula})/(2*pi)`, und eine Kreisfrequenz wird \
         in `rad/s` angegeben"),
@@ -207,21 +171,6 @@ const FORMULAS: Sentences = &[
     ("quantity-converted-twice.product", "`{formula}` hat{with} den Faktor {factor}, der aus den Einheiten \
         der Größen in kohärente SI-Einheiten umrechnet, in denen Formeln sie schon haben; der Faktor \
         entfällt, oder er ist eine eigene Eingangsgröße, wenn er nichts umrechnet{or_turns}"),
-    ("converted-to.coherent-unit", "{unit} umrechnet, worin Formeln sie schon haben"),
-    ("converted-to.unit", "{unit} umrechnet, und {what} in {unit} wird auch umgerechnet: Formeln rechnen in \
-        kohärenten SI-Einheiten"),
-    ("converted-to.beside", "die Einheit dessen, was daneben steht,"),
-    ("converted-to.number", "eine bloße Zahl"),
-    ("with-equations", " mit den Gleichungen, die es aufnimmt,"),
-    ("or-turns", "; eine Drehzahl wird statt dessen mit 2*pi multipliziert"),
-    ("or-without-unit", ", oder {what} hat keine Einheit"),
-    ("computed.rates", "Radiant je Sekunde"),
-    ("computed.angles", "Winkeln in Radiant"),
-    ("computed.shares", "Anteilen als Zahlen"),
-    ("computed.ratios", "Verhältnissen als Zahlen"),
-    ("result.output", "die Ausgangsgröße"),
-    ("result.quantity", "die Größe"),
-    ("result.named-output", "die Ausgangsgröße `{name}`"),
     ("unit-left-out", "`{formula}` hat keine Einheit, so dass Formeln die Zahlen als bloße nehmen, von denen \
         1 gleich {one} {unit} ist, neben `{beside}` in {unit}; anzugeben ist die Einheit, `{unit}` oder \
         `{plain}`"),
@@ -250,11 +199,6 @@ const FORMULAS: Sentences = &[
 /// Facts about models, tables, certificates and other files.
 #[rustfmt::skip]
 const FILES: Sentences = &[
-    ("all-of", "{parts} und {last}"),
-    ("one-of", "{parts} oder {last}"),
-    ("more", "{count} weitere"),
-    ("quoted", "`{name}`"),
-    ("quoted.hidden", "`{name}` (ausgeblendet)"),
     ("placeholder-about", "`about` von `{name}` hat noch den Text einer neuen Datei, \"{about}\", und \
         Kalibrierscheine drucken ihn: Angeben, woher die Größe bekannt ist, oder den Schlüssel weglassen"),
     ("units-not-checked", "Einheiten werden nicht geprüft: Die Formeln rechnen mit den Zahlen in den \
@@ -264,14 +208,10 @@ const FILES: Sentences = &[
         in SI-Einheiten um, etwa `{name}` aus {unit}, und gaben für diese Datei andere Ergebnisse. Sind die \
         Formeln für die angegebenen Einheiten geschrieben, so stimmen sie jetzt: \"format\": 2 sagt es. Sind \
         sie für SI-Einheiten geschrieben, so sind die Größen in SI-Einheiten anzugeben"),
-    ("quantity-in-unit", "`{name}` in {unit}"),
-    ("more-quantities", ", ..."),
     ("width-zero", "die Breite von `{of}` folgt ihrem Schätzwert und wird{rows} 0; dort ist sie eine \
         Konstante"),
     ("share-of-zero", "der Anteil vom Messwert in der Breite von `{name}` ist{rows} 0, wie ihr Schätzwert; \
         vom Wert einer anderen Größe wäre er `20 ppm of 10 V`"),
-    ("in-row", " in Zeile {row}"),
-    ("in-row.and-others", " in Zeile {row} und anderen"),
     ("limits-moved", "die `limits` von `{name}` verschieben sich mit dem neuen Schätzwert; wo sie bleiben, \
         wie bei einer Konzentration, die nicht negativ sein kann, steht `{name}.mean=...` für den Wert, \
         bevor sie begrenzen"),
@@ -288,10 +228,6 @@ const FILES: Sentences = &[
         neben den anderen Komponenten, von denen eine die Auflösung sein muss"),
     ("nested-readings", "`{name}` ist der Mittelwert von {groups} Gruppen von Messwerten; die \
         Standardunsicherheit ist die der Gruppenmittel mit {dof} Freiheitsgraden (JCGM 100, H.5){within}"),
-    ("groups.within", "; Standardabweichung innerhalb der Gruppen {deviation}{between}"),
-    ("groups.between", ", zwischen den Gruppen {deviation}, F = {ratio} (Wahrscheinlichkeit eines größeren \
-        ohne eine Wirkung der Gruppen {probability})"),
-    ("groups.of-other-sizes", "; die Gruppen sind nicht gleich groß, und ihre Mittelwerte zählen gleich"),
     ("dependent-readings", "`{name}`: Die {count} Messwerte sind nicht unabhängig: Jeder liegt nahe am \
         vorigen (von-Neumann-Verhältnis {ratio}, 2 bei unabhängigen Messwerten; ein so kleines kommt bei \
         diesen in höchstens 1 von 100 Fällen vor). s/sqrt(n) ist dann zu klein (JCGM 100, 4.2.7): Messwerte \
@@ -338,21 +274,6 @@ const FILES: Sentences = &[
         möglichen: {pairs}"),
     ("correlation-with-constant", "die Korrelation von `{first}` und `{second}` hat keine Wirkung, denn \
         `{constant}` hat keine Unsicherheit"),
-    ("pairs", "{pairs}{more}"),
-    ("pairs.more", " und {count} weitere Paare"),
-    ("pair", "`{first}` und `{second}`"),
-    ("pair.correlated", "`{first}` und `{second}` ({coefficient})"),
-    ("pair.certified", "`{first}` und `{second}` ({coefficient}, aus `{file}`)"),
-    ("pair.moved", "`{first}` und `{second}` ({from} zu {to})"),
-    ("pair.with-input", "`{input}` von `{first}` und `{second}` ({reason})"),
-    ("other-input.unknown-row", "eine wurde von einer älteren Version gespeichert, die weder Daten noch \
-        Zeile angab"),
-    ("other-input.row", "aus verschiedenen Zeilen"),
-    ("other-input.values-set", "mit anderen gesetzten Werten"),
-    ("other-input.figures", "mit anderem Schätzwert oder anderer Standardunsicherheit"),
-    ("other-input.unknown-place", "eine wurde von einer älteren Version gespeichert, die die Stelle im \
-        Kalibrierschein nicht angab"),
-    ("other-input.content", "mit denselben Angaben, aber aus Dateien mit verschiedenem Inhalt"),
     ("result-correlation", "die Korrelation gespeicherter Ergebnisse bleibt erhalten: {pairs}"),
     ("result-dependence-unknown", "`{first}` und `{second}` hängen vielleicht voneinander ab, weil ihre \
         Ergebnisse auf dieselbe Modelldatei zurückgehen; da eine der Größen keine endlichen \
@@ -367,7 +288,6 @@ const FILES: Sentences = &[
     ("result-without-digest", "`{file}` hat keine Prüfsumme seiner selbst, wie Dateien älterer Versionen: Ob \
         es seit dem Speichern geändert wurde, ist nicht zu sagen"),
     ("result-changed", "`{file}` wurde seit dem Speichern geändert{parts} und wird dennoch genommen"),
-    ("changed-parts", " ({parts})"),
     ("counted-twice", "`{name}` hat den Namen und die Werte einer Eingangsgröße, aus der das Ergebnis \
         `{result}` ermittelt wurde, und gilt als unabhängig davon; sind sie eine Größe, sind beide in einem \
         Modell auszuwerten, oder ihre Korrelation ist anzugeben"),
@@ -379,60 +299,12 @@ const FILES: Sentences = &[
     ("effect-dimension", "Effekt `{name}`, Ersatz für `{quantity}`: {misfit}"),
     ("effect-dimension.other", "die Formel gibt {found}, aber `{quantity}` ist {own}"),
     ("effect-misfit", "der Effekt `{name}` entfällt: Er {reason}"),
-    ("misfit", "passt nicht zu diesem Modell{why}{condition}{needs}"),
-    ("misfit.missing", ", das {quantities} nicht hat"),
-    ("misfit.prior", ": Seine A-priori-Verteilung ist {prior}, was die Daten nicht geben"),
-    ("misfit.unchanged", ", das nichts von dem hat, was er ändert: {quantities}"),
-    ("misfit.condition", "; die Bedingung `{name}` ist eingestellt und bekannt: Sie ist durch eine Größe zu \
-        ersetzen, die aus der Bedingung berechnet wird, oder durch eine Eingangsgröße, deren Mittelwert die \
-        Bedingung ist"),
-    ("misfit.anywhere", "; er {needs}"),
-    ("misfit.on-bench", "; für den Prüfstand `{bench}` gilt: Er {needs}"),
-    ("misfit.needs", "braucht {quantities}"),
-    ("misfit.changes", "ändert {quantities}"),
-    ("misfit.history", "passt nicht zu diesen Daten: Die Reihenfolge ihrer Zeilen trennt das, was er \
-        braucht, nicht von den Bedingungen, wie dort, wo eine Bedingung nur steigt"),
-    ("misfit.no-change", "ändert keine beobachtete Ausgangsgröße"),
-    ("misfit.refused", "kann auf dieses Modell nicht wirken: {error}"),
-    ("observed.amplitudes", "jede beobachtete Ausgangsgröße, die keine Phase ist"),
-    ("observed.phases", "jede beobachtete Ausgangsgröße, die eine Phase ist"),
     ("sheet-chosen", "gelesen wird das Blatt `{sheet}`, nicht {others}"),
     ("relative-uncertainties", "Unsicherheiten in {units} sind Anteile der Werte"),
     ("angle-branch", "Winkel werden innerhalb einer halben Umdrehung voneinander verglichen: {angles}"),
     ("angle-branch.moved", "{angle} von `{name}` als {compared}"),
     ("columns-not-read", "die Spalten {names} werden nicht gelesen"),
     ("columns-not-read.one", "die Spalte `{name}` wird nicht gelesen"),
-    ("import.columns", "Zeile {row}: Spalten {columns}"),
-    ("import.column", "`{heading}` als {name}{unit}"),
-    ("import.in-unit", " in {unit}"),
-    ("import.named-column", "Spalte {letter} `{heading}`"),
-    ("import.hidden-column", "{column} ist ausgeblendet und wird gelesen"),
-    ("import.column-not-read", "{column} wird nicht gelesen"),
-    ("import.column-remark", "{column} bleibt als Bemerkung erhalten"),
-    ("import.merged-cell", "die verbundene Zelle `{text}` gilt für die Zeilen {first} bis {last}"),
-    ("import.row-not-read", "Zeile {row} `{text}` wird nicht gelesen"),
-    ("import.row-without-numbers", "Zeile {row} `{text}` hat keine Zahlen und wird nicht gelesen"),
-    ("import.row-constant", "Zeile {row} `{text}` hat keine Unsicherheit und ist eine Konstante der \
-        Gleichung"),
-    ("import.row-named", "Zeile {row}: `{words}` heißt `{name}`"),
-    ("import.distribution", "Zeile {row}: Von `{text}` wird die Standardunsicherheit genommen, wie von einer \
-        Normalverteilung"),
-    ("import.dof", "Zeile {line}: Von `{text}` werden {dof} Freiheitsgrade genommen"),
-    ("import.equation", "die Gleichung {name} = {formula}"),
-    ("import.unit-of-result", "das Ergebnis ist in `{unit}`, der kohärenten Einheit seiner Gleichung"),
-    ("import.constant", "die Konstante {constant} wird addiert, die den Schätzwert des Ergebnisses ergibt: \
-        Das Modell ist um die Schätzwerte linear"),
-    ("import.sum", "{name} = {formula}: die Summe der Größen mal ihren Empfindlichkeitskoeffizienten, in \
-        {unit}"),
-    ("import.unchanged", "die Modelldatei dieser Arbeitsmappe; kein Schätzwert, keine Standardunsicherheit, \
-        keine Freiheitsgrade und keine Korrelation wurden geändert, und andere Zellen werden nicht beachtet"),
-    ("import.changed-estimate", "`{name}`: Schätzwert {now} statt {before}"),
-    ("import.changed-uncertainty", "`{name}`: Standardunsicherheit {now} statt {before}"),
-    ("import.changed-dof", "`{name}`: Freiheitsgrade {now} statt {before}"),
-    ("import.changed-probability", "Überdeckungswahrscheinlichkeit {now} statt {before}"),
-    ("import.changed-correlation", "{name} = {coefficient}"),
-    ("import.normal-now", "`{name}` ist jetzt normalverteilt: Die bisherige Verteilung ({distribution}) \
-        passt nicht zu den geänderten Zellen"),
 ];
 
 /// Facts about recordings.
@@ -446,17 +318,11 @@ const SIGNALS: Sentences = &[
     ("sampling-rates-differ", "`{name}`: Das Rezept gibt eine Abtastrate von {stated} Hz an, aber {whose} \
         {found} Hz; die des Rezepts wird verwendet, so dass die Frequenzen das {times}-Fache der Angabe der \
         Datei sind; wo die Datei stimmt, ist `sampling_rate` wegzulassen"),
-    ("of-time-column", "die Zeitspalte hat"),
-    ("of-header", "der Dateikopf sagt"),
     ("flat-channel", "`{name}`, Kanal `{channel}`: alle Werte sind {value}"),
     ("saturated", "`{name}`, {at}: {count} von {of} Werten sind {value}, der {end} der Aufzeichnung, und \
         {next} der ihm nächste; der Kanal kann übersteuert sein"),
     ("saturated.in-a-row", "`{name}`, {at}: {count} Werte in Folge sind {value}, der {end} der Aufzeichnung; \
         der Kanal kann übersteuert sein"),
-    ("highest", "höchste"),
-    ("lowest", "kleinste"),
-    ("sample-of-time", "Abtastwert {sample}, die Zeit"),
-    ("sample-of-channel", "Abtastwert {sample}, Kanal `{channel}`"),
     ("near-noise", "`{name}`: Rauschen allein ergibt in {percent} % aller Aufzeichnungen eine Amplitude, die \
         so groß ist wie die bei {frequency} Hz; die Phase ist dort kaum bekannt und die Amplitude im Mittel zu \
         groß"),
@@ -468,11 +334,8 @@ const SIGNALS: Sentences = &[
         prüfen{other_unit}"),
     ("strong-tone.left", "`{name}`: In den Residuen ist bei etwa {at} Hz eine Schwingung von {size}, mehr als \
         die {asked} bei {hertz} Hz; Frequenz und Abtastrate sind zu prüfen{other_unit}"),
-    ("frequency-in-other-unit", " ({number} {unit} sind {hertz} Hz)"),
-    ("peak-amplitude", "{amplitude} (Scheitelwert)"),
     ("tone-in-residuals", "`{name}`: Den größten Teil der Residuen macht eine Schwingung von {size} bei etwa \
         {at} Hz aus, die nicht angepasst wird und als Rauschen zählt{multiple}"),
-    ("higher-multiple", ": das Vielfache {multiple} der Frequenz, und `harmonics` ist {harmonics}"),
     ("far-samples", "`{name}`: {samples}{more} liegen weit außerhalb der übrigen, bis zu {far} robuste \
         Standardabweichungen der Residuen von der Anpassung entfernt; ist das eine Störspitze oder eine Zahl \
         für einen fehlenden Wert, so ist die Aufzeichnung zu berichtigen oder dieser Teil mit `from` und `to` \
@@ -481,8 +344,6 @@ const SIGNALS: Sentences = &[
         Standardabweichungen der Residuen von der Anpassung entfernt; ist das eine Störspitze oder eine Zahl \
         für einen fehlenden Wert, so ist die Aufzeichnung zu berichtigen oder dieser Teil mit `from` und `to` \
         wegzulassen, weil er wie jeder andere Abtastwert zählt"),
-    ("far-sample", "{value} bei {at} s"),
-    ("and-more", " und {count} weitere"),
     ("filter-not-corrected", "`{name}`: Die Verstärkung des Schritts `{step}` bei {at} Hz, {value}, wird nicht \
         korrigiert"),
     ("filter-not-corrected.phase", "`{name}`: Die Phase des Schritts `{step}` bei {at} Hz, {value}, wird nicht \
@@ -501,19 +362,8 @@ const SIGNALS: Sentences = &[
         kurz ist (Koeffizient {coefficient} bei der Verschiebung 1); {way}"),
     ("short-record.before-steps", "`{name}`: Vor den Schritten sind die Residuen vielleicht korreliert, wofür \
         die Aufzeichnung zu kurz ist (Koeffizient {coefficient} bei der Verschiebung 1); {way}"),
-    ("noise-of-parts", "das Rauschen nahe jeder Frequenz wird aus {parts} Teilen der Aufzeichnung bestimmt"),
-    ("noise-of-process", "das Rauschen nahe jeder Frequenz wird einem Prozess erster Ordnung entnommen, der \
-        die Residuen beschreibt"),
-    ("noise-of-process.before-steps", "das Rauschen nahe jeder Frequenz nach den Schritten wird einem Prozess \
-        erster Ordnung entnommen, der diese Residuen beschreibt"),
-    ("noise-even", "die Aufzeichnung ist zu kurz, um das Rauschen nahe jeder Frequenz zu bestimmen; es gilt \
-        als gleichmäßig über das, was die Schritte durchlassen, so dass Standardunsicherheiten vielleicht zu \
-        klein sind"),
-    ("noise-unknown", "die Aufzeichnung ist zu kurz, um das Rauschen nahe jeder Frequenz zu bestimmen, so dass \
-        Standardunsicherheiten vielleicht zu klein sind"),
     ("found-tone", "`{name}`: Etwas schwingt, das das Rezept nicht nennt, bei {tones}; es wird zusammen mit \
         den genannten Frequenzen angepasst und zählt im Signal-Rausch-Verhältnis als Rauschen"),
-    ("other-tone", "{frequency} Hz (Amplitude {amplitude})"),
     ("found-drift", "`{name}`: Der Pegel driftet über die Aufzeichnung um {range}; ein Polynom vom Grad \
         {degree} wird zusammen mit den genannten Frequenzen angepasst, der Offset ist der Mittelwert über die \
         Aufzeichnung mit der Standardabweichung der Drift in seiner Unsicherheit, und die Drift zählt im \
@@ -565,17 +415,6 @@ const GAP: Sentences = &[
     ("unit-slip", "Die Werte von {name} sind {rows} etwa das {ratio}-Fache dessen, was die Simulation sagt: \
         {cause} ergibt einen solchen Faktor; die Einheiten der Daten und der Simulation sind zu prüfen, bevor \
         ein Effekt geglaubt wird"),
-    ("slip-in-all-rows", "in allen Zeilen"),
-    ("slip-in-rows", "in den Zeilen {first} bis {last} (in den übrigen stimmen sie mit ihr überein)"),
-    ("slip-in-rows.some", "in {count} der Zeilen {first} bis {last} (in den übrigen stimmen sie mit ihr \
-        überein)"),
-    ("slip-of.prefix", "ein Vorsatz oder Prozent"),
-    ("slip-of.sign", "ein Vorzeichen"),
-    ("slip-of.turn", "eine Frequenz in Hz statt in rad/s"),
-    ("slip-of.minute", "eine Zeit in Minuten statt in Sekunden oder ein Winkel in Minuten statt in Grad"),
-    ("slip-of.hour", "eine Zeit in Stunden statt in Sekunden"),
-    ("slip-of.degree", "ein Winkel in Grad statt in rad"),
-    ("slip-of.peak", "ein Effektivwert statt eines Scheitelwerts"),
     ("far-input", "Die Eingangsgröße `{input}` allein würde die Daten erklären, wenn sie {distance} \
         Standardunsicherheiten über ihrem Schätzwert läge{others}. Das ist keine Hypothese, weil \
         Eingangsgrößen sind, was von ihnen angegeben ist: Zu prüfen ist, woher der Wert kommt und wie seine \
@@ -584,7 +423,6 @@ const GAP: Sentences = &[
         Standardunsicherheiten unter ihrem Schätzwert läge{others}. Das ist keine Hypothese, weil \
         Eingangsgrößen sind, was von ihnen angegeben ist: Zu prüfen ist, woher der Wert kommt und wie seine \
         Unsicherheit ermittelt wurde"),
-    ("other-far-inputs", ". Das gilt auch für {inputs}, weiter von ihren Schätzwerten entfernt"),
     ("whole-turns", "{far} von {count} Werten von {name} liegen mehr als eine halbe Umdrehung von der \
         Simulation entfernt: Eine Ergebnisgröße, die sich nach einer Umdrehung wiederholt, hat `\"periodic\": \
         {turn}`"),
@@ -604,9 +442,6 @@ const GAP: Sentences = &[
         ein Verhältnis zweier Rauschwerte und wird nicht angegeben"),
     ("poor-fit", "Der Befund ist die beste der Hypothesen, lässt aber unter ausgelassenen Bedingungen ein \
         Chi-Quadrat von {chi_square} je Wert übrig: Etwas fehlt noch"),
-    ("scatter", "Die Residuen sind {times}-mal so groß, wie ihre Unsicherheiten zulassen, aber ohne ein \
-        Muster, das ein Effekt oder eine glatte Diskrepanz ergäbe: Das angegebene Rauschen ist wahrscheinlich \
-        zu klein, oder einzelne Werte sind falsch"),
     ("curved-sim", "Bei den Schätzwerten der Eingangsgrößen sind die Residuen {times}-mal so groß, wie das \
         Fortpflanzungsgesetz zulässt, doch Werte innerhalb dessen, was von den Eingangsgrößen bekannt ist, \
         erklären sie: Die Simulation ist dort in ihren Eingangsgrößen nicht linear"),
@@ -629,31 +464,7 @@ const GAP: Sentences = &[
         {firsts}. {said}"),
     ("copied-rows.one", "Zeile {copy} hat die Bedingungen und auf alle Stellen die Werte der Zeile {first}. \
         {said}"),
-    ("one-row", "Zeile {row}"),
     ("several-rows", "Zeilen {rows}{more}"),
-    ("range-of-rows", "{first} bis {last}"),
-    ("copies-count-once", "Unabhängige Messwerte mit den angegebenen Unsicherheiten würden sich mit einer \
-        Wahrscheinlichkeit unter {below} so oft wiederholen: Was sich wiederholt, wurde kopiert, oder seine \
-        Unsicherheit ist den Zeilen gemeinsam, und es sagt nichts Neues. Solche Zeilen zählen einmal, \
-        {counted} von {all}"),
-    ("copies-count-once.one", "Unabhängige Messwerte mit den angegebenen Unsicherheiten würden einander mit \
-        einer Wahrscheinlichkeit unter {below} wiederholen: Was sich wiederholt, wurde kopiert, oder seine \
-        Unsicherheit ist den Zeilen gemeinsam, und es sagt nichts Neues. Solche Zeilen zählen einmal, \
-        {counted} von {all}"),
-    ("copies-unknown", "Ohne angegebene Unsicherheiten ist nicht zu sagen, ob sie gemessen wurden; sie zählen \
-        daher mit eigenem Rauschen. Wurden sie kopiert, so macht das die Diagnose zu sicher oder findet eine \
-        Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht gemessen wurden"),
-    ("copies-unknown.one", "Ohne angegebene Unsicherheiten ist nicht zu sagen, ob sie gemessen wurde; sie \
-        zählt daher mit eigenem Rauschen. Wurde sie kopiert, so macht das die Diagnose zu sicher oder findet \
-        eine Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht gemessen wurden"),
-    ("copies-by-chance", "Durch Zufall geschieht das selten, doch es ist nicht auszuschließen, dass sie \
-        gemessen wurden; sie zählen daher mit eigenem Rauschen. Wurden sie kopiert, so macht das die Diagnose \
-        zu sicher oder findet eine Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht \
-        gemessen wurden"),
-    ("copies-by-chance.one", "Durch Zufall geschieht das selten, doch es ist nicht auszuschließen, dass sie \
-        gemessen wurde; sie zählt daher mit eigenem Rauschen. Wurde sie kopiert, so macht das die Diagnose zu \
-        sicher oder findet eine Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht \
-        gemessen wurden"),
     ("few-conditions", "Es gibt nur {count} verschiedene Bedingungen; Effekte, die sich anderswo \
         unterscheiden, sehen hier gleich aus"),
     ("few-conditions.one", "Es gibt nur eine Bedingung; Effekte, die sich anderswo unterscheiden, sehen hier \
@@ -670,10 +481,6 @@ const GAP: Sentences = &[
     ("prior-conflict", "{who} würde die Daten mit einer Größe von {parameter} erklären, die {distance} \
         {counted_in} liegt (Wahrscheinlichkeit {probability}, mit {widened}-mal so breiten \
         A-priori-Verteilungen)"),
-    ("effect-alone", "{effect} allein"),
-    ("effects-together", "{others} zusammen mit {last}"),
-    ("widths-beyond-bound", "Breiten der A-priori-Verteilung jenseits ihrer Grenze"),
-    ("deviations-from-mean", "Standardabweichungen der A-priori-Verteilung von ihrem Erwartungswert entfernt"),
     ("wide-priors", "Die A-priori-Verteilungen der Parameter der Effekte sind so breit, dass eine Abweichung \
         beliebiger Form wahrscheinlicher ist als {effect}; mit {times}-mal so schmalen A-priori-Verteilungen \
         ist {effect} wahrscheinlicher. A-priori-Verteilungen sollten nicht breiter sein, als man darauf wetten \
@@ -682,7 +489,6 @@ const GAP: Sentences = &[
         Abweichung beliebiger Form wahrscheinlicher ist als {effects}; mit {times}-mal so schmalen \
         A-priori-Verteilungen sind {effects} wahrscheinlicher. A-priori-Verteilungen sollten nicht breiter \
         sein, als man darauf wetten würde"),
-    ("effect-with", "{first} mit {second}"),
     ("undefined-prediction", "In {count} von {rows} Zeilen der Vorhersage haben Hypothesen von einiger \
         Wahrscheinlichkeit keinen Wert (eine Wurzel oder ein Logarithmus einer negativen Zahl, eine Division \
         durch null). Sie bleiben dort weg; wo sie wahrscheinlicher sind als die übrigen, wird nichts \
@@ -700,7 +506,6 @@ const GAP: Sentences = &[
 /// Facts that only a command knows.
 #[rustfmt::skip]
 const COMMANDS: Sentences = &[
-    ("of-model", "{model}: "),
     ("few-trials.audit", "{trials} Versuche sind zu wenige, um zu sagen, wie Annahmen das Ergebnis bewegen; es \
         werden {made} gemacht"),
     ("more-than-two-digits", "U wird auf {digits} signifikante Stellen angegeben; ein akkreditierter \
@@ -728,5 +533,206 @@ const COMMANDS: Sentences = &[
     ("drawn-together.ranks", "{names} werden gemeinsam gezogen; sie haben einen gemeinsamen Sobol-Index. Mit \
         einer anderen Form bleibt die Abhängigkeit ihrer Ränge, so dass sich der Korrelationskoeffizient etwas \
         bewegt"),
-    ("in-row", "Zeile {row}, "),
+];
+
+/// Facts that stand within others, and the notes that import gives without a code.
+#[rustfmt::skip]
+const PARTS: Sentences = &[
+    ("moved", "{figure} um {by}"),
+    ("figure.estimate", "der Schätzwert"),
+    ("figure.standard-uncertainty", "die Standardunsicherheit"),
+    ("figure.median", "der Median"),
+    ("figure.inside", "die Wahrscheinlichkeit innerhalb der Toleranz"),
+    ("figure.symmetric-lower", "das untere Ende des symmetrischen Intervalls"),
+    ("figure.symmetric-upper", "das obere Ende des symmetrischen Intervalls"),
+    ("figure.shortest-lower", "das untere Ende des kürzesten Intervalls"),
+    ("figure.shortest-upper", "das obere Ende des kürzesten Intervalls"),
+    ("at", " bei {conditions}"),
+    ("condition", "{name} = {value}"),
+    ("difference.above", "liegt {percent} über der des GUM"),
+    ("difference.below", "liegt {percent} unter der des GUM"),
+    ("difference.from-zero", "ist nicht null wie die des GUM"),
+    ("beyond-bounds", "über alle Schranken"),
+    ("in-brackets", " ({dof})"),
+    ("few-dof-not-allowed-for", "Keine von beiden ist falsch; kein Erweiterungsfaktor des GUM trägt dem hier \
+        Rechnung"),
+    ("few-dof-allowed-for", "Keine von beiden ist falsch; der GUM trägt dem im Erweiterungsfaktor Rechnung"),
+    ("few-dof-long-tails", "Der GUM trägt dem in seinem Erweiterungsfaktor Rechnung, dem einer t-Verteilung, \
+        deren lange Ausläufer diese Eingangsgrößen nicht haben"),
+    ("non-linear-few-dof", "; wenige Freiheitsgrade{dof} allein brächten sie {alone} darüber"),
+    ("non-linear-terms", "; {said}"),
+    ("second-order", "mit seinen Gliedern zweiter Ordnung (JCGM 100, 5.1.2, Anmerkung) gibt das \
+        Fortpflanzungsgesetz {with_terms} statt {linear}{products}"),
+    ("second-order-products", "; {products}"),
+    ("squared", "`{name}` im Quadrat"),
+    ("times", "`{first}` mal `{second}`"),
+    ("contributes", "{product} ergibt {contribution}"),
+    ("contributes.hidden", "{product} ergibt {contribution}, obwohl die Empfindlichkeitskoeffizienten hier \
+        verschwinden"),
+    ("no-deviation", "keine Standardabweichung"),
+    ("no-moments", "weder Erwartungswert noch Standardabweichung"),
+    ("value-by-propagation", "der Wert ist der Schätzwert nach dem Fortpflanzungsgesetz"),
+    ("value-is-median", "der Wert ist der Median"),
+    ("beside.given", "in {unit} angegeben"),
+    ("beside.computed", "aus dem berechnet, was in {unit} angegeben ist"),
+    ("converted-to.coherent-unit", "{unit} umrechnet, worin Formeln sie schon haben"),
+    ("converted-to.unit", "{unit} umrechnet, und {what} in {unit} wird auch umgerechnet: Formeln rechnen in \
+        kohärenten SI-Einheiten"),
+    ("converted-to.beside", "die Einheit dessen, was daneben steht,"),
+    ("converted-to.number", "eine bloße Zahl"),
+    ("with-equations", " mit den Gleichungen, die es aufnimmt,"),
+    ("or-turns", "; eine Drehzahl wird statt dessen mit 2*pi multipliziert"),
+    ("or-without-unit", ", oder {what} hat keine Einheit"),
+    ("computed.rates", "Radiant je Sekunde"),
+    ("computed.angles", "Winkeln in Radiant"),
+    ("computed.shares", "Anteilen als Zahlen"),
+    ("computed.ratios", "Verhältnissen als Zahlen"),
+    ("result.output", "die Ausgangsgröße"),
+    ("result.quantity", "die Größe"),
+    ("result.named-output", "die Ausgangsgröße `{name}`"),
+    ("all-of", "{parts} und {last}"),
+    ("one-of", "{parts} oder {last}"),
+    ("more", "{count} weitere"),
+    ("quoted", "`{name}`"),
+    ("quoted.hidden", "`{name}` (ausgeblendet)"),
+    ("quantity-in-unit", "`{name}` in {unit}"),
+    ("more-quantities", ", ..."),
+    ("in-row", " in Zeile {row}"),
+    ("in-row.and-others", " in Zeile {row} und anderen"),
+    ("groups.within", "; Standardabweichung innerhalb der Gruppen {deviation}{between}"),
+    ("groups.between", ", zwischen den Gruppen {deviation}, F = {ratio} (Wahrscheinlichkeit eines größeren \
+        ohne eine Wirkung der Gruppen {probability})"),
+    ("groups.of-other-sizes", "; die Gruppen sind nicht gleich groß, und ihre Mittelwerte zählen gleich"),
+    ("pairs", "{pairs}{more}"),
+    ("pairs.more", " und {count} weitere Paare"),
+    ("pair", "`{first}` und `{second}`"),
+    ("pair.correlated", "`{first}` und `{second}` ({coefficient})"),
+    ("pair.certified", "`{first}` und `{second}` ({coefficient}, aus `{file}`)"),
+    ("pair.moved", "`{first}` und `{second}` ({from} zu {to})"),
+    ("pair.with-input", "`{input}` von `{first}` und `{second}` ({reason})"),
+    ("other-input.unknown-row", "eine wurde von einer älteren Version gespeichert, die weder Daten noch \
+        Zeile angab"),
+    ("other-input.row", "aus verschiedenen Zeilen"),
+    ("other-input.values-set", "mit anderen gesetzten Werten"),
+    ("other-input.figures", "mit anderem Schätzwert oder anderer Standardunsicherheit"),
+    ("other-input.unknown-place", "eine wurde von einer älteren Version gespeichert, die die Stelle im \
+        Kalibrierschein nicht angab"),
+    ("other-input.content", "mit denselben Angaben, aber aus Dateien mit verschiedenem Inhalt"),
+    ("changed-parts", " ({parts})"),
+    ("misfit", "passt nicht zu diesem Modell{why}{condition}{needs}"),
+    ("misfit.missing", ", das {quantities} nicht hat"),
+    ("misfit.prior", ": Seine A-priori-Verteilung ist {prior}, was die Daten nicht geben"),
+    ("misfit.unchanged", ", das nichts von dem hat, was er ändert: {quantities}"),
+    ("misfit.condition", "; die Bedingung `{name}` ist eingestellt und bekannt: Sie ist durch eine Größe zu \
+        ersetzen, die aus der Bedingung berechnet wird, oder durch eine Eingangsgröße, deren Mittelwert die \
+        Bedingung ist"),
+    ("misfit.anywhere", "; er {needs}"),
+    ("misfit.on-bench", "; für den Prüfstand `{bench}` gilt: Er {needs}"),
+    ("misfit.needs", "braucht {quantities}"),
+    ("misfit.changes", "ändert {quantities}"),
+    ("misfit.history", "passt nicht zu diesen Daten: Die Reihenfolge ihrer Zeilen trennt das, was er \
+        braucht, nicht von den Bedingungen, wie dort, wo eine Bedingung nur steigt"),
+    ("misfit.no-change", "ändert keine beobachtete Ausgangsgröße"),
+    ("misfit.refused", "kann auf dieses Modell nicht wirken: {error}"),
+    ("observed.amplitudes", "jede beobachtete Ausgangsgröße, die keine Phase ist"),
+    ("observed.phases", "jede beobachtete Ausgangsgröße, die eine Phase ist"),
+    ("import.columns", "Zeile {row}: Spalten {columns}"),
+    ("import.column", "`{heading}` als {name}{unit}"),
+    ("import.in-unit", " in {unit}"),
+    ("import.named-column", "Spalte {letter} `{heading}`"),
+    ("import.hidden-column", "{column} ist ausgeblendet und wird gelesen"),
+    ("import.column-not-read", "{column} wird nicht gelesen"),
+    ("import.column-remark", "{column} bleibt als Bemerkung erhalten"),
+    ("import.merged-cell", "die verbundene Zelle `{text}` gilt für die Zeilen {first} bis {last}"),
+    ("import.row-not-read", "Zeile {row} `{text}` wird nicht gelesen"),
+    ("import.row-without-numbers", "Zeile {row} `{text}` hat keine Zahlen und wird nicht gelesen"),
+    ("import.row-constant", "Zeile {row} `{text}` hat keine Unsicherheit und ist eine Konstante der \
+        Gleichung"),
+    ("import.row-named", "Zeile {row}: `{words}` heißt `{name}`"),
+    ("import.distribution", "Zeile {row}: Von `{text}` wird die Standardunsicherheit genommen, wie von einer \
+        Normalverteilung"),
+    ("import.dof", "Zeile {line}: Von `{text}` werden {dof} Freiheitsgrade genommen"),
+    ("import.equation", "die Gleichung {name} = {formula}"),
+    ("import.unit-of-result", "das Ergebnis ist in `{unit}`, der kohärenten Einheit seiner Gleichung"),
+    ("import.constant", "die Konstante {constant} wird addiert, die den Schätzwert des Ergebnisses ergibt: \
+        Das Modell ist um die Schätzwerte linear"),
+    ("import.sum", "{name} = {formula}: die Summe der Größen mal ihren Empfindlichkeitskoeffizienten, in \
+        {unit}"),
+    ("import.unchanged", "die Modelldatei dieser Arbeitsmappe; kein Schätzwert, keine Standardunsicherheit, \
+        keine Freiheitsgrade und keine Korrelation wurden geändert, und andere Zellen werden nicht beachtet"),
+    ("import.changed-estimate", "`{name}`: Schätzwert {now} statt {before}"),
+    ("import.changed-uncertainty", "`{name}`: Standardunsicherheit {now} statt {before}"),
+    ("import.changed-dof", "`{name}`: Freiheitsgrade {now} statt {before}"),
+    ("import.changed-probability", "Überdeckungswahrscheinlichkeit {now} statt {before}"),
+    ("import.changed-correlation", "{name} = {coefficient}"),
+    ("import.normal-now", "`{name}` ist jetzt normalverteilt: Die bisherige Verteilung ({distribution}) \
+        passt nicht zu den geänderten Zellen"),
+    ("of-time-column", "die Zeitspalte hat"),
+    ("of-header", "der Dateikopf sagt"),
+    ("highest", "höchste"),
+    ("lowest", "kleinste"),
+    ("sample-of-time", "Abtastwert {sample}, die Zeit"),
+    ("sample-of-channel", "Abtastwert {sample}, Kanal `{channel}`"),
+    ("frequency-in-other-unit", " ({number} {unit} sind {hertz} Hz)"),
+    ("peak-amplitude", "{amplitude} (Scheitelwert)"),
+    ("higher-multiple", ": das Vielfache {multiple} der Frequenz, und `harmonics` ist {harmonics}"),
+    ("far-sample", "{value} bei {at} s"),
+    ("and-more", " und {count} weitere"),
+    ("noise-of-parts", "das Rauschen nahe jeder Frequenz wird aus {parts} Teilen der Aufzeichnung bestimmt"),
+    ("noise-of-process", "das Rauschen nahe jeder Frequenz wird einem Prozess erster Ordnung entnommen, der \
+        die Residuen beschreibt"),
+    ("noise-of-process.before-steps", "das Rauschen nahe jeder Frequenz nach den Schritten wird einem Prozess \
+        erster Ordnung entnommen, der diese Residuen beschreibt"),
+    ("noise-even", "die Aufzeichnung ist zu kurz, um das Rauschen nahe jeder Frequenz zu bestimmen; es gilt \
+        als gleichmäßig über das, was die Schritte durchlassen, so dass Standardunsicherheiten vielleicht zu \
+        klein sind"),
+    ("noise-unknown", "die Aufzeichnung ist zu kurz, um das Rauschen nahe jeder Frequenz zu bestimmen, so dass \
+        Standardunsicherheiten vielleicht zu klein sind"),
+    ("other-tone", "{frequency} Hz (Amplitude {amplitude})"),
+    ("slip-in-all-rows", "in allen Zeilen"),
+    ("slip-in-rows", "in den Zeilen {first} bis {last} (in den übrigen stimmen sie mit ihr überein)"),
+    ("slip-in-rows.some", "in {count} der Zeilen {first} bis {last} (in den übrigen stimmen sie mit ihr \
+        überein)"),
+    ("slip-of.prefix", "ein Vorsatz oder Prozent"),
+    ("slip-of.sign", "ein Vorzeichen"),
+    ("slip-of.turn", "eine Frequenz in Hz statt in rad/s"),
+    ("slip-of.minute", "eine Zeit in Minuten statt in Sekunden oder ein Winkel in Minuten statt in Grad"),
+    ("slip-of.hour", "eine Zeit in Stunden statt in Sekunden"),
+    ("slip-of.degree", "ein Winkel in Grad statt in rad"),
+    ("slip-of.peak", "ein Effektivwert statt eines Scheitelwerts"),
+    ("other-far-inputs", ". Das gilt auch für {inputs}, weiter von ihren Schätzwerten entfernt"),
+    ("scatter", "Die Residuen sind {times}-mal so groß, wie ihre Unsicherheiten zulassen, aber ohne ein \
+        Muster, das ein Effekt oder eine glatte Diskrepanz ergäbe: Das angegebene Rauschen ist wahrscheinlich \
+        zu klein, oder einzelne Werte sind falsch"),
+    ("one-row", "Zeile {row}"),
+    ("range-of-rows", "{first} bis {last}"),
+    ("copies-count-once", "Unabhängige Messwerte mit den angegebenen Unsicherheiten würden sich mit einer \
+        Wahrscheinlichkeit unter {below} so oft wiederholen: Was sich wiederholt, wurde kopiert, oder seine \
+        Unsicherheit ist den Zeilen gemeinsam, und es sagt nichts Neues. Solche Zeilen zählen einmal, \
+        {counted} von {all}"),
+    ("copies-count-once.one", "Unabhängige Messwerte mit den angegebenen Unsicherheiten würden einander mit \
+        einer Wahrscheinlichkeit unter {below} wiederholen: Was sich wiederholt, wurde kopiert, oder seine \
+        Unsicherheit ist den Zeilen gemeinsam, und es sagt nichts Neues. Solche Zeilen zählen einmal, \
+        {counted} von {all}"),
+    ("copies-unknown", "Ohne angegebene Unsicherheiten ist nicht zu sagen, ob sie gemessen wurden; sie zählen \
+        daher mit eigenem Rauschen. Wurden sie kopiert, so macht das die Diagnose zu sicher oder findet eine \
+        Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht gemessen wurden"),
+    ("copies-unknown.one", "Ohne angegebene Unsicherheiten ist nicht zu sagen, ob sie gemessen wurde; sie \
+        zählt daher mit eigenem Rauschen. Wurde sie kopiert, so macht das die Diagnose zu sicher oder findet \
+        eine Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht gemessen wurden"),
+    ("copies-by-chance", "Durch Zufall geschieht das selten, doch es ist nicht auszuschließen, dass sie \
+        gemessen wurden; sie zählen daher mit eigenem Rauschen. Wurden sie kopiert, so macht das die Diagnose \
+        zu sicher oder findet eine Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht \
+        gemessen wurden"),
+    ("copies-by-chance.one", "Durch Zufall geschieht das selten, doch es ist nicht auszuschließen, dass sie \
+        gemessen wurde; sie zählt daher mit eigenem Rauschen. Wurde sie kopiert, so macht das die Diagnose zu \
+        sicher oder findet eine Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht \
+        gemessen wurden"),
+    ("effect-alone", "{effect} allein"),
+    ("effects-together", "{others} zusammen mit {last}"),
+    ("widths-beyond-bound", "Breiten der A-priori-Verteilung jenseits ihrer Grenze"),
+    ("deviations-from-mean", "Standardabweichungen der A-priori-Verteilung von ihrem Erwartungswert entfernt"),
+    ("effect-with", "{first} mit {second}"),
+    ("of-model", "{model}: "),
+    ("of-row", "Zeile {row}, "),
 ];
