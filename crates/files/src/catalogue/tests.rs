@@ -9,6 +9,7 @@ use gumption_engine::fact;
 use gumption_engine::model::formula::is_name;
 use gumption_engine::task::Warning;
 use gumption_gap::{History, HistoryKind};
+use gumption_report::words::{Language, sentence};
 use gumption_text::DiagnosticKind;
 
 /// A sim of a bench: its file without the last brace, and two rows of data.
