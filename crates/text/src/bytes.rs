@@ -119,7 +119,7 @@ mod tests {
         assert_eq!(of(&b"abc"[..], 3).unwrap(), b"abc");
         assert!(of(&b"abcd"[..], 3).is_err());
         let message = of(io::repeat(0), 2_000_000).unwrap_err().to_string();
-        assert_eq!(message, "it is larger than 2 MB, which this version takes at most");
+        assert_eq!(message, "it is larger than 2 MB, the most that this version reads");
     }
 
     #[test]

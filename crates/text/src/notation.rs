@@ -767,7 +767,7 @@ mod tests {
             ("5.0 V ± 0.1 V, k = 2 (95 %", "not closed"),
             ("5.0 V ± 0.1 V,", "not known there"),
             ("5.0 V, U = 0.1 V", "must be said"),
-            ("5.0 V, U = , k = 2", "a number is needed behind `U =`"),
+            ("5.0 V, U = , k = 2", "a number is needed after `U =`"),
             ("5.0 V, u = 0.1 V, k = 2", "`u =` is a standard uncertainty"),
             ("5.0 V, s = 0.1 V", "is no unit"),
             ("5.0112(46) V (k=2)", "belongs to an expanded one"),

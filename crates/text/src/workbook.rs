@@ -624,7 +624,7 @@ mod tests {
             names.iter().map(|name| (name.as_str(), false, rows)).collect();
         assert_eq!(Book::open(sheets(&all[..256])).unwrap().sheets().len(), 256);
         let said = Book::open(sheets(&all)).err().unwrap();
-        assert_eq!(said, "it has 257 sheets; this version takes 256 at most");
+        assert_eq!(said, "it has 257 sheets; this version reads at most 256");
         let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
         for (name, text) in PARTS {
             let sheet = r#"<sheet name="a" sheetId="1" r:id="r1"/>"#;

@@ -95,7 +95,7 @@ mod tests {
         assert_eq!(at, 3);
         assert_eq!(
             reason,
-            "its XML has 20000 attributes at one element here; this version takes 256 at most"
+            "its XML has 20000 attributes at one element here; this version reads at most 256"
         );
         let nested = |depth: usize| format!("{}{}", "<e>".repeat(depth), "</e>".repeat(depth));
         assert_eq!(refused(&nested(256)), None);

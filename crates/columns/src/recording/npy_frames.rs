@@ -170,7 +170,7 @@ mod tests {
             ),
             (
                 file("<f8", "(1, 9223372036854775808)", "False", &[]),
-                "its array has 9223372036854775808 columns; 1048576 are read at most",
+                "its array has 9223372036854775808 columns; at most 1048576 are read",
             ),
             (file("<f8", "(2, 0)", "False", &[]), "its array has 0 columns, so no column 1"),
             (
