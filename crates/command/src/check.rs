@@ -29,12 +29,12 @@ pub(super) struct Check {
 struct Verdict<'n> {
     ok: bool,
     errors: Vec<Mistake>,
-    /// What is right and seldom meant, as a run says it.
+    /// Notes about correct but unusual content, as a run prints them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<Note<'n>>,
 }
 
-/// A mistake in a file as `check --format json` tells it.
+/// An error in a file as `check --format json` reports it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Mistake {
     /// The file's name.
@@ -43,7 +43,7 @@ pub struct Mistake {
     pub line: usize,
     /// The column in characters, counted from 1.
     pub column: usize,
-    /// A short name of the kind of mistake.
+    /// A short identifier of the kind of error.
     pub code: &'static str,
     /// What is wrong, in a sentence.
     pub message: String,
@@ -87,10 +87,10 @@ impl Check {
                 return Err(Failure::Argument("`check` answers as table or json".into()));
             }
             Format::Table if right => {
-                format!("{}: no mistakes found\n", plain(&self.file.display().to_string()))
+                format!("{}: no errors found\n", plain(&self.file.display().to_string()))
             }
             Format::Table => {
-                // a list of mistakes is an error message wherever it goes
+                // a list of errors is an error message wherever it is sent
                 return Err(Failure::Diagnostics(found));
             }
         };

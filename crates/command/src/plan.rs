@@ -24,14 +24,14 @@ use gumption_report::plan as report;
 pub(super) struct Planning {
     #[command(flatten)]
     model: ModelArguments,
-    /// What is wanted: "U(y) <= 0.01 m/s^2", "U(y)/y <= 0.5 %", or "u(y) <= ..." for the standard
-    /// uncertainty; without a unit in that of the output
+    /// The target: "U(y) <= 0.01 m/s^2", "U(y)/y <= 0.5 %", or "u(y) <= ..." for the standard
+    /// uncertainty; without a unit in the unit of the output
     #[arg(long, value_name = "TARGET")]
     target: String,
-    /// What improvements of inputs cost; without it halving any of them costs the same
+    /// Costs of improving the inputs; by default halving any of them costs the same
     #[arg(long, value_name = "FILE")]
     cost: Option<PathBuf>,
-    /// Give the longest calibration interval too: the input or component whose uncertainty is that of
+    /// Also compute the longest calibration interval: the input or component whose uncertainty is
     /// the drift over this time ("reference/drift=365 d")
     #[arg(long, value_name = "NAME=TIME")]
     drift: Option<String>,
@@ -44,7 +44,7 @@ pub(super) struct Planning {
     interactive: Interactive,
     #[command(flatten)]
     seed: Seed,
-    /// Number of Monte Carlo trials of the plan's check, 0 for none
+    /// Number of Monte Carlo trials for checking the plan, 0 for none
     #[arg(long, value_name = "N", value_parser = options::trials, allow_negative_numbers = true)]
     trials: Option<Trials>,
     #[command(flatten)]
@@ -56,15 +56,15 @@ pub(super) struct Planning {
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum PlanFormat {
-    /// A page of text for people
+    /// A text page
     Table,
-    /// A page as GitHub shows it
+    /// A Markdown page, as GitHub shows it
     Markdown,
     /// The whole answer for programs
     Json,
     /// One line for each input
     Csv,
-    /// A page with figures for a browser and for print, in one file
+    /// An HTML page with figures, in one file
     Html,
 }
 
@@ -96,7 +96,7 @@ impl Planning {
             costs.map_or((Costs::Equal, None), |CostFile { costs, text }| (costs, Some(text)));
         let question = PlanQuestion { target, costs, drift };
         let Some(found) = self.plan(&file, &task, &question, &stop)? else {
-            say("gumption: interrupted; part of a plan is no answer, and none is given\n");
+            say("gumption: interrupted; an incomplete plan gives no answer\n");
             return Ok(Exit::Interrupted);
         };
         let mut provenance = run::provenance(&file.source.text, &file.files);
@@ -166,28 +166,29 @@ fn said(error: &NoPlan, task: &Task, question: &PlanQuestion) -> String {
     let most = report::wanted(&target, output);
     match error {
         NoPlan::Met(now) => format!(
-            "the target {kind}({name}) <= {most} is met already: {kind}({name}) is {} now",
+            "the target {kind}({name}) <= {most} is already met: {kind}({name}) is {} now",
             value(*now)
         ),
         NoPlan::MetByPropagation { figure, by_trials, instead, excess } => {
             let advice = match excess {
                 Some(excess) => report::excess_text(excess, task, target),
                 None => format!(
-                    "plan for {kind}({name}) <= {}, with which the trials come to about the target",
+                    "plan for {kind}({name}) <= {}, for which the trials approximately meet the \
+                     target",
                     value(*instead)
                 ),
             };
             format!(
-                "the target {kind}({name}) <= {most} is met by the law of propagation, which plans ({}), \
-                 but the trials give {}, as `gumption run` shows; {advice}",
+                "the target {kind}({name}) <= {most} is met by the law of propagation ({}), which \
+                 is used for planning, but the trials give {}, as `gumption run` shows; {advice}",
                 value(*figure),
                 value(*by_trials)
             )
         }
         NoPlan::Unreachable(least) => {
             let said = format!(
-                "the target {kind}({name}) <= {most} cannot be reached: with every improvement that {} \
-                 {kind}({name}) is still {}",
+                "the target {kind}({name}) <= {most} cannot be reached: {kind}({name}) is still \
+                 {1} with every improvement that {0}",
                 match question.costs {
                     Costs::Equal => "can be planned",
                     _ => "the file of costs has",

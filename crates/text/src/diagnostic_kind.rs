@@ -1,4 +1,4 @@
-//! What can be wrong with a user's file: the facts, and the sentence that is said about them.
+//! What can be wrong with a user's file: the facts, and the sentence that reports them.
 
 use std::fmt;
 use std::sync::Arc;
@@ -12,20 +12,19 @@ use gumption_engine::number::Shortest;
 use gumption_units::UnitError;
 use gumption_units::nearest;
 
-/// The keys of an input that are widths: none of them is 0.
+/// The keys of an input that are widths; a width is never 0.
 pub const WIDTHS: [&str; 5] = ["std", "expanded", "scale", "half_width", "semi_range"];
 
-/// A mistake, without its place.
+/// An error, without its place.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum DiagnosticKind {
     /// The file cannot be read.
     Unreadable {
-        /// What the system or the parser says.
+        /// The message of the system or the parser.
         message: String,
     },
-    /// A file that may not be read, because it lies outside of the folder of the file that names
-    /// it.
+    /// A file that may not be read because it lies outside the folder of the file that names it.
     Outside {
         /// Its name, as it is written.
         name: String,
@@ -34,7 +33,7 @@ pub enum DiagnosticKind {
     Empty,
     /// The text is not JSON.
     NotJson {
-        /// What the system or the parser says.
+        /// The message of the system or the parser.
         message: String,
     },
     /// JSON has no NaN and no infinity.
@@ -43,24 +42,24 @@ pub enum DiagnosticKind {
     NumberTooLarge,
     /// A value of another type.
     WrongType {
-        /// What is concerned, in words.
+        /// The object concerned, in words.
         what: String,
-        /// What stands there.
+        /// The value found.
         found: &'static str,
-        /// What must stand there.
+        /// The expected value.
         expected: &'static str,
     },
     /// A key that does not exist here.
     UnknownKey {
         /// The key.
         key: String,
-        /// What is concerned, in words.
+        /// The object concerned, in words.
         what: &'static str,
         /// The known name that is nearest, if one is near.
         nearest: Option<String>,
         /// The objects of this kind of file that have such a key, in words.
         homes: Vec<&'static str>,
-        /// What is known there.
+        /// The known names.
         known: Vec<&'static str>,
     },
     /// The same key twice.
@@ -72,19 +71,20 @@ pub enum DiagnosticKind {
     MissingKey {
         /// The key.
         key: &'static str,
-        /// What is concerned, in words.
+        /// The object concerned, in words.
         what: &'static str,
     },
     /// An input or a component without a distribution.
     NoDistribution {
-        /// What is concerned, in words.
+        /// The object concerned, in words.
         what: &'static str,
-        /// The distributions that have all of its keys; none where it has no key of a distribution.
+        /// The distributions that have all of the object's keys; empty if it has no key of a
+        /// distribution.
         fitting: Vec<&'static str>,
     },
     /// A version of the file format that this program does not know.
     UnknownFormat {
-        /// What stands there.
+        /// The value found.
         found: String,
     },
     /// A file of another kind than the command reads.
@@ -113,7 +113,7 @@ pub enum DiagnosticKind {
         model: String,
         /// The known name that is nearest, if one is near.
         nearest: Option<String>,
-        /// What is known there.
+        /// The known names.
         known: Vec<String>,
     },
     /// The typed model has no such output, or no equation defines it.
@@ -122,7 +122,7 @@ pub enum DiagnosticKind {
         name: String,
         /// The known name that is nearest, if one is near.
         nearest: Option<String>,
-        /// What is known there.
+        /// The known names.
         known: Arc<[String]>,
     },
     /// The typed model needs an input that is not there.
@@ -159,23 +159,23 @@ pub enum DiagnosticKind {
     Unit {
         /// The unit.
         unit: String,
-        /// What is wrong with it.
+        /// A description of the problem.
         error: UnitError,
     },
     /// A unit of another dimension than the quantity.
     WrongDimension {
         /// The name that is concerned.
         name: String,
-        /// What stands there.
+        /// The value found.
         found: String,
-        /// The quantity that this unit is one of.
+        /// The quantity that the found unit measures.
         found_as: String,
         /// The quantity that is needed.
         expected_as: String,
-        /// What must stand there.
+        /// The expected value.
         expected: String,
     },
-    /// A unit of the right dimension that the scale of a quantity does not fit.
+    /// A unit of the right dimension whose scale does not suit the quantity.
     WrongScale {
         /// The name that is concerned.
         name: String,
@@ -188,7 +188,7 @@ pub enum DiagnosticKind {
     Value {
         /// The key.
         key: String,
-        /// What stands there.
+        /// The value found.
         found: String,
         /// Why, as a part of the sentence.
         reason: String,
@@ -199,17 +199,17 @@ pub enum DiagnosticKind {
         name: String,
         /// The known name that is nearest, if one is near.
         nearest: Option<String>,
-        /// What is known there.
+        /// The known names.
         known: Vec<&'static str>,
     },
-    /// Parameters that no distribution has.
+    /// Invalid parameters.
     Distribution {
         /// The name that is concerned.
         name: String,
-        /// What is wrong with it.
+        /// A description of the problem.
         error: Invalid,
     },
-    /// Two keys of which one may be there.
+    /// Two keys that exclude each other.
     Exclusive {
         /// The first of the two.
         first: &'static str,
@@ -221,32 +221,32 @@ pub enum DiagnosticKind {
         /// The name that is concerned.
         name: String,
     },
-    /// A key that says something about another one, which is not there.
+    /// A key that needs another key, which is missing.
     OnlyWith {
         /// The key.
         key: &'static str,
-        /// The key that is not there.
+        /// The missing key.
         with: &'static str,
     },
     /// A probability outside 0 to 1.
     NotProbability {
         /// The key.
         key: String,
-        /// What stands there.
+        /// The value found.
         found: f64,
     },
-    /// A number that is not a positive one.
+    /// A number that must be positive.
     NotPositive {
         /// The key.
         key: String,
-        /// What stands there.
+        /// The value found.
         found: f64,
     },
     /// Not a whole number, or out of range.
     NotWhole {
         /// The key.
         key: String,
-        /// What stands there.
+        /// The value found.
         found: String,
         /// The least that is allowed.
         least: u64,
@@ -255,7 +255,7 @@ pub enum DiagnosticKind {
     },
     /// Not a number of trials.
     NotTrials {
-        /// What stands there.
+        /// The value found.
         found: String,
         /// The most that is allowed.
         most: u64,
@@ -264,7 +264,7 @@ pub enum DiagnosticKind {
     OutOfRange {
         /// The key.
         key: String,
-        /// What stands there.
+        /// The value found.
         found: f64,
         /// The range, in words.
         range: &'static str,
@@ -273,7 +273,7 @@ pub enum DiagnosticKind {
     NotOneOf {
         /// The key.
         key: String,
-        /// What stands there.
+        /// The value found.
         found: String,
         /// The values that are allowed.
         allowed: Vec<String>,
@@ -282,16 +282,16 @@ pub enum DiagnosticKind {
     Width {
         /// The name that is concerned.
         name: String,
-        /// What stands there.
+        /// The value found.
         found: String,
         /// Why, as a part of the sentence.
         reason: String,
     },
-    /// A tolerance with one limit of an output that comes round.
+    /// A tolerance with only one limit for a periodic output.
     OneLimitOfPeriod {
         /// The output.
         name: String,
-        /// The limit that is not there.
+        /// The missing limit.
         missing: &'static str,
         /// A turn, with its unit.
         turn: String,
@@ -303,9 +303,9 @@ pub enum DiagnosticKind {
         /// Why, as a part of the sentence.
         reason: String,
     },
-    /// A formula's mistake.
+    /// A formula's error.
     Formula {
-        /// What is wrong with it.
+        /// A description of the problem.
         error: FormulaError,
     },
     /// An estimate's formula with an input that is not known exactly.
@@ -322,7 +322,7 @@ pub enum DiagnosticKind {
     EstimateUndefined {
         /// The row, from 1.
         row: usize,
-        /// What stands there.
+        /// The value found.
         found: f64,
     },
     /// A condition or list without values.
@@ -334,7 +334,7 @@ pub enum DiagnosticKind {
     ConditionRange {
         /// The condition.
         name: String,
-        /// What stands there.
+        /// The value found.
         found: Vec<f64>,
     },
     /// A condition that has no values of its own and no table to take them from.
@@ -348,21 +348,21 @@ pub enum DiagnosticKind {
         row: usize,
         /// The column.
         column: String,
-        /// What stands there.
+        /// The value found.
         found: String,
     },
     /// A table's row with another number of cells than the header.
     ShortRow {
         /// The row, from 1.
         row: usize,
-        /// What stands there.
+        /// The value found.
         found: usize,
-        /// What must stand there.
+        /// The expected value.
         expected: usize,
     },
     /// A line of a file of samples that is not a number.
     Sample {
-        /// What stands there.
+        /// The value found.
         found: String,
     },
     /// A column whose heading has another unit than its values are read in.
@@ -384,30 +384,30 @@ pub enum DiagnosticKind {
         /// Why, as a sentence without a capital.
         reason: String,
     },
-    /// A complex quantity that is not written as one, or is not taken as one.
+    /// A complex quantity that is not written as one, or that is not allowed here.
     Complex {
         /// The quantity.
         name: String,
         /// Why, as the rest of the sentence.
         reason: String,
     },
-    /// A coverage region that cannot be.
+    /// A coverage region that cannot be computed.
     Region {
         /// Why, as a sentence without a capital.
         reason: String,
     },
     /// Too many rows, inputs, nodes.
     TooMany {
-        /// What is concerned, in words.
+        /// The object concerned, in words.
         what: &'static str,
-        /// What stands there.
+        /// The value found.
         found: usize,
         /// The most that is allowed.
         most: usize,
     },
     /// A saved result that was changed since it was written.
     SavedChanged {
-        /// What was changed, by the keys that lead to it; `None` where that cannot be told.
+        /// The keys that lead to the changed part; `None` if that is unknown.
         part: Option<String>,
     },
     /// A file that `--save` did not write.
@@ -423,7 +423,7 @@ pub enum DiagnosticKind {
         name: String,
         /// The known name that is nearest, if one is near.
         nearest: Option<String>,
-        /// What is known there.
+        /// The known names.
         known: Vec<String>,
     },
     /// A list of a result file whose entries do not fit.
@@ -431,35 +431,36 @@ pub enum DiagnosticKind {
         /// Why, as a part of the sentence.
         reason: &'static str,
     },
-    /// A result for an input in a unit with another zero: degC and K, degC and degF, dBm and dBW.
+    /// A saved result and an input whose units have different zeros: degC and K, degC and degF, dBm
+    /// and dBW.
     SavedZero {
         /// The name that is concerned.
         name: String,
-        /// What stands there.
+        /// The value found.
         found: String,
         /// The unit of the saved result.
         saved: String,
     },
-    /// A declared coefficient between inputs whose saved results have one.
+    /// A declared correlation coefficient between inputs whose saved results already have one.
     SavedCorrelation {
         /// The first of the two.
         first: String,
         /// The second of the two.
         second: String,
     },
-    /// More mistakes than are listed.
+    /// More errors than are listed.
     MoreMistakes {
         /// The most that is allowed.
         most: usize,
     },
     /// A model file with several rows of conditions, to be compared with a saved result.
     SeveralRows {
-        /// How many rows there are.
+        /// The number of rows.
         rows: usize,
     },
-    /// The evaluation met numbers that it cannot go on with.
+    /// Values with which the evaluation cannot continue.
     Evaluation {
-        /// What the system or the parser says.
+        /// The message of the system or the parser.
         message: String,
     },
     /// The catalogue has no effect of that name.
@@ -476,12 +477,12 @@ pub enum DiagnosticKind {
         /// Why, as a part of the sentence.
         reason: String,
     },
-    /// Observations that say nothing about the sim, or contradict themselves.
+    /// Observations without information about the sim, or observations that contradict each other.
     Observation {
         /// Why, as a part of the sentence.
         reason: String,
     },
-    /// What the improvement of an input costs, in a form that it cannot have.
+    /// The cost of improving an input, in an invalid form.
     Cost {
         /// Why, as a sentence without a capital.
         reason: String,
@@ -500,7 +501,7 @@ pub enum DiagnosticKind {
     NotDate {
         /// The key.
         key: &'static str,
-        /// What stands there.
+        /// The value found.
         found: String,
     },
     /// A recipe whose parts do not fit.
@@ -523,7 +524,7 @@ pub enum DiagnosticKind {
 }
 
 impl DiagnosticKind {
-    /// A short fixed name of the kind of mistake.
+    /// A short fixed identifier of this kind of error.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Unreadable { .. } => "unreadable",
@@ -604,7 +605,7 @@ impl DiagnosticKind {
         }
     }
 
-    /// The same mistake of what stands at another key.
+    /// The same error for the value of another key.
     #[must_use]
     pub fn of_key(mut self, of: &str) -> Self {
         if let Self::WrongDimension { name, .. }
@@ -616,7 +617,7 @@ impl DiagnosticKind {
         self
     }
 
-    /// What to write instead, where that is known.
+    /// What to write instead, if that is known.
     pub fn suggestion(&self) -> Option<String> {
         match self {
             Self::UnknownKey { key, known, .. }
@@ -654,10 +655,10 @@ fn list<S: AsRef<str>>(names: &[S]) -> String {
     list
 }
 
-/// At most so many names are listed in a message.
+/// The maximum number of names listed in a message.
 const LONGEST_LIST: usize = 30;
 
-/// What is done with an uncertainty of 0.
+/// How the program treats an uncertainty of 0.
 pub(crate) const WITHOUT_UNCERTAINTY: &str = "; a quantity without an uncertainty has the distribution `constant`, and a component without \
      one is left out";
 
@@ -671,7 +672,7 @@ fn hint(nearest: Option<&String>, known: &str) -> String {
     if nearest.is_some() { meant(nearest) } else { format!("; there are {known}") }
 }
 
-/// The near name, where there is one.
+/// The nearest known name, if there is one.
 fn meant(nearest: Option<&String>) -> String {
     nearest.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
 }
@@ -682,8 +683,8 @@ impl fmt::Display for DiagnosticKind {
             Self::Unreadable { message } => write!(f, "cannot read the file: {message}"),
             Self::Outside { name } => write!(
                 f,
-                "`{name}` lies outside of the folder of this file, below which the files that it names \
-                 are read"
+                "`{name}` is outside the folder of this file; a file may name only files below its \
+                 own folder"
             ),
             Self::Empty => f.write_str(
                 "the file is empty; a model file is a JSON object with `inputs`, `outputs` and \
@@ -691,7 +692,7 @@ impl fmt::Display for DiagnosticKind {
             ),
             Self::NotJson { message } => write!(f, "this is not JSON: {message}"),
             Self::NotFiniteInJson => {
-                f.write_str("NaN and infinity are no JSON numbers; a finite number is needed here")
+                f.write_str("NaN and infinity are not JSON numbers; write a finite number")
             }
             Self::NumberTooLarge => {
                 f.write_str("this number is larger than any in double precision (1.8e308)")
@@ -713,7 +714,7 @@ impl fmt::Display for DiagnosticKind {
                 let begin = if nearest.is_some() { " It" } else { "; it" };
                 write!(f, "{begin} is a key of {}", homes.join(" and of "))
             }
-            Self::DuplicateKey { key } => write!(f, "the key `{key}` stands here a second time"),
+            Self::DuplicateKey { key } => write!(f, "the key `{key}` occurs twice; remove one"),
             Self::MissingKey { key, what } => write!(f, "{what} needs the key `{key}`"),
             Self::NoDistribution { what, fitting } => {
                 write!(f, "{what} needs the key `distribution`")?;
@@ -735,9 +736,9 @@ impl fmt::Display for DiagnosticKind {
             Self::NoModel => f.write_str(
                 "a model file needs `equations` (formulas) or `model` (the name of a typed model)",
             ),
-            Self::TwoModels => f.write_str(
-                "a model file has either `equations` or `model`, not both; take one of them out",
-            ),
+            Self::TwoModels => {
+                f.write_str("a model file has either `equations` or `model`, not both; remove one")
+            }
             Self::UnknownModel { name, nearest } => {
                 write!(f, "there is no typed model `{name}`{}", meant(nearest.as_ref()))
             }
@@ -758,13 +759,13 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::MissingInput { name, model, unit, known } => write!(
                 f,
-                "the model `{model}` needs the input `{name}` (unit `{unit}`), which is not here; its \
-                 inputs are {}",
+                "the model `{model}` needs the input `{name}` (unit `{unit}`), which is missing; \
+                 its inputs are {}",
                 list(known)
             ),
             Self::BadName { name, reason } => write!(f, "`{name}` cannot be a name: {reason}"),
             Self::NameTaken { name } => {
-                write!(f, "the name `{name}` is already that of another quantity of this file")
+                write!(f, "the name `{name}` is already used for another quantity of this file")
             }
             Self::NoSuchInput { name, nearest } => {
                 write!(f, "there is no input `{name}` in this file")?;
@@ -776,14 +777,15 @@ impl fmt::Display for DiagnosticKind {
             Self::Unit { unit, error } => {
                 write!(f, "the unit `{unit}` cannot be read: {}", error.in_whole(unit))
             }
-            // of one dimension are levels and ratios
+            // levels and ratios have the same dimension
             Self::WrongDimension { name, found, found_as, expected, expected_as }
                 if found_as == expected_as && (found.contains("dB") || found.contains("Np")) =>
             {
                 write!(
                     f,
-                    "`{name}` has the unit `{found}`, but must be {expected_as} such as `{expected}`; of a \
-                     level L in dB the ratio of amplitudes is 10^(L/20), that of powers 10^(L/10)"
+                    "`{name}` has the unit `{found}`, but must be {expected_as} such as \
+                     `{expected}`; for a level L in dB the ratio of amplitudes is 10^(L/20), the \
+                     ratio of powers 10^(L/10)"
                 )
             }
             Self::WrongDimension { name, found, found_as, expected, expected_as } => write!(
@@ -796,7 +798,7 @@ impl fmt::Display for DiagnosticKind {
                 write!(f, "`{name}` cannot be given in `{unit}`: it {misfit}")
             }
             Self::Value { key, found, reason } => {
-                write!(f, "the value `{found}` of `{key}` cannot be taken: {reason}")
+                write!(f, "the value `{found}` of `{key}` cannot be used: {reason}")
             }
             Self::UnknownDistribution { name, nearest, known } => {
                 write!(
@@ -807,7 +809,7 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::Distribution { name, error } => write!(f, "`{name}`: {error}"),
             Self::Exclusive { first, second } => {
-                write!(f, "`{first}` and `{second}` cannot stand together; take one of them out")
+                write!(f, "`{first}` and `{second}` exclude each other; remove one")
             }
             Self::NoCoverage { name } => write!(
                 f,
@@ -815,7 +817,7 @@ impl fmt::Display for DiagnosticKind {
                  coverage probability `p`"
             ),
             Self::OnlyWith { key, with } => {
-                write!(f, "`{key}` says something about `{with}`, which is not here")
+                write!(f, "`{key}` needs the key `{with}`, which is missing")
             }
             Self::NotProbability { key, found } => {
                 let found = Shortest(*found);
@@ -845,21 +847,21 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::OneLimitOfPeriod { name, missing, turn } => write!(
                 f,
-                "the `tolerance` of `{name}` needs `{missing}` as well: its values come round after \
-                 {turn} (`periodic`), so that each of them lies on either side of one limit alone"
+                "the `tolerance` of `{name}` also needs `{missing}`: its values repeat after \
+                 {turn} (`periodic`), so that a single limit does not divide them"
             ),
             Self::Component { name, reason } => write!(f, "a component of `{name}` {reason}"),
             Self::Formula { error } => error.fmt(f),
             Self::EstimateOfInput { name } => write!(
                 f,
-                "`{name}` has an uncertainty, and an estimate is a formula of conditions, of inputs with \
-                 the distribution `constant` and of constants; write a formula of `{name}` among the \
-                 `equations`"
+                "`{name}` has an uncertainty, but an estimate may depend only on conditions, \
+                 constants, and inputs with the distribution `constant`; write the formula with \
+                 `{name}` as one of the `equations`"
             ),
             Self::EstimateOfFormula { name } => write!(
                 f,
-                "`{name}` is a formula itself, of more than constants; write that formula here in its \
-                 place, or a formula of `{name}` among the `equations`"
+                "`{name}` is itself a formula of more than constants; write that formula here \
+                 instead, or a formula with `{name}` as one of the `equations`"
             ),
             Self::EstimateUndefined { row, found } => {
                 write!(f, "this estimate is {found} in row {row} of the conditions")
@@ -893,14 +895,14 @@ impl fmt::Display for DiagnosticKind {
                 if let Some(point) = with_point(found) {
                     return write!(
                         f,
-                        "`{found}` is no number: a decimal fraction is written with a point, \
+                        "`{found}` is not a number: write a decimal fraction with a point, \
                          `{point}`"
                     );
                 }
                 write!(
                     f,
-                    "`{found}` is not a finite number; a file of samples has one on each line, and \
-                     `#` before words"
+                    "`{found}` is not a finite number; a file of samples has one number on each \
+                     line, and `#` before remarks"
                 )
             }
             Self::ColumnUnit(found) => found.fmt(f),
@@ -916,18 +918,19 @@ impl fmt::Display for DiagnosticKind {
             Self::Fit { name, reason } => write!(f, "`{name}`: {reason}"),
             Self::Region { reason } => f.write_str(reason),
             Self::Complex { name, reason } => write!(f, "`{name}` {reason}"),
-            // more than can be counted, or than was looked at
+            // more than can be counted, or more than were counted
             Self::TooMany { what, found: usize::MAX, most } => {
-                write!(f, "there are more than {most} {what}, which this version takes at most")
+                write!(f, "there are more than {most} {what}, the most that this version reads")
             }
             Self::TooMany { what, found, most } => {
-                write!(f, "there are {found} {what}; this version takes {most} at most")
+                write!(f, "there are {found} {what}; this version reads at most {most}")
             }
             Self::SavedChanged { part: Some(part) } => {
-                write!(f, "`{part}` was changed since the result was saved; save it again")
+                write!(f, "`{part}` was changed after the result was saved; save it again")
             }
             Self::SavedChanged { part: None } => f.write_str(
-                "this result was changed since it was saved, and does not say where; save it again",
+                "this result was changed after it was saved, but not in a part that can be named; \
+                 save it again",
             ),
             Self::NotResult { file } => {
                 write!(f, "`{file}` is not a saved result (`\"result\": true` is missing)")
@@ -939,21 +942,22 @@ impl fmt::Display for DiagnosticKind {
             Self::SavedEntry { reason } => f.write_str(reason),
             Self::SavedZero { name, found, saved } => write!(
                 f,
-                "the saved result `{name}` is in `{saved}`, the input in `{found}`, whose values count \
-                 from another zero, and a saved result is never shifted; take the unit of the result"
+                "the saved result `{name}` is in `{saved}`, the input in `{found}`; these units \
+                 have different zeros, and a saved result is never shifted; use the unit of the \
+                 result"
             ),
             Self::SavedCorrelation { first, second } => write!(
                 f,
-                "the correlation of `{first}` and `{second}` follows from the saved results that \
-                 they come from; take the declared coefficient out"
+                "the correlation of `{first}` and `{second}` follows from their saved results; \
+                 remove the declared coefficient"
             ),
             Self::MoreMistakes { most } => {
-                write!(f, "there are more mistakes; the first {most} are listed")
+                write!(f, "there are more errors; the first {most} are listed")
             }
             Self::SeveralRows { rows } => write!(
                 f,
-                "this file has {rows} rows of conditions, but a saved result is one row; compare it \
-                 with a file of that row alone"
+                "this file has {rows} rows of conditions, but a saved result has one row; compare \
+                 it with a file that has only this row"
             ),
             Self::Evaluation { message } => f.write_str(message),
             Self::Certificate { reason } | Self::Recipe { reason } | Self::Recording { reason } => {

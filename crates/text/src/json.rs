@@ -1,5 +1,5 @@
-//! JSON with places: `serde_json` decides what is JSON, `jsonc-parser` says where everything
-//! stands.
+//! JSON with positions: `serde_json` decides what is JSON, `jsonc-parser` gives the position of
+//! each value.
 
 use std::fmt;
 use std::ops::Range;
@@ -72,7 +72,7 @@ impl Node {
         }
     }
 
-    /// All texts in it and all keys of its objects.
+    /// All texts in the value and all keys of its objects.
     pub fn texts(&self) -> Vec<&str> {
         match &self.value {
             Json::Text(text) => vec![text],
@@ -116,7 +116,7 @@ pub fn parse(source: &SourceText) -> Result<Node, (Range<usize>, DiagnosticKind)
     }
 }
 
-/// JSON of which nothing is kept.
+/// A value that accepts any JSON and keeps nothing.
 struct Checked;
 
 impl<'de> Deserialize<'de> for Checked {
@@ -167,7 +167,7 @@ impl<'de> Visitor<'de> for Checked {
     }
 }
 
-/// The parser's message without its place, and the place as a range.
+/// The parser's message without its position, and the position as a range.
 fn syntax(source: &SourceText, error: &serde_json::Error) -> (Range<usize>, DiagnosticKind) {
     let full = error.to_string();
     let message = full.split(" at line ").next().unwrap_or(&full).to_owned();
@@ -179,7 +179,7 @@ fn syntax(source: &SourceText, error: &serde_json::Error) -> (Range<usize>, Diag
         at -= 1;
     }
     if at >= start + line.len() && !line.is_empty() {
-        // the end of a line has nothing to underline; its last character does
+        // a line end cannot be underlined, so its last character is
         at = start + line.char_indices().next_back().map_or(0, |(i, _)| i);
     }
     let first = source.text.get(at..).and_then(|rest| rest.chars().next());
@@ -202,16 +202,16 @@ fn syntax(source: &SourceText, error: &serde_json::Error) -> (Range<usize>, Diag
     }
 }
 
-/// How a file of another kind, by its name, comes in; of the files that models are made from.
+/// How to convert a file of another format, recognized by its name, into a model file.
 fn way_in(name: &str) -> Option<&'static str> {
     const BUDGETS: [&str; 4] = ["csv", "tsv", "xlsx", "xlsm"];
     let (_, extension) = name.rsplit_once('.')?;
     BUDGETS.contains(&extension.to_lowercase().as_str()).then_some(
-        "; an uncertainty budget in a spreadsheet becomes a model file by `gumption import`",
+        "; `gumption import` converts an uncertainty budget in a spreadsheet into a model file",
     )
 }
 
-/// The number or bare word about a place.
+/// The range of the number or bare word at a position.
 fn word(text: &str, at: usize) -> Range<usize> {
     let belongs = |c: char| c.is_alphanumeric() || matches!(c, '.' | '-' | '+');
     let before = text.get(..at).unwrap_or("");
@@ -221,56 +221,57 @@ fn word(text: &str, at: usize) -> Range<usize> {
     start..at + length
 }
 
-/// Whether a character is a quotation mark that JSON does not have.
+/// Whether a character is a quotation mark that JSON does not know.
 fn is_other_quote(c: char) -> bool {
     matches!(c, '\'' | '`' | '´' | '‘' | '’' | '‚' | '“' | '”' | '„' | '«' | '»')
 }
 
-/// Whether nothing stands before a word but a part of it, as of the text `title: a budget`.
+/// Whether only a part of a word precedes, as in the text `title: a budget`.
 fn is_first_word(before: &str) -> bool {
     before.trim_start().chars().all(char::is_alphabetic)
 }
 
-/// What would be right, for the parser's messages that do not say it.
+/// What would be right, for parser messages that do not say it.
 fn in_plain_words(message: &str, found: Option<char>, before: &str) -> String {
     let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
     let is_key = message == "key must be a string";
     let words = match message {
         "expected value" | "key must be a string" if found.is_some_and(is_other_quote) => {
-            "texts and keys stand in straight double quotes, `\"`"
+            "texts and keys need straight double quotes, `\"`"
         }
         _ if is_key
             && digit(found)
             && before.strip_suffix(',').is_some_and(|b| digit(b.chars().next_back())) =>
         {
-            "a decimal fraction is written with a point, such as 5.01, not with a comma"
+            "write a decimal fraction with a point, such as 5.01, not with a comma"
         }
         "expected ident" if is_first_word(before) => {
-            "a file begins with `{` and its keys stand in double quotes; YAML and TOML are not read, and \
+            "a file begins with `{` and its keys are in double quotes; YAML and TOML are not read, \
+             and \
              budgets of other programs by `gumption import`"
         }
         "expected value" | "expected ident" => {
-            "a value should stand here: a number, a text in double quotes, true, false, null, a \
+            "a value is expected here: a number, a text in double quotes, true, false, null, a \
              list or an object"
         }
         "key must be a string" if found == Some('/') => {
             "it has no comments; `about`, `title` and `source` take texts"
         }
-        "key must be a string" => "a key in double quotes should stand here",
-        "trailing comma" => "a comma stands before this end of a list or object; take it out",
+        "key must be a string" => "a key in double quotes is expected here",
+        "trailing comma" => "there is a comma before this end of a list or object; remove it",
         "trailing characters" => "there is more after the end of the value",
         "expected `,` or `}`" | "expected `,` or `]`" => {
-            return format!("{} should stand before this", message.replace("expected ", ""));
+            return format!("{} is missing before this", message.replace("expected ", ""));
         }
-        "expected `:`" => "a colon should stand between key and value",
+        "expected `:`" => "a colon is missing between key and value",
         "invalid number" => {
-            "a number is written like 0.5, -3 or 1e-6: with digits on both sides of a point, \
+            "write a number like 0.5, -3 or 1e-6: with digits on both sides of a point, \
              without leading zeros or a plus sign"
         }
-        "recursion limit exceeded" => "more than 127 lists and objects stand inside each other",
+        "recursion limit exceeded" => "more than 127 lists and objects are nested",
         _ if message.starts_with("EOF") => "the text ends before a text, list or object is closed",
         _ if message.starts_with("control character") => {
-            "a text in quotes ends on the line on which it begins; a line break in it is written `\\n`"
+            "a text in quotes must end on the line on which it begins; write a line break as `\\n`"
         }
         other => other,
     };

@@ -11,12 +11,12 @@ use super::value_text::{
 };
 use gumption_units::Unit;
 
-/// A width that may follow the estimate: `relative` times its modulus, plus `absolute`.
+/// A width that may depend on the estimate: `relative` times its modulus, plus `absolute`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Width {
-    /// The share of the estimate's modulus.
+    /// Fraction of the estimate's modulus.
     pub relative: f64,
-    /// What is added to it, in the input's unit.
+    /// Constant part, in the input's unit.
     pub absolute: f64,
 }
 
@@ -26,7 +26,7 @@ impl Width {
         self.relative * estimate.abs() + self.absolute
     }
 
-    /// Whether the width is typed as a specification, so that it may become 0 with the estimate.
+    /// Whether the width has only a relative part, so that it may become 0 with the estimate.
     pub fn is_relative_only(self) -> bool {
         self.absolute == 0.0 && self.relative > 0.0
     }
@@ -60,7 +60,7 @@ impl Width {
         }
     }
 
-    /// Reads a specification of a quantity in a unit; `own` are units of the file.
+    /// Parses a specification for a quantity in `unit`; `own` are the units that the file defines.
     ///
     /// # Errors
     /// Why it is none, as a sentence without a capital.
@@ -79,12 +79,12 @@ impl Width {
                     let is_ratio = unit.is_relative() || counts_alike(factor, unit);
                     if is_ratio || unit.is_celsius() || !unit.level_exponent().is_zero() {
                         let own = if is_ratio {
-                            format!("the number alone, without quotes, for as much in `{unit}`")
+                            format!("the number alone, without quotes, for a width in `{unit}`")
                         } else {
                             "a value with its unit".to_owned()
                         };
                         return Err(format!(
-                            "for a quantity in `{unit}` it is not clear what `{term}` is of: write \
+                            "for a quantity in `{unit}` the base of `{term}` is unclear: write \
                              `{term} of reading`, or {own}"
                         ));
                     }
@@ -94,9 +94,9 @@ impl Width {
                 Some((factor, range)) => {
                     let (full, range_unit) = number(range).map_err(|_| {
                         format!(
-                            "`{term}`: what it is a share of is a value, such as `0.01 % of 10 V`, or \
-                             `reading`; `{range}` is neither (of a condition the width is a formula, such \
-                             as `1e-4*{range}`)"
+                            "`{term}`: a share needs a value, such as `0.01 % of 10 V`, or \
+                             `reading`; `{range}` is neither (for a share of a condition write a \
+                             formula, such as `1e-4*{range}`)"
                         )
                     })?;
                     width.absolute +=
@@ -108,7 +108,7 @@ impl Width {
         if width.relative > 0.0 || width.absolute > 0.0 {
             Ok(width)
         } else {
-            Err(format!("it is zero, but a width is above zero{WITHOUT_UNCERTAINTY}"))
+            Err(format!("it is zero, but a width must be above zero{WITHOUT_UNCERTAINTY}"))
         }
     }
 }
@@ -122,22 +122,22 @@ fn positive(key: &str, absolute: f64) -> Result<Width, DiagnosticKind> {
     }
 }
 
-/// Keys of widths that reach to both sides of an estimate, so that `±` may stand before them.
+/// Keys of widths that extend to both sides of an estimate, so that `±` may precede them.
 const BOTH_SIDES: [&str; 4] = ["half_width", "semi_range", "expanded", "cmc"];
 
-/// A width without the `±` before it, as limits and expanded uncertainties are written: `±0.05 mm`,
+/// A width without the `±` before it, as for limits and expanded uncertainties: `±0.05 mm`,
 /// `±(0.02 % + 2 uV)`.
 ///
 /// # Errors
-/// What stands there is a standard deviation, which nobody writes so.
+/// The value is a standard deviation, which is never written with `±`.
 pub fn without_plus_minus(text: &str, key: &str) -> Result<String, String> {
     let written = with_plus_minus(text.trim());
     let Some(width) = written.strip_prefix('±') else { return Ok(text.to_owned()) };
     if !BOTH_SIDES.contains(&key) {
         return Err(format!(
-            "`±` stands before limits or an expanded uncertainty, and `{key}` is a standard deviation: \
-             give it as the `half_width` of a rectangular distribution or as `expanded` with its `k`, or \
-             leave the sign out"
+            "`±` belongs to limits or an expanded uncertainty, but `{key}` is a standard \
+             deviation: write the `half_width` of a rectangular distribution, or `expanded` with \
+             its `k`, or remove the sign"
         ));
     }
     let width = width.trim();
@@ -145,7 +145,7 @@ pub fn without_plus_minus(text: &str, key: &str) -> Result<String, String> {
     Ok(inside.filter(|inside| !inside.contains(['(', ')'])).unwrap_or(width).trim().to_owned())
 }
 
-/// The terms between plus signs; the plus of an exponent (1e+3) does not separate.
+/// The terms between plus signs; the plus of an exponent (1e+3) is not a separator.
 pub fn terms(text: &str) -> Vec<&str> {
     let mut terms = Vec::new();
     let mut start = 0;
@@ -164,7 +164,7 @@ pub fn terms(text: &str) -> Vec<&str> {
     terms
 }
 
-/// The number at the start of a term, and what follows it.
+/// The number at the start of a term, and the rest.
 pub fn number(term: &str) -> Result<(f64, &str), String> {
     let longest = term
         .char_indices()
@@ -183,10 +183,10 @@ pub fn number(term: &str) -> Result<(f64, &str), String> {
     Ok((value, term.get(end..).unwrap_or("").trim()))
 }
 
-/// Signs of shares and their sizes.
+/// Signs for fractions, and their sizes.
 const SHARES: [(&str, f64); 3] = [("%", 1e-2), ("ppm", 1e-6), ("ppb", 1e-9)];
 
-/// Whether the rest of a term is a share, of which size, and what it is of (`""` if not said).
+/// Parses the rest of a term as a fraction: its size and its base (`""` if not given).
 pub fn share(rest: &str) -> Option<(f64, &str)> {
     let (factor, after) =
         SHARES.iter().find_map(|(sign, factor)| Some((*factor, rest.strip_prefix(sign)?)))?;
@@ -197,8 +197,8 @@ pub fn share(rest: &str) -> Option<(f64, &str)> {
     of.starts_with(char::is_whitespace).then(|| (factor, of.trim()))
 }
 
-/// The same of a ratio of like units, `um/m` or `mV/V`, of a quantity that is no plain number itself,
-/// and of a share with a divisor, `0.1 %/sqrt(3)`, of any quantity.
+/// The same for a ratio of like units, `um/m` or `mV/V`, unless the quantity is a plain number, and
+/// for a fraction with a divisor, `0.1 %/sqrt(3)`, for any quantity.
 fn ratio<'r>(rest: &'r str, unit: &Unit, own: &[Unit]) -> Option<(f64, &'r str)> {
     let (text, of) = rest.split_once(" of ").unwrap_or((rest, ""));
     let ratio = unit_behind_number(text.trim(), own).ok().filter(|_| text.contains('/'))?;
@@ -209,7 +209,7 @@ fn ratio<'r>(rest: &'r str, unit: &Unit, own: &[Unit]) -> Option<(f64, &'r str)>
         .then(|| (ratio.factor(), of.trim()))
 }
 
-/// Whether a term is a share that does not say what it is of: `0.1 %`.
+/// Whether a term is a fraction without a base: `0.1 %`.
 pub fn is_bare_share(term: &str) -> bool {
     let share = number(term).ok().and_then(|(_, rest)| share(rest));
     share.is_some_and(|(_, of)| of.is_empty())
@@ -226,10 +226,10 @@ fn converted(
             Ok(value)
         } else {
             Err(match unit.is_relative() {
-                // per cent of what, of a quantity in per cent?
+                // per cent of what, if the quantity itself is in per cent?
                 true => format!(
-                    "`{term}` has no unit, and beside it `{term} {unit}` would not say what it is of: \
-                     give the two as components"
+                    "`{term}` has no unit, and the base of `{term} {unit}` would be unclear: write \
+                     the two terms as components"
                 ),
                 false => format!("`{term}` has no unit; write for example `{term} {unit}`"),
             })
@@ -238,28 +238,29 @@ fn converted(
     if text == unit.text().trim() {
         return Ok(value);
     }
-    // data sheets count in digits of a display
+    // data sheets count digits of a display
     let is_of_display =
         matches!(text, "digit" | "digits" | "count" | "counts" | "lsd" | "LSD" | "LSB");
-    // and of a range or a reading, in letters
+    // and fractions of a range or a reading, in letters
     let words = SHARES.iter().find_map(|(sign, _)| text.strip_prefix(sign));
     let words = words.map(str::trim).filter(|words| words.starts_with(char::is_alphabetic));
     let said = |error: String| {
         if let Some(words) = words.filter(|_| unit_behind_number(text, own).is_err()) {
             let number = term.strip_suffix(words).unwrap_or(term).trim_end();
             format!(
-                "`{words}` in `{term}` is no unit: a share of a range, or of full scale, is written with \
-                 its value, such as `{number} of 10 V`, and one of the reading `{number} of reading`"
+                "`{words}` in `{term}` is not a unit: write a share of a range, or of full scale, \
+                 with its value, such as `{number} of 10 V`, and a share of the reading as \
+                 `{number} of reading`"
             )
         } else if is_of_display {
             format!(
-                "how large a digit is depends on the range: write `{term}` as a value in `{unit}`"
+                "the size of a digit depends on the range: write `{term}` as a value in `{unit}`"
             )
         } else {
             error
         }
     };
-    // a count is one of a plain number, and a digit of nothing but a display
+    // a count is a count of a plain number, and a digit belongs to a display only
     let is_number = unit.factor() == 1.0 && unit.turn().is_none();
     let counts = is_number && text.starts_with("count");
     if is_of_display && unit.dimension().is_none() && !counts {
@@ -306,7 +307,7 @@ mod tests {
         assert!((read("1e+1 mV", "V").unwrap().at(7.0) - 0.01).abs() < 1e-15);
     }
 
-    /// Of limits on both sides, and of these alone.
+    /// Limits on both sides, and no other widths, may have `±`.
     #[test]
     fn plus_minus_before_limits() {
         for (text, expected) in [
@@ -320,7 +321,7 @@ mod tests {
         assert!(without_plus_minus("±0.05 mm", "std").unwrap_err().contains("`half_width`"));
     }
 
-    /// A ratio counts as ppm does; one of another size does not.
+    /// A ratio such as 1 um/m counts as ppm; a ratio of another size does not.
     #[test]
     fn shares_of_ratios() {
         for (text, unit) in
@@ -335,7 +336,8 @@ mod tests {
         assert!((read("0.1 %", "1").unwrap().at(0.5) - 5e-4).abs() < 1e-18);
     }
 
-    /// Of plain numbers, too, a share stays one behind a divisor, and a digit is none of a display.
+    /// For plain numbers too, a fraction with a divisor is a fraction, and a digit does not belong
+    /// to a display.
     #[test]
     fn shares_and_digits_of_plain_numbers() {
         for unit in ["mV/V", "1", "mm/m"] {

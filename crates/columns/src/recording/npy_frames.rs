@@ -15,10 +15,10 @@ pub(super) struct NpyFrames<R> {
     number: NpyNumber,
     /// The bytes of a frame.
     frame: Vec<u8>,
-    /// Where the wanted columns begin in it.
+    /// The offsets of the wanted columns in a frame.
     offsets: Vec<usize>,
     wanted: Vec<Wanted>,
-    /// How many frames there are, and how many were read.
+    /// The number of frames, and how many have been read.
     samples: u64,
     read: u64,
 }
@@ -30,7 +30,7 @@ impl<R: Read> NpyFrames<R> {
             [samples] => (samples, 1),
             [samples, channels] if !fortran_order || channels == 1 => (samples, channels),
             [_, _] => {
-                return Err("its array lies in Fortran order, column by column; save it with \
+                return Err("its array is in Fortran order, column by column; save it with \
                             `numpy.ascontiguousarray`"
                     .to_owned());
             }
@@ -42,7 +42,7 @@ impl<R: Read> NpyFrames<R> {
         };
         if channels > MOST_CHANNELS {
             return Err(format!(
-                "its array has {channels} columns; {MOST_CHANNELS} are read at most"
+                "its array has {channels} columns; at most {MOST_CHANNELS} are read"
             ));
         }
         let channels = channels as usize;
@@ -132,7 +132,7 @@ mod tests {
         }
     }
 
-    /// More than a block of frames of three columns, of which the third and the first are wanted.
+    /// More than a block of frames with three columns; the third and the first are wanted.
     #[test]
     fn samples_by_channels() {
         let count = BLOCK + 3;
@@ -145,7 +145,7 @@ mod tests {
         assert_eq!(message, "its array has 3 columns, so no column 4");
     }
 
-    /// One column is the same in both orders; bytes behind the array are not of it.
+    /// One column is the same in both orders; bytes after the array are ignored.
     #[test]
     fn one_channel() {
         let data: Vec<u8> = [0.5f32, -1.25, 7.0].iter().flat_map(|v| v.to_le_bytes()).collect();
@@ -170,12 +170,12 @@ mod tests {
             ),
             (
                 file("<f8", "(1, 9223372036854775808)", "False", &[]),
-                "its array has 9223372036854775808 columns; 1048576 are read at most",
+                "its array has 9223372036854775808 columns; at most 1048576 are read",
             ),
             (file("<f8", "(2, 0)", "False", &[]), "its array has 0 columns, so no column 1"),
             (
                 file("<f8", "(1, 2)", "True", &[]),
-                "its array lies in Fortran order, column by column; save it with \
+                "its array is in Fortran order, column by column; save it with \
                  `numpy.ascontiguousarray`",
             ),
             (

@@ -8,13 +8,13 @@ use gumption_files as file;
 use gumption_files::EffectListing;
 use gumption_units::nearest;
 
-/// The effects of that name, or all of them.
+/// The effects with this name, or all.
 pub(super) fn named(name: Option<&str>) -> Result<EffectListing, Failure> {
     let EffectListing { names, mut effects } = file::catalogue();
     let Some(name) = name else { return Ok(EffectListing { names, effects }) };
     let hint = match nearest(name, effects.iter().map(|effect| effect.name.as_str())) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => "`gumption models --effects` lists those that there are".to_owned(),
+        None => "`gumption models --effects` lists them".to_owned(),
     };
     effects.retain(|effect| effect.name == name);
     if effects.is_empty() {

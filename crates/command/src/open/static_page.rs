@@ -1,4 +1,4 @@
-//! The page as a folder of files that any web server, or none of ours, may serve.
+//! The page as a folder of files for any web server.
 
 use std::fs::File;
 use std::io;
@@ -11,20 +11,20 @@ use crate::output::Destination;
 use crate::{Exit, Failure};
 use gumption_text::bytes;
 
-/// Where the program stands in the folder.
+/// The path of the program in the folder.
 const PROGRAM: &str = "assets/gumption.wasm";
 
-/// What a program for browsers begins with.
+/// The first bytes of a WebAssembly program.
 const MAGIC: &[u8] = b"\0asm";
 
-/// The largest program that is taken, in bytes.
+/// The largest accepted program, in bytes.
 const MOST: u64 = 256 << 20;
 
 /// Writes the files of the page, and the program if it is given.
 pub(super) fn write(folder: &Path, wasm: Option<&Path>) -> Result<Exit, Failure> {
     let wasm = wasm.map(program).transpose()?;
     let failed = |error: io::Error| {
-        Failure::System(format!("cannot make the folder `{}`: {error}", shown(folder)))
+        Failure::System(format!("cannot create the folder `{}`: {error}", shown(folder)))
     };
     std::fs::create_dir_all(folder.join("assets")).map_err(failed)?;
     for asset in files_of_page::all() {
@@ -39,7 +39,7 @@ pub(super) fn write(folder: &Path, wasm: Option<&Path>) -> Result<Exit, Failure>
         Some(content) => put(&place, &content)?,
         None if place.is_file() => {}
         None => say(&format!(
-            "note: `{}` is missing, without which the page computes nothing: `page/build-wasm.sh` \
+            "note: `{}` is missing, and the page cannot compute without it: `page/build-wasm.sh` \
              makes it where there is a compiler for it, and `--wasm FILE` takes it\n",
             shown(&place)
         )),

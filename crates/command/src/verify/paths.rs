@@ -14,7 +14,7 @@ use gumption_engine::task::Trials;
 /// Compare code paths.
 #[derive(Debug, Args)]
 pub(super) struct Paths {
-    /// With --paths: the model file whose trials are compared; a built-in one unless given
+    /// With --paths: the model file whose trials are compared [default: a built-in one]
     #[arg(long, value_name = "FILE", requires = "paths")]
     model: Option<PathBuf>,
     /// With --paths: number of trials
@@ -49,7 +49,7 @@ impl Paths {
             }
         };
         let Trials::Fixed(trials) = self.trials else {
-            return Err(Failure::Argument("a fixed number of trials is compared".to_owned()));
+            return Err(Failure::Argument("`--paths` needs a fixed number of trials".to_owned()));
         };
         let mut text = String::new();
         let mut hashes = Vec::new();

@@ -458,17 +458,17 @@ const GAP: Sentences = &[
 /// Facts that only a command knows.
 #[rustfmt::skip]
 const COMMANDS: Sentences = &[
-    ("few-trials.audit", "{trials} trials are too few to tell how assumptions move the result; {made} are made"),
+    ("few-trials.audit", "{trials} trials are too few to detect the effect of assumptions; {made} are made"),
     ("more-than-two-digits", "U is stated to {digits} significant digits; an accredited certificate may have \
         at most two (ILAC-P14:09/2020, 5.3)"),
     ("rounded-away", "row {row}: U is stated as {stated}, {percent} % less than {expanded}; EA-4/02 M:2022, \
         6.3, allows a rounding that takes away at most 5 %: `\"rounding\": \"ea\"` rounds up there"),
-    ("digits-of-trials", "row {row}: its figures are those of the trials, whose last digit depends on the \
+    ("digits-of-trials", "row {row}: its values come from the trials, so that their last digit depends on the \
         seed: {why}"),
     ("raised-to-cmc.certificate", "row {row}: U is raised to the laboratory's capability (CMC) of {cmc}"),
     ("below-cmc.certificate", "row {row}: U = {expanded} is below the laboratory's capability (CMC) of \
         {cmc}, which an accredited certificate may not state (ILAC-P14); `\"cmc_floor\": true` raises it"),
-    ("not-stated", "the certificate does not say what ISO/IEC 17025:2017, 7.8.2.1 and 7.8.4.1 ask for: \
+    ("not-stated", "the certificate lacks items required by ISO/IEC 17025:2017, 7.8.2.1 and 7.8.4.1: \
         {missing}"),
     ("evidence-unused", "the evidence of `{name}` is not used: it is for a distribution that is assumed \
         (type B), and this one is evaluated from readings (type A)"),

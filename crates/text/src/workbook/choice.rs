@@ -1,23 +1,23 @@
-//! Which sheet of a workbook is read: the one that is shown and holds what is wanted.
+//! Chooses the sheet of a workbook to read: the visible one with the wanted content.
 
 use super::{Book, SheetName};
 use crate::DiagnosticKind;
 use gumption_engine::fact;
 use gumption_engine::fact::{Argument, Fact};
 
-/// What a sheet is to hold, in words.
+/// What a sheet must contain, in words.
 #[derive(Debug)]
 pub struct Wanted {
     /// With its article: `a budget`.
     pub a: &'static str,
-    /// As one of several: `one budget`.
+    /// One of several: `one budget`.
     pub one: &'static str,
-    /// Whether the command has an option for the name of the sheet.
+    /// Whether the command has an option for the sheet's name.
     pub has_option: bool,
 }
 
-/// The sheet of that name, or the one that is shown and holds what is wanted; the first one that is shown
-/// where none does. With it, which of several sheets it is.
+/// The sheet of this name, or else the visible sheet with the wanted content, or else the first
+/// visible one. The second result is a sentence that says which of several sheets it is.
 pub fn of<T>(
     book: &mut Book,
     name: Option<&str>,
@@ -47,7 +47,7 @@ pub fn of<T>(
     }
     let Wanted { a, one, has_option } = wanted;
     if found.len() > 1 {
-        let say = if *has_option { "say which one with `--sheet NAME`, or " } else { "" };
+        let say = if *has_option { "choose one with `--sheet NAME`, or " } else { "" };
         let names = list(found.iter().map(|(sheet, _)| *sheet), "and");
         let reason = format!("the sheets {names} hold {a} each: {say}keep {one} in a workbook");
         return Err(DiagnosticKind::Table { reason });
@@ -56,9 +56,9 @@ pub fn of<T>(
         for sheet in sheets.iter().filter(|sheet| sheet.is_hidden) {
             if holds(&read(book, sheet)?) {
                 let name = &sheet.name;
-                let say = if *has_option { ", or say it with `--sheet`" } else { "" };
+                let say = if *has_option { ", or name it with `--sheet`" } else { "" };
                 let reason = format!(
-                    "no sheet that is shown holds {a}, and the hidden sheet `{name}` does: show it{say}"
+                    "no visible sheet holds {a}, but the hidden sheet `{name}` does: show it{say}"
                 );
                 return Err(DiagnosticKind::Table { reason });
             }
@@ -72,7 +72,7 @@ pub fn of<T>(
     }
 }
 
-/// Which of several sheets it is.
+/// A sentence that says which of several sheets was read.
 fn told(own: &SheetName, sheets: &[SheetName]) -> Option<Fact> {
     let others = sheets.iter().filter(|sheet| *sheet != own);
     let mut others: Vec<Fact> = others
