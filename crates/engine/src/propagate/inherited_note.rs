@@ -18,7 +18,8 @@ const NAMED: usize = 4;
 /// of the run itself would not help.
 pub(super) fn note(
     task: &Task,
-    (output, at): (&Output, &str),
+    output: &Output,
+    at: &str,
     found: &OutputEvaluation,
 ) -> Option<Warning> {
     let inherited = found.inherited.as_deref()?;
@@ -41,7 +42,7 @@ pub(super) fn note(
                 ("estimate", of.estimate.map_or(0.0, |error| part(error, estimate))),
                 (
                     "standard uncertainty",
-                    of.standard_uncertainty.map_or(0.0, |of| part(of, standard_uncertainty)),
+                    of.standard_uncertainty.map_or(0.0, |error| part(error, standard_uncertainty)),
                 ),
                 ("lower end of the symmetric interval", low),
                 ("upper end of the symmetric interval", high),
@@ -59,9 +60,9 @@ pub(super) fn note(
     }
     let unit = &output.quantity.unit;
     let errors = errors.iter().filter(|(_, error)| *error > 0.0);
-    let moved = |(of, error): &(&str, f64)| {
+    let moved = |(figure, error): &(&str, f64)| {
         let error = unit.after(&significant(*error, 1));
-        format!("its {of} by {error}")
+        format!("its {figure} by {error}")
     };
     let errors: Vec<String> = errors.map(moved).collect();
     let name = &output.quantity.name;

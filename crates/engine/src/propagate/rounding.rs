@@ -40,10 +40,11 @@ fn coarsest(gum: &Gum) -> Option<(BudgetLine, f64)> {
 }
 
 /// What is said of it.
-fn text(task: &Task, name: &str, (line, share): (&BudgetLine, f64)) -> String {
+fn text(task: &Task, name: &str, line: &BudgetLine, share: f64) -> String {
     let variable = task.variables.get(line.variable);
-    let input = variable.map_or("", |of| of.name.as_str());
-    let in_unit = |number: String| variable.map_or(number.clone(), |of| of.unit.after(&number));
+    let input = variable.map_or("", |variable| variable.name.as_str());
+    let in_unit =
+        |number: String| variable.map_or(number.clone(), |variable| variable.unit.after(&number));
     format!(
         "`{name}`: numbers of double precision, with 16 digits, leave {} of `{input}` undetermined, {} % of \
          its standard uncertainty: it is {} with a standard uncertainty of {}; make it the difference from \
@@ -63,7 +64,7 @@ pub(super) fn check(task: &Task, row: usize, gums: &[Option<Gum>]) -> Result<(),
             let message = format!(
                 "{}. `trials` of 0 evaluates it by the law of propagation alone, which has the slopes \
                  and not the digits",
-                text(task, &of.quantity.name, (&line, share))
+                text(task, &of.quantity.name, &line, share)
             );
             return Err(EvaluationError::Rounding { row, output, message });
         }
@@ -105,7 +106,7 @@ pub(super) fn constant(
 pub(super) fn note(output: &Output, task: &Task, gum: &Gum) -> Option<Warning> {
     let (line, share) = coarsest(gum)?;
     let name = &output.quantity.name;
-    let text = text(task, name, (&line, share));
+    let text = text(task, name, &line, share);
     Some(Warning::new("double-precision", name.as_str(), text))
 }
 

@@ -53,8 +53,9 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
     // one more pass over the program costs little beside trials, but not beside bare budgets
     let is_looked_at = task.settings.trials != Trials::Fixed(0) || task.rows.len() <= FEW_ROWS;
     for (place, row) in evaluation.rows.iter().enumerate() {
-        let of = task.rows.get(place).filter(|_| is_looked_at && task.function.is_none());
-        let vanishing = of.map(|of| task.model.program.underflows(&of.estimates()));
+        let row_of_task = task.rows.get(place).filter(|_| is_looked_at && task.function.is_none());
+        let vanishing =
+            row_of_task.map(|values| task.model.program.underflows(&values.estimates()));
         let vanishing = vanishing.unwrap_or_default();
         if let Some(undefined) = &row.undefined {
             let (count, all) = (undefined.count, undefined.trials);
@@ -70,15 +71,15 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
                 .filter(|_| evaluation.rounded_correlations);
             let is_told = jumps || rounded.is_some();
             rounded.into_iter().for_each(|note| push(&mut found, note));
-            of_output((task, &named), (name, is_told), row, evaluated, &mut found);
+            of_output(task, &named, name, is_told, row, evaluated, &mut found);
             of_noiseless(&output.quantity.name, evaluated, &mut found);
             if evaluated.inherited.is_some() {
                 let place_of_row = at(task, &named, row);
-                let inherited = inherited_note::note(task, (output, &place_of_row), evaluated);
+                let inherited = inherited_note::note(task, output, &place_of_row, evaluated);
                 inherited.into_iter().for_each(|note| push(&mut found, note));
             }
             if place == 0 {
-                of_capability((output, number), &evaluation.rows, task, &mut found);
+                of_capability(output, number, &evaluation.rows, task, &mut found);
             }
             if is_looked_at {
                 let coarse =
@@ -88,7 +89,7 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
                 coarse.into_iter().chain(vanishes).for_each(|note| push(&mut found, note));
             }
             if task.model.outputs.len() > 1 {
-                of_correlations((name, jumps), evaluated, &mut found);
+                of_correlations(name, jumps, evaluated, &mut found);
             }
             let decided = evaluated.conformity.as_deref();
             if task.settings.trials == Trials::Fixed(0)
@@ -256,7 +257,8 @@ fn of_rounded_correlations(name: &str, output: &OutputEvaluation) -> Option<Warn
 
 /// Whether expanded uncertainties of an output, by its number, are below the laboratory's capability.
 fn of_capability(
-    (output, number): (&Output, usize),
+    output: &Output,
+    number: usize,
     rows: &[RowEvaluation],
     task: &Task,
     found: &mut Vec<Warning>,
@@ -322,8 +324,10 @@ fn at(task: &Task, named: &[usize], row: &RowEvaluation) -> String {
 }
 
 fn of_output(
-    (task, named): (&Task, &[usize]),
-    (name, is_told): (&str, bool),
+    task: &Task,
+    named: &[usize],
+    name: &str,
+    is_told: bool,
     row: &RowEvaluation,
     output: &OutputEvaluation,
     found: &mut Vec<Warning>,
@@ -337,7 +341,7 @@ fn of_output(
         push(found, Warning::new("gum-undefined", name, text));
         if let Some(monte_carlo) = &output.monte_carlo {
             of_extremes(name, &at, monte_carlo, found);
-            of_heavy_tails((name, &at), output, monte_carlo, found);
+            of_heavy_tails(name, &at, output, monte_carlo, found);
         }
         return;
     };
@@ -360,9 +364,9 @@ fn of_output(
         return;
     };
     of_extremes(name, &at, monte_carlo, found);
-    of_heavy_tails((name, &at), output, monte_carlo, found);
+    of_heavy_tails(name, &at, output, monte_carlo, found);
     let spread = monte_carlo.standard_uncertainty.unwrap_or(gum.standard_uncertainty);
-    of_results(name, &at, row, (gum, spread), found);
+    of_results(name, &at, row, gum, spread, found);
     if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive
         && !monte_carlo.heavy_tailed
     {
@@ -394,7 +398,7 @@ fn of_output(
         );
         push(found, Warning::new("no-variance", name, text));
     } else if !is_told {
-        of_difference(task, (name, &at), row, (gum, output, monte_carlo), found);
+        of_difference(task, name, &at, row, output, found);
     }
 }
 
@@ -405,11 +409,15 @@ const ROUNDING: f64 = 1e-13;
 /// not linear, or both.
 fn of_difference(
     task: &Task,
-    (name, at): (&str, &str),
+    name: &str,
+    at: &str,
     row: &RowEvaluation,
-    (gum, output, monte_carlo): (&Gum, &OutputEvaluation, &MonteCarlo),
+    output: &OutputEvaluation,
     found: &mut Vec<Warning>,
 ) {
+    let (Some(gum), Some(monte_carlo)) = (&output.gum, &output.monte_carlo) else {
+        return;
+    };
     let Some(u) = monte_carlo.standard_uncertainty else {
         return;
     };
@@ -454,7 +462,7 @@ fn of_difference(
             );
             push(found, Warning::new("few-dof", name, text));
         } else if (gum.drawn_uncertainty() / linear - 1.0).abs() > NOTEWORTHY {
-            let text = of_bent_results(task, (name, at), &difference, gum);
+            let text = of_bent_results(task, name, at, &difference, gum);
             push(found, Warning::new("non-linear", name, text));
         }
         return;
@@ -482,7 +490,7 @@ fn of_difference(
 }
 
 /// That saved results come from models that are not linear.
-fn of_bent_results(task: &Task, (name, at): (&str, &str), difference: &str, gum: &Gum) -> String {
+fn of_bent_results(task: &Task, name: &str, at: &str, difference: &str, gum: &Gum) -> String {
     let of = |v: usize| task.variables.get(v).map(|variable| format!("`{}`", variable.name));
     let results: Vec<String> = gum.bent_results().filter_map(of).collect();
     format!(
@@ -536,7 +544,8 @@ pub fn second_order_text(task: &Task, gum: &Gum, second: &SecondOrder) -> String
 
 /// Correlation coefficients of an output of which the trials have none.
 fn of_correlations(
-    (name, jumps): (&str, bool),
+    name: &str,
+    jumps: bool,
     evaluated: &OutputEvaluation,
     found: &mut Vec<Warning>,
 ) {
@@ -571,7 +580,8 @@ fn conformity_by_propagation(name: &str) -> Warning {
 
 /// Trials without a variance, though every input that is drawn as a t has one.
 fn of_heavy_tails(
-    (name, at): (&str, &str),
+    name: &str,
+    at: &str,
     output: &OutputEvaluation,
     figures: &MonteCarlo,
     found: &mut Vec<Warning>,
@@ -613,7 +623,8 @@ fn of_results(
     name: &str,
     at: &str,
     row: &RowEvaluation,
-    (gum, spread): (&Gum, f64),
+    gum: &Gum,
+    spread: f64,
     found: &mut Vec<Warning>,
 ) {
     if row.jointly_drawn.is_empty() && row.copula_changes.is_empty() {
@@ -688,14 +699,16 @@ mod tests {
         assert_eq!(said(&output), None);
         type Change = fn(&mut MonteCarlo);
         let moved: [(&str, Change); 8] = [
-            ("its estimate by", |of| *of.estimate.as_mut().unwrap() += 0.2),
-            ("its standard uncertainty by", |of| *of.standard_uncertainty.as_mut().unwrap() += 0.2),
-            ("its median by", |of| of.median += 0.2),
-            ("its lower end of the symmetric", |of| of.symmetric_interval[0] += 0.5),
-            ("its upper end of the symmetric", |of| of.symmetric_interval[1] += 0.9),
-            ("its lower end of the shortest", |of| of.shortest_interval[0] -= 1.5),
-            ("its upper end of the shortest", |of| of.shortest_interval[1] += 1.5),
-            ("its probability within the tolerance", |of| of.inside -= 0.03),
+            ("its estimate by", |outcome| *outcome.estimate.as_mut().unwrap() += 0.2),
+            ("its standard uncertainty by", |outcome| {
+                *outcome.standard_uncertainty.as_mut().unwrap() += 0.2
+            }),
+            ("its median by", |outcome| outcome.median += 0.2),
+            ("its lower end of the symmetric", |outcome| outcome.symmetric_interval[0] += 0.5),
+            ("its upper end of the symmetric", |outcome| outcome.symmetric_interval[1] += 0.9),
+            ("its lower end of the shortest", |outcome| outcome.shortest_interval[0] -= 1.5),
+            ("its upper end of the shortest", |outcome| outcome.shortest_interval[1] += 1.5),
+            ("its probability within the tolerance", |outcome| outcome.inside -= 0.03),
         ];
         for (name, moved) in moved {
             let mut output = output.clone();
