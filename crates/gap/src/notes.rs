@@ -32,7 +32,7 @@ pub(crate) fn notes(
     };
     let mut notes = Vec::new();
     let mut note = |code: &'static str, text: String| notes.push(DiagnosisNote { code, text });
-    if noise.iter().any(|of| of.estimated.is_some()) {
+    if noise.iter().any(|noise| noise.estimated.is_some()) {
         let repeats = setup.data.repeats(setup.case).iter().any(|rows| rows.len() > 1);
         note(
             "estimated-noise",
@@ -103,7 +103,7 @@ pub(crate) fn notes(
     let is_named = verdict.kind == HypothesisKind::Explained && verdict.probability > SURE;
     if !is_named && let [nearest, others @ ..] = &far_input::found(setup)[..] {
         let name = |variable: usize| format!("`{}`", setup.case.task.variables[variable].name);
-        let also: Vec<String> = others.iter().map(|of| name(of.variable)).collect();
+        let also: Vec<String> = others.iter().map(|other| name(other.variable)).collect();
         let also = match also.is_empty() {
             true => String::new(),
             false => format!(" So would {}, further from their estimates.", also.join(", ")),
@@ -175,17 +175,17 @@ pub(crate) fn notes(
             ),
         );
     }
-    let of_noise = noise.iter().any(|of| {
-        of.factor.is_some_and(|factor| factor.probability > LIKELY)
-            || of.correlations.iter().any(|of| of.probability > LIKELY)
-            || of.serial.is_some_and(|serial| serial.probability > LIKELY)
-            || of.settings.as_ref().is_some_and(|settings| settings.probability > LIKELY)
-            || of.suspects.iter().any(|suspect| suspect.probability > LIKELY)
+    let of_noise = noise.iter().any(|noise| {
+        noise.factor.is_some_and(|factor| factor.probability > LIKELY)
+            || noise.correlations.iter().any(|correlation| correlation.probability > LIKELY)
+            || noise.serial.is_some_and(|serial| serial.probability > LIKELY)
+            || noise.settings.as_ref().is_some_and(|settings| settings.probability > LIKELY)
+            || noise.suspects.iter().any(|suspect| suspect.probability > LIKELY)
     });
     if let (HypothesisKind::None, Some(p)) = (verdict.kind, gap.p_value)
         && p < OVERDISPERSED
         && !of_noise
-        && noise.iter().all(|of| of.estimated.is_none())
+        && noise.iter().all(|noise| noise.estimated.is_none())
     {
         let times = (gap.chi2 / gap.dof).sqrt();
         if shrinkage.chi2_per_dof[1] > misfit(setup.data.len()) {
@@ -226,7 +226,7 @@ pub(crate) fn notes(
             ),
         );
     } else if verdict.kind == HypothesisKind::None
-        && noise.iter().any(|of| of.factor.is_some_and(|factor| factor.probability > LIKELY))
+        && noise.iter().any(|noise| noise.factor.is_some_and(|factor| factor.probability > LIKELY))
         && let Some((output, coefficient)) = row_drift::memory(setup, winner)
     {
         note(
