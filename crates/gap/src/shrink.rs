@@ -413,8 +413,8 @@ fn fold(
                 let modes = &posterior.beside(&base.effects)?.named.evidence.modes;
                 let key = StreamKey::new(seed, "gap/without a block");
                 let effort = Effort { starts: 0, ..Effort::QUICK };
-                let with = (key, effort, f64::NEG_INFINITY);
-                Beside::fitted(&part, &discrepancy, &base.effects, modes, with)
+                let floor = f64::NEG_INFINITY;
+                Beside::fitted(&part, &discrepancy, &base.effects, modes, key, effort, floor)
             });
             let found = match beside {
                 Some(beside) => beside.departure,
