@@ -190,7 +190,7 @@ impl<'a> InputReader<'a, '_> {
             let name = format!("{}.{suffix}", self.name);
             let is_part = |o: &&Override| {
                 let field = o.field.as_deref();
-                o.input == self.name && field.is_some_and(|of| of == key || of == suffix)
+                o.input == self.name && field.is_some_and(|field| field == key || field == suffix)
             };
             let moved = overrides.iter().rev().find(is_part);
             let (conditions, folder, results) = (self.conditions, self.folder, self.results);
@@ -217,7 +217,8 @@ impl<'a> InputReader<'a, '_> {
                 let note = turned.map(|found| phase_of_turns(name, found));
                 self.inputs.warnings.extend(note);
             }
-            let own = self.inputs.quantities.get(known).map(|of| of.quantity.unit.clone());
+            let own =
+                self.inputs.quantities.get(known).map(|quantity| quantity.quantity.unit.clone());
             if let (Some(own), Some(whole)) = (own, whole)
                 && !own.is_compatible(&whole)
             {
@@ -390,7 +391,7 @@ impl<'a> InputReader<'a, '_> {
             self.note_of_moved_limits();
         }
         let shared = if differs { None } else { drawn.first() };
-        self.note_of_readings((&object, unit), self.name, kind, (shared, read.as_ref()));
+        self.note_of_readings(&object, unit, self.name, kind, shared, read.as_ref());
         let same_elsewhere = !differs && self.conditions.rows() > 1;
         self.note_of_zero_width(self.name, &zero_width, same_elsewhere);
         if !zero_share.is_empty() {
@@ -512,10 +513,12 @@ impl<'a> InputReader<'a, '_> {
     /// What is to be said of readings: groups, a drift, no scatter.
     fn note_of_readings(
         &mut self,
-        (object, unit): (&Object<'_>, &Unit),
+        object: &Object<'_>,
+        unit: &Unit,
         name: &str,
         kind: &FileShape,
-        (drawn, read): (Option<&Distribution>, Option<&FileReadings>),
+        drawn: Option<&Distribution>,
+        read: Option<&FileReadings>,
     ) {
         if kind.name != "readings" {
             return;
@@ -554,52 +557,52 @@ impl<'a> InputReader<'a, '_> {
     /// that states an uncertainty twice.
     fn certified(&mut self, name: String, object: &Object<'_>, of: Option<&FromCertificate>) {
         let file = object.text("file").unwrap_or("").to_owned();
-        if of.is_some_and(|of| of.of_interval) {
+        if of.is_some_and(|taken| taken.of_interval) {
             let text = format!(
                 "`{name}`: where `{file}` states a standard uncertainty with a coverage interval, it is \
                  taken in place of U over k, whose digits are rounded"
             );
             self.inputs.warnings.push(Warning::new("interval-uncertainty", &name, text));
         }
-        if let Some(called) = of.and_then(|of| of.unknown_distribution.as_ref()) {
+        if let Some(called) = of.and_then(|taken| taken.unknown_distribution.as_ref()) {
             let text = format!(
                 "`{name}`: `{file}` calls its distribution `{called}`, which is none that is known here; \
                  a normal distribution with its standard uncertainty is taken"
             );
             self.inputs.warnings.push(Warning::new("certificate-distribution", &name, text));
         }
-        if of.is_some_and(|of| of.is_difference) {
+        if of.is_some_and(|taken| taken.is_difference) {
             let text = format!(
                 "`{name}`: `{file}` gives a difference of temperatures, such as an error or a correction, \
                  which is taken in K; if it is a temperature, say `\"difference\": false`"
             );
             self.inputs.warnings.push(Warning::new("certificate-difference", &name, text));
         }
-        if of.is_some_and(|of| of.is_without) {
+        if of.is_some_and(|taken| taken.is_without) {
             let text = format!(
                 "`{name}`: `{file}` states no uncertainty for this value, which is taken as exact; one that \
                  stands in a text, or with another quantity, has to be stated in the model file"
             );
             self.inputs.warnings.push(Warning::new("certificate-exact", &name, text));
         }
-        if of.is_some_and(|of| of.is_before) {
+        if of.is_some_and(|taken| taken.is_before) {
             let text = format!(
                 "`{name}`: by its status in `{file}` the value was found before an adjustment or a repair; \
                  what holds after it stands elsewhere, if the certificate has it (`gumption dcc`)"
             );
             self.inputs.warnings.push(Warning::new("certificate-before-adjustment", &name, text));
         }
-        if of.is_some_and(|of| of.is_asymmetric) {
+        if of.is_some_and(|taken| taken.is_asymmetric) {
             let text = format!(
                 "`{name}`: `{file}` states a coverage interval that is not symmetric about the value; the \
                  value and its standard uncertainty are taken, and nothing of the asymmetry"
             );
             self.inputs.warnings.push(Warning::new("certificate-asymmetric", &name, text));
         }
-        let place = of.map(|of| (name.clone(), of.place.clone()));
+        let place = of.map(|taken| (name.clone(), taken.place.clone()));
         self.inputs.from_certificates.extend(place);
-        let certified = of.and_then(|of| of.certified.clone());
-        self.inputs.certified.extend(certified.map(|of| (name, of, file)));
+        let certified = of.and_then(|taken| taken.certified.clone());
+        self.inputs.certified.extend(certified.map(|certified| (name, certified, file)));
     }
 
     /// Adds a variable of the budget.
@@ -779,7 +782,7 @@ impl<'a> InputReader<'a, '_> {
             }
             let shared = if differs { None } else { drawn.first() };
             let read = part.read.0.as_ref();
-            self.note_of_readings((&part.object, unit), &part.full, part.kind, (shared, read));
+            self.note_of_readings(&part.object, unit, &part.full, part.kind, shared, read);
         }
         for (part, mut drawn) in drawn.into_iter().enumerate() {
             match drawn.pop() {

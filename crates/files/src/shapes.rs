@@ -692,10 +692,12 @@ impl<'a> Fields<'a> {
         let member = self.object.required(key)?;
         if let (Some(text), Some(at)) = (formula_of_width(&self.object, key, self.unit), self.at) {
             let formula = self.object.log.formula(&text).ok();
-            let name =
-                formula.as_ref().and_then(|of| of.names().next()).map(|(name, _)| name.to_owned());
+            let name = formula
+                .as_ref()
+                .and_then(|formula| formula.names().next())
+                .map(|(name, _)| name.to_owned());
             if !at.0.names().is_empty() || formula.is_some() && name.is_none() {
-                return self.width_of_row(key, &text, at);
+                return self.width_of_row(key, &text, at.0, at.1);
             }
             // a mistake among the conditions, told already, is why there are none
             if name.is_some() && at.0.are_unreadable() {
@@ -748,7 +750,8 @@ impl<'a> Fields<'a> {
         &self,
         key: &'static str,
         text: &str,
-        (conditions, row): (&dyn ConditionValues, usize),
+        conditions: &dyn ConditionValues,
+        row: usize,
     ) -> Option<Option<f64>> {
         let (log, place) = (self.object.log, self.place_of(key));
         let formula = log.formula(text).map_err(|error| DiagnosticKind::Formula { error });

@@ -104,7 +104,7 @@ impl Catalogue {
 
     /// What a quantity may be called in a sim.
     fn alternatives<'c>(&'c self, name: &'c str) -> Vec<&'c str> {
-        match self.names.iter().find(|(of, _)| of == name) {
+        match self.names.iter().find(|(known, _)| known == name) {
             Some((_, alternatives)) => alternatives.iter().map(String::as_str).collect(),
             None => vec![name],
         }
@@ -218,7 +218,7 @@ pub(super) fn read(
                 warnings.push(Warning::new("effect-misfit", name, text));
             };
             let mut names: Vec<&str> =
-                here.entries.iter().filter(is_named).map(|of| &*of.name).collect();
+                here.entries.iter().filter(is_named).map(|entry| &*entry.name).collect();
             names.dedup();
             if names.is_empty() {
                 left_out(NO_HISTORY);
