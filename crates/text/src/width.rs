@@ -212,7 +212,7 @@ fn ratio<'r>(rest: &'r str, unit: &Unit, own: &[Unit]) -> Option<(f64, &'r str)>
 /// Whether a term is a share that does not say what it is of: `0.1 %`.
 pub fn is_bare_share(term: &str) -> bool {
     let share = number(term).ok().and_then(|(_, rest)| share(rest));
-    share.is_some_and(|(_, of)| of.is_empty())
+    share.is_some_and(|(_, rest)| rest.is_empty())
 }
 
 fn converted(
