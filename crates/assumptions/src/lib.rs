@@ -174,7 +174,8 @@ pub fn audit(
                 None => return Ok(None),
             }
         }
-        let agreements = evidence.iter().filter_map(|of| agree(task, of, &mut warnings)).collect();
+        let agreements =
+            evidence.iter().filter_map(|evidence| agree(task, evidence, &mut warnings)).collect();
         let mut told = HashSet::new();
         warnings.retain(|warning: &Warning| told.insert((warning.code, warning.text.clone())));
         Ok(Some(Audit {

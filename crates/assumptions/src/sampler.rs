@@ -221,7 +221,9 @@ impl Sampler {
     /// one set from B.
     pub(super) fn mixed(
         &self,
-        (path, block, count): (CodePath, u64, usize),
+        path: CodePath,
+        block: u64,
+        count: usize,
         sets: &[PreparedSet<'_>],
         buffers: &mut Buffers,
         taker: &mut dyn Taker,

@@ -124,7 +124,7 @@ pub(super) fn spreads(
     control: &Control<'_>,
 ) -> Option<Vec<Vec<Spread>>> {
     let changes = sampler.prepared(changes);
-    let mut plans = plans(sampler, &changes, (trials, probability), control);
+    let mut plans = plans(sampler, &changes, trials, probability, control);
     loop {
         let request = (trials, probability);
         let batches = tallies(sampler, &changes, &plans, request, control)?;
@@ -152,7 +152,8 @@ pub(super) fn bytes(sampler: &Sampler, trials: u64) -> usize {
 fn plans(
     sampler: &Sampler,
     changes: &[Prepared<'_>],
-    (trials, probability): (u64, f64),
+    trials: u64,
+    probability: f64,
     control: &Control<'_>,
 ) -> Vec<ChangePlan> {
     let blocks = trials.div_ceil(BLOCK as u64);

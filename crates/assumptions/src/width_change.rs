@@ -64,7 +64,8 @@ impl<'a> WidthSearch<'a> {
     /// column, or nothing.
     fn half_length(
         &self,
-        (widening, before): (&Widening<'_>, &[Column]),
+        widening: &Widening<'_>,
+        before: &[Column],
         change: (f64, f64),
         buffers: &mut Buffers,
         control: &Control<'_>,
@@ -112,12 +113,13 @@ impl<'a> WidthSearch<'a> {
     ) -> Vec<Option<Allowed>> {
         let mut buffers = self.sampler.buffers();
         let outputs = 0..self.sampler.outputs();
-        outputs.map(|output| self.of_output((place, mean), output, &mut buffers, control)).collect()
+        outputs.map(|output| self.of_output(place, mean, output, &mut buffers, control)).collect()
     }
 
     fn of_output(
         &self,
-        (place, mean): (usize, f64),
+        place: usize,
+        mean: f64,
         output: usize,
         buffers: &mut Buffers,
         control: &Control<'_>,
@@ -131,7 +133,7 @@ impl<'a> WidthSearch<'a> {
         };
         let before = self.before(&widening, buffers, control);
         let mut at =
-            |factor: f64| self.half_length((&widening, &before), (mean, factor), buffers, control);
+            |factor: f64| self.half_length(&widening, &before, (mean, factor), buffers, control);
         // the square of the length is nearly linear in that of the width
         let mut excess = |square: f64| {
             let change = at(square.sqrt()) / stated - 1.0;

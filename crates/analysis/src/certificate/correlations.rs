@@ -24,7 +24,8 @@ type Key = (Arc<str>, Arc<str>, String);
 pub(super) fn between(
     certificate: &Certificate,
     evaluations: &[Evaluation],
-    (digests, raised): (&[Arc<str>], &[Option<f64>]),
+    digests: &[Arc<str>],
+    raised: &[Option<f64>],
 ) -> (Vec<Vec<Option<f64>>>, Vec<Option<f64>>) {
     let own = own_roots_of(certificate, digests);
     let (places, links) = Default::default();

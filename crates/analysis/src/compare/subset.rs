@@ -59,7 +59,7 @@ pub(super) fn largest(results: &CorrelatedResults, count: usize) -> Option<Found
         if looked_at > MOST {
             return one_at_a_time(results, count);
         }
-        let (members, ties) = smallest(results, (count, out), noise)?;
+        let (members, ties) = smallest(results, count, out, noise)?;
         let reference = results.reference(&members)?;
         // the others of its size have larger chi-squared
         if reference.is_consistent() {
@@ -95,7 +95,8 @@ fn noise(of_all: f64) -> f64 {
 /// the equals.
 fn smallest(
     results: &CorrelatedResults,
-    (count, out): (usize, usize),
+    count: usize,
+    out: usize,
     noise: f64,
 ) -> Option<(Vec<usize>, Ties)> {
     let precision = results.precision(&(0..count).collect::<Vec<_>>())?;

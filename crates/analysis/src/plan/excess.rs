@@ -108,7 +108,7 @@ pub(super) fn of(
 
 /// The standard uncertainty of a variable with these changes.
 fn planned(budget: &TrialBudget<'_>, changes: &Changes, variable: usize) -> f64 {
-    let changed = changes.iter().find(|(of, _)| *of == variable);
+    let changed = changes.iter().find(|(other, _)| *other == variable);
     changed.map_or_else(
         || budget.uncertainty(variable),
         |(_, change)| budget.changed_uncertainty(variable, *change),

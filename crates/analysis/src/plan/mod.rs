@@ -215,7 +215,7 @@ pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Resu
     };
     let met = figure <= limit;
     if met && interval.is_none() {
-        return Err(unplanned((task, &question.costs), budget, figure, control)?);
+        return Err(unplanned(task, &question.costs, budget, figure, control)?);
     }
     // before the needs of the inputs, which take longer and are of no use where there is no plan
     let cheapest = if met { None } else { Some(optimum::cheapest(budget, &question.costs)?) };
@@ -244,7 +244,8 @@ pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Resu
 /// Why nothing is planned where the target holds by the law of propagation: it is met, unless the
 /// trials miss it.
 fn unplanned(
-    (task, costs): (&Task, &Costs),
+    task: &Task,
+    costs: &Costs,
     budget: &TrialBudget<'_>,
     figure: f64,
     control: &Control<'_>,
