@@ -38,7 +38,8 @@ pub(super) type Allowed = [f64; 2];
 impl<'a> WidthSearch<'a> {
     pub(super) fn new(
         sampler: &'a Sampler,
-        (trials, probability): (u64, f64),
+        trials: u64,
+        probability: f64,
         allowed: f64,
         control: &Control<'_>,
     ) -> Self {
@@ -52,8 +53,7 @@ impl<'a> WidthSearch<'a> {
         let mut stated = Collected(vec![Vec::new(); sampler.outputs()]);
         let none = sampler.prepared(&[Change::None]);
         for block in 0..blocks {
-            let whole = (control.path, block, BLOCK);
-            sampler.changed(whole, &none, &mut buffers, &mut stated);
+            sampler.changed(control.path, block, BLOCK, &none, &mut buffers, &mut stated);
         }
         let stated = stated.0.iter_mut().map(|values| half_length(values, probability)).collect();
         Self { sampler, values, stated, probability, allowed }
@@ -75,7 +75,7 @@ impl<'a> WidthSearch<'a> {
         let columns = self.columns().zip(found.chunks_mut(COLUMN));
         for (column, (values, out)) in columns.enumerate() {
             let before = &before[column * each..(column + 1) * each];
-            widening.widened(control.path, (values, before), change, buffers, out);
+            widening.widened(control.path, values, before, change, buffers, out);
         }
         half_length(&mut found, self.probability)
     }

@@ -221,13 +221,13 @@ fn parts(
         return Some((width.relative, absolute, Some(OfConditions::new(sum))));
     }
     let formula = formula(output, member)
-        .filter(|_| Width::read(log, &member.value, (name, "cmc"), unit).is_err());
+        .filter(|_| Width::read(log, &member.value, name, "cmc", unit).is_err());
     if let Some(formula) = formula {
         let of = ValueOf::Difference;
         let following = following(output, "cmc", member, formula, of, unit, set)?;
         return Some((0.0, 0.0, Some(following)));
     }
-    let width = Width::read(log, &member.value, (name, "cmc"), unit);
+    let width = Width::read(log, &member.value, name, "cmc", unit);
     let width = log.value(&member.value.span, width)?;
     if let Json::Text(text) = &member.value.value {
         refuse_bare_share(output, name, member, &width::terms(text), unit, width, set)?;

@@ -141,7 +141,7 @@ fn formula_of_width(object: &Object<'_>, key: &str, unit: &Unit) -> Option<Strin
         let computes =
             |formula: &Formula| formula.names().next().is_some() || text.contains(['*', '/', '(']);
         object.log.formula(text).is_ok_and(|formula| computes(&formula))
-            && Width::read(object.log, &member.value, ("", key), unit).is_err()
+            && Width::read(object.log, &member.value, "", key, unit).is_err()
     };
     (begins_with_name || is_formula()).then(|| text.clone())
 }
@@ -716,7 +716,7 @@ impl<'a> Fields<'a> {
             }
         }
         let log = self.object.log;
-        let read = Width::read(log, &member.value, (self.name, key), self.unit)
+        let read = Width::read(log, &member.value, self.name, key, self.unit)
             .and_then(|width| self.share_beside_share(key).map_or(Ok(width), Err));
         let width = log.value(&member.value.span, read)?;
         let value = width.at(self.share_of.unwrap_or(estimate));

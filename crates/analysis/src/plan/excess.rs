@@ -45,9 +45,11 @@ pub(super) fn lower_target(budget: &TrialBudget<'_>, by_propagation: f64, by_tri
 /// The input that makes the trials of these changes give `by_trials`; `None` where a plan for the lower
 /// target `aim` would help, or where no input stands out.
 pub(super) fn of(
-    (task, costs): (&Task, &Costs),
+    task: &Task,
+    costs: &Costs,
     budget: &TrialBudget<'_>,
-    (changes, by_trials): (&Changes, f64),
+    changes: &Changes,
+    by_trials: f64,
     aim: f64,
     control: &Control<'_>,
 ) -> Option<Excess> {

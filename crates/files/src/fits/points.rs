@@ -165,8 +165,7 @@ fn spread(
                     column_of(log, column(text)?, name, text, &member.value.span, of)?
                 }
                 _ => {
-                    let width =
-                        Width::read(log, &member.value, (name, "standard_uncertainty"), unit);
+                    let width = Width::read(log, &member.value, name, "standard_uncertainty", unit);
                     let width = log.value(&member.value.span, width)?;
                     values.iter().map(|value| width.at(*value)).collect()
                 }
