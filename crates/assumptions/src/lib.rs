@@ -175,7 +175,8 @@ pub fn audit(
                 None => return Ok(None),
             }
         }
-        let agreements = evidence.iter().filter_map(|of| agree(task, of, &mut warnings)).collect();
+        let agreements =
+            evidence.iter().filter_map(|evidence| agree(task, evidence, &mut warnings)).collect();
         let mut told = HashSet::new();
         warnings.retain(|warning: &Warning| told.insert(warning.fact.clone()));
         Ok(Some(Audit {
@@ -279,7 +280,7 @@ impl Auditor<'_> {
         };
         let probability = task.settings.coverage.probability();
         let widths =
-            WidthSearch::new(&sampler, (question.trials, probability), question.allowed, control);
+            WidthSearch::new(&sampler, question.trials, probability, question.allowed, control);
         let allowed_of = |place| match self.stated(&sampler, place) {
             Some(stated) if !control.is_stopped() => widths.allowed(place, stated.mean(), control),
             _ => Vec::new(),
@@ -392,8 +393,9 @@ impl Auditor<'_> {
             let changes: Vec<Change> = std::iter::once(Change::None)
                 .chain(group.iter().map(|variant| variant.change.clone()))
                 .collect();
-            let request = (question.trials, probability);
-            let Some(mut found) = spread::spreads(sampler, &changes, request, control) else {
+            let trials = question.trials;
+            let found = spread::spreads(sampler, &changes, trials, probability, control);
+            let Some(mut found) = found else {
                 return Ok(None);
             };
             spreads.extend(found.drain(1..));

@@ -172,7 +172,9 @@ impl Sampler {
     /// column by column.
     pub(super) fn changed(
         &self,
-        (path, block, count): (CodePath, u64, usize),
+        path: CodePath,
+        block: u64,
+        count: usize,
         changes: &[Prepared<'_>],
         buffers: &mut Buffers,
         taker: &mut dyn Taker,
@@ -221,7 +223,9 @@ impl Sampler {
     /// and A with one set from B.
     pub(super) fn mixed(
         &self,
-        (path, block, count): (CodePath, u64, usize),
+        path: CodePath,
+        block: u64,
+        count: usize,
         sets: &[PreparedSet<'_>],
         buffers: &mut Buffers,
         taker: &mut dyn Taker,
@@ -374,7 +378,8 @@ impl Widening<'_> {
     pub(super) fn widened(
         &self,
         path: CodePath,
-        (values, before): (&[Column], &[Column]),
+        values: &[Column],
+        before: &[Column],
         (mean, factor): (f64, f64),
         buffers: &mut Buffers,
         out: &mut [f64],

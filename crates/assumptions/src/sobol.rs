@@ -78,7 +78,11 @@ impl Lanes {
             count,
             sum: sum(&self.samples[0]),
             squares: sum(&self.samples[1]),
-            differences: self.differences.iter().map(|of| [sum(&of[0]), sum(&of[1])]).collect(),
+            differences: self
+                .differences
+                .iter()
+                .map(|difference| [sum(&difference[0]), sum(&difference[1])])
+                .collect(),
         }
     }
 }
@@ -184,7 +188,7 @@ fn indices_of(
     let sets: Vec<PreparedSet<'_>> = sets.iter().map(|set| sampler.prepared_set(set)).collect();
     // relative to a value of the output, so that a common large part costs no digits
     let mut first = First(Vec::new());
-    sampler.mixed((control.path, 0, 1), &[], &mut sampler.buffers(), &mut first);
+    sampler.mixed(control.path, 0, 1, &[], &mut sampler.buffers(), &mut first);
     let references = first.0;
     let batch = |blocks: std::ops::Range<u64>| {
         let mut buffers = sampler.buffers();
@@ -201,7 +205,7 @@ fn indices_of(
                 return None;
             }
             let count = trials_in(block, trials);
-            sampler.mixed((control.path, block, count), &sets, &mut buffers, &mut lanes);
+            sampler.mixed(control.path, block, count, &sets, &mut buffers, &mut lanes);
             made += count;
             control.advance((count * (2 + sets.len())) as u64);
         }

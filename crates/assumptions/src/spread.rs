@@ -122,14 +122,14 @@ struct Batch {
 pub(super) fn spreads(
     sampler: &Sampler,
     changes: &[Change],
-    (trials, probability): (u64, f64),
+    trials: u64,
+    probability: f64,
     control: &Control<'_>,
 ) -> Option<Vec<Vec<Spread>>> {
     let changes = sampler.prepared(changes);
-    let mut plans = plans(sampler, &changes, (trials, probability), control);
+    let mut plans = plans(sampler, &changes, trials, probability, control);
     loop {
-        let request = (trials, probability);
-        let batches = tallies(sampler, &changes, &plans, request, control)?;
+        let batches = tallies(sampler, &changes, &plans, trials, probability, control)?;
         if let Some(found) = finish_all(&batches, &plans, probability) {
             return Some(found);
         }
@@ -154,15 +154,16 @@ pub(super) fn bytes(sampler: &Sampler, trials: u64) -> usize {
 fn plans(
     sampler: &Sampler,
     changes: &[Prepared<'_>],
-    (trials, probability): (u64, f64),
+    trials: u64,
+    probability: f64,
     control: &Control<'_>,
 ) -> Vec<ChangePlan> {
     let blocks = trials.div_ceil(BLOCK as u64);
     let mut buffers = sampler.buffers();
     let mut pilot = Pilot { values: vec![vec![Vec::new(); sampler.outputs()]; changes.len()] };
     for block in 0..blocks.min(PILOT) {
-        let these = (control.path, block, trials_in(block, trials));
-        sampler.changed(these, changes, &mut buffers, &mut pilot);
+        let count = trials_in(block, trials);
+        sampler.changed(control.path, block, count, changes, &mut buffers, &mut pilot);
     }
     let batch = trials as f64 / batches(trials).len().max(1) as f64;
     let plan = |values: &mut Vec<f64>, is_taken: bool| {
@@ -213,7 +214,8 @@ fn tallies(
     sampler: &Sampler,
     changes: &[Prepared<'_>],
     plans: &[ChangePlan],
-    (trials, probability): (u64, f64),
+    trials: u64,
+    probability: f64,
     control: &Control<'_>,
 ) -> Option<Vec<Vec<Batch>>> {
     let batch = |blocks: std::ops::Range<u64>| {
@@ -225,7 +227,7 @@ fn tallies(
                 return None;
             }
             let count = trials_in(block, trials);
-            sampler.changed((control.path, block, count), changes, &mut buffers, &mut tallies);
+            sampler.changed(control.path, block, count, changes, &mut buffers, &mut tallies);
             control.advance((count * changes.len()) as u64);
         }
         let mut found = tallies.found;

@@ -38,7 +38,8 @@ pub(super) type Allowed = [f64; 2];
 impl<'a> WidthSearch<'a> {
     pub(super) fn new(
         sampler: &'a Sampler,
-        (trials, probability): (u64, f64),
+        trials: u64,
+        probability: f64,
         allowed: f64,
         control: &Control<'_>,
     ) -> Self {
@@ -52,8 +53,7 @@ impl<'a> WidthSearch<'a> {
         let mut stated = Collected(vec![Vec::new(); sampler.outputs()]);
         let none = sampler.prepared(&[Change::None]);
         for block in 0..blocks {
-            let whole = (control.path, block, BLOCK);
-            sampler.changed(whole, &none, &mut buffers, &mut stated);
+            sampler.changed(control.path, block, BLOCK, &none, &mut buffers, &mut stated);
         }
         let stated = stated.0.iter_mut().map(|values| half_length(values, probability)).collect();
         Self { sampler, values, stated, probability, allowed }
@@ -64,7 +64,8 @@ impl<'a> WidthSearch<'a> {
     /// nothing.
     fn half_length(
         &self,
-        (widening, before): (&Widening<'_>, &[Column]),
+        widening: &Widening<'_>,
+        before: &[Column],
         change: (f64, f64),
         buffers: &mut Buffers,
         control: &Control<'_>,
@@ -74,7 +75,7 @@ impl<'a> WidthSearch<'a> {
         let columns = self.columns().zip(found.chunks_mut(COLUMN));
         for (column, (values, out)) in columns.enumerate() {
             let before = &before[column * each..(column + 1) * each];
-            widening.widened(control.path, (values, before), change, buffers, out);
+            widening.widened(control.path, values, before, change, buffers, out);
         }
         half_length(&mut found, self.probability)
     }
@@ -112,12 +113,13 @@ impl<'a> WidthSearch<'a> {
     ) -> Vec<Option<Allowed>> {
         let mut buffers = self.sampler.buffers();
         let outputs = 0..self.sampler.outputs();
-        outputs.map(|output| self.of_output((place, mean), output, &mut buffers, control)).collect()
+        outputs.map(|output| self.of_output(place, mean, output, &mut buffers, control)).collect()
     }
 
     fn of_output(
         &self,
-        (place, mean): (usize, f64),
+        place: usize,
+        mean: f64,
         output: usize,
         buffers: &mut Buffers,
         control: &Control<'_>,
@@ -131,7 +133,7 @@ impl<'a> WidthSearch<'a> {
         };
         let before = self.before(&widening, buffers, control);
         let mut at =
-            |factor: f64| self.half_length((&widening, &before), (mean, factor), buffers, control);
+            |factor: f64| self.half_length(&widening, &before, (mean, factor), buffers, control);
         // the square of the length is nearly linear in the square of the width
         let mut excess = |square: f64| {
             let change = at(square.sqrt()) / stated - 1.0;

@@ -82,8 +82,10 @@ fn of_certificate(file: &str, text: &str, content: &[u8]) -> Result<Vec<CarriedM
         .collect();
     let is_model = |bytes: &[u8]| {
         let found: Option<Map<String, Value>> = serde_json::from_slice(bytes).ok();
-        found.is_some_and(|of| {
-            of.contains_key("inputs") && of.contains_key("outputs") && !of.contains_key("gumption")
+        found.is_some_and(|fields| {
+            fields.contains_key("inputs")
+                && fields.contains_key("outputs")
+                && !fields.contains_key("gumption")
         })
     };
     // what a model names follows it, and has no folder any more
@@ -131,8 +133,8 @@ pub(super) fn attachment(node: Node<'_, '_>) -> Option<(String, Vec<u8>)> {
     let data: String = data.split_whitespace().collect();
     let content = STANDARD.decode(data).ok()?;
     let path = child("description")
-        .and_then(|of| of.children().find(Node::is_element))
-        .and_then(|of| of.text());
-    let name = path.or_else(|| child("fileName").and_then(|of| of.text()))?;
+        .and_then(|description| description.children().find(Node::is_element))
+        .and_then(|element| element.text());
+    let name = path.or_else(|| child("fileName").and_then(|name| name.text()))?;
     Some((name.trim().to_owned(), content))
 }

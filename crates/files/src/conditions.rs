@@ -197,7 +197,8 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
         };
         keys::check(&condition, keys::CONDITION);
         conditions.add(member, &condition);
-        let unit = conditions.quantities.last().map_or_else(Unit::one, |of| of.unit.clone());
+        let unit =
+            conditions.quantities.last().map_or_else(Unit::one, |quantity| quantity.unit.clone());
         let values = if condition.get("values").is_some() {
             condition.values("values", &unit, ValueOf::Quantity)
         } else {

@@ -28,7 +28,8 @@ pub(super) fn read(
     rows: &ConditionRows<'_>,
     folder: Folder<'_>,
     files: &mut Vec<(String, Vec<u8>)>,
-    (fits, trials): (&Fits, Trials),
+    fits: &Fits,
+    trials: Trials,
 ) -> (Vec<Correlation>, Vec<Warning>) {
     let (found, mut warnings) = links::links(inputs);
     let place = |c: &Correlation| inputs.places.get(c.second).unwrap_or(root.place()).clone();
@@ -59,7 +60,7 @@ pub(super) fn read(
     reader.from_certificates = reader.found.len();
     warnings.extend(reader.certified());
     if reader.are_shared_alike(root) {
-        warnings.extend(reader.check(root, (fits, trials)));
+        warnings.extend(reader.check(root, fits, trials));
     }
     warnings.extend(reader.with_constants());
     (reader.found, warnings)
@@ -91,7 +92,9 @@ impl CorrelationsReader<'_> {
         let certified = &self.inputs.certified;
         let mut kept: Vec<Fact> = Vec::new();
         for (place, (second, b, file)) in certified.iter().enumerate() {
-            for (first, a, _) in certified.iter().take(place).filter(|(.., of)| of == file) {
+            for (first, a, _) in
+                certified.iter().take(place).filter(|(.., other_file)| other_file == file)
+            {
                 let pair = (self.by_name.get(first.as_str()), self.by_name.get(second.as_str()));
                 let ((Some(&i), Some(&j)), Some(r)) = (pair, a.correlation(b)) else { continue };
                 let pair = (i.min(j), i.max(j));
@@ -118,11 +121,11 @@ impl CorrelationsReader<'_> {
     fn with_constants(&self) -> Vec<Warning> {
         let constant = |place: &usize| !self.inputs.known.varies(*place);
         let name = |place: usize| self.inputs.variables.get(place).map(|v| v.name.as_str());
-        let declared = self.found.iter().filter(|of| of.coefficient != 0.0);
+        let declared = self.found.iter().filter(|correlation| correlation.coefficient != 0.0);
         declared
-            .filter_map(|of| {
-                let place = [of.first, of.second].into_iter().find(constant)?;
-                let (first, second, constant) = (name(of.first)?, name(of.second)?, name(place)?);
+            .filter_map(|correlation| {
+                let place = [correlation.first, correlation.second].into_iter().find(constant)?;
+                let (first, second, constant) = (name(correlation.first)?, name(correlation.second)?, name(place)?);
                 let fact = fact!("correlation-with-constant", first, second, constant);
                 Some(Warning::new(constant, fact))
             })
@@ -306,7 +309,7 @@ impl CorrelationsReader<'_> {
 
     /// Whether the quantities can have these coefficients. Those of certificates, which the file does not
     /// state, become the nearest that they can have, with a note.
-    fn check(&mut self, root: &Object<'_>, draws: (&Fits, Trials)) -> Option<Warning> {
+    fn check(&mut self, root: &Object<'_>, fits: &Fits, trials: Trials) -> Option<Warning> {
         if !self.inputs.known.is_complete(self.inputs.variables.len()) {
             return None;
         }
@@ -314,7 +317,7 @@ impl CorrelationsReader<'_> {
         // each turn moves a coefficient, none often
         let mut turns = 2 * self.found.len();
         loop {
-            let errors = self.contradictions(draws);
+            let errors = self.contradictions(fits, trials);
             if turns == 0 || errors.is_empty() || !errors.iter().all(|error| self.moves(error)) {
                 errors.into_iter().for_each(|error| self.report(root, &error));
                 break;
@@ -340,7 +343,7 @@ impl CorrelationsReader<'_> {
     }
 
     /// What contradicts the coefficients in some row.
-    fn contradictions(&self, (fits, trials): (&Fits, Trials)) -> Vec<CorrelationError> {
+    fn contradictions(&self, fits: &Fits, trials: Trials) -> Vec<CorrelationError> {
         let mut seen: Vec<CorrelationError> = Vec::new();
         let mut before: Option<Arc<[Arc<Distribution>]>> = None;
         for row in self.inputs.known.rows(self.rows.rows.len()) {

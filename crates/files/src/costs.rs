@@ -95,7 +95,9 @@ fn variable(object: &Object<'_>, member: &Member, task: &Task) -> Option<usize> 
         let part = format!("{}/", member.key);
         let component = shown().find(|variable| variable.name.starts_with(&part));
         let names = shown().map(|variable| variable.name.as_str());
-        let near = component.map(|of| of.name.as_str()).or_else(|| nearest(&member.key, names));
+        let near = component
+            .map(|component| component.name.as_str())
+            .or_else(|| nearest(&member.key, names));
         let (name, nearest) = (member.key.clone(), near.map(str::to_owned));
         object.log.report(&member.key_span, DiagnosticKind::NoSuchInput { name, nearest });
     }

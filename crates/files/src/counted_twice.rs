@@ -48,7 +48,7 @@ pub(super) fn notes(task: &Task) -> Vec<Warning> {
         .collect();
     let are_correlated = |a: usize, b: usize| {
         let pair = |of: [usize; 2]| of == [a, b] || of == [b, a];
-        task.correlations.iter().any(|of| pair([of.first, of.second]))
+        task.correlations.iter().any(|correlation| pair([correlation.first, correlation.second]))
     };
     let mut found = Vec::new();
     let results = task.variables.iter().zip(row.distributions.iter()).enumerate();

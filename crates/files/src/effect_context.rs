@@ -20,6 +20,9 @@ impl EffectContext<'_> {
     /// overrides need each other, which is reported where it is read, counts as one that acts.
     pub(super) fn is_changed_by(&self, effect: &Effect) -> bool {
         let Ok(changed) = self.sim.changed_by(effect) else { return true };
-        changed.into_iter().zip(self.observed).any(|(changed, of)| changed && of.is_some())
+        changed
+            .into_iter()
+            .zip(self.observed)
+            .any(|(changed, observed)| changed && observed.is_some())
     }
 }

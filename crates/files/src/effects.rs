@@ -125,8 +125,8 @@ impl EffectsReader<'_> {
         let parameters = object.required("parameters");
         let overrides = object.required("overrides");
         // parameters are always drawn; an effect of known size has none
-        let inputs = parameters.and_then(|of| {
-            inputs::read(self.log, of, &NoConditions, &[], self.results, Trials::Adaptive)
+        let inputs = parameters.and_then(|parameters| {
+            inputs::read(self.log, parameters, &NoConditions, &[], self.results, Trials::Adaptive)
         });
         let overrides = Object::new(self.log, "`overrides`", &overrides?.value, &member.key_span)?;
         if overrides.members().is_empty() {

@@ -42,7 +42,8 @@ pub(super) fn of_formulas(
         let factors_of = |name: &str| numbers.factors.get(name).copied();
         let of_result = result.map_or(Use::Quantity, Use::Output);
         let (notes, factors) = formula.notes(known, factors_of, of_result);
-        let is_length = scope.get(name).is_some_and(|of| of.dimension == Some(Dimension::LENGTH));
+        let is_length =
+            scope.get(name).is_some_and(|typing| typing.dimension == Some(Dimension::LENGTH));
         let computed = formula.numbers(known).or(is_length.then_some(Numbers::Length));
         let computed = computed.filter(|_| of.check_units);
         found.extend(notes.into_iter().map(|note| Warning::new(name, note.fact)));
@@ -57,7 +58,9 @@ pub(super) fn of_formulas(
     found.extend(picohenries(of));
     if of.check_units {
         found.extend(celsius_as_kelvin(scope, &of.outputs.outputs));
-        found.extend(of.outputs.outputs.iter().filter_map(|of| difference_in_degrees(scope, of)));
+        found.extend(
+            of.outputs.outputs.iter().filter_map(|output| difference_in_degrees(scope, output)),
+        );
         found.extend(of.outputs.outputs.iter().filter_map(|output| sum_of_levels(scope, output)));
         found.extend(of.outputs.outputs.iter().filter_map(|output| rate_of_turns(scope, output)));
         let in_nepers = |unit: &&Unit| !unit.level_exponent().is_zero() && unit.factor() != 1.0;
@@ -308,11 +311,11 @@ pub(super) fn of_conditions(root: &Object<'_>, of: &Quantities) -> Vec<Warning> 
     let given = units_by_name(inputs.chain(&of.conditions.quantities));
     let numbers = KnownNumbers::new(&given, of, None);
     let mut found = Vec::new();
-    let mut note = |name: &str, text: &str, of: Use<'_>| {
+    let mut note = |name: &str, text: &str, usage: Use<'_>| {
         let formula = Some(text).filter(|text| !is_value(text));
         let formula = formula.and_then(|text| root.log.formula(text).ok());
         let notes =
-            formula.map(|formula| formula.notes(|source| numbers.of(source), |_| None, of).0);
+            formula.map(|formula| formula.notes(|source| numbers.of(source), |_| None, usage).0);
         let notes = notes.into_iter().flatten();
         found.extend(notes.map(|note| Warning::new(name, note.fact)));
     };
@@ -422,7 +425,7 @@ fn rate_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
     let typing = scope.get(name)?;
     let unknown = typing.turn.is_none()
         && !typing.has_turns
-        && typing.dimension.is_some_and(|of| !of.is_none());
+        && typing.dimension.is_some_and(|dimension| !dimension.is_none());
     let is_told = unit.counts_revolutions() && unknown && unit.turn().is_some();
     is_told.then(|| Warning::new(name, fact!("rate-of-turns", name)))
 }
@@ -432,7 +435,8 @@ fn radians_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
     let Quantity { name, unit, .. } = &output.quantity;
     let shown = if unit.text().is_empty() { "1" } else { unit.text() };
     let typing = scope.get(name)?;
-    let is_rate = typing.dimension.is_some_and(|of| of.is_of_time() && !of.is_none());
+    let is_rate =
+        typing.dimension.is_some_and(|dimension| dimension.is_of_time() && !dimension.is_none());
     let counts_angle = typing.turn == Some(Turn::Angle) || typing.has_turns && is_rate;
     let counts_nothing = unit.turn() != Some(Turn::Angle) && unit.dimension().is_of_time();
     let fact = if counts_angle && counts_nothing {
@@ -457,7 +461,7 @@ fn is_per_turn(typing: Typing) -> bool {
     let angle = typing.angle;
     angle.of_revolutions
         && angle.exponent == Exponent::integer(-1)
-        && typing.dimension.is_some_and(|of| !BY_RADIANS.contains(&of))
+        && typing.dimension.is_some_and(|dimension| !BY_RADIANS.contains(&dimension))
 }
 
 /// Outputs in K of what a coefficient's unit makes a number of degrees: a temperature or a

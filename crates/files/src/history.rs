@@ -281,8 +281,8 @@ pub(super) fn add(
     conditions: &mut Conditions,
 ) {
     let named = observations.order.as_ref();
-    let own = |name: &str| conditions.quantities.iter().position(|of| of.name == name);
-    let bare = named.map(|of| column_heading::bare(&of.name));
+    let own = |name: &str| conditions.quantities.iter().position(|quantity| quantity.name == name);
+    let bare = named.map(|named| column_heading::bare(&named.name));
     let own_clock = bare.and_then(own);
     let column = |table: &Table| -> Option<Vec<f64>> {
         let place = table.column(&named?.name)?;
@@ -290,7 +290,7 @@ pub(super) fn add(
     };
     let data = &observations.table;
     let places: Vec<Option<usize>> =
-        conditions.quantities.iter().map(|of| data.column(&of.name)).collect();
+        conditions.quantities.iter().map(|quantity| data.column(&quantity.name)).collect();
     let of_row = |row: &Vec<f64>| {
         let value = |place: &Option<usize>| place.and_then(|place| row.get(place)).copied();
         places.iter().map(|place| value(place).unwrap_or(f64::NAN)).collect()
@@ -303,13 +303,17 @@ pub(super) fn add(
     let known = HistoryColumns {
         conditions: (0..count).filter(is_set).collect(),
         all: count,
-        measured: observations.columns.iter().map(|of| of.observed.values.as_slice()).collect(),
+        measured: observations
+            .columns
+            .iter()
+            .map(|column| column.observed.values.as_slice())
+            .collect(),
         is_stated: named.is_some(),
         is_condition: own_clock.is_some() || series.has_clock(count),
     };
     let found = known.matter(&series);
     let of_time = [HistoryKind::Since, HistoryKind::Order];
-    if let (Some(at), Some(of)) = (at, named.filter(|of| of.is_time))
+    if let (Some(at), Some(of)) = (at, named.filter(|named| named.is_time))
         && at.column(&of.name).is_none()
         && found.iter().any(|history| of_time.contains(&history.kind))
     {
@@ -322,8 +326,8 @@ pub(super) fn add(
         Some(at) => Series::new(&there, column(at)),
     };
     let taken = |name: &str| own(name).is_some() || is_quantity(root, name);
-    let heading = named.and_then(|of| {
-        let place = data.column(&of.name)?;
+    let heading = named.and_then(|named| {
+        let place = data.column(&named.name)?;
         column_heading::heading(root.log, data.columns.get(place)?)
     });
     let clock = match (own_clock, &heading) {
@@ -331,14 +335,14 @@ pub(super) fn add(
         (None, Some((_, unit))) => unit.clone(),
         (None, None) => Unit::one(),
     };
-    let place = named.map_or(0..0, |of| of.place.clone());
+    let place = named.map_or(0..0, |named| named.place.clone());
     let mut added: Vec<(History, Quantity)> = Vec::new();
     for history in found {
-        let of = history.of.map(|of| &conditions.quantities[of]);
+        let of = history.of.map(|condition| &conditions.quantities[condition]);
         let of_clock = |(name, _): &(&str, Unit)| is_name(name) && !taken(name);
         let name = match (history.kind, &heading) {
             (HistoryKind::Order, Some(heading)) if of_clock(heading) => heading.0.to_owned(),
-            _ => history.kind.name(of.map_or("", |of| of.name.as_str())),
+            _ => history.kind.name(of.map_or("", |condition| condition.name.as_str())),
         };
         if taken(&name) {
             continue;
@@ -370,7 +374,7 @@ pub(super) fn add(
 fn is_quantity(root: &Object<'_>, name: &str) -> bool {
     ["inputs", "equations", "outputs", "fits"].into_iter().any(|key| {
         let members = root.get(key).map(|member| &member.value.value);
-        matches!(members, Some(Json::Object(members)) if members.iter().any(|of| of.key == name))
+        matches!(members, Some(Json::Object(members)) if members.iter().any(|member| member.key == name))
     })
 }
 

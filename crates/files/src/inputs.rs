@@ -182,7 +182,7 @@ impl<'a> InputReader<'a, '_> {
             let name = format!("{}.{suffix}", self.name);
             let is_part = |o: &&Override| {
                 let field = o.field.as_deref();
-                o.input == self.name && field.is_some_and(|of| of == key || of == suffix)
+                o.input == self.name && field.is_some_and(|field| field == key || field == suffix)
             };
             let moved = overrides.iter().rev().find(is_part);
             let (conditions, folder, results) = (self.conditions, self.folder, self.results);
@@ -211,7 +211,8 @@ impl<'a> InputReader<'a, '_> {
                 let note = turned.map(|found| Warning::new(name, fact(found)));
                 self.inputs.warnings.extend(note);
             }
-            let own = self.inputs.quantities.get(known).map(|of| of.quantity.unit.clone());
+            let own =
+                self.inputs.quantities.get(known).map(|quantity| quantity.quantity.unit.clone());
             if let (Some(own), Some(whole)) = (own, whole)
                 && !own.is_compatible(&whole)
             {
@@ -384,7 +385,7 @@ impl<'a> InputReader<'a, '_> {
             self.note_of_moved_limits();
         }
         let shared = if differs { None } else { drawn.first() };
-        self.note_of_readings((&object, unit), self.name, kind, (shared, read.as_ref()));
+        self.note_of_readings(&object, unit, self.name, kind, shared, read.as_ref());
         let same_elsewhere = !differs && self.conditions.rows() > 1;
         self.note_of_zero_width(self.name, &zero_width, same_elsewhere);
         if !zero_share.is_empty() {
@@ -493,10 +494,12 @@ impl<'a> InputReader<'a, '_> {
     /// What is to be said of readings: groups, a drift, no scatter.
     fn note_of_readings(
         &mut self,
-        (object, unit): (&Object<'_>, &Unit),
+        object: &Object<'_>,
+        unit: &Unit,
         name: &str,
         kind: &FileShape,
-        (drawn, read): (Option<&Distribution>, Option<&FileReadings>),
+        drawn: Option<&Distribution>,
+        read: Option<&FileReadings>,
     ) {
         if kind.name != "readings" {
             return;
@@ -711,7 +714,7 @@ impl<'a> InputReader<'a, '_> {
             }
             let shared = if differs { None } else { drawn.first() };
             let read = part.read.0.as_ref();
-            self.note_of_readings((&part.object, unit), &part.full, part.kind, (shared, read));
+            self.note_of_readings(&part.object, unit, &part.full, part.kind, shared, read);
         }
         for (part, mut drawn) in drawn.into_iter().enumerate() {
             match drawn.pop() {

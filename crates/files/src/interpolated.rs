@@ -42,7 +42,7 @@ pub(super) fn read(
             }
             let named = member.map_or(0..0, |member| place_in_formula(log, member, &call.span));
             let is_read = |of: &TableCall| of.file == call.file && of.columns == call.columns;
-            let known = opened.iter().position(|(of, _)| is_read(of));
+            let known = opened.iter().position(|(source, _)| is_read(source));
             let known = known.unwrap_or_else(|| {
                 let wanted =
                     call.columns.as_ref().map(|names| names.each_ref().map(String::as_str));

@@ -52,7 +52,7 @@ pub(super) fn check_names(root: &Object<'_>, of: &Quantities, body: &Option<Mode
     // names with the kind of quantity; a key that stands twice in one object is reported there
     let mut taken: HashMap<&str, usize> = HashMap::new();
     // an input that was read has its own name, or names of parts
-    let own = inputs.quantities.iter().map(|of| of.quantity.name.as_str());
+    let own = inputs.quantities.iter().map(|quantity| quantity.quantity.name.as_str());
     let read: HashSet<&str> = own
         .flat_map(|own| [Some(own), own.rsplit_once('.').map(|(whole, _)| whole)])
         .flatten()
@@ -261,8 +261,12 @@ const THERMODYNAMIC: f64 = 200.0;
 fn thermodynamic(inputs: &InputSet) -> HashSet<&str> {
     let is_so =
         |place: usize| inputs.known.get(place, 0).is_some_and(|known| known.mean() > THERMODYNAMIC);
-    let in_kelvin = inputs.variables.iter().enumerate().filter(|(_, of)| *of.unit.text() == *"K");
-    in_kelvin.filter(|(place, _)| is_so(*place)).map(|(_, of)| of.name.as_str()).collect()
+    let in_kelvin =
+        inputs.variables.iter().enumerate().filter(|(_, variable)| *variable.unit.text() == *"K");
+    in_kelvin
+        .filter(|(place, _)| is_so(*place))
+        .map(|(_, variable)| variable.name.as_str())
+        .collect()
 }
 
 fn kelvin(mut typing: Typing) -> Typing {
@@ -373,7 +377,7 @@ pub(super) fn check_formula_outputs(log: &Collector, scope: &Scope, of: &Quantit
                 // a Celsius temperature is none in K
                 expected: typing
                     .zero
-                    .map_or_else(|| coherent(dimension), |of| of.unit().to_owned()),
+                    .map_or_else(|| coherent(dimension), |zero| zero.unit().to_owned()),
                 expected_as,
             };
             log.report(unit_place, diagnostic);

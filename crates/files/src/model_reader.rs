@@ -197,9 +197,8 @@ impl<'a> ModelReader<'a> {
         let fits = self.fits(check_units)?;
         let body = self.body(&simulated, &fits.curves);
         let results = ResultFiles::new(self.folder, self.options.files).with_curves(&fits.curves);
-        let files = (&results, &fits);
         let trials = self.options.files.trials(settings.trials);
-        let mut of = self.quantities(conditions, check_units, &body, files, trials)?;
+        let mut of = self.quantities(conditions, check_units, &body, &results, &fits, trials)?;
 
         let mut files = std::mem::take(&mut of.conditions.files);
         if let Some(observations) = &mut observations {
@@ -210,7 +209,7 @@ impl<'a> ModelReader<'a> {
         files.append(&mut results.certificates.borrow_mut().files);
         files.extend(fits.files);
         let joint = Fits::default();
-        let (correlations, notes) = self.correlations(&of, &mut files, (&joint, trials));
+        let (correlations, notes) = self.correlations(&of, &mut files, &joint, trials);
         let mut warnings = of.inputs.warnings.clone();
         warnings.extend(fits.warnings);
         warnings.extend(notes);
@@ -314,7 +313,8 @@ impl<'a> ModelReader<'a> {
             (None, Some(table)) => Conditions::rows_of(table),
             (None, None) => Conditions::none(),
         };
-        let of_rows = table.zip(observations.as_ref().and_then(|of| of.replication.as_ref()));
+        let of_rows = table
+            .zip(observations.as_ref().and_then(|observations| observations.replication.as_ref()));
         if let Some((table, (name, place))) = of_rows {
             replication_column(log, &mut conditions, table, name, place);
         }
@@ -334,7 +334,8 @@ impl<'a> ModelReader<'a> {
         conditions: Conditions,
         check_units: bool,
         body: &Option<ModelBody<'a>>,
-        (results, fits): (&ResultFiles<'_>, &FitSet),
+        results: &ResultFiles<'_>,
+        fits: &FitSet,
         trials: Trials,
     ) -> Option<Quantities> {
         let (root, log) = (&self.root, self.root.log);
@@ -376,13 +377,14 @@ impl<'a> ModelReader<'a> {
         &self,
         of: &Quantities,
         files: &mut Vec<(String, Vec<u8>)>,
-        draws: (&Fits, Trials),
+        fits: &Fits,
+        trials: Trials,
     ) -> (Vec<Correlation>, Vec<Warning>) {
         let rows = correlations::ConditionRows {
             conditions: of.conditions.quantities.iter().map(|c| c.name.clone()).collect(),
             rows: &of.conditions.rows,
         };
-        correlations::read(&self.root, &of.inputs, &rows, self.folder, files, draws)
+        correlations::read(&self.root, &of.inputs, &rows, self.folder, files, fits, trials)
     }
 
     /// The model, checked against the quantities, which it takes over.
@@ -456,10 +458,15 @@ impl<'a> ModelReader<'a> {
                 unknown_output(self.root.log, &column.output, &known, &column.place);
                 clean = false;
             }
-            let own = sim.outputs.iter().find(|of| of.quantity.name == column.output);
+            let own = sim.outputs.iter().find(|output| output.quantity.name == column.output);
             for (heading, place, kind) in &column.headings {
-                clean &= own.is_none_or(|of| {
-                    column_heading::check(self.root.log, place, heading, (&of.quantity.unit, *kind))
+                clean &= own.is_none_or(|own| {
+                    column_heading::check(
+                        self.root.log,
+                        place,
+                        heading,
+                        (&own.quantity.unit, *kind),
+                    )
                 });
             }
         }
@@ -468,7 +475,8 @@ impl<'a> ModelReader<'a> {
             let named =
                 |column: &&observations::ObservedColumn| column.output == output.quantity.name;
             let column = observations.columns.iter().find(named);
-            let observed = column.map(|of| of.in_unit(self.root.log, &output.quantity.unit));
+            let observed =
+                column.map(|column| column.in_unit(self.root.log, &output.quantity.unit));
             clean &= !matches!(observed, Some(None));
             all.push(observed.flatten());
         }

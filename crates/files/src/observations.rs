@@ -63,7 +63,7 @@ impl ObservedColumn {
     pub(super) fn in_unit(&self, log: &Collector, unit: &Unit) -> Option<ObservedOutput> {
         let mut observed = self.observed.clone();
         for StatedUncertainty { key, value, of } in &self.stated {
-            let width = Width::read(log, value, (&self.output, *key), unit)
+            let width = Width::read(log, value, &self.output, key, unit)
                 .map_err(|mistake| log.report(&value.span, mistake))
                 .ok()?;
             let uncertainties: Vec<f64> = of.iter().map(|value| width.at(*value)).collect();
@@ -247,17 +247,17 @@ impl ObservationsReader<'_> {
         ];
         let is_column =
             |key: &str| object.get(key).is_some_and(|member| !is_stated(&member.value, self.table));
-        let headings = headings.into_iter().filter_map(|(key, of)| {
+        let headings = headings.into_iter().filter_map(|(key, kind)| {
             is_column(key).then_some(())?;
             let named = object.text(key)?;
             let heading = self.table.column(named).map(|place| self.table.columns[place].as_str());
-            Some((heading.unwrap_or(named).to_owned(), object.get(key)?.value.span.clone(), of))
+            Some((heading.unwrap_or(named).to_owned(), object.get(key)?.value.span.clone(), kind))
         });
         let values = values?;
         let of = [(UNCERTAINTY, Some(&values)), (OF_THE_SIMULATION, sims.as_ref())];
-        let stated = of.into_iter().filter_map(|(key, of)| {
+        let stated = of.into_iter().filter_map(|(key, values)| {
             let value = object.get(key).filter(|_| !is_column(key))?.value.clone();
-            Some(StatedUncertainty { key, value, of: of?.clone() })
+            Some(StatedUncertainty { key, value, of: values?.clone() })
         });
         let stated = stated.collect();
         Some(ObservedColumn {

@@ -28,7 +28,7 @@ pub(super) fn tell(
         }
     }
     for (name, place) in &inputs.from_certificates {
-        let is_replaced = overrides.iter().any(|of| of.input == quantity(name));
+        let is_replaced = overrides.iter().any(|change| change.input == quantity(name));
         let variable = inputs.variables.iter_mut().find(|variable| variable.name == *name);
         if let Some(variable) = variable.filter(|_| !is_replaced) {
             variable.occasion.certified = Some(place.as_str().into());
@@ -81,13 +81,13 @@ fn quantity(name: &str) -> &str {
 /// its figures may name.
 fn replaced(variable: &str, constants: &[String], overrides: &[Override]) -> String {
     let own = quantity(variable);
-    let counts = |of: &&Override| of.input == own || constants.contains(&of.input);
+    let counts = |change: &&Override| change.input == own || constants.contains(&change.input);
     let mut texts: Vec<String> = overrides
         .iter()
         .filter(counts)
-        .map(|of| match &of.field {
-            Some(field) => format!("{}.{field}={}", of.input, of.value),
-            None => format!("{}={}", of.input, of.value),
+        .map(|change| match &change.field {
+            Some(field) => format!("{}.{field}={}", change.input, change.value),
+            None => format!("{}={}", change.input, change.value),
         })
         .collect();
     texts.sort();

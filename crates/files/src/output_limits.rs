@@ -31,8 +31,10 @@ pub(super) fn formula(object: &Object<'_>, member: &Member) -> Option<Formula> {
 /// The figure that a formula of conditions is in the output's unit; its mistakes are reported.
 pub(super) fn following(
     object: &Object<'_>,
-    (key, member): (&str, &Member),
-    (formula, of): (Formula, ValueOf),
+    key: &str,
+    member: &Member,
+    formula: Formula,
+    of: ValueOf,
     unit: &Unit,
     set: &ConditionSet<'_>,
 ) -> Option<OfConditions> {
@@ -76,7 +78,8 @@ pub(super) struct LimitFormula {
 impl LimitFormula {
     /// Of an output that counts from a zero and whose units are checked.
     pub(super) fn of(
-        (key, member): (&'static str, &Member),
+        key: &'static str,
+        member: &Member,
         formula: &Formula,
         unit: &Unit,
         set: &ConditionSet<'_>,
@@ -166,7 +169,7 @@ pub(super) fn capability(
         }
         return None;
     };
-    let (relative, absolute, following) = parts(output, (name, member), unit, set)?;
+    let (relative, absolute, following) = parts(output, name, member, unit, set)?;
     let capability = Capability { relative, absolute, floor };
     let Some(following) = following else { return Some((capability, None)) };
     for (row, conditions) in set.conditions.rows.iter().enumerate() {
@@ -188,7 +191,8 @@ pub(super) fn capability(
 /// The share of the estimate, the rest, and in place of the rest what follows the conditions.
 fn parts(
     output: &Object<'_>,
-    (name, member): (&str, &Member),
+    name: &str,
+    member: &Member,
     unit: &Unit,
     set: &ConditionSet<'_>,
 ) -> Option<(f64, f64, Option<OfConditions>)> {
@@ -201,31 +205,32 @@ fn parts(
             let read = Width::specification(&others.join(" + "), unit, &log.own_units());
             let read = read.map_err(|reason| wrong(name, member, reason));
             width = log.value(&member.value.span, read)?;
-            refuse_bare_share(output, (name, member, &others), (unit, width), set)?;
+            refuse_bare_share(output, name, member, &others, unit, width, set)?;
         }
         let mut all: Vec<(f64, OfConditions)> = Vec::new();
         for (share, condition) in shares {
             let formula = log.formula(condition).ok()?;
-            let of = (formula, ValueOf::Difference);
-            all.push((share, following(output, ("cmc", member), of, unit, set)?));
+            let of = ValueOf::Difference;
+            all.push((share, following(output, "cmc", member, formula, of, unit, set)?));
         }
         let absolute = width.absolute;
         let sum = move |values: &[f64]| {
-            absolute + all.iter().map(|(share, of)| share * of.at(values).abs()).sum::<f64>()
+            absolute
+                + all.iter().map(|(share, formula)| share * formula.at(values).abs()).sum::<f64>()
         };
         return Some((width.relative, absolute, Some(OfConditions::new(sum))));
     }
     let formula = formula(output, member)
-        .filter(|_| Width::read(log, &member.value, (name, "cmc"), unit).is_err());
+        .filter(|_| Width::read(log, &member.value, name, "cmc", unit).is_err());
     if let Some(formula) = formula {
-        let of = (formula, ValueOf::Difference);
-        let following = following(output, ("cmc", member), of, unit, set)?;
+        let of = ValueOf::Difference;
+        let following = following(output, "cmc", member, formula, of, unit, set)?;
         return Some((0.0, 0.0, Some(following)));
     }
-    let width = Width::read(log, &member.value, (name, "cmc"), unit);
+    let width = Width::read(log, &member.value, name, "cmc", unit);
     let width = log.value(&member.value.span, width)?;
     if let Json::Text(text) = &member.value.value {
-        refuse_bare_share(output, (name, member, &width::terms(text)), (unit, width), set)?;
+        refuse_bare_share(output, name, member, &width::terms(text), unit, width, set)?;
     }
     Some((width.relative, width.absolute, None))
 }
@@ -239,7 +244,7 @@ fn shares_of_conditions<'t>(
     text: &'t str,
     set: &ConditionSet<'_>,
 ) -> Option<(Shares<'t>, Vec<&'t str>)> {
-    let known = |name: &str| set.conditions.quantities.iter().any(|of| of.name == name);
+    let known = |name: &str| set.conditions.quantities.iter().any(|quantity| quantity.name == name);
     let share = |term: &'t str| {
         let (value, rest) = width::number(term).ok()?;
         let (factor, of) = width::share(rest)?;
@@ -259,16 +264,20 @@ fn shares_of_conditions<'t>(
 /// indication beside the pressure at which it was found. Nothing is read in two ways.
 fn refuse_bare_share(
     output: &Object<'_>,
-    (name, member, terms): (&str, &Member, &[&str]),
-    (unit, width): (&Unit, Width),
+    name: &str,
+    member: &Member,
+    terms: &[&str],
+    unit: &Unit,
+    width: Width,
     set: &ConditionSet<'_>,
 ) -> Option<()> {
     let is_bare = |term: &&&str| width::is_bare_share(term);
     let Some(term) = terms.iter().find(is_bare).filter(|_| width.relative > 0.0) else {
         return Some(());
     };
-    let alike =
-        |of: &&Quantity| !unit.dimension().is_none() && of.unit.dimension() == unit.dimension();
+    let alike = |quantity: &&Quantity| {
+        !unit.dimension().is_none() && quantity.unit.dimension() == unit.dimension()
+    };
     let Some(condition) = set.conditions.quantities.iter().find(alike) else { return Some(()) };
     let condition = &condition.name;
     let reason = format!(

@@ -223,9 +223,9 @@ impl Decision {
         let ends = ["lower", "upper"].map(|key| {
             let member = object.get(key)?;
             let formula = output_limits::formula(&object, member)?;
-            limits.extend(LimitFormula::of((key, member), &formula, unit, set));
-            let of = (formula, ValueOf::Quantity);
-            Some(output_limits::following(&object, (key, member), of, unit, set))
+            limits.extend(LimitFormula::of(key, member, &formula, unit, set));
+            let of = ValueOf::Quantity;
+            Some(output_limits::following(&object, key, member, formula, of, unit, set))
         });
         let [lower, upper] = ends;
         let is_wrong = |end: &Option<Option<OfConditions>>| matches!(end, Some(None));
@@ -288,20 +288,23 @@ fn tolerance(
 ) -> Option<Tolerance> {
     let first = set.conditions.rows.first().map_or(&[][..], Vec::as_slice);
     // null stands for a limit that is not there
-    let limit = |key: &str, of: &Option<OfConditions>| match object.get(key).map(|m| &m.value.value)
+    let limit = |key: &str, conditions: &Option<OfConditions>| match object
+        .get(key)
+        .map(|m| &m.value.value)
     {
         None | Some(Json::Null) => None,
-        Some(_) => match of {
-            Some(of) => Some(of.at(first)),
+        Some(_) => match conditions {
+            Some(conditions) => Some(conditions.at(first)),
             None => object.value(key, unit, ValueOf::Either),
         },
     };
     let (lower, upper) = (limit("lower", &ends[0]), limit("upper", &ends[1]));
     if ends.iter().any(Option::is_some) {
-        let own = |limit: Option<f64>, of: &Option<OfConditions>, row: &[f64]| match of {
-            Some(of) => Some(of.at(row)),
-            None => limit,
-        };
+        let own =
+            |limit: Option<f64>, conditions: &Option<OfConditions>, row: &[f64]| match conditions {
+                Some(conditions) => Some(conditions.at(row)),
+                None => limit,
+            };
         for (row, conditions) in set.conditions.rows.iter().enumerate() {
             let [lower, upper] =
                 [own(lower, &ends[0], conditions), own(upper, &ends[1], conditions)];

@@ -50,7 +50,8 @@ impl Override {
             (None, Some(field)) => is_estimate(field),
             // parts of complex quantities
             (Some(part), Some(field)) => {
-                let of_part = field.strip_prefix(part.as_str()).and_then(|of| of.strip_prefix('.'));
+                let of_part =
+                    field.strip_prefix(part.as_str()).and_then(|rest| rest.strip_prefix('.'));
                 of_part.is_some_and(is_estimate)
             }
             _ => false,
@@ -87,7 +88,9 @@ fn is_estimate(field: &str) -> bool {
 pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
     let whole = root.span.start..root.span.start;
     for (number, replaced) in overrides.iter().enumerate() {
-        if let Some(first) = overrides.iter().take(number).find(|of| of.contradicts(replaced)) {
+        if let Some(first) =
+            overrides.iter().take(number).find(|change| change.contradicts(replaced))
+        {
             let text = replaced.text.clone();
             let reason = format!("it and `{}` replace the same; give one of them", first.text);
             log.report(&whole, DiagnosticKind::Override { text, reason });
@@ -150,7 +153,7 @@ pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
                     "arg" => "phase",
                     part => part,
                 };
-                match fields.get_mut(complex).and_then(|of| member_of(&mut of.value, key)) {
+                match fields.get_mut(complex).and_then(|field| member_of(&mut field.value, key)) {
                     Some(Node { value: Json::Object(fields), .. }) => match field {
                         Some(field) => (field, fields),
                         None => continue,

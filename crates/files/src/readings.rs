@@ -123,17 +123,19 @@ fn grouped(
         object.log.report(span, DiagnosticKind::Table { reason });
         return None;
     }
-    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
-    let squares = |of: &[f64], about: f64| of.iter().map(|x| (x - about).powi(2)).sum::<f64>();
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let squares =
+        |values: &[f64], about: f64| values.iter().map(|x| (x - about).powi(2)).sum::<f64>();
     let means: Vec<f64> = groups.iter().map(|(_, members)| mean(members)).collect();
-    let within: f64 = groups.iter().zip(&means).map(|((_, of), mean)| squares(of, *mean)).sum();
+    let within: f64 =
+        groups.iter().zip(&means).map(|((_, group), mean)| squares(group, *mean)).sum();
     let within_dof = (values.len() - count) as f64;
     let whole = mean(&means);
     let of_means = squares(&means, whole) / (count as f64 - 1.0);
     let shown = |x: f64, digits| Argument::Number(decimal::significant(x, digits));
     let sizes: Vec<usize> = groups.iter().map(|(_, members)| members.len()).collect();
     let size = sizes.first().copied().unwrap_or(0);
-    let balanced = sizes.iter().all(|of| *of == size);
+    let balanced = sizes.iter().all(|other| *other == size);
     let repeatability = (within / within_dof).sqrt();
     let within = (within_dof > 0.0 && repeatability > 0.0).then(|| {
         let between = if balanced {

@@ -29,11 +29,11 @@ pub(super) fn tell_each_other(
     correlations: &[RootCorrelation],
 ) {
     let saved = || outputs.iter().filter_map(|output| output.distribution.saved());
-    let alone: Vec<SavedResult> = saved().filter(|of| !of.origin().linear).cloned().collect();
+    let alone: Vec<SavedResult> = saved().filter(|saved| !saved.origin().linear).cloned().collect();
     if alone.is_empty() {
         return;
     }
-    let linear: Vec<SavedResult> = saved().filter(|of| of.origin().linear).cloned().collect();
+    let linear: Vec<SavedResult> = saved().filter(|saved| saved.origin().linear).cloned().collect();
     let own = |saved: &SavedResult| saved.origin().roots.first().map(|(root, _)| root.clone());
     let own_roots: Vec<Root> = alone.iter().filter_map(own).collect();
     let mut all = correlations.to_vec();
@@ -122,7 +122,8 @@ impl<'a> RootInputs<'a> {
     /// after the other is taken in, that first of which the least is told so far.
     fn with(&self, result: &SavedResult, name: &RootName) -> Vec<RootCorrelation> {
         let siblings = &result.origin().siblings;
-        let trials = |output: &str| siblings.iter().find(|(of, _)| of == output).map(|(_, r)| *r);
+        let trials =
+            |output: &str| siblings.iter().find(|(sibling, _)| sibling == output).map(|(_, r)| *r);
         let mut directions: Vec<Direction> = Vec::new();
         // what is not told yet of each coefficient
         let mut left: Vec<(&[f64], f64)> = Vec::new();

@@ -154,7 +154,7 @@ fn of_text(
             [only] => {
                 // a unit stands on a line of its own, where it is no name in a table
                 let own = format!("first line [{only}]");
-                let is_unit = object.log.unit(only).is_ok_and(|of| of.is_compatible(unit.0));
+                let is_unit = object.log.unit(only).is_ok_and(|only| only.is_compatible(unit.0));
                 let column = if is_unit && !unit.0.dimension().is_none() { &own } else { *only };
                 column_heading::check(object.log, place(object), column, unit).then_some(())?;
                 let is_fraction = |word: &str| word.contains('.') && word.parse::<f64>().is_ok();

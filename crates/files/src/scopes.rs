@@ -131,7 +131,10 @@ impl ConditionSet<'_> {
 
     fn constants_of(&self, formula: &Formula) -> impl Iterator<Item = &(Quantity, f64)> {
         let text = formula.text();
-        self.constants.known.iter().filter(move |(of, _)| text.contains(of.name.as_str()))
+        self.constants
+            .known
+            .iter()
+            .filter(move |(constant, _)| text.contains(constant.name.as_str()))
     }
 
     fn scope_with<'a>(&self, constants: impl Iterator<Item = &'a (Quantity, f64)>) -> Scope {

@@ -141,7 +141,7 @@ fn formula_of_width(object: &Object<'_>, key: &str, unit: &Unit) -> Option<Strin
         let computes =
             |formula: &Formula| formula.names().next().is_some() || text.contains(['*', '/', '(']);
         object.log.formula(text).is_ok_and(|formula| computes(&formula))
-            && Width::read(object.log, &member.value, ("", key), unit).is_err()
+            && Width::read(object.log, &member.value, "", key, unit).is_err()
     };
     (begins_with_name || is_formula()).then(|| text.clone())
 }
@@ -692,10 +692,12 @@ impl<'a> Fields<'a> {
         let member = self.object.required(key)?;
         if let (Some(text), Some(at)) = (formula_of_width(&self.object, key, self.unit), self.at) {
             let formula = self.object.log.formula(&text).ok();
-            let name =
-                formula.as_ref().and_then(|of| of.names().next()).map(|(name, _)| name.to_owned());
+            let name = formula
+                .as_ref()
+                .and_then(|formula| formula.names().next())
+                .map(|(name, _)| name.to_owned());
             if !at.0.names().is_empty() || formula.is_some() && name.is_none() {
-                return self.width_of_row(key, &text, at);
+                return self.width_of_row(key, &text, at.0, at.1);
             }
             // a mistake among the conditions, told already, is why there are none
             if name.is_some() && at.0.are_unreadable() {
@@ -714,7 +716,7 @@ impl<'a> Fields<'a> {
             }
         }
         let log = self.object.log;
-        let read = Width::read(log, &member.value, (self.name, key), self.unit)
+        let read = Width::read(log, &member.value, self.name, key, self.unit)
             .and_then(|width| self.share_beside_share(key).map_or(Ok(width), Err));
         let width = log.value(&member.value.span, read)?;
         let value = width.at(self.share_of.unwrap_or(estimate));
@@ -748,7 +750,8 @@ impl<'a> Fields<'a> {
         &self,
         key: &'static str,
         text: &str,
-        (conditions, row): (&dyn ConditionValues, usize),
+        conditions: &dyn ConditionValues,
+        row: usize,
     ) -> Option<Option<f64>> {
         let (log, place) = (self.object.log, self.place_of(key));
         let formula = log.formula(text).map_err(|error| DiagnosticKind::Formula { error });

@@ -110,7 +110,8 @@ pub fn read_drift(text: &str, law: DriftLaw, task: &Task) -> Result<(Drift, Stri
         let part = format!("{name}/");
         let component = shown().find(|variable| variable.name.starts_with(&part));
         let names = shown().map(|variable| variable.name.as_str());
-        let near = component.map(|of| of.name.as_str()).or_else(|| nearest(name, names));
+        let near =
+            component.map(|component| component.name.as_str()).or_else(|| nearest(name, names));
         let near = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
         format!("there is no input or component `{name}`{near}")
     })?;

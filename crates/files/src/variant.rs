@@ -86,10 +86,16 @@ impl CaseFile {
             };
             cut.replace_range(range, "");
         } else if let Some(catalogue) = member(root, "catalogue") {
-            let all = self.case.candidates.iter().map(|of| self.case.listed_name(&of.effect.name));
-            let shipped = all.filter(|of| own.iter().all(|member| member.key != **of));
+            let all = self
+                .case
+                .candidates
+                .iter()
+                .map(|candidate| self.case.listed_name(&candidate.effect.name));
+            let shipped = all.filter(|name| own.iter().all(|member| member.key != **name));
             let mut names: Vec<String> = Vec::new();
-            for other in shipped.filter(|of| *of != name).map(|of| format!("{of:?}")) {
+            for other in
+                shipped.filter(|shipped| *shipped != name).map(|shipped| format!("{shipped:?}"))
+            {
                 if !names.contains(&other) {
                     names.push(other);
                 }

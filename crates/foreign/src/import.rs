@@ -149,10 +149,10 @@ impl ReadSheet<'_> {
         let equations = self.equations(&known)?;
         let measurand = equations.last().map(|equation| equation.name.as_str());
         let used: Vec<String> = equations.iter().flat_map(Equation::names).collect();
-        let rows = self.rows(&header, (measurand, &used), said)?;
+        let rows = self.rows(&header, measurand, &used, said)?;
         let stated = self.stated(&header, &rows)?;
         let title = self.title(&header, file);
-        let model = self.model(&header, &rows, (&equations, &stated), &title)?;
+        let model = self.model(&header, &rows, &equations, &stated, &title)?;
         self.compare(&rows.quantities, &stated, &model);
         Some(model.text)
     }
@@ -193,7 +193,7 @@ impl ReadSheet<'_> {
         }
         let headings = header.columns.iter().map(|(place, _)| header.heading(*place));
         let is_number = |line: usize, place: usize| {
-            let is_one = |(of, column): &(usize, Column)| *of == place && column.is_of_numbers();
+            let is_one = |(own, column): &(usize, Column)| *own == place && column.is_of_numbers();
             line > header.line && header.columns.iter().any(is_one)
         };
         let cells = (0..self.cells.lines()).flat_map(|line| {

@@ -133,15 +133,8 @@ fn diagnosed(
         if effort.is_stopped() { Vec::new() } else { scan::regions(&setup, &with_rows, seed) };
     progress(0.7);
     let probability = coverage(case);
-    let (mut shrinkage, rows) = shrink::shrinkage(
-        &setup,
-        &discrepancy,
-        &posterior,
-        &correction,
-        &variances,
-        probability,
-        (seed, stop),
-    );
+    let (mut shrinkage, rows) =
+        shrink::shrinkage(&setup, &discrepancy, &posterior, &correction, &variances, seed, stop);
     shrinkage.shares = shares;
     progress(0.85);
     let periodic = periodic_residuals::found(&rows, case.measured());
@@ -278,7 +271,8 @@ fn periodic_note(case: &Case, setup: &Setup<'_>, found: PeriodicResiduals) -> Fa
     let amplitude = Argument::Number(unit.after(&significant(line.amplitude, 2)));
     let percent = Argument::Number(format!("{:.0}", 100.0 * line.share));
     let period = significant(1.0 / line.frequency, 3);
-    let Some(along) = condition.and_then(|of| case.model.conditions.get(of)) else {
+    let Some(along) = condition.and_then(|condition| case.model.conditions.get(condition))
+    else {
         let period = Argument::Number(period);
         return fact!("periodic-residuals.rows", name, period, amplitude, percent);
     };
@@ -295,7 +289,9 @@ fn periodic_note(case: &Case, setup: &Setup<'_>, found: PeriodicResiduals) -> Fa
 fn described(candidate: &Candidate) -> DescribedEffect {
     let effect = &candidate.effect;
     let text = |(name, formula): &(String, Formula)| (name.clone(), formula.text().to_owned());
-    let parameter = |of: &Quantity| [of.name.clone(), of.unit.text().to_owned(), of.about.clone()];
+    let parameter = |quantity: &Quantity| {
+        [quantity.name.clone(), quantity.unit.text().to_owned(), quantity.about.clone()]
+    };
     DescribedEffect {
         name: effect.name.clone(),
         about: candidate.about.clone(),
@@ -457,12 +453,19 @@ fn noise(
             let estimated =
                 (!stated(output)).then(|| estimated_noise(setup, variances, winner, output));
             let factor = weighed.factor(output, coverage);
-            let with_output = weighed.correlations.iter().filter(|of| of.outputs.contains(&output));
-            let correlations = with_output.map(|of| OutputCorrelation {
-                other: if of.outputs[0] == output { of.outputs[1] } else { of.outputs[0] },
-                estimate: of.draws.iter().map(|(r, weight)| r * weight).sum(),
-                interval: equal_tails(&of.draws, coverage),
-                probability: of.probability,
+            let with_output = weighed
+                .correlations
+                .iter()
+                .filter(|correlation| correlation.outputs.contains(&output));
+            let correlations = with_output.map(|correlation| OutputCorrelation {
+                other: if correlation.outputs[0] == output {
+                    correlation.outputs[1]
+                } else {
+                    correlation.outputs[0]
+                },
+                estimate: correlation.draws.iter().map(|(r, weight)| r * weight).sum(),
+                interval: equal_tails(&correlation.draws, coverage),
+                probability: correlation.probability,
             });
             let correlations = correlations.collect();
             let own = weighed.suspects.iter().filter(|(suspect, _)| suspect.output == output);
@@ -480,20 +483,20 @@ fn noise(
                 interval: equal_tails(draws, coverage),
                 probability: *probability,
             });
-            let settings = weighed.settings.get(output).and_then(Option::as_ref).map(|of| {
-                let estimate = of.ratios.iter().map(|(ratio, weight)| ratio * weight).sum();
+            let settings = weighed.settings.get(output).and_then(Option::as_ref).map(|setting| {
+                let estimate = setting.ratios.iter().map(|(ratio, weight)| ratio * weight).sum();
                 SettingError {
-                    condition: match of.setting {
+                    condition: match setting.setting {
                         Setting::Condition(c) => {
                             setup.case.model.conditions.get(c).map(|known| known.name.clone())
                         }
                         Setting::All => None,
                     },
-                    is_per_value: of.setting.is_per_value(setup.case, data),
+                    is_per_value: setting.setting.is_per_value(setup.case, data),
                     estimate,
-                    interval: equal_tails(&of.ratios, coverage),
-                    standard_deviation: estimate * of.typical,
-                    probability: of.probability,
+                    interval: equal_tails(&setting.ratios, coverage),
+                    standard_deviation: estimate * setting.typical,
+                    probability: setting.probability,
                 }
             });
             NoiseEstimate { output, estimated, factor, correlations, suspects, serial, settings }

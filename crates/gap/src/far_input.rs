@@ -52,10 +52,16 @@ pub(crate) fn found(setup: &Setup<'_>) -> Vec<FarInput> {
     if setup.linear.fitted || setup.data.len() > MOST_VALUES {
         return Vec::new();
     }
-    let varies = |v: &usize| setup.spread.deviations[*v].iter().any(|of| *of > 0.0);
+    let varies = |v: &usize| setup.spread.deviations[*v].iter().any(|deviation| *deviation > 0.0);
     let varying: Vec<usize> = (0..setup.case.task.variables.len()).filter(varies).collect();
-    let is_correlated =
-        |v: usize| setup.case.task.correlations.iter().any(|of| of.first == v || of.second == v);
+    let is_correlated = |v: usize| {
+        setup
+            .case
+            .task
+            .correlations
+            .iter()
+            .any(|correlation| correlation.first == v || correlation.second == v)
+    };
     let alone =
         varying.iter().copied().filter(|&v| setup.spread.shared[v].is_none() && !is_correlated(v));
     let alone: Vec<usize> = alone.collect();
@@ -72,7 +78,7 @@ pub(crate) fn found(setup: &Setup<'_>) -> Vec<FarInput> {
         explains.then_some(FarInput { variable, distance })
     });
     let mut far: Vec<FarInput> = far.collect();
-    smallest_first(&mut far, |of| of.distance.abs());
+    smallest_first(&mut far, |far| far.distance.abs());
     far
 }
 
@@ -82,8 +88,9 @@ fn nearest(setup: &Setup<'_>, variable: usize, covariance: &Covariance) -> Optio
     let mut distance = 0.0;
     for _ in 0..MOST_STEPS {
         let (residuals, slopes) = shifted(setup, variable, distance)?;
-        let [residuals, slopes] = [residuals, slopes].map(|of| covariance.whiten_blocks(&of));
-        let [left, right] = [&residuals, &slopes].map(|of| covariance.project(of));
+        let [residuals, slopes] =
+            [residuals, slopes].map(|columns| covariance.whiten_blocks(&columns));
+        let [left, right] = [&residuals, &slopes].map(|columns| covariance.project(columns));
         let information = covariance.square(&slopes);
         let step = (dot(&residuals, &slopes) - dot(&left, &right)) / information;
         if !step.is_finite() {

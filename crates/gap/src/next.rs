@@ -176,7 +176,7 @@ fn departures(
 /// The outputs of the model that were not observed.
 fn unobserved(setup: &Setup<'_>) -> Vec<usize> {
     let observed = setup.case.observed.iter().enumerate();
-    observed.filter(|(_, of)| of.is_none()).map(|(output, _)| output).collect()
+    observed.filter(|(_, observed)| observed.is_none()).map(|(output, _)| output).collect()
 }
 
 /// The hypotheses of a posterior, and the departures without a name, with what they say at some places.
@@ -339,8 +339,11 @@ impl<'p> Prospects<'p> {
     }
 
     fn loss(&self, target: Target, count: usize, detail: Detail) -> f64 {
-        let outlooks: Vec<Outlook<'p>> =
-            self.hypotheses.iter().filter_map(|of| self.outlook(of, target)).collect();
+        let outlooks: Vec<Outlook<'p>> = self
+            .hypotheses
+            .iter()
+            .filter_map(|hypothesis| self.outlook(hypothesis, target))
+            .collect();
         let noise = self.noise(target, count);
         if outlooks.len() < 2 || noise.iter().any(|v| v.is_nan() || *v <= 0.0 || v.is_infinite()) {
             return 0.0;

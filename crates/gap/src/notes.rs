@@ -35,7 +35,7 @@ pub(crate) fn notes(
     };
     let mut notes = Vec::new();
     let mut note = |fact: Fact| notes.push(DiagnosisNote { fact });
-    if noise.iter().any(|of| of.estimated.is_some()) {
+    if noise.iter().any(|noise| noise.estimated.is_some()) {
         let repeats = setup.data.repeats(setup.case).iter().any(|rows| rows.len() > 1);
         note(match repeats {
             true => fact!("estimated-noise"),
@@ -72,7 +72,7 @@ pub(crate) fn notes(
     let is_named = verdict.kind == HypothesisKind::Explained && verdict.probability > SURE;
     if !is_named && let [nearest, others @ ..] = &far_input::found(setup)[..] {
         let name = |of: &FarInput| &setup.case.task.variables[of.variable].name;
-        let inputs: Vec<String> = others.iter().map(|of| format!("`{}`", name(of))).collect();
+        let inputs: Vec<String> = others.iter().map(|other| format!("`{}`", name(other))).collect();
         let others = (!inputs.is_empty()).then(|| fact!("other-far-inputs", inputs));
         let input = name(nearest);
         let distance = Argument::Number(significant(nearest.distance.abs(), 2));
@@ -104,17 +104,17 @@ pub(crate) fn notes(
     if verdict.kind == HypothesisKind::Explained && misfits {
         note(fact!("poor-fit", chi_square = Argument::Number(format!("{left:.2}"))));
     }
-    let of_noise = noise.iter().any(|of| {
-        of.factor.is_some_and(|factor| factor.probability > LIKELY)
-            || of.correlations.iter().any(|of| of.probability > LIKELY)
-            || of.serial.is_some_and(|serial| serial.probability > LIKELY)
-            || of.settings.as_ref().is_some_and(|settings| settings.probability > LIKELY)
-            || of.suspects.iter().any(|suspect| suspect.probability > LIKELY)
+    let of_noise = noise.iter().any(|noise| {
+        noise.factor.is_some_and(|factor| factor.probability > LIKELY)
+            || noise.correlations.iter().any(|correlation| correlation.probability > LIKELY)
+            || noise.serial.is_some_and(|serial| serial.probability > LIKELY)
+            || noise.settings.as_ref().is_some_and(|settings| settings.probability > LIKELY)
+            || noise.suspects.iter().any(|suspect| suspect.probability > LIKELY)
     });
     if let (HypothesisKind::None, Some(p)) = (verdict.kind, gap.p_value)
         && p < OVERDISPERSED
         && !of_noise
-        && noise.iter().all(|of| of.estimated.is_none())
+        && noise.iter().all(|noise| noise.estimated.is_none())
     {
         let times = Argument::Number(format!("{:.2}", (gap.chi2 / gap.dof).sqrt()));
         note(match misfits {
@@ -130,7 +130,7 @@ pub(crate) fn notes(
             _ => fact!("row-drift.best-hypothesis", name, change),
         });
     } else if verdict.kind == HypothesisKind::None
-        && noise.iter().any(|of| of.factor.is_some_and(|factor| factor.probability > LIKELY))
+        && noise.iter().any(|noise| noise.factor.is_some_and(|factor| factor.probability > LIKELY))
         && let Some((output, coefficient)) = row_drift::memory(setup, winner)
     {
         let name = &quantity(output).name;

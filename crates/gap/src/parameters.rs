@@ -150,8 +150,8 @@ impl CentralPoint {
         // sizes of devices are products of a spread and departures, whose means fit nothing together; each
         // parameter is told by itself all the same
         let replication = setup.case.replication.as_ref();
-        let own = replication.map_or(&[][..], |of| &of.effects);
-        if own.iter().any(|of| hypothesis.effects.contains(&of.own)) {
+        let own = replication.map_or(&[][..], |replication| &replication.effects);
+        if own.iter().any(|replicated| hypothesis.effects.contains(&replicated.own)) {
             return Self::Mean;
         }
         let draws = evidence.resampled(128);

@@ -75,8 +75,9 @@ pub(crate) fn found(rows: &[RowGap], conditions: usize) -> Option<PeriodicResidu
         }
     }
     // the rows are named where no condition tells it as well
-    let share =
-        |of: &PeriodicResiduals| of.line.share - if of.condition.is_none() { 0.05 } else { 0.0 };
+    let share = |residuals: &PeriodicResiduals| {
+        residuals.line.share - if residuals.condition.is_none() { 0.05 } else { 0.0 }
+    };
     all.into_iter().max_by(|a, b| share(a).total_cmp(&share(b)))
 }
 

@@ -32,8 +32,9 @@ pub(crate) fn conflicts(
             }
             let effects = weighing.setup.effect_names(&hypothesis.effects);
             let candidates = hypothesis.effects.iter().map(|&effect| &case.candidates[effect]);
-            let priors =
-                candidates.flat_map(|of| of.priors.iter().map(|prior| (&of.effect, prior)));
+            let priors = candidates.flat_map(|candidate| {
+                candidate.priors.iter().map(|prior| (&candidate.effect, prior))
+            });
             let of = parameters(&weighing.setup, &hypothesis, coverage);
             for (parameter, (effect, prior)) in of.into_iter().zip(priors) {
                 let (prior_distance, bounded) = distance(prior, parameter.estimate);

@@ -16,9 +16,9 @@ pub(crate) fn report(
 ) -> Option<ReplicatedEffects> {
     let replication = setup.case.replication.as_ref()?;
     let condition = setup.case.model.conditions.get(replication.condition)?;
-    let effects = replication.effects.iter().map(|of| effect(setup, posterior, of, coverage));
+    let effects = replication.effects.iter().map(|own| effect(setup, posterior, own, coverage));
     let mut effects: Vec<ReplicatedEffect> = effects.collect();
-    let present = |of: &ReplicatedEffect| of.probability_shared + of.probability_own;
+    let present = |effect: &ReplicatedEffect| effect.probability_shared + effect.probability_own;
     largest_first(&mut effects, present);
     Some(ReplicatedEffects {
         condition: NamedQuantity {
@@ -36,12 +36,12 @@ fn effect(
     of: &OwnSizes,
     coverage: f64,
 ) -> ReplicatedEffect {
-    let groups = setup.case.replication.as_ref().map_or(0, |of| of.groups.len());
+    let groups = setup.case.replication.as_ref().map_or(0, |replication| replication.groups.len());
     let holding = |place: usize| -> Vec<&WeighedHypothesis> {
         posterior.hypotheses.iter().filter(|h| h.effects.contains(&place)).collect()
     };
     let (shared, own) = (holding(of.shared), holding(of.own));
-    let sum = |of: &[&WeighedHypothesis]| of.iter().map(|h| h.probability).sum();
+    let sum = |hypotheses: &[&WeighedHypothesis]| hypotheses.iter().map(|h| h.probability).sum();
     let candidate = &setup.case.candidates[of.own];
     let maps: Vec<Map> = candidate.priors.iter().map(Map::of).collect();
     let parameters = setup.case.candidates[of.shared].effect.parameters.len();
@@ -52,7 +52,7 @@ fn effect(
         let place = setup.parameters(&hypothesis.effects, of.shared).start;
         for (draw, weight) in weighted(hypothesis) {
             let value = maps[0].value(draw(place));
-            sizes.iter_mut().for_each(|of| of.push((value, weight)));
+            sizes.iter_mut().for_each(|size| size.push((value, weight)));
         }
     }
     for hypothesis in &own {

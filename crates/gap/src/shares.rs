@@ -14,7 +14,8 @@ use gumption_inference::setup::Setup;
 pub(crate) fn shares(
     setup: &Setup<'_>,
     discrepancy: &Discrepancy,
-    (effects, mode): (&[usize], &Mode),
+    effects: &[usize],
+    mode: &Mode,
     departure: Option<&Weighted>,
     variances: &[f64],
 ) -> Vec<GapShare> {
@@ -42,7 +43,7 @@ pub(crate) fn shares(
     while acting.len() < effects.len() {
         let more = |effect: usize| -> Vec<usize> {
             // in the order of the list, as they are composed
-            let is_in = |of: &&usize| **of == effect || acting.contains(*of);
+            let is_in = |other: &&usize| **other == effect || acting.contains(*other);
             effects.iter().filter(is_in).copied().collect()
         };
         let others = effects.iter().copied().filter(|effect| !acting.contains(effect));
@@ -52,7 +53,8 @@ pub(crate) fn shares(
         acting = more(effect);
     }
     if departure.is_some() {
-        let with = base.values.iter().zip(&parts.function).map(|(value, of)| value + of);
+        let with =
+            base.values.iter().zip(&parts.function).map(|(value, departure)| value + departure);
         take(GapPart::Departure, square(&with.collect::<Vec<f64>>()));
     }
     let noise = last / whole;

@@ -6,6 +6,7 @@ use gumption_engine::parallel;
 
 use super::composed::Compositions;
 use super::departure_prediction;
+use super::diagnose::coverage;
 use super::diagnosis::{RowGap, Shrinkage, Shrunk, ValueGap};
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::{ascending, elementary};
@@ -45,8 +46,8 @@ pub(crate) fn shrinkage(
     posterior: &Posterior,
     correction: &Correction,
     variances: &[f64],
-    probability: f64,
-    (seed, stop): (u64, Option<&AtomicBool>),
+    seed: u64,
+    stop: Option<&AtomicBool>,
 ) -> (Shrinkage, Vec<RowGap>) {
     let data = &setup.data;
     let outputs = data.outputs.len();
@@ -98,8 +99,8 @@ pub(crate) fn shrinkage(
     let of_rows: Vec<RowGap> = rows
         .iter()
         .enumerate()
-        .map(|(row, of)| RowGap {
-            conditions: of.conditions.clone(),
+        .map(|(row, row_values)| RowGap {
+            conditions: row_values.conditions.clone(),
             outputs: (0..outputs)
                 .map(|output| {
                     let value = row * outputs + output;
@@ -164,7 +165,7 @@ pub(crate) fn shrinkage(
     };
     let shrinkage = Shrinkage {
         shares: Vec::new(),
-        rms_after_interval: interval(&after2, probability, seed),
+        rms_after_interval: interval(&after2, coverage(setup.case), seed),
         meaningful: all.rms_before * all.rms_before - 1.0 >= MEANINGFUL * MEANINGFUL,
         claimed_fraction: claimed,
         chi2_per_dof: [
@@ -348,7 +349,7 @@ fn variances_of_settings(setup: &Setup<'_>) -> Vec<f64> {
     let data = &setup.data;
     let outputs = data.outputs.len();
     let of = |value: usize| {
-        let of = |of: &SharedNoise| of.deviation(data, value % outputs);
+        let of = |noise: &SharedNoise| noise.deviation(data, value % outputs);
         data.noise.shared.as_ref().map_or(0.0, of).powi(2)
     };
     (0..data.len()).map(of).collect()
@@ -412,8 +413,8 @@ fn fold(
                 let modes = &posterior.beside(&base.effects)?.named.evidence.modes;
                 let key = StreamKey::new(seed, "gap/without a block");
                 let effort = Effort { starts: 0, ..Effort::QUICK };
-                let with = (key, effort, f64::NEG_INFINITY);
-                Beside::fitted(&part, &discrepancy, &base.effects, modes, with)
+                let floor = f64::NEG_INFINITY;
+                Beside::fitted(&part, &discrepancy, &base.effects, modes, key, effort, floor)
             });
             let found = match beside {
                 Some(beside) => beside.departure,

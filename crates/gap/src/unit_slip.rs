@@ -64,7 +64,7 @@ pub(crate) fn found(setup: &Setup<'_>) -> Option<UnitSlip> {
         }
         let ratios: Vec<f64> = by_row.into_iter().map(|(_, ratio)| ratio).collect();
         let ratio = median(ratios.clone())?;
-        let apart = median(ratios.iter().map(|of| (of - ratio).abs()).collect())?;
+        let apart = median(ratios.iter().map(|other| (other - ratio).abs()).collect())?;
         let cause = cause(ratio).filter(|_| apart < TOGETHER * ratio.abs())?;
         Some(UnitSlip { output, ratio, cause, rows: None })
     })
@@ -103,7 +103,7 @@ fn cause(ratio: f64) -> Option<Fact> {
         (DEGREE, fact!("slip-of.degree")),
         (std::f64::consts::SQRT_2, fact!("slip-of.peak")),
     ];
-    let is_near = |of: f64| (ratio.abs() / of - 1.0).abs() < NEAR;
+    let is_near = |factor: f64| (ratio.abs() / factor - 1.0).abs() < NEAR;
     let is_prefix = |power: f64| power != 0.0 && power.abs() <= f64::from(MOST_POWER);
     if power_of_ten(ratio, NEAR).is_some_and(is_prefix) {
         return Some(fact!("slip-of.prefix"));

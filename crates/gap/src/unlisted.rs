@@ -28,7 +28,7 @@ pub(crate) fn explaining(
     };
     let mut other = case.clone();
     other.candidates = std::mem::take(&mut other.shipped);
-    other.candidates.retain(|of| case.model.program(&[&of.effect]).is_ok());
+    other.candidates.retain(|candidate| case.model.program(&[&candidate.effect]).is_ok());
     if other.candidates.is_empty() {
         return Vec::new();
     }

@@ -167,7 +167,7 @@ impl<'c> Weighed<'c> {
         let at = if self.explained { Some(&*winner) } else { acting };
         let mode = at.and_then(|at| at.evidence.modes.first());
         let Some(mode) = mode.filter(|_| departs || !effects.is_empty()) else { return Vec::new() };
-        shares(setup, discrepancy, (effects, mode), departure, variances)
+        shares(setup, discrepancy, effects, mode, departure, variances)
     }
 
     /// The verdict, and what is left beside its effects; `group` are its look-alikes.
@@ -185,7 +185,7 @@ impl<'c> Weighed<'c> {
             });
         }
         verdict.prior_conflict = self.prior_conflict
-            && self.prior_conflicts.iter().any(|of| verdict.effects == of.effects);
+            && self.prior_conflicts.iter().any(|conflict| verdict.effects == conflict.effects);
         verdict
     }
 }
@@ -291,7 +291,7 @@ fn best_predictions(
                 return None;
             }
             let beside = posterior.beside(&hypothesis.effects);
-            let beside = beside.filter(|of| of.named.probability > hypothesis.probability);
+            let beside = beside.filter(|beside| beside.named.probability > hypothesis.probability);
             if let Some(Beside { departure, .. }) = beside {
                 let kinds = shrink::top(&departure.kinds);
                 let said = discrepancy.predict(setup, kinds, &rows, &[]);

@@ -117,7 +117,7 @@ impl WeighedNoise {
     /// an interval with equal tails; and the probability that they are.
     pub(crate) fn factor(&self, output: usize, coverage: f64) -> Option<UncertaintyFactor> {
         let WeighedFactor { probability, draws, .. } =
-            self.factors.iter().find(|of| of.output == output)?;
+            self.factors.iter().find(|factor| factor.output == output)?;
         let ln: f64 = draws.iter().map(|(factor, w)| w * elementary::ln(*factor)).sum();
         let interval = equal_tails(draws, coverage);
         Some(UncertaintyFactor {

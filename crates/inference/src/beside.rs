@@ -107,7 +107,9 @@ impl Beside {
         discrepancy: &Discrepancy,
         effects: &[usize],
         starts: &[Mode],
-        (key, effort, floor): (StreamKey, Effort<'_>, f64),
+        key: StreamKey,
+        effort: Effort<'_>,
+        floor: f64,
     ) -> Option<Self> {
         let starts = &starts[..starts.len().min(HANDED_ON)];
         let mut base = Arc::new(Base::at(setup, effects, starts.first()?)?);
@@ -208,8 +210,9 @@ impl Posterior {
             // as with the noise as it is stated; without that those that explain most alone
             let known = before.map_or(&[][..], |(_, before)| &before.beside);
             let share = self.share();
-            let place =
-                |h: &&WeighedHypothesis| known.iter().position(|of| of.named.effects == h.effects);
+            let place = |h: &&WeighedHypothesis| {
+                known.iter().position(|beside| beside.named.effects == h.effects)
+            };
             let mut tried: Vec<&WeighedHypothesis> =
                 named.filter(|h| place(h).is_some() || h.probability * share > PROBABLE).collect();
             largest_first(&mut tried, |h| h.ln_weight());
@@ -243,10 +246,11 @@ impl Posterior {
         setup: &Setup<'_>,
         discrepancy: &Discrepancy,
         before: Option<Before<'_, '_>>,
-        (seed, effort): (u64, Effort<'_>),
+        seed: u64,
+        effort: Effort<'_>,
     ) {
         let all = setup.prior();
-        let prior = |of: &[usize]| prior(setup.case, &all, of);
+        let prior = |effects: &[usize]| prior(setup.case, &all, effects);
         if all.unexplained == 0.0 {
             return;
         }
@@ -260,17 +264,17 @@ impl Posterior {
             let starts = if known.is_some() { 0 } else { effort.starts };
             let modes = known.unwrap_or_else(|| hypothesis.evidence.modes.clone());
             let floor = leads - elementary::ln(prior(&hypothesis.effects));
-            let with = (key, Effort { starts, ..effort }, floor);
-            Beside::fitted(setup, discrepancy, &hypothesis.effects, &modes, with)
+            let effort = Effort { starts, ..effort };
+            Beside::fitted(setup, discrepancy, &hypothesis.effects, &modes, key, effort, floor)
         });
         self.beside = fitted.into_iter().flatten().collect();
-        self.beside.iter_mut().for_each(|of| of.named.prior = prior(&of.named.effects));
-        self.beside.retain(|of| of.named.ln_weight() > leads - HOPELESS);
+        self.beside.iter_mut().for_each(|beside| beside.named.prior = prior(&beside.named.effects));
+        self.beside.retain(|beside| beside.named.ln_weight() > leads - HOPELESS);
     }
 
     /// The probability of a departure that none of the list makes, beside effects of the list or not.
     pub fn departs(&self) -> f64 {
-        let beside = self.beside.iter().map(|of| of.named.probability);
+        let beside = self.beside.iter().map(|beside| beside.named.probability);
         // sums to one but for the bits
         (self.probability + beside.sum::<f64>()).min(1.0)
     }
@@ -279,20 +283,21 @@ impl Posterior {
     /// prior of all of them.
     pub fn departures(&self) -> Unexplained {
         let share = |prior: f64| prior / self.departure_prior;
-        let beside = self.beside.iter().map(|of| (share(of.named.prior), &of.departure));
+        let beside =
+            self.beside.iter().map(|beside| (share(beside.named.prior), &beside.departure));
         let all = std::iter::once((share(self.prior), &self.unexplained)).chain(beside);
-        Unexplained::joined(all.map(|(share, of)| (elementary::ln(share), of)))
+        Unexplained::joined(all.map(|(share, departure)| (elementary::ln(share), departure)))
     }
 
     /// The departures of all of them by their probabilities, heaviest first. Those that are probable with
     /// another noise only are left out.
     pub fn kinds(&self) -> Vec<Weighted> {
-        let beside = self.beside.iter().map(|of| (of.named.probability, &of.departure));
+        let beside = self.beside.iter().map(|beside| (beside.named.probability, &beside.departure));
         let all = std::iter::once((self.probability, &self.unexplained)).chain(beside);
-        let weigh = |(share, of): (f64, &Unexplained)| {
+        let weigh = |(share, departure): (f64, &Unexplained)| {
             let weigh =
                 move |kind: &Weighted| Weighted { weight: share * kind.weight, ..kind.clone() };
-            of.kinds.iter().map(weigh).collect::<Vec<_>>()
+            departure.kinds.iter().map(weigh).collect::<Vec<_>>()
         };
         let mut kinds: Vec<Weighted> = all.flat_map(weigh).collect();
         largest_first(&mut kinds, |kind| kind.weight);
@@ -320,11 +325,11 @@ impl Posterior {
 
     /// The probability of these effects with a departure beside them.
     pub fn probability_beside(&self, effects: &[usize]) -> f64 {
-        self.beside(effects).map_or(0.0, |of| of.named.probability)
+        self.beside(effects).map_or(0.0, |beside| beside.named.probability)
     }
 
     /// These effects with a departure beside them, if that was tried.
     pub fn beside(&self, effects: &[usize]) -> Option<&Beside> {
-        self.beside.iter().find(|of| of.named.effects == effects)
+        self.beside.iter().find(|beside| beside.named.effects == effects)
     }
 }

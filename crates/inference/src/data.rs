@@ -86,9 +86,9 @@ impl Data {
             points[place].rows.push(number);
             point_of.push(place);
         }
-        let in_quadrature = |of: &&crate::ObservedOutput| {
-            let own = of.standard_uncertainties.as_ref()?;
-            let other = of.simulation_uncertainties.as_ref();
+        let in_quadrature = |output: &&crate::ObservedOutput| {
+            let own = output.standard_uncertainties.as_ref()?;
+            let other = output.simulation_uncertainties.as_ref();
             let both =
                 |&id: &usize| other.map_or(own[id], |other| elementary::hypot(own[id], other[id]));
             Some(ids.iter().map(both).collect())

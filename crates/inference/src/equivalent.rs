@@ -128,11 +128,11 @@ pub fn groups(
     let mut group: Vec<usize> = (0..surfaces.len()).collect();
     for (a, b) in same.into_iter().flatten() {
         let (from, to) = (group[a].max(group[b]), group[a].min(group[b]));
-        group.iter_mut().filter(|of| **of == from).for_each(|of| *of = to);
+        group.iter_mut().filter(|own| **own == from).for_each(|own| *own = to);
     }
     (0..surfaces.len())
-        .map(|of| -> Vec<Vec<String>> {
-            let members = (0..surfaces.len()).filter(|&member| group[member] == of);
+        .map(|group_of| -> Vec<Vec<String>> {
+            let members = (0..surfaces.len()).filter(|&member| group[member] == group_of);
             members.map(|member| surfaces[member].effects.clone()).collect()
         })
         .filter(|group| group.len() > 1)
@@ -193,7 +193,7 @@ impl Surface<'_> {
     /// (Levenberg, Marquardt). The steps of several dampings are tried side by side, each with the
     /// points from which the next step follows.
     fn fits(&self, target: &[f64], start: &[f64], unknowns: &[usize], tolerance: f64) -> bool {
-        let most = |of: &DVector<f64>| of.iter().map(|r| r.abs()).fold(0.0, f64::max);
+        let most = |vector: &DVector<f64>| vector.iter().map(|r| r.abs()).fold(0.0, f64::max);
         let mut here = self.around(target, vec![start.to_vec()], unknowns).next();
         let mut damping = 1e-3;
         let mut last = f64::INFINITY;

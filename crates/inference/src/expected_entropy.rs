@@ -76,7 +76,7 @@ impl KernelDensity {
         let outputs = draws.len();
         let count = draws.first().map_or(0, Vec::len).max(1);
         let n = count as f64;
-        let means: Vec<f64> = draws.iter().map(|of| of.iter().sum::<f64>() / n).collect();
+        let means: Vec<f64> = draws.iter().map(|draw| draw.iter().sum::<f64>() / n).collect();
         // the width of kernels that keeps the shape of a normal density (Silverman)
         let share = match detail {
             Detail::Normal => 1.0,
@@ -179,14 +179,18 @@ pub fn expected_loss(
     normals: &Normals,
     detail: Detail,
 ) -> f64 {
-    let total: f64 = hypotheses.iter().map(|of| of.probability).sum();
+    let total: f64 = hypotheses.iter().map(|hypothesis| hypothesis.probability).sum();
     if total <= 0.0 {
         return 0.0;
     }
-    let densities: Vec<KernelDensity> =
-        hypotheses.iter().map(|of| KernelDensity::new(of.draws, noise, detail)).collect();
-    let ln_priors: Vec<f64> =
-        hypotheses.iter().map(|of| elementary::ln(of.probability / total)).collect();
+    let densities: Vec<KernelDensity> = hypotheses
+        .iter()
+        .map(|hypothesis| KernelDensity::new(hypothesis.draws, noise, detail))
+        .collect();
+    let ln_priors: Vec<f64> = hypotheses
+        .iter()
+        .map(|hypothesis| elementary::ln(hypothesis.probability / total))
+        .collect();
     let mut loss = 0.0;
     for (own, hypothesis) in hypotheses.iter().enumerate() {
         let share = hypothesis.probability / total;
@@ -210,7 +214,8 @@ pub fn expected_loss(
 /// with weights that sum to one.
 pub fn ln_odds(pair: [Outlook<'_>; 2], noise: &[f64], normals: &Normals) -> Vec<(f64, f64)> {
     let total = pair[0].probability + pair[1].probability;
-    let densities = pair.map(|of| KernelDensity::new(of.draws, noise, Detail::Kernels));
+    let densities =
+        pair.map(|hypothesis| KernelDensity::new(hypothesis.draws, noise, Detail::Kernels));
     let mut all = Vec::with_capacity(2 * ODDS);
     for (own, other) in [(0, 1), (1, 0)] {
         let before = elementary::ln(pair[own].probability / pair[other].probability);

@@ -183,7 +183,7 @@ impl OverridableModel {
             .map(|(output, value)| {
                 let Quantity { name, unit, .. } = &output.quantity;
                 let is_given =
-                    |name: &String| self.inputs.iter().any(|of| of.quantity.name == *name);
+                    |name: &String| self.inputs.iter().any(|input| input.quantity.name == *name);
                 // the phase of a complex quantity is computed here, in radians
                 let is_phase = name.ends_with(".arg") && !is_given(name);
                 let numbers = if is_phase { NumberForm::Coherent } else { self.numbers };
@@ -268,7 +268,8 @@ impl<'s, 'r> Making<'s, 'r> {
                 }
                 let mut values = HashMap::new();
                 for (used, _) in formula.names() {
-                    let parameter = self.parameters.get(number).and_then(|of| of.get(used));
+                    let parameter =
+                        self.parameters.get(number).and_then(|parameter| parameter.get(used));
                     let value = match parameter.or_else(|| before.get(used)) {
                         Some(&value) => value,
                         None => self.quantity(used)?,
@@ -349,7 +350,7 @@ impl<'s, 'r> Making<'s, 'r> {
         }
         if !self.outputs.contains(name) {
             for (number, effect) in self.effects.iter().enumerate() {
-                let own = effect.overrides.iter().filter(|(of, _)| of == name);
+                let own = effect.overrides.iter().filter(|(overridden, _)| overridden == name);
                 steps.extend(own.map(|(_, formula)| QuantityStep::Override(number, formula)));
             }
         }
@@ -366,8 +367,9 @@ impl<'s, 'r> Making<'s, 'r> {
             }
             Some(QuantityStep::Override(number, formula)) => {
                 let parameters = self.parameters.get(*number);
-                let own =
-                    |used: &str| used == name || parameters.is_some_and(|of| of.contains_key(used));
+                let own = |used: &str| {
+                    used == name || parameters.is_some_and(|parameter| parameter.contains_key(used))
+                };
                 formula.names().map(|(used, _)| used).filter(|used| !own(used)).collect()
             }
             Some(QuantityStep::Typed(_)) if self.typed.is_some() => VecDeque::new(),
@@ -404,7 +406,8 @@ impl<'s, 'r> Making<'s, 'r> {
             QuantityStep::Override(number, formula) => {
                 let mut values = HashMap::new();
                 for (used, _) in formula.names() {
-                    let parameter = self.parameters.get(number).and_then(|of| of.get(used));
+                    let parameter =
+                        self.parameters.get(number).and_then(|parameter| parameter.get(used));
                     let value = match parameter {
                         Some(&parameter) => parameter,
                         None if used == of.name => of.value.ok_or_else(|| undefined(used))?,
@@ -453,7 +456,7 @@ fn with_complex<'r>(
     let radians = |name: &str, phase: Traced<'r>| {
         let of = inputs.iter().find(|input| input.quantity.name == name);
         let declared = of.filter(|_| form == NumberForm::Declared);
-        declared.map_or(phase, |of| NumberForm::Coherent.taken(phase, &of.quantity.unit))
+        declared.map_or(phase, |output| NumberForm::Coherent.taken(phase, &output.quantity.unit))
     };
     let mut values: HashMap<String, Value<'r>> = HashMap::new();
     let parts: HashMap<&str, Traced<'r>> =

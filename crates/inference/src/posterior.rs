@@ -182,7 +182,7 @@ pub(crate) fn posterior(
     progress(0.3);
     if prior.two > 0.0 && !effort.is_stopped() {
         let leads = leading(&hypotheses, rivals);
-        let begin = |of: Vec<usize>| exploration.begin(of, &hypotheses, before, leads);
+        let begin = |effects: Vec<usize>| exploration.begin(effects, &hypotheses, before, leads);
         let of_pairs = parallel::map(pairs, begin);
         hypotheses.extend(of_pairs.into_iter().flatten());
         if !effort.is_stopped() {
@@ -246,7 +246,7 @@ pub(crate) fn posterior(
     });
     posterior.weigh();
     if !effort.is_stopped() {
-        posterior.weigh_beside(setup, discrepancy, before, (seed, effort));
+        posterior.weigh_beside(setup, discrepancy, before, seed, effort);
         posterior.weigh();
     }
     // what is reported in detail deserves smooth intervals
@@ -344,11 +344,11 @@ impl Posterior {
 
     /// All hypotheses of effects, without a departure beside them and with one.
     pub fn named(&self) -> impl Iterator<Item = &WeighedHypothesis> {
-        self.hypotheses.iter().chain(self.beside.iter().map(|of| &of.named))
+        self.hypotheses.iter().chain(self.beside.iter().map(|beside| &beside.named))
     }
 
     pub(crate) fn named_mut(&mut self) -> impl Iterator<Item = &mut WeighedHypothesis> {
-        self.hypotheses.iter_mut().chain(self.beside.iter_mut().map(|of| &mut of.named))
+        self.hypotheses.iter_mut().chain(self.beside.iter_mut().map(|beside| &mut beside.named))
     }
 
     /// The hypothesis with these effects.

@@ -156,7 +156,9 @@ pub fn variances_of(
         };
         let squares: f64 = (0..row.distributions.len()).map(|v| part(v) * part(v)).sum();
         let joint = setup.case.task.correlations.iter();
-        let joint = joint.map(|of| 2.0 * of.coefficient * part(of.first) * part(of.second));
+        let joint = joint.map(|correlation| {
+            2.0 * correlation.coefficient * part(correlation.first) * part(correlation.second)
+        });
         (squares + joint.sum::<f64>()).max(0.0)
     };
     outputs.iter().map(of).collect()

@@ -43,7 +43,7 @@ impl Place {
 /// The conditions of the measurement that say no range.
 pub fn without_range(setup: &Setup<'_>) -> Vec<usize> {
     let case = setup.case;
-    let groups = case.replication.as_ref().map(|of| of.condition);
+    let groups = case.replication.as_ref().map(|replication| replication.condition);
     let stated = |condition: usize| case.reachable.get(condition).copied().flatten().is_some();
     (0..case.measured()).filter(|&c| !stated(c) && Some(c) != groups).collect()
 }
@@ -79,7 +79,7 @@ pub fn places(setup: &Setup<'_>) -> Vec<Place> {
     let same = measured.iter().all(|row| row.distributions == template.distributions);
     let rows: Vec<Row> = if same && setup.case.simulated == 0 && conditions > 0 {
         let reachable = |condition: usize| setup.case.reachable.get(condition).copied().flatten();
-        let groups = setup.case.replication.as_ref().map(|of| of.condition);
+        let groups = setup.case.replication.as_ref().map(|replication| replication.condition);
         // what the order of the rows tells is as in the nearest row of the data
         let at = |conditions: Vec<f64>| {
             let mut row = Row { conditions, distributions: template.distributions.clone() };

@@ -55,7 +55,9 @@ impl Case {
         let mut groups: Vec<f64> = self.task.rows.iter().filter_map(value).collect();
         ascending(&mut groups);
         groups.dedup();
-        let Some(name) = self.model.conditions.get(condition).map(|of| of.name.clone()) else {
+        let Some(name) =
+            self.model.conditions.get(condition).map(|condition| condition.name.clone())
+        else {
             return self;
         };
         let mut effects = Vec::new();
@@ -78,25 +80,32 @@ impl Case {
     /// The name that the list has for a candidate: that of the shared effect for one of each group's
     /// own size.
     pub fn listed_name<'n>(&'n self, name: &'n str) -> &'n str {
-        let own = self.replication.as_ref().map_or(&[][..], |of| &of.effects);
-        let named = |place: usize| self.candidates.get(place).map(|of| of.effect.name.as_str());
-        let found = own.iter().find(|of| named(of.own) == Some(name));
-        found.and_then(|of| named(of.shared)).unwrap_or(name)
+        let own = self.replication.as_ref().map_or(&[][..], |replication| &replication.effects);
+        let named = |place: usize| {
+            self.candidates.get(place).map(|candidate| candidate.effect.name.as_str())
+        };
+        let found = own.iter().find(|replicated| named(replicated.own) == Some(name));
+        found.and_then(|replicated| named(replicated.shared)).unwrap_or(name)
     }
 
     /// How many of a candidate's parameters the list has: not what differs between groups.
     pub fn listed_parameters(&self, place: usize) -> usize {
-        let own = self.replication.as_ref().map_or(&[][..], |of| &of.effects);
-        let shared = own.iter().find(|of| of.own == place).map_or(place, |of| of.shared);
+        let own = self.replication.as_ref().map_or(&[][..], |replication| &replication.effects);
+        let shared = own
+            .iter()
+            .find(|replicated| replicated.own == place)
+            .map_or(place, |replicated| replicated.shared);
         self.candidates.get(shared).map_or(0, |candidate| candidate.priors.len())
     }
 
     /// The pairs of candidates that may act together: at most one of each group's own size, and not
     /// beside the same effect that all groups share.
     pub fn pairs(&self) -> Vec<Vec<usize>> {
-        let own = self.replication.as_ref().map_or(&[][..], |of| &of.effects);
-        let is_own = |place: usize| own.iter().any(|of| of.own == place);
-        let same = |a: usize, b: usize| own.iter().any(|of| of.shared == a && of.own == b);
+        let own = self.replication.as_ref().map_or(&[][..], |replication| &replication.effects);
+        let is_own = |place: usize| own.iter().any(|replicated| replicated.own == place);
+        let same = |a: usize, b: usize| {
+            own.iter().any(|replicated| replicated.shared == a && replicated.own == b)
+        };
         let count = self.candidates.len();
         (0..count)
             .flat_map(|a| (a + 1..count).map(move |b| (a, b)))

@@ -105,9 +105,10 @@ pub fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<GapRegion
         if p_value > NAMED {
             break;
         }
-        let named = design.those_that_depart(&best, |of| {
+        let named = design.those_that_depart(&best, |output| {
             let same = |axis: &Axis| {
-                let is_it = axis.output == Some(of) && axis.condition == best.condition(&design);
+                let is_it =
+                    axis.output == Some(output) && axis.condition == best.condition(&design);
                 if is_it { vec![(best.from, best.to)] } else { Vec::new() }
             };
             best_of(&taken, &same)
@@ -264,7 +265,7 @@ impl Design {
         if own.is_empty() || own.len() == self.outputs {
             return all;
         }
-        largest_first(&mut own, |of| of.surprise);
+        largest_first(&mut own, |region| region.surprise);
         own
     }
 

@@ -171,9 +171,9 @@ impl<'c> Setup<'c> {
     /// Whether an output states uncertainties of which a factor is estimated.
     pub fn has_factor(&self, output: usize) -> bool {
         let observed =
-            self.data.outputs.get(output).and_then(|&of| self.case.observed[of].as_ref());
+            self.data.outputs.get(output).and_then(|&output| self.case.observed[output].as_ref());
         self.data.noise.factor.is_some()
-            && observed.is_some_and(|of| of.standard_uncertainties.is_some())
+            && observed.is_some_and(|observed| observed.standard_uncertainties.is_some())
     }
 
     /// The likelihood with these effects acting.
@@ -266,7 +266,7 @@ fn unknown_inputs(case: &Case, data: &Data, spread: &Spread) -> Vec<usize> {
         .collect();
     let influence = |v: usize| {
         let curved: Vec<Vec<f64>> = (0..data.points.len())
-            .map(|point| curved_effects(case, data, point, (v, spread.deviations[v][point])))
+            .map(|point| curved_effects(case, data, point, v, spread.deviations[v][point]))
             .collect();
         let mut sum = 0.0;
         for (row, &point) in data.point_of.iter().enumerate() {
@@ -316,7 +316,8 @@ fn curved_effects(
     case: &Case,
     data: &Data,
     point: usize,
-    (variable, deviation): (usize, f64),
+    variable: usize,
+    deviation: f64,
 ) -> Vec<f64> {
     let point = &data.points[point];
     let mut largest = vec![0.0; data.outputs.len()];

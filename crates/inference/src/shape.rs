@@ -451,7 +451,8 @@ impl Shape {
         let (a, b) = (parameter(0), parameter(1));
         let Self { low, high, size, .. } = *self;
         let range = high - low;
-        let column = |of: &dyn Fn(f64) -> f64| at.iter().map(|&x| of(x)).collect::<Vec<f64>>();
+        let column =
+            |function: &dyn Fn(f64) -> f64| at.iter().map(|&x| function(x)).collect::<Vec<f64>>();
         let squared = |x: f64| x * x;
         let first = match self.function {
             Function::One => column(&|_| 1.0),

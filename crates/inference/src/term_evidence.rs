@@ -115,7 +115,9 @@ impl<'m> Frame<'m> {
             Some(ByPoint { squares, products: of_residuals, basis }) => {
                 let shared: Vec<Vec<f64>> = columns
                     .iter()
-                    .map(|g| self.metric.solved(basis.iter().map(|of| dot(of, g)).collect()))
+                    .map(|g| {
+                        self.metric.solved(basis.iter().map(|column| dot(column, g)).collect())
+                    })
                     .collect();
                 for i in 0..d {
                     for j in 0..=i {

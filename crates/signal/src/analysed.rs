@@ -96,8 +96,8 @@ impl Analysed {
     /// The standard deviation of the noise before rounding.
     pub(super) fn noise_before_rounding(&self) -> f64 {
         let residuals = &self.residuals;
-        let left = (residuals.variance, residuals.first.as_slice());
-        noise_before(&self.design, &self.fit, self.resolution, left)
+        let left = residuals.variance;
+        noise_before(&self.design, &self.fit, self.resolution, left, &residuals.first)
     }
 
     /// The oscillations that nobody named: cycles in a sample interval and peak amplitude.

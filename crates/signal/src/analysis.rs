@@ -209,12 +209,14 @@ impl ChannelGroup<'_> {
         let lead = self.lead().1;
         let ((mut design, mut fits, mut left), besides) =
             self.with_besides(passes, &mut fundamentals)?;
-        if fundamentals.iter().any(|of| of.of_cut > 0.0) {
+        if fundamentals.iter().any(|fundamental| fundamental.of_cut > 0.0) {
             // what a fit at the bins' frequencies leaves of the sine is no noise
-            design =
-                self.design(&fundamentals, passes.frames(), Accompanying::default(), |of| {
-                    of.cycles
-                })?;
+            design = self.design(
+                &fundamentals,
+                passes.frames(),
+                Accompanying::default(),
+                |fundamental| fundamental.cycles,
+            )?;
             fits = design.fit(passes).map_err(Refused::Unreadable)?;
         }
         if let Some(through) = self.through {
@@ -238,7 +240,7 @@ impl ChannelGroup<'_> {
         if self.traced {
             let channels = self.channels.iter().map(|(channel, _)| *channel).zip(&fits);
             let channels: Vec<_> = channels.collect();
-            let found = trace::traces(passes, (base, &design), &fundamentals, &channels);
+            let found = trace::traces(passes, base, &design, &fundamentals, &channels);
             traces = found.map_err(Refused::Unreadable)?.into_iter().map(Some).collect();
         }
         let design = Rc::new(design);
@@ -251,7 +253,7 @@ impl ChannelGroup<'_> {
             // frequencies are those of all channels, what is near to one may be in one of them
             let too_near = besides.too_near && (is_flanked || !is_any);
             let besides = Besides { too_near, ..besides.clone() };
-            let stated = self.settings.channels.get(at.0).map_or(0.0, |of| of.resolution);
+            let stated = self.settings.channels.get(at.0).map_or(0.0, |channel| channel.resolution);
             // a step that is seen counts where it is coarser than the stated one
             let seen = residuals.lattice.filter(|step| *step > 1.5 * stated);
             Analysed {
@@ -267,7 +269,7 @@ impl ChannelGroup<'_> {
                 fundamentals: fundamentals.clone(),
                 spurious,
                 besides,
-                effects: self.through.map_or_else(Rc::default, |of| of.effects.clone()),
+                effects: self.through.map_or_else(Rc::default, |through| through.effects.clone()),
                 trace,
             }
             .rounded()
@@ -304,13 +306,18 @@ impl ChannelGroup<'_> {
         let samples = passes.frames();
         let lead = self.lead().1;
         let as_stated = fundamentals.to_vec();
-        let within = |of: &Fundamental| elementary::hypot(of.of_stated, of.of_rate);
-        let again_estimated = |of: &Fundamental| !of.is_stated && !with.is_none();
-        let mut may_move: Vec<bool> =
-            as_stated.iter().map(|of| within(of) > 0.0 || again_estimated(of)).collect();
+        let within = |fundamental: &Fundamental| {
+            elementary::hypot(fundamental.of_stated, fundamental.of_rate)
+        };
+        let again_estimated = |fundamental: &Fundamental| !fundamental.is_stated && !with.is_none();
+        let mut may_move: Vec<bool> = as_stated
+            .iter()
+            .map(|fundamental| within(fundamental) > 0.0 || again_estimated(fundamental))
+            .collect();
         let mut moves = 0;
         loop {
-            let design = self.design(fundamentals, samples, with, |of| of.turning)?;
+            let design =
+                self.design(fundamentals, samples, with, |fundamental| fundamental.turning)?;
             let mut fits = design.fit(passes).map_err(Refused::Unreadable)?;
             let left = residuals::of(&design, passes, &mut fits).map_err(Refused::Unreadable)?;
             let Some(residuals) = left.get(lead) else { return Ok((design, fits, left)) };

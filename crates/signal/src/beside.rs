@@ -115,17 +115,18 @@ impl ChannelGroup<'_> {
             (drift, *fundamentals, best) = (fits.0.drift, of, fits);
         }
         for _ in 0..ROUNDS {
-            let known: Vec<f64> = besides.fitted.iter().map(|of| of.cycles).collect();
+            let known: Vec<f64> =
+                besides.fitted.iter().map(|oscillation| oscillation.cycles).collect();
             let new = candidates(&best, samples, &known);
             if new.is_empty() {
                 break;
             }
             let all: Vec<f64> = known.into_iter().chain(new).collect();
-            let Some(mut tuned) = self.tuned(passes, fundamentals, (all, drift))? else {
+            let Some(mut tuned) = self.tuned(passes, fundamentals, all, drift)? else {
                 besides.too_near = true;
                 break;
             };
-            tuned.retain(|of| of.clear > CLEAR);
+            tuned.retain(|oscillation| oscillation.clear > CLEAR);
             let before = tuned.len();
             let named: Vec<f64> = self.named(&best.0).map(|(_, tone)| tone.cycles).collect();
             keep_apart(&mut tuned, &named, samples);
@@ -146,7 +147,7 @@ impl ChannelGroup<'_> {
             }
         }
         // a slow oscillation looks like a drift as long as it is not fitted, and hides one
-        let tones: Vec<f64> = besides.fitted.iter().map(|of| of.cycles).collect();
+        let tones: Vec<f64> = besides.fitted.iter().map(|oscillation| oscillation.cycles).collect();
         if !tones.is_empty()
             && let Some((of, fits)) = self.with_drift(passes, &as_stated, &best, &tones)?
         {
@@ -166,17 +167,19 @@ impl ChannelGroup<'_> {
         tones: &[f64],
     ) -> Result<Option<(Vec<Fundamental>, FittedTones)>, Refused<E>> {
         let (design, _, left) = before;
-        if design.drift == 0 && !left.iter().any(|of| of.drifts) {
+        if design.drift == 0 && !left.iter().any(|residuals| residuals.drifts) {
             return Ok(None);
         }
         let of = |drift: usize| {
             let with = Accompanying { tones, drift };
-            self.design::<E>(as_stated, passes.frames(), with, |of| of.turning).ok()
+            self.design::<E>(as_stated, passes.frames(), with, |fundamental| fundamental.turning)
+                .ok()
         };
         let plain = of(0);
-        let costs =
-            |of: &ToneDesign| plain.as_ref().is_none_or(|plain| self.is_much_less_known(of, plain));
-        let is_told = |degree: &usize| of(*degree).is_some_and(|of| !costs(&of));
+        let costs = |design: &ToneDesign| {
+            plain.as_ref().is_none_or(|plain| self.is_much_less_known(design, plain))
+        };
+        let is_told = |degree: &usize| of(*degree).is_some_and(|design| !costs(&design));
         let mut degree = (1..=drift::MOST_DEGREES).take_while(is_told).count();
         while degree > 0 {
             let mut moved = as_stated.to_vec();
@@ -202,8 +205,8 @@ impl ChannelGroup<'_> {
     /// another design of the same tones.
     fn is_much_less_known(&self, with: &ToneDesign, other: &ToneDesign) -> bool {
         self.named(with).any(|(place, _)| {
-            let even = |of: &ToneDesign| of.even[(place + 1, place + 1)];
-            let odd = |of: &ToneDesign| of.odd[(place, place)];
+            let even = |design: &ToneDesign| design.even[(place + 1, place + 1)];
+            let odd = |design: &ToneDesign| design.odd[(place, place)];
             even(with) > MOST_COST * even(other) || odd(with) > MOST_COST * odd(other)
         })
     }
@@ -221,18 +224,20 @@ impl ChannelGroup<'_> {
         let samples = passes.frames() as f64;
         let mut turns = 0;
         loop {
-            let before: Vec<f64> = fundamentals.iter().map(|of| of.turning).collect();
-            let cycles: Vec<f64> = tuned.iter().map(|of| of.cycles).collect();
+            let before: Vec<f64> =
+                fundamentals.iter().map(|fundamental| fundamental.turning).collect();
+            let cycles: Vec<f64> = tuned.iter().map(|oscillation| oscillation.cycles).collect();
             let with = Accompanying { tones: &cycles, drift };
             let Ok(fits) = self.at_own_frequencies(passes, fundamentals, with) else {
                 return Ok(None);
             };
-            let moves = |of: (&Fundamental, f64)| (of.0.turning - of.1).abs() * samples > SETTLED;
+            let moves =
+                |tuned: (&Fundamental, f64)| (tuned.0.turning - tuned.1).abs() * samples > SETTLED;
             turns += 1;
             if turns == MOST_TURNS || !fundamentals.iter().zip(before).any(moves) {
                 return Ok(Some(fits));
             }
-            let Some(again) = self.tuned(passes, fundamentals, (cycles, drift))? else {
+            let Some(again) = self.tuned(passes, fundamentals, cycles, drift)? else {
                 return Ok(None);
             };
             *tuned = again;
@@ -254,7 +259,8 @@ impl ChannelGroup<'_> {
         &self,
         passes: &mut dyn SampleSource<Error = E>,
         fundamentals: &[Fundamental],
-        (cycles, drift): (Vec<f64>, usize),
+        cycles: Vec<f64>,
+        drift: usize,
     ) -> Result<Option<Vec<UnnamedOscillation>>, Refused<E>> {
         let samples = passes.frames();
         let mut all: Vec<UnnamedOscillation> = cycles
@@ -262,9 +268,11 @@ impl ChannelGroup<'_> {
             .map(|cycles| UnnamedOscillation { cycles, deviation: 0.0, clear: 0.0 })
             .collect();
         for _ in 0..MOST_STEPS {
-            let cycles: Vec<f64> = all.iter().map(|of| of.cycles).collect();
+            let cycles: Vec<f64> = all.iter().map(|oscillation| oscillation.cycles).collect();
             let with = Accompanying { tones: &cycles, drift };
-            let design = match self.design::<E>(fundamentals, samples, with, |of| of.turning) {
+            let design = match self
+                .design::<E>(fundamentals, samples, with, |fundamental| fundamental.turning)
+            {
                 Ok(design) => design,
                 Err(_) => return Ok(None),
             };
@@ -284,7 +292,8 @@ impl ChannelGroup<'_> {
                 of.cycles += step;
                 largest = largest.max(step.abs() * samples as f64);
             }
-            if all.iter().any(|of| !(of.cycles > 0.0 && of.cycles < 0.5)) {
+            if all.iter().any(|oscillation| !(oscillation.cycles > 0.0 && oscillation.cycles < 0.5))
+            {
                 return Ok(None);
             }
             if largest < SETTLED {
@@ -301,7 +310,8 @@ pub(super) fn clear_degree(design: &ToneDesign, fit: &ToneCoefficients, left: &R
     // a walk's power is that of the next degree times the square of their ratio
     let growth = |degree: usize| ((drift::MOST_DEGREES + 1) as f64 / degree as f64).powi(2);
     let noise = |degree: usize| {
-        let modelled = left.coloured.as_ref().and_then(|of| of.drift.get(degree - 1).copied());
+        let modelled =
+            left.coloured.as_ref().and_then(|coloured| coloured.drift.get(degree - 1).copied());
         let modelled = modelled.map(|variance| variance * growth(degree));
         modelled.unwrap_or_else(|| left.variance * design.variance_of_degree(degree))
     };
@@ -409,17 +419,19 @@ pub(super) fn is_flanked(design: &ToneDesign, left: &Residuals) -> bool {
 /// Takes out what is too near to a named oscillation, and what lies on both sides of one.
 fn keep_apart(all: &mut Vec<UnnamedOscillation>, named: &[f64], samples: u64) {
     let samples = samples as f64;
-    let from = |of: &UnnamedOscillation, tone: f64| (of.cycles - tone) * samples;
+    let from = |oscillation: &UnnamedOscillation, tone: f64| (oscillation.cycles - tone) * samples;
     let both_sides = |tone: f64, all: &[UnnamedOscillation]| {
-        let near =
-            |sign: f64| all.iter().any(|of| (0.0..SIDEBANDS).contains(&(sign * from(of, tone))));
+        let near = |sign: f64| {
+            all.iter()
+                .any(|oscillation| (0.0..SIDEBANDS).contains(&(sign * from(oscillation, tone))))
+        };
         near(1.0) && near(-1.0)
     };
     let modulated: Vec<f64> = named.iter().copied().filter(|tone| both_sides(*tone, all)).collect();
-    all.retain(|of| {
-        let alone = named.iter().all(|tone| from(of, *tone).abs() >= APART);
-        let beside = modulated.iter().all(|tone| from(of, *tone).abs() >= SIDEBANDS);
-        alone && beside && of.deviation * samples < APART / 4.0
+    all.retain(|oscillation| {
+        let alone = named.iter().all(|tone| from(oscillation, *tone).abs() >= APART);
+        let beside = modulated.iter().all(|tone| from(oscillation, *tone).abs() >= SIDEBANDS);
+        alone && beside && oscillation.deviation * samples < APART / 4.0
     });
     let mut kept: Vec<UnnamedOscillation> = Vec::new();
     for of in all.drain(..) {

@@ -65,18 +65,18 @@ fn by_factors(values: &mut Vec<Phasor>, factors: &[usize]) {
     let (mut length, mut stride) = (values.len(), 1);
     for &radix in factors {
         match radix {
-            2 => stage(values, &mut other, (length, stride), &roots, |[a, b]| [a + b, a - b]),
-            4 => stage(values, &mut other, (length, stride), &roots, |[a, b, c, d]| {
+            2 => stage(values, &mut other, length, stride, &roots, |[a, b]| [a + b, a - b]),
+            4 => stage(values, &mut other, length, stride, &roots, |[a, b, c, d]| {
                 let (even, odd) = (a + c, b + d);
                 let (turned, across) = (a - c, b - d);
                 let across = Phasor::new(across.im, -across.re);
                 [even + odd, turned + across, even - odd, turned - across]
             }),
-            3 => stage::<3>(values, &mut other, (length, stride), &roots, |a| small(a, &roots)),
-            5 => stage::<5>(values, &mut other, (length, stride), &roots, |a| small(a, &roots)),
-            7 => stage::<7>(values, &mut other, (length, stride), &roots, |a| small(a, &roots)),
-            11 => stage::<11>(values, &mut other, (length, stride), &roots, |a| small(a, &roots)),
-            _ => stage::<MOST_RADIX>(values, &mut other, (length, stride), &roots, |a| {
+            3 => stage::<3>(values, &mut other, length, stride, &roots, |a| small(a, &roots)),
+            5 => stage::<5>(values, &mut other, length, stride, &roots, |a| small(a, &roots)),
+            7 => stage::<7>(values, &mut other, length, stride, &roots, |a| small(a, &roots)),
+            11 => stage::<11>(values, &mut other, length, stride, &roots, |a| small(a, &roots)),
+            _ => stage::<MOST_RADIX>(values, &mut other, length, stride, &roots, |a| {
                 small(a, &roots)
             }),
         }
@@ -92,7 +92,8 @@ fn by_factors(values: &mut Vec<Phasor>, factors: &[usize]) {
 fn stage<const R: usize>(
     from: &[Phasor],
     to: &mut [Phasor],
-    (length, stride): (usize, usize),
+    length: usize,
+    stride: usize,
     roots: &[Phasor],
     transformed: impl Fn([Phasor; R]) -> [Phasor; R],
 ) {

@@ -36,7 +36,8 @@ pub(super) fn note(settings: &RecipeSettings, of: &ChannelObservation) -> Option
 /// the amplitude is r u or more with the probability exp(-r^2/2).
 fn probability(component: &ToneComponent) -> Option<f64> {
     let amplitude = &component.amplitude;
-    let noise = amplitude.contributions.iter().find(|(of, _)| *of == UncertaintySource::Noise)?.1;
+    let noise =
+        amplitude.contributions.iter().find(|(source, _)| *source == UncertaintySource::Noise)?.1;
     let ratio = amplitude.measured.value.abs() / noise;
     Some(elementary::exp(-0.5 * ratio * ratio))
 }

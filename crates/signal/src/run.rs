@@ -110,29 +110,34 @@ fn row<P: SampleSource>(
         of_steps.extend(of.notes);
         track += 1;
     }
-    smallest_first(&mut analysed, |of| of.channel as f64);
-    let reference =
-        settings.reference.and_then(|channel| analysed.iter().find(|of| of.channel == channel));
+    smallest_first(&mut analysed, |analysed| analysed.channel as f64);
+    let reference = settings
+        .reference
+        .and_then(|channel| analysed.iter().find(|analysed| analysed.channel == channel));
     if let Some(silent) = reference.and_then(silent) {
         return Err(silent);
     }
     let found = |channel: usize| {
-        let of = findings.iter().filter(|(of, _)| *of == channel);
+        let of = findings.iter().filter(|(number, _)| *number == channel);
         of.map(|(_, finding)| finding.clone()).collect()
     };
     let at = |fundamental: usize| -> Vec<ChannelObservation> {
         let channels = analysed.iter();
         channels
-            .filter_map(|of| observed(settings, of, reference, fundamental, found(of.channel)))
+            .filter_map(|analysed| {
+                observed(settings, analysed, reference, fundamental, found(analysed.channel))
+            })
             .collect()
     };
     let count = if settings.method == Method::Fft { 1 } else { frequencies.len() };
     let mut notes = notes(settings, &analysed);
     notes.extend(of_steps);
     let observed: Vec<Vec<ChannelObservation>> = (0..count).map(at).collect();
-    notes.extend(observed.iter().flatten().filter_map(|of| near_noise::note(settings, of)));
+    notes.extend(
+        observed.iter().flatten().filter_map(|observation| near_noise::note(settings, observation)),
+    );
     let observation = Observation { frequencies: observed, notes };
-    Ok((observation, analysed.into_iter().filter_map(|of| of.trace).collect()))
+    Ok((observation, analysed.into_iter().filter_map(|analysed| analysed.trace).collect()))
 }
 
 /// The refusal of a reference that has no oscillation at one of the frequencies: an amplitude of
@@ -146,7 +151,10 @@ fn silent<E>(reference: &Analysed) -> Option<Refused<E>> {
         .enumerate()
         .filter(|(_, tone)| tone.multiple == 1 && !tone.beside);
     let (_, tone) = tones.find(|(place, _)| amplitude(&reference.fit, *place) <= rounding)?;
-    let hertz = reference.fundamentals.get(tone.fundamental).map_or(0.0, |of| of.hertz.value);
+    let hertz = reference
+        .fundamentals
+        .get(tone.fundamental)
+        .map_or(0.0, |fundamental| fundamental.hertz.value);
     Some(Refused::ReferenceSilent { channel: reference.channel, hertz })
 }
 
@@ -172,7 +180,7 @@ fn through_steps<P: SampleSource>(
         Some(reference)
             if steps.iter().any(ChannelStep::takes_reference) && reference != channel =>
         {
-            match done.iter().find(|of| of.channel == reference) {
+            match done.iter().find(|done| done.channel == reference) {
                 Some(of) => {
                     of_reference = of.through.as_ref();
                     Some(signal(of.base, of.held.channels.first()))
@@ -184,7 +192,7 @@ fn through_steps<P: SampleSource>(
         _ => None,
     };
     let Some((clock, mut base, held)) = held(tracks, channel)? else { return Ok(None) };
-    let mut frequency = frequencies.first().and_then(|of| of.hertz).unwrap_or(0.0);
+    let mut frequency = frequencies.first().and_then(|frequency| frequency.hertz).unwrap_or(0.0);
     let highest = settings.components.iter().copied().max().unwrap_or(1).max(settings.harmonics);
     let mut now = signal(base, held.channels.first());
     let (mut findings, mut notes) = (Vec::new(), Vec::new());
@@ -207,8 +215,8 @@ fn through_steps<P: SampleSource>(
             let mut held = InMemorySamples { channels: vec![now.values] };
             let before = group.analyse(&mut held.unfailing())?.pop();
             now.values = held.channels.pop().unwrap_or_default();
-            let first = before.as_ref().and_then(|of| of.fundamentals.first());
-            frequency = first.map_or(frequency, |of| of.hertz.value);
+            let first = before.as_ref().and_then(|analysed| analysed.fundamentals.first());
+            frequency = first.map_or(frequency, |fundamental| fundamental.hertz.value);
             through = before.map(|before| Through { effects: Rc::default(), before });
         }
         let surroundings = Surroundings {
@@ -216,7 +224,7 @@ fn through_steps<P: SampleSource>(
             frequencies: frequencies.len(),
             multiples: highest,
             reference: reference.as_ref(),
-            resolution: if through.as_ref().is_none_or(|of| of.effects.0.is_empty()) {
+            resolution: if through.as_ref().is_none_or(|through| through.effects.0.is_empty()) {
                 settings.channels[channel].resolution
             } else {
                 0.0
@@ -314,7 +322,7 @@ fn held<P: SampleSource>(
     channel: usize,
 ) -> Result<InMemory, Refused<P::Error>> {
     for (clock, track) in tracks.iter_mut().enumerate() {
-        let Some(column) = track.channels.iter().position(|of| *of == channel) else { continue };
+        let Some(column) = track.channels.iter().position(|own| *own == channel) else { continue };
         let samples = track.passes.frames();
         if samples > MOST_HELD {
             return Err(Refused::TooLong { channel, samples });

@@ -36,17 +36,18 @@ fn rate<P: SampleSource>(
 ) -> Result<(Measured, Option<f64>), Refused<P::Error>> {
     let channel = search.channel;
     let refused = |reason: &str| Refused::Rate { channel, reason: reason.to_owned() };
-    let stated = frequencies.first().filter(|of| !of.estimate).and_then(|of| {
-        Some(Measured {
-            value: of.hertz?,
-            standard_uncertainty: of.standard_uncertainty,
-            degrees_of_freedom: f64::INFINITY,
-        })
-    });
+    let stated =
+        frequencies.first().filter(|frequency| !frequency.estimate).and_then(|frequency| {
+            Some(Measured {
+                value: frequency.hertz?,
+                standard_uncertainty: frequency.standard_uncertainty,
+                degrees_of_freedom: f64::INFINITY,
+            })
+        });
     let frequency = search.frequency.or(stated).ok_or_else(|| {
         refused("a sampling rate is found from a known frequency, not from one that is estimated")
     })?;
-    let column = track.channels.iter().position(|of| *of == channel);
+    let column = track.channels.iter().position(|own| *own == channel);
     let column = column.ok_or_else(|| refused("the recording does not have the channel"))?;
     let samples = track.passes.frames();
     if samples > super::MOST_HELD {
@@ -81,7 +82,8 @@ fn rate<P: SampleSource>(
         traced: false,
     };
     let analysed = group.analyse(&mut held.unfailing())?;
-    let found = analysed.first().and_then(|of| Some((of.fundamentals.first()?, of)));
+    let found =
+        analysed.first().and_then(|analysed| Some((analysed.fundamentals.first()?, analysed)));
     let (fundamental, of) = found.ok_or(Refused::NotFound { channel })?;
     let rate = frequency.value / fundamental.cycles;
     let from_noise = rate * fundamental.of_estimate / fundamental.cycles;

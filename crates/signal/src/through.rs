@@ -55,8 +55,8 @@ impl Through {
             [0.0].into_iter().chain(design.tones.iter().map(|tone| tone.cycles * rate)).collect();
         let white = self.effects.coloured(&|_| 1.0, design.samples, rate, &frequencies);
         let process = self.process(design.samples, rate, &frequencies);
-        let (source, factors, freedom) = self.near_tones(design, after, (&white, process.as_ref()));
-        let (level, of_level) = self.level(design, after, (&white, process.as_ref()));
+        let (source, factors, freedom) = self.near_tones(design, after, &white, process.as_ref());
+        let (level, of_level) = self.level(design, after, &white, process.as_ref());
         let (_, tones) = white.densities.split_first().unwrap_or((&1.0, &[]));
         let passes = !self.squares() && self.effects.power_gain(0.0) > 0.0;
         KnownNoise {
@@ -65,7 +65,7 @@ impl Through {
             freedom,
             level,
             of_level,
-            of_residuals: self.freedom(design, after, (&white, process.as_ref())),
+            of_residuals: self.freedom(design, after, &white, process.as_ref()),
             shares: shares(&self.before),
             rounding: self.rounding(tones),
             unfitted: self.unfitted(rate),
@@ -105,7 +105,8 @@ impl Through {
         &self,
         design: &ToneDesign,
         after: &Residuals,
-        (white, process): (&Coloured, Option<&Passed>),
+        white: &Coloured,
+        process: Option<&Passed>,
     ) -> (NoiseSource, Option<Vec<[f64; 2]>>, f64) {
         let before = &self.before.residuals;
         let all = |factor: f64| {
@@ -118,7 +119,9 @@ impl Through {
         }
         let few = parts(design).is_none();
         let by_process = process.filter(|_| few || !after.is_measured());
-        if let Some(factors) = by_process.and_then(|of| self.by_process(design, after, of)) {
+        if let Some(factors) =
+            by_process.and_then(|process| self.by_process(design, after, process))
+        {
             let freedom = before.coloured.as_ref().map_or(1.0, |coloured| coloured.freedom);
             return (NoiseSource::Process, Some(factors), freedom);
         }
@@ -150,7 +153,7 @@ impl Through {
             let known = known.and_then(|known| Some((*local.get(known)?, passed.gain(place + 1)?)));
             Some(match known {
                 Some((factors, gain)) => {
-                    factors.map(|of| of * gain * before.residuals.variance / after.variance)
+                    factors.map(|factor| factor * gain * before.residuals.variance / after.variance)
                 }
                 None => [passed.after.densities.get(place + 1)? / after.variance; 2],
             })
@@ -164,7 +167,8 @@ impl Through {
         &self,
         design: &ToneDesign,
         after: &Residuals,
-        (white, process): (&Coloured, Option<&Passed>),
+        white: &Coloured,
+        process: Option<&Passed>,
     ) -> (f64, Option<f64>) {
         let before = &self.before.residuals;
         let zero = white.densities.first().copied().unwrap_or(1.0);
@@ -178,7 +182,7 @@ impl Through {
         };
         if self.squares() {
             // the noise at zero is that about the frequency of the velocity
-            let level = process.and_then(|of| of.after.densities.first());
+            let level = process.and_then(|process| process.after.densities.first());
             return match level.filter(|level| level.is_finite()) {
                 Some(level) => (level * even, Some(coloured.freedom)),
                 None => (of_white(before.variance), None),
@@ -208,7 +212,8 @@ impl Through {
         &self,
         design: &ToneDesign,
         after: &Residuals,
-        (white, process): (&Coloured, Option<&Passed>),
+        white: &Coloured,
+        process: Option<&Passed>,
     ) -> f64 {
         let before = &self.before.residuals;
         let fitted = design.parameters() as f64;
@@ -232,7 +237,7 @@ impl Through {
         };
         // the record's own instants, where they fall on few phases
         let own = |tone: usize| {
-            let of = self.before.rounding.as_ref().and_then(|of| of.tones.get(tone));
+            let of = self.before.rounding.as_ref().and_then(|rounding| rounding.tones.get(tone));
             of.map_or(0.0, |[a, _, b]| f64::midpoint(*a, *b).sqrt())
         };
         let tones = gains.iter().enumerate();
@@ -241,10 +246,15 @@ impl Through {
 
     /// The oscillations before the steps that are not fitted, as these leave them.
     fn unfitted(&self, rate: f64) -> Vec<Spurious> {
-        let unfitted = self.before.spurious.iter().filter(|of| !of.fitted && !self.squares());
-        let after = unfitted.map(|of| Spurious {
-            amplitude: of.amplitude * self.effects.power_gain(of.cycles * rate).sqrt(),
-            ..*of
+        let unfitted = self
+            .before
+            .spurious
+            .iter()
+            .filter(|oscillation| !oscillation.fitted && !self.squares());
+        let after = unfitted.map(|oscillation| Spurious {
+            amplitude: oscillation.amplitude
+                * self.effects.power_gain(oscillation.cycles * rate).sqrt(),
+            ..*oscillation
         });
         after.collect()
     }

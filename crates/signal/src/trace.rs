@@ -111,11 +111,13 @@ struct Gathered {
 /// The traces of channels with their fits, in their order; one pass over the record.
 pub(super) fn traces<E>(
     passes: &mut dyn SampleSource<Error = E>,
-    (base, design): (TimeBase, &ToneDesign),
+    base: TimeBase,
+    design: &ToneDesign,
     fundamentals: &[Fundamental],
     channels: &[(usize, &ToneCoefficients)],
 ) -> Result<Vec<RecordTrace>, E> {
-    let slowest = fundamentals.iter().map(|of| of.cycles).fold(f64::INFINITY, f64::min);
+    let slowest =
+        fundamentals.iter().map(|fundamental| fundamental.cycles).fold(f64::INFINITY, f64::min);
     let shown = ((PERIODS / slowest).ceil() as u64).max(FEWEST).min(design.samples);
     let tone = |place: usize, fit: &ToneCoefficients| {
         let of = design.tones.get(place)?;
@@ -158,11 +160,11 @@ pub(super) fn traces<E>(
             }
         }
     })?;
-    let finished = |of: Gathered| RecordTrace {
-        spectrum: spectrum(&of.values, base.rate.value),
-        residual_spectrum: spectrum(&of.left, base.rate.value),
-        transformed: of.values.len() as u64,
-        ..of.trace
+    let finished = |gathered: Gathered| RecordTrace {
+        spectrum: spectrum(&gathered.values, base.rate.value),
+        residual_spectrum: spectrum(&gathered.left, base.rate.value),
+        transformed: gathered.values.len() as u64,
+        ..gathered.trace
     };
     Ok(gathered.into_iter().map(finished).collect())
 }

@@ -50,7 +50,7 @@ pub(super) fn observed(
         Some((reference, polar(reference, channel, fundamental, 1)?))
     });
     let components = settings.components.iter().filter_map(|multiple| {
-        let place = multiples.iter().position(|of| of == multiple)?;
+        let place = multiples.iter().position(|own| own == multiple)?;
         let polar = tones.get(place)?;
         let trials = drawn.as_ref().map(|drawn| (drawn.amplitudes[place], drawn.phases[place]));
         Some(component(settings, analysed, root.as_ref(), polar, *multiple, trials, noise_dof))
@@ -202,7 +202,8 @@ fn phase(
         if let Some(correlation) = correlation.filter(|_| both > 0.0) {
             let shared = 2.0 * correlation * own * other;
             common = shared * own * own / both;
-            for (_, u) in parts.iter_mut().filter(|(of, _)| *of == UncertaintySource::Noise) {
+            for (_, u) in parts.iter_mut().filter(|(source, _)| *source == UncertaintySource::Noise)
+            {
                 *u = (*u * *u - shared).max(0.0).sqrt();
             }
         }
@@ -277,8 +278,10 @@ fn offset(settings: &RecipeSettings, analysed: &Analysed, noise_dof: f64) -> Bud
     let value = analysed.fit.offset;
     let scale = scale * analysed.effects.power_of_scale();
     let [quantization, _] = shares(analysed);
-    let (repeated, rounded) =
-        analysed.rounding.as_ref().map_or((0.0, 0.0), |of| (of.repeated, of.offset));
+    let (repeated, rounded) = analysed
+        .rounding
+        .as_ref()
+        .map_or((0.0, 0.0), |rounding| (rounding.repeated, rounding.offset));
     let quantized = noise * quantization * (1.0 - repeated) + rounded;
     let mut parts = vec![
         (UncertaintySource::Noise, (noise * (1.0 - quantization)).sqrt()),
@@ -300,7 +303,10 @@ fn offset(settings: &RecipeSettings, analysed: &Analysed, noise_dof: f64) -> Bud
     // of an oscillation that is not fitted the mean over the record has a part, whatever its phase
     let samples = analysed.design.samples as f64;
     let unfitted = residuals.known.as_ref().map_or(&analysed.spurious, |known| &known.unfitted);
-    for of in unfitted.iter().filter(|of| !of.fitted && of.cycles * samples > 3.0) {
+    for of in unfitted
+        .iter()
+        .filter(|oscillation| !oscillation.fitted && oscillation.cycles * samples > 3.0)
+    {
         let mean = of.amplitude / (2.0 * samples * sin_cos_turn(of.cycles / 2.0).0);
         join(&mut parts, UncertaintySource::Leakage, mean);
     }
@@ -365,7 +371,10 @@ fn ratio(analysed: &Analysed, tones: &[Polar], with_multiples: bool) -> Budgeted
     let above = tones.iter().skip(if with_multiples { 1 } else { tones.len() });
     let others: f64 = above.clone().map(|polar| power(&polar)).sum();
     // what oscillates beside the signal is no part of it, whether it is fitted or not
-    let besides: f64 = analysed.fitted_besides().map(|of| of.amplitude * of.amplitude / 2.0).sum();
+    let besides: f64 = analysed
+        .fitted_besides()
+        .map(|oscillation| oscillation.amplitude * oscillation.amplitude / 2.0)
+        .sum();
     let noise = residuals.variance + besides + analysed.drift_power();
     let disturbance = noise + others;
     if disturbance <= 0.0 || amplitude <= 0.0 {

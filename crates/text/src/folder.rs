@@ -137,7 +137,7 @@ impl<'a> Folder<'a> {
         let limit = self.within.map(canonical);
         let mut above = own
             .ancestors()
-            .take_while(|of| limit.as_ref().is_none_or(|limit| of.starts_with(limit)));
+            .take_while(|ancestor| limit.as_ref().is_none_or(|limit| ancestor.starts_with(limit)));
         let root = above.find(|folder| folder.join(ROOT).is_file()).map(Path::to_owned);
         let mut folders = vec![own.clone()];
         folders.extend(root);

@@ -79,7 +79,7 @@ impl Node {
             Json::List(nodes) => nodes.iter().flat_map(Self::texts).collect(),
             Json::Object(members) => members
                 .iter()
-                .flat_map(|of| [vec![of.key.as_str()], of.value.texts()].concat())
+                .flat_map(|member| [vec![member.key.as_str()], member.value.texts()].concat())
                 .collect(),
             Json::Null | Json::Bool(_) | Json::Number(_) => Vec::new(),
         }

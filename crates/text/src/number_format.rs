@@ -62,7 +62,7 @@ impl NumberFormat {
 
     /// Whether a cell displays the bare number.
     pub(crate) fn is_plain(&self) -> bool {
-        let is_plain = |of: &FormatSection| *of == FormatSection::default();
+        let is_plain = |section: &FormatSection| *section == FormatSection::default();
         is_plain(&self.usual) && self.negative.as_ref().is_none_or(is_plain)
     }
 
@@ -129,7 +129,7 @@ impl FormatSection {
         // commas after the last digit divide; commas between digits group
         let (mut commas, mut thousands) = (0, 0);
         let mut rest = None;
-        let is_general = format.split(';').next().is_some_and(|of| of.contains("General"));
+        let is_general = format.split(';').next().is_some_and(|usual| usual.contains("General"));
         let digits =
             if is_general { format.replacen("General", "0", 1) } else { format.to_owned() };
         let mut signs = digits.chars().peekable();
@@ -246,7 +246,7 @@ pub(crate) fn last_digit(format: &str, value: f64) -> Option<i32> {
     let core = core.replace('%', "");
     let (mantissa, exponent) = core.split_once('E').map_or((&*core, None), |(m, e)| (m, Some(e)));
     let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let are_zeros = |text: &str| text.bytes().all(|of| of == b'0');
+    let are_zeros = |text: &str| text.bytes().all(|byte| byte == b'0');
     if mantissa.is_empty() || !are_zeros(whole) || !are_zeros(decimals) {
         return None;
     }

@@ -82,12 +82,12 @@ const OTHER_NAMES: [(&[&str], OtherName); 10] = [
 
 /// The key that is meant by `key`, which is not among the `known` ones.
 pub fn other_name(key: &str, known: &[&str]) -> Option<OtherName> {
-    let is_meant = |names: &[&str], of: &OtherName| {
+    let is_meant = |names: &[&str], name: &OtherName| {
         // limits of inputs replace their half-width
-        let has_half = known.contains(&"half_width") && of.key == "lower";
-        names.contains(&key) && known.contains(&of.key) && !known.contains(&key) && !has_half
+        let has_half = known.contains(&"half_width") && name.key == "lower";
+        names.contains(&key) && known.contains(&name.key) && !known.contains(&key) && !has_half
     };
-    OTHER_NAMES.into_iter().find(|(names, of)| is_meant(names, of)).map(|(_, of)| of)
+    OTHER_NAMES.into_iter().find(|(names, name)| is_meant(names, name)).map(|(_, name)| name)
 }
 
 #[cfg(test)]

@@ -213,8 +213,8 @@ pub fn parse(source: &Arc<SourceText>, wanted: Option<&[&str]>) -> Result<Table,
     for (number, name) in columns.iter().enumerate().filter(|(number, _)| is_wanted[*number]) {
         let reason = if name.is_empty() {
             format!("column {} has no name in the header", number + 1)
-        } else if columns.iter().position(|of| of == name) == Some(number)
-            && columns.iter().skip(number + 1).any(|of| of == name)
+        } else if columns.iter().position(|column| column == name) == Some(number)
+            && columns.iter().skip(number + 1).any(|column| column == name)
         {
             format!("the header has the name `{name}` twice")
         } else {

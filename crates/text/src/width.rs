@@ -35,7 +35,8 @@ impl Width {
     pub fn read(
         log: &Collector,
         node: &Node,
-        (name, key): (&str, &str),
+        name: &str,
+        key: &str,
         unit: &Unit,
     ) -> Result<Self, DiagnosticKind> {
         match &node.value {
@@ -100,9 +101,9 @@ impl Width {
                         )
                     })?;
                     width.absolute +=
-                        value * factor * converted(full, (range_unit, own), unit, range)?;
+                        value * factor * converted(full, range_unit, own, unit, range)?;
                 }
-                None => width.absolute += converted(value, (rest, own), unit, term)?,
+                None => width.absolute += converted(value, rest, own, unit, term)?,
             }
         }
         if width.relative > 0.0 || width.absolute > 0.0 {
@@ -212,15 +213,10 @@ fn ratio<'r>(rest: &'r str, unit: &Unit, own: &[Unit]) -> Option<(f64, &'r str)>
 /// Whether a term is a fraction without a base: `0.1 %`.
 pub fn is_bare_share(term: &str) -> bool {
     let share = number(term).ok().and_then(|(_, rest)| share(rest));
-    share.is_some_and(|(_, of)| of.is_empty())
+    share.is_some_and(|(_, rest)| rest.is_empty())
 }
 
-fn converted(
-    value: f64,
-    (text, own): (&str, &[Unit]),
-    unit: &Unit,
-    term: &str,
-) -> Result<f64, String> {
+fn converted(value: f64, text: &str, own: &[Unit], unit: &Unit, term: &str) -> Result<f64, String> {
     if text.is_empty() {
         return if unit.dimension().is_none() && !unit.is_relative() {
             Ok(value)

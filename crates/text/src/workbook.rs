@@ -78,7 +78,7 @@ impl SheetTable {
 /// # Errors
 /// The file is a workbook of another format; a sentence about it.
 pub fn is_workbook(path: &Path) -> Result<bool, String> {
-    let extension = path.extension().map(|of| of.to_string_lossy().to_lowercase());
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("xlsx" | "xlsm") => Ok(true),
         Some(other @ ("xls" | "xlsb" | "ods" | "numbers" | "xlt" | "fods")) => Err(format!(
@@ -129,10 +129,14 @@ fn rows(cells: &Cells) -> Vec<Vec<String>> {
 
 /// The first cell beyond those that [`rows`] returns.
 fn beyond(cells: &Cells) -> Option<Place> {
-    let below =
-        cells.range(MOST_ROWS..).next().and_then(|(row, of)| Some((*row, *of.keys().next()?)));
+    let below = cells
+        .range(MOST_ROWS..)
+        .next()
+        .and_then(|(row, row_cells)| Some((*row, *row_cells.keys().next()?)));
     let mut lines = cells.range(..MOST_ROWS);
-    let beside = || lines.find_map(|(row, of)| Some((*row, *of.range(MOST_COLUMNS..).next()?.0)));
+    let beside = || {
+        lines.find_map(|(row, row_cells)| Some((*row, *row_cells.range(MOST_COLUMNS..).next()?.0)))
+    };
     below.or_else(beside)
 }
 
@@ -401,7 +405,8 @@ fn cells(
     let mut reader = workbook.worksheet_cells_reader(&sheet).map_err(is_none)?;
     let formats: Vec<NumberFormat> = reader.styles().iter().map(shown).collect();
     let plain = NumberFormat::default();
-    let code = |style: &Style| style.number_format.as_ref().map(|of| of.format_code.clone());
+    let code =
+        |style: &Style| style.number_format.as_ref().map(|format| format.format_code.clone());
     let codes: Vec<Option<_>> = reader.styles().iter().map(code).collect();
     let is_struck = |style: &Style| style.font.as_ref().is_some_and(|font| font.strikethrough);
     let struck_styles: Vec<bool> = reader.styles().iter().map(is_struck).collect();

@@ -72,7 +72,7 @@ fn counts(element: &BytesStart<'_>) -> [usize; 2] {
     for attribute in element.attributes().with_checks(false) {
         counts[0] += 1;
         let declares = |key: &str| key == "xmlns" || key.starts_with("xmlns:");
-        counts[1] += usize::from(attribute.is_ok_and(|of| declares(of.key.as_ref())));
+        counts[1] += usize::from(attribute.is_ok_and(|attribute| declares(attribute.key.as_ref())));
     }
     counts
 }

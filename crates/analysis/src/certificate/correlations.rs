@@ -24,7 +24,8 @@ type Key = (Arc<str>, Arc<str>, String);
 pub(super) fn between(
     certificate: &Certificate,
     evaluations: &[Evaluation],
-    (digests, raised): (&[Arc<str>], &[Option<f64>]),
+    digests: &[Arc<str>],
+    raised: &[Option<f64>],
 ) -> (Vec<Vec<Option<f64>>>, Vec<Option<f64>>) {
     let own = own_roots_of(certificate, digests);
     let (places, links) = Default::default();
@@ -34,10 +35,10 @@ pub(super) fn between(
         .lines
         .iter()
         .map(|line| {
-            let at = (line.evaluation, line.row);
-            let of_row = found
-                .entry(at)
-                .or_insert_with(|| unknowns.of_row(at, evaluations, digests).unwrap_or_default());
+            let (number, row) = (line.evaluation, line.row);
+            let of_row = found.entry((number, row)).or_insert_with(|| {
+                unknowns.of_row(number, row, evaluations, digests).unwrap_or_default()
+            });
             of_row.get(line.output).cloned().flatten()
         })
         .collect();
@@ -77,7 +78,8 @@ impl Unknowns<'_> {
     /// The contributions to each output of a row of conditions.
     fn of_row(
         &mut self,
-        (number, row): (usize, usize),
+        number: usize,
+        row: usize,
         evaluations: &[Evaluation],
         digests: &[Arc<str>],
     ) -> Option<Vec<Option<ContributionsByValue>>> {
@@ -89,8 +91,8 @@ impl Unknowns<'_> {
         let Origins { roots, sensitivities, correlations } =
             origins(&asked.task, conditions, &gums, digest);
         let mut place = |name: &RootName| {
-            let known = (self.certificate, &self.own);
-            let key = key(known, (number, asked, conditions), name, digest);
+            let own = &self.own;
+            let key = key(self.certificate, own, number, asked, conditions, name, digest);
             let next = self.places.len();
             *self.places.entry(key).or_insert(next)
         };
@@ -139,8 +141,11 @@ fn own_roots_of(certificate: &Certificate, digests: &[Arc<str>]) -> BTreeSet<Roo
 
 /// The key of an input's value: the same for the same unknown value.
 fn key(
-    (certificate, own): (&Certificate, &BTreeSet<RootName>),
-    (number, asked, row): (usize, &Asked, &Row),
+    certificate: &Certificate,
+    own: &BTreeSet<RootName>,
+    number: usize,
+    asked: &Asked,
+    row: &Row,
     name: &RootName,
     digest: &Arc<str>,
 ) -> Key {

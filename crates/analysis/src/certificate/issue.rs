@@ -119,6 +119,6 @@ pub fn issue(
     });
     let raised: Vec<Option<f64>> = raised.collect();
     let (correlations, spreads) =
-        correlations::between(certificate, &evaluations, (digests, &raised));
+        correlations::between(certificate, &evaluations, digests, &raised);
     Ok(Issued { evaluations, statements, correlations, spreads, stopped })
 }

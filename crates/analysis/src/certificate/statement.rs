@@ -93,8 +93,7 @@ pub(super) fn of(
     let found = Stated::of(output, settings, place)?;
     let evaluated = found.expanded_uncertainty;
     let limit = capability.map(|capability| {
-        let beside =
-            CapabilityStatement::of(capability, found.value, (evaluated, settings.coverage));
+        let beside = CapabilityStatement::of(capability, found.value, evaluated, settings.coverage);
         Limit { cmc: beside.cmc, below: beside.below, raised: beside.raised }
     });
     let raised = limit.filter(|limit| limit.raised);

@@ -19,7 +19,9 @@ pub(super) fn check(
     coefficient: impl Fn(usize, usize) -> f64,
 ) -> Result<(), Impossible> {
     let n = laboratories.len();
-    let name = |place: usize| laboratories.get(place).map_or("", |of| &of.label).to_owned();
+    let name = |place: usize| {
+        laboratories.get(place).map_or("", |laboratory| &laboratory.label).to_owned()
+    };
     let pairs = || (0..n).flat_map(|i| (0..i).map(move |j| (j, i)));
     if let Some((j, i)) = pairs().find(|&(j, i)| 1.0 - coefficient(j, i).powi(2) < LEAST) {
         let coefficient = coefficient(j, i);

@@ -274,9 +274,9 @@ impl Precision {
         let k = out.len();
         let block = principal_part(&self.inverse, out);
         let block = DenseRoot::of(block)?;
-        let [a, b] =
-            [&self.of_ones, &self.of_values].map(|of| DVector::from_fn(k, |i, _| of[out[i]]));
-        let [of_a, of_b] = [&a, &b].map(|of| block.solve(of));
+        let [a, b] = [&self.of_ones, &self.of_values]
+            .map(|values| DVector::from_fn(k, |i, _| values[out[i]]));
+        let [of_a, of_b] = [&a, &b].map(|vector| block.solve(vector));
         let [ones, mixed, squares] = self.sums;
         let [ones, mixed] = [ones - a.dot(&of_a), mixed - a.dot(&of_b)];
         let found = squares - b.dot(&of_b) - mixed * mixed / ones;
@@ -331,8 +331,10 @@ pub fn compare_by(
     if laboratories.len() < 2 {
         return Err(Impossible::TooFew);
     }
-    let is_result = |of: &Laboratory| of.result.is_possible() && of.result.expanded > 0.0;
-    if let Some(wrong) = laboratories.iter().find(|of| !is_result(of)) {
+    let is_result = |laboratory: &Laboratory| {
+        laboratory.result.is_possible() && laboratory.result.expanded > 0.0
+    };
+    if let Some(wrong) = laboratories.iter().find(|laboratory| !is_result(laboratory)) {
         return Err(Impossible::Result { label: wrong.label.clone() });
     }
     if let Some(reason) = fault(correlations, laboratories.len()) {

@@ -58,7 +58,7 @@ pub(super) fn largest(results: &CorrelatedResults, count: usize) -> Option<Found
         if looked_at > MOST {
             return one_at_a_time(results, count);
         }
-        let (members, ties) = smallest(results, (count, out), noise)?;
+        let (members, ties) = smallest(results, count, out, noise)?;
         let reference = results.reference(&members)?;
         // the other subsets of its size have a larger chi-squared
         if reference.is_consistent() {
@@ -94,7 +94,8 @@ fn noise(of_all: f64) -> f64 {
 /// equals, and the equals.
 fn smallest(
     results: &CorrelatedResults,
-    (count, out): (usize, usize),
+    count: usize,
+    out: usize,
     noise: f64,
 ) -> Option<(Vec<usize>, Ties)> {
     let precision = results.precision(&(0..count).collect::<Vec<_>>())?;

@@ -192,11 +192,12 @@ impl Pair<'_> {
             [Some(first), Some(second)] => Some(parts([first, second])),
             _ => None,
         };
-        let figure = |of: fn(&OutputFigures) -> f64| {
-            known.each_ref().map(|s| s.as_ref().map_or(f64::NAN, of))
+        let figure = |figure_of: fn(&OutputFigures) -> f64| {
+            known.each_ref().map(|s| s.as_ref().map_or(f64::NAN, figure_of))
         };
         let (u, k) = (figure(|s| s.standard_uncertainty), figure(|s| s.coverage_factor));
-        let part = |cause: Cause| attributed.iter().flatten().find(|(of, _)| *of == cause);
+        let part =
+            |cause: Cause| attributed.iter().flatten().find(|(attributed, _)| *attributed == cause);
         let change = |part: [f64; 2]| change_of_expanded(u, k, part);
         let mut list: Vec<ChangePart> = Vec::new();
         for (index, input) in self.inputs.iter().enumerate() {

@@ -46,9 +46,11 @@ pub(super) fn lower_target(budget: &TrialBudget<'_>, by_propagation: f64, by_tri
 /// The input because of which the trials of these changes give `by_trials`; `None` if a plan for
 /// the lower target `aim` would help, or if no input stands out.
 pub(super) fn of(
-    (task, costs): (&Task, &Costs),
+    task: &Task,
+    costs: &Costs,
     budget: &TrialBudget<'_>,
-    (changes, by_trials): (&Changes, f64),
+    changes: &Changes,
+    by_trials: f64,
     aim: f64,
     control: &Control<'_>,
 ) -> Option<Excess> {
@@ -109,7 +111,7 @@ pub(super) fn of(
 
 /// The standard uncertainty of a variable after these changes.
 fn planned(budget: &TrialBudget<'_>, changes: &Changes, variable: usize) -> f64 {
-    let changed = changes.iter().find(|(of, _)| *of == variable);
+    let changed = changes.iter().find(|(other, _)| *other == variable);
     changed.map_or_else(
         || budget.uncertainty(variable),
         |(_, change)| budget.changed_uncertainty(variable, *change),

@@ -219,7 +219,7 @@ pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Resu
     };
     let met = figure <= limit;
     if met && interval.is_none() {
-        return Err(unplanned((task, &question.costs), budget, figure, control)?);
+        return Err(unplanned(task, &question.costs, budget, figure, control)?);
     }
     // before the requirements of the inputs, which take longer and are useless without a plan
     let cheapest = if met { None } else { Some(optimum::cheapest(budget, &question.costs)?) };
@@ -239,8 +239,8 @@ pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Resu
         && let Some((by_trials, planned)) = found.figure.zip(budget.figure(&changes))
     {
         let aim = excess::lower_target(budget, planned, by_trials);
-        let asked = (task, &question.costs);
-        found.excess = excess::of(asked, budget, (&changes, by_trials), aim, control);
+        let costs = &question.costs;
+        found.excess = excess::of(task, costs, budget, &changes, by_trials, aim, control);
     }
     Ok(Plan { target, row, now, figure, limit, inputs, cheapest, interval, missed_rows, check })
 }
@@ -248,7 +248,8 @@ pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Resu
 /// Why nothing is planned if the target already holds by the law of propagation: it is met, unless
 /// the trials miss it.
 fn unplanned(
-    (task, costs): (&Task, &Costs),
+    task: &Task,
+    costs: &Costs,
     budget: &TrialBudget<'_>,
     figure: f64,
     control: &Control<'_>,
@@ -260,8 +261,8 @@ fn unplanned(
     Ok(match (check.holds, check.figure) {
         (Some(false), Some(by_trials)) => {
             let instead = excess::lower_target(budget, figure, by_trials);
-            let as_it_is = (&Changes::default(), by_trials);
-            let excess = excess::of((task, costs), budget, as_it_is, instead, control);
+            let none = Changes::default();
+            let excess = excess::of(task, costs, budget, &none, by_trials, instead, control);
             NoPlan::MetByPropagation { figure, by_trials, instead, excess }
         }
         _ => NoPlan::Met(figure),

@@ -134,7 +134,7 @@ pub(super) fn cheapest(budget: &TrialBudget<'_>, costs: &Costs) -> Result<Cheape
             Improvement::Offers(of) => offers.push((variable, of)),
         }
     }
-    let sizes = offers.iter().map(|(_, of)| of.len() + 1);
+    let sizes = offers.iter().map(|(_, choices)| choices.len() + 1);
     let combinations = sizes.clone().fold(1_usize, usize::saturating_mul);
     if combinations > MOST_COMBINATIONS {
         return Err(NoPlan::TooManyOffers { found: combinations, most: MOST_COMBINATIONS });
@@ -179,15 +179,15 @@ impl Problem<'_> {
             return self.balanced(taken, &self.smooth);
         }
         // readings as real numbers: their cost is each * now * ((u0/u)^2 - 1)
-        let relaxed = self.counted.iter().map(|of| {
-            let now = self.budget.uncertainty(of.variable);
+        let relaxed = self.counted.iter().map(|counted| {
+            let now = self.budget.uncertainty(counted.variable);
             Smooth {
-                variable: of.variable,
+                variable: counted.variable,
                 now,
-                cost: of.each * of.now as f64,
+                cost: counted.each * counted.now as f64,
                 power: 2.0,
-                least: now * (of.now as f64 / of.most as f64).sqrt(),
-                readings: Some(of.now as f64),
+                least: now * (counted.now as f64 / counted.most as f64).sqrt(),
+                readings: Some(counted.now as f64),
             }
         });
         let all: Vec<Smooth> = self.smooth.iter().copied().chain(relaxed).collect();
@@ -195,12 +195,13 @@ impl Problem<'_> {
         let middle: Vec<u64> = self
             .counted
             .iter()
-            .map(|of| {
+            .map(|counted| {
                 let count = found.iter().find_map(|(variable, change)| match change {
-                    Change::Readings(count) if *variable == of.variable => Some(*count),
+                    Change::Readings(count) if *variable == counted.variable => Some(*count),
                     _ => None,
                 });
-                (count.map_or(of.now, |count| count.floor() as u64)).clamp(of.now, of.most)
+                (count.map_or(counted.now, |count| count.floor() as u64))
+                    .clamp(counted.now, counted.most)
             })
             .collect();
         // the widest range that can be tried
@@ -256,12 +257,12 @@ impl Problem<'_> {
             }
             if let Some((smooth, more)) = self.balanced(&fixed, &self.smooth) {
                 let own: Changes = fixed.into_iter().skip(taken.len()).collect();
-                let cost = |of: &Counted| {
+                let cost = |counted: &Counted| {
                     let count = own.iter().find_map(|(variable, change)| match change {
-                        Change::Readings(count) if *variable == of.variable => Some(*count),
+                        Change::Readings(count) if *variable == counted.variable => Some(*count),
                         _ => None,
                     });
-                    count.map_or(0.0, |count| of.each * (count - of.now as f64))
+                    count.map_or(0.0, |count| counted.each * (count - counted.now as f64))
                 };
                 let cost = more + self.counted.iter().map(cost).sum::<f64>();
                 return Some((smooth.into_iter().chain(own).collect(), cost));
@@ -276,19 +277,21 @@ impl Problem<'_> {
     /// The cheapest standard uncertainties of the continuous inputs, with the others fixed.
     fn balanced(&self, fixed: &Changes, smooth: &[Smooth]) -> Option<Solution> {
         let with = |u: &[f64]| -> Changes {
-            let own = smooth.iter().zip(u).filter(|(of, u)| **u != of.now);
-            own.map(|(of, &u)| (of.variable, of.change(u))).chain(fixed.iter().copied()).collect()
+            let own = smooth.iter().zip(u).filter(|(width, u)| **u != width.now);
+            own.map(|(width, &u)| (width.variable, width.change(u)))
+                .chain(fixed.iter().copied())
+                .collect()
         };
-        let now: Vec<f64> = smooth.iter().map(|of| of.now).collect();
+        let now: Vec<f64> = smooth.iter().map(|width| width.now).collect();
         let solution = |u: &[f64]| -> Solution {
-            let cost = smooth.iter().zip(u).map(|(of, &u)| of.cost(u)).sum();
+            let cost = smooth.iter().zip(u).map(|(width, &u)| width.cost(u)).sum();
             let own = with(u).into_iter().filter(|(v, _)| fixed.iter().all(|(f, _)| f != v));
             (own.collect(), cost)
         };
         if self.budget.holds(&with(&now)) {
             return Some(solution(&now));
         }
-        let least: Vec<f64> = smooth.iter().map(|of| of.least).collect();
+        let least: Vec<f64> = smooth.iter().map(|width| width.least).collect();
         // the share of each input in the variance, divided by the square of its standard
         // uncertainty
         let slopes = |u: &[f64]| self.slopes(&with(u), smooth, u);
@@ -299,16 +302,16 @@ impl Problem<'_> {
                 let next: Vec<f64> = smooth
                     .iter()
                     .zip(&slopes)
-                    .map(|(of, &slope)| {
+                    .map(|(width, &slope)| {
                         if slope <= 0.0 {
-                            return of.now;
+                            return width.now;
                         }
                         // p C u0^p / (lambda d) = u^(p + 2), in logarithms so that nothing overflows
-                        let ln = (libm::log(of.power * of.cost / slope)
-                            + of.power * libm::log(of.now)
+                        let ln = (libm::log(width.power * width.cost / slope)
+                            + width.power * libm::log(width.now)
                             - lambda)
-                            / (of.power + 2.0);
-                        libm::exp(ln).clamp(of.least, of.now)
+                            / (width.power + 2.0);
+                        libm::exp(ln).clamp(width.least, width.now)
                     })
                     .collect();
                 let settled =
@@ -325,7 +328,9 @@ impl Problem<'_> {
             .iter()
             .zip(slopes(&now)?)
             .filter(|(_, slope)| *slope > 0.0)
-            .map(|(of, slope)| libm::log(of.power * of.cost / slope) - 2.0 * libm::log(of.now))
+            .map(|(width, slope)| {
+                libm::log(width.power * width.cost / slope) - 2.0 * libm::log(width.now)
+            })
             .fold(f64::INFINITY, f64::min);
         if !first.is_finite() {
             return None;
@@ -350,10 +355,10 @@ impl Problem<'_> {
         let variance = gum.standard_uncertainty.powi(2);
         let lines: Vec<_> = gum.budget().collect();
         let links: Vec<_> = gum.correlations().collect();
-        let of = |(of, &u): (&Smooth, &f64)| {
-            let own = lines.iter().find(|line| line.variable == of.variable);
+        let of = |(width, &u): (&Smooth, &f64)| {
+            let own = lines.iter().find(|line| line.variable == width.variable);
             let own = own.map_or(0.0, |line| line.sensitivity * line.sensitivity);
-            let linked = links.iter().filter(|link| link.variables.contains(&of.variable));
+            let linked = links.iter().filter(|link| link.variables.contains(&width.variable));
             // the share belongs to both
             let joint: f64 = linked.map(|link| 0.5 * link.share * variance).sum();
             if u > 0.0 && joint != 0.0 { own + joint / (u * u) } else { own }
@@ -363,11 +368,14 @@ impl Problem<'_> {
 
     /// The smallest reachable value, for the message.
     fn least(&self, offers: &[(usize, Vec<Offer>)]) -> f64 {
-        let smooth = self.smooth.iter().map(|of| (of.variable, Change::Width(of.least)));
-        let counted = self.counted.iter().map(|of| (of.variable, Change::Readings(of.most as f64)));
-        let offered = offers.iter().map(|(variable, of)| {
+        let smooth = self.smooth.iter().map(|width| (width.variable, Change::Width(width.least)));
+        let counted = self
+            .counted
+            .iter()
+            .map(|counted| (counted.variable, Change::Readings(counted.most as f64)));
+        let offered = offers.iter().map(|(variable, choices)| {
             let now = self.budget.uncertainty(*variable);
-            let least = of.iter().map(|offer| offer.standard_uncertainty).fold(now, f64::min);
+            let least = choices.iter().map(|offer| offer.standard_uncertainty).fold(now, f64::min);
             (*variable, Change::Width(least))
         });
         let changes = smooth.chain(counted).chain(offered).collect();
@@ -383,20 +391,20 @@ impl Problem<'_> {
     ) -> PlannedInput {
         let from = self.budget.uncertainty(variable);
         let to = change.map_or(from, |change| self.budget.changed_uncertainty(variable, change));
-        let counted = self.counted.iter().find(|of| of.variable == variable);
-        let readings = counted.map(|of| match change {
+        let counted = self.counted.iter().find(|counted| counted.variable == variable);
+        let readings = counted.map(|counted| match change {
             Some(Change::Readings(count)) => count as u64,
-            _ => of.now,
+            _ => counted.now,
         });
         let offer = offers
             .iter()
             .find(|(offered, _)| *offered == variable)
             .filter(|_| change.is_some())
-            .and_then(|(_, of)| {
-                let same = of.iter().filter(|offer| offer.standard_uncertainty == to);
+            .and_then(|(_, choices)| {
+                let same = choices.iter().filter(|offer| offer.standard_uncertainty == to);
                 same.min_by(|a, b| a.cost.total_cmp(&b.cost))
             });
-        let smooth = self.smooth.iter().find(|of| of.variable == variable);
+        let smooth = self.smooth.iter().find(|width| width.variable == variable);
         let cost = match (smooth, counted, readings, offer) {
             (Some(of), ..) => of.cost(to),
             (_, Some(of), Some(count), _) => of.each * (count - of.now) as f64,

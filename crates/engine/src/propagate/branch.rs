@@ -38,7 +38,8 @@ pub(super) struct Jump {
 /// The jump of output `number` of a model, if its trials jump.
 pub(super) fn jump(
     program: &Program,
-    (number, output): (usize, &Output),
+    number: usize,
+    output: &Output,
     gum: &Gum,
     trials: &MonteCarlo,
 ) -> Option<Jump> {

@@ -79,7 +79,8 @@ impl Conformity {
     fn of(
         output: &Output,
         figures: &MonteCarlo,
-        (gum, stated): (Option<&Gum>, Option<Stated>),
+        gum: Option<&Gum>,
+        stated: Option<Stated>,
         linear: Option<&Gum>,
         of_trials: Option<Option<f64>>,
     ) -> Option<Self> {
@@ -110,7 +111,8 @@ impl Conformity {
         let (located, of_y) = located(figures, gum);
         let located = on_branch(located);
         let estimate = stated.map_or(located, |stated| on_branch(stated.value));
-        let global = inspection.as_ref().zip(accepted).map(|(of, to)| of.risks(to.ends()));
+        let global =
+            inspection.as_ref().zip(accepted).map(|(inspection, to)| inspection.risks(to.ends()));
         let posterior = output.prior.as_deref().zip(u).map(|(prior, spread)| {
             if let Some((gum, of)) = linear.zip(inspection.as_ref()) {
                 return (of.conformance(on_branch(gum.estimate)), 0.0);
@@ -164,7 +166,7 @@ impl Conformity {
             let place = |expanded: f64| position(expanded, settings.digits);
             let stated = Stated::of(figures, settings, place);
             let guard_band = figures.guard_band_of_trials;
-            Self::of(output, trials, (gum, stated), figures.trusted(), guard_band)
+            Self::of(output, trials, gum, stated, figures.trusted(), guard_band)
         });
         let alone = gum.filter(|_| settings.trials == Trials::Fixed(0));
         of_trials.or_else(|| alone.and_then(|gum| Self::by_propagation(output, gum)))
@@ -219,11 +221,14 @@ impl Conformity {
         let [acceptance, accepted] = [tolerance, Tolerance::between(limits)]
             .map(|limits| guard_band.and_then(|width| limits.narrowed(width)));
         let share = turns::share(&law, estimate, limits, output.period);
-        let global = inspection.as_ref().zip(accepted).map(|(of, to)| of.risks(to.ends()));
+        let global =
+            inspection.as_ref().zip(accepted).map(|(inspection, to)| inspection.risks(to.ends()));
         Some(Self {
             tolerance,
             estimate,
-            probability: inspection.as_ref().map_or(share, |of| of.conformance(estimate)),
+            probability: inspection
+                .as_ref()
+                .map_or(share, |inspection| inspection.conformance(estimate)),
             without_prior: inspection.as_ref().map(|_| share),
             numerical_standard_error: 0.0,
             wanted_risk: output.risk,

@@ -121,18 +121,19 @@ pub(super) fn evaluate_rows(
     // every row has its slot from the start: a million of them are not to be held twice
     let mut rows: Vec<Option<Result<RowEvaluation, EvaluationError>>> = Vec::new();
     rows.resize_with(task.rows.len(), || None);
-    let of_row = |row| Some(evaluate_row(task, row, &reaches, control, (known, &notes)));
+    let of_row = |row| Some(evaluate_row(task, row, &reaches, control, known, &notes));
     if let ([row], [slot]) = (task.rows.as_slice(), rows.as_mut_slice()) {
         // no hand-over to the threads of the pool, which takes longer than a budget: trials go there
         let mut linear = gum.evaluate_all(std::slice::from_ref(row), control.path);
-        *slot = linear.pop().and_then(|linear| of_row((0, row, linear)));
+        *slot = linear.pop().and_then(|linear| of_row(LinearRow { number: 0, row, linear }));
     } else {
         rows.par_chunks_mut(COLUMN).zip(task.rows.par_chunks(COLUMN)).enumerate().for_each(
             |(chunk, (slots, rows))| {
                 let linear = gum.evaluate_all(rows, control.path);
                 let rows = rows.par_iter().zip(linear).enumerate();
                 slots.par_iter_mut().zip(rows).for_each(|(slot, (number, (row, linear)))| {
-                    *slot = of_row((chunk * COLUMN + number, row, linear));
+                    let number = chunk * COLUMN + number;
+                    *slot = of_row(LinearRow { number, row, linear });
                 });
             },
         );
@@ -190,12 +191,20 @@ fn guarded<'f>(
     (output.prior.is_none() && found.trusted().is_none()).then_some((risk, limits, figures))
 }
 
+/// A row of the task, with its evaluation by the law of propagation.
+struct LinearRow<'r> {
+    number: usize,
+    row: &'r Row,
+    linear: GumRow,
+}
+
 fn evaluate_row(
     task: &Task,
-    (number, row, mut linear): (usize, &Row, GumRow),
+    LinearRow { number, row, mut linear }: LinearRow<'_>,
     reaches: &[Vec<bool>],
     control: &Control<'_>,
-    (known, notes): (KnownTrials<'_>, &Mutex<Notes>),
+    known: KnownTrials<'_>,
+    notes: &Mutex<Notes>,
 ) -> Result<RowEvaluation, EvaluationError> {
     let joint = task.joint(row).map_err(|error| EvaluationError::correlation(task, error))?;
     let mut gums = std::mem::take(&mut linear.outputs);
@@ -217,7 +226,7 @@ fn evaluate_row(
     let mut figures: Vec<Option<MonteCarlo>> = vec![None; gums.len()];
     let mut stopped = false;
     if task.settings.trials == Trials::Fixed(0) {
-        have_estimates(task, (number, row), &linear.estimates)?;
+        have_estimates(task, number, row, &linear.estimates)?;
     } else {
         paired_have_covariance(task, row)?;
         rounding::check(task, number, &gums)?;
@@ -240,10 +249,10 @@ fn evaluate_row(
         }
     }
     let constant = rounding::constant(task, row, &gums, &figures);
-    settle(&constant, &linear.estimates, (&mut figures, &mut result));
-    let inherited = inherited(task, row, reaches, (&gums, &mut figures));
+    settle(&constant, &linear.estimates, &mut figures, &mut result);
+    let inherited = inherited(task, row, reaches, &gums, &mut figures);
     if !result.correlations.is_empty() {
-        correlations_by_law(task, (&gums, &figures), &linear, &mut result);
+        correlations_by_law(task, &gums, &figures, &linear, &mut result);
     }
     if figures.iter().all(Option::is_none) {
         result.correlations = linear.correlations();
@@ -273,7 +282,7 @@ fn evaluate_row(
         });
         let both = gum.as_ref().zip(monte_carlo.as_ref());
         let jump = both.and_then(|(gum, figures)| {
-            branch::jump(&task.model.program, (number, output), gum, figures)
+            branch::jump(&task.model.program, number, output, gum, figures)
         });
         // only where there is something to say
         let second_order = second_order.filter(|second| {
@@ -334,7 +343,8 @@ fn evaluate_row(
 fn settle(
     constant: &[bool],
     estimates: &[f64],
-    (figures, result): (&mut [Option<MonteCarlo>], &mut RowEvaluation),
+    figures: &mut [Option<MonteCarlo>],
+    result: &mut RowEvaluation,
 ) {
     if !constant.contains(&true) {
         return;
@@ -363,13 +373,14 @@ fn inherited(
     task: &Task,
     row: &Row,
     reaches: &[Vec<bool>],
-    (gums, figures): (&[Option<Gum>], &mut [Option<MonteCarlo>]),
+    gums: &[Option<Gum>],
+    figures: &mut [Option<MonteCarlo>],
 ) -> Vec<Option<Inherited>> {
     let probability = task.settings.coverage.probability();
     let outputs = gums.iter().zip(figures).zip(reaches);
     let of_output =
         |((gum, figures), reached): ((&Option<Gum>, &mut Option<MonteCarlo>), &Vec<bool>)| {
-            let found = Inherited::of(row, gum.as_ref(), figures.as_ref(), (reached, probability));
+            let found = Inherited::of(row, gum.as_ref(), figures.as_ref(), reached, probability);
             if let (Some(found), Some(figures)) = (&found, figures) {
                 found.add_to(&mut figures.errors, figures.trials);
             }
@@ -394,16 +405,17 @@ fn paired_have_covariance(task: &Task, row: &Row) -> Result<(), EvaluationError>
 /// no standard uncertainty, from the law of propagation.
 fn correlations_by_law(
     task: &Task,
-    (gums, figures): (&[Option<Gum>], &[Option<MonteCarlo>]),
+    gums: &[Option<Gum>],
+    figures: &[Option<MonteCarlo>],
     linear: &GumRow,
     result: &mut RowEvaluation,
 ) {
     let program = &task.model.program;
     let outputs = task.model.outputs.iter().enumerate().zip(gums).zip(figures);
     let scatter: Vec<bool> = outputs
-        .map(|((output, gum), figures)| {
+        .map(|(((number, output), gum), figures)| {
             let Some(figures) = figures else { return true };
-            let jumps = |gum| branch::jump(program, output, gum, figures).is_some();
+            let jumps = |gum| branch::jump(program, number, output, gum, figures).is_some();
             figures.standard_uncertainty.is_some() && !gum.as_ref().is_some_and(jumps)
         })
         .collect();
@@ -468,8 +480,9 @@ fn noiseless(problem: &exact::Problem<'_>, needed: bool) -> Option<Result<Box<No
         return Some(Err(reason.to_owned()));
     }
     // a t distribution may have none
-    let is_large =
-        |of: &Arc<Distribution>| (LARGE..f64::INFINITY).contains(&of.standard_uncertainty());
+    let is_large = |distribution: &Arc<Distribution>| {
+        (LARGE..f64::INFINITY).contains(&distribution.standard_uncertainty())
+    };
     if problem.row.distributions.iter().any(is_large) {
         return Some(Err(
             "the square of a standard uncertainty is beyond double precision".to_owned()
@@ -647,14 +660,16 @@ fn capability_beside(
     Some(CapabilityStatement::of(
         capability,
         found.value,
-        (found.expanded_uncertainty, settings.coverage),
+        found.expanded_uncertainty,
+        settings.coverage,
     ))
 }
 
 /// Whether outputs have values at the inputs' estimates, which without trials are all there is.
 fn have_estimates(
     task: &Task,
-    (number, row): (usize, &Row),
+    number: usize,
+    row: &Row,
     estimates: &[f64],
 ) -> Result<(), EvaluationError> {
     if task.settings.allowed_undefined > 0.0 {
@@ -664,9 +679,10 @@ fn have_estimates(
         return Ok(());
     };
     let values = row.estimates();
-    let name = task.model.outputs.get(output).map_or("", |of| of.quantity.name.as_str());
-    let varies =
-        |place: &usize| row.distributions.get(*place).is_some_and(|of| of.constant().is_none());
+    let name = task.model.outputs.get(output).map_or("", |output| output.quantity.name.as_str());
+    let varies = |place: &usize| {
+        row.distributions.get(*place).is_some_and(|distribution| distribution.constant().is_none())
+    };
     let inputs = task.variables.iter().zip(&values).enumerate();
     let inputs = inputs.filter(|(place, _)| varies(place));
     let mut at: Vec<(String, f64)> =

@@ -146,11 +146,7 @@ const CAPABILITY_DIGITS: u32 = 6;
 impl CapabilityStatement {
     /// What may be stated where this expanded uncertainty of this estimate was evaluated, with this
     /// coverage.
-    pub fn of(
-        capability: &Capability,
-        estimate: f64,
-        (evaluated, coverage): (f64, Coverage),
-    ) -> Self {
+    pub fn of(capability: &Capability, estimate: f64, evaluated: f64, coverage: Coverage) -> Self {
         let cmc = with_coverage(capability.at(estimate), coverage);
         let below = to_digits(evaluated, COMPUTED_DIGITS) < cmc;
         let raised = below && capability.floor;

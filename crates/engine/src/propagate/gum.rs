@@ -198,7 +198,9 @@ impl<'a> GumRows<'a> {
     fn linked(&self, row: &Row) -> Arc<Linked> {
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
         let before = last.as_ref();
-        if let Some((_, linked)) = before.filter(|(of, _)| Arc::ptr_eq(of, &row.distributions)) {
+        if let Some((_, linked)) =
+            before.filter(|(distributions, _)| Arc::ptr_eq(distributions, &row.distributions))
+        {
             return Arc::clone(linked);
         }
         let mut linked = Arc::new(Linked::of(self.task, row));

@@ -70,7 +70,8 @@ impl Inherited {
         row: &Row,
         gum: Option<&Gum>,
         figures: Option<&MonteCarlo>,
-        (reached, probability): (&[bool], f64),
+        reached: &[bool],
+        probability: f64,
     ) -> Option<Self> {
         let limited = |v: usize| {
             let saved = row.distributions.get(v)?.saved()?;
@@ -187,11 +188,11 @@ impl Variances {
     /// The errors of results with one seed may be those of the same draws: they add up at most. Others
     /// are independent.
     fn of(parts: &[InheritedPart], probability: f64) -> Self {
-        let together = |of: &dyn Fn(&InheritedPart) -> f64| {
+        let together = |addend: &dyn Fn(&InheritedPart) -> f64| {
             let mut seeds: BTreeMap<u64, f64> = BTreeMap::new();
             let mut sum = 0.0;
             for part in parts {
-                let variance = of(part) / part.trials;
+                let variance = addend(part) / part.trials;
                 match part.seed {
                     Some(seed) => *seeds.entry(seed).or_insert(0.0) += variance.sqrt(),
                     None => sum += variance,

@@ -20,7 +20,8 @@ const NAMED: usize = 4;
 /// of the run itself would not help.
 pub(super) fn note(
     task: &Task,
-    (output, at): (&Output, Option<Fact>),
+    output: &Output,
+    at: Option<Fact>,
     found: &OutputEvaluation,
 ) -> Option<Warning> {
     let inherited = found.inherited.as_deref()?;
@@ -43,7 +44,7 @@ pub(super) fn note(
                 (fact!("figure.estimate"), of.estimate.map_or(0.0, |error| part(error, estimate))),
                 (
                     fact!("figure.standard-uncertainty"),
-                    of.standard_uncertainty.map_or(0.0, |of| part(of, standard_uncertainty)),
+                    of.standard_uncertainty.map_or(0.0, |error| part(error, standard_uncertainty)),
                 ),
                 (fact!("figure.symmetric-lower"), low),
                 (fact!("figure.symmetric-upper"), high),

@@ -71,7 +71,8 @@ pub(super) fn moment_orders(
     let folded = folded(program, row);
     let bends = |output: usize| {
         let node = program.outputs.get(output).copied();
-        let comes_round = task.model.outputs.get(output).is_some_and(|of| of.period.is_some());
+        let comes_round =
+            task.model.outputs.get(output).is_some_and(|output| output.period.is_some());
         !comes_round && node.is_some_and(|node| !is_linear(program, &folded, node))
     };
     let bent: Vec<usize> = (0..orders.len()).filter(|output| bends(*output)).collect();
@@ -79,7 +80,7 @@ pub(super) fn moment_orders(
         return orders;
     }
     let space = Space::of(row);
-    let alone = Alone::of(program, &space, (&bent, reaches), linear);
+    let alone = Alone::of(program, &space, &bent, reaches, linear);
     for output in bent {
         let order = Bend { program, space: &space, linear, output }.order(&alone, &folded);
         orders[output] = orders[output].min(order);
@@ -118,19 +119,20 @@ struct Space<'a> {
 
 impl<'a> Space<'a> {
     fn of(row: &'a Row) -> Self {
-        let median = |of: &Distribution| match of.constant() {
+        let median = |distribution: &Distribution| match distribution.constant() {
             Some(value) => value,
-            None if of.has_quantiles() => of.quantile(0.5),
-            None => of.mean(),
+            None if distribution.has_quantiles() => distribution.quantile(0.5),
+            None => distribution.mean(),
         };
-        let mut medians: Vec<f64> = row.distributions.iter().map(|of| median(of)).collect();
-        let alone = |(of, median): (&Arc<Distribution>, &f64)| {
+        let mut medians: Vec<f64> =
+            row.distributions.iter().map(|distribution| median(distribution)).collect();
+        let alone = |(distribution, median): (&Arc<Distribution>, &f64)| {
             let at = |point: usize| match point {
                 MEDIAN => *median,
-                lower if lower < MEDIAN => of.quantile(TAILS[lower]),
-                upper => of.quantile_upper(TAILS[2 * MEDIAN - upper]),
+                lower if lower < MEDIAN => distribution.quantile(TAILS[lower]),
+                upper => distribution.quantile_upper(TAILS[2 * MEDIAN - upper]),
             };
-            let varies = of.constant().is_none() && of.has_quantiles();
+            let varies = distribution.constant().is_none() && distribution.has_quantiles();
             varies.then(|| std::array::from_fn(|point| at(point) - median))
         };
         let alone = row.distributions.iter().zip(&medians).map(alone).collect();
@@ -189,7 +191,8 @@ impl Alone {
     fn of(
         program: &Program,
         space: &Space<'_>,
-        (bent, reaches): (&[usize], &[Vec<bool>]),
+        bent: &[usize],
+        reaches: &[Vec<bool>],
         linear: &GumRow,
     ) -> Self {
         let reached = |input: &usize| bent.iter().any(|output| reaches[*output][*input]);
@@ -199,7 +202,8 @@ impl Alone {
                 let own = space.alone[input].unwrap_or([f64::NAN; POINTS]);
                 let farthest = own[0].abs().max(own[2 * MEDIAN].abs());
                 let moved = |output: &usize| {
-                    let slope = linear.gradient(*output).map_or(f64::NAN, |of| of[input]);
+                    let slope =
+                        linear.gradient(*output).map_or(f64::NAN, |gradient| gradient[input]);
                     let moved = (slope * farthest).abs();
                     if moved.is_nan() { f64::INFINITY } else { moved }
                 };
@@ -288,9 +292,9 @@ struct Bend<'a> {
 impl Bend<'_> {
     fn order(&self, alone: &Alone, folded: &[Option<f64>]) -> f64 {
         let sets = self.linked();
-        let is_linked = |input: usize| sets.iter().flatten().any(|of| of.0 == input);
+        let is_linked = |input: usize| sets.iter().flatten().any(|linked| linked.0 == input);
         let mut ways: Vec<Along> = Vec::new();
-        for (input, own, outputs) in alone.inputs.iter().filter(|of| !is_linked(of.0)) {
+        for (input, own, outputs) in alone.inputs.iter().filter(|way| !is_linked(way.0)) {
             let values = std::array::from_fn(|point| outputs[point][self.output]);
             ways.push(self.along(vec![(*input, *own)], values));
         }
@@ -320,7 +324,7 @@ impl Bend<'_> {
 
     fn along(&self, moves: Moves, values: [f64; POINTS]) -> Along {
         let gradient = self.linear.gradient(self.output);
-        let slope = |input: usize| gradient.and_then(|of| of.get(input)).copied();
+        let slope = |input: usize| gradient.and_then(|gradient| gradient.get(input)).copied();
         let tangent = [0, 2 * MEDIAN].map(|end| {
             let moved =
                 moves.iter().map(|(input, own)| slope(*input).unwrap_or(f64::NAN) * own[end]);
@@ -351,8 +355,8 @@ impl Bend<'_> {
         let gradient = self.linear.gradient(self.output)?;
         let variance: f64 =
             inputs.iter().map(|&input| gradient[input] * u[input] * covariances[input]).sum();
-        let of = |&input: &usize| (input, covariances[input] / variance.sqrt());
-        (variance > 0.0).then(|| inputs.iter().map(of).filter(|of| of.1 != 0.0).collect())
+        let step = |&input: &usize| (input, covariances[input] / variance.sqrt());
+        (variance > 0.0).then(|| inputs.iter().map(step).filter(|step| step.1 != 0.0).collect())
     }
 
     /// The sets of inputs that coefficients link. A set that contributes nothing is left to its inputs one

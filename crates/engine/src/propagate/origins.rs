@@ -123,12 +123,12 @@ fn own(task: &Task, row: &Row, model: &Arc<str>) -> Vec<Option<Root>> {
             return None;
         }
         let occasion = variable.occasion.clone();
-        let found = root(task, row, (variable, distribution), (model, occasion));
+        let found = root(task, row, variable, distribution, model, occasion);
         if found.name.certified.is_none() || taken.insert(found.name.clone()) {
             return Some(found);
         }
         let occasion = Occasion { certified: None, ..variable.occasion.clone() };
-        Some(root(task, row, (variable, distribution), (model, occasion)))
+        Some(root(task, row, variable, distribution, model, occasion))
     })
     .collect()
 }
@@ -137,8 +137,10 @@ fn own(task: &Task, row: &Row, model: &Arc<str>) -> Vec<Option<Root>> {
 fn root(
     task: &Task,
     row: &Row,
-    (variable, distribution): (&Variable, &Distribution),
-    (model, occasion): (&Arc<str>, Occasion),
+    variable: &Variable,
+    distribution: &Distribution,
+    model: &Arc<str>,
+    occasion: Occasion,
 ) -> Root {
     let figures = RootFigures::of(distribution);
     let own_row = variable.sharing.conditions_of(&task.model.conditions, &row.conditions);

@@ -205,12 +205,12 @@ impl SharedPass {
         let scores = Scores::WRITTEN.values().count();
         let outputs = task.model.outputs.len();
         let rows = task.rows.iter().take(if is_cut(task) { MOST_CUT_ROWS } else { 0 }).map(|row| {
-            let counts = (outputs, varying(row));
+            let inputs = varying(row);
             if from.flag()? {
-                let finished = Finished::read(&mut from, counts.0, counts.1)?;
+                let finished = Finished::read(&mut from, outputs, inputs)?;
                 return Ok(RowState::Finished(Box::new(finished)));
             }
-            let pass = RowPass::read(&mut from, counts, scores)?;
+            let pass = RowPass::read(&mut from, outputs, inputs, scores)?;
             Damaged::unless((asked..=most).contains(&pass.trials), "a pass over other trials")?;
             Ok(RowState::Open(Box::new(pass)))
         });

@@ -46,11 +46,13 @@ pub(super) fn regions(
     let correlations = linear.correlations();
     let evaluate = |region: &Region| {
         let probability = region.probability.unwrap_or(usual);
-        let of_law = (linear, correlations.as_slice(), task.settings.real_dof);
-        let (gum, dof) = by_law(region, row, of_law, probability).unzip();
+        let real_dof = task.settings.real_dof;
+        let of_law = by_law(region, row, linear, &correlations, real_dof, probability);
+        let (gum, dof) = of_law.unzip();
         let monte_carlo = from_trials(region, row, trials, probability, control)?;
         let validation = gum.as_ref().zip(monte_carlo.as_ref());
-        let validation = validation.map(|(gum, found)| compare(gum, found, task.settings.digits));
+        let validation =
+            validation.map(|(gum, monte_carlo)| compare(gum, monte_carlo, task.settings.digits));
         let outputs = region.outputs.clone();
         Ok(RegionEvaluation {
             outputs,
@@ -112,7 +114,9 @@ fn root(covariance: &[f64], order: usize) -> Option<Vec<f64>> {
 fn by_law(
     region: &Region,
     row: &RowEvaluation,
-    (linear, correlations, real_dof): (&GumRow, &[f64], bool),
+    linear: &GumRow,
+    correlations: &[f64],
+    real_dof: bool,
     probability: f64,
 ) -> Option<(JointRegion, Option<Dof>)> {
     let of = |output: usize| row.outputs.get(output)?.gum.as_ref();
@@ -123,14 +127,14 @@ fn by_law(
     let order = region.outputs.len();
     let dof = root(&covariance, order).map(|root| linear.joint_dof(&region.outputs, &root));
     let ellipsoid_k =
-        dof.and_then(|dof| ellipsoid_factor(probability, order as f64, (dof, real_dof)));
+        dof.and_then(|dof| ellipsoid_factor(probability, order as f64, dof, real_dof));
     let each: Vec<Dof> = region.outputs.iter().filter_map(|o| Some(of(*o)?.dof)).collect();
     let box_k = box_factor(probability, &each, real_dof);
     Some((JointRegion { estimates: estimates?, covariance, ellipsoid_k, box_k }, dof))
 }
 
 /// k_p of the ellipsoid of so many outputs, whose covariance matrix has these degrees of freedom.
-fn ellipsoid_factor(probability: f64, order: f64, (dof, real_dof): (Dof, bool)) -> Option<f64> {
+fn ellipsoid_factor(probability: f64, order: f64, dof: Dof, real_dof: bool) -> Option<f64> {
     match dof {
         Dof::Undefined => None,
         Dof::Infinite => Some((2.0 * special::gamma::quantile(probability, 0.5 * order)).sqrt()),

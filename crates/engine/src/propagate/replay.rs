@@ -59,10 +59,10 @@ pub fn quantiles_and_ranks(
     control: &Control<'_>,
 ) -> Result<Option<QuantilesAndRanks>, EvaluationError> {
     let count = made(evaluation, row);
-    let asked = (scores, rows(task));
+    let rows = rows(task);
     in_pool(task, control, || {
         let trials = trials(task, row)?.filter(|_| count > 0);
-        Ok(trials.and_then(|t| monte_carlo::quantiles_and_ranks(&t, count, asked, control)))
+        Ok(trials.and_then(|t| monte_carlo::quantiles_and_ranks(&t, count, scores, rows, control)))
     })?
 }
 

@@ -124,7 +124,7 @@ pub(super) fn constant(
 pub(super) fn note(output: &Output, task: &Task, gum: &Gum) -> Option<Warning> {
     let (line, share) = coarsest(gum)?;
     let name = &output.quantity.name;
-    let input = CoarseInput::of(task, (&line, share));
+    let input = CoarseInput::of(task, &line, share);
     let fact = fact!(
         "double-precision",
         name,

@@ -77,7 +77,8 @@ fn at_step(
             let contribution = own.get(i)? * u_i;
             linear += contribution * contribution;
             for (other, (&(_, _), [above, below])) in varying.iter().zip(&shifted).enumerate() {
-                let [above, below] = [above, below].map(|of| of.get(output)?.get(i).copied());
+                let [above, below] =
+                    [above, below].map(|gradients| gradients.get(output)?.get(i).copied());
                 let (above, below) = (above? * u_i, below? * u_i);
                 // d2f/dx_i dx_j and d3f/dx_i dx_j^2, times u_i u_j and u_i u_j^2
                 let mixed = (above - below) / (2.0 * step);

@@ -126,7 +126,7 @@ impl<F: FnMut([f64; 2], Purpose) -> Option<Interval>> ShortestSearch<F> {
         while share > LEAST_SHARE && looked.first().is_some_and(|first| first.sign() > 0.0) {
             let tails = [share * tail, tail - share * tail];
             let lower = (self.at)(tails, Purpose::Survey);
-            let Some(lower) = lower.filter(|of| of.sign() != 0.0) else { break };
+            let Some(lower) = lower.filter(|interval| interval.sign() != 0.0) else { break };
             looked.insert(0, lower);
             share *= 0.1;
         }
@@ -134,7 +134,7 @@ impl<F: FnMut([f64; 2], Purpose) -> Option<Interval>> ShortestSearch<F> {
         while share > LEAST_SHARE && looked.last().is_some_and(|last| last.sign() < 0.0) {
             let tails = [tail - share * tail, share * tail];
             let upper = (self.at)(tails, Purpose::Survey);
-            let Some(upper) = upper.filter(|of| of.sign() != 0.0) else { break };
+            let Some(upper) = upper.filter(|interval| interval.sign() != 0.0) else { break };
             looked.push(upper);
             share *= 0.1;
         }
@@ -145,8 +145,9 @@ impl<F: FnMut([f64; 2], Purpose) -> Option<Interval>> ShortestSearch<F> {
     fn beside(&mut self, looked: &[Interval], place: usize) -> Option<Least> {
         let mut found = |i: usize| (self.at)(looked[i].tails, Purpose::Find);
         let here = found(place)?;
-        let low = (0..place).rev().filter_map(&mut found).find(|of| of.sign() < 0.0);
-        let high = (place + 1..looked.len()).filter_map(&mut found).find(|of| of.sign() > 0.0);
+        let low = (0..place).rev().filter_map(&mut found).find(|interval| interval.sign() < 0.0);
+        let high =
+            (place + 1..looked.len()).filter_map(&mut found).find(|interval| interval.sign() > 0.0);
         // it begins or ends where the values do
         let edge = |interval: Interval, range| Some(Least { interval, range, alone: true });
         let near = match (low, high, here.sign()) {
@@ -170,8 +171,9 @@ impl<F: FnMut([f64; 2], Purpose) -> Option<Interval>> ShortestSearch<F> {
     fn balanced(&mut self, between: [Interval; 2]) -> Option<Interval> {
         // counted from the nearer end
         let from_above = between[1].tails[1] < between[0].tails[0];
-        let place = |of: &Interval| if from_above { -of.tails[1] } else { of.tails[0] };
-        let [mut low, mut high] = between.map(|of| [place(&of), of.excess[0]]);
+        let place =
+            |interval: &Interval| if from_above { -interval.tails[1] } else { interval.tails[0] };
+        let [mut low, mut high] = between.map(|interval| [place(&interval), interval.excess[0]]);
         let mut last = between[0];
         let mut before = 0.0;
         for step in 1..=STEPS {

@@ -69,7 +69,7 @@ impl Stated {
         settings: &Settings,
         place: impl Fn(f64) -> Option<i32>,
     ) -> Option<Self> {
-        let noiseless = output.noiseless.as_ref().and_then(|found| found.as_deref().ok());
+        let noiseless = output.noiseless.as_ref().and_then(|figures| figures.as_deref().ok());
         let interval = output.gum.as_ref().and_then(Gum::interval);
         let refuted = match (output.validation, noiseless, interval) {
             (Some(validation), Some(noiseless), Some(interval)) => {
@@ -93,7 +93,7 @@ impl Stated {
         }
         // an agreed factor is kept; what is refuted has no distribution that it could belong to
         if let Coverage::Factor { factor, fixed: true } = settings.coverage {
-            let agreed = |found: Stated| found.with_factor(factor);
+            let agreed = |stated: Stated| stated.with_factor(factor);
             return match (refuted, output.nonlinear.unwrap_or(true)) {
                 (false, _) => linear().or_else(|| trials().map(agreed)),
                 (true, true) => trials().or_else(linear).map(agreed),

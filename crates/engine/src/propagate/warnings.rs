@@ -44,8 +44,9 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
     // one more pass over the program costs little beside trials, but not beside bare budgets
     let is_looked_at = task.settings.trials != Trials::Fixed(0) || task.rows.len() <= FEW_ROWS;
     for (place, row) in evaluation.rows.iter().enumerate() {
-        let of = task.rows.get(place).filter(|_| is_looked_at && task.function.is_none());
-        let vanishing = of.map(|of| task.model.program.underflows(&of.estimates()));
+        let row_of_task = task.rows.get(place).filter(|_| is_looked_at && task.function.is_none());
+        let vanishing =
+            row_of_task.map(|values| task.model.program.underflows(&values.estimates()));
         let vanishing = vanishing.unwrap_or_default();
         if let Some(undefined) = &row.undefined {
             let (count, trials) = (undefined.count, undefined.trials);
@@ -60,15 +61,15 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
                 .filter(|_| evaluation.rounded_correlations);
             let is_told = jumps || rounded.is_some();
             rounded.into_iter().for_each(|note| push(&mut found, note));
-            of_output((task, &named), (name, is_told), row, evaluated, &mut found);
+            of_output(task, &named, name, is_told, row, evaluated, &mut found);
             of_noiseless(&output.quantity.name, evaluated, &mut found);
             if evaluated.inherited.is_some() {
                 let at = at(task, &named, row);
-                let inherited = inherited_note::note(task, (output, at), evaluated);
+                let inherited = inherited_note::note(task, output, at, evaluated);
                 inherited.into_iter().for_each(|note| push(&mut found, note));
             }
             if place == 0 {
-                of_capability((output, number), &evaluation.rows, task, &mut found);
+                of_capability(output, number, &evaluation.rows, task, &mut found);
             }
             if is_looked_at {
                 let coarse =
@@ -78,7 +79,7 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
                 coarse.into_iter().chain(vanishes).for_each(|note| push(&mut found, note));
             }
             if task.model.outputs.len() > 1 {
-                of_correlations((name, jumps), evaluated, &mut found);
+                of_correlations(name, jumps, evaluated, &mut found);
             }
             let decided = evaluated.conformity.as_deref();
             if task.settings.trials == Trials::Fixed(0)
@@ -220,7 +221,8 @@ fn of_rounded_correlations(name: &str, output: &OutputEvaluation) -> Option<Warn
 
 /// Whether expanded uncertainties of an output, by its number, are below the laboratory's capability.
 fn of_capability(
-    (output, number): (&Output, usize),
+    output: &Output,
+    number: usize,
     rows: &[RowEvaluation],
     task: &Task,
     found: &mut Vec<Warning>,
@@ -260,8 +262,10 @@ fn at(task: &Task, named: &[usize], row: &RowEvaluation) -> Option<Fact> {
 }
 
 fn of_output(
-    (task, named): (&Task, &[usize]),
-    (name, is_told): (&str, bool),
+    task: &Task,
+    named: &[usize],
+    name: &str,
+    is_told: bool,
     row: &RowEvaluation,
     output: &OutputEvaluation,
     found: &mut Vec<Warning>,
@@ -271,7 +275,7 @@ fn of_output(
         push(found, Warning::new(name, fact!("gum-undefined", name, at = at.clone())));
         if let Some(monte_carlo) = &output.monte_carlo {
             of_extremes(name, &at, monte_carlo, found);
-            of_heavy_tails((name, &at), output, monte_carlo, found);
+            of_heavy_tails(name, &at, output, monte_carlo, found);
         }
         return;
     };
@@ -290,9 +294,9 @@ fn of_output(
         return;
     };
     of_extremes(name, &at, monte_carlo, found);
-    of_heavy_tails((name, &at), output, monte_carlo, found);
+    of_heavy_tails(name, &at, output, monte_carlo, found);
     let spread = monte_carlo.standard_uncertainty.unwrap_or(gum.standard_uncertainty);
-    of_results(name, &at, row, (gum, spread), found);
+    of_results(name, &at, row, gum, spread, found);
     if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive
         && !monte_carlo.heavy_tailed
     {
@@ -311,7 +315,7 @@ fn of_output(
         };
         push(found, Warning::new(name, fact));
     } else if !is_told {
-        of_difference(task, (name, at), row, (gum, output, monte_carlo), found);
+        of_difference(task, name, at, row, output, found);
     }
 }
 
@@ -322,11 +326,15 @@ const ROUNDING: f64 = 1e-13;
 /// not linear, or both.
 fn of_difference(
     task: &Task,
-    (name, at): (&str, Option<Fact>),
+    name: &str,
+    at: Option<Fact>,
     row: &RowEvaluation,
-    (gum, output, monte_carlo): (&Gum, &OutputEvaluation, &MonteCarlo),
+    output: &OutputEvaluation,
     found: &mut Vec<Warning>,
 ) {
+    let (Some(gum), Some(monte_carlo)) = (&output.gum, &output.monte_carlo) else {
+        return;
+    };
     let Some(u) = monte_carlo.standard_uncertainty else {
         return;
     };
@@ -366,7 +374,7 @@ fn of_difference(
             let fact = fact!("few-dof", name, at, difference, dof, alone, conclusion);
             push(found, Warning::new(name, fact));
         } else if (gum.drawn_uncertainty() / linear - 1.0).abs() > NOTEWORTHY {
-            let name_of = |v: usize| Some(format!("`{}`", task.variables.get(v)?.name));
+            let name_of = |v: usize| Some(format!("`{}`", task.variables.getv)?.name));
             let results: Vec<String> = gum.bent_results().filter_map(name_of).collect();
             let fact = fact!("non-linear.results", name, at, difference, results);
             push(found, Warning::new(name, fact));
@@ -416,7 +424,8 @@ fn second_order(task: &Task, gum: &Gum, second: &SecondOrder) -> Fact {
 
 /// Correlation coefficients of an output of which the trials have none.
 fn of_correlations(
-    (name, jumps): (&str, bool),
+    name: &str,
+    jumps: bool,
     evaluated: &OutputEvaluation,
     found: &mut Vec<Warning>,
 ) {
@@ -441,7 +450,8 @@ fn conformity_by_propagation(name: &str) -> Warning {
 
 /// Trials without a variance, though every input that is drawn as a t has one.
 fn of_heavy_tails(
-    (name, at): (&str, &Option<Fact>),
+    name: &str,
+    at: &Option<Fact>,
     output: &OutputEvaluation,
     figures: &MonteCarlo,
     found: &mut Vec<Warning>,
@@ -475,7 +485,8 @@ fn of_results(
     name: &str,
     at: &Option<Fact>,
     row: &RowEvaluation,
-    (gum, spread): (&Gum, f64),
+    gum: &Gum,
+    spread: f64,
     found: &mut Vec<Warning>,
 ) {
     if row.jointly_drawn.is_empty() && row.copula_changes.is_empty() {
@@ -548,14 +559,16 @@ mod tests {
         assert_eq!(said(&output), None);
         type Change = fn(&mut MonteCarlo);
         let moved: [(&str, Change); 8] = [
-            ("figure.estimate", |of| *of.estimate.as_mut().unwrap() += 0.2),
-            ("figure.standard-uncertainty", |of| *of.standard_uncertainty.as_mut().unwrap() += 0.2),
-            ("figure.median", |of| of.median += 0.2),
-            ("figure.symmetric-lower", |of| of.symmetric_interval[0] += 0.5),
-            ("figure.symmetric-upper", |of| of.symmetric_interval[1] += 0.9),
-            ("figure.shortest-lower", |of| of.shortest_interval[0] -= 1.5),
-            ("figure.shortest-upper", |of| of.shortest_interval[1] += 1.5),
-            ("figure.inside", |of| of.inside -= 0.03),
+            ("figure.estimate", |outcome| *outcome.estimate.as_mut().unwrap() += 0.2),
+            ("figure.standard-uncertainty", |outcome| {
+                *outcome.standard_uncertainty.as_mut().unwrap() += 0.2
+            }),
+            ("figure.median", |outcome| outcome.median += 0.2),
+            ("figure.symmetric-lower", |outcome| outcome.symmetric_interval[0] += 0.5),
+            ("figure.symmetric-upper", |outcome| outcome.symmetric_interval[1] += 0.9),
+            ("figure.shortest-lower", |outcome| outcome.shortest_interval[0] -= 1.5),
+            ("figure.shortest-upper", |outcome| outcome.shortest_interval[1] += 1.5),
+            ("figure.inside", |outcome| outcome.inside -= 0.03),
         ];
         for (name, moved) in moved {
             let mut output = output.clone();

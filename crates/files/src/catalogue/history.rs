@@ -63,8 +63,9 @@ fn of_sim(entry: &Entry, sim: &EffectContext<'_>) -> Vec<Entry> {
 
 /// The entry under a name, with texts in place of others.
 fn with(entry: &Entry, name: &str, texts: &[(&str, String)]) -> Entry {
-    let text =
-        |of: &str| texts.iter().fold(of.to_owned(), |text, (from, to)| text.replace(from, to));
+    let text = |words: &str| {
+        texts.iter().fold(words.to_owned(), |text, (from, to)| text.replace(from, to))
+    };
     let members: Vec<Member> = entry.members.iter().map(|member| written(member, &text)).collect();
     Entry { name: name.to_owned(), members, ..entry.clone() }
 }

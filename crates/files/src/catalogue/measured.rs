@@ -52,7 +52,10 @@ impl Measured {
 
     /// In words.
     pub(super) fn words(&self) -> String {
-        let of = KEYS.iter().find(|(_, of, _)| *of == self.of).map_or("", |(.., words)| words);
+        let of = KEYS
+            .iter()
+            .find(|(_, multiplied, _)| *multiplied == self.of)
+            .map_or("", |(.., words)| words);
         format!("{} times {of} {}", self.times, self.name)
     }
 

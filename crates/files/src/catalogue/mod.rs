@@ -106,7 +106,7 @@ impl Catalogue {
 
     /// What a quantity may be called in a sim.
     fn alternatives<'c>(&'c self, name: &'c str) -> Vec<&'c str> {
-        match self.names.iter().find(|(of, _)| of == name) {
+        match self.names.iter().find(|(known, _)| known == name) {
             Some((_, alternatives)) => alternatives.iter().map(String::as_str).collect(),
             None => vec![name],
         }
@@ -215,7 +215,7 @@ pub(super) fn read(
                 warnings.push(Warning::new(name, fact!("effect-misfit", name, reason)))
             };
             let mut names: Vec<&str> =
-                here.entries.iter().filter(is_named).map(|of| &*of.name).collect();
+                here.entries.iter().filter(is_named).map(|entry| &*entry.name).collect();
             names.dedup();
             if names.is_empty() {
                 left_out(fact!("misfit.history"));

@@ -174,7 +174,7 @@ impl<'a> CertificateRows<'a> {
             rows: rows
                 .iter()
                 .filter_map(|at| task.rows.get(*at))
-                .map(|of| of.conditions.clone())
+                .map(|row| row.conditions.clone())
                 .collect(),
             ..Conditions::default()
         };
@@ -189,7 +189,7 @@ impl<'a> CertificateRows<'a> {
         for (at, conditions) in rows.into_iter().zip(&conditions.rows) {
             let capability = match &own {
                 Some((capability, following)) => {
-                    let following = following.as_ref().map(|of| of.at(conditions));
+                    let following = following.as_ref().map(|following| following.at(conditions));
                     Some(Capability {
                         absolute: following.unwrap_or(capability.absolute),
                         ..*capability
@@ -199,7 +199,7 @@ impl<'a> CertificateRows<'a> {
             };
             let nominal = match (with_unit, nominal) {
                 (Some(value), _) => Some(value?),
-                (None, Some(member)) => Some(self.nominal(member, (evaluation, at), unit)?),
+                (None, Some(member)) => Some(self.nominal(member, evaluation, at, unit)?),
                 (None, None) => None,
             };
             let label = label.clone();
@@ -384,12 +384,7 @@ impl<'a> CertificateRows<'a> {
     }
 
     /// A nominal value in the output's unit: a number, or the name of a condition or an input.
-    fn nominal(
-        &self,
-        member: &Member,
-        (evaluation, row): (usize, usize),
-        unit: &Unit,
-    ) -> Option<f64> {
+    fn nominal(&self, member: &Member, evaluation: usize, row: usize, unit: &Unit) -> Option<f64> {
         let refuse = |reason: String| {
             self.log.report(&member.value.span, DiagnosticKind::Certificate { reason });
             None

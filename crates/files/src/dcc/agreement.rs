@@ -12,16 +12,18 @@ pub(super) const ROUNDED: f64 = 0.05;
 /// What two statements say that cannot both be right, in words; `None` where they agree to the digits
 /// that they are written with.
 pub(super) fn contradiction(one: &Measured, other: &Measured) -> Option<[String; 2]> {
-    let said = |of: &Measured, value: f64| of.unit.after(&Shortest(value).to_string());
+    let said = |measured: &Measured, value: f64| measured.unit.after(&Shortest(value).to_string());
     let Ok(by) = Unit::conversion_factor(&other.unit, &one.unit) else {
-        let first = |of: &Measured| said(of, of.values.first().copied().unwrap_or(f64::NAN));
+        let first = |measured: &Measured| {
+            said(measured, measured.values.first().copied().unwrap_or(f64::NAN))
+        };
         return Some([first(one), first(other)]);
     };
     if one.values.len() != other.values.len() {
-        return Some([one, other].map(|of| format!("{} values", of.values.len())));
+        return Some([one, other].map(|measured| format!("{} values", measured.values.len())));
     }
     for (place, (&a, &b)) in one.values.iter().zip(&other.values).enumerate() {
-        let digit = |of: &Measured| of.last_digits.get(place).copied().unwrap_or(0.0);
+        let digit = |measured: &Measured| measured.last_digits.get(place).copied().unwrap_or(0.0);
         // to the nearest, but for the bits of the conversion
         let rounding = 0.5 * (digit(one) + by.abs() * digit(other)) * 1.001 + 1e-12 * a.abs();
         let is_same = |b: f64| (a - b).abs() <= rounding;
@@ -36,7 +38,7 @@ pub(super) fn contradiction(one: &Measured, other: &Measured) -> Option<[String;
         if let Some(((a, of_a), (b, of_b))) = both
             && (a - by.abs() * b).abs() > of_a + by.abs() * of_b + 1e-12 * a.abs()
         {
-            let said = |of, u| format!("a standard uncertainty of {}", said(of, u));
+            let said = |values, u| format!("a standard uncertainty of {}", said(values, u));
             return Some([said(one, a), said(other, b)]);
         }
     }
@@ -57,7 +59,7 @@ fn standard(stated: &StatedUncertainties, place: usize) -> Option<(f64, f64)> {
         return Some((u, ROUNDED * u));
     }
     let (expanded, factor) = (at(&stated.expanded, place)?, at(&stated.factors, place)?);
-    let digit = |of| at(of, place).unwrap_or(0.0);
+    let digit = |numbers| at(numbers, place).unwrap_or(0.0);
     let of_expanded = digit(&stated.last_digits.expanded);
     // a whole factor is chosen, not rounded
     let of_factor = if factor.fract() == 0.0 { 0.0 } else { digit(&stated.last_digits.factors) };

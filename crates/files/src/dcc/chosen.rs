@@ -77,7 +77,7 @@ pub(super) fn quantities<'d>(
         }
         let status = |node: &Node<'d, 'd>| standing::status(*node);
         let known: HashSet<String> = found.iter().filter_map(status).collect();
-        found.retain(|node| status(node).is_some_and(|of| of == wanted));
+        found.retain(|node| status(node).is_some_and(|status| status == wanted));
         if found.is_empty() {
             let mut known: Vec<&str> = known.iter().map(String::as_str).collect();
             known.sort_unstable();
@@ -93,7 +93,8 @@ pub(super) fn quantities<'d>(
     let is_named =
         ["id", "ref_type", "within", "status"].iter().any(|key| object.get(key).is_some());
     if !is_named && all.len() != 1 {
-        let shown: Vec<String> = all.iter().take(SHOWN).map(|of| document::called(*of)).collect();
+        let shown: Vec<String> =
+            all.iter().take(SHOWN).map(|node| document::called(*node)).collect();
         let reason = format!(
             "the certificate has {} quantities, which `gumption dcc` lists; name one by its `id` or \
              `ref_type`, or by its place as `quantity`, from 0: {}{}",
@@ -166,14 +167,14 @@ fn beyond(all: &[Node<'_, '_>]) -> String {
 /// Those of an `id`, their own or that of what is in them.
 fn of_id<'d>(object: &Object<'_>, all: &[Node<'d, 'd>]) -> Option<Vec<Node<'d, 'd>>> {
     let wanted = object.text("id")?;
-    let is_it = |of: &Node<'d, 'd>| of.attribute("id") == Some(wanted);
-    let is_quantity = |of: &Node<'d, 'd>| of.tag_name().name() == "quantity";
-    let mut found: Vec<Node<'d, 'd>> = all.iter().filter(|of| is_it(of)).copied().collect();
+    let is_it = |node: &Node<'d, 'd>| node.attribute("id") == Some(wanted);
+    let is_quantity = |node: &Node<'d, 'd>| node.tag_name().name() == "quantity";
+    let mut found: Vec<Node<'d, 'd>> = all.iter().filter(|node| is_it(node)).copied().collect();
     if found.is_empty() {
         // quantities may stand in each other
         let root = all.first().map(|node| node.document().root_element());
         let inside = root.into_iter().flat_map(|root| root.descendants()).filter(is_it);
-        found = inside.filter_map(|of| of.ancestors().find(is_quantity)).collect();
+        found = inside.filter_map(|inner| inner.ancestors().find(is_quantity)).collect();
         found.dedup();
     }
     if found.is_empty() {
@@ -190,7 +191,7 @@ fn of_ref_type<'d>(object: &Object<'_>, all: &[Node<'d, 'd>]) -> Option<Vec<Node
     let wanted = object.text("ref_type")?;
     let has = |node: &&Node<'d, 'd>| {
         let mut around = node.ancestors().take(3);
-        around.any(|of| document::has_ref_type(of, wanted))
+        around.any(|outer| document::has_ref_type(outer, wanted))
     };
     let found: Vec<Node<'d, 'd>> = all.iter().filter(has).copied().collect();
     if found.is_empty() {
@@ -239,7 +240,7 @@ fn are_rows(
     chosen: &[Node<'_, '_>],
     measured: &[Measured],
 ) -> bool {
-    let part = |number: usize| standing::part(chosen[number]).map(|of| of.id());
+    let part = |number: usize| standing::part(chosen[number]).map(|part| part.id());
     let parts: HashSet<Option<NodeId>> =
         tables.iter().filter_map(|(_, members)| members.first().map(|one| part(*one))).collect();
     let of = tables.first().and_then(|(status, _)| status.as_ref());
@@ -262,7 +263,8 @@ pub(super) fn is_one_table<'d>(
         let of: HashSet<Option<String>> =
             chosen.iter().map(|node| standing::status(*node)).collect();
         if of.len() > 1 {
-            let said = |of: &Option<String>| format!("`{}`", of.as_deref().unwrap_or("no status"));
+            let said =
+                |status: &Option<String>| format!("`{}`", status.as_deref().unwrap_or("no status"));
             let mut of: Vec<String> = of.iter().map(said).collect();
             of.sort_unstable();
             let reason = format!(
@@ -275,8 +277,9 @@ pub(super) fn is_one_table<'d>(
         return true;
     }
     let mut beside: HashMap<NodeId, usize> = HashMap::new();
-    for (node, _) in chosen.iter().zip(measured).filter(|(_, of)| of.values.len() == 1) {
-        *beside.entry(node.parent().map_or(node.id(), |of| of.id())).or_default() += 1;
+    for (node, _) in chosen.iter().zip(measured).filter(|(_, measured)| measured.values.len() == 1)
+    {
+        *beside.entry(node.parent().map_or(node.id(), |parent| parent.id())).or_default() += 1;
     }
     let mut places: HashMap<QuantityTable<'_>, usize> = HashMap::new();
     let mut tables: Vec<(Option<String>, Vec<usize>)> = Vec::new();
@@ -314,7 +317,7 @@ pub(super) fn is_one_table<'d>(
             None => match around.iter().find(|name| is_only(name)) {
                 Some(name) => format!("`\"within\": {}`", serde_json::Value::from(name.as_str())),
                 None => {
-                    let numbers = nodes.iter().take(SHOWN).map(|of| super::number(all, *of));
+                    let numbers = nodes.iter().take(SHOWN).map(|node| super::number(all, *node));
                     let numbers: Vec<String> = numbers.collect();
                     match numbers.as_slice() {
                         [one] => format!("`\"quantity\": {one}`"),
@@ -326,9 +329,9 @@ pub(super) fn is_one_table<'d>(
                 }
             },
         };
-        let part = standing::part(node).and_then(|of| names(of).into_iter().next());
+        let part = standing::part(node).and_then(|part| names(part).into_iter().next());
         let part = part.map_or_else(String::new, |name| format!(" of `{name}`"));
-        let status = status.as_ref().map_or_else(String::new, |of| format!(", {of}"));
+        let status = status.as_ref().map_or_else(String::new, |status| format!(", {status}"));
         let place = standing::place(node).unwrap_or("certificate");
         format!(
             "{count} value{}{part} ({place}{status}) by {key}",

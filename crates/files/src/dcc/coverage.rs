@@ -133,7 +133,8 @@ fn reaches(k: WrittenNumber, p: WrittenNumber) -> bool {
 /// 2 beside 95 % (EA-4/02 M:2022), 3 beside 99 %; within one unit of the last digit, and one per cent.
 fn is_approximate(k: WrittenNumber, p: WrittenNumber) -> bool {
     const MOST: f64 = 0.01;
-    let digit = Decimal::shortest(p.value).map_or(0.0, |of| Decimal::new(1, of.position()).value());
+    let digit = Decimal::shortest(p.value)
+        .map_or(0.0, |decimal| Decimal::new(1, decimal.position()).value());
     let covered = 1.0 - 2.0 * normal::sf(k.value);
     k.value.fract() == 0.0 && (covered - p.value).abs() <= digit.min(MOST)
 }

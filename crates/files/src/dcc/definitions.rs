@@ -31,7 +31,7 @@ pub(super) fn unit(element: Node<'_, '_>, written: &str) -> Result<Option<Unit>,
             (Err(_), Some(_)) => continue,
             (Err(reason), None) => return Err(fault(reason)),
         };
-        let before = found.as_ref().map(|of| (of, "another definition of it says"));
+        let before = found.as_ref().map(|before| (before, "another definition of it says"));
         let as_known = known.clone().map(|unit| Definition { unit, rounding: 0.0 });
         let beside = before.or_else(|| Some((as_known.as_ref()?, "it is known as")));
         if let Some((other, is)) = beside
@@ -70,17 +70,21 @@ pub(super) fn unknown(element: Node<'_, '_>, written: &str) -> String {
 /// The definitions that hold for an element: those of its quantity, of the results around it, and of the
 /// statements of the certificate.
 fn around<'d>(element: Node<'d, 'd>) -> Vec<Node<'d, 'd>> {
-    let is = |of: &Node<'d, 'd>, name: &str| of.tag_name().name() == name;
-    let inside = |of: Node<'d, 'd>| of.descendants().filter(move |of| is(of, "nonSIDefinition"));
-    let about = |of: Node<'d, 'd>| {
-        let about = of.children().filter(move |of| is(of, "measurementMetaData"));
+    let is = |node: &Node<'d, 'd>, name: &str| node.tag_name().name() == name;
+    let inside = |node: Node<'d, 'd>| {
+        node.descendants().filter(move |descendant| is(descendant, "nonSIDefinition"))
+    };
+    let about = |node: Node<'d, 'd>| {
+        let about = node.children().filter(move |child| is(child, "measurementMetaData"));
         about.flat_map(inside)
     };
-    let quantity = element.ancestors().find(|of| is(of, "quantity"));
-    let outer = element.ancestors().filter(|of| !is(of, "quantity")).flat_map(about);
+    let quantity = element.ancestors().find(|ancestor| is(ancestor, "quantity"));
+    let outer = element.ancestors().filter(|ancestor| !is(ancestor, "quantity")).flat_map(about);
     let root = element.document().root_element();
-    let administrative = root.children().filter(|of| is(of, "administrativeData"));
-    let statements = administrative.flat_map(|of| of.children()).filter(|of| is(of, "statements"));
+    let administrative = root.children().filter(|child| is(child, "administrativeData"));
+    let statements = administrative
+        .flat_map(|section| section.children())
+        .filter(|section| is(section, "statements"));
     quantity.into_iter().flat_map(inside).chain(outer).chain(statements.flat_map(inside)).collect()
 }
 
@@ -135,7 +139,7 @@ fn counted(text: &str) -> (Option<&str>, &str) {
 }
 
 fn is_name(text: &str, name: &str) -> bool {
-    let both = [text, name].map(|of| Unit::parse(of).ok().map(|unit| unit.normal_text()));
+    let both = [text, name].map(|text| Unit::parse(text).ok().map(|unit| unit.normal_text()));
     !text.is_empty() && (text == name || both[0].is_some() && both[0] == both[1])
 }
 

@@ -57,7 +57,7 @@ pub(super) fn kind(
     }
     let types = node.attribute("refType").unwrap_or_default();
     let mut types = types.split(BLANKS).map(str::to_lowercase);
-    let is_typed = types.any(|of| PARTS_OF_TYPES.iter().any(|word| of.contains(word)));
+    let is_typed = types.any(|kind| PARTS_OF_TYPES.iter().any(|word| kind.contains(word)));
     if measured.is_difference || stated.unwrap_or(is_typed) {
         return Ok(TemperatureKind::Difference);
     }

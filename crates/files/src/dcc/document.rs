@@ -120,7 +120,9 @@ impl Measured {
     /// Whether something is stated of the uncertainty of a value.
     pub(super) fn is_uncertain(&self, place: usize) -> bool {
         let stated = self.uncertainty.as_ref();
-        stated.is_some_and(|of| at(&of.expanded, place).or(at(&of.standard, place)).is_some())
+        stated.is_some_and(|stated| {
+            at(&stated.expanded, place).or(at(&stated.standard, place)).is_some()
+        })
     }
 
     /// The standard uncertainty of a coverage interval that is taken for a value, or for any of them.
@@ -192,12 +194,13 @@ pub(super) fn quantities<'d>(document: &'d Document<'d>) -> Vec<Node<'d, 'd>> {
 
 /// Whether one of an element's reference types is this one.
 pub(super) fn has_ref_type(node: Node<'_, '_>, wanted: &str) -> bool {
-    node.attribute("refType").is_some_and(|all| all.split(BLANKS).any(|of| of == wanted))
+    node.attribute("refType")
+        .is_some_and(|all| all.split(BLANKS).any(|reference| reference == wanted))
 }
 
 /// The names of an element, in all languages; they stand before what it holds, which may be very much.
 pub(super) fn names(node: Node<'_, '_>) -> Vec<String> {
-    let is_content = |of: &Node<'_, '_>| ["quantity", "list"].contains(&of.tag_name().name());
+    let is_content = |node: &Node<'_, '_>| ["quantity", "list"].contains(&node.tag_name().name());
     let before = node.children().take_while(|child| !is_content(child));
     let named = before.filter(|child| child.tag_name().name() == "name");
     let contents = named.flat_map(|name| name.children()).filter(Node::is_element);
@@ -324,7 +327,8 @@ fn of_hybrid(
 
 /// Whether a part of a hybrid has a unit that is not known.
 fn has_unknown_unit(part: Node<'_, '_>) -> bool {
-    let units = part.descendants().filter(|of| UNITS.contains(&of.tag_name().name()));
+    let units =
+        part.descendants().filter(|descendant| UNITS.contains(&descendant.tag_name().name()));
     let is_unknown = |element: Node<'_, '_>| {
         let written = content_of(element);
         let written = written.trim_matches(BLANKS);
@@ -367,7 +371,7 @@ pub(super) fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Meas
     lists_of(holder, count)?;
     let uncertain = uncertainty_of(holder);
     let of_constant = holder.tag_name().name() == "constant"
-        && !holder.descendants().any(|of| of.tag_name().name() == "expandedUnc");
+        && !holder.descendants().any(|descendant| descendant.tag_name().name() == "expandedUnc");
     let mut expanded = vec!["valueExpandedMU", "uncertaintyXMLList", "valueExpandedMUXMLList"];
     let mut standard =
         vec!["standardUnc", "valueStandardMU", "standardUncXMLList", "valueStandardMUXMLList"];
@@ -425,8 +429,9 @@ pub(super) fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Meas
 /// # Errors
 /// The list that has another length.
 fn lists_of(holder: Node<'_, '_>, count: usize) -> Result<(), Fault> {
-    let lists =
-        holder.descendants().filter(|of| is_list(*of) && of.children().all(|of| of.is_text()));
+    let lists = holder.descendants().filter(|descendant| {
+        is_list(*descendant) && descendant.children().all(|child| child.is_text())
+    });
     for list in lists {
         let text = content_of(list);
         let entries = text.split(BLANKS).filter(|word| !word.is_empty()).count();
@@ -445,8 +450,10 @@ fn lists_of(holder: Node<'_, '_>, count: usize) -> Result<(), Fault> {
 
 /// The element of this name in the list of a value.
 fn in_list_of<'d>(holder: Node<'d, 'd>, names: &[&str]) -> Option<Node<'d, 'd>> {
-    let list = holder.parent().filter(|of| ["list", "realList"].contains(&of.tag_name().name()))?;
-    list.children().find(|of| names.contains(&of.tag_name().name()))
+    let list = holder
+        .parent()
+        .filter(|parent| ["list", "realList"].contains(&parent.tag_name().name()))?;
+    list.children().find(|child| names.contains(&child.tag_name().name()))
 }
 
 /// The unit of values, or that of their list.
@@ -460,7 +467,8 @@ fn unit_of(holder: Node<'_, '_>) -> Result<Unit, Fault> {
         return Err((tag(holder), "this has no unit".to_owned()));
     };
     let written = units.first().map_or("", String::as_str);
-    let differs = |(_, units): &(Node<'_, '_>, Vec<String>)| units.iter().any(|of| of != written);
+    let differs =
+        |(_, units): &(Node<'_, '_>, Vec<String>)| units.iter().any(|unit| unit != written);
     if let Some((element, _)) = [own, shared].into_iter().flatten().find(differs) {
         return Err((tag(element), "the values of a list have different units".to_owned()));
     }
@@ -478,8 +486,8 @@ fn uncertainty_of<'d>(holder: Node<'d, 'd>) -> Node<'d, 'd> {
 
 /// A statement of uncertainty in an element, as something that is not read.
 fn unread_in(element: Node<'_, '_>) -> Option<Fault> {
-    let is_uncertainty = |of: &Node<'_, '_>| {
-        let name = of.tag_name().name().to_lowercase();
+    let is_uncertainty = |node: &Node<'_, '_>| {
+        let name = node.tag_name().name().to_lowercase();
         let name = name.strip_suffix("xmllist").unwrap_or(&name);
         name.contains("uncertainty")
             || name == "coverageinterval"
@@ -541,7 +549,9 @@ type Words<'d> = (Node<'d, 'd>, Vec<String>);
 /// Another one says something else, so that their order would decide; what is in it is no text alone, or
 /// several words where one is to stand.
 fn texts<'d>(holder: Node<'d, 'd>, names: &[&str]) -> Result<Option<Words<'d>>, Fault> {
-    texts_of(holder.descendants().filter(|of| names.contains(&of.tag_name().name())))
+    texts_of(
+        holder.descendants().filter(|descendant| names.contains(&descendant.tag_name().name())),
+    )
 }
 
 fn texts_of<'d>(

@@ -12,7 +12,8 @@ use super::document::{self, Measured};
 
 /// Whether a quantity states coverage intervals.
 pub(super) fn is_interval(node: Node<'_, '_>) -> bool {
-    node.descendants().any(|of| of.tag_name().name().starts_with("coverageInterval"))
+    node.descendants()
+        .any(|descendant| descendant.tag_name().name().starts_with("coverageInterval"))
 }
 
 /// The quantities without those that repeat values of another of them with coverage intervals; the
@@ -22,7 +23,7 @@ pub(super) fn left_out<'d>(
     measured: Vec<Measured>,
     all: &[Node<'d, 'd>],
 ) -> (Vec<Node<'d, 'd>>, Vec<Measured>) {
-    let list = |node: Node<'d, 'd>| node.parent().map(|of| of.id());
+    let list = |node: Node<'d, 'd>| node.parent().map(|parent| parent.id());
     // by their lists, as there may be very many
     let mut intervals: HashMap<Option<NodeId>, Vec<Node<'d, 'd>>> = HashMap::new();
     for interval in all.iter().filter(|node| is_interval(**node)) {
@@ -36,19 +37,19 @@ pub(super) fn left_out<'d>(
     for (node, of) in chosen.iter().zip(&measured).filter(|(node, _)| !all.contains(&node.id())) {
         others.entry(list(*node)).or_default().push(of);
     }
-    let repeats = |(node, of): (&Node<'d, 'd>, &Measured)| {
+    let repeats = |(node, measured): (&Node<'d, 'd>, &Measured)| {
         let beside = others.get(&list(*node)).filter(|_| all.contains(&node.id()));
-        beside.is_some_and(|beside| beside.iter().any(|values| places(of, values).is_some()))
+        beside.is_some_and(|beside| beside.iter().any(|values| places(measured, values).is_some()))
     };
     let kept: Vec<bool> = chosen.iter().zip(&measured).map(|pair| !repeats(pair)).collect();
     let pairs = chosen.into_iter().zip(measured).zip(kept);
     pairs
         .filter(|(_, kept)| *kept)
-        .map(|((node, mut of), _)| {
+        .map(|((node, mut measured), _)| {
             if !all.contains(&node.id()) {
-                beside(&mut of, intervals.get(&list(node)).map_or(&[], Vec::as_slice));
+                beside(&mut measured, intervals.get(&list(node)).map_or(&[], Vec::as_slice));
             }
-            (node, of)
+            (node, measured)
         })
         .unzip()
 }
@@ -78,8 +79,8 @@ fn places(interval: &Measured, of: &Measured) -> Option<Vec<Option<usize>>> {
     if !same(&interval.unit, &of.unit) {
         return None;
     }
-    let distribution = |of: &Measured, place: usize| -> Option<String> {
-        of.uncertainty.as_ref()?.called(place).map(str::to_owned)
+    let distribution = |measured: &Measured, place: usize| -> Option<String> {
+        measured.uncertainty.as_ref()?.called(place).map(str::to_owned)
     };
     let is_it = |own: usize, place: usize| {
         let (a, b) = (distribution(interval, own), distribution(of, place));
@@ -104,7 +105,8 @@ fn same(a: &Unit, b: &Unit) -> bool {
 /// their last written digit: of U to the nearest or up, of k to the nearest.
 pub(super) fn agreeing(
     u: f64,
-    (expanded, factor): (f64, f64),
+    expanded: f64,
+    factor: f64,
     [of_expanded, of_factor]: [f64; 2],
 ) -> Result<f64, String> {
     if (expanded - factor * u).abs() <= 1.001 * (of_expanded + 0.5 * u * of_factor) {

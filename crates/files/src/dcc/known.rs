@@ -71,7 +71,7 @@ pub(super) fn known(of: &Measured, place: usize) -> Result<KnownValue, String> {
             if stated_factor.is_some()
                 && (expanded / factor - u).abs() > agreement::ROUNDED * u =>
         {
-            (intervals::agreeing(u, (expanded, factor), [of_expanded, of_factor])?, 1.0)
+            (intervals::agreeing(u, expanded, factor, [of_expanded, of_factor])?, 1.0)
         }
         (Some(standard), _) => (standard, 1.0),
         (None, Some(_)) if stated_factor.is_none() && probability.is_none() => {
@@ -79,7 +79,7 @@ pub(super) fn known(of: &Measured, place: usize) -> Result<KnownValue, String> {
             return Err(reason.to_owned());
         }
         (None, Some(expanded)) => match at(&stated.of_interval, place) {
-            Some(u) => (intervals::agreeing(u, (expanded, factor), [of_expanded, of_factor])?, 1.0),
+            Some(u) => (intervals::agreeing(u, expanded, factor, [of_expanded, of_factor])?, 1.0),
             None => (expanded / factor, factor),
         },
         (None, None) => return Err(none()),
@@ -95,7 +95,7 @@ pub(super) fn known(of: &Measured, place: usize) -> Result<KnownValue, String> {
             if is_t { stated.dof(p) } else { stated.dof_of_nothing_named(p, of_probability) }
         }
         Some(p) if at(&stated.standard, place).is_some() => {
-            of_limits(of, stated, place, (shape, p, of_probability))?
+            of_limits(of, stated, place, shape, p, of_probability)?
         }
         _ => f64::INFINITY,
     };
@@ -111,7 +111,9 @@ fn of_limits(
     of: &Measured,
     stated: &StatedUncertainties,
     place: usize,
-    (shape, p, of_probability): (Option<NamedShape>, f64, f64),
+    shape: Option<NamedShape>,
+    p: f64,
+    of_probability: f64,
 ) -> Result<f64, String> {
     let Some(interval) = Interval::of(of, place) else { return Ok(f64::INFINITY) };
     let u = at(&stated.standard, place).unwrap_or(f64::NAN);

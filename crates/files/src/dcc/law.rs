@@ -23,7 +23,7 @@ pub(super) fn state(object: &Object<'_>, measured: &mut [Measured]) -> Result<bo
         object.log.report(&member.value.span, diagnostic);
         return Ok(false);
     };
-    if measured.iter().all(|of| of.uncertainty.is_none()) {
+    if measured.iter().all(|measured| measured.uncertainty.is_none()) {
         let reason =
             "the certificate states no uncertainty here, of which `law` could be the distribution";
         let reason = reason.to_owned();

@@ -87,16 +87,16 @@ pub fn listing_text(name: &str, text: &str) -> Result<CertificateListing, Diagno
 }
 
 fn of<'d>(node: Node<'d, 'd>, place: usize, file: &str) -> ListedQuantity {
-    let attribute = |of: Node<'d, 'd>, name: &str| of.attribute(name).map(str::to_owned);
-    let name = |of: Node<'d, 'd>| names(of).into_iter().next();
+    let attribute = |node: Node<'d, 'd>, name: &str| node.attribute(name).map(str::to_owned);
+    let name = |node: Node<'d, 'd>| names(node).into_iter().next();
     let read = measured(node);
-    let unit = |of: &Measured| match difference::kind(node, of, None) {
-        Ok(kind) => kind.unit(of.unit.clone()).text().to_owned(),
-        Err(_) => of.unit.text().to_owned(),
+    let unit = |measured: &Measured| match difference::kind(node, measured, None) {
+        Ok(kind) => kind.unit(measured.unit.clone()).text().to_owned(),
+        Err(_) => measured.unit.text().to_owned(),
     };
-    let input = |of: &Measured| {
+    let input = |measured: &Measured| {
         let mut input = json!({ "distribution": "dcc", "file": file, "quantity": place });
-        if of.values.len() > 1 {
+        if measured.values.len() > 1 {
             input["index"] = json!(0);
         }
         input
@@ -109,9 +109,10 @@ fn of<'d>(node: Node<'d, 'd>, place: usize, file: &str) -> ListedQuantity {
         unit: read.as_ref().ok().map(unit),
         status: standing::status(node),
         place: standing::place(node).map(str::to_owned),
-        part: standing::part(node).map(|of| ListedPart { id: attribute(of, "id"), name: name(of) }),
+        part: standing::part(node)
+            .map(|part| ListedPart { id: attribute(part, "id"), name: name(part) }),
         input: read.as_ref().ok().map(input),
         unread: read.as_ref().err().map(|(_, reason)| reason.clone()),
-        values: read.map(|of| of.values).unwrap_or_default(),
+        values: read.map(|read| read.values).unwrap_or_default(),
     }
 }

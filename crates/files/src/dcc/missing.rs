@@ -79,7 +79,7 @@ fn stated<'d>(all: &[Node<'d, 'd>]) -> StatedRows<'d> {
     let mut found = StatedRows::default();
     let mut before: HashMap<Option<NodeId>, usize> = HashMap::new();
     for node in all {
-        let before = before.entry(node.parent().map(|of| of.id())).or_default();
+        let before = before.entry(node.parent().map(|parent| parent.id())).or_default();
         let row = QuantityRow::of(*node, *before);
         *before += 1;
         let Some(row) = row else { continue };

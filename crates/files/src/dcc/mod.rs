@@ -173,7 +173,7 @@ fn parsed(
     }
     let Some(first) = measured.first() else { return Ok(None) };
     let (unit, span) = (first.unit.clone(), first.span.clone());
-    if let Some(other) = measured.iter().find(|of| of.unit.text() != unit.text()) {
+    if let Some(other) = measured.iter().find(|measured| measured.unit.text() != unit.text()) {
         let reason = "this quantity has another unit than the first one of its kind".to_owned();
         return Err((other.span.clone(), reason));
     }
@@ -181,19 +181,23 @@ fn parsed(
     let is_difference = temperature == TemperatureKind::Difference && unit.is_celsius();
     let unit = temperature.unit(unit);
     if object.get("at").is_some() {
-        for node in chosen.iter().filter(|_| measured.iter().all(|of| of.uncertainty.is_none())) {
-            stated_elsewhere(own, source, &document, (*node, 0))?;
+        for node in
+            chosen.iter().filter(|_| measured.iter().all(|measured| measured.uncertainty.is_none()))
+        {
+            stated_elsewhere(own, source, &document, *node, 0)?;
         }
         let Some(table) = table(object, &chosen, &measured, &all)? else { return Ok(None) };
         let source = Arc::clone(source);
-        let of_interval = measured.iter().any(|of| of.interval_taken(None).is_some());
-        let is_asymmetric = measured.iter().any(|of| {
-            let mut intervals = (0..of.values.len()).filter_map(|place| Interval::of(of, place));
+        let of_interval = measured.iter().any(|measured| measured.interval_taken(None).is_some());
+        let is_asymmetric = measured.iter().any(|measured| {
+            let mut intervals =
+                (0..measured.values.len()).filter_map(|place| Interval::of(measured, place));
             intervals.any(Interval::is_asymmetric)
         });
-        let is_exact = measured.iter().all(|of| of.uncertainty.is_none());
+        let is_exact = measured.iter().all(|measured| measured.uncertainty.is_none());
         let is_without = is_exact && !chosen.iter().all(|node| missing::is_nominal(*node));
-        let unknown_distribution = measured.iter().find_map(|of| of.unknown_distribution(None));
+        let unknown_distribution =
+            measured.iter().find_map(|measured| measured.unknown_distribution(None));
         let numbers: Vec<String> = chosen.iter().map(|node| number(&all, *node)).collect();
         return Ok(Some(FromCertificate {
             unit,
@@ -211,7 +215,7 @@ fn parsed(
             temperature,
         }));
     }
-    let count: usize = measured.iter().map(|of| of.values.len()).sum();
+    let count: usize = measured.iter().map(|measured| measured.values.len()).sum();
     let index = match object.get("index") {
         None if count == 1 => 0,
         None => {
@@ -245,8 +249,8 @@ fn parsed(
             }
             let is_without = !of.is_uncertain(left) && !missing::is_nominal(*node);
             let certified = match is_without {
-                true => stated_elsewhere(own, source, &document, (*node, left))?,
-                false => certified(own, source, &document, (*node, left)),
+                true => stated_elsewhere(own, source, &document, *node, left)?,
+                false => certified(own, source, &document, *node, left),
             };
             return Ok(Some(FromCertificate {
                 unit,
@@ -271,7 +275,7 @@ fn parsed(
 
 /// The place of a quantity among all of the certificate, counted from 0.
 fn number(all: &[Node<'_, '_>], node: Node<'_, '_>) -> String {
-    all.iter().position(|of| *of == node).map_or(String::new(), |place| place.to_string())
+    all.iter().position(|other| *other == node).map_or(String::new(), |place| place.to_string())
 }
 
 /// Whether the quantities are temperatures or differences of temperatures.
@@ -288,7 +292,7 @@ fn temperature(
     for (node, of) in chosen.iter().zip(measured) {
         let kind = difference::kind(*node, of, stated)?;
         let known = found.get_or_insert_with(|| kind.clone());
-        let is_difference = |of: &TemperatureKind| *of == TemperatureKind::Difference;
+        let is_difference = |kind: &TemperatureKind| *kind == TemperatureKind::Difference;
         if is_difference(known) != is_difference(&kind) {
             let reason = "of this quantity and the first one of its kind one is a difference of \
                           temperatures by its `refType` or its name: say by `difference` what they are"
@@ -309,7 +313,8 @@ fn certified(
     own: &mut HashMap<String, Option<Arc<OwnCertificate>>>,
     source: &SourceText,
     document: &Document<'_>,
-    (node, place): (Node<'_, '_>, usize),
+    node: Node<'_, '_>,
+    place: usize,
 ) -> Option<Certified> {
     let own = own.entry(source.name.clone());
     let own = own.or_insert_with(|| OwnCertificate::of(document).map(Arc::new));
@@ -324,9 +329,10 @@ fn stated_elsewhere(
     own: &mut HashMap<String, Option<Arc<OwnCertificate>>>,
     source: &SourceText,
     document: &Document<'_>,
-    (node, place): (Node<'_, '_>, usize),
+    node: Node<'_, '_>,
+    place: usize,
 ) -> Result<Option<Certified>, Fault> {
-    let Some(_) = certified(own, source, document, (node, place)) else { return Ok(None) };
+    let Some(_) = certified(own, source, document, node, place) else { return Ok(None) };
     let reason = "the uncertainty of this result stands in the description of the certificate alone, as \
                   D-SI has no place for a coverage factor without a probability, or below 1: take the \
                   value with the U and k that are said there"
@@ -343,11 +349,13 @@ fn table<'d>(
 ) -> Result<Option<Taken>, Fault> {
     let Some(condition) = object.text("at").map(str::to_owned) else { return Ok(None) };
     let mut points: Vec<TablePoint> = Vec::new();
-    let are_exact = measured.iter().all(|of| of.uncertainty.is_none() && of.unread.is_none());
+    let are_exact =
+        measured.iter().all(|measured| measured.uncertainty.is_none() && measured.unread.is_none());
     let mut rows = QuantityRows::new(all);
     let mut unit: Option<Unit> = None;
     // quantities beside each other have the same one beside them
-    let parents: HashSet<_> = chosen.iter().map(|node| node.parent().map(|of| of.id())).collect();
+    let parents: HashSet<_> =
+        chosen.iter().map(|node| node.parent().map(|parent| parent.id())).collect();
     if parents.len() < chosen.len() {
         return Err(repeated(measured));
     }
@@ -385,7 +393,7 @@ fn table<'d>(
 }
 
 fn repeated(measured: &[Measured]) -> Fault {
-    let span = measured.first().map_or(0..0, |of| of.span.clone());
+    let span = measured.first().map_or(0..0, |measured| measured.span.clone());
     (span, "two points of this table have the same abscissa".to_owned())
 }
 
@@ -397,18 +405,20 @@ fn abscissa<'d>(
     of: &Measured,
     condition: &str,
 ) -> Result<Option<Measured>, Fault> {
-    let beside = node.parent().into_iter().flat_map(|of| of.children());
-    let beside = beside.filter(|of| of.tag_name().name() == "quantity" && *of != node);
+    let beside = node.parent().into_iter().flat_map(|parent| parent.children());
+    let beside =
+        beside.filter(|sibling| sibling.tag_name().name() == "quantity" && *sibling != node);
     let beside: Vec<Node<'d, 'd>> = beside.collect();
     let among = |is_one: &dyn Fn(Node<'d, 'd>) -> bool| {
-        let found: Vec<Node<'d, 'd>> = beside.iter().copied().filter(|of| is_one(*of)).collect();
+        let found: Vec<Node<'d, 'd>> =
+            beside.iter().copied().filter(|sibling| is_one(*sibling)).collect();
         (!found.is_empty()).then_some(found)
     };
-    let by_name = among(&|of| document::names(of).iter().any(|name| name == condition));
+    let by_name = among(&|sibling| document::names(sibling).iter().any(|name| name == condition));
     let by_kind = || {
         ["basic_referenceValue", "basic_nominalValue"]
             .iter()
-            .find_map(|kind| among(&|of| document::has_ref_type(of, kind)))
+            .find_map(|kind| among(&|sibling| document::has_ref_type(sibling, kind)))
     };
     let only = || Some(beside.clone()).filter(|others| others.len() == 1);
     let Some(found) = by_name.or_else(by_kind).or_else(only) else {
@@ -499,7 +509,7 @@ impl FromCertificate {
             }
             Taken::Table { condition, unit: of, points } => {
                 let (conditions, row) = at?;
-                let x = self.condition(object, condition, of, (conditions, row))?;
+                let x = self.condition(object, condition, of, conditions, row)?;
                 let Some(TablePoint { y, known, .. }) = interpolated(points, x) else {
                     let ends = points.first().zip(points.last());
                     let (low, high) = ends.map_or((f64::NAN, f64::NAN), |(a, b)| (a.x, b.x));
@@ -561,7 +571,8 @@ impl FromCertificate {
         object: &Object<'_>,
         condition: &str,
         unit: &Unit,
-        (conditions, row): (&dyn ConditionValues, usize),
+        conditions: &dyn ConditionValues,
+        row: usize,
     ) -> Option<f64> {
         let place = object.get("at").map_or(object.place(), |member| &member.value.span);
         let formula = object.log.formula(condition);

@@ -120,20 +120,25 @@ impl OwnCertificate {
     /// The result that a value of a quantity is.
     pub(super) fn part(self: &Arc<Self>, node: Node<'_, '_>, place: usize) -> Option<Certified> {
         let is = |node: &Node<'_, '_>, name: &str| node.tag_name().name() == name;
-        let result = node.ancestors().find(|of| is(of, "result"))?;
-        let before = result.prev_siblings().filter(|of| is(of, "result") && *of != result).count();
+        let result = node.ancestors().find(|ancestor| is(ancestor, "result"))?;
+        let before = result
+            .prev_siblings()
+            .filter(|sibling| is(sibling, "result") && *sibling != result)
+            .count();
         let part = match self.groups.get(before) {
             Some(group) => {
                 let is_interval = intervals::is_interval(node);
-                let list = node.parent().filter(|of| is(of, "list"))?;
+                let list = node.parent().filter(|parent| is(parent, "list"))?;
                 // conditions and nominal values have other values
-                let quantities = list.children().filter(|of| is(of, "quantity"));
-                let mut measured = quantities
-                    .filter(|of| super::document::has_ref_type(*of, "basic_measuredValue"));
+                let quantities = list.children().filter(|child| is(child, "quantity"));
+                let mut measured = quantities.filter(|quantity| {
+                    super::document::has_ref_type(*quantity, "basic_measuredValue")
+                });
                 let is_row = measured.next() == Some(node) || is_interval;
                 is_row.then_some(())?;
-                let lists: Vec<_> = result.descendants().filter(|of| is(of, "list")).collect();
-                let own = lists.iter().position(|of| *of == list)?;
+                let lists: Vec<_> =
+                    result.descendants().filter(|descendant| is(descendant, "list")).collect();
+                let own = lists.iter().position(|other| *other == list)?;
                 let rows = group.list(own, lists.len()).into_iter();
                 let mut rows = rows.filter(|row| !is_interval || row.has_interval);
                 InputOrigin::Row(rows.nth(place)?.number)
@@ -142,9 +147,9 @@ impl OwnCertificate {
                 let function = before - self.groups.len();
                 let count = self.functions.get(function)?.len();
                 // behind the list of x and of values
-                let data = node.parent().filter(|of| is(of, "data"))?;
-                let mut own = data.children().filter(|of| is(of, "quantity"));
-                let number = own.position(|of| of == node)?;
+                let data = node.parent().filter(|parent| is(parent, "data"))?;
+                let mut own = data.children().filter(|child| is(child, "quantity"));
+                let number = own.position(|quantity| quantity == node)?;
                 (number < count).then_some(InputOrigin::Parameter(function, number))?
             }
         };

@@ -13,12 +13,13 @@ use super::document::{self, Fault, Measured, at, tag};
 /// # Errors
 /// The two are not the same to their digits.
 pub(super) fn compare(quantity: Node<'_, '_>, all: &mut Measured) -> Result<(), Fault> {
-    let named = |of: &Node<'_, '_>| of.tag_name().name() == "relativeUncertainty";
+    let named = |node: &Node<'_, '_>| node.tag_name().name() == "relativeUncertainty";
     let Some(relative) = quantity.children().find(named) else { return Ok(()) };
     let count = all.values.len();
     let read = shares(relative, count)?;
     for (place, share) in read.into_iter().enumerate() {
-        let [value, digit] = [&all.values, &all.last_digits].map(|of| of.get(place).copied());
+        let [value, digit] =
+            [&all.values, &all.last_digits].map(|numbers| numbers.get(place).copied());
         let (value, digit) = (value.unwrap_or(f64::NAN), digit.unwrap_or(0.0));
         let Some(stated) = all.uncertainty.as_ref().filter(|_| value != 0.0) else { continue };
         let digits = &stated.last_digits;

@@ -28,18 +28,18 @@ fn is(node: Node<'_, '_>, name: &str) -> bool {
 
 /// What an element says of itself before and behind what it holds, of which there may be very much.
 fn about<'d>(node: Node<'d, 'd>) -> impl Iterator<Item = Node<'d, 'd>> {
-    let is_content = |of: &Node<'d, 'd>| {
-        let name = of.tag_name().name();
+    let is_content = |node: &Node<'d, 'd>| {
+        let name = node.tag_name().name();
         ["quantity", "list", "data", "measurementResult"].contains(&name) || PARTS.contains(&name)
     };
-    let before = node.children().take_while(move |of| !is_content(of));
-    before.chain(node.children().rev().take_while(move |of| !is_content(of)))
+    let before = node.children().take_while(move |child| !is_content(child));
+    before.chain(node.children().rev().take_while(move |child| !is_content(child)))
 }
 
 /// The element around a quantity that says what it is: `results`, `influenceConditions` and the like; the
 /// nearest one, as a quantity may have conditions of its own.
 pub(super) fn place<'d>(node: Node<'d, 'd>) -> Option<&'d str> {
-    let around = node.ancestors().map(|of| of.tag_name().name());
+    let around = node.ancestors().map(|ancestor| ancestor.tag_name().name());
     around.into_iter().find(|name| PLACES.contains(name))
 }
 
@@ -50,19 +50,19 @@ pub(super) fn is_result<'d>(node: Node<'d, 'd>) -> bool {
 
 /// The result, the influence condition or the like that a quantity is of.
 pub(super) fn part<'d>(node: Node<'d, 'd>) -> Option<Node<'d, 'd>> {
-    node.ancestors().find(|of| PARTS.contains(&of.tag_name().name()))
+    node.ancestors().find(|ancestor| PARTS.contains(&ancestor.tag_name().name()))
 }
 
 /// Before or after what a quantity was measured: by the status of what it stands in, by conditions of its
 /// own or of its list that have no other content, or by a reference type.
 pub(super) fn status<'d>(node: Node<'d, 'd>) -> Option<String> {
-    node.ancestors().find_map(|of| {
+    node.ancestors().find_map(|ancestor| {
         let typed = || {
-            let kinds = of.attribute("refType")?.split(BLANKS);
+            let kinds = ancestor.attribute("refType")?.split(BLANKS);
             let mut kinds = kinds.filter_map(|kind| kind.rsplit('_').next());
             kinds.find_map(known)
         };
-        stated(of).or_else(|| of_conditions(of)).or_else(typed)
+        stated(ancestor).or_else(|| of_conditions(ancestor)).or_else(typed)
     })
 }
 
@@ -78,7 +78,7 @@ fn known(text: &str) -> Option<String> {
 
 /// The status of an element itself, as it is written where it is none of those that there are.
 fn stated<'d>(node: Node<'d, 'd>) -> Option<String> {
-    let text = content_of(about(node).find(|of| is(*of, "status"))?);
+    let text = content_of(about(node).find(|around| is(*around, "status"))?);
     let text = text.trim();
     (!text.is_empty()).then(|| known(text).unwrap_or_else(|| text.to_owned()))
 }
@@ -88,20 +88,21 @@ fn of_conditions<'d>(node: Node<'d, 'd>) -> Option<String> {
     if !is(node, "quantity") && !is(node, "list") {
         return None;
     }
-    let conditions = about(node).filter(|of| is(*of, "influenceConditions"));
-    let conditions = conditions.flat_map(|of| of.children());
-    let is_bare = |of: &Node<'d, 'd>| !of.descendants().any(|of| is(of, "quantity"));
+    let conditions = about(node).filter(|around| is(*around, "influenceConditions"));
+    let conditions = conditions.flat_map(|list| list.children());
+    let is_bare =
+        |node: &Node<'d, 'd>| !node.descendants().any(|descendant| is(descendant, "quantity"));
     conditions.filter(is_bare).find_map(stated)
 }
 
 /// What the elements around a quantity are called: their ids, reference types and names, the inner ones
 /// first.
 pub(super) fn around<'d>(node: Node<'d, 'd>) -> Vec<String> {
-    let of_one = |of: Node<'d, 'd>| {
-        let id = of.attribute("id").map(str::to_owned);
-        let kinds = of.attribute("refType").unwrap_or_default().split(BLANKS);
+    let of_one = |node: Node<'d, 'd>| {
+        let id = node.attribute("id").map(str::to_owned);
+        let kinds = node.attribute("refType").unwrap_or_default().split(BLANKS);
         let kinds = kinds.filter(|kind| !kind.is_empty()).map(str::to_owned);
-        id.into_iter().chain(names(of)).chain(kinds).collect::<Vec<_>>()
+        id.into_iter().chain(names(node)).chain(kinds).collect::<Vec<_>>()
     };
     node.ancestors().skip(1).filter(Node::is_element).flat_map(of_one).collect()
 }

@@ -53,8 +53,8 @@ pub(super) fn list(first: &ModelFile, second: &ModelFile) -> Vec<String> {
 /// evaluation, and say what it is worth.
 fn of_evidence(first: &Map<String, Value>, second: &Map<String, Value>) -> Vec<String> {
     let [a, b] = [first, second].map(|file| file.get("inputs").and_then(Value::as_object));
-    let names = |of: Option<&Map<String, Value>>| -> Vec<String> {
-        of.map(|inputs| inputs.keys().cloned().collect()).unwrap_or_default()
+    let names = |fields: Option<&Map<String, Value>>| -> Vec<String> {
+        fields.map(|inputs| inputs.keys().cloned().collect()).unwrap_or_default()
     };
     let mut all = names(a);
     all.extend(names(b).into_iter().filter(|name| a.is_none_or(|a| !a.contains_key(name))));

@@ -56,8 +56,11 @@ pub(crate) fn notes(
     let Ok(program) = with.program(&[]) else { return Vec::new() };
     let mut farthest: Vec<Option<f64>> = vec![None; used.len()];
     for row in &task.rows {
-        let known =
-            row.distributions.iter().map(|of| of.mean()).chain(row.conditions.iter().copied());
+        let known = row
+            .distributions
+            .iter()
+            .map(|distribution| distribution.mean())
+            .chain(row.conditions.iter().copied());
         let known: Vec<f64> = known.collect();
         for ((x, curve), farthest) in program.evaluate(&known).iter().zip(&used).zip(&mut farthest)
         {

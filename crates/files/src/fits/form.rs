@@ -82,8 +82,10 @@ impl<'a> FitForm<'a> {
     #[allow(clippy::option_option)]
     pub(super) fn curve(
         &self,
-        (fit, fit_name): (&Object<'_>, &str),
-        (x, y): (&Unit, &Unit),
+        fit: &Object<'_>,
+        fit_name: &str,
+        x: &Unit,
+        y: &Unit,
         range: [f64; 2],
         numbers: NumberForm,
     ) -> Option<Option<Made>> {
@@ -155,7 +157,7 @@ impl<'a> FitForm<'a> {
         // numbers alone are in units that follow from those of x and y
         let empirical = numbers == NumberForm::Coherent && !start.has_units;
         let inferred = empirical
-            .then(|| parameter_units::inferred(fit.log, formula, (x, y), range, &start.parameters))
+            .then(|| parameter_units::inferred(fit.log, formula, x, y, range, &start.parameters))
             .flatten();
         let is_unchecked = empirical && inferred.is_none();
         let is_of_radians = x.turn() == Some(Turn::Angle) && x.dimension().is_none();

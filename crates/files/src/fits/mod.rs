@@ -156,7 +156,7 @@ impl FitReader<'_, '_> {
         };
         let (form, (points, (x, y), is_stated)) = (form?, points?);
         let points = Arc::new(if estimated { points.estimated() } else { points });
-        let made = form.curve((&object, self.name), (&x, &y), points.range(), numbers)?;
+        let made = form.curve(&object, self.name, &x, &y, points.range(), numbers)?;
         let origin = match object.get("origin") {
             None => 0.0,
             Some(_) => object.value("origin", &x, ValueOf::Quantity)?,
@@ -179,7 +179,7 @@ impl FitReader<'_, '_> {
         };
         let fitted = fitted.map_err(|error| self.report(&error)).ok()?;
         let parameters = named.unwrap_or_else(|| {
-            coefficients(&object.log.own_units(), self.name, fitted.count(), (&x, &y))
+            coefficients(&object.log.own_units(), self.name, fitted.count(), &x, &y)
         });
         let curve = self.function(fitted, (x, y), parameters, numbers)?;
         Some(curve.stating(is_stated))
@@ -298,12 +298,7 @@ impl FitReader<'_, '_> {
 }
 
 /// The names of a polynomial's coefficients, a and on, with their units.
-fn coefficients(
-    own: &[Unit],
-    name: &str,
-    count: usize,
-    (x, y): (&Unit, &Unit),
-) -> Vec<(String, Unit)> {
+fn coefficients(own: &[Unit], name: &str, count: usize, x: &Unit, y: &Unit) -> Vec<(String, Unit)> {
     ('a'..='z')
         .take(count)
         .enumerate()

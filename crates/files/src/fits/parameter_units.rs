@@ -27,7 +27,8 @@ const ROUNDING: f64 = 1e-9;
 pub(super) fn inferred(
     log: &Collector,
     formula: &Formula,
-    (x, y): (&Unit, &Unit),
+    x: &Unit,
+    y: &Unit,
     [least, most]: [f64; 2],
     parameters: &[(String, Unit, f64)],
 ) -> Option<Vec<Unit>> {
@@ -79,7 +80,8 @@ pub(super) fn inferred(
         let agrees = |(place, expected): (&f64, &Option<f64>)| {
             let own = parameters.iter().zip(&chosen);
             let own = own.map(|((name, _, value), unit)| (name.clone(), unit.to_si(*value)));
-            let coherent = value(formula, &scope, own, x.to_si(*place)).map(|of| y.from_si(of));
+            let coherent =
+                value(formula, &scope, own, x.to_si(*place)).map(|value| y.from_si(value));
             match (coherent, expected) {
                 (Some(a), Some(b)) => (a - b).abs() <= ROUNDING * b.abs(),
                 (None, None) => true,

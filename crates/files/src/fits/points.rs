@@ -85,7 +85,7 @@ pub(super) fn read(
             };
             let place = object.get("column").or(object.get("file"));
             let place = place.map_or(object.place(), |member| &member.value.span);
-            column_of(log, table, (name, column, place), (&unit, ValueOf::Quantity))?
+            column_of(log, table, name, column, place, (&unit, ValueOf::Quantity))?
         }
         (None, _) => {
             object.required("values")?;
@@ -96,7 +96,7 @@ pub(super) fn read(
         object.report(DiagnosticKind::NoValues { name: name.to_owned() });
         return None;
     }
-    let spread = spread(&object, name, &values, &unit, table.as_deref(), (folder, files))?;
+    let spread = spread(&object, name, &values, &unit, table.as_deref(), folder, files)?;
     let is_stated = object.get("unit").is_some();
     Some(Side { values, unit, is_stated, spread })
 }
@@ -105,7 +105,9 @@ pub(super) fn read(
 fn column_of(
     log: &Collector,
     table: &Table,
-    (name, column, place): (&str, &str, &std::ops::Range<usize>),
+    name: &str,
+    column: &str,
+    place: &std::ops::Range<usize>,
     of: (&Unit, ValueOf),
 ) -> Option<Vec<f64>> {
     let Some(column) = table.column(column) else {
@@ -124,7 +126,8 @@ fn spread(
     values: &[f64],
     unit: &Unit,
     table: Option<&Table>,
-    (folder, files): (Folder<'_>, &mut Vec<(String, Vec<u8>)>),
+    folder: Folder<'_>,
+    files: &mut Vec<(String, Vec<u8>)>,
 ) -> Option<Spread> {
     let log = side.log;
     match (side.get("standard_uncertainty"), side.get("covariance")) {
@@ -139,7 +142,8 @@ fn spread(
             matrix::covariance(log, member, values.len(), folder, files).map(Spread::Joint)
         }
         (Some(member), None) => {
-            let squares = |of: Vec<f64>| Some(Spread::Each(of.iter().map(|u| u * u).collect()));
+            let squares =
+                |values: Vec<f64>| Some(Spread::Each(values.iter().map(|u| u * u).collect()));
             let column = |text: &str| table.filter(|table| table.column(text).is_some());
             let each = match &member.value.value {
                 Json::List(_) => {
@@ -157,12 +161,11 @@ fn spread(
                     each
                 }
                 Json::Text(text) if column(text).is_some() => {
-                    let named = (name, text.as_str(), &member.value.span);
-                    column_of(log, column(text)?, named, (unit, ValueOf::Difference))?
+                    let of = (unit, ValueOf::Difference);
+                    column_of(log, column(text)?, name, text, &member.value.span, of)?
                 }
                 _ => {
-                    let width =
-                        Width::read(log, &member.value, (name, "standard_uncertainty"), unit);
+                    let width = Width::read(log, &member.value, name, "standard_uncertainty", unit);
                     let width = log.value(&member.value.span, width)?;
                     values.iter().map(|value| width.at(*value)).collect()
                 }

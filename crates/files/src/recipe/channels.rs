@@ -55,7 +55,7 @@ pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile]) -> Option<Ve
 fn refuse_uncertainties_of(log: &Collector, members: &[Member]) {
     for member in members {
         let of = member.key.strip_prefix("u_");
-        if let Some(of) = of.filter(|of| members.iter().any(|other| other.key == *of)) {
+        if let Some(of) = of.filter(|base| members.iter().any(|other| other.key == *base)) {
             let reason =
                 format!("`{}_amplitude` is the uncertainty of the amplitude of `{of}`", member.key);
             let name = member.key.clone();

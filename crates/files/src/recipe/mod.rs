@@ -143,8 +143,8 @@ fn recipe(root: &Object<'_>, folder: Folder<'_>) -> Option<RecipeFile> {
     let seed = root.whole("seed", 0, u64::MAX).unwrap_or(1);
     let (rows, conditions, frequency) = rows::read(root, &recordings, method == Some(Method::Fft))?;
     let channels = channels?;
-    let searches = recordings.iter().enumerate().map(|(number, of)| {
-        of.search.as_ref().and_then(|of| of.resolved(root.log, number, &channels))
+    let searches = recordings.iter().enumerate().map(|(number, recording)| {
+        recording.search.as_ref().and_then(|search| search.resolved(root.log, number, &channels))
     });
     let searches = searches.collect();
     check_references(root.log, &channels, reference?);
@@ -300,9 +300,8 @@ impl RecipeFile {
                     continue;
                 }
             };
-            let named = (bytes, name.as_str());
-            let reading =
-                file.reading(named, channels.iter().map(of).collect(), slowest, *from, *to);
+            let channels_of_file = channels.iter().map(of).collect();
+            let reading = file.reading(bytes, name, channels_of_file, slowest, *from, *to);
             match recording::open(reading) {
                 Ok(recording) => {
                     for channel in &channels {
@@ -349,13 +348,14 @@ impl RecipeFile {
         let of_row = self.rows.get(row);
         let file = |channel: usize| {
             let recording = self.channels.get(channel).map_or(0, |file| file.recording);
-            of_row.and_then(|of| of.files.get(recording)).map_or("", |(name, _)| name.as_str())
+            of_row.and_then(|row| row.files.get(recording)).map_or("", |(name, _)| name.as_str())
         };
-        let name =
-            |channel: usize| self.channels.get(channel).map_or("", |of| of.channel.name.as_str());
+        let name = |channel: usize| {
+            self.channels.get(channel).map_or("", |channel| channel.channel.name.as_str())
+        };
         let place = |channel: usize| format!("`{}`, channel `{}`", file(channel), name(channel));
         let own = self.channels.get(refused.channel().unwrap_or(0));
-        let mut span = of_row.map_or(0..0, |of| of.frequency_place.clone());
+        let mut span = of_row.map_or(0..0, |row| row.frequency_place.clone());
         // products and quotients of what the recipe says: without the rounding of the last digits
         let shortest = |value: f64| {
             gumption_engine::number::Shortest(format!("{value:.11e}").parse().unwrap_or(value))
@@ -395,14 +395,14 @@ impl RecipeFile {
                 place(*channel)
             ),
             Refused::Step { channel, step, reason } => {
-                if let Some(of) = own.and_then(|of| of.step_places.get(*step)) {
+                if let Some(of) = own.and_then(|own| own.step_places.get(*step)) {
                     span = of.clone();
                 }
                 format!("{}: {reason}", place(*channel))
             }
             Refused::Rate { channel, reason } => {
-                let recording = own.and_then(|of| self.recordings.get(of.recording));
-                if let Some(search) = recording.and_then(|of| of.search.as_ref()) {
+                let recording = own.and_then(|own| self.recordings.get(own.recording));
+                if let Some(search) = recording.and_then(|recording| recording.search.as_ref()) {
                     span = search.place.clone();
                 }
                 format!("{}: {reason}", place(*channel))

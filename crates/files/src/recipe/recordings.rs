@@ -66,8 +66,8 @@ pub(super) fn read(root: &Object<'_>, folder: Folder<'_>) -> Option<Vec<Recordin
         };
         keys::check(&of, keys::RECORDING);
         let search = search(&of);
-        let found = search.as_ref().map(|of| Measured {
-            value: f64::midpoint(of.between[0], of.between[1]),
+        let found = search.as_ref().map(|search| Measured {
+            value: f64::midpoint(search.between[0], search.between[1]),
             standard_uncertainty: 0.0,
             degrees_of_freedom: f64::INFINITY,
         });
@@ -221,7 +221,8 @@ impl RecordingFile {
     /// How to read one of its files, by its bytes and its name.
     pub(super) fn reading(
         &self,
-        (bytes, name): (Bytes, &str),
+        bytes: Bytes,
+        name: &str,
         channels: Vec<(Wanted, Conversion)>,
         slowest: Option<f64>,
         from: Option<f64>,

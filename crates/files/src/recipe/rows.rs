@@ -114,12 +114,13 @@ impl RecipeRowsReader<'_> {
         }
         let values = self.values(object.as_ref(), &place);
         let files = self.files(object.as_ref(), &place);
-        let seconds = |key| object.as_ref().and_then(|of| quantity(of, key, "s")).map(|q| q.si());
+        let seconds =
+            |key| object.as_ref().and_then(|object| quantity(object, key, "s")).map(|q| q.si());
         let (from, to) = (seconds("from"), seconds("to"));
         if let Some(object) = &object {
             check_part(object, from, to);
         }
-        let part = |of: &RecordingFile| [from.or(of.from), to.or(of.to)];
+        let part = |file: &RecordingFile| [from.or(file.from), to.or(file.to)];
         Some(RecipeRow {
             frequencies: frequencies?,
             conditions: values?,
@@ -176,16 +177,16 @@ impl RecipeRowsReader<'_> {
             Some(member) => Some(Object::new(log, "`files`", &member.value, &member.key_span)?),
             None => None,
         };
-        for member in of.iter().flat_map(|of| of.members()) {
+        for member in of.iter().flat_map(|object| object.members()) {
             if !self.recordings.iter().any(|recording| recording.name == member.key) {
                 let reason = format!("there is no recording `{}`", member.key);
                 log.report(&member.key_span, DiagnosticKind::Recipe { reason });
             }
         }
         let file = |recording: &RecordingFile| {
-            let own = of.as_ref().and_then(|of| {
-                let member = of.get(&recording.name)?;
-                Some((of.text(&recording.name)?.to_owned(), member.value.span.clone()))
+            let own = of.as_ref().and_then(|object| {
+                let member = object.get(&recording.name)?;
+                Some((object.text(&recording.name)?.to_owned(), member.value.span.clone()))
             });
             let found = own.or_else(|| recording.file.clone());
             if found.is_none() {
@@ -241,7 +242,7 @@ fn frequencies(object: &Object<'_>, member: &Member) -> Option<Vec<Frequency>> {
                 .collect()
         }
     };
-    let wrong = list.iter().filter_map(|of| of.hertz).find(|hertz| *hertz <= 0.0);
+    let wrong = list.iter().filter_map(|frequency| frequency.hertz).find(|hertz| *hertz <= 0.0);
     if let Some(found) = wrong {
         let key = "frequency".to_owned();
         object.log.report(&member.value.span, DiagnosticKind::NotPositive { key, found });

@@ -37,7 +37,7 @@ impl ComparisonReader<'_> {
         let said = |value: f64| unit.after(&Shortest(to_15_digits(value)).to_string());
         let angles: Vec<f64> = results.iter().map(|(_, result)| result.value).collect();
         let added = branches(&angles, turn).map_err(|pair| {
-            let of = |place: usize| results.get(place).map(|(name, of)| (name, said(of.value)));
+            let of = |place: usize| results.get(place).map(|(name, number)| (name, said(number.value)));
             let [a, b] = pair.map(|place| of(place).map_or_else(String::new, |(name, value)| {
                 format!("`{name}`, {value}")
             }));

@@ -36,8 +36,14 @@ impl ComparisonReader<'_> {
             return None;
         }
         let is_of_pairs = results != [0];
-        let stray =
-            |of: u8| [Role::Value(of), Role::Expanded(of), Role::Standard(of), Role::Factor(of)];
+        let stray = |result: u8| {
+            [
+                Role::Value(result),
+                Role::Expanded(result),
+                Role::Standard(result),
+                Role::Factor(result),
+            ]
+        };
         let others: Vec<Role> = match is_of_pairs {
             true => stray(0).to_vec(),
             false => [stray(1), stray(2)].concat().into_iter().chain([Role::Correlation]).collect(),
@@ -92,9 +98,9 @@ impl ComparisonReader<'_> {
 
     /// Whether all values and uncertainties have units, or none.
     fn check_units(&self, results: &[u8]) -> Option<()> {
-        let roles = results
-            .iter()
-            .flat_map(|of| [Role::Value(*of), Role::Expanded(*of), Role::Standard(*of)]);
+        let roles = results.iter().flat_map(|result| {
+            [Role::Value(*result), Role::Expanded(*result), Role::Standard(*result)]
+        });
         let places: Vec<usize> = roles.filter_map(|role| self.columns.place(role)).collect();
         let of_cells = |place: usize| {
             (0..self.numbers.table.rows()).any(|row| self.numbers.has_unit(row, place))
@@ -142,8 +148,8 @@ impl ComparisonReader<'_> {
     }
 
     fn is_uncertainty(&self, place: usize) -> bool {
-        (0..3).any(|of| {
-            let own = [Role::Expanded(of), Role::Standard(of)];
+        (0..3).any(|result| {
+            let own = [Role::Expanded(result), Role::Standard(result)];
             own.into_iter().any(|role| self.columns.place(role) == Some(place))
         })
     }

@@ -28,17 +28,18 @@ pub(super) struct Columns {
 fn owned(roles: &mut [(Role, usize)], is_owned: impl Fn(usize) -> bool, is_against: bool) {
     let kinds = [Role::Value, Role::Expanded, Role::Standard, Role::Factor];
     let place = |roles: &[(Role, usize)], role: Role| {
-        roles.iter().find(|(of, _)| *of == role).map(|(_, place)| *place)
+        roles.iter().find(|(own, _)| *own == role).map(|(_, place)| *place)
     };
     let change = |roles: &mut [(Role, usize)], from: Role, to: Role| {
         if let (Some(at), None) = (place(roles, from), place(roles, to))
-            && let Some(found) = roles.iter_mut().find(|(_, of)| *of == at)
+            && let Some(found) = roles.iter_mut().find(|(_, own)| *own == at)
         {
             found.0 = to;
         }
     };
-    let has_any =
-        |roles: &[(Role, usize)], of: u8| kinds.iter().any(|kind| place(roles, kind(of)).is_some());
+    let has_any = |roles: &[(Role, usize)], result: u8| {
+        kinds.iter().any(|kind| place(roles, kind(result)).is_some())
+    };
     if place(roles, Role::Value(2)).is_some_and(&is_owned) {
         let has_own_u = [Role::Expanded(2), Role::Standard(2)]
             .into_iter()
@@ -105,8 +106,9 @@ impl Columns {
         };
         let mut nominal = Vec::new();
         // the difference of two results is computed here; beside one value it may be the result
-        let is_pair =
-            [1, 2].iter().all(|of| found.iter().any(|(role, ..)| *role == Role::Value(*of)));
+        let is_pair = [1, 2]
+            .iter()
+            .all(|result| found.iter().any(|(role, ..)| *role == Role::Value(*result)));
         for (of, place) in deviations {
             let is_other = |other: &&(Role, bool, usize)| match other.0 {
                 Role::Value(other) => of == 0 || other == of,
@@ -127,13 +129,14 @@ impl Columns {
                 }
             }
         }
-        if found.iter().any(|of| is_value(of.0) && !is_nominal(of)) {
-            nominal.extend(found.extract_if(.., |of| is_nominal(of)).map(|(_, _, place)| place));
+        if found.iter().any(|found| is_value(found.0) && !is_nominal(found)) {
+            nominal
+                .extend(found.extract_if(.., |found| is_nominal(found)).map(|(_, _, place)| place));
         }
         let mut roles: Vec<(Role, usize)> = Vec::new();
         for &(role, is_symbol, place) in &found {
             let others: Vec<&(Role, bool, usize)> =
-                found.iter().filter(|(of, _, at)| *of == role && *at != place).collect();
+                found.iter().filter(|(own, _, at)| *own == role && *at != place).collect();
             let before = others.iter().any(|(_, symbol, at)| match role {
                 // of several words the first one is the label
                 Role::Label => *symbol && !is_symbol || *symbol == is_symbol && *at < place,
@@ -157,7 +160,7 @@ impl Columns {
             roles.push((role, place));
         }
         // points are no laboratories, whose results have a mean
-        let has = |role: Role| roles.iter().any(|(of, _)| *of == role);
+        let has = |role: Role| roles.iter().any(|(own, _)| *own == role);
         if has(Role::Value(2)) && !has(Role::Label) {
             let is_point = |place: &usize| headings::is_of_points(heading(*place));
             let is_nominal = |place: &usize| columns::is_nominal(heading(*place));
@@ -170,7 +173,7 @@ impl Columns {
         }
         owned(&mut roles, |place| headings::is_of_party(heading(place)), is_against);
         for &(of, place) in &doubtful {
-            let has = |role: Role| roles.iter().any(|(of, _)| *of == role);
+            let has = |role: Role| roles.iter().any(|(own, _)| *own == role);
             let is_only = doubtful.iter().filter(|(other, _)| *other == of).count() == 1;
             let is_free = is_only && !has(Role::Expanded(of));
             // a factor tells that they are expanded, and a cell with a value may say it itself
@@ -186,7 +189,7 @@ impl Columns {
             }
         }
         for of in 0..=2 {
-            let place = |role: Role| roles.iter().find(|(of, _)| *of == role).map(|(_, at)| *at);
+            let place = |role: Role| roles.iter().find(|(own, _)| *own == role).map(|(_, at)| *at);
             let uncertain = place(Role::Expanded(of)).or(place(Role::Standard(of)));
             match (place(Role::Value(of)), uncertain) {
                 (Some(value), None) if holds_both(value) => roles.push((Role::Expanded(of), value)),
@@ -242,7 +245,7 @@ impl Columns {
 
     /// The place of the column that holds this.
     pub(super) fn place(&self, role: Role) -> Option<usize> {
-        self.roles.iter().find(|(of, _)| *of == role).map(|(_, place)| *place)
+        self.roles.iter().find(|(own, _)| *own == role).map(|(_, place)| *place)
     }
 
     pub(super) fn has(&self, role: Role) -> bool {
@@ -267,17 +270,17 @@ impl Columns {
 
     /// The place of a condition.
     pub(super) fn condition(&self, name: &str) -> Option<usize> {
-        self.conditions.iter().find(|(of, _)| of == name).map(|(_, place)| *place)
+        self.conditions.iter().find(|(own, _)| own == name).map(|(_, place)| *place)
     }
 
     /// The unit that the heading of a column states.
     pub(super) fn unit(&self, place: usize) -> Option<&UnitOfHeading> {
-        self.units.iter().find(|(of, _)| *of == place).map(|(_, unit)| unit)
+        self.units.iter().find(|(own, _)| *own == place).map(|(_, unit)| unit)
     }
 
     /// What the heading of a column says of the coverage.
     pub(super) fn coverage(&self, place: usize) -> HeaderCoverage {
-        let found = self.coverages.iter().find(|(of, _)| *of == place);
+        let found = self.coverages.iter().find(|(own, _)| *own == place);
         found.map_or(HeaderCoverage::None, |(_, coverage)| *coverage)
     }
 }

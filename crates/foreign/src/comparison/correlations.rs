@@ -60,7 +60,8 @@ impl Matrix<'_> {
         });
         let skipped = usize::from(is_of_names);
         let all = self.labels.len();
-        let unknown = headings.iter().skip(skipped).find(|of| !self.labels.contains(&of.as_str()));
+        let unknown =
+            headings.iter().skip(skipped).find(|heading| !self.labels.contains(&heading.as_str()));
         if let Some(unknown) = unknown {
             fail(format!(
                 "no laboratory of the table is called `{unknown}`: the header of the matrix has the names \
@@ -70,7 +71,8 @@ impl Matrix<'_> {
         }
         let mut columns = Vec::new();
         for label in self.labels {
-            let Some(place) = headings.iter().skip(skipped).position(|of| of == label) else {
+            let Some(place) = headings.iter().skip(skipped).position(|heading| heading == label)
+            else {
                 fail(format!(
                     "`{label}` has no column: the header of the matrix has the names of all {all} \
                      laboratories; coefficients of 0 are written"
@@ -111,7 +113,7 @@ impl Matrix<'_> {
     fn coefficient(&self, i: usize, j: usize, rows: &[usize], columns: &[usize]) -> Option<f64> {
         let cells = [(rows[i], columns[j]), (rows[j], columns[i])];
         let (a, b) = (self.labels[i], self.labels[j]);
-        let place = |of: (usize, usize)| self.numbers.table.place(of.0, of.1);
+        let place = |cell: (usize, usize)| self.numbers.table.place(cell.0, cell.1);
         let held = cells.map(|(row, column)| !self.numbers.table.text(row, column).is_empty());
         let read = |which: usize| self.numbers.bare(cells[which].0, cells[which].1);
         if i == j {

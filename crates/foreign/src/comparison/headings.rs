@@ -256,9 +256,9 @@ fn said_of_any(heading: &str) -> HeadingMeaning {
         return HeadingMeaning::Role(Role::Value(0), false);
     }
     let is_from = ["deviation from ", "abweichung vom ", "abweichung von ", "écart à "];
-    let is_deviation = |of: &&str| *of == words.as_str();
+    let is_deviation = |word: &&str| *word == words.as_str();
     if ERRORS.iter().chain(&DEVIATIONS).any(is_deviation)
-        || is_from.iter().any(|of| words.starts_with(of))
+        || is_from.iter().any(|start| words.starts_with(start))
     {
         return HeadingMeaning::Deviation(0);
     }
@@ -297,7 +297,7 @@ fn numbered(name: &str) -> (&str, u8) {
 fn of_symbol(name: &str) -> Option<f64> {
     let digits = name.strip_prefix('U')?.trim_start_matches('_');
     let is_probability =
-        digits.len() >= 2 && digits.bytes().all(|of| of.is_ascii_digit() || of == b'.');
+        digits.len() >= 2 && digits.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
     digits.parse().ok().filter(|p| is_probability && (50.0..100.0).contains(p))
 }
 
@@ -361,7 +361,7 @@ pub(super) fn unit(
 ) -> Result<Option<UnitOfHeading>, String> {
     let own = without_party(heading);
     let is_of_value = brackets(&own).any(|(_, _, inside)| {
-        inside.split_once(' ').is_some_and(|(_, of)| columns::is_of_estimate(of))
+        inside.split_once(' ').is_some_and(|(_, inside)| columns::is_of_estimate(inside))
     });
     let of = |text: &str| parse(text).map(|unit| UnitOfHeading { unit, is_of_value });
     // of words of uncertainties nothing else may be there
@@ -425,7 +425,7 @@ pub(super) fn is_like_uncertainty(heading: &str, known: &[&str]) -> bool {
         matches!(column, Symbol | Quantity | Description | Remark)
     };
     let is_other = columns::column(heading).is_some_and(|column| !holds_texts(&column));
-    let near = known.iter().filter(|of| of.len() > 3).copied();
+    let near = known.iter().filter(|known| known.len() > 3).copied();
     is_symbol
         || is_other
         || PARTS.iter().any(|part| words.contains(part))

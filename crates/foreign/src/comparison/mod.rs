@@ -222,9 +222,7 @@ impl ComparisonReader<'_> {
                     let own = first.as_ref().map(|first| first.value.unit.is_some());
                     let in_unit = own.map(|own| *has_units.get_or_insert(own));
                     let at = self.at(row, answer, conditions);
-                    at.and_then(|at| {
-                        self.of_answer((row, label), answer, &at, in_unit == Some(true))
-                    })
+                    at.and_then(|at| self.of_answer(row, label, answer, &at, in_unit == Some(true)))
                 }
                 None => self.stated(row, 2),
             };
@@ -315,7 +313,9 @@ impl ComparisonReader<'_> {
             laboratories.push(Laboratory { label: name, result });
         }
         let unit = wanted.flatten();
-        let named = laboratories.iter_mut().map(|of| (of.label.clone(), &mut of.result));
+        let named = laboratories
+            .iter_mut()
+            .map(|laboratory| (laboratory.label.clone(), &mut laboratory.result));
         let mut named: Vec<branches::Named<'_>> = named.collect();
         if let Err(reason) = self.on_one_branch(&mut named, unit.as_ref()) {
             self.fail(reason);
@@ -325,7 +325,8 @@ impl ComparisonReader<'_> {
         }
         let correlations = match self.options.correlations {
             Some(path) => {
-                let labels: Vec<&str> = laboratories.iter().map(|of| of.label.as_str()).collect();
+                let labels: Vec<&str> =
+                    laboratories.iter().map(|laboratory| laboratory.label.as_str()).collect();
                 correlations::read(self.numbers.log, path, &labels)?
             }
             None => Vec::new(),
@@ -400,7 +401,8 @@ impl ComparisonReader<'_> {
     /// where the table has units.
     fn of_answer(
         &self,
-        (row, label): (usize, usize),
+        row: usize,
+        label: usize,
         answer: &answer::Answer,
         at: &[(&str, f64)],
         in_unit: bool,

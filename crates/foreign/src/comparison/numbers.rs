@@ -62,7 +62,8 @@ impl<'a> Numbers<'a> {
             return true;
         }
         let headings = table.columns();
-        let places = (0..table.rows()).flat_map(|row| (0..headings.len()).map(move |of| (row, of)));
+        let places =
+            (0..table.rows()).flat_map(|row| (0..headings.len()).map(move |column| (row, column)));
         let cells = places.flat_map(|(row, column)| {
             let text = table.text(row, column);
             let (estimate, uncertainty) = sides(text).map_or((text, None), |(a, b)| (a, Some(b)));
@@ -81,7 +82,7 @@ impl<'a> Numbers<'a> {
     /// The text of a cell as a name: of a date or a time what it shows.
     pub(super) fn name(&self, row: usize, column: usize) -> &'a str {
         let text = self.table.text(row, column);
-        let is_date = self.sheet.is_some_and(|of| of.is_date(self.table.line(row), column));
+        let is_date = self.sheet.is_some_and(|sheet| sheet.is_date(self.table.line(row), column));
         text.split_once(' ').filter(|_| is_date).map_or(text, |(_, shown)| shown)
     }
 
@@ -110,7 +111,7 @@ impl<'a> Numbers<'a> {
             self.log.report_at(place(), DiagnosticKind::Table { reason });
         };
         let line = self.table.line(row);
-        if let Some(reason) = self.sheet.and_then(|of| of.no_number(line, column)) {
+        if let Some(reason) = self.sheet.and_then(|sheet| sheet.no_number(line, column)) {
             fail(reason);
             return None;
         }
@@ -162,7 +163,7 @@ impl<'a> Numbers<'a> {
             }
             return None;
         }
-        let shown = self.sheet.and_then(|of| of.last_digit(line, column));
+        let shown = self.sheet.and_then(|sheet| sheet.last_digit(line, column));
         let last = shown.unwrap_or_else(|| power_of_last_digit(&digits));
         let printed = shown.map_or(value, |last| to_position(value, last));
         Some(Number { value, printed, half_unit: half_unit(last), unit: parsed })

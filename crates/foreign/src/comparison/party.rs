@@ -81,7 +81,7 @@ fn compound(word: &str) -> Option<(u8, &'static str)> {
     let ends = ["", "s", "es", "e"].into_iter();
     ends.filter_map(|end| small.strip_suffix(end)).find_map(|word| {
         NOUNS.iter().find_map(|(ending, noun)| {
-            let of = word.strip_suffix(ending).filter(|of| !of.is_empty())?;
+            let of = word.strip_suffix(ending).filter(|stem| !stem.is_empty())?;
             Some((owner(of.trim_end_matches('-'))?, *noun))
         })
     })
@@ -104,13 +104,14 @@ const NOUNS_OF_VALUES: [&str; 7] =
 /// Whether a word is that of an uncertainty.
 fn is_of_uncertainty(word: &str) -> bool {
     let small = word.to_lowercase();
-    matches!(word, "U" | "u") || ["uncert", "unsich", "incert"].iter().any(|of| small.contains(of))
+    matches!(word, "U" | "u")
+        || ["uncert", "unsich", "incert"].iter().any(|word_part| small.contains(word_part))
 }
 
 /// The owner in a name of two words, and the other one: `Value_lab`, `ref_U`.
 fn joined(word: &str) -> Option<(u8, &str)> {
     let (first, second) = word.split_once('_')?;
-    owner(second).map(|of| (of, first)).or_else(|| owner(first).map(|of| (of, second)))
+    owner(second).map(|party| (party, first)).or_else(|| owner(first).map(|party| (party, second)))
 }
 
 /// The owner of what a heading stands above, and the heading without it: of `Ref. U [V]` it is `U [V]`.
@@ -127,9 +128,11 @@ pub(super) fn split(heading: &str) -> Option<(u8, String)> {
         // of an index in brackets the symbol stands before them: `u(x_ref)`
         let is_enclosed = word.starts_with(['(', '[']);
         let own = owner(bare)
-            .map(|of| (of, ""))
+            .map(|party| (party, ""))
             .or_else(|| compound(bare))
-            .or_else(|| indexed(bare).map(|(of, stem)| (of, if is_enclosed { "" } else { stem })))
+            .or_else(|| {
+                indexed(bare).map(|(party, stem)| (party, if is_enclosed { "" } else { stem }))
+            })
             .or_else(|| joined(bare));
         match own {
             Some((of, _)) if found.is_some_and(|other| other != of) => return None,

@@ -71,7 +71,7 @@ pub(super) fn results(
         let has_value = of(|role| matches!(role, Role::Value(_)));
         (has_value || header.iter().any(is_deviation)) && is_uncertain
     };
-    read(path, content, (sheet, &RESULTS), holds)
+    read(path, content, sheet, &RESULTS, holds)
 }
 
 /// The matrix of correlation coefficients of these laboratories in a file.
@@ -81,13 +81,14 @@ pub(super) fn matrix(
     labels: &[&str],
 ) -> Result<Content, DiagnosticKind> {
     let holds = |header: &[String]| header.iter().any(|cell| labels.contains(&cell.trim()));
-    read(path, content, (None, &MATRIX), holds)
+    read(path, content, None, &MATRIX, holds)
 }
 
 fn read(
     path: &Path,
     content: Vec<u8>,
-    (sheet, wanted): (Option<&str>, &Wanted),
+    sheet: Option<&str>,
+    wanted: &Wanted,
     holds: impl Fn(&[String]) -> bool,
 ) -> Result<Content, DiagnosticKind> {
     let unreadable = |message| DiagnosticKind::Unreadable { message };

@@ -63,7 +63,7 @@ impl ComparisonReader<'_> {
     }
 
     /// The factor of a row's expanded uncertainty; `None` after a mistake.
-    fn factor(&self, row: usize, of: u8, (place, expanded): (usize, &Number)) -> Option<f64> {
+    fn factor(&self, row: usize, of: u8, place: usize, expanded: &Number) -> Option<f64> {
         let coverage = self.columns.coverage(place);
         let stated = match self.columns.place(Role::Factor(of)) {
             // a cell that is empty is refused
@@ -173,7 +173,7 @@ impl ComparisonReader<'_> {
         };
         let factor = match (expanded, &uncertainty) {
             _ if in_one.is_some() => in_one,
-            (Some(place), Some(uncertainty)) => self.factor(row, of, (place, uncertainty)),
+            (Some(place), Some(uncertainty)) => self.factor(row, of, place, uncertainty),
             (None, _) => Some(1.0),
             // its factor may be a mistake as well
             (Some(_), None) => {
@@ -228,7 +228,7 @@ impl ComparisonReader<'_> {
                 if value
                     .unit
                     .as_ref()
-                    .is_some_and(|of| of.is_celsius() || !of.level_exponent().is_zero()) =>
+                    .is_some_and(|unit| unit.is_celsius() || !unit.level_exponent().is_zero()) =>
             {
                 let own = value.unit.as_ref().map_or("", Unit::text);
                 fail(format!(

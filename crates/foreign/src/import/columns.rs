@@ -174,8 +174,9 @@ pub(crate) fn column(heading: &str) -> Option<Column> {
 fn strip_word<'t>(text: &'t str, word: &str) -> Option<&'t str> {
     let mut rest = text.chars();
     let is_one_letter = word.chars().count() < 3;
-    let is_it = word.chars().all(|of| {
-        rest.next().is_some_and(|c| c == of || !is_one_letter && c.to_lowercase().eq([of]))
+    let is_it = word.chars().all(|character| {
+        rest.next()
+            .is_some_and(|c| c == character || !is_one_letter && c.to_lowercase().eq([character]))
     });
     let rest = rest.as_str();
     let ends = rest.starts_with([' ', ',', ';']) && !rest.trim_matches([' ', ',', ';']).is_empty();
@@ -215,8 +216,8 @@ pub(crate) fn plain(text: &str) -> String {
 pub(crate) fn is_nominal(heading: &str) -> bool {
     let words = plain(heading);
     let small = heading.to_lowercase();
-    ["nominal", "nennwert", "valeur nominale"].iter().any(|of| words.starts_with(of))
-        || ["(nominal", "(nennwert"].iter().any(|of| small.contains(of))
+    ["nominal", "nennwert", "valeur nominale"].iter().any(|start| words.starts_with(start))
+        || ["(nominal", "(nennwert"].iter().any(|start| small.contains(start))
 }
 
 /// Whether a text is a symbol with an index or an argument, as `x_i`, `u(x_i)` and `u_i(y)`.
@@ -235,7 +236,7 @@ pub(crate) fn without_in(text: &str) -> &str {
 /// Whether words behind a share say that it is one of the estimate.
 pub(crate) fn is_of_estimate(words: &str) -> bool {
     let small = words.trim().to_lowercase();
-    words::of("heading:share").any(|of| of == small)
+    words::of("heading:share").any(|word| word == small)
 }
 
 /// Whether a text speaks of correlation.

@@ -19,7 +19,7 @@ pub(crate) fn concise(text: &str, decimal_comma: bool) -> Option<(f64, f64, &str
         power => format!("{}e{power}", digits.trim_end()),
     };
     let value = number(&digits, decimal_comma).filter(|_| !digits.contains('%'))?;
-    let is_written = !inside.is_empty() && inside.bytes().all(|of| of.is_ascii_digit());
+    let is_written = !inside.is_empty() && inside.bytes().all(|byte| byte.is_ascii_digit());
     // half of a unit of the last digit of the number
     let std = number(inside, false).filter(|_| is_written)? * 2.0 * half_digit(&digits);
     let std = if power == 0 { std } else { to_15_digits(std) };

@@ -268,7 +268,7 @@ fn of_coverage(behind: &str) -> Option<&str> {
         if JOINS.contains(&word) || word.starts_with("dof") || word.starts_with('ν') {
             return Some(rest);
         }
-        let known = WORDS.iter().find(|of| next.starts_with(**of))?;
+        let known = WORDS.iter().find(|word| next.starts_with(**word))?;
         rest = &next[end.max(known.len())..];
     }
 }

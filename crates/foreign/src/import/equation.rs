@@ -122,7 +122,8 @@ impl ReadSheet<'_> {
         let parsed = Formula::parse(&formula);
         match parsed {
             Ok(parsed) if is_name && parsed.names().next().is_some() => {
-                let all_known = parsed.names().all(|(of, _)| known.iter().any(|name| name == of));
+                let all_known =
+                    parsed.names().all(|(used, _)| known.iter().any(|name| name == used));
                 Some((names_quantity || all_known || *is_labelled).then_some(Equation {
                     line: *line,
                     name,
@@ -157,9 +158,9 @@ impl ReadSheet<'_> {
     fn in_order(&self, read: Vec<Equation>, known: &[String]) -> Option<Vec<Equation>> {
         let names: Vec<Vec<String>> = read.iter().map(Equation::names).collect();
         let is_whole = |place: &usize| {
-            names[*place]
-                .iter()
-                .all(|name| known.contains(name) || read.iter().any(|of| of.name == *name))
+            names[*place].iter().all(|name| {
+                known.contains(name) || read.iter().any(|quantity| quantity.name == *name)
+            })
         };
         let whole: Vec<usize> = (0..read.len()).filter(is_whole).collect();
         if let Some(equation) = read.first().filter(|_| whole.is_empty()) {
@@ -211,7 +212,7 @@ impl ReadSheet<'_> {
             for name in &names[place] {
                 let by = whole.iter().copied().find(|by| read[*by].name == *name);
                 if let Some(by) = by.filter(|_| !known.contains(name)) {
-                    needed.retain(|of| *of != by || next == 0);
+                    needed.retain(|other| *other != by || next == 0);
                     needed.push(by);
                 }
             }
@@ -272,7 +273,7 @@ pub(super) fn as_formula(right: &str, decimal_comma: bool) -> String {
 pub(super) fn is_of_uncertainties(left: &str, right: &str) -> bool {
     const FUNCTIONS: [&str; 5] = ["u_c(", "uc(", "u_i(", "u(", "U("];
     let compact: String = left.split_whitespace().collect();
-    let is_combined = FUNCTIONS.iter().any(|of| compact.starts_with(of))
+    let is_combined = FUNCTIONS.iter().any(|function| compact.starts_with(function))
         || matches!(compact.as_str(), "uc" | "u_c");
     if !is_combined && !matches!(compact.as_str(), "U" | "U95" | "u") {
         return false;
@@ -280,7 +281,7 @@ pub(super) fn is_of_uncertainties(left: &str, right: &str) -> bool {
     // `u(a)` is one name, whatever `a` is
     let mut right: String = right.split_whitespace().collect();
     let uncertainty = |text: &str| {
-        let at = FUNCTIONS.iter().filter_map(|of| text.find(of)).min()?;
+        let at = FUNCTIONS.iter().filter_map(|function| text.find(function)).min()?;
         Some(at..at + text[at..].find(')')? + 1)
     };
     while let Some(span) = uncertainty(&right) {

@@ -96,7 +96,7 @@ impl Cells {
         for ((first, column), (last, _)) in self.layout.merged.clone() {
             let (first, last, place) = (first as usize, last as usize, column as usize);
             let is_common =
-                self.column(self.text(line, place)).is_some_and(|of| COMMON.contains(&of));
+                self.column(self.text(line, place)).is_some_and(|column| COMMON.contains(&column));
             let text = self.text(first, place).to_owned();
             if first <= line || text.trim().is_empty() || !is_common {
                 continue;
@@ -127,7 +127,7 @@ impl Cells {
 
     /// Whether a cell holds what somebody wrote, and no number of a workbook.
     pub(super) fn is_written(&self, line: usize, place: usize) -> bool {
-        let of = |of: usize| u32::try_from(of).ok();
+        let of = |number: usize| u32::try_from(number).ok();
         let of_texts = |place| self.layout.texts.contains(&place);
         self.separator.is_some() || of(line).zip(of(place)).is_some_and(of_texts)
     }
@@ -161,8 +161,8 @@ pub(super) fn of_text(
         return Err(kind);
     }
     // words may have any of the signs in them: the headings tell which one separates
-    let read =
-        [Separator::Semicolon, Separator::Tab, Separator::Comma].map(|of| separated(&text, of));
+    let read = [Separator::Semicolon, Separator::Tab, Separator::Comma]
+        .map(|separator| separated(&text, separator));
     let count = |read: &Result<(Cells, String), DiagnosticKind>| {
         let cells = read.as_ref().ok().map(|(cells, _)| cells)?;
         let line = line_of(cells, options)?;

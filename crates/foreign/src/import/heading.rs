@@ -231,20 +231,24 @@ fn said(piece: &str, is_value: bool) -> Result<HeadingPiece, Refused> {
 /// Whether a word is the name of a unit, `millivolts`, which is read by its symbol alone.
 fn is_name_of_unit(small: &str) -> bool {
     let mut prefixes = words::of("heading:unit-prefix");
-    let bare = prefixes.find_map(|of| small.strip_prefix(of)).unwrap_or(small);
-    words::of("heading:unit-name")
-        .any(|name| [small, bare].iter().any(|of| *of == name || of.trim_end_matches('s') == name))
+    let bare = prefixes.find_map(|prefix| small.strip_prefix(prefix)).unwrap_or(small);
+    words::of("heading:unit-name").any(|name| {
+        [small, bare].iter().any(|form| *form == name || form.trim_end_matches('s') == name)
+    })
 }
 
 /// Whether a word says what kind of numbers stand in a column: `rms`, `rel`.
 pub(super) fn is_scale(word: &str) -> bool {
-    words::of("heading:scale").any(|of| of == word.to_lowercase())
+    words::of("heading:scale").any(|scale| scale == word.to_lowercase())
 }
 
 /// Whether a word that is none of those known may be a unit, or change what numbers mean.
 pub(super) fn may_be_unit(word: &str) -> bool {
     let small = word.trim_matches(['.', '\'', '"', '*', '†', '|']).to_lowercase();
-    if small.is_empty() || is_symbol(word) || words::of("heading:filler").any(|of| of == small) {
+    if small.is_empty()
+        || is_symbol(word)
+        || words::of("heading:filler").any(|filler| filler == small)
+    {
         return false;
     }
     let has_sign = small.contains(|c: char| c.is_ascii_digit() || "%‰×^°µμω²³⁻".contains(c));

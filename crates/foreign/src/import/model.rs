@@ -54,14 +54,15 @@ impl ReadSheet<'_> {
         &self,
         header: &Header,
         rows: &Rows,
-        (equations, stated): (&[Equation], &[StatedFigure]),
+        equations: &[Equation],
+        stated: &[StatedFigure],
         title: &str,
     ) -> Option<ImportedModel> {
         let of_result = self.of_result(header, rows, stated)?;
         if equations.is_empty() {
-            self.linear(header, &rows.quantities, stated, (&of_result, title))
+            self.linear(header, &rows.quantities, stated, &of_result, title)
         } else {
-            self.of_equation(header, rows, equations, (&of_result, title))
+            self.of_equation(header, rows, equations, &of_result, title)
         }
     }
 
@@ -72,7 +73,8 @@ impl ReadSheet<'_> {
         rows: &Rows,
         stated: &'s [StatedFigure],
     ) -> Option<OfResult<'s>> {
-        let line = rows.of_result.iter().find(|of| of.kind == RowKind::Result).map(|of| of.line);
+        let line =
+            rows.of_result.iter().find(|row| row.kind == RowKind::Result).map(|row| row.line);
         let name = line.map_or_else(String::new, |line| self.name_of_result(header, line));
         let is_taken = |name: &str| rows.quantities.iter().any(|row| row.name == name);
         let name = match name.as_str() {
@@ -81,13 +83,16 @@ impl ReadSheet<'_> {
             name if is_taken(name) => format!("{name}_result"),
             name => name.to_owned(),
         };
-        let mut units: Vec<&str> = stated.iter().map(|of| of.cell.unit.as_str()).collect();
+        let mut units: Vec<&str> = stated.iter().map(|figure| figure.cell.unit.as_str()).collect();
         units.retain(|unit| !unit.is_empty());
         // the estimate's unit is that of the result, and figures of uncertainty may be shares of it
-        let estimate = stated.iter().find(|of| of.is_estimate());
-        let of_estimate = estimate.map(|of| of.cell.unit.as_str()).filter(|unit| !unit.is_empty());
-        let own =
-            units.iter().copied().find(|unit| Unit::parse(unit).is_ok_and(|of| !of.is_relative()));
+        let estimate = stated.iter().find(|figure| figure.is_estimate());
+        let of_estimate =
+            estimate.map(|estimate| estimate.cell.unit.as_str()).filter(|unit| !unit.is_empty());
+        let own = units
+            .iter()
+            .copied()
+            .find(|unit| Unit::parse(unit).is_ok_and(|parsed| !parsed.is_relative()));
         let unit = self.options.unit.as_deref().or(of_estimate).or(own).map(str::to_owned);
         if let Some(unit) = self.options.unit.as_deref().filter(|unit| Unit::parse(unit).is_err()) {
             self.fail(header.first, format!("`--unit {unit}`: it is no unit that is known"));
@@ -101,7 +106,8 @@ impl ReadSheet<'_> {
         header: &Header,
         all: &Rows,
         equations: &[Equation],
-        (of_result, title): (&OfResult, &str),
+        of_result: &OfResult,
+        title: &str,
     ) -> Option<ImportedModel> {
         let rows = all.quantities.as_slice();
         let last = equations.last()?;
@@ -148,8 +154,10 @@ impl ReadSheet<'_> {
             }
         }
         self.log.is_clean().then_some(())?;
-        let mut formulas: Vec<(String, String)> =
-            equations.iter().map(|of| (of.name.clone(), of.formula.clone())).collect();
+        let mut formulas: Vec<(String, String)> = equations
+            .iter()
+            .map(|equation| (equation.name.clone(), equation.formula.clone()))
+            .collect();
         if let Some((name, _)) =
             formulas.last_mut().filter(|(name, _)| rows.iter().any(|row| row.name == *name))
         {
@@ -225,11 +233,12 @@ impl ReadSheet<'_> {
         }
         let mut last = None;
         for equation in equations {
-            let typing =
-                Formula::parse(&equation.formula).ok().and_then(|of| of.check(&scope).ok());
+            let typing = Formula::parse(&equation.formula)
+                .ok()
+                .and_then(|formula| formula.check(&scope).ok());
             let Some(typing) = typing else { return String::new() };
             scope.define(equation.name.as_str(), typing);
-            last = typing.dimension.filter(|of| !of.is_none());
+            last = typing.dimension.filter(|dimension| !dimension.is_none());
         }
         let unit = last.map(|dimension| dimension.usual_unit()).unwrap_or_default();
         if !unit.is_empty() {
@@ -243,7 +252,8 @@ impl ReadSheet<'_> {
         header: &Header,
         rows: &[Row],
         stated: &[StatedFigure],
-        (of_result, title): (&OfResult, &str),
+        of_result: &OfResult,
+        title: &str,
     ) -> Option<ImportedModel> {
         let first = rows.first()?.line;
         let lines = first..=rows.last()?.line;
@@ -282,7 +292,7 @@ impl ReadSheet<'_> {
         let sum: f64 = to_15_digits(
             rows.iter().zip(&factors).map(|(row, c)| c * row.estimate.unwrap_or(0.0)).sum(),
         );
-        let constant = self.constant(header, (rows, &factors), sum, (of_result, &whole))?;
+        let constant = self.constant(header, rows, &factors, sum, of_result, &whole)?;
         let mut terms: Vec<String> = Vec::new();
         if constant != 0.0 {
             self.note(fact!("import.constant", constant));
@@ -463,9 +473,11 @@ impl ReadSheet<'_> {
     fn constant(
         &self,
         header: &Header,
-        (rows, factors): (&[Row], &[f64]),
+        rows: &[Row],
+        factors: &[f64],
         sum: f64,
-        (of_result, whole): (&OfResult, &Unit),
+        of_result: &OfResult,
+        whole: &Unit,
     ) -> Option<f64> {
         // a sum of quantities in one unit, each with its sign
         let is_plain = |(row, factor): (&Row, &f64)| {

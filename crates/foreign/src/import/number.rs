@@ -50,10 +50,12 @@ pub(crate) fn without_groups(text: &str) -> Option<String> {
     let mark = text.get(whole.len()..)?.chars().next()?;
     let other = if mark == '.' { ',' } else { '.' };
     let mut groups = whole.trim_start_matches(['-', '+']).split(other);
-    let are_digits = |group: &str| group.bytes().all(|of| of.is_ascii_digit());
-    let is_first = groups.next().is_some_and(|of| (1..=3).contains(&of.len()) && are_digits(of));
+    let are_digits = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());
+    let is_first =
+        groups.next().is_some_and(|group| (1..=3).contains(&group.len()) && are_digits(group));
     let mut rest = groups.peekable();
-    let is_grouped = rest.peek().is_some() && rest.all(|of| of.len() == 3 && are_digits(of));
+    let is_grouped =
+        rest.peek().is_some() && rest.all(|group| group.len() == 3 && are_digits(group));
     (is_first && is_grouped).then(|| format!("{}{mark}{fraction}", whole.replace(other, "")))
 }
 

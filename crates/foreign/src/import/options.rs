@@ -59,7 +59,9 @@ impl ImportOptions {
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         let lists = |own: Vec<(String, String)>, other: Vec<(String, String)>| {
-            let others = other.into_iter().filter(|(name, _)| own.iter().all(|(of, _)| of != name));
+            let others = other
+                .into_iter()
+                .filter(|(name, _)| own.iter().all(|(own_name, _)| own_name != name));
             let others: Vec<_> = others.collect();
             own.into_iter().chain(others).collect()
         };

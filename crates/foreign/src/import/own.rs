@@ -101,7 +101,7 @@ impl OwnBudgetReader<'_> {
                 let Some(now) = self.cells(line, variable, tables - 1, row) else { continue };
                 if tables == 1 {
                     first.push((variable, now));
-                } else if first.iter().any(|(of, before)| *of == variable && *before != now) {
+                } else if first.iter().any(|(other, before)| *other == variable && *before != now) {
                     self.fail(
                         line,
                         &format!(
@@ -125,7 +125,7 @@ impl OwnBudgetReader<'_> {
 
     fn known(&self, variable: usize, row: usize) -> Option<&Distribution> {
         let row = self.task.rows.get(row)?;
-        row.distributions.get(variable).map(|of| &**of)
+        row.distributions.get(variable).map(|distribution| &**distribution)
     }
 
     /// Estimate, standard uncertainty and degrees of freedom, each where it was changed.
@@ -264,7 +264,7 @@ fn place<'r>(root: &'r mut Value, name: &str) -> Option<&'r mut Map<String, Valu
         if !of.is_object() {
             *of = json!({});
         }
-        return of.as_object_mut().filter(|of| !of.contains_key("components"));
+        return of.as_object_mut().filter(|fields| !fields.contains_key("components"));
     }
     let (input, component) = name.split_once('/')?;
     let components = inputs.get_mut(input)?.get_mut("components")?.as_array_mut()?;
@@ -280,7 +280,8 @@ fn moved(object: &mut Map<String, Value>, estimate: f64) -> bool {
             return true;
         }
     }
-    let limits = [object.get("lower"), object.get("upper")].map(|of| of.and_then(Value::as_f64));
+    let limits =
+        [object.get("lower"), object.get("upper")].map(|limit| limit.and_then(Value::as_f64));
     let [Some(lower), Some(upper)] = limits else { return false };
     if object.contains_key("mode") {
         return false;
@@ -306,7 +307,8 @@ fn widened(object: &mut Map<String, Value>, std: f64, of: &Distribution) -> bool
             return true;
         }
     }
-    let limits = [object.get("lower"), object.get("upper")].map(|of| of.and_then(Value::as_f64));
+    let limits =
+        [object.get("lower"), object.get("upper")].map(|limit| limit.and_then(Value::as_f64));
     let [Some(lower), Some(upper)] = limits else { return false };
     if object.contains_key("mode") {
         return false;

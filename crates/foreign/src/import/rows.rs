@@ -121,7 +121,7 @@ pub(super) struct Rows {
 impl Rows {
     /// What an option says that a line is.
     pub(super) fn said(&self, line: usize) -> Option<RowKind> {
-        self.said.iter().find(|(of, _)| *of == line).map(|(_, kind)| *kind)
+        self.said.iter().find(|(said, _)| *said == line).map(|(_, kind)| *kind)
     }
 }
 
@@ -159,7 +159,8 @@ impl ReadSheet<'_> {
     pub(super) fn rows(
         &self,
         header: &Header,
-        (measurand, used): (Option<&str>, &[String]),
+        measurand: Option<&str>,
+        used: &[String],
         said: Vec<(usize, RowKind)>,
     ) -> Option<Rows> {
         let mut found = Rows { said, ..Rows::default() };
@@ -170,13 +171,12 @@ impl ReadSheet<'_> {
                 blank += 1;
                 continue;
             }
-            let asked = || self.kind(header, line, (measurand, used), blank);
+            let asked = || self.kind(header, line, measurand, used, blank);
             let Some(kind) = found.said(line).or_else(asked) else { continue };
             match kind {
                 RowKind::Quantity | RowKind::Constant => {
                     blank = 0;
-                    if let Some(row) = self.quantity(header, line, (kind, used), &found.quantities)
-                    {
+                    if let Some(row) = self.quantity(header, line, kind, used, &found.quantities) {
                         found.quantities.push(row);
                     } else if self.log.is_clean() {
                         self.fail(line, "the row cannot be read");
@@ -215,7 +215,8 @@ impl ReadSheet<'_> {
         &self,
         header: &Header,
         line: usize,
-        (measurand, used): (Option<&str>, &[String]),
+        measurand: Option<&str>,
+        used: &[String],
         blank: usize,
     ) -> Option<RowKind> {
         let names = self.names(header, line);
@@ -227,7 +228,7 @@ impl ReadSheet<'_> {
                 ))
                 && !is_empty(self.cells.text(line, *place).trim())
         };
-        let has_numbers = header.columns.iter().any(|of| is_of_table(&of));
+        let has_numbers = header.columns.iter().any(|column| is_of_table(&column));
         let speaks = self.cells.row(line).iter().any(|cell| columns::is_of_correlation(cell));
         if speaks && !has_numbers {
             // told by [`ReadSheet::correlations`]
@@ -252,7 +253,8 @@ impl ReadSheet<'_> {
             return None;
         }
         let is_used = names.first().is_some_and(|name| used.contains(&self.name_of(name)));
-        let is_measurand = |name: &&str| measurand.is_some_and(|of| self.name_of(name) == of);
+        let is_measurand =
+            |name: &&str| measurand.is_some_and(|wanted| self.name_of(name) == wanted);
         if names.iter().any(is_measurand) {
             return Some(RowKind::Result);
         }
@@ -354,7 +356,7 @@ impl ReadSheet<'_> {
         };
         let known = self.names_of_rows(header);
         let names: Vec<&str> = formula.names().map(|(name, _)| name).collect();
-        names.len() > 1 && names.iter().all(|name| known.iter().any(|of| of == name))
+        names.len() > 1 && names.iter().all(|name| known.iter().any(|other| other == name))
     }
 
     fn ask_kind(&self, lines: RangeInclusive<usize>, about: &str, readings: [(&str, &str); 2]) {
@@ -375,7 +377,8 @@ impl ReadSheet<'_> {
 
     /// Asks whether the last row, whose uncertainty is the combined one of all others, is the result.
     fn may_be_combined(&self, found: &Rows) {
-        let Some((last, others)) = found.quantities.split_last().filter(|(_, of)| of.len() > 1)
+        let Some((last, others)) =
+            found.quantities.split_last().filter(|(_, others)| others.len() > 1)
         else {
             return;
         };
@@ -412,7 +415,7 @@ impl ReadSheet<'_> {
         line: usize,
         place: usize,
     ) -> Result<Option<Cell>, ()> {
-        self.number_of(header, line, (place, self.cells.text(line, place)))
+        self.number_of(header, line, place, self.cells.text(line, place))
     }
 
     /// The number in a text of a cell.
@@ -420,7 +423,8 @@ impl ReadSheet<'_> {
         &self,
         header: &Header,
         line: usize,
-        (place, text): (usize, &str),
+        place: usize,
+        text: &str,
     ) -> Result<Option<Cell>, ()> {
         let text = text.trim();
         if is_empty(text) {
@@ -481,7 +485,8 @@ impl ReadSheet<'_> {
         &self,
         header: &Header,
         line: usize,
-        (kind, used): (RowKind, &[String]),
+        kind: RowKind,
+        used: &[String],
         others: &[Row],
     ) -> Option<Row> {
         let cell = |column| header.cell(self.cells, line, column);
@@ -536,7 +541,7 @@ impl ReadSheet<'_> {
                 let unit = if unit.is_empty() { header.unit(place).unwrap_or("") } else { unit };
                 Some(Cell { value, half_digit: 0.0, unit: unit.to_owned(), text: text.to_owned() })
             }
-            (None, Some(place)) => self.number_of(header, line, (place, text)).ok()?,
+            (None, Some(place)) => self.number_of(header, line, place, text).ok()?,
             (_, None) => None,
         };
         row.estimate = estimate.as_ref().map(|cell| cell.value);
@@ -549,7 +554,7 @@ impl ReadSheet<'_> {
             }
         }
         if let (Some(behind), Some(place)) = (behind, place) {
-            let found = self.number_of(header, line, (place, behind)).ok()??;
+            let found = self.number_of(header, line, place, behind).ok()??;
             widths.push((Column::Uncertainty, found, behind.to_owned()));
         }
         if widths.len() > 1 {
@@ -592,7 +597,7 @@ impl ReadSheet<'_> {
         let all = widths.iter().map(|(_, cell, _)| cell).chain(&std);
         let units: Vec<&str> = all.clone().map(|cell| cell.unit.as_str()).collect();
         row.unit =
-            self.unit(header, line, (estimate.as_ref(), bracketed.map(|(_, unit)| unit)), &units)?;
+            self.unit(header, line, estimate.as_ref(), bracketed.map(|(_, unit)| unit), &units)?;
         for cell in all.chain(&relative) {
             if cell.value < 0.0 {
                 self.fail(line, format!("the uncertainty `{}` is below zero", cell.text));
@@ -616,11 +621,11 @@ impl ReadSheet<'_> {
             let value =
                 self.in_unit_of_row(cell, &row, &self.unit_of_uncertainty(cell, header, line)?)?;
             if value > 0.0 {
-                self.width(header, &mut row, (*column, value, text), &shape)?;
+                self.width(header, &mut row, *column, value, text, &shape)?;
             }
             of_shape = Some(row.standard_uncertainty());
         } else if let Some(width) = row.width {
-            self.width(header, &mut row, (Column::HalfWidth, width, "between the limits"), &shape)?;
+            self.width(header, &mut row, Column::HalfWidth, width, "between the limits", &shape)?;
             of_shape = Some(row.standard_uncertainty());
         }
         if let Some(cell) = &mut std {
@@ -710,7 +715,8 @@ impl ReadSheet<'_> {
         &self,
         header: &Header,
         line: usize,
-        (estimate, of_name): (Option<&Cell>, Option<String>),
+        estimate: Option<&Cell>,
+        of_name: Option<String>,
         of_uncertainties: &[&str],
     ) -> Option<String> {
         let own = header.cell(self.cells, line, Column::Unit);

@@ -77,8 +77,8 @@ impl ReadSheet<'_> {
     fn has_values(&self, header: &Header) {
         let layout = self.cells.layout();
         let is_needed = |(row, column): Place| {
-            let is_it = |(of, column_kind): &(usize, Column)| {
-                *of == column as usize
+            let is_it = |(place, column_kind): &(usize, Column)| {
+                *place == column as usize
                     && !matches!(column_kind, Column::Contribution | Column::Ignored)
             };
             row as usize >= header.first && header.columns.iter().any(is_it)
@@ -113,9 +113,9 @@ impl ReadSheet<'_> {
             let (first, last, place) = (first as usize, last as usize, column as usize);
             let text = self.cells.text(first, place).trim();
             let is_of_numbers =
-                |(of, column): &(usize, Column)| *of == place && column.is_of_numbers();
+                |(own, column): &(usize, Column)| *own == place && column.is_of_numbers();
             let holds = |line: usize| {
-                header.columns.iter().any(|(of, _)| !self.cells.text(line, *of).trim().is_empty())
+                header.columns.iter().any(|(own, _)| !self.cells.text(line, *own).trim().is_empty())
             };
             let is_shared = first > header.line && (first + 1..=last).any(holds);
             if is_shared && !text.is_empty() && header.columns.iter().any(is_of_numbers) {

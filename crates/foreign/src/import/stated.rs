@@ -96,8 +96,8 @@ impl ReadSheet<'_> {
         let factor = rows
             .of_result
             .iter()
-            .filter(|of| of.kind == RowKind::Factor)
-            .find_map(|of| self.factor_of_row(of.line));
+            .filter(|row| row.kind == RowKind::Factor)
+            .find_map(|row| self.factor_of_row(row.line));
         if let Some(factor) = factor {
             for stated in &mut found {
                 if let Figure::Expanded(
@@ -254,19 +254,20 @@ impl ReadSheet<'_> {
     pub(super) fn compare(&self, rows: &[Row], stated: &[StatedFigure], model: &ImportedModel) {
         let Some((gum, of_result)) = result_of(&model.text) else { return };
         let (estimates, others): (Vec<&StatedFigure>, Vec<&StatedFigure>) =
-            stated.iter().partition(|of| of.is_estimate());
+            stated.iter().partition(|figure| figure.is_estimate());
         for stated in estimates.into_iter().chain(others) {
-            self.compare_figure(stated, (&gum, &of_result), model);
+            self.compare_figure(stated, &gum, &of_result, model);
         }
         if let Some(factors) = &model.factors {
-            self.compare_contributions(rows, factors, (&gum, &of_result));
+            self.compare_contributions(rows, factors, &gum, &of_result);
         }
     }
 
     fn compare_figure(
         &self,
         stated: &StatedFigure,
-        (gum, of_result): (&Gum, &Unit),
+        gum: &Gum,
+        of_result: &Unit,
         model: &ImportedModel,
     ) {
         let u = gum.standard_uncertainty;
@@ -330,12 +331,7 @@ impl ReadSheet<'_> {
 
     /// Refuses contributions of rows that are not those of the model: in the unit of the result, as shares of its
     /// estimate, or as shares of its variance.
-    fn compare_contributions(
-        &self,
-        rows: &[Row],
-        factors: &[f64],
-        (gum, of_result): (&Gum, &Unit),
-    ) {
+    fn compare_contributions(&self, rows: &[Row], factors: &[f64], gum: &Gum, of_result: &Unit) {
         let own: Vec<f64> = rows
             .iter()
             .zip(factors)
@@ -369,7 +365,7 @@ impl ReadSheet<'_> {
             }
             let shown = readings
                 .first()
-                .map_or_else(|| "none in that unit".to_owned(), |of| significant(*of, 3));
+                .map_or_else(|| "none in that unit".to_owned(), |reading| significant(*reading, 3));
             let in_unit = if cell.unit.is_empty() { of_result.text() } else { &cell.unit };
             self.ask(
                 row.line..=row.line,

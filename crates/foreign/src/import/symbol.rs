@@ -48,7 +48,7 @@ fn is_unit(text: &str) -> bool {
 /// `|c_i|·u(x_i)`, a contribution, and what stands behind it.
 fn product(text: &str) -> Option<(Column, &str)> {
     let coefficients = ["|c_i|", "|ci|", "c_i", "ci"];
-    let rest = coefficients.iter().find_map(|of| text.strip_prefix(of))?;
+    let rest = coefficients.iter().find_map(|coefficient| text.strip_prefix(coefficient))?;
     let rest = rest.trim_start().trim_start_matches(['·', '*', '×', '⋅']).trim_start();
     let (_, rest) = with_argument(rest).or_else(|| bare(rest))?;
     Some((Column::Contribution, rest))

@@ -44,7 +44,8 @@ pub(super) fn line_of(cells: &Cells, options: &ImportOptions) -> Option<usize> {
         !text.trim().is_empty() && (cells.column(text).is_some() || named())
     };
     let score = |line: &usize| cells.row(*line).iter().filter(|cell| is_named(cell)).count();
-    let best = (0..cells.lines()).map(|line| (score(&line), line)).rev().max_by_key(|of| of.0)?;
+    let best =
+        (0..cells.lines()).map(|line| (score(&line), line)).rev().max_by_key(|scored| scored.0)?;
     (best.0 >= 2).then_some(best.1)
 }
 
@@ -105,7 +106,7 @@ impl Header {
                     listed(&all, " and ")
                 ));
             };
-            if let Some((_, other)) = self.columns.iter().find(|(of, _)| *of == place) {
+            if let Some((_, other)) = self.columns.iter().find(|(own, _)| *own == place) {
                 return fail(format!(
                     "{} cannot be both `{}` and `{}`",
                     self.named(place),
@@ -128,13 +129,13 @@ impl Header {
         let by_heading: Vec<usize> = (0..self.headings.len()).filter(same).collect();
         let said = said.trim();
         let letter = || {
-            let digits =
-                said.bytes().all(|of| of.is_ascii_alphabetic()) && (1..=2).contains(&said.len());
+            let digits = said.bytes().all(|byte| byte.is_ascii_alphabetic())
+                && (1..=2).contains(&said.len());
             if !digits {
                 return None;
             }
-            let place = said.bytes().fold(0_usize, |place, of| {
-                26 * place + usize::from(of.to_ascii_uppercase().saturating_sub(b'A')) + 1
+            let place = said.bytes().fold(0_usize, |place, byte| {
+                26 * place + usize::from(byte.to_ascii_uppercase().saturating_sub(b'A')) + 1
             });
             Some(place)
         };
@@ -157,7 +158,7 @@ impl Header {
                     sheet.note(fact!("import.column-not-read", column = self.column(place)));
                     self.columns.push((place, Column::Ignored));
                 }
-                Some(column) => match by_words.iter_mut().find(|(of, _)| *of == column) {
+                Some(column) => match by_words.iter_mut().find(|(own, _)| *own == column) {
                     Some((_, places)) => places.push(place),
                     None => by_words.push((column, vec![place])),
                 },
@@ -247,7 +248,7 @@ impl Header {
             let unit = unit.trim();
             match (place, Unit::parse(unit)) {
                 (Some(place), Ok(_)) => {
-                    self.units.retain(|(of, _)| *of != place);
+                    self.units.retain(|(own, _)| *own != place);
                     self.units.push((place, unit.to_owned()));
                 }
                 (None, _) => {
@@ -299,7 +300,7 @@ impl Header {
     fn needs(&self, sheet: &ReadSheet) {
         let names = [Column::Quantity, Column::Symbol, Column::Description];
         let lines = self.first..=self.shown(sheet);
-        if names.iter().all(|of| self.place(*of).is_none()) {
+        if names.iter().all(|name| self.place(*name).is_none()) {
             let about = "no column is known as that of the names of the quantities";
             sheet.ask(lines.clone(), about, [], "`--column quantity=COLUMN`");
         }
@@ -353,7 +354,7 @@ impl Header {
             );
         }
         let of_divisors = [Column::Divisor, Column::Multiplier, Column::Factor];
-        if let Some(place) = of_divisors.iter().find_map(|of| self.place(*of))
+        if let Some(place) = of_divisors.iter().find_map(|divisor| self.place(*divisor))
             && has_std
             && !has_width
             && !has_limits
@@ -376,7 +377,7 @@ impl Header {
             );
         }
         for (place, column) in self.columns.iter().filter(|(_, column)| column.is_of_numbers()) {
-            if Statement::of(self.heading(*place)).is_ok_and(|of| of.dof.is_some()) {
+            if Statement::of(self.heading(*place)).is_ok_and(|statement| statement.dof.is_some()) {
                 let column = format!("{} `{}`", self.named(*place), column.name());
                 let reason = format!("{column} states degrees of freedom in its heading");
                 sheet.fail(self.first, format!("{reason}: write them into a column `dof`"));
@@ -477,7 +478,7 @@ impl Header {
 
     /// The unit that a column states.
     pub(super) fn unit(&self, place: usize) -> Option<&str> {
-        self.units.iter().find(|(of, _)| *of == place).map(|(_, unit)| unit.as_str())
+        self.units.iter().find(|(own, _)| *own == place).map(|(_, unit)| unit.as_str())
     }
 
     /// The cell of a line in a column; empty where there is none.

@@ -16,8 +16,9 @@ impl ReadSheet<'_> {
     /// What lines beside the table state as the unit of all values.
     fn units_of_all(&self, header: &Header) -> Vec<(usize, Result<String, String>)> {
         let is_ignored = |line: usize| {
-            let of =
-                |numbers: &str| numbers.split(',').any(|of| of.trim() == (line + 1).to_string());
+            let of = |numbers: &str| {
+                numbers.split(',').any(|number| number.trim() == (line + 1).to_string())
+            };
             self.options.rows.iter().any(|(kind, numbers)| kind == "ignore" && of(numbers))
         };
         let of_line = |line: usize| {
@@ -104,7 +105,7 @@ fn stated(text: &str) -> Option<Result<String, String>> {
     let words: Vec<&str> = clean.split_whitespace().collect();
     let small: Vec<String> =
         words.iter().map(|word| word.trim_matches(':').to_lowercase()).collect();
-    let is = |meaning: &'static str, word: &str| words::of(meaning).any(|of| of == word);
+    let is = |meaning: &'static str, word: &str| words::of(meaning).any(|known| known == word);
     let unit = |text: &str| {
         let text = text.trim_end_matches(['.', ':', '!']);
         let is_known =

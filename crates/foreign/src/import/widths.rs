@@ -90,7 +90,8 @@ impl ReadSheet<'_> {
         &self,
         header: &Header,
         line: usize,
-        (shape, width): (&StatedShape, &str),
+        shape: &StatedShape,
+        width: &str,
     ) -> Result<Option<f64>, ()> {
         let comma = self.cells.decimal_comma();
         let mut stated: Vec<StatedFactor> = Vec::new();
@@ -129,18 +130,22 @@ impl ReadSheet<'_> {
         let names = [Column::Quantity, Column::Symbol, Column::Description, Column::Remark];
         let of_words = names.map(|column| {
             let text = header.cell(self.cells, line, column);
-            (Statement::of(text).map_or(HeaderCoverage::None, |of| of.coverage), "the words")
+            (
+                Statement::of(text).map_or(HeaderCoverage::None, |statement| statement.coverage),
+                "the words",
+            )
         });
         let said = [(of_cell, "the cell"), (shape.statement.coverage, "the distribution")];
-        let said = said.into_iter().chain(of_words).filter_map(|(of, place)| match of {
-            HeaderCoverage::Factor(factor) => {
-                Some(StatedFactor { factor, place: place.to_owned() })
-            }
-            _ => None,
-        });
+        let said =
+            said.into_iter().chain(of_words).filter_map(|(coverage, place)| match coverage {
+                HeaderCoverage::Factor(factor) => {
+                    Some(StatedFactor { factor, place: place.to_owned() })
+                }
+                _ => None,
+            });
         stated.extend(said);
         let Some(first) = stated.first() else { return Ok(None) };
-        if let Some(other) = stated.iter().find(|of| !near(of.factor, first.factor)) {
+        if let Some(other) = stated.iter().find(|other| !near(other.factor, first.factor)) {
             self.ask(
                 line..=line,
                 "the row states two factors",
@@ -187,12 +192,14 @@ impl ReadSheet<'_> {
         &self,
         header: &Header,
         row: &mut Row,
-        (column, value, text): (Column, f64, &str),
+        column: Column,
+        value: f64,
+        text: &str,
         shape: &StatedShape,
     ) -> Option<()> {
         let line = row.line;
         self.is_half(header, line, column)?;
-        let divisor = self.divisor(header, line, (shape, text)).ok()?;
+        let divisor = self.divisor(header, line, shape, text).ok()?;
         let root = shape.root();
         let of_heading = header.coverage(column);
         let letter = header.letter(column);
@@ -298,7 +305,7 @@ impl ReadSheet<'_> {
                 }
                 row.divisor = Some(divisor);
             }
-            (_, None, None) => return self.expanded(header, row, (column, text), shape),
+            (_, None, None) => return self.expanded(header, row, column, text, shape),
         }
         Some(())
     }
@@ -309,13 +316,15 @@ impl ReadSheet<'_> {
         &self,
         header: &Header,
         row: &mut Row,
-        (column, text): (Column, &str),
+        column: Column,
+        text: &str,
         shape: &StatedShape,
     ) -> Option<()> {
         let line = row.line;
-        let of_cell = Statement::of(text).map_or(HeaderCoverage::None, |of| of.coverage);
+        let of_cell =
+            Statement::of(text).map_or(HeaderCoverage::None, |statement| statement.coverage);
         let said = [of_cell, shape.statement.coverage, header.coverage(column)];
-        let found = said.into_iter().find(|of| of.factor(None).is_some());
+        let found = said.into_iter().find(|coverage| coverage.factor(None).is_some());
         if let Some(coverage) = found {
             row.divisor = coverage.factor(row.dof);
             row.probability = coverage.probability();
@@ -400,5 +409,5 @@ fn without_type(text: &str) -> &str {
 /// Whether a text in brackets behind a number is its coverage, `0.2 V (k=2)`.
 pub(super) fn without_factor(text: &str) -> &str {
     let is_factor = |text: &str| columns::coverage(text).factor(None).is_some();
-    text.split_once('(').filter(|_| is_factor(text)).map_or(text, |(of, _)| of.trim())
+    text.split_once('(').filter(|_| is_factor(text)).map_or(text, |(before, _)| before.trim())
 }

@@ -106,7 +106,7 @@ pub fn truth(
         CheckedNoise::AsStated => NoiseOfDraw::as_stated(noise.len()),
         CheckedNoise::Uncertain => {
             let observed = || case.observed.iter().flatten();
-            let stated = observed().any(|of| of.standard_uncertainties.is_some());
+            let stated = observed().any(|observed| observed.standard_uncertainties.is_some());
             // numbers of its own, so that effects and sizes are those without it
             let mut own = Scores::new(seed, u64::MAX - number);
             NoiseOfDraw::drawn(case.task.rows.len(), noise.len(), stated, &mut own)

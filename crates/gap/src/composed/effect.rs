@@ -325,7 +325,7 @@ struct EffectText<'s> {
 impl EffectText<'_> {
     /// A name for a parameter.
     fn named(&self, wanted: &str) -> String {
-        let known = |name: &str| self.parameters.iter().any(|of| of.name == name);
+        let known = |name: &str| self.parameters.iter().any(|parameter| parameter.name == name);
         let mut name = fresh(self.sim, wanted);
         let mut number = 2;
         while known(&name) {
@@ -367,10 +367,10 @@ impl EffectText<'_> {
             DepartureKind::Proportional => Unit::one(),
         };
         // the size with its uncertainty, and what a change of the parameters makes of it
-        let factor = |of: &Fit, n: usize| of.factors[place + n];
-        let spread = |of: &dyn Fn(&Fit) -> f64| -> f64 {
+        let factor = |fit: &Fit, n: usize| fit.factors[place + n];
+        let spread = |figure: &dyn Fn(&Fit) -> f64| -> f64 {
             let squares = moved.iter().map(|[up, down]| match (up, down) {
-                (Some(up), Some(down)) => (0.5 * (of(up) - of(down))).powi(2),
+                (Some(up), Some(down)) => (0.5 * (figure(up) - figure(down))).powi(2),
                 _ => 0.0,
             });
             squares.sum()
@@ -495,9 +495,9 @@ impl EffectText<'_> {
 impl ComposedEffect {
     /// The effect that the text stands for; `None` where it is no formula.
     pub(super) fn parsed(&self) -> Option<Effect> {
-        let parameter = |of: &ComposedParameter| {
-            let unit = Unit::parse(&of.unit).ok()?;
-            Some(Quantity { name: of.name.clone(), unit, about: String::new() })
+        let parameter = |parameter: &ComposedParameter| {
+            let unit = Unit::parse(&parameter.unit).ok()?;
+            Some(Quantity { name: parameter.name.clone(), unit, about: String::new() })
         };
         let formula =
             |(name, text): &(String, String)| Some((name.clone(), Formula::parse(text).ok()?));

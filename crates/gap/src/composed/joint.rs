@@ -131,7 +131,7 @@ impl ComposedSearch<'_> {
         };
         let mut found = parallel::map(leading, of_first).concat();
         // the same two terms are found from either of them
-        largest_first(&mut found, |of| of.ln_weight);
+        largest_first(&mut found, |composition| composition.ln_weight);
         let mut distinct: Vec<Composition> = Vec::new();
         for of in found {
             let [one, other] = [&of.terms[0], &of.terms[1]];
@@ -155,8 +155,8 @@ impl ComposedSearch<'_> {
     ) -> Vec<Composition> {
         let single: Vec<&&Composition> = ranked
             .iter()
-            .filter(|of| {
-                let term = &of.terms[0];
+            .filter(|composition| {
+                let term = &composition.terms[0];
                 matches!(term.argument, Argument::Condition(_)) && term.shape.count() == 1
             })
             .collect();
@@ -189,9 +189,11 @@ impl ComposedSearch<'_> {
                 };
                 let gain = product.gain_at(self.setup, metric, white);
                 // half of the prior of each, and what its parameters cost
-                let costs = [first, second].map(|of| of.ln_weight - of.best);
-                let prior =
-                    [first, second].map(|of| of.best - of.gain_at(self.setup, metric, white));
+                let costs =
+                    [first, second].map(|composition| composition.ln_weight - composition.best);
+                let prior = [first, second].map(|composition| {
+                    composition.best - composition.gain_at(self.setup, metric, white)
+                });
                 let prior = prior[0].max(prior[1]);
                 let ln_weight = ln_share + prior + costs[0] + costs[1] + gain
                     - elementary::ln(leading.len() as f64);
@@ -211,8 +213,8 @@ impl ComposedSearch<'_> {
         ln_share: f64,
     ) -> Vec<Composition> {
         let setup = self.setup;
-        let of_direction = |of: &&Composition| {
-            let DepartureTerm { argument, shape, .. } = &of.terms[0];
+        let of_direction = |composition: &&Composition| {
+            let DepartureTerm { argument, shape, .. } = &composition.terms[0];
             let history = argument.history(setup);
             history.is_some_and(|of| of.kind == HistoryKind::Direction)
                 && shape.function == Function::Linear
@@ -252,7 +254,7 @@ impl ComposedSearch<'_> {
             };
             Some(parallel::map(shapes, of_shape).into_iter().flatten().collect::<Vec<_>>())
         };
-        let leading = leading.iter().map(|of| **of);
+        let leading = leading.iter().map(|composition| **composition);
         leading.filter(of_direction).filter_map(of_first).flatten().collect()
     }
 
@@ -271,7 +273,7 @@ impl ComposedSearch<'_> {
         let ln_effect = -elementary::ln(listed.len().max(1) as f64);
         // first those that a departure of any form goes with, as they are beside it
         let mut beside: Vec<&WeighedHypothesis> =
-            posterior.beside.iter().map(|of| &of.named).collect();
+            posterior.beside.iter().map(|weighed| &weighed.named).collect();
         largest_first(&mut beside, |a| a.ln_weight());
         listed.retain(|h| posterior.beside(&h.effects).is_none());
         beside.extend(listed);

@@ -141,11 +141,12 @@ pub(crate) fn compose(
     let search = ComposedSearch { setup, targets: &targets, responses: &responses };
     let mut found = search.singles(&metric, &white, REFINED);
     let of_process = of_process(setup, discrepancy, &departures, &metric, &residuals);
-    let best = found.iter().map(|of| of.ln_weight).fold(f64::NEG_INFINITY, f64::max);
+    let best =
+        found.iter().map(|composition| composition.ln_weight).fold(f64::NEG_INFINITY, f64::max);
     if best < of_process || search.misfits(&metric, &residuals, &found) {
         let more = search.joint(&metric, &residuals, &found, posterior);
         let rest = 1.0 - joint::SHARE;
-        found.iter_mut().for_each(|of| of.ln_weight += elementary::ln(rest));
+        found.iter_mut().for_each(|composition| composition.ln_weight += elementary::ln(rest));
         found.extend(more);
     }
     weighed(found, of_process, variances)
@@ -212,7 +213,7 @@ impl ComposedSearch<'_> {
             let own = own.map(|values| {
                 // a departure in proportion to the value itself is a proportional constant
                 let mut table = tabulated(values);
-                table.retain(|of| of.shape.form() != ComposedForm::Slope);
+                table.retain(|row| row.shape.form() != ComposedForm::Slope);
                 (Argument::Value, values, table)
             });
             // what is a function of the value is often one of a condition too, which can be set
@@ -244,7 +245,7 @@ impl ComposedSearch<'_> {
             };
             add(Argument::Nothing, &constant, &grid, ln_of(Argument::Nothing));
             for (argument, _, table) in tables.iter().chain(&own) {
-                let forms: Vec<ComposedForm> = table.iter().map(|of| of.shape.form()).collect();
+                let forms: Vec<ComposedForm> = table.iter().map(|row| row.shape.form()).collect();
                 let is_new = |(n, form): &(usize, &ComposedForm)| !forms[..*n].contains(form);
                 let different = forms.iter().enumerate().filter(is_new).count();
                 let ln_form = ln_of(*argument) - elementary::ln(different.max(1) as f64);
@@ -269,7 +270,7 @@ impl ComposedSearch<'_> {
                 Argument::Value => way.value.as_ref().map_or(&nothing, |values| &values.at),
                 Argument::Condition(_) => conditions
                     .iter()
-                    .find(|(of, _)| *of == argument)
+                    .find(|(condition, _)| *condition == argument)
                     .map_or(&nothing, |(_, values)| &values.at),
             };
             let found = way.frame.refined(&shape, at, found);

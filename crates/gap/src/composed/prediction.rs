@@ -21,7 +21,8 @@ impl Compositions {
     /// these, with the parameters of the functions a standard deviation up and down.
     pub(crate) fn predictions(&self, setup: &Setup<'_>, rows: &[Row]) -> Vec<(f64, Normals)> {
         // what acts beside effects of the list depends on those as well
-        let leading = self.all.iter().filter(|of| of.beside.is_empty()).take(MOST);
+        let leading =
+            self.all.iter().filter(|composition| composition.beside.is_empty()).take(MOST);
         let of = |composition: &Composition| {
             let normals = self.prediction(setup, composition, rows)?;
             Some((composition.share, normals))
@@ -33,7 +34,8 @@ impl Compositions {
     pub(crate) fn for_part(&self, whole: &Setup<'_>, part: &Setup<'_>) -> Self {
         let outputs = whole.data.outputs.len();
         let of_part = |variances: &Vec<f64>| {
-            let place = |id: &usize| whole.data.ids.iter().position(|of| of == id).unwrap_or(0);
+            let place =
+                |id: &usize| whole.data.ids.iter().position(|known| known == id).unwrap_or(0);
             let rows = part.data.ids.iter().map(place);
             rows.flat_map(|row| variances[row * outputs..(row + 1) * outputs].iter().copied())
                 .collect()

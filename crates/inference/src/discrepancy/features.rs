@@ -157,7 +157,9 @@ impl Coordinates {
                     Of::Condition(c) => vec![axes.conditions[c].place(site.conditions[c])],
                     Of::Level(c) => vec![site.conditions[c]],
                     Of::WithHistory(c, history) => [c, history]
-                        .map(|of| axes.conditions[of].place(site.conditions[of]))
+                        .map(|condition| {
+                            axes.conditions[condition].place(site.conditions[condition])
+                        })
                         .to_vec(),
                     Of::Sim if term.common => vec![site.nominal[output] / widest],
                     Of::Sim => vec![axes.sims[output].place(site.nominal[output])],

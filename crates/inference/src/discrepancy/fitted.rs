@@ -247,7 +247,8 @@ impl<'p> Problem<'p> {
         let known = self.setup.linear.variances[value];
         let (mut ln, mut found) = (self.setup.data.ln_scales[value], false);
         slopes.fill(0.0);
-        for (of, slope) in noise.iter().zip(slopes.iter_mut()).filter(|(of, _)| of.output == output)
+        for (of, slope) in
+            noise.iter().zip(slopes.iter_mut()).filter(|(noise, _)| noise.output == output)
         {
             let factor = if of.is_power { self.setup.ln_sizes[value] } else { 1.0 };
             found |= !of.is_power;

@@ -121,8 +121,8 @@ pub(crate) fn forms(
     let mut distinct: Vec<usize> = Vec::new();
     let mut nodes_of = Vec::with_capacity(with_lengths.len());
     for (place, (term, coordinates, length, _)) in with_lengths.iter().enumerate() {
-        let same = |&&of: &&usize| {
-            let (other, others, other_length, _) = &with_lengths[of];
+        let same = |&&other_place: &&usize| {
+            let (other, others, other_length, _) = &with_lengths[other_place];
             term.of == other.of && length == other_length && coordinates.is_at_same(others)
         };
         let known = distinct.iter().find(same).copied();
@@ -136,8 +136,8 @@ pub(crate) fn forms(
         let nodes = Nodes::new(term, *length, coordinates, setup.linear.fitted);
         (place, Arc::new(nodes))
     });
-    let with_nodes = with_lengths.into_iter().zip(nodes_of).filter_map(|(of, place)| {
-        Some((of, nodes.iter().find(|(other, _)| *other == place)?.1.clone()))
+    let with_nodes = with_lengths.into_iter().zip(nodes_of).filter_map(|(form, place)| {
+        Some((form, nodes.iter().find(|(other, _)| *other == place)?.1.clone()))
     });
     parallel::map(with_nodes, |((term, coordinates, length, ln_weight), nodes)| {
         let roots = coordinates.roots(&term, length, &nodes);

@@ -294,10 +294,11 @@ impl Discrepancy {
         let whitened = setup.linear.whiten_blocks(residuals);
         let base = ln_normal(setup, &whitened);
         // the residuals last
-        let all: Vec<DVector<f64>> = (columns.iter().map(|of| setup.linear.whiten_blocks(of)))
-            .chain([whitened])
-            .map(DVector::from_vec)
-            .collect();
+        let all: Vec<DVector<f64>> =
+            (columns.iter().map(|column| setup.linear.whiten_blocks(column)))
+                .chain([whitened])
+                .map(DVector::from_vec)
+                .collect();
         let products = setup.linear.products(&all);
         let all = DMatrix::from_columns(&all);
         let ln_amplitude = -elementary::ln(AMPLITUDE_STEPS as f64);

@@ -42,7 +42,7 @@ impl InRows {
         Self {
             base: Some(Arc::clone(base)),
             residuals: base.residuals(setup),
-            sims: values.iter().zip(linear).map(|(value, of)| value - of).collect(),
+            sims: values.iter().zip(linear).map(|(value, correction)| value - correction).collect(),
             slopes: base.slopes.clone(),
             slopes_there,
         }
@@ -147,11 +147,15 @@ impl Discrepancy {
             }
             None => DMatrix::zeros(setup.data.len(), 0),
         };
-        let gradients: Vec<Vec<Vec<f64>>> =
-            setup.data.point_of.iter().map(|&of| setup.data.points[of].gradients.clone()).collect();
+        let gradients: Vec<Vec<Vec<f64>>> = setup
+            .data
+            .point_of
+            .iter()
+            .map(|&point| setup.data.points[point].gradients.clone())
+            .collect();
         let nothing: Vec<Vec<Vec<f64>>> = gradients
             .iter()
-            .map(|row| row.iter().map(|of| vec![0.0; of.len()]).collect())
+            .map(|row| row.iter().map(|gradient| vec![0.0; gradient.len()]).collect())
             .collect();
         let residuals = base.residuals(setup);
         let zeros = vec![vec![0.0; setup.data.len()]; base.slopes.len()];

@@ -104,7 +104,7 @@ impl<'s, 'c> Exploration<'s, 'c> {
     fn with_evidence(&self, effects: Vec<usize>, evidence: EvidenceEstimate) -> WeighedHypothesis {
         let prior = self.setup.prior();
         let count = self.setup.case.candidates.len();
-        let share = |of: f64, count: usize| if count == 0 { 0.0 } else { of / count as f64 };
+        let share = |done: f64, count: usize| if count == 0 { 0.0 } else { done / count as f64 };
         let prior = match effects.len() {
             0 => prior.none,
             1 => share(prior.one, count),
@@ -253,9 +253,9 @@ fn scanned(
 ) -> Vec<Vec<f64>> {
     let shared = setup.roles.len();
     let unknowns = likelihood.unknowns();
-    let base = |of: Option<&WeighedHypothesis>| {
+    let base = |hypothesis: Option<&WeighedHypothesis>| {
         let mut base = vec![0.0; unknowns];
-        if let Some(mode) = of.and_then(|of| of.evidence.modes.first()) {
+        if let Some(mode) = hypothesis.and_then(|hypothesis| hypothesis.evidence.modes.first()) {
             base[..shared].copy_from_slice(&mode.scores[..shared]);
         }
         base

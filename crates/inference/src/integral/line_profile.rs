@@ -151,7 +151,7 @@ fn edged(likelihood: &Likelihood<'_>, modes: &[Mode]) -> Vec<Vec<usize>> {
 
 /// The unknown quantities that belong to the model and not to the noise.
 fn variables(likelihood: &Likelihood<'_>) -> Vec<usize> {
-    (0..likelihood.unknowns()).filter(|&of| !likelihood.roles[of].is_noise()).collect()
+    (0..likelihood.unknowns()).filter(|&unknown| !likelihood.roles[unknown].is_noise()).collect()
 }
 
 /// The logarithms of prior density times likelihood at points.
@@ -206,8 +206,9 @@ impl<'l, 'c> ProfileSearch<'l, 'c> {
     fn at(likelihood: &'l Likelihood<'c>, edged: &[usize], mode: &Mode) -> Option<Self> {
         let scan = Scan::about(likelihood, &mode.scores, search::FARTHEST)?;
         let plan = scan.plan(variables(likelihood))?;
-        let is_linear = |of: &usize| plan.linear.contains(of);
-        let edged: Vec<usize> = edged.iter().copied().filter(|of| !is_linear(of)).collect();
+        let is_linear = |parameter: &usize| plan.linear.contains(parameter);
+        let edged: Vec<usize> =
+            edged.iter().copied().filter(|parameter| !is_linear(parameter)).collect();
         (!edged.is_empty()).then_some(Self { likelihood, edged, scan, plan })
     }
 
@@ -267,21 +268,23 @@ impl<'l, 'c> ProfileSearch<'l, 'c> {
                 let profile = profile.unwrap_or_else(|| self.profile(&part.scores, held, left));
                 let Some(stretches) = stretches(&profile) else { continue };
                 if n == 0 {
-                    let about = |of: &Stretch| {
-                        let shift = of.mean - mode.scores[held];
-                        of.share * (of.deviation * of.deviation + shift * shift)
+                    let about = |stretch: &Stretch| {
+                        let shift = stretch.mean - mode.scores[held];
+                        stretch.share * (stretch.deviation * stretch.deviation + shift * shift)
                     };
                     let square: f64 = stretches.iter().map(about).sum();
                     wide.deviations.push((held, square.sqrt()));
                     kept *= stretches.iter().take(PARTS).map(|stretch| stretch.share).sum::<f64>();
                 }
                 let slight = |stretch: &Stretch| stretch.share < SLIGHT;
-                finer.extend(stretches.into_iter().take(PARTS).filter(|s| !slight(s)).map(|of| {
-                    let mut deviations = part.deviations.clone();
-                    deviations.push((held, of.deviation));
-                    let ln_mass = part.ln_mass + elementary::ln(of.share);
-                    ProfiledPoint { ln_mass, scores: of.scores, deviations }
-                }));
+                finer.extend(stretches.into_iter().take(PARTS).filter(|s| !slight(s)).map(
+                    |stretch| {
+                        let mut deviations = part.deviations.clone();
+                        deviations.push((held, stretch.deviation));
+                        let ln_mass = part.ln_mass + elementary::ln(stretch.share);
+                        ProfiledPoint { ln_mass, scores: stretch.scores, deviations }
+                    },
+                ));
             }
             if finer.is_empty() {
                 continue;

@@ -364,7 +364,11 @@ impl Mixture {
         let ln: Vec<f64> = self
             .components
             .iter()
-            .map(|of| elementary::ln(of.share.max(f64::MIN_POSITIVE)) + of.ln_peak + constant)
+            .map(|component| {
+                elementary::ln(component.share.max(f64::MIN_POSITIVE))
+                    + component.ln_peak
+                    + constant
+            })
             .collect();
         let most = ln.iter().copied().fold(0.0, f64::max);
         (most, ln.into_iter().map(|ln| elementary::exp(ln - most)).collect())
@@ -396,7 +400,7 @@ impl Mixture {
                 if weight <= 0.0 {
                     continue;
                 }
-                let sum: f64 = densities.iter().map(|of| of.0[lane]).sum();
+                let sum: f64 = densities.iter().map(|density| density.0[lane]).sum();
                 if sum <= 0.0 {
                     continue;
                 }

@@ -50,7 +50,8 @@ pub(crate) struct ScanPlan {
 impl ScanPlan {
     /// The same with one parameter held.
     pub(crate) fn without(&self, held: usize) -> Self {
-        let rest = |of: &[usize]| of.iter().copied().filter(|&p| p != held).collect();
+        let rest =
+            |parameters: &[usize]| parameters.iter().copied().filter(|&p| p != held).collect();
         Self { linear: rest(&self.linear), other: rest(&self.other) }
     }
 }
@@ -95,7 +96,7 @@ impl Scanned {
 
     /// Whether the responses at two values resemble each other, for all of the other parameters.
     fn is_like(&self, other: &Self) -> bool {
-        let largest = |of: &Self| of.squares.iter().copied().fold(0.0, f64::max);
+        let largest = |scan: &Self| scan.squares.iter().copied().fold(0.0, f64::max);
         let least = 1e-6 * largest(self).max(largest(other));
         self.responses
             .iter()

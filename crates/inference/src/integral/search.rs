@@ -609,7 +609,7 @@ impl Kernel for RowOfMoments<'_, '_> {
                             }
                             let product = each(|n| factor[n] * other[place]);
                             let sums = &mut block.inner[triangle(i) + j];
-                            sums.iter_mut().zip(product).for_each(|(sum, of)| *sum += of);
+                            sums.iter_mut().zip(product).for_each(|(sum, product)| *sum += product);
                             for (&t, share) in noise.iter().zip(&mut block.shares) {
                                 let (slope, place) = (&block.slopes[t], triangle(i) + j);
                                 add_product(&mut share.inner[place], &product, slope);

@@ -58,7 +58,7 @@ pub(crate) fn beside_departure(last: &Weighing<'_>, enough: f64) -> Option<Vec<S
 fn standing_out(setup: &Setup<'_>) -> Vec<(f64, usize, usize)> {
     let rows = setup.data.rows();
     let conditions = setup.case.set_conditions();
-    let orders: Vec<Vec<usize>> = conditions.map(|of| setup.rows_along(of)).collect();
+    let orders: Vec<Vec<usize>> = conditions.map(|condition| setup.rows_along(condition)).collect();
     let mut found = Vec::new();
     for (output, residuals) in setup.data.nominal_residuals().into_iter().enumerate() {
         let scaled = |row: usize| match &setup.data.uncertainties[output] {
@@ -77,9 +77,9 @@ fn standing_out(setup: &Setup<'_>) -> Vec<(f64, usize, usize)> {
             }
         }
         let Some(usual) = median(least.clone()) else { continue };
-        let ratios = least.into_iter().enumerate().map(|(row, of)| (of / usual, row, output));
+        let ratios = least.into_iter().enumerate().map(|(row, least)| (least / usual, row, output));
         found.extend(ratios.filter(|(ratio, ..)| ratio.is_finite() && *ratio > STANDS_OUT));
     }
-    largest_first(&mut found, |of| of.0);
+    largest_first(&mut found, |ratio| ratio.0);
     found
 }

@@ -53,9 +53,9 @@ impl Copies {
         let mut known: HashMap<Vec<u64>, usize> = HashMap::with_capacity(rows);
         let mut pairs = Vec::new();
         for row in 0..rows {
-            let of_output = |of: &&crate::ObservedOutput| {
-                let u = of.standard_uncertainties.as_ref().map_or(0.0, |u| u[row]);
-                [of.values[row].to_bits(), u.to_bits()]
+            let of_output = |output: &&crate::ObservedOutput| {
+                let u = output.standard_uncertainties.as_ref().map_or(0.0, |u| u[row]);
+                [output.values[row].to_bits(), u.to_bits()]
             };
             let conditions = case.setting(row).into_iter();
             let key = conditions.chain(observed.iter().flat_map(of_output)).collect();
@@ -73,7 +73,7 @@ impl Copies {
         let places = places(case);
         let not_first: usize = places.iter().map(|rows| rows.len() - 1).sum();
         let many = pairs.len() >= TELLING_ROWS && pairs.len() == not_first;
-        if observed.iter().any(|of| of.standard_uncertainties.is_none()) {
+        if observed.iter().any(|output| output.standard_uncertainties.is_none()) {
             let told = many || pairs.iter().any(|(_, copy)| digits.are_telling(*copy));
             return Self { pairs, chance: None, told };
         }
@@ -176,10 +176,11 @@ impl Digits {
         };
         let digits: Vec<Vec<(i32, i32)>> =
             observed.map(|observed| observed.values.iter().map(of).collect()).collect();
-        let last = |of: &Vec<(i32, i32)>| of.iter().map(|(last, _)| *last).collect::<Vec<i32>>();
-        let leading = |of: &Vec<(i32, i32)>| of.iter().map(|(_, first)| *first).collect();
+        let last =
+            |digits: &Vec<(i32, i32)>| digits.iter().map(|(last, _)| *last).collect::<Vec<i32>>();
+        let leading = |digits: &Vec<(i32, i32)>| digits.iter().map(|(_, first)| *first).collect();
         let last: Vec<Vec<i32>> = digits.iter().map(last).collect();
-        let finest = last.iter().map(|of| of.iter().copied().min().unwrap_or(0)).collect();
+        let finest = last.iter().map(|digits| digits.iter().copied().min().unwrap_or(0)).collect();
         Self { leading: digits.iter().map(leading).collect(), last, finest }
     }
 
@@ -204,8 +205,8 @@ impl Digits {
         // values that differ at the same conditions tell a step that is coarser than the last digit
         let steps: Vec<f64> = observed
             .iter()
-            .map(|of| {
-                let mut values: Vec<f64> = rows.iter().map(|&row| of.values[row]).collect();
+            .map(|output| {
+                let mut values: Vec<f64> = rows.iter().map(|&row| output.values[row]).collect();
                 ascending(&mut values);
                 let apart = values.windows(2).map(|pair| pair[1] - pair[0]);
                 let least = apart.filter(|apart| *apart > 0.0).fold(f64::INFINITY, f64::min);
@@ -213,8 +214,8 @@ impl Digits {
             })
             .collect();
         let same = |row: usize| -> f64 {
-            let of_output = |(output, of): (usize, &&crate::ObservedOutput)| {
-                let u = of.standard_uncertainties.as_ref().map_or(0.0, |u| u[row]);
+            let of_output = |(output, observed_output): (usize, &&crate::ObservedOutput)| {
+                let u = observed_output.standard_uncertainties.as_ref().map_or(0.0, |u| u[row]);
                 let step = self.read_to(output, row).max(steps[output]);
                 (step / (2.0 * PI.sqrt() * u)).min(1.0)
             };

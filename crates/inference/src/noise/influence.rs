@@ -188,7 +188,7 @@ impl Influence {
         gain += self.with(&known).gain();
         for (output, square) in self.squares.iter().enumerate() {
             let own: Vec<usize> =
-                off.iter().map(|of| of.0).filter(|value| is_of(*value, output)).collect();
+                off.iter().map(|value| value.0).filter(|value| is_of(*value, output)).collect();
             let (Some(square), false) = (square, own.is_empty()) else { continue };
             let Some(errors) = self.errors(&own) else { return f64::NEG_INFINITY };
             let explained: f64 =
@@ -224,7 +224,7 @@ impl Influence {
             // at the most probable variance all squares together are as many as there are values
             gain += 0.5 * square - 0.5 * count as f64 * (1.0 + elementary::ln(variance));
             gain -= sizes.iter().map(|size| elementary::ln(SUSPECT_SIZES[*size].0)).sum::<f64>();
-            let members = off.iter_mut().filter(|of| is_of(of.0, output));
+            let members = off.iter_mut().filter(|value| is_of(value.0, output));
             members.zip(sizes).for_each(|(member, size)| member.1 = size);
         }
         gain

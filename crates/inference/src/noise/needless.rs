@@ -14,7 +14,7 @@ const LEADS: f64 = 0.5;
 /// The most probable set of values that are off without those that a departure without a name does
 /// not need; `None` where it needs all of them, or where the set is known.
 pub(crate) fn without_needless(weighings: &[Weighing<'_>]) -> Option<Vec<Suspect>> {
-    let suspects = |of: &Weighing<'_>| of.setup.data.noise.suspects.clone();
+    let suspects = |weighing: &Weighing<'_>| weighing.setup.data.noise.suspects.clone();
     let own = weighings.iter().filter(|w| !w.setup.data.noise.suspects.is_empty());
     let best = own.max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()))?;
     if best.posterior.departs() < LEADS {

@@ -192,7 +192,7 @@ impl NoiseModel {
     /// has seen that the data depart by more than they should, and the noise is not as stated either.
     pub fn hypotheses(&self, case: &Case) -> Prior {
         let mut observed = case.observed.iter().flatten();
-        let is_stated = observed.any(|of| of.standard_uncertainties.is_some());
+        let is_stated = observed.any(|output| output.standard_uncertainties.is_some());
         if is_stated && *self == Self::default() {
             case.prior
         } else {

@@ -34,7 +34,7 @@ pub fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Arc<Discrepancy>,
         let own = &mut first.posterior.hypotheses;
         let theirs = std::mem::take(&mut stated.posterior.hypotheses);
         let (known, pairs): (Vec<_>, Vec<_>) =
-            theirs.into_iter().partition(|h| own.iter().any(|of| of.effects == h.effects));
+            theirs.into_iter().partition(|h| own.iter().any(|other| other.effects == h.effects));
         stated.posterior.hypotheses = known;
         own.extend(pairs.into_iter().map(|pair| WeighedHypothesis {
             probability: pair.probability * stated.probability / first.probability,
@@ -44,7 +44,7 @@ pub fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Arc<Discrepancy>,
     }
     let Weighing { setup, discrepancy, mut posterior, probability: own_share, .. } = first;
     let stated = NoiseModel::default().hypotheses(setup.case);
-    let scale = |of: f64, own: f64| if own > 0.0 { of / own } else { 1.0 };
+    let scale = |factor: f64, own: f64| if own > 0.0 { factor / own } else { 1.0 };
     let own = setup.prior();
     for hypothesis in &mut posterior.hypotheses {
         // as the case has it, where the noise is as stated
@@ -60,7 +60,7 @@ pub fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Arc<Discrepancy>,
     for hypothesis in &mut posterior.hypotheses {
         let effects = hypothesis.effects.clone();
         let has_draws = hypothesis.evidence.has_draws();
-        sum(&setup, hypothesis, (own_share, has_draws), &weighings, &|w| w.posterior.of(&effects));
+        sum(&setup, hypothesis, own_share, has_draws, &weighings, &|w| w.posterior.of(&effects));
     }
     // a departure that another noise has is one of the forms there
     for other in weighings.iter().flat_map(|w| &w.posterior.beside) {
@@ -79,7 +79,7 @@ pub fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Arc<Discrepancy>,
     for of in &mut posterior.beside {
         let effects = of.named.effects.clone();
         of.named.prior = beside::prior(setup.case, &stated, &effects);
-        sum(&setup, &mut of.named, (own_share, true), &weighings, &|w| {
+        sum(&setup, &mut of.named, own_share, true, &weighings, &|w| {
             Some(&w.posterior.beside(&effects)?.named)
         });
     }
@@ -94,7 +94,8 @@ pub fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Arc<Discrepancy>,
 fn sum<'w, 'c: 'w>(
     setup: &Setup<'_>,
     hypothesis: &mut WeighedHypothesis,
-    (own_share, with_draws): (f64, bool),
+    own_share: f64,
+    with_draws: bool,
     weighings: &'w [Weighing<'c>],
     theirs: &dyn Fn(&'w Weighing<'c>) -> Option<&'w WeighedHypothesis>,
 ) {

@@ -260,7 +260,10 @@ pub fn hidden(weighings: &[Weighing<'_>]) -> Vec<Vec<usize>> {
     let hypotheses = narrower.posterior.hypotheses.iter();
     hypotheses
         .filter(|h| !h.effects.is_empty() && h.probability > narrower.posterior.departs())
-        .filter(|h| of_stated(&|of| of.of(&h.effects).map_or(0.0, |h| h.probability)) < unexplained)
+        .filter(|h| {
+            of_stated(&|posterior| posterior.of(&h.effects).map_or(0.0, |h| h.probability))
+                < unexplained
+        })
         .map(|h| h.effects.clone())
         .collect()
 }

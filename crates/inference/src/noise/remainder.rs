@@ -38,7 +38,10 @@ impl Remainder {
         if covariance.fitted {
             deviations = ln_variances.iter().map(|ln| elementary::exp(0.5 * ln)).collect();
             for column in &mut basis {
-                column.iter_mut().zip(&deviations).for_each(|(value, of)| *value /= of);
+                column
+                    .iter_mut()
+                    .zip(&deviations)
+                    .for_each(|(value, deviation)| *value /= deviation);
             }
         }
         let inner = inner_root(&basis);

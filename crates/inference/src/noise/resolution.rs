@@ -49,7 +49,8 @@ impl Rounding {
         let resolution = resolution(&observed.values, observed.last_digit, nominal)?;
         let least = deviation(resolution);
         let set_points = set_points(case, data, output);
-        let is_equal = scatter(data, output, &set_points).is_some_and(|of| of < 0.5 * resolution);
+        let is_equal =
+            scatter(data, output, &set_points).is_some_and(|scatter| scatter < 0.5 * resolution);
         let counts: Vec<bool> = match &observed.standard_uncertainties {
             Some(u) => data.ids.iter().map(|&id| is_equal || u[id] < least).collect(),
             None => vec![is_equal; data.rows()],
@@ -151,13 +152,13 @@ pub(crate) fn resolution(
     counts.dedup();
     let first = *counts.first()?;
     let more = i32::try_from(counts.len() - 1).unwrap_or(i32::MAX);
-    let is_common = |of: &&i64| {
-        counts.iter().all(|count| (count - first) % **of == 0)
-            && (**of as f64).powi(more) > LEAST_ODDS
-            && !set(step * **of as f64)
+    let is_common = |divisor: &&i64| {
+        counts.iter().all(|count| (count - first) % **divisor == 0)
+            && (**divisor as f64).powi(more) > LEAST_ODDS
+            && !set(step * **divisor as f64)
     };
     let common = STEPS.iter().find(is_common);
-    Some(to_15_digits(step * common.map_or(1.0, |of| *of as f64)))
+    Some(to_15_digits(step * common.map_or(1.0, |divisor| *divisor as f64)))
 }
 
 #[cfg(test)]

@@ -75,7 +75,7 @@ impl SharedNoise {
     /// The same with errors in one output less: what is a departure along the settings there no
     /// hypothesis has at its modes.
     pub(crate) fn without_one(&self) -> Vec<Self> {
-        let with_errors = |of: &Self| of.ratios.iter().any(|ratio| *ratio > 0.0);
+        let with_errors = |noise: &Self| noise.ratios.iter().any(|ratio| *ratio > 0.0);
         let outputs = (0..self.ratios.len()).filter(|&output| self.ratios[output] > 0.0);
         let without = outputs.map(|output| {
             let mut fewer = self.clone();
@@ -195,7 +195,7 @@ pub(crate) fn count_of(settings: &[usize]) -> usize {
 
 /// How many errors of settings are weighed, at most.
 pub(crate) fn most_errors(case: &Case) -> usize {
-    let is_stated = |of: &ObservedOutput| of.standard_uncertainties.is_some();
+    let is_stated = |output: &ObservedOutput| output.standard_uncertainties.is_some();
     match case.observed.iter().flatten().all(is_stated) {
         true => MOST_ERRORS,
         false => MOST_FITTED,

@@ -107,7 +107,8 @@ pub(crate) fn worth_trying(weighings: &[Weighing<'_>]) -> Vec<SharedNoise> {
                 ln + ratios.iter().enumerate().map(|ratio| of(ratio, gains)).sum::<f64>()
             });
             let ln = ln.fold(f64::NEG_INFINITY, ln_add);
-            let ratios = ratios.iter().map(|of| of.map_or(0.0, |place| RATIOS[place])).collect();
+            let ratios =
+                ratios.iter().map(|ratio| ratio.map_or(0.0, |place| RATIOS[place])).collect();
             let (among, within) = (settings.len(), within.clone());
             let noise = SharedNoise { setting, among, ratios, within };
             let prior = NoiseModel::with_shared(noise.clone()).prior(setup.data.len());
@@ -131,7 +132,8 @@ pub(crate) fn worth_trying(weighings: &[Weighing<'_>]) -> Vec<SharedNoise> {
     // like such errors
     let is_unexplained = posterior.departs() > UNEXPLAINED;
     if let Some((_, alike)) = leading.filter(|(ln, _)| is_worth(*ln) || is_unexplained) {
-        let more: Vec<SharedNoise> = alike.into_iter().filter(|of| !found.contains(of)).collect();
+        let more: Vec<SharedNoise> =
+            alike.into_iter().filter(|alike| !found.contains(alike)).collect();
         found.extend(more);
     }
     found
@@ -188,7 +190,7 @@ impl Groups {
         for rows in &self.rows {
             let own = self.own(left, rows, output);
             let mean = own.iter().sum::<f64>() / own.len().max(1) as f64;
-            squares += own.iter().map(|of| (of - mean).powi(2)).sum::<f64>();
+            squares += own.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
             free += own.len().saturating_sub(1) as f64;
         }
         let variance = squares / free;

@@ -64,14 +64,14 @@ pub(crate) fn more_suspects(
     let influence = |hypothesis| Influence::of(&last.setup, hypothesis);
     let influences = parallel::map(&last.posterior.hypotheses, influence);
     one_more(last, &influences, enough)
-        .or_else(|| several_more(last, &influences, enough, (seed, effort)))
+        .or_else(|| several_more(last, &influences, enough, seed, effort))
         .or_else(|| beside_departure(last, enough))
 }
 
 /// The suspects of a weighing and these more.
 fn with(last: &Weighing<'_>, more: &[(usize, usize)]) -> NoiseModel {
     let mut suspects = last.setup.data.noise.suspects.clone();
-    suspects.extend(more.iter().map(|&of| suspect(&last.setup, of)));
+    suspects.extend(more.iter().map(|&wrong| suspect(&last.setup, wrong)));
     NoiseModel::with_suspects(suspects)
 }
 
@@ -103,7 +103,7 @@ fn one_more(
     let sum = |value: usize, size: usize| {
         found
             .iter()
-            .filter_map(|of| of.get(value))
+            .filter_map(|gains| gains.get(value))
             .fold(f64::NEG_INFINITY, |sum, gains| ln_add(sum, gains[size]))
     };
     let (ln, more) = (0..values)
@@ -124,7 +124,8 @@ fn several_more(
     last: &Weighing<'_>,
     influences: &[Option<Influence>],
     enough: f64,
-    (seed, effort): (u64, Effort<'_>),
+    seed: u64,
+    effort: Effort<'_>,
 ) -> Option<Vec<Suspect>> {
     let known = last.setup.data.noise.suspects.len();
     let most = MOST_SUSPECTS.min(last.setup.data.len() / MOST_SHARE).saturating_sub(known);
@@ -135,7 +136,7 @@ fn several_more(
     let found: Vec<Vec<WeighedSet>> = parallel::map(hypotheses, |(hypothesis, influence)| {
         let ln = ln_weight_at_mode(&last.setup, hypothesis);
         let influence = influence.as_ref().filter(|_| ln.is_finite());
-        let sets = influence.map(|of| best_sets(last, of, most)).unwrap_or_default();
+        let sets = influence.map(|influence| best_sets(last, influence, most)).unwrap_or_default();
         sets.into_iter().map(|(gain, set)| (ln + gain, set)).collect()
     });
     (2..=most).find_map(|count| {
@@ -152,7 +153,9 @@ fn several_more(
         let of = |set: &Vec<(usize, usize)>| {
             let own = found.iter().zip(&last.posterior.hypotheses);
             let mut own: Vec<(f64, &WeighedHypothesis)> = own
-                .filter_map(|(of, h)| Some((of.iter().find(|(_, other)| other == set)?.0, h)))
+                .filter_map(|(hypotheses, h)| {
+                    Some((hypotheses.iter().find(|(_, other)| other == set)?.0, h))
+                })
                 .collect();
             largest_first(&mut own, |a| a.0);
             own.into_iter().take(CONFIRMED).map(|(_, h)| h).collect::<Vec<_>>()
@@ -233,7 +236,7 @@ fn best_sets(last: &Weighing<'_>, influence: &Influence, most: usize) -> Vec<Wei
 fn is_departure(last: &Weighing<'_>, influence: &Influence, set: &[(usize, usize)]) -> bool {
     let setup = &last.setup;
     let outputs = setup.data.outputs.len();
-    let values: Vec<usize> = set.iter().map(|of| of.0).collect();
+    let values: Vec<usize> = set.iter().map(|wrong| wrong.0).collect();
     let Some(errors) = influence.errors(&values) else { return false };
     // for each row of an output the side to which its value is off
     let sides = |output: usize, side: bool| -> Vec<bool> {
@@ -286,14 +289,16 @@ fn larger_suspects(weighing: &Weighing<'_>) -> Option<Vec<Suspect>> {
     let hides: Vec<bool> = (0..outputs)
         .map(|output| {
             let own = suspects.iter().filter(|suspect| suspect.output == output);
-            let larger = own.filter_map(|of| Some((of.size, residual(of).filter(|r| *r > 1.0)?)));
+            let larger = own.filter_map(|suspect| {
+                Some((suspect.size, residual(suspect).filter(|r| *r > 1.0)?))
+            });
             let squares = residuals.iter().skip(output).step_by(outputs).map(|r| r * r);
             setup.data.uncertainties[output].is_none() && less_noise_pays(squares, larger)
         })
         .collect();
-    let is_off = |of: &Suspect| {
-        let least = if hides[of.output] { 1.0 } else { STILL_OFF };
-        residual(of).is_some_and(|residual| residual > least)
+    let is_off = |suspect: &Suspect| {
+        let least = if hides[suspect.output] { 1.0 } else { STILL_OFF };
+        residual(suspect).is_some_and(|residual| residual > least)
     };
     let larger = suspects.iter().map(|suspect| match is_off(suspect) {
         true => Suspect { size: suspect.size + 1, ..*suspect },

@@ -43,7 +43,9 @@ impl<'c> Weighing<'c> {
     /// ones.
     pub(crate) fn is_beyond_factors(&self) -> bool {
         let leading = self.posterior.leading();
-        let Some(mode) = leading.and_then(|of| of.evidence.modes.first()) else { return false };
+        let Some(mode) = leading.and_then(|leading| leading.evidence.modes.first()) else {
+            return false;
+        };
         self.setup.roles.iter().zip(&mode.scores).any(|(role, score)| match role {
             Role::Noise { output, .. } => {
                 self.setup.has_factor(*output) && *score > AT_BOUND * EDGE

@@ -157,11 +157,11 @@ fn serial_correlations<'c>(weighings: &[Weighing<'c>]) -> Vec<Setup<'c>> {
     let is_worth = |serial: &Setup<'_>| {
         let gains = at_modes(serial).into_iter().zip(&without).map(|(with, ln)| with - ln);
         let hypotheses = posterior.hypotheses.iter().zip(gains);
-        let all = hypotheses.map(|(of, gain)| ln_weight_at_mode(setup, of) + gain);
+        let all = hypotheses.map(|(hypothesis, gain)| ln_weight_at_mode(setup, hypothesis) + gain);
         let sum = all.filter(|ln| !ln.is_nan()).fold(f64::NEG_INFINITY, ln_add);
         sum + ln_prior + MOVED - total > elementary::ln(WORTH_TRYING)
     };
-    let with = |of: &f64| setup.with_noise(NoiseModel::with_serial(*of));
+    let with = |serial: &f64| setup.with_noise(NoiseModel::with_serial(*serial));
     SERIAL.iter().map(with).filter(is_worth).collect()
 }
 

@@ -73,8 +73,9 @@ fn the_evidence_beside_a_departure_is_the_sum_over_all_of_them() {
     let likelihood = setup.likelihood(&[0]);
     let start = at_points(&likelihood, &[vec![-2.0; setup.roles.len() + 1]]);
     let key = StreamKey::new(1, "test");
-    let with = (key, Effort::FULL, f64::NEG_INFINITY);
-    let found = Beside::fitted(&setup, &discrepancy, &[0], &start, with).unwrap();
+    let floor = f64::NEG_INFINITY;
+    let found =
+        Beside::fitted(&setup, &discrepancy, &[0], &start, key, Effort::FULL, floor).unwrap();
     let mut wanted = f64::NEG_INFINITY;
     for form in &discrepancy.forms {
         let unit = form.features(&setup, &discrepancy.axes).into_owned();

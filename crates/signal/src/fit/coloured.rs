@@ -258,9 +258,9 @@ impl Series {
         let variance = |weights: &[f64]| process.variance_of(weights);
         let mut of_level = variance(&whole.weights(0)?);
         let mut tones = None;
-        let of_drift = |of: &Regression, process: &Process| -> Option<Vec<f64>> {
-            let places = of.columns.len() - design.drift..of.columns.len();
-            places.map(|place| Some(process.variance_of(&of.weights(place)?))).collect()
+        let of_drift = |regression: &Regression, process: &Process| -> Option<Vec<f64>> {
+            let places = regression.columns.len() - design.drift..regression.columns.len();
+            places.map(|place| Some(process.variance_of(&regression.weights(place)?))).collect()
         };
         let mut drift = if fits { of_drift(&whole, &process)? } else { Vec::new() };
         if fits || !many {
@@ -288,7 +288,7 @@ impl Series {
         let flicker = (!process.walks)
             .then(|| process.flicker(slow_values.as_deref().unwrap_or(&self.values), design, fits))
             .flatten();
-        if let Some((of_flicker, bins)) = flicker.filter(|(of, _)| *of > of_level) {
+        if let Some((of_flicker, bins)) = flicker.filter(|(level, _)| *level > of_level) {
             (of_level, freedom) = (of_flicker, bins);
         }
         let flickers = flicker.is_some();
@@ -578,7 +578,7 @@ impl Products {
             .map(|column| column.windows(2).map(|pair| pair[1] - pair[0]).collect())
             .collect();
         let before = |i: usize| &columns[i][..columns[i].len() - 1];
-        let over = |of: &dyn Fn(usize, usize) -> f64| DMatrix::from_fn(count, count, of);
+        let over = |entry: &dyn Fn(usize, usize) -> f64| DMatrix::from_fn(count, count, entry);
         Self {
             first: over(&|i, j| columns[i][0] * columns[j][0]),
             steps: [
@@ -683,19 +683,19 @@ impl Process {
 
 /// The place between two where a function is least, by a look every quarter and golden sections.
 fn along(
-    of: impl Fn(f64) -> Option<Likelihood>,
+    likelihood: impl Fn(f64) -> Option<Likelihood>,
     (from, to): (f64, f64),
 ) -> Option<(f64, Likelihood)> {
     let steps = (4.0 * (to - from)).ceil() as u32;
     let at = |step: u32| from + (to - from) * f64::from(step) / f64::from(steps);
-    let found = (0..=steps).filter_map(|step| Some((step, of(at(step))?)));
+    let found = (0..=steps).filter_map(|step| Some((step, likelihood(at(step))?)));
     let (step, mut best) = found.min_by(|a, b| a.1.value.total_cmp(&b.1.value))?;
     let mut place = at(step);
     let (mut low, mut high) = (at(step.saturating_sub(1)), at((step + 1).min(steps)));
     let section = (3.0 - 5f64.sqrt()) / 2.0;
     while high - low > 1e-3 {
         let [left, right] = [low + section * (high - low), high - section * (high - low)];
-        let [of_left, of_right] = [of(left)?, of(right)?];
+        let [of_left, of_right] = [likelihood(left)?, likelihood(right)?];
         if of_left.value < of_right.value {
             high = right;
         } else {

@@ -28,9 +28,9 @@ pub(crate) fn correlation(a: &Analysed, b: &Analysed, cycles: f64) -> Option<f64
         return None;
     }
     let common = common(a, b, cycles)?;
-    let phase = |of: &Analysed| {
-        let tone = of.design.tones.iter().position(|tone| tone.cycles == cycles)?;
-        Some(angle(Phasor::new(of.fit.cosines[tone], -of.fit.sines[tone])))
+    let phase = |analysed: &Analysed| {
+        let tone = analysed.design.tones.iter().position(|tone| tone.cycles == cycles)?;
+        Some(angle(Phasor::new(analysed.fit.cosines[tone], -analysed.fit.sines[tone])))
     };
     let apart = phase(a)? - phase(b)?;
     Some((common * at_turns(-apart / TAU)).re)
@@ -47,7 +47,7 @@ fn common(a: &Analysed, b: &Analysed, cycles: f64) -> Option<Phasor> {
     if white {
         by_lags(of_a, of_b, cycles)
     } else if parts < LEAST_PARTS {
-        by_innovations((&a.residuals, of_a), (&b.residuals, of_b), cycles)
+        by_innovations(&a.residuals, of_a, &b.residuals, of_b, cycles)
     } else {
         by_parts(of_a, of_b, cycles, parts)
     }
@@ -58,8 +58,10 @@ fn common(a: &Analysed, b: &Analysed, cycles: f64) -> Option<Phasor> {
 /// (L. D. Haugh, J. Am. Stat. Assoc. 71 (1976) 378), and have the coherence of the processes but for
 /// the phases of these.
 fn by_innovations(
-    (a, of_a): (&Residuals, &[f64]),
-    (b, of_b): (&Residuals, &[f64]),
+    a: &Residuals,
+    of_a: &[f64],
+    b: &Residuals,
+    of_b: &[f64],
     cycles: f64,
 ) -> Option<Phasor> {
     let every = a.coloured.as_ref().or(b.coloured.as_ref())?.every;

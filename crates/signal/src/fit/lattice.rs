@@ -78,7 +78,8 @@ pub(crate) fn step(values: &[f64], left: f64) -> Option<f64> {
 /// again and again.
 fn are_enough(sorted: &[f64], rounded: f64) -> bool {
     let levels = || sorted.chunk_by(|before, next| *next - *before <= rounded);
-    let (different, met_again) = (levels().count(), levels().filter(|of| of.len() > 1).count());
+    let (different, met_again) =
+        (levels().count(), levels().filter(|level| level.len() > 1).count());
     different >= LEAST || (met_again > 1 && sorted.len() >= AGAIN * different)
 }
 

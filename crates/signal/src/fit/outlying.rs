@@ -47,7 +47,7 @@ impl Farthest {
                 self.kept.push(Outlying { sample, residual: *residual, value: *value });
                 if self.kept.len() >= 2 * KEPT {
                     self.sort();
-                    self.least = self.kept.last().map_or(0.0, |of| of.residual.abs());
+                    self.least = self.kept.last().map_or(0.0, |outlying| outlying.residual.abs());
                 }
             }
         }
@@ -68,10 +68,14 @@ impl Farthest {
         let median = median(first.iter().map(|residual| residual.abs()).collect())?;
         let mut sorted = self.clone();
         sorted.sort();
-        let largest = sorted.kept.iter().map(|of| of.value.abs()).fold(0.0, f64::max);
+        let largest = sorted.kept.iter().map(|outlying| outlying.value.abs()).fold(0.0, f64::max);
         let deviation = (NORMAL * median).max(resolution).max(ROUNDING * largest);
         let beyond = |far: f64| {
-            sorted.kept.iter().take_while(|of| of.residual.abs() > far * deviation).count()
+            sorted
+                .kept
+                .iter()
+                .take_while(|outlying| outlying.residual.abs() > far * deviation)
+                .count()
         };
         let (far, very_far) = (beyond(FAR), beyond(VERY_FAR));
         let count = if far <= FEW { far } else { very_far };

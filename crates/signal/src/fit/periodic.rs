@@ -262,9 +262,9 @@ impl Periodic {
         let mut left = self.without(signal);
         left.truncate(KEPT);
         let mut beside = spurious::found(&left);
-        beside.retain(|of| {
+        beside.retain(|oscillation| {
             let turns = |part: &Harmonic| part.frequency / self.rate * left.len() as f64;
-            let at = of.cycles * left.len() as f64;
+            let at = oscillation.cycles * left.len() as f64;
             self.parts.iter().all(|part| (turns(part) - at).abs() >= OF_HARMONIC)
         });
         for part in &mut self.parts {

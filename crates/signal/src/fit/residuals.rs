@@ -93,7 +93,8 @@ impl Residuals {
 pub(crate) fn kurtosis(residuals: &[f64]) -> f64 {
     let count = residuals.len() as f64;
     let square = residuals.iter().map(|e| e * e).sum::<f64>() / count;
-    let fourth = residuals.iter().map(|e| e * e / square).map(|of| of * of).sum::<f64>() / count;
+    let fourth =
+        residuals.iter().map(|e| e * e / square).map(|square| square * square).sum::<f64>() / count;
     let found = fourth * (count + 1.0) / (count - 1.0);
     if found.is_finite() { found } else { 3.0 }
 }
@@ -316,13 +317,15 @@ impl Gathered {
         let coloured = (correlated || self.series.wanders(variance))
             .then(|| self.series.coloured(design, parts > 0))
             .flatten();
-        let modelled = coloured.as_ref().and_then(|of| of.over_white(design, variance));
+        let modelled = coloured.as_ref().and_then(|coloured| coloured.over_white(design, variance));
         let local = match (modelled, self.part) {
             (Some(modelled), _) => {
                 parts = 0;
                 Some(modelled)
             }
-            (None, part) => part.map(|of| of.local(variance).into_iter().map(|f| [f, f]).collect()),
+            (None, part) => {
+                part.map(|part| part.local(variance).into_iter().map(|f| [f, f]).collect())
+            }
         };
         Residuals {
             variance,

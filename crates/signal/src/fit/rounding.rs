@@ -147,7 +147,8 @@ pub(crate) fn noise_before(
     design: &ToneDesign,
     fit: &ToneCoefficients,
     resolution: f64,
-    (left, first): (f64, &[f64]),
+    left: f64,
+    first: &[f64],
 ) -> f64 {
     let plain = left - quantization_variance(resolution);
     if plain > resolution * resolution / 4.0 {

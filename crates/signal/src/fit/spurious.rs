@@ -38,9 +38,10 @@ pub(crate) fn leakage(of: &[Spurious], cycles: f64, samples: f64) -> f64 {
         let size = sin(PI * apart).abs() * samples;
         if size > 1.0 { 1.0 / size } else { 1.0 }
     };
-    let square = |of: &Spurious| {
-        let (near, far) = (envelope(of.cycles - cycles), envelope(of.cycles + cycles));
-        of.amplitude * of.amplitude * (near * near + far * far) / 4.0
+    let square = |oscillation: &Spurious| {
+        let (near, far) =
+            (envelope(oscillation.cycles - cycles), envelope(oscillation.cycles + cycles));
+        oscillation.amplitude * oscillation.amplitude * (near * near + far * far) / 4.0
     };
     of.iter().map(square).sum::<f64>().sqrt()
 }
@@ -77,8 +78,9 @@ const OF_LEVEL: usize = 4;
 /// end of the spectrum: residuals that an oscillation correlates, and no level that wanders.
 pub(crate) fn is_level_still(residuals: &[f64], of: &[Spurious]) -> bool {
     let count = residuals.len() as f64;
-    let apart = |of: &Spurious, bin: usize| of.cycles * count - bin as f64;
-    let tones = of.iter().filter(|of| !of.fitted && apart(of, OF_LEVEL) > 0.5);
+    let apart = |oscillation: &Spurious, bin: usize| oscillation.cycles * count - bin as f64;
+    let tones =
+        of.iter().filter(|oscillation| !oscillation.fitted && apart(oscillation, OF_LEVEL) > 0.5);
     let tones: Vec<&Spurious> = tones.collect();
     if tones.is_empty() {
         return false;
@@ -87,7 +89,9 @@ pub(crate) fn is_level_still(residuals: &[f64], of: &[Spurious]) -> bool {
     let median = median(power.clone()).unwrap_or(0.0);
     (2..=OF_LEVEL).all(|bin| {
         // of a tone the Hann window leaks less than the inverse sixth power of the bins between
-        let leaks = |of: &&Spurious| (of.amplitude * count / 4.0).powi(2) / apart(of, bin).powi(6);
+        let leaks = |oscillation: &&Spurious| {
+            (oscillation.amplitude * count / 4.0).powi(2) / apart(oscillation, bin).powi(6)
+        };
         let leaked: f64 = tones.iter().map(leaks).sum();
         power.get(bin).is_none_or(|power| *power < OVER_MEDIAN * median + leaked)
     })

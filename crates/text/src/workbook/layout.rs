@@ -168,10 +168,10 @@ impl Layout {
                             let own = attribute(&element, "r").and_then(|r| place(&r));
                             (column, row) = own.unwrap_or(((column + 1).min(COLUMNS), row.max(1)));
                             parts = RichTextParts::default();
-                            is_shared = attribute(&element, "t").is_some_and(|of| of == "s");
+                            is_shared = attribute(&element, "t").is_some_and(|kind| kind == "s");
                             is_formula = false;
                             // a formula may give an empty text
-                            has_value = attribute(&element, "t").is_some_and(|of| of == "str");
+                            has_value = attribute(&element, "t").is_some_and(|kind| kind == "str");
                         }
                         "f" => is_formula = true,
                         "v" | "is" => in_value = !is_empty,
@@ -237,18 +237,18 @@ const fn from_zero((column, row): (u32, u32)) -> Place {
 }
 
 fn is_hidden(row: &BytesStart<'_>) -> bool {
-    let is_set = attribute(row, "hidden").is_some_and(|of| matches!(of.as_str(), "1" | "true"));
+    let is_set = attribute(row, "hidden").is_some_and(|text| matches!(text.as_str(), "1" | "true"));
     is_set || attribute(row, "ht").and_then(|ht| ht.parse().ok()).is_some_and(|ht: f64| ht == 0.0)
 }
 
 /// The columns of an element `col`, from 0, if they are hidden; at most as many as a table has.
 fn hidden_columns(col: &BytesStart<'_>) -> std::ops::Range<u32> {
-    let is_set = attribute(col, "hidden").is_some_and(|of| matches!(of.as_str(), "1" | "true"));
-    let number = |name: &str| attribute(col, name).and_then(|of| of.parse::<f64>().ok());
+    let is_set = attribute(col, "hidden").is_some_and(|text| matches!(text.as_str(), "1" | "true"));
+    let number = |name: &str| attribute(col, name).and_then(|text| text.parse::<f64>().ok());
     if !is_set && number("width").is_none_or(|width| width > 0.0) {
         return 0..0;
     }
-    let end = |name: &str| number(name).map_or(0, |of| of as u32).min(MOST_COLUMNS);
+    let end = |name: &str| number(name).map_or(0, |number| number as u32).min(MOST_COLUMNS);
     end("min").saturating_sub(1)..end("max")
 }
 
@@ -291,8 +291,11 @@ impl PartsOf {
 
     /// The text of the part of that name.
     fn part(&mut self, name: &str) -> Option<String> {
-        let is_it = |of: &str| of.replace('\\', "/").eq_ignore_ascii_case(name);
-        let at = self.archive.file_names().position(|of| of.is_ok_and(|of| is_it(&of)))?;
+        let is_it = |path: &str| path.replace('\\', "/").eq_ignore_ascii_case(name);
+        let at = self
+            .archive
+            .file_names()
+            .position(|file_name| file_name.is_ok_and(|path| is_it(&path)))?;
         let mut text = String::new();
         let part = self.archive.by_index(at).ok()?;
         part.take(MOST_OF_PART).read_to_string(&mut text).ok()?;
@@ -306,7 +309,7 @@ impl PartsOf {
         let ids = elements(&book, is_sheet, |element| {
             // in whichever namespace
             let mut attributes = element.attributes().flatten();
-            let id = attributes.find(|of| of.key.local_name().as_ref() == "id")?;
+            let id = attributes.find(|attribute| attribute.key.local_name().as_ref() == "id")?;
             Some(id.value.into_owned())
         });
         let relations = self.part("xl/_rels/workbook.xml.rels")?;

@@ -36,7 +36,8 @@ impl RichTextParts {
                     }
                 }
                 "strike"
-                    if attribute(element, "val").is_none_or(|of| of == "1" || of == "true") =>
+                    if attribute(element, "val")
+                        .is_none_or(|text| text == "1" || text == "true") =>
                 {
                     self.look = Some("struck-through");
                 }

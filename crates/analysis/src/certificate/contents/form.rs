@@ -83,7 +83,7 @@ impl Localized {
 
     /// The text in a language, or in another language if it is missing.
     pub fn get(&self, language: Language) -> &str {
-        let own = self.texts.iter().find(|(of, _)| of.is_none_or(|of| of == language));
+        let own = self.texts.iter().find(|(own, _)| own.is_none_or(|own| own == language));
         own.or(self.texts.first()).map_or("", |(_, text)| text)
     }
 

@@ -60,13 +60,17 @@ fn order(distribution: &Distribution, modulus: impl Fn(f64) -> f64) -> f64 {
 /// quotient whose divisor reaches zero often enough has neither.
 pub(crate) fn of_moments(problem: &Problem<'_>) -> [bool; 2] {
     let row = problem.row;
-    let median = |of: &Distribution| of.constant().unwrap_or_else(|| of.quantile(0.5));
-    let quantiles = |of: &Distribution| of.constant().is_some() || of.has_quantiles();
+    let median = |distribution: &Distribution| {
+        distribution.constant().unwrap_or_else(|| distribution.quantile(0.5))
+    };
+    let quantiles = |distribution: &Distribution| {
+        distribution.constant().is_some() || distribution.has_quantiles()
+    };
     let mut exist = [true; 2];
-    if !row.distributions.iter().all(|of| quantiles(of)) {
+    if !row.distributions.iter().all(|distribution| quantiles(distribution)) {
         return exist;
     }
-    let medians = row.distributions.iter().map(|of| median(of));
+    let medians = row.distributions.iter().map(|distribution| median(distribution));
     let mut values: Vec<f64> = medians.chain(row.conditions.iter().copied()).collect();
     for (place, distribution) in row.distributions.iter().enumerate() {
         if distribution.constant().is_some() {

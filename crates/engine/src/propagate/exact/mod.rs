@@ -424,7 +424,7 @@ fn figures(problem: &Problem<'_>, law: &Law, moments: ExactMoments) -> Result<No
     let symmetric = [found(tail, 1.0 - tail)?, found(1.0 - tail, tail)?];
     let length = symmetric[1].value - symmetric[0].value;
     let scale = if std.is_finite() && std > 0.0 { std } else { 0.25 * length };
-    let bounds = [median, symmetric[0], symmetric[1]].map(|found: BoundedValue| found.bound);
+    let bounds = [median, symmetric[0], symmetric[1]].map(|value: BoundedValue| value.bound);
     let mut bound = bounds.into_iter().fold(0.0, f64::max);
     if bound.is_nan() || bound > EXACT * scale {
         return Err(format!(

@@ -295,7 +295,8 @@ const AT_END: u32 = 27;
 fn panel(
     distribution: &Distribution,
     end: End,
-    (start, width): (f64, f64),
+    start: f64,
+    width: f64,
     pieces: u32,
     ring: Option<usize>,
 ) -> impl Iterator<Item = CoordinatePlace> {
@@ -321,7 +322,7 @@ pub(super) fn ring_at_end(
     let last = AT_END - 1 - ring as u32 * PANELS;
     (last + 1 - PANELS..=last).flat_map(move |depth| {
         let outer = stretch * 0.25f64.powi(depth as i32);
-        let places = panel(distribution, end, (0.25 * outer, 0.75 * outer), 1, None);
+        let places = panel(distribution, end, 0.25 * outer, 0.75 * outer, 1, None);
         places.map(|place| [place.at, place.weight])
     })
 }
@@ -338,15 +339,14 @@ fn probabilities(distribution: &Distribution, level: u32) -> Vec<CoordinatePlace
             End::Lower => [pair[0], pair[1]],
         };
         if low > 0.0 || is_smooth(distribution) {
-            places.extend(panel(distribution, end, (low, high - low), pieces, None));
+            places.extend(panel(distribution, end, low, high - low, pieces, None));
             continue;
         }
         let mut outer = high;
         for depth in 0..AT_END {
-            let stretch = (0.25 * outer, 0.75 * outer);
             let ring = Some(((AT_END - 1 - depth) / PANELS) as usize).filter(|ring| *ring < RINGS);
             let pieces = if depth < 5 { pieces } else { 1 };
-            places.extend(panel(distribution, end, stretch, pieces, ring));
+            places.extend(panel(distribution, end, 0.25 * outer, 0.75 * outer, pieces, ring));
             outer *= 0.25;
         }
     }
@@ -551,14 +551,14 @@ fn beyond<const N: usize>(
     part: &SubProgram,
     coordinates: &[Coordinate],
     points: &Points,
-    of: [&dyn Fn(f64) -> f64; N],
+    functions: [&dyn Fn(f64) -> f64; N],
 ) -> Result<[Beyond; N], String> {
-    let scales = of.map(|of| points.expectation(|value| of(value).abs()));
+    let scales = functions.map(|function| points.expectation(|value| function(value).abs()));
     let mut all = [Beyond::default(); N];
     for (number, coordinate) in coordinates.iter().enumerate() {
         let Coordinate::Probability(distribution) = coordinate else { continue };
         for end in End::BOTH {
-            let mut rings = of.map(|of| points.rings(number, end, of));
+            let mut rings = functions.map(|function| points.rings(number, end, function));
             let mut added = [0.0; N];
             let open = |rings: &[[f64; RINGS]; N]| {
                 let mut each = rings.iter().zip(scales);
@@ -574,11 +574,10 @@ fn beyond<const N: usize>(
                 for _ in 0..FARTHER {
                     let mut ring = [0.0; N];
                     for _ in 0..PANELS {
-                        for place in panel(distribution, end, (0.25 * outer, 0.75 * outer), 1, None)
-                        {
+                        for place in panel(distribution, end, 0.25 * outer, 0.75 * outer, 1, None) {
                             let value = part.value(&[place.at], &mut signs).ok_or_else(no_value)?;
-                            for (ring, of) in ring.iter_mut().zip(of) {
-                                *ring += place.weight * of(value);
+                            for (ring, function) in ring.iter_mut().zip(functions) {
+                                *ring += place.weight * function(value);
                             }
                         }
                         outer *= 0.25;
@@ -690,7 +689,8 @@ fn points(
         let wider = (square(&before) / (spread * spread) - 1.0).abs();
         error = f64::max(shift, wider);
         for share in [1.0, 0.7, 0.4, 0.1] {
-            let [a, b] = [&before, &finer].map(|of| transform(&of.points, mean, share * frequency));
+            let [a, b] =
+                [&before, &finer].map(|sum| transform(&sum.points, mean, share * frequency));
             error = error.max((a[0] - b[0]).abs()).max((a[1] - b[1]).abs());
         }
         before = finer;
@@ -708,11 +708,11 @@ fn points(
     let moments: [&dyn Fn(f64) -> f64; 2] =
         [&|value| value - mean, &|value| (value - mean).powi(2)];
     let exponentials = if exponentials {
-        let of: [&dyn Fn(f64) -> f64; 2] =
+        let functions: [&dyn Fn(f64) -> f64; 2] =
             [&|value| elementary::exp(value), &|value| elementary::exp(2.0 * value)];
-        let beyond = beyond(&part, &coordinates, &before, of)?;
-        let mut all = of.into_iter().zip(beyond).map(|(of, beyond)| {
-            let value = before.expectation(of) + beyond.value;
+        let beyond = beyond(&part, &coordinates, &before, functions)?;
+        let mut all = functions.into_iter().zip(beyond).map(|(function, beyond)| {
+            let value = before.expectation(function) + beyond.value;
             [value, beyond.off / value]
         });
         all.next().zip(all.next()).map(|(first, second)| [first, second])

@@ -17,7 +17,8 @@ impl GumRow {
         let order = outputs.len();
         // in coordinates in which the covariance matrix is the identity
         let contribution = |q: usize| -> Vec<f64> {
-            let slope = |output: &usize| self.gradients.get(*output).and_then(|of| of.get(q));
+            let slope =
+                |output: &usize| self.gradients.get(*output).and_then(|slopes| slopes.get(q));
             let u = self.uncertainties.get(q).copied().unwrap_or(0.0);
             let mut own: Vec<f64> =
                 outputs.iter().map(|output| slope(output).map_or(0.0, |c| c * u)).collect();
@@ -25,13 +26,13 @@ impl GumRow {
             own
         };
         let contributions: Vec<Vec<f64>> = (0..distributions.len()).map(contribution).collect();
-        let square = |of: &[f64]| of.iter().map(|x| x * x).sum::<f64>();
+        let square = |contributions: &[f64]| contributions.iter().map(|x| x * x).sum::<f64>();
         // whether the degrees of freedom are known is as of an output that all contribute to
         let lines = distributions.iter().zip(&contributions).enumerate();
         let lines: Vec<BudgetLine> = lines
-            .map(|(q, (of, own))| BudgetLine {
+            .map(|(q, (contributions, own))| BudgetLine {
                 contribution: square(own).sqrt(),
-                ..BudgetLine::new(q, of, 1.0)
+                ..BudgetLine::new(q, contributions, 1.0)
             })
             .collect();
         let of_all = effective_dof(&lines, distributions, &self.linked, 1.0);

@@ -72,7 +72,8 @@ impl RowTrials {
             .collect();
         let unlimited = [f64::NEG_INFINITY, f64::INFINITY];
         let limits = task.model.outputs.iter().map(|output| output.at(&row.conditions).tolerance);
-        let limits = limits.map(|of| of.map_or(unlimited, |of| of.ends()));
+        let limits =
+            limits.map(|tolerance| tolerance.map_or(unlimited, |tolerance| tolerance.ends()));
         let limits = limits.zip(&branches).map(|(limits, branch)| match *branch {
             Some((middle, turn)) => on_branch(limits, middle, turn),
             None => limits,
@@ -134,7 +135,7 @@ impl RowTrials {
             return;
         }
         if let Some(called) = &self.function {
-            self.called(called, (path, block), workspace);
+            self.called(called, path, block, workspace);
             return;
         }
         let wanted = WantedValues::Outputs;
@@ -146,7 +147,8 @@ impl RowTrials {
     fn called(
         &self,
         Called { function, bound }: &Called,
-        (path, block): (CodePath, u64),
+        path: CodePath,
+        block: u64,
         workspace: &mut Workspace,
     ) {
         let mut drawn = vec![Vec::with_capacity(BLOCK); self.varying.len()];

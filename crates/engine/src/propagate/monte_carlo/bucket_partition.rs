@@ -301,7 +301,7 @@ impl BucketPartition {
             let by = |&s: &usize, &t: &usize| of(&stretches[s]).total_cmp(&of(&stretches[t]));
             if let Some(place) = (0..stretches.len()).min_by(by) {
                 let stretch = stretches.swap_remove(place);
-                self.look_at(stretch, (low, high), middle, &mut best);
+                self.look_at(stretch, low, high, middle, &mut best);
             }
         }
         let can_be_less =
@@ -312,7 +312,7 @@ impl BucketPartition {
             if !can_be_less(&stretch, &best) {
                 break;
             }
-            self.look_at(stretch, (low, high), middle, &mut best);
+            self.look_at(stretch, low, high, middle, &mut best);
         }
         best.map(|best| (best.ends, best.index))
     }
@@ -321,7 +321,8 @@ impl BucketPartition {
     fn look_at(
         &mut self,
         stretch: Stretch,
-        (low, high): (usize, usize),
+        low: usize,
+        high: usize,
         middle: usize,
         best: &mut Option<Shortest>,
     ) {

@@ -148,7 +148,7 @@ pub(super) fn condense(
         let start = block * BLOCK as u64;
         let edge = (start.next_multiple_of(size) - start) as usize;
         trials.block(path, block, workspace);
-        Some(CondensedBlock::of(path, plans, workspace, (block, edge), room))
+        Some(CondensedBlock::of(path, plans, workspace, block, edge, room))
     };
     parallel::map_with(blocks, room, make).into_iter().collect()
 }
@@ -159,7 +159,8 @@ impl CondensedBlock {
         path: CodePath,
         plans: &[Plan],
         workspace: &mut Workspace,
-        (block, edge): (u64, usize),
+        block: u64,
+        edge: usize,
         room: &mut Accumulated,
     ) -> Self {
         let values = &mut workspace.outputs;

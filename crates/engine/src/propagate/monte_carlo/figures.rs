@@ -172,7 +172,8 @@ impl MonteCarlo {
     /// The figures, without the moments of `moment_order` and above, which do not exist; `extremes` are
     /// the least and the greatest trial.
     pub(super) fn new(
-        (moments, extremes): (&Moments, [f64; 2]),
+        moments: &Moments,
+        extremes: [f64; 2],
         moment_order: f64,
         median: f64,
         intervals: Intervals,

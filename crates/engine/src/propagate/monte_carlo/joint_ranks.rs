@@ -56,7 +56,8 @@ pub type QuantilesAndRanks = (Vec<Vec<f64>>, Vec<Vec<u32>>);
 pub(crate) fn quantiles_and_ranks(
     trials: &RowTrials,
     count: u64,
-    (scores, rows): (&[f64], usize),
+    scores: &[f64],
+    rows: usize,
     control: &Control<'_>,
 ) -> Option<QuantilesAndRanks> {
     if are_held(count, trials.outputs(), control.memory) && count <= most_trials(trials) {

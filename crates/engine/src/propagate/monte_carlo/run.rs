@@ -40,8 +40,9 @@ fn run_held(trials: &RowTrials, request: Request<'_>, control: &Control<'_>) -> 
             return run_in_passes(trials, request, control, &plans);
         }
         let (chunks, totals) = accumulate_all(trials, request.trials, &plans, control);
-        let made = (chunks, &totals);
-        if let Some(finished) = finish(trials, request, control, &plans, made, &mut scatters) {
+        if let Some(finished) =
+            finish(trials, request, control, &plans, chunks, &totals, &mut scatters)
+        {
             return finished;
         }
         // a tail came out short: wider windows, in the end everything, which cannot come out short
@@ -217,7 +218,8 @@ pub(super) fn finish(
     request: Request<'_>,
     control: &Control<'_>,
     plans: &[Plan],
-    (mut chunks, totals): (Vec<Accumulated>, &Totals),
+    mut chunks: Vec<Accumulated>,
+    totals: &Totals,
     scatters: &mut [Option<ShortestScatter>],
 ) -> Option<Finished> {
     let undefined = undefined(trials, control.path, &chunks);
@@ -250,7 +252,7 @@ pub(super) fn finish(
         .map(|((o, chunks), scatter)| {
             let dof = request.moment_order.get(o).copied().unwrap_or(f64::INFINITY);
             let (p, windows) = (request.probability, &plans[o].windows);
-            figures(path, (moments[o], dof), (p, windows), chunks, scatter)
+            figures(path, moments[o], dof, p, windows, chunks, scatter)
         })
         .collect();
     let outputs = outputs.into_iter().collect::<Option<Vec<_>>>()?;
@@ -274,15 +276,17 @@ struct Batch {
 
 /// The order statistics of some batches together.
 fn order_of(path: CodePath, batches: &[Batch], windows: &Windows) -> Order {
-    let sum = |of: fn(&Batch) -> u64| batches.iter().map(of).sum();
+    let sum = |count: fn(&Batch) -> u64| batches.iter().map(count).sum();
     let kept: Vec<&[f64]> = batches.iter().map(|batch| batch.kept.as_slice()).collect();
     Order::new(path, sum(|b| b.trials), &kept, sum(|b| b.below_median), windows)
 }
 
 fn figures(
     path: CodePath,
-    (moments, moment_order): (Moments, f64),
-    (probability, windows): (f64, &Windows),
+    moments: Moments,
+    moment_order: f64,
+    probability: f64,
+    windows: &Windows,
     chunks: Vec<Batch>,
     scatter: &mut Option<ShortestScatter>,
 ) -> Option<MonteCarlo> {
@@ -315,7 +319,7 @@ fn figures(
         exact: true,
         unique: found.unique,
     };
-    Some(MonteCarlo::new((&moments, extremes), moment_order, median, intervals, errors))
+    Some(MonteCarlo::new(&moments, extremes, moment_order, median, intervals, errors))
 }
 
 /// How the shortest intervals of the first batches scatter.

@@ -234,7 +234,7 @@ impl Passes {
                     exact: found.exact,
                     unique: scatter.is_none_or(|scatter| scatter.unique),
                 };
-                Some(MonteCarlo::new((moments, found.extremes), dof, median, intervals, errors))
+                Some(MonteCarlo::new(moments, found.extremes, dof, median, intervals, errors))
             })
             .collect();
         let trials = if outputs.len() == plans.len() { whole.trials } else { 0 };

@@ -475,8 +475,8 @@ impl Solved<'_> {
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         for _ in 0..MOST_STEPS {
             let found = self.at(y, columns);
-            let [cdf, error] = mean(found.iter().map(|of| of[0]));
-            let [density, _] = mean(found.iter().map(|of| of[1]));
+            let [cdf, error] = mean(found.iter().map(|net| net[0]));
+            let [density, _] = mean(found.iter().map(|net| net[1]));
             if cdf < p {
                 low = y;
             } else {
@@ -511,16 +511,16 @@ impl Solved<'_> {
         let sums: Vec<[f64; 2]> = self
             .nets
             .iter()
-            .map(|of| {
+            .map(|own| {
                 let mut sums = [0.0; 2];
-                for y in of.net.outputs.iter().flat_map(|column| column.0) {
+                for y in own.net.outputs.iter().flat_map(|column| column.0) {
                     sums[0] += y - middle;
                     sums[1] += (y - middle) * (y - middle);
                 }
-                sums.map(|sum| sum / (of.net.outputs.len() * COLUMN) as f64)
+                sums.map(|sum| sum / (own.net.outputs.len() * COLUMN) as f64)
             })
             .collect();
-        let [shift, shift_error] = mean(sums.iter().map(|of| of[0]));
+        let [shift, shift_error] = mean(sums.iter().map(|sums| sums[0]));
         let variance = |of: &[f64; 2]| of[1] - 2.0 * shift * of[0] + shift * shift;
         let [variance, variance_error] = mean(sums.iter().map(variance));
         let u = variance.max(0.0).sqrt();
@@ -532,7 +532,7 @@ impl Solved<'_> {
         let tail = 0.5 * (1.0 - p);
         // a start from the points themselves
         let mut sorted: Vec<f64> =
-            self.nets.iter().flat_map(|of| of.net.outputs.iter().flat_map(|c| c.0)).collect();
+            self.nets.iter().flat_map(|own| own.net.outputs.iter().flat_map(|c| c.0)).collect();
         sorted.sort_unstable_by(f64::total_cmp);
         let rank = |p: f64| sorted[((p * sorted.len() as f64) as usize).min(sorted.len() - 1)];
         let scale = 0.5 * (rank(0.84) - rank(0.16));
@@ -554,7 +554,7 @@ impl Solved<'_> {
         let inside = problem.tolerance().map(|tolerance| {
             let mut at = |y: f64, beyond: f64| -> Vec<f64> {
                 if y.is_finite() {
-                    self.at(y, all).iter().map(|of| of[0]).collect()
+                    self.at(y, all).iter().map(|net| net[0]).collect()
                 } else {
                     vec![beyond; RANDOMIZATIONS as usize]
                 }
@@ -602,7 +602,9 @@ impl Solved<'_> {
             return None;
         }
         let columns = match purpose {
-            Purpose::Survey => self.nets.first().map_or(1, |of| of.net.columns.len().div_ceil(16)),
+            Purpose::Survey => {
+                self.nets.first().map_or(1, |own| own.net.columns.len().div_ceil(16))
+            }
             Purpose::Find => usize::MAX,
         };
         let low = self.quantile(tails[0], starts[0], scale, columns).ok()?;
@@ -611,7 +613,7 @@ impl Solved<'_> {
         let [of_low, of_high] = ends.map(|y| self.at(y, columns));
         let excesses = of_low.iter().zip(&of_high).map(|(low, high)| low[1] - high[1]);
         let [excess, error] = mean(excesses);
-        let [density, _] = mean(of_low.iter().map(|of| of[1]));
+        let [density, _] = mean(of_low.iter().map(|net| net[1]));
         // far below the scatter of the randomizations, and above what the search for quantiles leaves
         let off = f64::max(SAME * error, SEARCHED * density);
         let of_length = crate::number::elementary::hypot(low[1], high[1]);
@@ -648,9 +650,9 @@ impl Solved<'_> {
             let probabilities = [least.interval.tails[0], 1.0 - least.interval.tails[1]];
             let mut found = [[0.0; 2]; 2];
             for (place, (end, p)) in ends.into_iter().zip(probabilities).enumerate() {
-                let of = self.at(end, usize::MAX);
-                let [_, error] = mean(of.iter().map(|of| of[0]));
-                let [density, _] = mean(of.iter().map(|of| of[1]));
+                let nets = self.at(end, usize::MAX);
+                let [_, error] = mean(nets.iter().map(|net| net[0]));
+                let [density, _] = mean(nets.iter().map(|net| net[1]));
                 let is_limit = (place == 0) == (least.range[0] <= 0.0);
                 let beyond = if is_limit { p.min(1.0 - p) } else { 0.0 };
                 found[place] = [end, (error + beyond) / density];
@@ -671,7 +673,7 @@ impl Solved<'_> {
         scale: f64,
     ) -> Option<[FigureWithError; 2]> {
         let all = usize::MAX;
-        let density = |of: &[OfNet]| mean(of.iter().map(|of| of[1]))[0];
+        let density = |nets: &[OfNet]| mean(nets.iter().map(|net| net[1]))[0];
         let step = SLOPE_STEP * scale;
         let [rise, fall] = ends.map(|y| {
             let [before, after] =
@@ -694,7 +696,7 @@ impl Solved<'_> {
             .collect();
         (determinant > 0.0).then(|| {
             [0, 1].map(|end| {
-                let [moved, error] = mean(moves.iter().map(|of| of[end]));
+                let [moved, error] = mean(moves.iter().map(|moved| moved[end]));
                 [ends[end], crate::number::elementary::hypot(error, moved)]
             })
         })

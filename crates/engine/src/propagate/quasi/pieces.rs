@@ -140,7 +140,11 @@ fn of_column(
             let beyond = f64::max(output.0[i] - most, least - output.0[i]);
             beyond.is_nan() || beyond > POLE * (most - least)
         };
-        if turn.iter().enumerate().any(|(i, of)| of.as_ref().is_some_and(|of| is_pole(i, of))) {
+        if turn
+            .iter()
+            .enumerate()
+            .any(|(i, value)| value.as_ref().is_some_and(|value| is_pole(i, value)))
+        {
             return None;
         }
         let mut found = bound(at, output, None);

@@ -324,8 +324,8 @@ impl<'m> Side<'m> {
             chunk.iter().filter(is_inside).fold(none, |bounds, (place, _)| wider(bounds, place))
         };
         let found = parallel::map(self.judge.chunks(TOGETHER), some);
-        let ends = found.iter().fold(none, |all, of| {
-            let [low, high] = [0, 1].map(|end| of.map(|ends| ends[end]));
+        let ends = found.iter().fold(none, |all, range| {
+            let [low, high] = [0, 1].map(|end| range.map(|ends| ends[end]));
             wider(wider(all, &low), &high)
         });
         let reach = self.mesh.reach();

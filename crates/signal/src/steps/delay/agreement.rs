@@ -53,7 +53,7 @@ pub(crate) fn of_one_recording(
     let period = 1.0 / harmonics.frequency;
     let near_zero = |delay: f64| delay - period * (delay / period).round();
     let count = spectrum.segments as f64;
-    let square = |of: f64| of * of;
+    let square = |value: f64| value * value;
     // variances of the phase of the first harmonic, in radians squared, but for those of all phases
     let (mut own, mut product) = (0.0, 2.0 / count);
     for (signal, fit) in signals.into_iter().zip(&correlated.fits) {

@@ -274,8 +274,8 @@ fn in_band(
         .collect();
     let time = maximum(&terms, -1.5 / rate, 1.5 / rate);
     let [value, _, bend] = at(&terms, time);
-    let power = |of: &[Phasor]| {
-        (0..length.div_ceil(2)).filter(|&j| counts(j)).map(|j| of[j].norm_sqr()).sum::<f64>()
+    let power = |phasors: &[Phasor]| {
+        (0..length.div_ceil(2)).filter(|&j| counts(j)).map(|j| phasors[j].norm_sqr()).sum::<f64>()
     };
     let (x_power, both) = (power(&x), (power(&x) * power(&y)).sqrt());
     if both == 0.0 || bend >= 0.0 {

@@ -134,7 +134,8 @@ impl RowPass {
     /// Bytes that are no such pass.
     pub(crate) fn read(
         from: &mut ByteReader<'_>,
-        (outputs, inputs): (usize, usize),
+        outputs: usize,
+        inputs: usize,
         scores: usize,
     ) -> Result<Self, Damaged> {
         let trials = from.number()?;
@@ -267,8 +268,8 @@ impl<'a> Prepared<'a> {
                     totals.take_chunk(number, sums_of(chunk));
                 }
                 totals.close();
-                let (made, scatters) = ((chunks, &totals), &mut pass.scatters);
-                match finish(trials, request, control, plans, made, scatters) {
+                let scatters = &mut pass.scatters;
+                match finish(trials, request, control, plans, chunks, &totals, scatters) {
                     Some(finished) => RowOutcome::Finished(Box::new(finished), None),
                     // a tail came out short: wider windows
                     None => {

@@ -225,8 +225,9 @@ impl Stretch {
             SumTree::new(look.chunks())
         };
         let partitions = look.partitions.iter();
-        let tallies =
-            partitions.map(|of| PassTally::read(from, of, trials)).collect::<Result<_, _>>()?;
+        let tallies = partitions
+            .map(|partition| PassTally::read(from, partition, trials))
+            .collect::<Result<_, _>>()?;
         Ok(Self { trials, undefined, first_undefined, sums, tallies })
     }
 }

@@ -69,7 +69,7 @@ impl<'m> Density<'m> {
         let mut smooth = vec![0.0; values.len()];
         let mut stride = 1;
         for _ in 0..mesh.order {
-            along(stride, mesh.cells, &kernel, (&values, &mut smooth));
+            along(stride, mesh.cells, &kernel, &values, &mut smooth);
             std::mem::swap(&mut values, &mut smooth);
             stride *= mesh.cells;
         }
@@ -108,7 +108,7 @@ impl<'m> Density<'m> {
 }
 
 /// Smooths along one coordinate, whose neighbouring cells are `stride` apart.
-fn along(stride: usize, cells: usize, kernel: &[f32], (from, to): (&[f32], &mut [f32])) {
+fn along(stride: usize, cells: usize, kernel: &[f32], from: &[f32], to: &mut [f32]) {
     let add = |factor: f32, from: &[f32], to: &mut [f32]| {
         to.iter_mut().zip(from).for_each(|(to, from)| *to += factor * from);
     };
