@@ -8,7 +8,11 @@ use serde_json::{Value, json};
 /// Codes of the notes on a file that has no mistake.
 fn codes(file: &Value) -> Vec<&'static str> {
     let notes = check_text("m.json", &file.to_string(), Path::new(""));
-    notes.unwrap_or_else(|faults| panic!("{file}\n{faults}")).iter().map(|note| note.code()).collect()
+    notes
+        .unwrap_or_else(|faults| panic!("{file}\n{faults}"))
+        .iter()
+        .map(|note| note.code())
+        .collect()
 }
 
 fn normal(unit: &str, mean: f64) -> Value {

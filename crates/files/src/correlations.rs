@@ -125,7 +125,8 @@ impl CorrelationsReader<'_> {
         declared
             .filter_map(|correlation| {
                 let place = [correlation.first, correlation.second].into_iter().find(constant)?;
-                let (first, second, constant) = (name(correlation.first)?, name(correlation.second)?, name(place)?);
+                let (first, second, constant) =
+                    (name(correlation.first)?, name(correlation.second)?, name(place)?);
                 let fact = fact!("correlation-with-constant", first, second, constant);
                 Some(Warning::new(constant, fact))
             })

@@ -271,8 +271,7 @@ fn periodic_note(case: &Case, setup: &Setup<'_>, found: PeriodicResiduals) -> Fa
     let amplitude = Argument::Number(unit.after(&significant(line.amplitude, 2)));
     let percent = Argument::Number(format!("{:.0}", 100.0 * line.share));
     let period = significant(1.0 / line.frequency, 3);
-    let Some(along) = condition.and_then(|condition| case.model.conditions.get(condition))
-    else {
+    let Some(along) = condition.and_then(|condition| case.model.conditions.get(condition)) else {
         let period = Argument::Number(period);
         return fact!("periodic-residuals.rows", name, period, amplitude, percent);
     };

@@ -1,10 +1,10 @@
 //! Notes on digits and rounding of the stated expanded uncertainties.
 
-use gumption_engine::fact;
-use gumption_engine::fact::Argument;
 use gumption_analysis::certificate::Issued;
 use gumption_analysis::certificate::rounding::takes_away_too_much;
 use gumption_engine::decimal::significant;
+use gumption_engine::fact;
+use gumption_engine::fact::Argument;
 use gumption_engine::task::Warning;
 use gumption_files::CertificateFile;
 

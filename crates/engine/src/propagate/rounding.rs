@@ -53,7 +53,7 @@ struct CoarseInput<'t> {
 }
 
 impl<'t> CoarseInput<'t> {
-    fn of(task: &'t Task, (line, share): (&BudgetLine, f64)) -> Self {
+    fn of(task: &'t Task, line: &BudgetLine, share: f64) -> Self {
         let variable = task.variables.get(line.variable);
         let in_unit = |number: String| match variable {
             Some(variable) => variable.unit.after(&number),
@@ -75,7 +75,7 @@ pub(super) fn check(task: &Task, row: usize, gums: &[Option<Gum>]) -> Result<(),
         let found = gum.as_ref().and_then(coarsest).filter(|(_, share)| *share > TOO_MUCH);
         if let Some((line, share)) = found {
             let CoarseInput { name, undetermined, share, estimate, standard_uncertainty } =
-                CoarseInput::of(task, (&line, share));
+                CoarseInput::of(task, &line, share);
             let message = format!(
                 "`{}`: numbers of double precision, with 16 digits, leave {undetermined} of `{name}` \
                  undetermined, {share} % of its standard uncertainty: it is {estimate} with a standard \

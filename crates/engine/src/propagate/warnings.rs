@@ -374,7 +374,7 @@ fn of_difference(
             let fact = fact!("few-dof", name, at, difference, dof, alone, conclusion);
             push(found, Warning::new(name, fact));
         } else if (gum.drawn_uncertainty() / linear - 1.0).abs() > NOTEWORTHY {
-            let name_of = |v: usize| Some(format!("`{}`", task.variables.getv)?.name));
+            let name_of = |v: usize| Some(format!("`{}`", task.variables.get(v)?.name));
             let results: Vec<String> = gum.bent_results().filter_map(name_of).collect();
             let fact = fact!("non-linear.results", name, at, difference, results);
             push(found, Warning::new(name, fact));

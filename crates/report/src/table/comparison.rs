@@ -1,6 +1,5 @@
 //! The two methods side by side, and the verdict of JCGM 101, clause 8.
 
-use crate::words::{Language, note};
 use super::grid::Grid;
 use super::{coverage_text, in_unit, text, width};
 use crate::EvaluationReport;
@@ -9,6 +8,7 @@ use crate::number::{
     MISSING, Percent, coarser, exact, justified, place_of_ends, position, rounded, significant, to,
 };
 use crate::sheet::Sheet;
+use crate::words::{Language, note};
 use gumption_engine::model::{Output, Quantity, Tolerance};
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};

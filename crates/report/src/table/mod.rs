@@ -9,11 +9,11 @@ pub(super) mod sweep;
 mod text;
 mod width;
 
+use crate::words::Language;
 pub use columns::BudgetColumn;
 pub use grid::Grid;
 pub use text::{grouped, plain, wrapped};
 pub(crate) use text::{one_line, printable};
-use crate::words::Language;
 use width::USUAL;
 pub use width::within_width;
 pub(crate) use width::{text_width, width};

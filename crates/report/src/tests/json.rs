@@ -1,8 +1,8 @@
 //! The answer for programs.
 
-use gumption_engine::fact;
 use super::*;
 use crate as report;
+use gumption_engine::fact;
 
 #[test]
 fn whole_answer_in_the_order_of_the_contract() {

@@ -24,7 +24,8 @@ fn both_languages_have_the_same_keys_and_arguments() {
 #[test]
 fn every_key_stands_once() {
     for rooms in [english::ROOMS, german::ROOMS] {
-        let mut keys: Vec<&str> = rooms.iter().flat_map(|r| r.iter().map(|(key, _)| *key)).collect();
+        let mut keys: Vec<&str> =
+            rooms.iter().flat_map(|r| r.iter().map(|(key, _)| *key)).collect();
         keys.sort_unstable();
         let twice: Vec<&[&str]> = keys.windows(2).filter(|pair| pair[0] == pair[1]).collect();
         assert!(twice.is_empty(), "{twice:?}");
