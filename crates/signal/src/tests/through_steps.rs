@@ -121,7 +121,7 @@ fn benches() -> Vec<(String, Bench)> {
 
 /// All figures of all benches, printed.
 #[test]
-#[ignore = "ten minutes"]
+#[ignore = "heavy: run by .ci/extra"]
 fn scores() {
     for (about, of) in benches() {
         let notes: Vec<&str> = of.observe(of.values(3)).notes.iter().map(|note| note.0).collect();
