@@ -19,8 +19,11 @@ const WITHOUT_FUSED_PRODUCTS: &str = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F
 /// Trials of `run`: enough for every branch of the intervals and moments.
 const TRIALS: &str = "100000";
 
-/// Every ready file, with the command that answers it and the command's own arguments.
-fn questions() -> Vec<(&'static str, String, Vec<&'static str>)> {
+/// A command, the files that it is asked about, and its own arguments.
+type Question = (&'static str, String, Vec<&'static str>);
+
+/// Every ready file, with the command that answers it.
+fn questions() -> Vec<Question> {
     let of = |command, folder: &'static str, file: &'static str| {
         let entries = fs::read_dir(root().join(folder)).expect("a folder of ready files");
         let mut paths: Vec<String> = entries
@@ -59,12 +62,18 @@ fn questions() -> Vec<(&'static str, String, Vec<&'static str>)> {
     questions
 }
 
+/// Diagnoses that take several seconds each.
+const SLOW: [&str; 3] = ["gap/iepe_signal/", "gap/lateral_motion/", "gap/plane_resonance/"];
+
+/// Those that do not take seconds.
+fn quick_questions() -> Vec<Question> {
+    let is_quick = |(_, path, _): &Question| !SLOW.iter().any(|slow| path.contains(slow));
+    questions().into_iter().filter(is_quick).collect()
+}
+
 /// One line for each answer.
-fn lines(
-    questions: Vec<(&'static str, String, Vec<&'static str>)>,
-    environment: &dyn Fn(&mut Command),
-) -> Vec<String> {
-    let line = |(verb, paths, arguments): (&str, String, Vec<&str>)| {
+fn lines(questions: Vec<Question>, environment: &dyn Fn(&mut Command)) -> Vec<String> {
+    let line = |(verb, paths, arguments): Question| {
         let mut run = command();
         run.current_dir(root()).arg(verb).args(paths.split(' ')).args(&arguments).arg("--quiet");
         environment(&mut run);
@@ -86,46 +95,52 @@ fn golden() -> Vec<String> {
     text.lines().skip(1).map(str::to_owned).collect()
 }
 
-#[test]
-fn golden_answers() {
-    let lines = lines(questions(), &|_| {});
-    if std::env::var_os("GUMPTION_GOLDEN").is_some_and(|value| value == "write") {
-        let text = format!("command,file,arguments,sha256\n{}\n", lines.join("\n"));
-        fs::write(file(), text).expect("the list is written");
-    }
+/// The answers have the hashes of the list.
+fn assert_golden(questions: Vec<Question>, environment: &dyn Fn(&mut Command)) {
     let golden = golden();
-    for (now, golden) in lines.iter().zip(&golden) {
-        assert_eq!(now, golden, "the answer has changed");
+    for line in lines(questions, environment) {
+        assert!(golden.contains(&line), "the answer has changed: {line}");
     }
-    assert_eq!(lines.len(), golden.len(), "answers without a hash");
 }
 
-/// Answers with the kernels of the C library that a processor without fused products gets.
-#[cfg(all(target_arch = "x86_64", target_os = "linux", target_env = "gnu"))]
-fn assert_golden_without_fused_products(questions: Vec<(&'static str, String, Vec<&'static str>)>) {
-    let golden = golden();
-    for line in lines(questions, &|run| {
-        run.env("GLIBC_TUNABLES", WITHOUT_FUSED_PRODUCTS);
-    }) {
-        assert!(golden.contains(&line), "the C library's kernels change the answer: {line}");
+#[test]
+fn golden_answers() {
+    if std::env::var_os("GUMPTION_GOLDEN").is_some_and(|value| value == "write") {
+        let lines = lines(questions(), &|_| {}).join("\n");
+        let text = format!("command,file,arguments,sha256\n{lines}\n");
+        fs::write(file(), text).expect("the list is written");
     }
+    assert_eq!(golden().len(), questions().len(), "answers without a hash");
+    assert_golden(quick_questions(), &|_| {});
+}
+
+#[test]
+#[ignore = "heavy: run by .ci/extra"]
+fn all_golden_answers() {
+    assert_golden(questions(), &|_| {});
+}
+
+/// Without the kernels of the C library that a processor with fused products gets.
+#[cfg(all(target_arch = "x86_64", target_os = "linux", target_env = "gnu"))]
+fn without_fused_products(run: &mut Command) {
+    run.env("GLIBC_TUNABLES", WITHOUT_FUSED_PRODUCTS);
 }
 
 /// The C library chooses among kernels of its functions by what the processor can. An answer that
-/// took one of them would differ here. Every kind of question is asked; those of diagnoses, and two of
-/// three of the others, are left to the next test.
+/// took one of them would differ here. Every kind of question is asked; those of diagnoses, and five of
+/// six of the others, are left to the next test.
 #[test]
 #[cfg(all(target_arch = "x86_64", target_os = "linux", target_env = "gnu"))]
 fn answers_do_not_depend_on_the_c_library_s_kernels() {
     let few = questions().into_iter().enumerate().filter(|(number, (command, path, _))| {
-        if *command == "gap" { path.contains("gap/radius/") } else { number % 3 == 0 }
+        if *command == "gap" { path.contains("gap/radius/") } else { number % 6 == 0 }
     });
-    assert_golden_without_fused_products(few.map(|(_, question)| question).collect());
+    assert_golden(few.map(|(_, question)| question).collect(), &without_fused_products);
 }
 
 #[test]
 #[cfg(all(target_arch = "x86_64", target_os = "linux", target_env = "gnu"))]
-#[ignore = "all answers, of which the quick form above takes some"]
+#[ignore = "heavy: run by .ci/extra"]
 fn no_answer_depends_on_the_c_library_s_kernels() {
-    assert_golden_without_fused_products(questions());
+    assert_golden(questions(), &without_fused_products);
 }

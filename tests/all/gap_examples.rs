@@ -75,14 +75,24 @@ fn the_data_are_what_the_program_makes() {
 
 /// One draw of the random numbers of the evidence; the probabilities are between 0.8 and 1, and
 /// their numerical errors a few hundredths.
-#[test]
-fn the_effect_is_found() {
-    for (name, effect) in CASES {
+fn effects_are_found(cases: &[(&str, &str)]) {
+    for &(name, effect) in cases {
         let answer = gap::select_model(&read(name).case, 1).unwrap();
         let verdict = &answer.most_probable;
         assert_eq!(verdict.effects, [effect], "{name}: {verdict:?}");
         assert!(verdict.probability > 0.5, "{name}: {verdict:?}");
     }
+}
+
+#[test]
+fn the_effect_is_found() {
+    effects_are_found(&CASES[2..]);
+}
+
+#[test]
+#[ignore = "heavy: run by .ci/extra"]
+fn the_effect_of_a_plane_is_found() {
+    effects_are_found(&CASES[..2]);
 }
 
 /// D'Emilia et al. (2019), section 3.4: the RMS difference falls by about 25 % once amplitude and

@@ -232,7 +232,7 @@ fn ends_of_very_few_trials_are_order_statistics() {
 /// 6e-6. The symmetric interval holds q/(M + 1) on average; the shortest one, chosen among all,
 /// a little less, at 70,000 trials by less than 0.001.
 #[test]
-#[ignore = "a study: about a minute with --release"]
+#[ignore = "heavy: run by .ci/extra"]
 fn coverage_over_ten_thousand_seeds() {
     const SEEDS: u64 = 10_000;
     const TRIALS: u64 = 70_000;

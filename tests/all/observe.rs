@@ -267,7 +267,7 @@ fn answers_are_the_same_bytes_and_tables_name_what_they_show() {
 
 /// A recording longer than what is held in memory gives the same answer as one that is held.
 #[test]
-#[ignore = "writes a file of 280 MB"]
+#[ignore = "heavy: run by .ci/extra"]
 fn long_recordings_stream() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();

@@ -68,6 +68,7 @@ fn near_observed(what: &str, observed: &Value, truth: f64) {
 /// Runs every command of the page in a copy of the folder, and compares each result with what the
 /// recordings were made with.
 #[test]
+#[ignore = "heavy: run by .ci/extra"]
 fn documented_commands_find_what_was_put_in() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();

@@ -21,11 +21,12 @@ fn task(path: &Path) -> Task {
     file::read(path, &[]).unwrap_or_else(|problems| panic!("{problems}")).task
 }
 
+/// On one thread and on three; the hashes of the next test are on one and on two.
 #[test]
 fn answers_are_the_same_bytes_on_any_number_of_threads() {
     for path in model_files() {
         let answer = |threads: &str| {
-            let arguments = ["--format", "json", "--quiet", "--trials", "200000"];
+            let arguments = ["--format", "json", "--quiet", "--trials", "100000"];
             let mut run = command();
             run.arg("run").arg(&path).args(arguments).args(["--threads", threads]);
             let run = run.output().expect("the program runs");
@@ -34,21 +35,19 @@ fn answers_are_the_same_bytes_on_any_number_of_threads() {
         };
         let one = answer("1");
         assert!(one.len() > 500);
-        for threads in ["2", "3"] {
-            assert!(answer(threads) == one, "{} on {threads} threads", path.display());
-        }
+        assert!(answer("3") == one, "{} on three threads", path.display());
     }
 }
 
 /// The lines of `verify --paths` as code path and hash.
 fn verified(path: &Path, threads: &str) -> Vec<(String, String)> {
-    let arguments = ["--trials", "200000", "--threads", threads, "--fail"];
+    let arguments = ["--trials", "100000", "--threads", threads, "--fail"];
     let mut run = command();
     run.args(["verify", "--paths", "--model"]).arg(path).args(arguments);
     let run = run.output().expect("the program runs");
     assert_eq!(run.status.code(), Some(0), "{}", path.display());
     let text = String::from_utf8(run.stdout).expect("UTF-8");
-    assert!(text.contains("200000 trials: the same bits on every path"), "{text}");
+    assert!(text.contains("100000 trials: the same bits on every path"), "{text}");
     text.lines()
         .filter_map(|line| line.split_once(' '))
         .map(|(name, hash)| (name.to_owned(), hash.trim().to_owned()))

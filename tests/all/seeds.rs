@@ -8,6 +8,8 @@ use serde_json::Value;
 
 use crate::support::{gumption, output, root};
 
+const CERTIFICATE: &str = "models/certificates/three_axis_accelerometer.json";
+
 /// An answer without the keys that name the seed and the file's hash, wherever they stand.
 fn without_seed(text: &str) -> Value {
     fn strip(value: &mut Value) {
@@ -49,11 +51,11 @@ fn the_seed_of_the_command_line_reaches_every_command() {
     let commands: [(&[&str], usize); 6] = [
         (&["run", "models/inclined_plane.json", "--trials", "20000"], 10),
         // evidence, posterior, cross-validation, the next measurement
-        (&["gap", "models/gap/radius/case.json"], 50),
-        (&["gap-check", "models/gap/radius/case.json", "--draws", "2"], 3),
+        (&["gap", "models/gap/ac_coupling/case.json"], 50),
+        (&["gap-check", "models/gap/ac_coupling/case.json", "--draws", "2"], 3),
         (&["observe", "models/recordings/spurious_components/recipe.json"], 20),
-        (&["assumptions", "models/spurious_component.json"], 50),
-        (&["certificate", "models/certificates/three_axis_accelerometer.json"], 1),
+        (&["assumptions", "models/spurious_component.json", "--trials", "20000"], 50),
+        (&["certificate", CERTIFICATE, "--trials", "20000"], 1),
     ];
     for (arguments, least) in commands {
         let [unsaid, first, second] = answers(arguments);
@@ -85,7 +87,7 @@ fn the_seed_of_a_file_is_that_of_the_command_line() {
     };
     for (command, folder, file) in [
         ("run", "models", "inclined_plane.json"),
-        ("gap", "models/gap/radius", "case.json"),
+        ("gap", "models/gap/ac_coupling", "case.json"),
         ("observe", "models/recordings/spurious_components", "recipe.json"),
         ("assumptions", "models", "spurious_component.json"),
     ] {
@@ -95,6 +97,9 @@ fn the_seed_of_a_file_is_that_of_the_command_line() {
             let path = folder.join(file);
             let mut run = gumption();
             run.arg(command).arg(path).args(["--format", "json", "--quiet"]).args(more);
+            if command == "assumptions" {
+                run.args(["--trials", "20000"]);
+            }
             let assert = run.assert().success();
             without_seed(&String::from_utf8(assert.get_output().stdout.clone()).expect("UTF-8"))
         };

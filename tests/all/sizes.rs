@@ -214,11 +214,17 @@ fn a_million_inputs_are_refused() {
 }
 
 #[test]
-fn a_hundred_thousand_inputs_are_served() {
+fn twenty_thousand_inputs_are_served() {
     let folder = Folder::new();
-    // 0.1 sqrt(20 000) = 14.1, 0.1 sqrt(100 000) = 31.6
+    // 0.1 sqrt(20 000) = 14.1
     let page = folder.answered(&model(&inputs(20_000), &sums(20_000), FEW), &[]);
     assert!(page.contains("combined standard uncertainty  14"), "{}", cut(&page));
+}
+
+#[test]
+#[ignore = "heavy: run by .ci/extra"]
+fn a_hundred_thousand_inputs_are_served() {
+    let folder = Folder::new();
     let json = ["--format", "json"];
     let answer = folder.answered(&model(&inputs(100_000), &sums(100_000), FEW), &json);
     let answer: serde_json::Value = serde_json::from_str(&answer).expect("JSON");
@@ -299,19 +305,30 @@ fn thousands_of_rows_are_served(count: usize) {
 }
 
 #[test]
-#[ignore = "a table of 50 MB; the quick form is the next test"]
+#[ignore = "heavy: run by .ci/extra"]
 fn a_million_rows_are_served() {
     thousands_of_rows_are_served(1000);
 }
 
-/// A hundred thousand rows, without and with trials; a million is the most.
+/// As many times a thousand rows with trials.
+fn thousands_of_rows_have_trials(count: usize) {
+    let rows = rows(count, r#""monte_carlo": {"trials": 100}"#);
+    let csv = Folder::new().answered(&rows, &["--format", "csv", "--quiet"]);
+    assert_eq!(csv.lines().count(), 1000 * count + 1);
+}
+
+#[test]
+#[ignore = "heavy: run by .ci/extra"]
+fn a_hundred_thousand_rows_have_trials() {
+    thousands_of_rows_have_trials(100);
+}
+
+/// Twenty thousand rows, without and with trials; a million is the most.
 #[test]
 fn many_rows_are_served_or_refused() {
-    thousands_of_rows_are_served(100);
+    thousands_of_rows_are_served(20);
+    thousands_of_rows_have_trials(20);
     let folder = Folder::new();
-    let csv = folder
-        .answered(&rows(100, r#""monte_carlo": {"trials": 100}"#), &["--format", "csv", "--quiet"]);
-    assert_eq!(csv.lines().count(), 100_001);
     folder.write("m.json", &rows(1000, r#""monte_carlo": {"trials": 0}"#));
     let checked = command().current_dir(folder.0.path()).args(["check", "m.json"]).status();
     assert!(checked.expect("the program runs").success());

@@ -104,7 +104,7 @@ fn ends_of_the_shortest_interval_scatter_as_stated() {
 /// The whole study: 600 seeds know the scatters to 3 % and 6 %, and that of the lower end of a square
 /// to sqrt(87/2400) = 19 %, mostly too small.
 #[test]
-#[ignore = "minutes"]
+#[ignore = "heavy: run by .ci/extra"]
 fn ends_of_the_shortest_interval_scatter_as_stated_over_600_seeds() {
     for trials in [10_000, 30_000, 100_000] {
         for (input, formula) in ENDS {

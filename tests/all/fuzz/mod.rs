@@ -25,7 +25,7 @@ use folder::Folder;
 use crate::support::{model_files, root};
 
 /// Cases without a wish of the user.
-const CASES: u64 = 4_000;
+const CASES: u64 = 1_000;
 
 /// Every so manieth case is given to the program itself, in a limited address space.
 const PROGRAM: u64 = 200;

@@ -286,7 +286,7 @@ fn other_outputs_and_inputs_are_proposed() {
 /// Measures a case's proposal many times and looks how the entropy changes; the mean over the sets is
 /// to be what was promised within 30 %. Takes minutes.
 #[test]
-#[ignore = "a study of minutes"]
+#[ignore = "heavy: run by .ci/extra"]
 fn promises_are_kept() {
     let case = line();
     let before = diagnosed(&case);

@@ -293,15 +293,8 @@ fn a_value_that_is_off_is_found_and_explains_nothing_else() {
 /// Two or three values that are off by about as much hide each other: with one of them told the others
 /// still speak for uncertainties that are too small. All are found, with stated uncertainties and
 /// without, of the same and of opposite sign.
-#[test]
-fn several_values_that_are_off_are_found_together() {
-    let sets: [&[(usize, f64)]; 4] = [
-        &[(6, 4.0), (14, -4.0)],
-        &[(6, 4.0), (14, 4.0)],
-        &[(6, 20.0), (14, -20.0)],
-        &[(3, 4.0), (14, 3.5), (20, 4.5)],
-    ];
-    for off in sets {
+fn values_that_are_off_are_found_together(sets: &[&[(usize, f64)]]) {
+    for &off in sets {
         for stated in [true, false] {
             let mut residuals: Vec<f64> = normals(30, 5).into_iter().map(|z| 0.1 * z).collect();
             off.iter().for_each(|&(row, wrong)| residuals[row] = wrong);
@@ -324,6 +317,20 @@ fn several_values_that_are_off_are_found_together() {
             }
         }
     }
+}
+
+#[test]
+fn several_values_that_are_off_are_found_together() {
+    values_that_are_off_are_found_together(&[
+        &[(6, 4.0), (14, -4.0)],
+        &[(3, 4.0), (14, 3.5), (20, 4.5)],
+    ]);
+}
+
+#[test]
+#[ignore = "heavy: run by .ci/extra"]
+fn values_that_are_off_by_more_or_to_one_side_are_found_together() {
+    values_that_are_off_are_found_together(&[&[(6, 4.0), (14, 4.0)], &[(6, 20.0), (14, -20.0)]]);
 }
 
 /// All values with three times the stated noise are no single values that are off.
@@ -372,7 +379,7 @@ fn values_that_a_departure_explains_are_not_off() {
 }
 
 #[test]
-#[ignore = "all cases of the test before"]
+#[ignore = "heavy: run by .ci/extra"]
 fn values_that_each_departure_explains_are_not_off() {
     for (rate, first) in [(0.3, 20.0), (0.4, 23.0), (0.5, 24.0)] {
         only_what_a_departure_leaves_is_off(&[5, 6, 7].map(|seed| (rate, first, seed)));
@@ -413,7 +420,7 @@ fn a_value_that_is_off_beside_a_departure_is_found() {
 }
 
 #[test]
-#[ignore = "all cases of the test before"]
+#[ignore = "heavy: run by .ci/extra"]
 fn any_value_that_is_off_beside_a_departure_is_found() {
     let stated = [3.0, -3.0, 50.0, 0.0].map(|wrong| [(wrong, true), (wrong, false)]);
     what_is_off_beside_departures_is_found(stated.as_flattened());
@@ -684,6 +691,7 @@ fn noise_of(seed: u64, correlation: f64, size: fn(f64) -> f64) -> Vec<f64> {
 }
 
 #[test]
+#[ignore = "heavy: run by .ci/extra"]
 fn gap_free_data_with_another_noise_are_seldom_called_a_gap() {
     // uncertainties too small by two, neighbours that share half of their noise, noise that is
     // proportional to the value of 1 to 12.5
@@ -915,11 +923,13 @@ fn noise_that_outputs_share_is_told() {
         assert!(low < correlation && correlation < high, "{of:?}");
         // the standard error of the coefficient is (1 - 0.81)/sqrt(40) = 0.03: five of them
         assert!((of.estimate - correlation).abs() < 0.15, "{of:?}");
+        if deviations[0] == 0.2 {
+            let factor = found.noise[0].factor.unwrap();
+            // 2 with a relative standard error of 1/sqrt(80): four of them
+            let is_near = (factor.estimate / 2.0 - 1.0).abs() < 0.45;
+            assert!(factor.probability > 0.95 && is_near, "{factor:?}");
+        }
     }
-    let found = diagnosed(&with_common(0.0, [0.2, 0.1], 0.9), 1);
-    let factor = found.noise[0].factor.unwrap();
-    // 2 with a relative standard error of 1/sqrt(80): four of them
-    assert!(factor.probability > 0.95 && (factor.estimate / 2.0 - 1.0).abs() < 0.45, "{factor:?}");
 
     let found = diagnosed(&with_common(0.2, [0.1, 0.1], 0.9), 1);
     assert_eq!(found.most_probable.effects, ["offset"]);

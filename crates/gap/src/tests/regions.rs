@@ -29,7 +29,7 @@ fn data_without_a_gap_name_a_region_rarely() {
 
 /// At most 5 % of 1,000 simulated data sets. Takes minutes.
 #[test]
-#[ignore = "a study of minutes"]
+#[ignore = "heavy: run by .ci/extra"]
 fn false_alarms_of_a_thousand_sets() {
     let found = false_alarms(1000);
     assert!(found <= 50, "{found} of 1000");

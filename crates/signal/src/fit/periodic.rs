@@ -439,7 +439,7 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "the whole study: 1,000 recordings a setting"]
+    #[ignore = "heavy: run by .ci/extra"]
     fn uncertainty_is_right() {
         for setting in SETTINGS {
             judge(setting, 1000);

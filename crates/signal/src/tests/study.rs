@@ -145,28 +145,30 @@ fn uncertainties_are_those_of_200_recordings() {
 
 /// The whole study: 1000 recordings of every bench.
 #[test]
-#[ignore = "a minute"]
+#[ignore = "heavy: run by .ci/extra"]
 fn uncertainties_are_those_of_1000_recordings() {
     for (about, bench, left_out) in benches() {
         study(about, &bench, 1000, left_out);
     }
 }
 
+/// What makes noise of a number from 0 to 1.
+type Shape = fn(f64) -> f64;
+
+const SHAPES: [(&str, Shape); 3] = [
+    ("uniform", |p| 12f64.sqrt() * (p - 0.5)),
+    ("normal", normal::quantile),
+    ("t, 5", |p| 0.6f64.sqrt() * student::quantile(p, 5.0)),
+];
+
 /// The ratios of the errors of SNR, SINAD and RMS to their standard uncertainties, for noise that is
 /// uniform (as rounding makes it), normal, and of a t-distribution with 5 degrees of freedom. By the
 /// variance of normal noise they would be 0.63, 1 and up to 2. Of 300 recordings a ratio has a
 /// standard deviation of 4 % for normal noise and of some 6 % for the t-distribution.
-#[test]
-fn power_of_noise_is_known_by_its_kurtosis() {
-    type Shape = fn(f64) -> f64;
-    let shapes: [(&str, Shape); 3] = [
-        ("uniform", |p| 12f64.sqrt() * (p - 0.5)),
-        ("normal", normal::quantile),
-        ("t, 5", |p| 0.6f64.sqrt() * student::quantile(p, 5.0)),
-    ];
+fn judge_power_of_noise(shapes: &[(&str, Shape)]) {
     // of the RMS with little noise most is the sine, and of SNR with much noise
     for (noise, counts) in [(0.01, &["SNR", "SINAD"][..]), (2.0, &["RMS"][..])] {
-        for (about, shape) in shapes {
+        for &(about, shape) in shapes {
             let bench = Bench { noise, shape, steps: vec![ChannelStep::Rms], ..Bench::default() };
             let mut all: Vec<Errors> = counts.iter().map(|_| Errors::default()).collect();
             for seed in 0..300 {
@@ -187,4 +189,15 @@ fn power_of_noise_is_known_by_its_kurtosis() {
             }
         }
     }
+}
+
+#[test]
+fn power_of_heavy_tailed_noise_is_known_by_its_kurtosis() {
+    judge_power_of_noise(&SHAPES[2..]);
+}
+
+#[test]
+#[ignore = "heavy: run by .ci/extra"]
+fn power_of_noise_is_known_by_its_kurtosis() {
+    judge_power_of_noise(&SHAPES);
 }

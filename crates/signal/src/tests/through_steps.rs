@@ -122,7 +122,7 @@ fn benches() -> Vec<(String, Bench)> {
 
 /// All figures of all benches, printed.
 #[test]
-#[ignore = "ten minutes"]
+#[ignore = "heavy: run by .ci/extra"]
 fn scores() {
     for (about, of) in benches() {
         let notes: Vec<&str> =

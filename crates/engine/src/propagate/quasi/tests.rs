@@ -62,7 +62,7 @@ fn standard_errors_are_honest() {
 
 /// The same over 500 seeds; the ratio of scatter and standard error is within 0.9 and 1.1.
 #[test]
-#[ignore = "500 evaluations"]
+#[ignore = "heavy: run by .ci/extra"]
 fn standard_errors_are_honest_over_500_seeds() {
     let task = sum();
     let found: Vec<Noiseless> =

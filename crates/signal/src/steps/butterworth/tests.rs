@@ -208,7 +208,7 @@ fn uncertainty_is_right_quick() {
 }
 
 #[test]
-#[ignore = "the whole study: 1,000 recordings a setting"]
+#[ignore = "heavy: run by .ci/extra"]
 fn uncertainty_is_right() {
     for setting in SETTINGS {
         judge(setting, SOURCE, 1000);
