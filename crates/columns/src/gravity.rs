@@ -1,10 +1,10 @@
-//! The letter `g` where the standard acceleration of free fall is meant: makers of accelerometers write
-//! it for what the unit reader calls `g_n`, and `g` is the gram.
+//! The letter `g` for the standard acceleration of free fall: makers of accelerometers write `g`
+//! for the unit `g_n`, but `g` is the gram.
 
 use gumption_units::{Dimension, Unit};
 
-/// The unit that a text means if its `g` is no gram, `mV/g_n` of `mV/g`; none where that is not of the
-/// dimension `wanted`.
+/// The unit of a text if its `g` means `g_n`, such as `mV/g_n` for `mV/g`; `None` if that unit does
+/// not have the dimension `wanted`.
 pub fn meant(text: &str, wanted: Dimension) -> Option<Unit> {
     let mut written = String::new();
     let mut rest = text;
@@ -13,7 +13,7 @@ pub fn meant(text: &str, wanted: Dimension) -> Option<Unit> {
         let end = rest.find(|c| is_letter(c) != is_letter(first)).unwrap_or(rest.len());
         let (word, behind) = rest.split_at(end);
         written.push_str(word);
-        // `kg` is hardly ever a thousand times gravity
+        // `kg` hardly ever means a thousand times `g_n`
         let gram = word.ends_with('g') && word != "kg";
         if gram && Unit::parse(&format!("{word}_n")).is_ok() {
             written.push_str("_n");
@@ -24,15 +24,15 @@ pub fn meant(text: &str, wanted: Dimension) -> Option<Unit> {
     (unit.dimension() == wanted).then_some(unit)
 }
 
-/// What to say of a unit that is not of the dimension `wanted`, behind the sentence that tells it;
-/// empty where no `g` is to blame.
+/// A hint for a unit that does not have the dimension `wanted`, to follow the error message; empty
+/// if no `g` is the cause.
 pub fn hint(text: &str, wanted: Dimension) -> String {
     meant(text, wanted).map_or(String::new(), |unit| {
         format!("; `g` is the gram, and standard gravity is `g_n`: write `{unit}` if that is meant")
     })
 }
 
-/// The same of two units that should be of one dimension: either may be the one with the `g`.
+/// The same for two units that should have the same dimension: either may contain the `g`.
 pub fn hint_of(text: &str, other: &str) -> String {
     let of = |text: &str, other: &str| {
         Unit::parse(other).map_or(String::new(), |other| hint(text, other.dimension()))

@@ -1,19 +1,19 @@
 //! Headings of columns with a unit: `t [degC]`, `t (degC)`, `t / degC`, `t/degC`, `t in degC`.
 //!
-//! What stands in brackets, or behind a slash between spaces, is a unit. What stands behind a slash
-//! without spaces (ISO 80000-1, 7.1.4: quantity over unit) or behind `in` is one where it can be read
-//! as one: `x/g` is x in g, `U1/U2` a name.
+//! Text in brackets, or after a slash between spaces, is a unit. Text after a slash without spaces
+//! (ISO 80000-1, 7.1.4: quantity over unit) or after `in` is a unit if it can be read as one: `x/g`
+//! is x in g, `U1/U2` is a name.
 //!
-//! A file that names a column states the unit of its values as well. Where the heading has another
-//! one, the two contradict each other, and none is taken. A heading in `g` is that of `g_n` where the
-//! file reads its column in `g_n`.
+//! A file that names a column also states the unit of its values. If the heading has another unit,
+//! the two contradict each other, and neither is used. A heading in `g` means `g_n` if the file
+//! reads its column in `g_n`.
 
 use std::fmt;
 
 use crate::{ValueOf, gravity};
 use gumption_units::Unit;
 
-/// A column whose heading has another unit than its values are read in.
+/// A column whose heading has another unit than the one in which its values are read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OtherUnit {
     /// The heading.
@@ -36,8 +36,8 @@ impl fmt::Display for OtherUnit {
     }
 }
 
-/// The name of a column and its unit; a plain number without. `None` where brackets have no unit, which
-/// a number other than 1 and a value are none: `s (2)`, `r (10 V)`.
+/// The name of a column and its unit; 1 without a unit. `None` if brackets contain no unit, but a
+/// number other than 1 or a value: `s (2)`, `r (10 V)`.
 pub fn heading(unit: impl Fn(&str) -> Option<Unit>, text: &str) -> Option<(&str, Unit)> {
     let bracketed = enclosed(text, '[', "]").or_else(|| enclosed(text, '(', ")"));
     if bracketed.is_some_and(|(_, text)| begins_with_number(text)) {
@@ -51,8 +51,8 @@ pub fn heading(unit: impl Fn(&str) -> Option<Unit>, text: &str) -> Option<(&str,
     Some(known.filter(|(name, _)| !name.is_empty()).unwrap_or((text.trim(), Unit::one())))
 }
 
-/// Whether what stands for a unit is a number other than 1 or a value. `10^-6/K`, `1e-3`, `0.5*mm` are
-/// units.
+/// Whether the text in the place of a unit is a number other than 1, or a value. `10^-6/K`, `1e-3`,
+/// `0.5*mm` are units.
 fn begins_with_number(text: &str) -> bool {
     let rest = text.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
     let number = &text[..text.len() - rest.len()];
@@ -65,17 +65,17 @@ fn begins_with_number(text: &str) -> bool {
     number.parse::<f64>().is_ok_and(|number| number != 1.0) && !is_power()
 }
 
-/// The name of a column whose heading has a unit behind it; of every other one the whole.
+/// The name of a column without the unit after it; the whole heading if it has no unit.
 pub fn bare(text: &str) -> &str {
     named(text).map(|(name, _)| name).filter(|name| !name.is_empty()).unwrap_or(text)
 }
 
-/// The name and the unit of a heading that has one.
+/// The name and the unit of a heading with a unit.
 pub fn named(text: &str) -> Option<(&str, &str)> {
     named_among(text, |unit| Unit::parse(unit).ok())
 }
 
-/// The same with a reader of units.
+/// The same with a given parser of units.
 fn named_among(text: &str, unit: impl Fn(&str) -> Option<Unit>) -> Option<(&str, &str)> {
     let named = enclosed(text, '[', "]").or_else(|| enclosed(text, '(', ")"));
     named.or_else(|| after(text, " / ")).or_else(|| {
@@ -87,19 +87,20 @@ fn named_among(text: &str, unit: impl Fn(&str) -> Option<Unit>) -> Option<(&str,
     })
 }
 
-/// What stands before and behind a slash without spaces.
+/// The parts before and after a slash without spaces.
 fn over(text: &str) -> Option<(&str, &str)> {
     after(text, "/").filter(|(name, _)| !name.is_empty())
 }
 
-/// Whether the last word before a slash is the upper part of a unit, `v m/s`: it says nothing then.
+/// Whether the last word before a slash is the numerator of a unit, `v m/s`; the heading then
+/// states nothing.
 fn is_whole(name: &str, below: &str, unit: impl Fn(&str) -> Option<Unit>) -> bool {
     let last = name.rsplit_once(char::is_whitespace).map(|(_, last)| last);
     last.is_some_and(|above| unit(&format!("{above}/{below}")).is_some())
 }
 
-/// The place of the column of that name: as it stands in the header, else the only one that has it with
-/// a unit behind it, `f [Hz]` for `f`.
+/// The index of the column with this name: an exact header first, otherwise the only header that is
+/// this name with a unit, `f [Hz]` for `f`.
 pub fn place_of(columns: &[String], name: &str) -> Option<usize> {
     let exact = columns.iter().position(|column| column == name);
     exact.or_else(|| {
@@ -124,14 +125,14 @@ fn trimmed<'h>((name, unit): (&'h str, &'h str)) -> (&'h str, &'h str) {
     (name.trim(), unit.trim())
 }
 
-/// The unit that a heading states, and its text, of a column whose values are `declared` in a file; `None`
-/// where it has none, or the declared one in the same letters.
+/// The unit in the heading of a column whose values are `declared` in a file, and its text; `None`
+/// if there is none, or if it has the same text as the declared unit.
 pub fn stated<'h>(
     unit: impl Fn(&str) -> Option<Unit>,
     column: &'h str,
     declared: &Unit,
 ) -> Option<(Unit, &'h str)> {
-    // a heading that is a unit of the same kind, `km/h` for `m/s`, is no name with a unit
+    // a heading that is itself a unit of the same kind, `km/h` for `m/s`, is not a name with a unit
     let whole = unit(column.trim()).filter(|whole| whole.is_compatible(declared));
     let (name, text) = match whole.filter(|_| over(column).is_some()) {
         Some(_) => (column, column.trim()),
@@ -140,7 +141,7 @@ pub fn stated<'h>(
     if name.is_empty() || text.parse::<f64>().is_ok() || text == declared.text() {
         return None;
     }
-    // of `kHz, nominal` the part that is a unit
+    // the unit alone in `kHz, nominal`
     let whole = unit(text).map(|of| (of, text));
     let parts = || text.split([',', ';', ' ']).map(str::trim).filter(|part| !part.is_empty());
     let part = || parts().find_map(|part| Some((unit(part)?, part)));
@@ -152,11 +153,12 @@ pub fn stated<'h>(
 /// Prefixes that are written out.
 const PREFIXES: [&str; 7] = ["nano", "micro", "mikro", "milli", "kilo", "mega", "giga"];
 
-/// What the numbers of a converter are called.
+/// Words for the output values of a converter.
 const COUNTS: [&str; 5] = ["counts", "count", "cts", "digits", "codes"];
 
-/// What stands in square brackets for a unit and cannot be the declared one: the number 1, and what is
-/// nearly a unit or a count of a converter: `lbs`, `millivolt`, `counts`. Other words may be anything.
+/// Text in square brackets that should be a unit but cannot be the declared one: the number 1, a
+/// misspelt unit, or a count of a converter: `lbs`, `millivolt`, `counts`. Other words may mean
+/// anything.
 fn unreadable<'h>(
     unit: impl Fn(&str) -> Option<Unit>,
     column: &'h str,
@@ -176,7 +178,7 @@ fn unreadable<'h>(
     (declared.has_name() && !name.is_empty() && is_wrong).then_some(text)
 }
 
-/// Words for parts of a hundred and of a thousand, with their units.
+/// Words for hundredths and thousandths, with their units.
 const SHARES: [(&str, &str); 9] = [
     ("%", "%"),
     ("percent", "%"),
@@ -189,12 +191,13 @@ const SHARES: [(&str, &str); 9] = [
     ("promille", "‰"),
 ];
 
-/// Words for multiples, and for parts of a range or a screen.
+/// Words for multiples, and for fractions of a range or a screen.
 const MULTIPLES: [&str; 7] =
     ["thousand", "thousands", "million", "millions", "fs", "div", "division"];
 
-/// What stands in brackets and says that the numbers are multiples or shares of the declared unit:
-/// `x1000 V`, `V x1000`, `1e-3`, `percent`, `% FS`, `V per div`. A small whole number alone counts something.
+/// Text in brackets that says that the numbers are multiples or fractions of the declared unit:
+/// `x1000 V`, `V x1000`, `1e-3`, `percent`, `% FS`, `V per div`. A small whole number alone counts
+/// something.
 fn multiple(column: &str) -> Option<&str> {
     let (name, text) = enclosed(column, '[', "]").or_else(|| enclosed(column, '(', ")"))?;
     let power = |word: &str| {
@@ -216,12 +219,12 @@ fn multiple(column: &str) -> Option<&str> {
     (!name.is_empty() && is_scaled).then_some(text)
 }
 
-/// The unit of a word for shares: `%` of `percent`.
+/// The unit for a word such as `percent`: `%`.
 fn share(lower: &str) -> Option<&'static str> {
     SHARES.iter().find(|(word, unit)| *word == lower && *word != *unit).map(|(_, unit)| *unit)
 }
 
-/// Whether a text is the declared unit of shares in words: `percent`, `% FS`.
+/// Whether a text is the declared unit of fractions in words: `percent`, `% FS`.
 fn is_share_in(text: &str, declared: &Unit) -> bool {
     let first = text.split(' ').next().unwrap_or_default().to_lowercase();
     let is_word = |rest: &str| rest.chars().all(char::is_alphabetic);
@@ -231,12 +234,12 @@ fn is_share_in(text: &str, declared: &Unit) -> bool {
     })
 }
 
-/// What follows a unit in the notation of instruments, `mVrms`.
+/// Suffixes of units in the notation of instruments, `mVrms`.
 const OF_SIGNALS: [&str; 14] =
     ["rms", "eff", "pp", "p-p", "pk", "pk-pk", "peak", "ptp", "dc", "ac", "olt", "olts", "ec", "s"];
 
-/// A unit of the declared kind that stands in a heading among other words: in brackets anywhere, behind a
-/// comma or ` in `, with another letter's size (`mv`) or with what an instrument adds (`mVrms`, `mVolt`).
+/// A unit of the declared kind among other words of a heading: in brackets anywhere, after a comma
+/// or ` in `, in the wrong case (`mv`), or with a suffix of an instrument (`mVrms`, `mVolt`).
 fn among<'h>(
     unit: impl Fn(&str) -> Option<Unit>,
     column: &'h str,
@@ -271,8 +274,9 @@ fn among<'h>(
     words.into_iter().find_map(of_word)
 }
 
-/// That a heading has another unit than `declared`, which its values (quantities, or widths) are read in;
-/// `unit` reads the text of one. Nothing where the heading has no unit; a number alone counts something.
+/// Checks whether a heading has another unit than `declared`, the unit in which its values
+/// (quantities or widths) are read; `unit` parses the text of a unit. `None` if the heading has no
+/// unit; a number alone counts something.
 pub fn contradiction(
     unit: impl Fn(&str) -> Option<Unit>,
     column: &str,
@@ -332,7 +336,7 @@ mod tests {
             ("/m", None),
             ("drift in run2", None),
             ("x", None),
-            // a unit behind a space alone says nothing, and not a part of itself
+            // a unit after a space alone states nothing, nor does a part of itself
             ("v m/s", None),
         ] {
             assert_eq!(named(text), expected, "{text}");
@@ -361,13 +365,13 @@ mod tests {
         assert_eq!(said("x in mV", "V").as_deref(), Some("mV"));
         assert_eq!(said("x/mV", "mV"), None);
         assert_eq!(said("U1/U2", "1"), None);
-        // a heading that is a unit itself
+        // a heading that is itself a unit
         assert_eq!(said("km/h", "km/h"), None);
         assert_eq!(said("km/h", "m/s").as_deref(), Some("km/h"));
-        // a voltage in mV, whose heading is a unit of another kind
+        // a voltage in mV under a heading that is a unit of another kind
         assert_eq!(said("V/mV", "mV"), None);
         assert_eq!(said("V/mV", "V").as_deref(), Some("mV"));
-        // a `g` that is no gram
+        // a `g` that does not mean the gram
         assert_eq!(said("x [g]", "g_n"), None);
         assert_eq!(said("x [mg]", "mg_n"), None);
         assert_eq!(said("x [mg]", "g_n").as_deref(), Some("mg"));

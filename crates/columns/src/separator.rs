@@ -1,8 +1,8 @@
-//! What separates the cells of a text, and the decimal marks of its numbers.
+//! Separators between the cells of a text, and the decimal marks of its numbers.
 
 use std::borrow::Cow;
 
-/// What separates the cells of a table.
+/// The separator between the cells of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Separator {
     /// `,`
@@ -25,7 +25,7 @@ impl Separator {
         }
     }
 
-    /// That of a line that may hold numbers, with decimal commas between tabs.
+    /// The separator of a line that may hold numbers, possibly with decimal commas between tabs.
     pub fn of_line(line: &str) -> Self {
         match (line.contains(';'), line.contains('\t')) {
             (true, _) => Self::Semicolon,
@@ -43,15 +43,15 @@ impl Separator {
         }
     }
 
-    /// The sign as a byte of a text.
+    /// The separator as a byte.
     pub const fn byte(self) -> u8 {
         self.sign() as u8
     }
 
-    /// The cells of a line, without the blanks about them.
+    /// The cells of a line, without surrounding blanks.
     ///
     /// # Errors
-    /// What the line cannot be read for, as a sentence.
+    /// Why the line cannot be read, as a sentence.
     pub fn cells(self, line: &str) -> Result<Vec<String>, String> {
         let mut reader = csv::ReaderBuilder::new()
             .delimiter(self.byte())
@@ -66,7 +66,7 @@ impl Separator {
     }
 }
 
-/// Whether a line is no record: empty, a comment, or the separator as spreadsheets announce it
+/// Whether a line is not a record: empty, a comment, or the separator announced by a spreadsheet
 /// (`sep=;`).
 pub fn is_skipped(line: &str) -> bool {
     let line = line.trim();
@@ -74,8 +74,8 @@ pub fn is_skipped(line: &str) -> bool {
     line.is_empty() || line.starts_with('#') || (announced && line.chars().count() <= 5)
 }
 
-/// The decimal marks of the numbers of one text: a point everywhere, or a comma everywhere that does
-/// not separate cells. Of `1.234;1` and `2,5;2` the first may be 1234.
+/// The decimal marks of the numbers of one text: a point everywhere, or a comma everywhere if
+/// commas do not separate cells. In `1.234;1` and `2,5;2` the first number may be 1234.
 #[derive(Clone, Debug)]
 pub struct DecimalMarks {
     separator: Separator,
@@ -84,15 +84,16 @@ pub struct DecimalMarks {
 }
 
 impl DecimalMarks {
-    /// Those of a text whose numbers were not seen yet.
+    /// The marks of a text whose numbers have not been seen yet.
     pub const fn of(separator: Separator) -> Self {
         Self { separator, point: None, comma: None }
     }
 
-    /// The text of a number with a decimal point, and with a hyphen for the minus sign of typesetters.
+    /// The text of a number with a decimal point, and with a hyphen instead of a typographic minus
+    /// sign.
     ///
     /// # Errors
-    /// Both marks stand in the numbers of the text.
+    /// The text has numbers with both marks.
     pub fn with_point<'c>(&mut self, cell: &'c str) -> Result<Cow<'c, str>, String> {
         if let Some(rest) = cell.strip_prefix('−') {
             return self.with_point(rest).map(|rest| Cow::Owned(format!("-{rest}")));

@@ -1,8 +1,10 @@
-//! The branch on which angles lie nearest to each other: they are the same after a turn.
+//! The branch on which angles lie closest to each other: angles that differ by whole turns are
+//! equal.
 
 use gumption_units::{Turn, Unit};
 
-/// Angles within this share of a turn are on the same branch, but for the rounding of binary fractions.
+/// Angles within this fraction of a turn are on the same branch; the excess allows for binary
+/// rounding.
 const HALF: f64 = 0.5 * (1.0 + 1e-12);
 
 /// The length of a turn in a unit of plane angle; `None` for other units, and for `rev` and `turn`, whose
@@ -16,12 +18,12 @@ pub fn turn(unit: &Unit) -> Option<f64> {
     Unit::conversion_factor(&revolution, unit).ok()
 }
 
-/// How many turns are to be added to each of some angles so that all lie within half a turn, none to the
-/// first one.
+/// Returns the number of turns to add to each angle so that all lie within half a turn; 0 for the
+/// first one. The angles and `turn` have the same unit.
 ///
 /// # Errors
-/// The places of two of them for which that cannot be: an angle of more than a turn, which may be counted
-/// in turns, and one that is far from it; or two that half a turn does not hold together with the others.
+/// The indices of two angles that cannot be brought together: an angle of more than one turn, which
+/// may be counted in turns, and one far from it; or two angles that half a turn does not span.
 pub fn branches(angles: &[f64], turn: f64) -> Result<Vec<f64>, [usize; 2]> {
     let by = |better: fn(f64, f64) -> bool| {
         (0..angles.len()).reduce(|a, b| if better(angles[b], angles[a]) { b } else { a })
@@ -37,7 +39,7 @@ pub fn branches(angles: &[f64], turn: f64) -> Result<Vec<f64>, [usize; 2]> {
         return Err([least, greatest]);
     }
     let ahead = |from: f64, angle: f64| (angle - from).rem_euclid(turn);
-    // from one of them on all lie within half a turn
+    // all lie within half a turn, counted from one of them
     let start = angles.iter().copied().find(|start| {
         angles.iter().all(|angle| {
             let ahead = ahead(*start, *angle);

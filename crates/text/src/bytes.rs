@@ -1,4 +1,4 @@
-//! The content of files, up to a size.
+//! Reads the content of files up to a maximum size.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -6,17 +6,17 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Bytes of a model file, a result file or a table, at most. What is read takes up to a dozen times
-/// as much memory.
+/// Maximum size of a model file, a result file or a table, in bytes. Reading takes up to twelve
+/// times as much memory.
 pub const MOST: u64 = 50_000_000;
 
-/// Bytes of a file of samples, at most.
+/// Maximum size of a file of samples, in bytes.
 pub const MOST_OF_SAMPLES: u64 = 200_000_000;
 
-/// The content of a file of at most so many bytes, or why there is none. Of a larger one, or of a
-/// device without an end, no more than that is read.
+/// The content of a file of at most `most` bytes, or why it cannot be read. Of a larger file or an
+/// endless device, at most `most + 1` bytes are read.
 pub fn of_file(path: &Path, most: u64) -> Result<Vec<u8>, String> {
-    // what systems say of one differs: access is denied on Windows
+    // the system's message for a directory differs: access is denied on Windows
     if path.is_dir() {
         return Err("it is a folder: name a file".to_owned());
     }
@@ -30,7 +30,7 @@ pub fn of_file(path: &Path, most: u64) -> Result<Vec<u8>, String> {
 pub enum ReadError {
     /// The system cannot read it.
     Io(io::Error),
-    /// There are more than so many bytes.
+    /// The file is larger than the limit, in bytes.
     TooLarge {
         /// The most that are read.
         most: u64,
@@ -51,10 +51,10 @@ impl fmt::Display for ReadError {
 
 impl std::error::Error for ReadError {}
 
-/// All that a reader gives, up to so many bytes.
+/// Reads everything that a reader gives, up to `most` bytes.
 ///
 /// # Errors
-/// More bytes, or what the system says.
+/// The reader gives more bytes, or fails with a system error.
 pub fn of(reader: impl Read, most: u64) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     reader.take(most + 1).read_to_end(&mut bytes).map_err(ReadError::Io)?;
@@ -67,7 +67,7 @@ pub fn of(reader: impl Read, most: u64) -> Result<Vec<u8>, ReadError> {
 /// The text of a file: UTF-8, or UTF-16 with its byte-order mark, as Windows PowerShell writes it.
 ///
 /// # Errors
-/// What it is not, as a sentence about it.
+/// A sentence that says which encoding is invalid.
 pub fn text(bytes: &[u8]) -> Result<Cow<'_, str>, String> {
     type Unit = fn([u8; 2]) -> u16;
     let (rest, of): (&[u8], Unit) = match bytes {
@@ -75,7 +75,7 @@ pub fn text(bytes: &[u8]) -> Result<Cow<'_, str>, String> {
         [0xfe, 0xff, rest @ ..] => (rest, u16::from_be_bytes),
         _ => {
             let text = std::str::from_utf8(bytes).map_err(|_| {
-                // archives, which workbooks are, begin so
+                // zip archives, and therefore workbooks, begin like this
                 if bytes.starts_with(b"PK\x03\x04") {
                     return "it is a workbook, or another archive: `gumption import` makes a model file of a \
                             budget; of a table save the sheet as `CSV UTF-8`"

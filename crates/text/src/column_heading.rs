@@ -1,4 +1,4 @@
-//! Headings of columns that a file names, held against the units that it states.
+//! Compares the headings of columns that a file names with the units that the file states.
 
 use std::ops::Range;
 
@@ -8,14 +8,14 @@ use super::value_text::ValueOf;
 pub use gumption_columns::heading::{bare, enclosed, named, place_of, stated};
 use gumption_units::Unit;
 
-/// The name of a column and its unit, which may be one of the file's own; see
+/// The name and the unit of a column; the unit may be defined in the file. See
 /// [`gumption_columns::heading::heading`].
 pub fn heading<'h>(log: &Collector, text: &'h str) -> Option<(&'h str, Unit)> {
     gumption_columns::heading::heading(|unit| log.unit(unit).ok(), text)
 }
 
-/// Reports, at the place that names the column, that its heading has another unit than `declared`,
-/// which its values (quantities, or widths) are read in.
+/// Reports a heading whose unit differs from `declared`, the unit in which the values (quantities
+/// or widths) are read. The error is reported where the file names the column.
 pub fn check(
     log: &Collector,
     place: &Range<usize>,

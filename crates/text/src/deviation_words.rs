@@ -1,6 +1,6 @@
-//! Words of errors, deviations and corrections at the head of columns and in names of results.
+//! Words for errors, deviations and corrections in column headings and in names of results.
 
-/// Words of errors, which are added to what is right and taken from what is indicated.
+/// Words for an error: indicated value minus reference value.
 pub const ERRORS: [&str; 13] = [
     "error",
     "error of indication",
@@ -17,7 +17,7 @@ pub const ERRORS: [&str; 13] = [
     "justesse",
 ];
 
-/// Words of what is added to a nominal value.
+/// Words for a deviation from a nominal value.
 pub const DEVIATIONS: [&str; 10] = [
     "deviation",
     "deviation from nominal",
@@ -31,16 +31,16 @@ pub const DEVIATIONS: [&str; 10] = [
     "desviación",
 ];
 
-/// Parts of the English words of differences, of which the reference types of certificates consist
-/// (`basic_measurementError` and its kind).
+/// Parts of the English words for differences, as in the reference types of certificates
+/// (`basic_measurementError` and similar).
 pub const PARTS_OF_TYPES: [&str; 6] =
     ["error", "correction", "deviation", "difference", "drift", "hysteresis"];
 
-/// Parts of the words of differences in other languages of the certificates that are read.
+/// Parts of the words for differences in the other languages of the certificates that are read.
 const OTHER_PARTS: [&str; 6] =
     ["abweichung", "korrektion", "korrektur", "differenz", "erreur", "écart"];
 
-/// Whether a name has a word of differences in it.
+/// Whether a name contains a word for a difference.
 pub fn is_of_difference(name: &str) -> bool {
     let small = name.to_lowercase();
     PARTS_OF_TYPES.iter().chain(&OTHER_PARTS).any(|word| small.contains(word))

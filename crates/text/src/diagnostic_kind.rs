@@ -1,4 +1,4 @@
-//! What can be wrong with a user's file: the facts, and the sentence that is said about them.
+//! What can be wrong with a user's file: the facts, and the sentence that reports them.
 
 use std::fmt;
 use std::sync::Arc;
@@ -12,20 +12,19 @@ use gumption_engine::number::Shortest;
 use gumption_units::UnitError;
 use gumption_units::nearest;
 
-/// The keys of an input that are widths: none of them is 0.
+/// The keys of an input that are widths; a width is never 0.
 pub const WIDTHS: [&str; 5] = ["std", "expanded", "scale", "half_width", "semi_range"];
 
-/// A mistake, without its place.
+/// An error, without its place.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum DiagnosticKind {
     /// The file cannot be read.
     Unreadable {
-        /// What the system or the parser says.
+        /// The message of the system or the parser.
         message: String,
     },
-    /// A file that may not be read, because it lies outside of the folder of the file that names
-    /// it.
+    /// A file that may not be read because it lies outside the folder of the file that names it.
     Outside {
         /// Its name, as it is written.
         name: String,
@@ -34,7 +33,7 @@ pub enum DiagnosticKind {
     Empty,
     /// The text is not JSON.
     NotJson {
-        /// What the system or the parser says.
+        /// The message of the system or the parser.
         message: String,
     },
     /// JSON has no NaN and no infinity.
@@ -79,7 +78,8 @@ pub enum DiagnosticKind {
     NoDistribution {
         /// What is concerned, in words.
         what: &'static str,
-        /// The distributions that have all of its keys; none where it has no key of a distribution.
+        /// The distributions that have all of the object's keys; empty if it has no key of a
+        /// distribution.
         fitting: Vec<&'static str>,
     },
     /// A version of the file format that this program does not know.
@@ -168,14 +168,14 @@ pub enum DiagnosticKind {
         name: String,
         /// What stands there.
         found: String,
-        /// The quantity that this unit is one of.
+        /// The quantity that the found unit measures.
         found_as: String,
         /// The quantity that is needed.
         expected_as: String,
         /// What must stand there.
         expected: String,
     },
-    /// A unit of the right dimension that the scale of a quantity does not fit.
+    /// A unit of the right dimension whose scale does not suit the quantity.
     WrongScale {
         /// The name that is concerned.
         name: String,
@@ -209,7 +209,7 @@ pub enum DiagnosticKind {
         /// What is wrong with it.
         error: Invalid,
     },
-    /// Two keys of which one may be there.
+    /// Two keys that exclude each other.
     Exclusive {
         /// The first of the two.
         first: &'static str,
@@ -221,11 +221,11 @@ pub enum DiagnosticKind {
         /// The name that is concerned.
         name: String,
     },
-    /// A key that says something about another one, which is not there.
+    /// A key that needs another key, which is missing.
     OnlyWith {
         /// The key.
         key: &'static str,
-        /// The key that is not there.
+        /// The missing key.
         with: &'static str,
     },
     /// A probability outside 0 to 1.
@@ -235,7 +235,7 @@ pub enum DiagnosticKind {
         /// What stands there.
         found: f64,
     },
-    /// A number that is not a positive one.
+    /// A number that must be positive.
     NotPositive {
         /// The key.
         key: String,
@@ -287,11 +287,11 @@ pub enum DiagnosticKind {
         /// Why, as a part of the sentence.
         reason: String,
     },
-    /// A tolerance with one limit of an output that comes round.
+    /// A tolerance with only one limit for a periodic output.
     OneLimitOfPeriod {
         /// The output.
         name: String,
-        /// The limit that is not there.
+        /// The missing limit.
         missing: &'static str,
         /// A turn, with its unit.
         turn: String,
@@ -303,7 +303,7 @@ pub enum DiagnosticKind {
         /// Why, as a part of the sentence.
         reason: String,
     },
-    /// A formula's mistake.
+    /// A formula's error.
     Formula {
         /// What is wrong with it.
         error: FormulaError,
@@ -384,14 +384,14 @@ pub enum DiagnosticKind {
         /// Why, as a sentence without a capital.
         reason: String,
     },
-    /// A complex quantity that is not written as one, or is not taken as one.
+    /// A complex quantity that is not written as one, or that is not allowed here.
     Complex {
         /// The quantity.
         name: String,
         /// Why, as the rest of the sentence.
         reason: String,
     },
-    /// A coverage region that cannot be.
+    /// A coverage region that cannot be computed.
     Region {
         /// Why, as a sentence without a capital.
         reason: String,
@@ -407,7 +407,7 @@ pub enum DiagnosticKind {
     },
     /// A saved result that was changed since it was written.
     SavedChanged {
-        /// What was changed, by the keys that lead to it; `None` where that cannot be told.
+        /// The keys that lead to the changed part; `None` if that is unknown.
         part: Option<String>,
     },
     /// A file that `--save` did not write.
@@ -431,7 +431,8 @@ pub enum DiagnosticKind {
         /// Why, as a part of the sentence.
         reason: &'static str,
     },
-    /// A result for an input in a unit with another zero: degC and K, degC and degF, dBm and dBW.
+    /// A saved result and an input whose units have different zeros: degC and K, degC and degF, dBm
+    /// and dBW.
     SavedZero {
         /// The name that is concerned.
         name: String,
@@ -440,14 +441,14 @@ pub enum DiagnosticKind {
         /// The unit of the saved result.
         saved: String,
     },
-    /// A declared coefficient between inputs whose saved results have one.
+    /// A declared correlation coefficient between inputs whose saved results already have one.
     SavedCorrelation {
         /// The first of the two.
         first: String,
         /// The second of the two.
         second: String,
     },
-    /// More mistakes than are listed.
+    /// More errors than are listed.
     MoreMistakes {
         /// The most that is allowed.
         most: usize,
@@ -457,9 +458,9 @@ pub enum DiagnosticKind {
         /// How many rows there are.
         rows: usize,
     },
-    /// The evaluation met numbers that it cannot go on with.
+    /// Values with which the evaluation cannot continue.
     Evaluation {
-        /// What the system or the parser says.
+        /// The message of the system or the parser.
         message: String,
     },
     /// The catalogue has no effect of that name.
@@ -476,12 +477,12 @@ pub enum DiagnosticKind {
         /// Why, as a part of the sentence.
         reason: String,
     },
-    /// Observations that say nothing about the sim, or contradict themselves.
+    /// Observations without information about the sim, or observations that contradict each other.
     Observation {
         /// Why, as a part of the sentence.
         reason: String,
     },
-    /// What the improvement of an input costs, in a form that it cannot have.
+    /// The cost of improving an input, in an invalid form.
     Cost {
         /// Why, as a sentence without a capital.
         reason: String,
@@ -523,7 +524,7 @@ pub enum DiagnosticKind {
 }
 
 impl DiagnosticKind {
-    /// A short fixed name of the kind of mistake.
+    /// A short fixed identifier of this kind of error.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Unreadable { .. } => "unreadable",
@@ -604,7 +605,7 @@ impl DiagnosticKind {
         }
     }
 
-    /// The same mistake of what stands at another key.
+    /// The same error for the value of another key.
     #[must_use]
     pub fn of_key(mut self, of: &str) -> Self {
         if let Self::WrongDimension { name, .. }
@@ -616,7 +617,7 @@ impl DiagnosticKind {
         self
     }
 
-    /// What to write instead, where that is known.
+    /// What to write instead, if that is known.
     pub fn suggestion(&self) -> Option<String> {
         match self {
             Self::UnknownKey { key, known, .. }
@@ -654,10 +655,10 @@ fn list<S: AsRef<str>>(names: &[S]) -> String {
     list
 }
 
-/// At most so many names are listed in a message.
+/// The maximum number of names listed in a message.
 const LONGEST_LIST: usize = 30;
 
-/// What is done with an uncertainty of 0.
+/// How the program treats an uncertainty of 0.
 pub(crate) const WITHOUT_UNCERTAINTY: &str = "; a quantity without an uncertainty has the distribution `constant`, and a component without \
      one is left out";
 
@@ -671,7 +672,7 @@ fn hint(nearest: Option<&String>, known: &str) -> String {
     if nearest.is_some() { meant(nearest) } else { format!("; there are {known}") }
 }
 
-/// The near name, where there is one.
+/// The nearest known name, if there is one.
 fn meant(nearest: Option<&String>) -> String {
     nearest.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
 }
@@ -776,7 +777,7 @@ impl fmt::Display for DiagnosticKind {
             Self::Unit { unit, error } => {
                 write!(f, "the unit `{unit}` cannot be read: {}", error.in_whole(unit))
             }
-            // of one dimension are levels and ratios
+            // levels and ratios have the same dimension
             Self::WrongDimension { name, found, found_as, expected, expected_as }
                 if found_as == expected_as && (found.contains("dB") || found.contains("Np")) =>
             {
@@ -916,7 +917,7 @@ impl fmt::Display for DiagnosticKind {
             Self::Fit { name, reason } => write!(f, "`{name}`: {reason}"),
             Self::Region { reason } => f.write_str(reason),
             Self::Complex { name, reason } => write!(f, "`{name}` {reason}"),
-            // more than can be counted, or than was looked at
+            // more than can be counted, or more than were counted
             Self::TooMany { what, found: usize::MAX, most } => {
                 write!(f, "there are more than {most} {what}, which this version takes at most")
             }

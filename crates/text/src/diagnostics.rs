@@ -1,4 +1,4 @@
-//! Mistakes with their places.
+//! Errors with their places.
 
 use std::borrow::Cow;
 use std::cell::{Cell, Ref, RefCell};
@@ -13,18 +13,18 @@ use gumption_engine::model::formula::{Formula, FormulaError};
 use gumption_engine::regression::CurveFunction;
 use gumption_units::{Unit, UnitError};
 
-/// At most so many mistakes are collected: a table of a million faulty cells helps nobody.
+/// Maximum number of errors that are collected: a list of a million faulty cells helps nobody.
 const MOST: usize = 1000;
 
-/// The longest part of a sentence between two quotation marks, in letters.
+/// The longest quoted part of a message, in characters; the middle of a longer one is cut.
 const LONGEST: usize = 1000;
 
-/// A mistake in a user's file.
+/// An error in a user's file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// The text in which it lies.
+    /// The text that contains the error.
     pub source: Arc<SourceText>,
-    /// The place: a half-open range of bytes.
+    /// The position: a half-open range of bytes.
     pub span: Range<usize>,
     /// What is wrong.
     pub kind: DiagnosticKind,
@@ -36,8 +36,7 @@ impl Diagnostic {
         self.source.position(self.span.start)
     }
 
-    /// The sentence about the mistake, on one line whatever the file's names have in them; very long
-    /// quoted texts are cut.
+    /// The message, always on one line; very long quoted texts are shortened.
     pub fn message(&self) -> String {
         let mut message = String::new();
         for (number, part) in self.kind.to_string().split('`').enumerate() {
@@ -50,7 +49,8 @@ impl Diagnostic {
     }
 }
 
-/// A text of a file on one line, with what [`is_obeyed`] as it is written in Rust: `\u{1b}`.
+/// A text of a file on one line; characters for which [`is_obeyed`] holds appear as escapes of
+/// Rust, such as `\u{1b}`.
 pub fn printable(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -59,15 +59,15 @@ pub fn printable(text: &str) -> String {
     out
 }
 
-/// Whether a terminal would obey a character, or it changes the direction of the text around it, or has no
-/// width.
+/// Whether a terminal would interpret the character, whether it changes the direction of text, or
+/// whether it has no width.
 pub fn is_obeyed(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{ad}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
             | '\u{2060}'..='\u{2069}')
 }
 
-/// A part of a sentence without the middle of what is longer than anything that is said.
+/// A part of a message; the middle of a very long quotation is left out.
 fn shortened(part: &str) -> Cow<'_, str> {
     let Some((cut, _)) = part.char_indices().nth(LONGEST) else {
         return part.into();
@@ -87,7 +87,7 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// All mistakes that were found, in the order of their places.
+/// All errors found, in the order of their positions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
@@ -105,15 +105,15 @@ impl fmt::Display for Diagnostics {
 
 impl std::error::Error for Diagnostics {}
 
-/// Collects mistakes while a file is read.
+/// Collects errors while a file is read.
 #[derive(Debug)]
 pub struct Collector {
     /// The text that is read.
     pub source: Arc<SourceText>,
     diagnostics: RefCell<Vec<Diagnostic>>,
-    /// Whether there are more than are collected.
+    /// Whether there were more errors than are collected.
     more: Cell<bool>,
-    /// The diagnostics by where they begin.
+    /// Indices of the diagnostics by the byte at which they begin.
     by_start: RefCell<HashMap<usize, Vec<usize>>>,
     /// Units that the file defines.
     units: RefCell<Vec<Unit>>,
@@ -126,7 +126,7 @@ impl Collector {
         Self { source, diagnostics, more: Cell::new(false), by_start, units: RefCell::default() }
     }
 
-    /// A unit as text: one that the file defines, or one that everybody knows.
+    /// Parses a unit: one that the file defines, or one of the built-in units.
     pub fn unit(&self, text: &str) -> Result<Unit, UnitError> {
         Unit::parse_among(text, &self.own_units())
     }
@@ -136,12 +136,12 @@ impl Collector {
         Ref::map(self.units.borrow(), Vec::as_slice)
     }
 
-    /// A formula, in whose brackets units of the file may stand.
+    /// Parses a formula; its brackets may contain units of the file.
     pub fn formula(&self, text: &str) -> Result<Formula, FormulaError> {
         self.formula_with(text, &[])
     }
 
-    /// A formula that may call these calibration functions.
+    /// Parses a formula that may call these calibration functions.
     pub fn formula_with(
         &self,
         text: &str,
@@ -158,12 +158,12 @@ impl Collector {
         }
     }
 
-    /// A mistake in the file itself.
+    /// Reports an error in the file itself.
     pub fn report(&self, span: &Range<usize>, kind: DiagnosticKind) {
         self.report_at(Place { source: self.source.clone(), span: span.clone() }, kind);
     }
 
-    /// A mistake in some text.
+    /// An error in some text.
     pub fn report_at(&self, place: Place, kind: DiagnosticKind) {
         let diagnostic = Diagnostic { source: place.source, span: place.span, kind };
         let mut diagnostics = self.diagnostics.borrow_mut();
@@ -179,10 +179,10 @@ impl Collector {
         }
     }
 
-    /// What was found, unless something was reported.
+    /// The value that was read, if nothing was reported.
     ///
     /// # Errors
-    /// All that was reported, in the order of the places.
+    /// All reported errors, in the order of their positions.
     pub fn finish<T>(self, found: Option<T>) -> Result<T, Diagnostics> {
         match found {
             Some(found) if self.is_clean() => Ok(found),
@@ -190,17 +190,17 @@ impl Collector {
         }
     }
 
-    /// Whether there are more mistakes than are collected, so that nothing more needs to be read.
+    /// Whether the limit of collected errors is exceeded, so that reading may stop.
     pub fn is_full(&self) -> bool {
         self.more.get()
     }
 
-    /// The value, or the mistake reported at `span`.
+    /// The value; an error is reported at `span`.
     pub fn value<T>(&self, span: &Range<usize>, result: Result<T, DiagnosticKind>) -> Option<T> {
         result.map_err(|diagnostic| self.report(span, diagnostic)).ok()
     }
 
-    /// Whether a mistake was reported that begins where `span` does.
+    /// Whether an error was reported that begins where `span` begins.
     pub fn has_mistake_at(&self, span: &Range<usize>) -> bool {
         self.by_start.borrow().get(&span.start).is_some_and(|found| !found.is_empty())
     }
@@ -210,7 +210,7 @@ impl Collector {
         self.diagnostics.borrow().is_empty()
     }
 
-    /// The mistakes in order: those of this file by place, then those of other files.
+    /// The errors in order: first those of this file by position, then those of other files.
     pub fn into_diagnostics(self) -> Diagnostics {
         let mut diagnostics = self.diagnostics.into_inner();
         let own = self.source;
@@ -225,13 +225,14 @@ impl Collector {
     }
 }
 
-/// Leaves out what is missing only because its name is misspelt.
+/// Removes reports of missing keys that are missing only because a key is misspelt.
 fn without_consequences(diagnostics: &mut Vec<Diagnostic>) {
     let mut explained = Vec::new();
     for (at, diagnostic) in diagnostics.iter().enumerate() {
         let missing = match &diagnostic.kind {
             DiagnosticKind::UnknownKey { nearest: Some(right), what, .. } => {
-                // without `expanded` it is `std` that is missing, and its `k` stands alone
+                // without `expanded`, `std` is reported as missing, and `k` remains without its
+                // partner
                 let is_expanded = right == "expanded";
                 let is_alone = |p: &Diagnostic| matches!(&p.kind, DiagnosticKind::OnlyWith { with, .. } if with == right);
                 explained.extend(diagnostics.iter().position(is_alone).filter(|_| is_expanded));

@@ -1,78 +1,79 @@
-//! Where the files that a file names are looked for, and which of them may be read.
+//! Finds the files that a file names, and decides which of them may be read.
 //!
-//! A file may come from a stranger, and what it names is quoted in messages, evaluated, and attached
-//! to certificates. So it names files below its own folder, or below one that the user allows: on
-//! the command line, or by an empty file [`ROOT`] in a folder above, which says that everything
-//! below belongs together. Links are followed before that is looked at.
+//! A file may come from a stranger, and the files that it names are quoted in messages, evaluated,
+//! and attached to certificates. Therefore it may name only files below its own folder or below a
+//! folder that the user allows. The user allows a folder on the command line, or by an empty file
+//! [`ROOT`] in a parent folder, which says that everything below belongs together. Links are
+//! resolved before the check.
 
 use std::fmt;
 use std::path::{Component, Path, PathBuf};
 
 use super::{DiagnosticKind, bytes};
 
-/// A file of this name makes its folder one below which files may name each other.
+/// In a folder with a file of this name, all files may name each other.
 pub(crate) const ROOT: &str = ".gumption-root";
 
-/// Where the files that a text names come from, for programs that do not leave that to the disk: one
-/// that serves a folder and nothing else, or one that has no disk at all.
+/// A source of the files that a text names, for programs that do not read the disk directly: a
+/// server of one folder, or a program without a disk.
 pub trait FileSource: fmt::Debug + Sync {
-    /// The content of the file of this name, as the text has it, of at most so many bytes.
+    /// The content of the named file, at most `most` bytes. The name is as written in the text.
     ///
     /// # Errors
-    /// Why there is none, as a sentence for the user, such as `no such file`.
+    /// Why the file cannot be read, as a sentence for the user, such as `no such file`.
     fn content(&self, name: &str, most: u64) -> Result<Vec<u8>, String>;
 }
 
-/// The folder of a file, and which other folders it may name files in.
+/// The folder of a file, and the other folders in which it may name files.
 #[derive(Clone, Copy, Debug)]
 pub struct Folder<'a> {
     path: &'a Path,
     /// `None` for all.
     allowed: Option<&'a [PathBuf]>,
-    /// Files that are in memory, by their names.
+    /// Files in memory, by name.
     held: &'a [(String, Vec<u8>)],
-    /// What gives the content of all others in place of the disk.
+    /// The source of all other files instead of the disk.
     source: Option<&'a dyn FileSource>,
-    /// The folder above which nothing is looked for, whatever stands there.
+    /// The folder above which no `.gumption-root` is looked for.
     within: Option<&'a Path>,
 }
 
 impl<'a> Folder<'a> {
-    /// A folder whose files may name others below it and below these.
+    /// A folder whose files may name other files below it and below the `allowed` folders.
     pub fn new(path: &'a Path, allowed: &'a [PathBuf]) -> Self {
         Self { path, allowed: Some(allowed), held: &[], source: None, within: None }
     }
 
-    /// The same with files that are in memory.
+    /// The same folder with files that are held in memory.
     pub fn holding(self, held: &'a [(String, Vec<u8>)]) -> Self {
         Self { held, ..self }
     }
 
-    /// The same with this in place of the disk.
+    /// The same folder with this source instead of the disk.
     pub fn sourced(self, source: Option<&'a dyn FileSource>) -> Self {
         Self { source, ..self }
     }
 
-    /// The same, where a file `.gumption-root` above this folder says nothing.
+    /// The same folder, but a file `.gumption-root` above `folder` has no effect.
     pub fn within(self, folder: Option<&'a Path>) -> Self {
         Self { within: folder, ..self }
     }
 
-    /// Whether what is named comes from memory or from a source, and not from the disk.
+    /// Whether the named file comes from memory or from a source instead of the disk.
     pub fn holds(self, name: &str) -> bool {
         self.source.is_some() || self.held(name).is_some()
     }
 
-    /// The content in memory of that name.
+    /// The content of the named file in memory.
     pub(crate) fn held(self, name: &str) -> Option<&'a [u8]> {
         let found = self.held.iter().find(|(held, _)| held == name);
         found.map(|(_, bytes)| bytes.as_slice())
     }
 
-    /// The content of the file of that name, from memory or from the disk, of at most so many bytes.
+    /// The content of the named file, from memory or from the disk, at most `most` bytes.
     ///
     /// # Errors
-    /// As [`Folder::file`], or that it cannot be read.
+    /// The errors of [`Folder::file`], or that the file cannot be read.
     pub fn content(self, name: &str, most: u64) -> Result<Vec<u8>, DiagnosticKind> {
         if let Some(bytes) = self.held(name) {
             return Ok(bytes.to_owned());
@@ -87,18 +88,18 @@ impl<'a> Folder<'a> {
         })
     }
 
-    /// The file of that name as messages call it: from the disk by its path from the current folder, as
-    /// the file that names it is called, so that an editor finds it.
+    /// The name of the file in messages: for a file on disk its path from the current folder, so
+    /// that an editor finds it.
     pub fn shown(self, name: &str) -> String {
         if self.holds(name) { name.to_owned() } else { self.path.join(name).display().to_string() }
     }
 
-    /// The current folder, for files that the user names himself.
+    /// The current folder, for files that the user names on the command line.
     pub fn of_the_user() -> Self {
         Self { path: Path::new(""), allowed: None, held: &[], source: None, within: None }
     }
 
-    /// The folder above which nothing is looked for.
+    /// The folder above which no `.gumption-root` is looked for.
     pub fn limit(self) -> Option<&'a Path> {
         self.within
     }
@@ -108,7 +109,7 @@ impl<'a> Folder<'a> {
         self.held
     }
 
-    /// What gives content in place of the disk.
+    /// The source that replaces the disk.
     pub fn source(self) -> Option<&'a dyn FileSource> {
         self.source
     }
@@ -118,15 +119,16 @@ impl<'a> Folder<'a> {
         self.path
     }
 
-    /// The folders that are allowed beside it.
+    /// The other allowed folders.
     pub fn allowed(self) -> &'a [PathBuf] {
         self.allowed.unwrap_or(&[])
     }
 
-    /// The path of the file of that name.
+    /// The path of the named file.
     ///
     /// # Errors
-    /// That the file lies outside of what may be read. Whether it exists is not told then.
+    /// The file lies outside the folders that may be read. The message does not reveal whether it
+    /// exists.
     pub fn file(self, name: &str) -> Result<PathBuf, DiagnosticKind> {
         let path = self.path.join(name);
         let Some(allowed) = self.allowed else { return Ok(path) };
@@ -141,25 +143,25 @@ impl<'a> Folder<'a> {
         folders.extend(root);
         folders.extend(allowed.iter().map(|folder| canonical(folder)));
         let is_below = |path: &Path| folders.iter().any(|folder| path.starts_with(folder));
-        // as it is written, so that nobody learns what exists elsewhere
+        // as written, so that the message does not reveal what exists elsewhere
         if !is_below(&without_dots(&own.join(name))) {
             return Err(outside());
         }
         match path.canonicalize() {
             Ok(found) if !is_below(&found) => Err(outside()),
-            // whoever opens it says that it is not there
+            // the caller that opens the file reports that it is missing
             _ => Ok(path),
         }
     }
 }
 
-/// The folder with its links followed; as it is written where that cannot be done.
+/// The folder with its links resolved, or as written if that fails.
 fn canonical(folder: &Path) -> PathBuf {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
 }
 
-/// A path without `.` and `..`, by its words alone.
+/// A path without `.` and `..`, resolved textually.
 fn without_dots(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for part in path.components() {
@@ -219,7 +221,7 @@ mod tests {
         }
         fs::write(at(ROOT), "").unwrap();
         assert!(asked("../secret.csv") && !asked("/etc/passwd"));
-        // but not for those who have opened the folder below it and nothing else
+        // but not if only the folder below it was opened
         let limited = |name: &str| Folder::new(&own, &[]).within(Some(&own)).file(name).is_ok();
         assert!(limited("a.csv") && !limited("../secret.csv"));
         let all = |name: &str| Folder::new(&own, &[]).within(Some(place.path())).file(name).is_ok();

@@ -1,19 +1,20 @@
-//! The degrees of freedom of a t distribution that a coverage factor and a coverage probability stand
-//! for, as certificates state them: `k = 3.31, p = 95.45 %` are three of them.
+//! The degrees of freedom of a t distribution that follow from a coverage factor and a coverage
+//! probability on a certificate: `k = 3.31, p = 95.45 %` gives 3.
 
 use super::value_text::power_of_last_digit;
 use gumption_engine::decimal::Decimal;
 use gumption_engine::special::student::two_sided_factor;
 
-/// "Approximately 95 %" of accreditation practice, and the probability that its factors belong to
-/// (EA-4/02 M:2022, annex E).
+/// "Approximately 95 %" in accreditation practice, and the probability for which its factors are
+/// computed (EA-4/02 M:2022, annex E).
 const APPROXIMATELY: (f64, f64) = (0.95, 0.9545);
 
-/// The most integer degrees of freedom that are looked at, and the fewest that are read at all.
+/// The largest number of degrees of freedom in the search for an integer, and the smallest number
+/// that is accepted.
 const MOST: f64 = 10_000.0;
 const FEWEST: f64 = 0.5;
 
-/// A coverage factor with half a unit of its last written digit.
+/// A coverage factor, known to half a unit of its last written digit.
 #[derive(Clone, Copy, Debug)]
 pub struct Factor {
     pub(crate) value: f64,
@@ -21,19 +22,20 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// A factor as it is written; `last_digit` is what one in its last digit is.
+    /// A factor as written; `last_digit` is one unit of its last digit.
     pub fn new(value: f64, last_digit: f64) -> Self {
         Self { value, half_digit: 0.5 * last_digit }
     }
 
-    /// Whether a computed factor is printed like this one, but for its last bits.
+    /// Whether a computed factor rounds to this one, apart from the last bits.
     fn is(self, computed: f64) -> bool {
         (computed - self.value).abs() <= self.half_digit + 1e-9 * self.value
     }
 
-    /// Degrees of freedom of the t distribution that has this factor at a coverage probability: the
-    /// integer whose factor is printed so, the nearest where several are; else what has exactly this
-    /// factor. Infinite where a normal distribution has it, or a larger one.
+    /// Degrees of freedom of the t distribution that has this factor at a coverage probability. The
+    /// result is the integer whose factor rounds to this one, and the nearest if there are several;
+    /// otherwise the number that gives exactly this factor. It is infinite if the factor of a normal
+    /// distribution is not smaller than this one.
     pub fn dof(self, probability: f64) -> f64 {
         let normal = two_sided_factor(probability, f64::INFINITY);
         if self.value <= normal || self.is(normal) {
@@ -44,8 +46,9 @@ impl Factor {
         self.integer(probability).or_else(meant).unwrap_or_else(|| self.between(probability))
     }
 
-    /// As [`Self::dof`] where no distribution is named: whole factors, 2 and 3, are chosen, and belong
-    /// to a normal distribution whose probability is stated approximately, as 95 % or 99.7 %.
+    /// As [`Self::dof`] if no distribution is named. The whole factors 2 and 3 are then
+    /// conventional and belong to a normal distribution, whose probability is stated approximately,
+    /// as 95 % or 99.7 %.
     pub fn dof_of_nothing_named(self, probability: f64, last_digit: f64) -> f64 {
         let is_whole = self.value.fract() == 0.0;
         let half = 0.5 * last_digit;
@@ -65,7 +68,7 @@ impl Factor {
         fits.min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
     }
 
-    /// The degrees of freedom, of any kind, that have exactly this factor.
+    /// The degrees of freedom, not necessarily an integer, that give exactly this factor.
     fn between(self, probability: f64) -> f64 {
         let (mut low, mut high) = (FEWEST, 1e6_f64);
         for _ in 0..200 {
@@ -80,7 +83,7 @@ impl Factor {
     }
 }
 
-/// What one in the last digit of a number is, zeros at its end included: 0.001 of `0.100`.
+/// One unit in the last digit of a number, counting trailing zeros: 0.001 for `0.100`.
 pub fn last_digit(number: &str) -> f64 {
     Decimal::new(1, power_of_last_digit(number)).value()
 }
@@ -112,7 +115,8 @@ mod tests {
         ];
         for (k, expected) in of_ea {
             assert_eq!(dof(k, 0.9545), expected, "{k}");
-            // "approximately 95 %"; where the table of 95 % has the factor as well it is meant
+            // "approximately 95 %"; if the table for 95 % contains the factor too, that one is
+            // meant
             let of_95 = match k {
                 "2.13" => 15.0,
                 "2.00" => 60.0,
@@ -146,7 +150,7 @@ mod tests {
                 let back = dof(&k, p);
                 let again = gumption_engine::decimal::rounded(two_sided_factor(p, back), -2);
                 assert_eq!(k, again, "{p} {n} {back}");
-                // factors of neighbours are apart by more than their last digit
+                // neighbouring factors differ by more than their last digit
                 assert!(n > 12.0 || back == n, "{p} {n} {back}");
             }
         }

@@ -1,5 +1,5 @@
-//! JSON with places: `serde_json` decides what is JSON, `jsonc-parser` says where everything
-//! stands.
+//! JSON with positions: `serde_json` decides what is JSON, `jsonc-parser` gives the position of
+//! each value.
 
 use std::fmt;
 use std::ops::Range;
@@ -72,7 +72,7 @@ impl Node {
         }
     }
 
-    /// All texts in it and all keys of its objects.
+    /// All texts in the value and all keys of its objects.
     pub fn texts(&self) -> Vec<&str> {
         match &self.value {
             Json::Text(text) => vec![text],
@@ -116,7 +116,7 @@ pub fn parse(source: &SourceText) -> Result<Node, (Range<usize>, DiagnosticKind)
     }
 }
 
-/// JSON of which nothing is kept.
+/// A value that accepts any JSON and keeps nothing.
 struct Checked;
 
 impl<'de> Deserialize<'de> for Checked {
@@ -167,7 +167,7 @@ impl<'de> Visitor<'de> for Checked {
     }
 }
 
-/// The parser's message without its place, and the place as a range.
+/// The parser's message without its position, and the position as a range.
 fn syntax(source: &SourceText, error: &serde_json::Error) -> (Range<usize>, DiagnosticKind) {
     let full = error.to_string();
     let message = full.split(" at line ").next().unwrap_or(&full).to_owned();
@@ -179,7 +179,7 @@ fn syntax(source: &SourceText, error: &serde_json::Error) -> (Range<usize>, Diag
         at -= 1;
     }
     if at >= start + line.len() && !line.is_empty() {
-        // the end of a line has nothing to underline; its last character does
+        // a line end cannot be underlined, so its last character is
         at = start + line.char_indices().next_back().map_or(0, |(i, _)| i);
     }
     let first = source.text.get(at..).and_then(|rest| rest.chars().next());
@@ -202,7 +202,7 @@ fn syntax(source: &SourceText, error: &serde_json::Error) -> (Range<usize>, Diag
     }
 }
 
-/// How a file of another kind, by its name, comes in; of the files that models are made from.
+/// How to convert a file of another format, recognized by its name, into a model file.
 fn way_in(name: &str) -> Option<&'static str> {
     const BUDGETS: [&str; 4] = ["csv", "tsv", "xlsx", "xlsm"];
     let (_, extension) = name.rsplit_once('.')?;
@@ -211,7 +211,7 @@ fn way_in(name: &str) -> Option<&'static str> {
     )
 }
 
-/// The number or bare word about a place.
+/// The range of the number or bare word at a position.
 fn word(text: &str, at: usize) -> Range<usize> {
     let belongs = |c: char| c.is_alphanumeric() || matches!(c, '.' | '-' | '+');
     let before = text.get(..at).unwrap_or("");
@@ -221,17 +221,17 @@ fn word(text: &str, at: usize) -> Range<usize> {
     start..at + length
 }
 
-/// Whether a character is a quotation mark that JSON does not have.
+/// Whether a character is a quotation mark that JSON does not know.
 fn is_other_quote(c: char) -> bool {
     matches!(c, '\'' | '`' | '´' | '‘' | '’' | '‚' | '“' | '”' | '„' | '«' | '»')
 }
 
-/// Whether nothing stands before a word but a part of it, as of the text `title: a budget`.
+/// Whether only a part of a word precedes, as in the text `title: a budget`.
 fn is_first_word(before: &str) -> bool {
     before.trim_start().chars().all(char::is_alphabetic)
 }
 
-/// What would be right, for the parser's messages that do not say it.
+/// What would be right, for parser messages that do not say it.
 fn in_plain_words(message: &str, found: Option<char>, before: &str) -> String {
     let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
     let is_key = message == "key must be a string";

@@ -1,6 +1,7 @@
-//! Texts with places: what was read, where a mistake stands in it, and what is said about the mistake.
-//! JSON whose members know where they stand, values and widths as people write them, tables and the
-//! sheets of workbooks. What a text means for a measurement is said by the crates that read files.
+//! Texts with positions: what was read, where an error lies, and the message about it. The crate
+//! holds JSON whose members know their positions, values and widths as people write them, tables,
+//! and the sheets of workbooks. The crates that read files decide what a text means for a
+//! measurement.
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
 

@@ -1,18 +1,18 @@
-//! The distributions that a budget or a certificate names in words, in several languages.
+//! The distributions that budgets and certificates name in words, in several languages.
 
-/// What a text says of a distribution.
+/// What a text says about a distribution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NamedShape {
-    /// One that a model file has.
+    /// A distribution of model files.
     Known(&'static str),
-    /// A t distribution, whose degrees of freedom must be said.
+    /// A t distribution; its degrees of freedom must be given.
     Student,
     /// None that is known.
     Unknown,
 }
 
 impl NamedShape {
-    /// What a model file calls it; `None` of one that it does not have.
+    /// Its name in a model file; `None` if model files have no such distribution.
     pub fn name(self) -> Option<&'static str> {
         match self {
             Self::Known(name) => Some(name),
@@ -21,7 +21,7 @@ impl NamedShape {
         }
     }
 
-    /// The distribution that a text names; `None` where it names none.
+    /// The distribution that a text names; `None` if it names none.
     pub fn of(text: &str) -> Option<Self> {
         let words = text.trim().to_lowercase();
         let begins = |all: &[&str]| all.iter().any(|word| words.starts_with(word));

@@ -1,8 +1,8 @@
 //! Quantities as people write them, a whole input in one text: `5.0112(23) V`,
 //! `5.0112 V ± 0.0046 V (k=2)`, `5.0112 V, U = 0.0046 V, k = 2`, `5 +0.2 -0.1 mm`.
 //!
-//! Such a text becomes the object that the file could have had in its place, before anything reads
-//! it; whatever is wrong with that object is reported at the text.
+//! The text is replaced by the equivalent object before anything reads it; errors in that object
+//! are reported at the text.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -20,21 +20,21 @@ use gumption_engine::number::Shortest;
 use gumption_engine::special;
 use gumption_units::Unit;
 
-/// What a text says of a quantity: numbers as written, without the unit.
+/// The values of a quantity in a text: numbers as written, without the unit.
 #[derive(Clone, Debug, PartialEq)]
 enum Stated {
     /// A value alone.
     Exact(String),
     /// A value and its standard uncertainty.
     Standard(String, String),
-    /// A value and its expanded uncertainty, which has a unit where it is not that of the value, with
-    /// what is said of it.
+    /// A value and its expanded uncertainty; the uncertainty has a unit if it differs from the unit
+    /// of the value, and a coverage.
     Expanded { value: String, expanded: String, coverage: Coverage },
-    /// A most probable value, and standard uncertainties below and above it.
+    /// A most probable value, and the standard uncertainties below and above it.
     Asymmetric { mode: String, low: String, high: String },
 }
 
-/// What stands behind an expanded uncertainty.
+/// The coverage stated after an expanded uncertainty.
 #[derive(Clone, Debug, PartialEq)]
 struct Coverage {
     /// `k` or `p`.
@@ -96,7 +96,7 @@ fn quantity(log: &Collector, name: &str, node: &mut Node, input_unit: Option<&st
             if let Some((unit, stated)) = reported(log, name, text, &node.span, read) {
                 node.value = Json::Object(members(&node.span, Some(unit), stated));
             } else {
-                // one mistake is enough
+                // one error is enough
                 node.value = Json::Object(members(&node.span, None, Stated::Exact("1".into())));
             }
         }
@@ -124,7 +124,7 @@ fn quantity(log: &Collector, name: &str, node: &mut Node, input_unit: Option<&st
                 found.unwrap_or_else(|| (String::new(), Stated::Exact("1".to_owned())));
             fields.remove(place);
             let same = own.as_ref().is_none_or(|own| *own == unit);
-            // numbers in another unit keep it, and are converted where they are read
+            // numbers in another unit keep it and are converted when they are read
             let behind = if same || unit.is_empty() { String::new() } else { format!(" {unit}") };
             let unit = (own.is_none() && !unit.is_empty()).then_some(unit);
             let mut made = members(&span, unit, stated);
@@ -149,11 +149,11 @@ fn quantity(log: &Collector, name: &str, node: &mut Node, input_unit: Option<&st
     }
 }
 
-/// Asks for the unit of a value that is in the one behind its uncertainty or in the one that its input
-/// declares: `10, U = 2 mm, k = 2` of an input in m, `20(0.5) K` of one in degC.
+/// Reports a value whose unit is unclear: the unit of the uncertainty or the unit that the input
+/// declares. Examples: `10, U = 2 mm, k = 2` for an input in m, `20(0.5) K` for one in degC.
 fn in_one_unit(text: &str, unit: &str, declared: &str, own: &[Unit]) -> Result<(), String> {
     let parse = |text: &str| Unit::parse_among(text, own).ok();
-    // a unit that there is not is reported where it is read
+    // an unknown unit is reported where the unit is read
     let (Some(written), Some(of_input)) = (parse(unit), parse(declared)) else { return Ok(()) };
     let Some((value, behind)) = digits(text.trim()) else { return Ok(()) };
     let is_same = Unit::convert(1.0, &written, &of_input) == Ok(1.0);
@@ -169,8 +169,8 @@ fn in_one_unit(text: &str, unit: &str, declared: &str, own: &[Unit]) -> Result<(
     ))
 }
 
-/// A width in per cent or the like that has its unit in common with its value, so that it is counted as
-/// that is and no share of it, in the unit of its input.
+/// A width in per cent or a similar unit that it shares with its value: it is then an absolute
+/// width and not a fraction of the value. The result is in the unit of the input.
 fn counted_in(number: &str, unit: &str, of_input: &str) -> Option<String> {
     let (unit, of_input) = (Unit::parse(unit.trim()).ok()?, Unit::parse(of_input).ok()?);
     let converted = Unit::convert(number.parse().ok()?, &unit, &of_input).ok()?;
@@ -191,7 +191,7 @@ fn reported(
     .ok()
 }
 
-/// The members of the object that a text stands for, all at its place.
+/// The members of the object that replaces a text; all have the position of the text.
 fn members(span: &Range<usize>, unit: Option<String>, stated: Stated) -> Vec<Member> {
     let member = |key: &str, value: Json| Member {
         key: key.to_owned(),
@@ -253,12 +253,12 @@ impl Uncertainty {
     }
 }
 
-/// Whether a text is a value with its uncertainty.
+/// Whether a text is a value with an uncertainty.
 pub fn states_uncertainty(text: &str) -> bool {
     matches!(stated(text), Ok((_, stated)) if !matches!(stated, Stated::Exact(_)))
 }
 
-/// Reads a text: its unit (empty without one) and what it says.
+/// Parses a text into its unit (empty without one) and its values.
 fn stated(text: &str) -> Result<(String, Stated), String> {
     let text = with_plus_minus(&text.trim().replace('−', "-"));
     let text = with_exponents(&text);
@@ -350,15 +350,15 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
     Ok((unit(rest)?, Stated::Exact(value)))
 }
 
-/// `V, U = 0.0046 V, k = 2`: what stands before the uncertainty that is named, which one it is, and
-/// what stands behind its equals sign.
+/// Splits `V, U = 0.0046 V, k = 2` into the text before the named uncertainty, its kind, and the
+/// text after the equals sign.
 fn named_uncertainty(text: &str) -> Option<(&str, Uncertainty, Cow<'_, str>)> {
     let (before, rest) = text.split_once([',', ';'])?;
     let (symbol, after) = rest.split_once('=')?;
     let of = match symbol.trim() {
         "u" => Uncertainty::Standard,
         "U" => Uncertainty::Expanded,
-        // of 95 %, whether that is said once more or not
+        // 95 %, whether that is repeated or not
         "U95" | "U_95" | "U(95)" => {
             let after = after.trim();
             let is_said = after.contains(['(', ',', ';']);
@@ -383,7 +383,7 @@ fn is_sum(text: &str) -> bool {
     text.contains(" + ")
 }
 
-/// A coverage behind a unit: `(k=2)`, `, p = 95 %`.
+/// A coverage after a unit: `(k=2)`, `, p = 95 %`.
 fn coverage_behind(text: &str) -> Option<&str> {
     let at = text.find(['(', ',', ';'])?;
     let said = text.get(at..)?.trim_start_matches([',', ';']).trim();
@@ -391,8 +391,8 @@ fn coverage_behind(text: &str) -> Option<&str> {
     (begins.starts_with(['k', 'p']) && said.contains('=')).then_some(said)
 }
 
-/// A value whose unit is `first`, and its uncertainty with its own unit and what is said of it behind
-/// it; where both share one unit (`is_shared`) it stands behind the uncertainty.
+/// A value with unit `first`, and its uncertainty with its unit and coverage. If both share one
+/// unit (`is_shared`), it follows the uncertainty.
 fn uncertain(
     value: &str,
     first: &str,
@@ -429,23 +429,24 @@ fn uncertain(
     if first.is_empty() || first == own {
         return Ok((unit(own)?, Stated::Expanded { value, expanded: uncertainty, coverage }));
     }
-    // a width that names its own unit, or per cent of the value, or a specification of both
+    // a width with its own unit, in per cent of the value, or a specification with both
     let own = if is_sum(own) { own.to_owned() } else { unit(own)? };
     let expanded = format!("{uncertainty} {own}");
     Ok((unit(first)?, Stated::Expanded { value, expanded, coverage }))
 }
 
-/// A stated coverage factor is that of a distribution where it differs by no more than this share: two
-/// digits, of which the least are 1.0, are rounded by up to 5 %.
+/// A stated coverage factor belongs to a distribution if it differs by no more than this fraction:
+/// rounding to two digits, 1.0 at least, changes it by up to 5 %.
 const LIKE: f64 = 0.05;
 
-/// What effective degrees of freedom are called behind a value.
+/// Names of effective degrees of freedom after a value.
 const DEGREES_OF_FREEDOM: [&str; 5] = ["dof", "veff", "νeff", "ν_eff", "ν"];
 
-/// What stands behind an uncertainty: `(k=2)`, `(p=95 %)`, `(p=0.95)`, `(95 %)`; of `(k=2, p=95 %)`, as
-/// certificates have it, the factor, which that probability must allow, with the degrees of freedom of
-/// the t distribution that both belong to; degrees of freedom behind them, `(k=2.28, dof=10)`. All of it also without parentheses behind a comma or a semicolon,
-/// `, k = 2`. A standard uncertainty has degrees of freedom at the most.
+/// Parses the coverage after an uncertainty: `(k=2)`, `(p=95 %)`, `(p=0.95)`, `(95 %)`.
+/// Certificates write `(k=2, p=95 %)`: the result is the factor, which the probability must allow,
+/// with the degrees of freedom of the t distribution to which both belong. Degrees of freedom may
+/// follow: `(k=2.28, dof=10)`. All of these may also follow a comma or a semicolon without
+/// parentheses: `, k = 2`. After a standard uncertainty only degrees of freedom are allowed.
 fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
     const MISSING: &str = "what the uncertainty is must be said: `(k=2)`, `(p=95 %)`, or `(k=1)` for \
                            a standard uncertainty; degrees of freedom behind it, `(k=2.28, dof=10)`";
@@ -516,7 +517,7 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
     }
     match (k, p) {
         (Some((factor, k)), Some((_, p))) => {
-            // rounded to three digits, as certificates print it
+            // rounded to three digits, as on certificates
             if !(p > 0.0 && p < 1.0) {
                 return Err(format!("a probability of {p} is none: write `95 %` or `p=0.95`"));
             }
@@ -530,7 +531,7 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
                     gumption_engine::decimal::exact(100.0 * p)
                 ));
             }
-            // of t, to the digits that a factor is written with
+            // t distribution, to the digits with which a factor is written
             if let Some(Ok(dof)) = dof.as_ref().map(|text| text.parse::<f64>()) {
                 let of_t = special::student::two_sided_factor(p, dof);
                 if (k - of_t).abs() > LIKE * of_t && (k - needed).abs() > LIKE * needed {
@@ -549,7 +550,7 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
             let implied = stated.dof_of_nothing_named(p, last_digit_of_p.unwrap_or(0.0));
             let dof = implied.is_finite().then(|| gumption_engine::decimal::exact(implied));
             match dof.as_ref().filter(|_| k.fract() == 0.0) {
-                // a factor that was chosen, or that of few degrees of freedom to one digit
+                // a conventional factor, or one for few degrees of freedom rounded to one digit
                 Some(dof) => {
                     let percent = gumption_engine::decimal::exact(100.0 * p);
                     Err(format!(
@@ -567,7 +568,8 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
     }
 }
 
-/// The uncertainty in parentheses: in the last digits of the value, or with a point of its own.
+/// The uncertainty in parentheses: in units of the last digits of the value, or with its own
+/// decimal point.
 fn in_parentheses(value: &str, inside: &str, shift: i32) -> Result<String, String> {
     let is_number = inside.parse::<f64>().is_ok_and(|x| x > 0.0 && x.is_finite());
     let plain = inside.chars().all(|c| c.is_ascii_digit() || c == '.');
@@ -589,7 +591,7 @@ fn in_parentheses(value: &str, inside: &str, shift: i32) -> Result<String, Strin
     Ok(if power == 0 { digits } else { format!("{digits}e{power}") })
 }
 
-/// A number at the start, as JSON has it, and what follows it.
+/// A number in JSON syntax at the start of the text, and the rest.
 fn digits(text: &str) -> Option<(String, &str)> {
     let text = text.strip_prefix('+').unwrap_or(text);
     let sign = usize::from(text.starts_with('-'));
@@ -607,7 +609,7 @@ fn digits(text: &str) -> Option<(String, &str)> {
         return None;
     }
     let (power, rest) = exponent(text.get(end..)?);
-    // JSON wants a digit on both sides of the point, and no zeros in front
+    // JSON requires a digit on both sides of the point, and no leading zeros
     let (before, after) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let before = before.trim_start_matches('0');
     let before = if before.is_empty() { "0" } else { before };
@@ -632,7 +634,7 @@ fn signed(text: &str) -> Option<(String, &str)> {
     text.starts_with(['+', '-']).then(|| digits(text)).flatten()
 }
 
-/// The unit that is left; whether there is such a unit is seen where it is read.
+/// The remaining text as a unit; whether the unit exists is checked where it is read.
 fn unit(text: &str) -> Result<String, String> {
     let text = text.trim();
     if text.contains(['±', '+', '=']) {
@@ -749,7 +751,7 @@ mod tests {
             ("5.0112 V ± 0.0046 V (n=2)", "must be said"),
             ("5.0 V ± 0.1 V (k=2, rectangular)", "`rectangular` is not known there"),
             ("5.0 V ± 0.1 V (k=2, k=3)", "`k` is said twice"),
-            // t of 3 degrees of freedom: 3.18 for 95 %, 0.765 for 50 %
+            // t distribution with 3 degrees of freedom: 3.18 for 95 %, 0.765 for 50 %
             ("5.0 V ± 0.1 V (k=2.5, p=0.95, dof=3)", "is not the 3.18 of a t distribution"),
             ("5.0 V ± 0.1 V (k=3, p=0.5, dof=3)", "is not the 0.765 of a t distribution"),
             ("5.0 V ± 0,1 V (k=2)", "with a point"),

@@ -1,47 +1,47 @@
-//! Number formats of a workbook's cells (ECMA-376-1, 18.8.30): what a cell shows around the number that
-//! it holds.
+//! Number formats of workbook cells (ECMA-376-1, 18.8.30): what a cell displays around the number
+//! that it holds.
 //!
-//! A cell that shows `0.02 %` holds 0.0002, one that shows `0.5 µm` holds 0.5, and one that shows `√3`
-//! holds 3. Who reads a sheet means what it shows.
+//! A cell that displays `0.02 %` holds 0.0002, one that displays `0.5 µm` holds 0.5, and one that
+//! displays `√3` holds 3. The reader of a sheet means what it displays.
 
 use gumption_engine::decimal;
 
-/// What a cell shows of a number, by the sections of its format.
+/// How a cell displays a number, by the sections of its format.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Shown {
     usual: Section,
-    /// That of negative numbers, where they have one.
+    /// The section for negative numbers, if there is one.
     negative: Option<Section>,
 }
 
-/// What a section of a format shows around a number.
+/// What a section of a format displays around a number.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Section {
-    /// What stands before it and makes another number of it: `√`, `1/`, a minus.
+    /// A prefix that changes the value of the number: `√`, `1/`, a minus sign.
     before: String,
     behind: Behind,
 }
 
-/// What a cell shows behind its number, or in its place.
+/// What a cell displays after its number, or instead of it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 enum Behind {
     #[default]
     Nothing,
-    /// The number is shown a hundred times as large.
+    /// The number is displayed multiplied by 100.
     Percent,
-    /// As per cent, with letters: `0.1 % FS`.
+    /// In per cent, followed by letters: `0.1 % FS`.
     PercentOf(String),
-    /// Letters, as those of a unit, or a power of ten.
+    /// Letters, such as a unit, or a power of ten.
     Letters(String),
-    /// Nothing, and the number is shown divided by so many thousands.
+    /// Nothing; the number is displayed divided by this many powers of 1000.
     Thousands(u32),
-    /// Signs between its digits, which may be a decimal mark that it does not have.
+    /// Characters between the digits, possibly a decimal mark that the value does not have.
     Between(String),
-    /// A text in place of the number.
+    /// A text instead of the number.
     Instead(String),
 }
 
-/// Where in a section a sign stands.
+/// The part of a section in which a character stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
     Before,
@@ -49,7 +49,7 @@ enum Part {
 }
 
 impl Shown {
-    /// By the first section of a format, which is that of positive numbers, and the second one.
+    /// Parses a format: its first section is for positive numbers, the second for negative ones.
     pub(crate) fn of(format: &str) -> Self {
         let (usual, rest) = Section::of(format, false);
         let negative = rest.map(|rest| Section::of(rest, true).0);
@@ -60,13 +60,13 @@ impl Shown {
         self.negative.as_ref().filter(|_| value < 0.0).unwrap_or(&self.usual)
     }
 
-    /// Whether a cell shows its number alone.
+    /// Whether a cell displays the bare number.
     pub(crate) fn is_plain(&self) -> bool {
         let is_plain = |of: &Section| *of == Section::default();
         is_plain(&self.usual) && self.negative.as_ref().is_none_or(is_plain)
     }
 
-    /// Whether the digits that are shown of a number are those of its value, perhaps in per cent.
+    /// Whether the displayed digits are those of the value, possibly in per cent.
     pub(crate) fn shows_digits_of(&self, value: f64) -> bool {
         let Section { before, behind } = self.section(value);
         before.is_empty()
@@ -79,8 +79,8 @@ impl Shown {
             }
     }
 
-    /// A number as it is shown, with all its digits; no number where it is shown divided or in pieces, so
-    /// that who needs one refuses it.
+    /// The number as displayed, with all its digits. If it is displayed divided or in pieces, the
+    /// text is not a number, so that a caller that needs a number rejects it.
     pub(crate) fn text(&self, value: f64) -> String {
         let Section { before, behind } = self.section(value);
         let hundredfold = || decimal::to_15_digits(100.0 * value.abs());
@@ -97,7 +97,7 @@ impl Shown {
                 let thousands = "000".repeat((*count).min(100) as usize);
                 shown(&format!("{number} shown divided by 1{thousands}"))
             }
-            // which with a blank would be a unit
+            // with a space it would be a unit
             Behind::Letters(letters) if is_power(letters) => shown(&(number + letters)),
             Behind::Letters(letters) => shown(&format!("{number} {letters}")),
             Behind::Between(signs) => {
@@ -108,12 +108,12 @@ impl Shown {
     }
 }
 
-/// Whether a sign before or behind a number makes another one of it.
+/// Whether a character before or after a number changes its value.
 fn makes_another(sign: char) -> bool {
     sign.is_numeric() || "√∛/^×·⋅*<>≤≥-−–%‰⁻".contains(sign)
 }
 
-/// Whether letters are a power of ten of the number before them, `e3` or `×10³ V`.
+/// Whether letters are a power of ten for the number before them: `e3`, `×10³ V`.
 fn is_power(letters: &str) -> bool {
     let power = letters.strip_prefix(['e', 'E']).unwrap_or_default();
     let times = letters.strip_prefix(['×', '·', '⋅', '*', 'x']).unwrap_or_default();
@@ -121,12 +121,12 @@ fn is_power(letters: &str) -> bool {
 }
 
 impl Section {
-    /// The first section of a format, and the others behind it.
+    /// The first section of a format, and the rest.
     fn of(format: &str, is_negative: bool) -> (Self, Option<&str>) {
         let (mut before, mut between, mut behind) = (String::new(), String::new(), String::new());
         let mut part = Part::Before;
         let mut is_percent = false;
-        // commas behind the last digit divide, and those between digits group
+        // commas after the last digit divide; commas between digits group
         let (mut commas, mut thousands) = (0, 0);
         let mut rest = None;
         let is_general = format.split(';').next().is_some_and(|of| of.contains("General"));
@@ -153,10 +153,10 @@ impl Section {
                     literal(&quoted);
                 }
                 '\\' => literal(&signs.next().map(String::from).unwrap_or_default()),
-                // room of a sign's width, and a sign that fills the cell
+                // a space of a character's width, and a character that fills the cell
                 '_' | '*' => drop(signs.next()),
                 '[' => {
-                    // a currency, or whatever was put in its place, before the language
+                    // a currency, or its replacement, before the language
                     let inside: String = signs.by_ref().take_while(|c| *c != ']').collect();
                     let currency = inside.strip_prefix('$').unwrap_or_default();
                     literal(currency.split('-').next().unwrap_or_default());
@@ -166,7 +166,7 @@ impl Section {
                     commas = 0;
                     between.push_str(&std::mem::take(&mut behind));
                 }
-                // an exponent, and a fraction, which have the value
+                // an exponent and a fraction keep the value
                 'E' | 'e' if signs.peek().is_some_and(|c| matches!(c, '+' | '-')) => {
                     let _sign = signs.next();
                 }
@@ -190,8 +190,8 @@ impl Section {
     }
 }
 
-/// Of what stands before a number that which makes another one of it: `√`, and nothing of `U = `. A negative
-/// number has its sign, whether the section repeats it or not.
+/// The part of a prefix that changes the value of the number: `√`, but nothing of `U = `. A
+/// negative number keeps its sign, whether the section repeats it or not.
 fn changing(before: &str, is_negative: bool) -> String {
     let label = before.rfind(['=', ':']).map_or(0, |at| at + 1);
     let before = before.get(label..).unwrap_or_default().trim();
@@ -223,10 +223,11 @@ impl Behind {
     }
 }
 
-/// The power of ten of the last digit that a format shows of a number, which is shown a hundred times as
-/// large in per cent; `None` where the format does not tell, as `General`, fractions and texts do not.
+/// The power of ten of the last digit that a format displays; in per cent the displayed number is
+/// multiplied by 100. `None` if the format does not determine it, as with `General`, fractions and
+/// texts.
 pub(crate) fn last_digit(format: &str, value: f64) -> Option<i32> {
-    // the placeholders of digits, the decimal mark and the exponent of the first section
+    // the digit placeholders, the decimal mark and the exponent of the first section
     let mut core = String::new();
     let mut signs = format.chars();
     while let Some(sign) = signs.next() {
@@ -252,7 +253,7 @@ pub(crate) fn last_digit(format: &str, value: f64) -> Option<i32> {
     let decimals = u32::try_from(decimals.len()).ok()?;
     match exponent {
         None => Some(-i32::try_from(decimals).ok()?),
-        // several digits before the mark go with exponents that are their multiples
+        // several digits before the mark require exponents that are multiples of their number
         Some(_) if whole.len() == 1 => decimal::position(value, decimals + 1),
         Some(_) => None,
     }
@@ -295,7 +296,7 @@ mod tests {
             ("# ?/?", "0.0002"),
             ("#\\ ##0.000\\ 000", "0.0002"),
             ("_-* #,##0.00_-;-* #,##0.00_-;_-* \"-\"??_-;_-@_-", "0.0002"),
-            // what makes another number of it
+            // prefixes and suffixes that change the value
             ("\"√\"0", "√0.0002"),
             ("√0", "√0.0002"),
             ("\"k = √\"0", "√0.0002"),
@@ -337,7 +338,7 @@ mod tests {
         }
         assert_eq!(Shown::of("0%").text(0.07), "7%");
         assert_eq!(Shown::of("0%").text(-1.5), "-150%");
-        // in red, in brackets, and with the letters of their section
+        // in red, in brackets, and with the section's letters
         for (format, shown) in [
             ("0.0", "-3"),
             ("0.0;[Red]0.0", "-3"),

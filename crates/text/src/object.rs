@@ -1,4 +1,4 @@
-//! Reading the members of an object, with every mistake reported where it stands.
+//! Reads the members of an object and reports every error at its position.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -12,17 +12,17 @@ use gumption_units::Unit;
 /// An object that is being read.
 #[derive(Clone, Copy, Debug)]
 pub struct Object<'a> {
-    /// Where mistakes are reported.
+    /// Where errors are reported.
     pub log: &'a Collector,
     /// What it is, for messages.
     what: &'static str,
     members: &'a [Member],
-    /// Where a missing key is reported: the key that the object belongs to.
+    /// Where a missing key is reported: at the key of the object.
     place: &'a Range<usize>,
 }
 
 impl<'a> Object<'a> {
-    /// The object at `node`; `place` is the key that it belongs to.
+    /// The object at `node`; `place` is the span of its key.
     pub fn new(
         log: &'a Collector,
         what: &'static str,
@@ -57,28 +57,28 @@ impl<'a> Object<'a> {
         self.what
     }
 
-    /// Its members, in the order of the text.
+    /// The members, in the order of the text.
     pub fn members(&self) -> &'a [Member] {
         self.members
     }
 
-    /// The key that it belongs to, as a half-open range of bytes.
+    /// The span of the object's key, as a half-open range of bytes.
     pub fn place(&self) -> &'a Range<usize> {
         self.place
     }
 
-    /// A mistake in the object, reported at its key.
+    /// Reports an error in the object at its key.
     pub fn report(&self, diagnostic: DiagnosticKind) {
         self.log.report(self.place, diagnostic);
     }
 
-    /// The first member of this key.
+    /// The first member with this key.
     pub fn get(&self, key: &str) -> Option<&'a Member> {
         self.members.iter().find(|member| member.key == key)
     }
 
-    /// The member, or its absence reported; if a misspelt key is reported where it stands, that is
-    /// left out in the end.
+    /// The member; its absence is reported. If a misspelt key is reported in the object, that
+    /// report replaces this one in the end.
     pub fn required(&self, key: &'static str) -> Option<&'a Member> {
         let member = self.get(key);
         if member.is_none() {
@@ -87,8 +87,8 @@ impl<'a> Object<'a> {
         member
     }
 
-    /// The member, or its absence reported, in an object that may have keys beside the known ones, so
-    /// that none of them is a misspelt one.
+    /// The member; its absence is reported. For objects that may have unknown keys, so that no key
+    /// counts as misspelt.
     pub fn needed(&self, key: &'static str) -> Option<&'a Member> {
         let member = self.get(key);
         if member.is_none() {
@@ -108,7 +108,7 @@ impl<'a> Object<'a> {
         );
     }
 
-    /// A number, if the key is there.
+    /// A number, if the key is present.
     pub fn number(&self, key: &str) -> Option<f64> {
         let member = self.get(key)?;
         let number = member.value.number();
@@ -118,8 +118,8 @@ impl<'a> Object<'a> {
         number
     }
 
-    /// A value in a unit, if the key is there: a number in that unit, which may be a text, or a text with
-    /// a number and a unit of its own.
+    /// A value in `unit`, if the key is present: a number in that unit, also as text, or a text
+    /// with a number and a unit.
     pub fn value(&self, key: &str, unit: &Unit, of: ValueOf) -> Option<f64> {
         let member = self.get(key)?;
         match self.value_of(key, &member.value, unit, of) {
@@ -134,7 +134,7 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// A value that is an element of a list, as [`value`](Self::value).
+    /// A value that is an element of a list, read as by [`value`](Self::value).
     pub fn value_at(&self, key: &str, node: &Node, unit: &Unit, of: ValueOf) -> Option<f64> {
         match self.value_of(key, node, unit, of) {
             Some(value) => value,
@@ -142,7 +142,7 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// A list of values, as [`value`](Self::value).
+    /// A list of values, read as by [`value`](Self::value).
     pub fn values(&self, key: &str, unit: &Unit, of: ValueOf) -> Option<Vec<f64>> {
         let list = self.list(key)?;
         let is_text = |node: &Node| matches!(&node.value, Json::Text(text) if is_value(text));
@@ -160,7 +160,8 @@ impl<'a> Object<'a> {
         (values.len() == list.len()).then_some(values)
     }
 
-    /// The value of a text that is one; outside `None` if it is none, inside after a mistake.
+    /// The value of a text: the outer `None` if the text is not a value, the inner one after an
+    /// error.
     #[allow(clippy::option_option)]
     pub fn value_of(
         &self,
@@ -182,7 +183,7 @@ impl<'a> Object<'a> {
         Some(self.log.value(&node.span, read))
     }
 
-    /// A text, if the key is there.
+    /// A text, if the key is present.
     pub fn text(&self, key: &str) -> Option<&'a str> {
         let member = self.get(key)?;
         match &member.value.value {
@@ -194,7 +195,7 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// True or false, if the key is there.
+    /// A truth value, if the key is present.
     pub fn truth(&self, key: &str) -> Option<bool> {
         let member = self.get(key)?;
         match member.value.value {
@@ -206,7 +207,7 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// A list, if the key is there.
+    /// A list, if the key is present.
     pub fn list(&self, key: &str) -> Option<&'a [Node]> {
         let member = self.get(key)?;
         match &member.value.value {
@@ -218,7 +219,7 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// A list of numbers, if the key is there; every element that is none is reported.
+    /// A list of numbers, if the key is present; every other element is reported.
     pub fn numbers(&self, key: &str) -> Option<Vec<f64>> {
         let list = self.list(key)?;
         let numbers: Vec<f64> = list.iter().filter_map(|node| self.element(key, node)).collect();
@@ -236,7 +237,7 @@ impl<'a> Object<'a> {
         number
     }
 
-    /// A whole number from `least` to `most`, if the key is there; 1e6 counts as one.
+    /// A whole number from `least` to `most`, if the key is present; 1e6 is one.
     pub fn whole(&self, key: &'static str, least: u64, most: u64) -> Option<u64> {
         let member = self.get(key)?;
         let Json::Number(text) = &member.value.value else {
@@ -254,7 +255,7 @@ impl<'a> Object<'a> {
     }
 }
 
-/// The whole number that a text is, written plainly or as 1e6.
+/// Parses a whole number, written plainly or as 1e6.
 pub fn whole_number(text: &str) -> Option<u64> {
     text.parse().ok().or_else(|| {
         let value: f64 = text.parse().ok()?;

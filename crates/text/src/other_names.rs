@@ -1,18 +1,18 @@
-//! Keys by names that other places have for them, which are near in letters to none, or to one that
-//! is something else.
+//! Keys that other programs call by another name. The spelling alone would suggest no key, or a
+//! wrong one.
 
-/// What is meant by a key that is not known where it stands.
+/// The key that is meant by an unknown one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OtherName {
     /// The key that takes it.
     pub key: &'static str,
-    /// Whether the same value can stand there.
+    /// Whether the value can stay as it is.
     pub is_same: bool,
-    /// What is said of it, as a part of a sentence.
+    /// An explanation, as a part of a sentence.
     pub said: &'static str,
 }
 
-/// The names, each with the key that must be known there for it to be meant.
+/// The names, each with the key that must be known in the object for the name to mean it.
 const OTHER_NAMES: [(&[&str], OtherName); 10] = [
     (
         &["width", "full_width", "range", "span"],
@@ -80,10 +80,10 @@ const OTHER_NAMES: [(&[&str], OtherName); 10] = [
     ),
 ];
 
-/// What is meant by a key that is not among those that are known where it stands.
+/// The key that is meant by `key`, which is not among the `known` ones.
 pub fn other_name(key: &str, known: &[&str]) -> Option<OtherName> {
     let is_meant = |names: &[&str], of: &OtherName| {
-        // limits of inputs stand beside their half-width
+        // limits of inputs replace their half-width
         let has_half = known.contains(&"half_width") && of.key == "lower";
         names.contains(&key) && known.contains(&of.key) && !known.contains(&key) && !has_half
     };

@@ -1,6 +1,6 @@
 //! Angles in degrees, minutes and seconds: `12°30'15.2"`, `12 deg 30 arcmin 15.2 arcsec`.
 
-/// What stands behind the numbers of degrees, minutes and seconds.
+/// Signs after the numbers of degrees, minutes and seconds.
 const SIGNS: [&[&str]; 3] = [
     &["°", "º", "deg"],
     &["arcmin", "'", "′", "’"],
@@ -8,11 +8,11 @@ const SIGNS: [&[&str]; 3] = [
     &["arcsec", "''", "′′", "’’", "\"", "″", "”"],
 ];
 
-/// Parts of the whole in a part of the next one.
+/// How many of the smaller unit make one of the larger unit.
 const PARTS: f64 = 60.0;
 
-/// The number of degrees that a text begins with, and what follows it; `None` unless there are whole
-/// degrees with minutes, or with minutes and seconds, which are below 60. The last number may have
+/// The angle in degrees at the start of a text, and the rest. `None` unless whole degrees are
+/// followed by minutes, or by minutes and seconds, each below 60. The last number may have
 /// decimals.
 pub(crate) fn degrees(text: &str) -> Option<(f64, &str)> {
     let text = text.trim_start();
@@ -26,7 +26,7 @@ pub(crate) fn degrees(text: &str) -> Option<(f64, &str)> {
         let Ok(value) = number.parse::<f64>() else { break };
         let behind = behind.trim_start();
         let Some(after) = signs.iter().find_map(|sign| behind.strip_prefix(sign)) else { break };
-        // decimals behind which smaller parts stand, and too many minutes
+        // decimals before smaller parts, and too many minutes
         if !is_whole || (count > 0 && value >= PARTS) {
             return None;
         }
@@ -40,11 +40,12 @@ pub(crate) fn degrees(text: &str) -> Option<(f64, &str)> {
         rest = next;
     }
     let sign = if behind_sign.is_some() { -1.0 } else { 1.0 };
-    // the sum of whole parts is exact, so that this is rounded as a number with decimals is
+    // the sum of whole parts is exact, so the result is rounded like a number with decimals
     (count > 1).then_some((sign * total / (size / PARTS), rest))
 }
 
-/// Whether degrees are followed by a number: of minutes, which are not written as those of an angle.
+/// Whether a number follows the degrees, such as minutes that are not written as minutes of an
+/// angle.
 pub(crate) fn has_minutes(unit: &str) -> bool {
     let degrees = SIGNS[0].iter().find_map(|sign| unit.trim_start().strip_prefix(sign));
     degrees.is_some_and(|rest| rest.trim_start().starts_with(|c: char| c.is_ascii_digit()))

@@ -1,20 +1,21 @@
-//! Uncertainties in per cent, ppm and the like beside a value: shares of it, or numbers in its unit.
+//! Uncertainties in per cent, ppm and similar units: fractions of the value, or numbers in its
+//! unit.
 
 use gumption_units::Unit;
 
-/// What an uncertainty in some unit is beside a value in another one.
+/// How to read an uncertainty in one unit for a value in another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Share {
-    /// In a unit of its own, which is converted; per cent beside per cent.
+    /// In its own unit, which is converted; per cent for a value in per cent.
     Own,
-    /// A share of the value: per cent of a value in mV, in mg/kg or in degrees.
+    /// A fraction of the value: per cent for a value in mV, mg/kg or degrees.
     OfValue,
-    /// Either of them: per cent beside ppm, or beside a value in the unit 1.
+    /// Ambiguous: per cent for a value in ppm or in the unit 1.
     Doubtful,
 }
 
 impl Share {
-    /// By the unit of the uncertainty and that of the value, which may have none.
+    /// Decides by the unit of the uncertainty and the unit of the value, if it has one.
     pub fn of(uncertainty: &Unit, value: Option<&Unit>) -> Self {
         if !uncertainty.is_relative() {
             return Self::Own;
@@ -30,8 +31,8 @@ impl Share {
     }
 }
 
-/// Whether a share of this size, 1e-6 for ppm, counts as a ratio of like units does: ppm beside
-/// `umol/mol` or `uV/V`, and ppb beside them.
+/// Whether a fraction of this size, 1e-6 for ppm, equals a ratio of like units: ppm and `umol/mol`
+/// or `uV/V`, and ppb with any of these.
 pub(crate) fn counts_alike(share: f64, unit: &Unit) -> bool {
     let is_ratio = unit.dimension().is_none() && unit.turn().is_none() && unit.factor() != 1.0;
     let is_small = |size: f64| size <= 1.000_001e-6;
@@ -40,7 +41,8 @@ pub(crate) fn counts_alike(share: f64, unit: &Unit) -> bool {
             || is_small(share) && is_small(unit.factor()))
 }
 
-/// The two meanings of an uncertainty in a unit of shares beside a value in another one, or in 1.
+/// The two meanings of an uncertainty in a unit of fractions for a value in another such unit, or
+/// in 1.
 pub fn two_meanings(uncertainty: &str, value: &str) -> String {
     format!(
         "an uncertainty in `{uncertainty}` of a value in `{value}` can be a share of the value, or be \

@@ -1,4 +1,4 @@
-//! A text that was read, with the name that messages use for it.
+//! A text that was read, with its name in messages.
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -12,7 +12,7 @@ pub struct SourceText {
     pub text: String,
     /// The byte at which each line begins.
     lines: Vec<usize>,
-    /// The byte and column that were asked for last: in a line of megabytes the next one is counted
+    /// The byte and column of the last request: in a line of megabytes the next column is counted
     /// from there.
     last: Mutex<[usize; 2]>,
 }
@@ -25,7 +25,7 @@ impl PartialEq for SourceText {
 
 impl Eq for SourceText {}
 
-/// A place in a source: a half-open range of bytes.
+/// A position in a source: a half-open range of bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     /// The text.
@@ -35,7 +35,7 @@ pub struct Place {
 }
 
 impl SourceText {
-    /// A text of the given name; a byte-order mark is dropped.
+    /// A text of this name; a byte-order mark is removed.
     pub fn new(name: impl Into<String>, text: &str) -> Arc<Self> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let after = text.match_indices('\n').map(|(at, _)| at + 1);
@@ -43,7 +43,7 @@ impl SourceText {
         Arc::new(Self { name: name.into(), text: text.to_owned(), lines, last: Mutex::default() })
     }
 
-    /// Line and column of a byte, both counted from 1; the column counts characters.
+    /// Line and column of a byte, both from 1; the column counts characters.
     pub fn position(&self, byte: usize) -> (usize, usize) {
         let byte = byte.min(self.text.len());
         let line = self.lines.partition_point(|&start| start <= byte);
@@ -55,7 +55,7 @@ impl SourceText {
         (line, column + 1)
     }
 
-    /// The byte at which a line begins, lines counted from 1.
+    /// The byte at which a line begins; lines count from 1.
     pub(crate) fn line_start(&self, line: usize) -> usize {
         self.lines.get(line.saturating_sub(1)).copied().unwrap_or(self.text.len())
     }

@@ -1,4 +1,4 @@
-//! Tables of numbers from CSV files, with the place of every cell.
+//! Tables of numbers from CSV files, with the position of every cell.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -11,11 +11,11 @@ use super::{DiagnosticKind, bytes, column_heading};
 use gumption_columns::separator::{DecimalMarks, Separator, is_skipped};
 use gumption_units::nearest;
 
-/// At most so many columns and rows.
+/// Maximum number of columns and of rows.
 const MOST_COLUMNS: usize = 10_000;
 const MOST_ROWS: usize = 1_000_000;
 
-/// More faulty cells than are listed anyway.
+/// Maximum number of faulty cells; more than messages list.
 const MOST_FAULTS: usize = 2000;
 
 /// A table: column names and rows of numbers.
@@ -25,24 +25,24 @@ pub struct Table {
     pub source: Arc<SourceText>,
     /// The names in the header.
     pub columns: Vec<String>,
-    /// Not a number in columns that were not wanted.
+    /// The values by row; NaN in columns that were not wanted.
     pub rows: Vec<Vec<f64>>,
-    /// For each column the power of ten of the last digit that any of its numbers is written with; none of
+    /// For each column the power of ten of the last written digit of any of its numbers; `None` for
     /// a column that was not wanted.
     pub last_digits: Vec<Option<i32>>,
-    /// Where each row stands in the text.
+    /// The position of each row in the text.
     lines: Vec<Range<usize>>,
     separator: Separator,
 }
 
 impl Table {
-    /// The column of that name: as it stands in the header, else the only one that has it with a unit
-    /// behind it, `f [Hz]` for `f`.
+    /// The column with this name: an exact header first, otherwise the only header that is this
+    /// name with a unit, `f [Hz]` for `f`.
     pub fn column(&self, name: &str) -> Option<usize> {
         column_heading::place_of(&self.columns, name)
     }
 
-    /// That there is no column of that name.
+    /// The message that there is no column of this name.
     pub fn no_column(&self, name: &str) -> String {
         let of_name = |column: &&String| column_heading::bare(column) == name;
         let alike: Vec<String> =
@@ -69,12 +69,13 @@ impl Table {
     }
 }
 
-/// All kinds of a table, with their places.
+/// All errors of a table, with their positions.
 type PlacedKinds = Vec<(Place, DiagnosticKind)>;
 
-/// Reads the table `name` in `folder` and reports its kinds; a file that cannot be read is reported
-/// at `named`, where the model file names it. Of the columns these are `wanted`, all if none are named:
-/// what stands in others, the time of a logger or remarks, need not be numbers. The content is given too.
+/// Reads the table `name` in `folder` and reports its errors. A file that cannot be read is
+/// reported at `named`, where the model file names it. Only the `wanted` columns, or all if the
+/// list is empty, must contain numbers; others may hold times or remarks. The content of the file
+/// is returned too.
 pub fn read(
     log: &Collector,
     folder: Folder<'_>,
@@ -105,8 +106,8 @@ pub fn read(
     None
 }
 
-/// Reads a table: a header row of names, cells between `,`, `;` or tabs (of the last two perhaps with
-/// decimal commas), lines that begin with `#` skipped. All faulty cells are returned.
+/// Reads a table: a header row of names, cells between `,`, `;` or tabs (with `;` and tabs decimal
+/// commas are allowed). Lines that begin with `#` are skipped. All faulty cells are returned.
 fn read_bytes(
     bytes: Vec<u8>,
     name: &str,
@@ -121,7 +122,7 @@ fn read_bytes(
     drop(text);
     match parse(&source, wanted) {
         Ok(table) => Ok((table, bytes)),
-        // it may be anything, and is not shown
+        // the content may be anything, and is not quoted
         Err(_) if !has_numbers(&source.text) => {
             let message = "it is no table of numbers: below its first line there is none";
             Err(unreadable(message.to_owned()))
@@ -130,7 +131,7 @@ fn read_bytes(
     }
 }
 
-/// Whether some cell below the first line is a number; of an empty file nothing is to be hidden.
+/// Whether some cell below the first line is a number; an empty file has nothing to hide.
 fn has_numbers(text: &str) -> bool {
     let mut lines = text.lines().filter(|line| !is_skipped(line));
     let number = |cell: &str| {
@@ -143,11 +144,11 @@ fn has_numbers(text: &str) -> bool {
     }
 }
 
-/// The table that a text is; cells of columns that are not `wanted` need no numbers, and without a list
-/// all are wanted.
+/// Parses a table. Cells of columns that are not `wanted` need not be numbers; without a list all
+/// columns are wanted.
 ///
 /// # Errors
-/// All that is wrong with it, each with its place.
+/// All errors, each with its position.
 pub fn parse(source: &Arc<SourceText>, wanted: Option<&[&str]>) -> Result<Table, PlacedKinds> {
     let starts: Vec<usize> = std::iter::once(0)
         .chain(source.text.match_indices('\n').map(|(newline, _)| newline + 1))
@@ -157,11 +158,11 @@ pub fn parse(source: &Arc<SourceText>, wanted: Option<&[&str]>) -> Result<Table,
         let text = source.text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or("");
         Place { source: source.clone(), span: start..start + text.len() }
     };
-    // comments and blank lines become empty ones, which count but are no records
+    // comments and blank lines become empty lines, which count but are not records
     let mut text = String::with_capacity(source.text.len() + 1);
     let mut header = None;
     for (number, line) in source.text.lines().enumerate() {
-        // empty last cells of a line of tabs are cells
+        // trailing empty cells of a line with tabs are cells
         let line = if is_skipped(line) { "" } else { line.trim_end_matches(['\r', ' ']) };
         if header.is_none() && !line.is_empty() {
             header = Some((number + 1, line));
@@ -239,7 +240,7 @@ pub fn parse(source: &Arc<SourceText>, wanted: Option<&[&str]>) -> Result<Table,
         };
         let mut line = record.position().map_or(number + 2, |p| p.line() as usize);
         let mut place = at_line(line);
-        // the reader stood before the comments and empty lines that it skipped
+        // the reader's position was before the comments and empty lines that it skipped
         while line < starts.len()
             && is_skipped(source.text.get(place.span.clone()).unwrap_or_default())
         {
@@ -274,7 +275,7 @@ pub fn parse(source: &Arc<SourceText>, wanted: Option<&[&str]>) -> Result<Table,
                     let (column, found) = (column.clone(), cell.to_owned());
                     DiagnosticKind::Cell { row: number + 1, column, found }
                 }
-                // what every number after it would be told as well
+                // the same message would apply to every number after it
                 Err(reason) => {
                     let place = place_of_cell(&place, number_of_cell, separator);
                     return Err(vec![(place, DiagnosticKind::Table { reason })]);
@@ -296,8 +297,8 @@ pub fn parse(source: &Arc<SourceText>, wanted: Option<&[&str]>) -> Result<Table,
     }
 }
 
-/// The place of a cell in its line; the whole line where quotes make that uncertain. An empty cell is
-/// shown by the separator before or after it.
+/// The position of a cell in its line, or of the whole line if quotes make that uncertain. An empty
+/// cell is shown by an adjacent separator.
 pub(crate) fn place_of_cell(line: &Place, number: usize, separator: Separator) -> Place {
     let text = line.source.text.get(line.span.clone()).unwrap_or("");
     let separator = separator.sign();
@@ -338,7 +339,7 @@ mod tests {
         assert_eq!(table.rows, vec![vec![1.0]]);
     }
 
-    /// Times, remarks and a column without a name beside the one that is wanted.
+    /// Times, remarks and a column without a name next to the wanted one.
     #[test]
     fn other_columns_need_not_be_numbers() {
         let source = SourceText::new("t", "time,U [V],\n10:00:00,1.01,ok\n10:00:01,1.02,\n");

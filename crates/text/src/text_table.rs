@@ -1,4 +1,4 @@
-//! Small tables of texts and numbers from CSV, with the place of every cell.
+//! Small tables of texts and numbers from CSV, with the position of every cell.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -23,9 +23,9 @@ pub struct TextTable {
 }
 
 impl TextTable {
-    /// Reads a table: a header row of names, cells between `,`, `;` or tabs, lines that begin with `#`
-    /// and empty ones skipped. Mistakes are reported; rows with too few or too many cells are there,
-    /// and are not [whole](Self::is_whole).
+    /// Reads a table: a header row of names, cells between `,`, `;` or tabs; empty lines and lines
+    /// that begin with `#` are skipped. Errors are reported. Rows with too few or too many cells
+    /// are kept, but are not [whole](Self::is_whole).
     pub fn parse(log: &Collector, source: &Arc<SourceText>) -> Option<Self> {
         let mut table: Option<Self> = None;
         let mut start = 0;
@@ -39,7 +39,7 @@ impl TextTable {
                 Some(table) => table.separator,
                 None => Separator::of_header(line),
             };
-            // a cell in quotes may go on over the end of the line (RFC 4180, 2.6)
+            // a quoted cell may continue after the end of the line (RFC 4180, 2.6)
             let Some(length) = record(rest, separator.sign()) else {
                 let span = start..start + line.trim_end().len();
                 let reason = "a cell that begins with a quote has no quote at its end".to_owned();
@@ -64,7 +64,7 @@ impl TextTable {
             };
             let mut cells = cells;
             let expected = table.columns.len();
-            // spreadsheets write as many separators as their widest row needs
+            // spreadsheets write as many separators as the widest row needs
             while cells.len() > expected && cells.last().is_some_and(String::is_empty) {
                 cells.pop();
             }
@@ -80,7 +80,7 @@ impl TextTable {
             }
             table.rows.push((span, cells));
             if table.rows.len() > MOST_ROWS {
-                // how many more there are is not looked at
+                // further ones are not counted
                 let (what, found) = ("rows of a table", usize::MAX);
                 log.report(&table.header, DiagnosticKind::TooMany { what, found, most: MOST_ROWS });
                 return None;
@@ -89,7 +89,7 @@ impl TextTable {
         let reason = match &table {
             None => "the table is empty; a header row of names and rows are needed",
             Some(table) if table.rows.is_empty() => "the table has a header but no rows",
-            // lines of another length have been reported; the others are read all the same
+            // lines of another length have been reported; the other lines are still read
             Some(_) => return table,
         };
         log.report(&(0..0), DiagnosticKind::Table { reason: reason.to_owned() });
@@ -134,13 +134,13 @@ impl TextTable {
         self.rows.get(row).is_some_and(|(_, cells)| cells.len() == self.columns.len())
     }
 
-    /// The text of a cell; empty where there is no such column.
+    /// The text of a cell; empty if there is no such column.
     pub fn text(&self, row: usize, column: usize) -> &str {
         let cell = self.rows.get(row).and_then(|(_, cells)| cells.get(column));
         cell.map_or("", String::as_str)
     }
 
-    /// The line of the text that a row begins on, from 0.
+    /// The line on which a row begins, from 0.
     pub fn line(&self, row: usize) -> usize {
         let start = self.rows.get(row).map_or(0, |(span, _)| span.start);
         self.source.position(start).0.saturating_sub(1)
@@ -163,7 +163,7 @@ impl TextTable {
     }
 }
 
-/// What is to be done about a row with one cell, such as a footnote.
+/// What to do about a row with only one cell, such as a footnote.
 pub fn alone(words: &str) -> String {
     let words: String = words.chars().take(40).collect();
     format!(
@@ -171,8 +171,8 @@ pub fn alone(words: &str) -> String {
     )
 }
 
-/// The length of the line that a text begins with, its end included: `\n`, `\r\n`, or the `\r` alone that
-/// spreadsheets write for an old Macintosh.
+/// The length of the first line of a text including its end: `\n`, `\r\n`, or the lone `\r` that
+/// spreadsheets write for old Macintosh computers.
 fn end_of_line(text: &str) -> usize {
     match text.find(['\n', '\r']) {
         Some(at) if text[at..].starts_with("\r\n") => at + 2,
@@ -181,14 +181,14 @@ fn end_of_line(text: &str) -> usize {
     }
 }
 
-/// The length of the record that a text begins with, its line's end included; `None` where a cell in
-/// quotes has no end.
+/// The length of the first record of a text including its line end; `None` if a quoted cell is not
+/// closed.
 pub fn record(text: &str, separator: char) -> Option<usize> {
     let (mut begins, mut quoted) = (true, false);
     let mut letters = text.char_indices().peekable();
     while let Some((at, letter)) = letters.next() {
         match letter {
-            // two quotes are one in the cell
+            // two quotes in the cell mean one
             '"' if quoted => match letters.peek() {
                 Some((_, '"')) => {
                     letters.next();
@@ -216,7 +216,7 @@ mod tests {
             ("a,b", Some(3)),
             ("\"a\nb\",c\nd", Some(8)),
             ("\"a\"\"\nb\",c\nd", Some(10)),
-            // inches are no quotes, and neither are those that do not begin a cell
+            // inch marks are not quotes, and neither are marks inside a cell
             ("x, \"a\nb\"\nd", Some(6)),
             ("5\" pipe,c\nd", Some(10)),
             ("a,b\rc", Some(4)),
@@ -242,7 +242,7 @@ mod tests {
         assert_eq!(source.position(place.span.start), (5, 3));
     }
 
-    /// A carriage return alone ends a line; all that followed it was lost.
+    /// A lone carriage return ends a line; before, everything after it was lost.
     #[test]
     fn carriage_returns_end_lines() {
         for text in ["label,x\ra,1\rb,2\r", "label,x\na,1\rb,2\n", "label,x\r\na,1\r\nb,2"] {

@@ -6,8 +6,8 @@ pub use gumption_columns::ValueOf;
 use gumption_engine::number::Shortest;
 use gumption_units::Unit;
 
-/// The number and the unit of a text that is a value with a unit; `None` if it is something else,
-/// such as a formula.
+/// The number and the unit of a text that is a value with a unit; `None` for anything else, such as
+/// a formula.
 pub fn with_unit(text: &str) -> Option<(f64, &str)> {
     if let Some((value, "")) = sexagesimal::degrees(text.trim()) {
         return Some((value, "deg"));
@@ -20,32 +20,32 @@ pub fn with_unit(text: &str) -> Option<(f64, &str)> {
     (value.is_finite() && (begins_unit || is_comma(rest))).then_some((value, rest))
 }
 
-/// The number of a text that is nothing but one: in the unit of the quantity that it is a value of, as
-/// without the quotation marks.
+/// The number of a text that contains nothing else. Its unit is that of the quantity, as without
+/// the quotation marks.
 pub fn bare_number(text: &str) -> Option<f64> {
     let (value, rest) = number(text.trim()).ok()?;
     (rest.is_empty() && value.is_finite()).then_some(value)
 }
 
-/// Whether a text is a value, a number with a unit or without one, and not a formula.
+/// Whether a text is a value, that is a number with or without a unit, and not a formula.
 pub fn is_value(text: &str) -> bool {
     with_unit(text).is_some() || bare_number(text).is_some()
 }
 
-/// A number with a decimal comma as it is written here; `None` where the text is none.
+/// A number with a decimal comma, rewritten with a point; `None` if the text is not such a number.
 pub fn with_point(text: &str) -> Option<String> {
     let point = text.replacen(',', ".", 1);
     (point != text && point.parse::<f64>().is_ok()).then_some(point)
 }
 
-/// Whether a number went on with a decimal comma.
+/// Whether the rest of a number begins with a decimal comma.
 pub fn is_comma(rest: &str) -> bool {
     let digits = rest.strip_prefix(',');
     digits.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
 }
 
-/// What is wrong with a number that goes on with a comma and digits: a decimal fraction, or digits in
-/// groups of three.
+/// The message about a number with a comma and digits: a decimal fraction, or digits in groups of
+/// three.
 pub fn decimal_comma(whole: f64, rest: &str) -> String {
     let digits: String = rest.chars().skip(1).take_while(char::is_ascii_digit).collect();
     let whole = Shortest(whole);
@@ -59,17 +59,17 @@ pub fn decimal_comma(whole: f64, rest: &str) -> String {
     }
 }
 
-/// The ways to write the sign before an uncertainty, the one that is understood everywhere first.
+/// The ways to write the sign before an uncertainty; the first one is understood everywhere.
 pub const PLUS_MINUS: [&str; 3] = ["±", "+/-", "+-"];
 
-/// A text with `±` in place of the other ways to write it.
+/// A text with `±` instead of the other ways to write it.
 pub fn with_plus_minus(text: &str) -> String {
     let [sign, others @ ..] = PLUS_MINUS;
     others.into_iter().fold(text.to_owned(), |text, other| text.replace(other, sign))
 }
 
-/// A text with `e-3` in place of a power of ten that a number or a parenthesis is multiplied by, as tables
-/// of constants and certificates have it: `1.234(5)×10⁻³ kg`, `(1.234 ± 0.005) × 10^-3 kg`.
+/// A text with `e-3` instead of a power of ten after a number or a parenthesis, as in tables of
+/// constants and certificates: `1.234(5)×10⁻³ kg`, `(1.234 ± 0.005) × 10^-3 kg`.
 pub fn with_exponents(text: &str) -> String {
     let mut written = String::new();
     let mut rest = text;
@@ -131,8 +131,8 @@ pub fn power_of_ten(text: &str) -> Option<(i32, &str)> {
     Some((power.parse().ok()?, behind.get(length..)?))
 }
 
-/// What is wrong with a unit that begins with digits, as in `1 234 V`, where the number may have been
-/// written in groups; a unit may begin with 1/. Or in `1 1/2 in`, which is one and a half.
+/// The message about a unit that begins with digits, as in `1 234 V` (digits in groups) or
+/// `1 1/2 in` (one and a half). A unit may begin with 1/.
 pub fn grouped_digits(unit: &str) -> Option<String> {
     // 1'000.5, as in Switzerland
     let group = unit
@@ -162,14 +162,14 @@ pub fn grouped_digits(unit: &str) -> Option<String> {
     })
 }
 
-/// The number alone in parentheses that a text begins with.
+/// The number, alone in parentheses, at the start of a text.
 pub(crate) fn number_in_parentheses(text: &str) -> Option<&str> {
     let (inside, _) = text.trim_start().strip_prefix('(')?.split_once(')')?;
     inside.trim().parse::<f64>().is_ok().then_some(inside)
 }
 
-/// Whether a unit is followed by another number with a unit, with a plus or without: `ft 3 in`,
-/// `deg + 30 arcmin`. What stands behind a sign of multiplication or division is part of the unit.
+/// Whether a unit is followed by another number with a unit, with or without a plus sign:
+/// `ft 3 in`, `deg + 30 arcmin`. Text after a multiplication or division sign is part of the unit.
 fn is_sum_of_units(text: &str) -> bool {
     let mut words = text.split_whitespace();
     let is_name =
@@ -180,10 +180,10 @@ fn is_sum_of_units(text: &str) -> bool {
     first && is_number && rest.next().is_some_and(is_name)
 }
 
-/// The unit that stands behind a number; it may be one of the file's own.
+/// The unit after a number; `own` holds the units that the file defines.
 ///
 /// # Errors
-/// Why it is none, as a sentence without a capital.
+/// Why the text is invalid, as a sentence without a capital.
 pub(crate) fn unit_behind_number(text: &str, own: &[Unit]) -> Result<Unit, String> {
     if let Some(digits) = number_in_parentheses(text) {
         return Err(format!(
@@ -210,7 +210,7 @@ pub(crate) fn unit_behind_number(text: &str, own: &[Unit]) -> Result<Unit, Strin
         )),
         None => Unit::parse_among(text, own).map_err(|error| {
             let error = error.in_whole(text);
-            // `28.35*g` of an ounce would follow a number here
+            // `28.35*g` for an ounce would follow a number here
             let near = error.suggestions().into_iter().next();
             match near.filter(|unit| unit.starts_with(|c: char| c.is_ascii_digit())) {
                 Some(size) => format!(
@@ -223,7 +223,8 @@ pub(crate) fn unit_behind_number(text: &str, own: &[Unit]) -> Result<Unit, Strin
     }
 }
 
-/// A number in a unit given as text, which may be one of the file's own, converted to another unit.
+/// A number with a unit given as text, converted to another unit. Both may be units that the file
+/// defines.
 ///
 /// # Errors
 /// Why it cannot be read or converted, as a sentence without a capital.
@@ -255,13 +256,13 @@ pub fn converted(
     }
 }
 
-/// Whether a quantity and a difference of quantities are converted alike, or both units have references, so
-/// that it is a level.
+/// Whether a quantity and a difference of quantities convert in the same way, or both units are
+/// levels with a reference.
 pub fn converts_alike(given: &Unit, unit: &Unit) -> bool {
     given.has_zero_of(unit) || given.has_reference() && unit.has_reference()
 }
 
-/// That a number in a unit with another zero than this one could be converted in two ways.
+/// The message that a number in a unit with another zero could be converted in two ways.
 pub fn either_temperature(unit: &Unit) -> String {
     let (value, difference) = if unit.level_exponent().is_zero() {
         ("a temperature", "a difference of temperatures")
@@ -271,7 +272,7 @@ pub fn either_temperature(unit: &Unit) -> String {
     format!("nothing tells whether it is {value} or {difference}; write it in `{unit}`")
 }
 
-/// The power of ten of the last written digit of a number, zeros at its end included: -3 of `0.100`.
+/// The power of ten of the last written digit of a number, counting trailing zeros: -3 for `0.100`.
 pub fn power_of_last_digit(number: &str) -> i32 {
     let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
     let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.trim().len());
@@ -343,7 +344,7 @@ mod tests {
         }
     }
 
-    /// A number in parentheses behind a unit is no factor, nor is a coverage a unit.
+    /// A number in parentheses after a unit is not a factor, and a coverage is not a unit.
     #[test]
     fn what_belongs_to_uncertainties_is_no_unit() {
         for text in ["5.0112 V (23)", "100 ohm (0.1 %)", "2 mV (95 %)", "2 mV (2)"] {

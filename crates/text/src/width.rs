@@ -11,12 +11,12 @@ use super::value_text::{
 };
 use gumption_units::Unit;
 
-/// A width that may follow the estimate: `relative` times its modulus, plus `absolute`.
+/// A width that may depend on the estimate: `relative` times its modulus, plus `absolute`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Width {
-    /// The share of the estimate's modulus.
+    /// Fraction of the estimate's modulus.
     pub relative: f64,
-    /// What is added to it, in the input's unit.
+    /// Constant part, in the input's unit.
     pub absolute: f64,
 }
 
@@ -26,7 +26,7 @@ impl Width {
         self.relative * estimate.abs() + self.absolute
     }
 
-    /// Whether the width is typed as a specification, so that it may become 0 with the estimate.
+    /// Whether the width has only a relative part, so that it may become 0 with the estimate.
     pub fn is_relative_only(self) -> bool {
         self.absolute == 0.0 && self.relative > 0.0
     }
@@ -60,7 +60,7 @@ impl Width {
         }
     }
 
-    /// Reads a specification of a quantity in a unit; `own` are units of the file.
+    /// Parses a specification for a quantity in `unit`; `own` are the units that the file defines.
     ///
     /// # Errors
     /// Why it is none, as a sentence without a capital.
@@ -122,14 +122,14 @@ fn positive(key: &str, absolute: f64) -> Result<Width, DiagnosticKind> {
     }
 }
 
-/// Keys of widths that reach to both sides of an estimate, so that `±` may stand before them.
+/// Keys of widths that extend to both sides of an estimate, so that `±` may precede them.
 const BOTH_SIDES: [&str; 4] = ["half_width", "semi_range", "expanded", "cmc"];
 
-/// A width without the `±` before it, as limits and expanded uncertainties are written: `±0.05 mm`,
+/// A width without the `±` before it, as for limits and expanded uncertainties: `±0.05 mm`,
 /// `±(0.02 % + 2 uV)`.
 ///
 /// # Errors
-/// What stands there is a standard deviation, which nobody writes so.
+/// The value is a standard deviation, which is never written with `±`.
 pub fn without_plus_minus(text: &str, key: &str) -> Result<String, String> {
     let written = with_plus_minus(text.trim());
     let Some(width) = written.strip_prefix('±') else { return Ok(text.to_owned()) };
@@ -145,7 +145,7 @@ pub fn without_plus_minus(text: &str, key: &str) -> Result<String, String> {
     Ok(inside.filter(|inside| !inside.contains(['(', ')'])).unwrap_or(width).trim().to_owned())
 }
 
-/// The terms between plus signs; the plus of an exponent (1e+3) does not separate.
+/// The terms between plus signs; the plus of an exponent (1e+3) is not a separator.
 pub fn terms(text: &str) -> Vec<&str> {
     let mut terms = Vec::new();
     let mut start = 0;
@@ -164,7 +164,7 @@ pub fn terms(text: &str) -> Vec<&str> {
     terms
 }
 
-/// The number at the start of a term, and what follows it.
+/// The number at the start of a term, and the rest.
 pub fn number(term: &str) -> Result<(f64, &str), String> {
     let longest = term
         .char_indices()
@@ -183,10 +183,10 @@ pub fn number(term: &str) -> Result<(f64, &str), String> {
     Ok((value, term.get(end..).unwrap_or("").trim()))
 }
 
-/// Signs of shares and their sizes.
+/// Signs for fractions, and their sizes.
 const SHARES: [(&str, f64); 3] = [("%", 1e-2), ("ppm", 1e-6), ("ppb", 1e-9)];
 
-/// Whether the rest of a term is a share, of which size, and what it is of (`""` if not said).
+/// Parses the rest of a term as a fraction: its size and its base (`""` if not given).
 pub fn share(rest: &str) -> Option<(f64, &str)> {
     let (factor, after) =
         SHARES.iter().find_map(|(sign, factor)| Some((*factor, rest.strip_prefix(sign)?)))?;
@@ -197,8 +197,8 @@ pub fn share(rest: &str) -> Option<(f64, &str)> {
     of.starts_with(char::is_whitespace).then(|| (factor, of.trim()))
 }
 
-/// The same of a ratio of like units, `um/m` or `mV/V`, of a quantity that is no plain number itself,
-/// and of a share with a divisor, `0.1 %/sqrt(3)`, of any quantity.
+/// The same for a ratio of like units, `um/m` or `mV/V`, unless the quantity is a plain number, and
+/// for a fraction with a divisor, `0.1 %/sqrt(3)`, for any quantity.
 fn ratio<'r>(rest: &'r str, unit: &Unit, own: &[Unit]) -> Option<(f64, &'r str)> {
     let (text, of) = rest.split_once(" of ").unwrap_or((rest, ""));
     let ratio = unit_behind_number(text.trim(), own).ok().filter(|_| text.contains('/'))?;
@@ -209,7 +209,7 @@ fn ratio<'r>(rest: &'r str, unit: &Unit, own: &[Unit]) -> Option<(f64, &'r str)>
         .then(|| (ratio.factor(), of.trim()))
 }
 
-/// Whether a term is a share that does not say what it is of: `0.1 %`.
+/// Whether a term is a fraction without a base: `0.1 %`.
 pub fn is_bare_share(term: &str) -> bool {
     let share = number(term).ok().and_then(|(_, rest)| share(rest));
     share.is_some_and(|(_, of)| of.is_empty())
@@ -226,7 +226,7 @@ fn converted(
             Ok(value)
         } else {
             Err(match unit.is_relative() {
-                // per cent of what, of a quantity in per cent?
+                // per cent of what, if the quantity itself is in per cent?
                 true => format!(
                     "`{term}` has no unit, and beside it `{term} {unit}` would not say what it is of: \
                      give the two as components"
@@ -238,10 +238,10 @@ fn converted(
     if text == unit.text().trim() {
         return Ok(value);
     }
-    // data sheets count in digits of a display
+    // data sheets count digits of a display
     let is_of_display =
         matches!(text, "digit" | "digits" | "count" | "counts" | "lsd" | "LSD" | "LSB");
-    // and of a range or a reading, in letters
+    // and fractions of a range or a reading, in letters
     let words = SHARES.iter().find_map(|(sign, _)| text.strip_prefix(sign));
     let words = words.map(str::trim).filter(|words| words.starts_with(char::is_alphabetic));
     let said = |error: String| {
@@ -259,7 +259,7 @@ fn converted(
             error
         }
     };
-    // a count is one of a plain number, and a digit of nothing but a display
+    // a count is a count of a plain number, and a digit belongs to a display only
     let is_number = unit.factor() == 1.0 && unit.turn().is_none();
     let counts = is_number && text.starts_with("count");
     if is_of_display && unit.dimension().is_none() && !counts {
@@ -306,7 +306,7 @@ mod tests {
         assert!((read("1e+1 mV", "V").unwrap().at(7.0) - 0.01).abs() < 1e-15);
     }
 
-    /// Of limits on both sides, and of these alone.
+    /// Limits on both sides, and no other widths, may have `±`.
     #[test]
     fn plus_minus_before_limits() {
         for (text, expected) in [
@@ -320,7 +320,7 @@ mod tests {
         assert!(without_plus_minus("±0.05 mm", "std").unwrap_err().contains("`half_width`"));
     }
 
-    /// A ratio counts as ppm does; one of another size does not.
+    /// A ratio such as 1 um/m counts as ppm; a ratio of another size does not.
     #[test]
     fn shares_of_ratios() {
         for (text, unit) in
@@ -335,7 +335,8 @@ mod tests {
         assert!((read("0.1 %", "1").unwrap().at(0.5) - 5e-4).abs() < 1e-18);
     }
 
-    /// Of plain numbers, too, a share stays one behind a divisor, and a digit is none of a display.
+    /// For plain numbers too, a fraction with a divisor is a fraction, and a digit does not belong
+    /// to a display.
     #[test]
     fn shares_and_digits_of_plain_numbers() {
         for unit in ["mV/V", "1", "mm/m"] {

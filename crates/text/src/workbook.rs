@@ -1,9 +1,9 @@
 //! The sheets of a workbook: their cells, and a sheet as the text of a CSV table.
 //!
-//! What a workbook of a few kilobytes unpacks to has no bounds of its own: a part may be a thousand
-//! times as large as it is in the file, and a single stray cell in the last corner spans a sheet of
-//! seventeen thousand million. So every part is unpacked within a limit before anybody reads it,
-//! cells are read one by one, and only those that hold something are kept.
+//! Nothing limits what a workbook of a few kilobytes unpacks to: a part may grow a thousandfold,
+//! and a single stray cell in the last corner spans a sheet of seventeen thousand million cells.
+//! Therefore every part is unpacked within a limit first, cells are read one by one, and only cells
+//! with content are kept.
 
 pub mod choice;
 mod date;
@@ -24,10 +24,11 @@ use super::xml_limits;
 use layout::PartsOf;
 pub use layout::{Layout, Place};
 
-/// Bytes of an unpacked part, at most. A table of ten thousand rows has less than a quarter of it.
+/// Maximum size of an unpacked part, in bytes. A table of ten thousand rows needs less than a
+/// quarter of it.
 const MOST_OF_PART: u64 = 20_000_000;
 
-/// Bytes of all unpacked parts, at most.
+/// Maximum size of all unpacked parts, in bytes.
 const MOST_OF_ALL: u64 = 100_000_000;
 
 /// Parts, at most.
@@ -36,17 +37,18 @@ const MOST_PARTS: usize = 10_000;
 /// Sheets, at most.
 const MOST_SHEETS: usize = 256;
 
-/// Bytes of the table's text, at most: a text that is stored once may stand in any number of cells.
+/// Maximum size of the table's text, in bytes: a text that is stored once may appear in any number
+/// of cells.
 const MOST_OF_TEXT: usize = 20_000_000;
 
-/// Rows and columns of a sheet, as ECMA-376 and every program that writes workbooks have them.
+/// Rows of a sheet (ECMA-376, and every program that writes workbooks).
 const ROWS: u32 = 1 << 20;
 const COLUMNS: u32 = 1 << 14;
 
-/// The cells of a sheet that hold something: rows, then columns, both counted from 0.
+/// The cells of a sheet with content: rows, then columns, both from 0.
 type Cells = BTreeMap<u32, BTreeMap<u32, String>>;
 
-/// A sheet as a table: its rows are the lines of a text of CSV.
+/// A sheet as a table: its rows become the lines of a CSV text.
 #[derive(Debug)]
 pub struct SheetTable {
     cells: Cells,
@@ -54,13 +56,13 @@ pub struct SheetTable {
 }
 
 impl SheetTable {
-    /// The cells of its header, the first row that is no comment.
+    /// The cells of its header, the first row that is not a comment.
     pub fn header(&self) -> Vec<String> {
         let header = header(&self.cells).map(BTreeMap::values);
         header.into_iter().flatten().map(|text| unquoted(text)).collect()
     }
 
-    /// The table's text, the column that it begins with, and what the sheet says besides.
+    /// The table's text, its first column, and the layout of the sheet.
     ///
     /// # Errors
     /// What is wrong with the sheet, as a sentence about the workbook.
@@ -71,10 +73,10 @@ impl SheetTable {
     }
 }
 
-/// Whether a file is a workbook that is read here, by the end of its name.
+/// Whether a file is a workbook that can be read, by the end of its name.
 ///
 /// # Errors
-/// That it is one of another format, as a sentence about it.
+/// The file is a workbook of another format; a sentence about it.
 pub fn is_workbook(path: &Path) -> Result<bool, String> {
     let extension = path.extension().map(|of| of.to_string_lossy().to_lowercase());
     match extension.as_deref() {
@@ -92,11 +94,11 @@ pub fn is_workbook(path: &Path) -> Result<bool, String> {
 pub enum Sheet<'a> {
     /// The last one.
     Last,
-    /// That of a name; one that is not there has no cells.
+    /// The sheet of this name; an unknown one has no cells.
     Named(&'a str),
 }
 
-/// All cells of a sheet, row by row from its first one, empty where nothing stands.
+/// All cells of a sheet, row by row, including empty ones.
 ///
 /// # Errors
 /// What is wrong with the workbook, as a sentence about it.
@@ -105,9 +107,9 @@ pub fn rows_of(bytes: Vec<u8>, sheet: Sheet<'_>) -> Result<Vec<Vec<String>>, Str
     Ok(rows(&cells(&mut opened(bytes)?, sheet, &mut 0)?.0))
 }
 
-/// Beyond it nobody keeps a budget.
+/// The most rows that are read; larger budgets are not expected.
 pub const MOST_ROWS: u32 = 10_000;
-/// The most columns of a sheet that are read.
+/// The most columns that are read.
 pub const MOST_COLUMNS: u32 = 256;
 
 fn rows(cells: &Cells) -> Vec<Vec<String>> {
@@ -124,7 +126,7 @@ fn rows(cells: &Cells) -> Vec<Vec<String>> {
     rows
 }
 
-/// The first cell beyond those that [`rows`] has.
+/// The first cell beyond those that [`rows`] returns.
 fn beyond(cells: &Cells) -> Option<Place> {
     let below =
         cells.range(MOST_ROWS..).next().and_then(|(row, of)| Some((*row, *of.keys().next()?)));
@@ -133,17 +135,17 @@ fn beyond(cells: &Cells) -> Option<Place> {
     below.or_else(beside)
 }
 
-/// A cell's text without the quotes that CSV has about it.
+/// A cell's text without the quotes of CSV.
 fn unquoted(text: &str) -> String {
     let inside = text.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
     inside.map_or_else(|| text.to_owned(), |text| text.replace("\"\"", "\""))
 }
 
-/// A workbook of which several sheets are read.
+/// A workbook from which several sheets are read.
 pub struct Book {
     parts: PartsOf,
     workbook: Xlsx<Cursor<Vec<u8>>>,
-    /// Bytes of the texts that were read so far.
+    /// Bytes of the texts read so far.
     size: usize,
 }
 
@@ -156,13 +158,13 @@ impl fmt::Debug for Book {
 /// The name of a sheet with cells.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SheetName {
-    /// Its place among all sheets, from 0.
+    /// Its index among all sheets, from 0.
     place: usize,
     pub(crate) name: String,
     pub(crate) is_hidden: bool,
 }
 
-/// What stands before the digest of a certificate's file, in the languages of certificates.
+/// The label before the digest of a certificate's file, in the languages of certificates.
 const CERTIFICATE_FILE: [&str; 4] = [
     "certificate file, SHA-256",
     "Kalibrierscheindatei, SHA-256",
@@ -179,14 +181,14 @@ impl Book {
         Ok(Self { workbook: opened(bytes)?, parts, size: 0 })
     }
 
-    /// Whether it is the workbook of a certificate of this program: its first sheet names the file that
-    /// the certificate was made of, in the certificate's language.
+    /// Whether it is the workbook of a certificate of this program: its first sheet names the
+    /// source file of the certificate, in the certificate's language.
     pub fn is_certificate(&mut self) -> bool {
         let sheets = self.sheets();
         let [first, _, ..] = sheets.as_slice() else { return false };
         let size = self.size;
         let cells = self.sheet(first).map(|(cells, _)| cells).unwrap_or_default();
-        // it is read once more, if at all
+        // read again only if it is needed
         self.size = size;
         cells
             .iter()
@@ -207,7 +209,7 @@ impl Book {
             .collect()
     }
 
-    /// All cells of a sheet, row by row from its first one, and what it says besides their values.
+    /// All cells of a sheet, row by row, and its layout.
     ///
     /// # Errors
     /// What is wrong with the workbook, as a sentence about it.
@@ -239,9 +241,9 @@ fn is_none(error: impl fmt::Display) -> String {
     format!("it is no workbook: {error}")
 }
 
-/// Unpacks every part once, to see how large it is and whether its cells are where cells can be.
+/// Unpacks every part once to check its size and that its cells lie within a sheet.
 fn check_parts(bytes: &[u8]) -> Result<(), String> {
-    // the entries of the list of parts, counted before anybody makes room for them
+    // the entries of the list of parts, counted before memory is allocated for them
     let parts = bytes.windows(4).filter(|window| window == b"PK\x01\x02").count();
     if parts > MOST_PARTS {
         return Err(format!(
@@ -266,7 +268,7 @@ fn check_parts(bytes: &[u8]) -> Result<(), String> {
                 "{what} unpacks to more than {most} MB, which this version takes at most"
             ));
         }
-        // parts of another kind are pictures and settings of printers
+        // other parts are pictures and printer settings
         if let Ok(text) = std::str::from_utf8(&content)
             && text.contains("sheetData")
         {
@@ -285,7 +287,7 @@ fn check_parts(bytes: &[u8]) -> Result<(), String> {
 fn check_references(text: &str) -> Result<(), String> {
     let mut xml = quick_xml::Reader::from_str(text);
     loop {
-        // what is no XML is told by whoever reads the cells
+        // invalid XML is reported by the reader of the cells
         let element = match xml.read_event() {
             Ok(Event::Start(element) | Event::Empty(element)) => element,
             Ok(Event::Eof) | Err(_) => return Ok(()),
@@ -313,18 +315,18 @@ fn attribute(element: &BytesStart<'_>, name: &str) -> Option<String> {
     Some(element.try_get_attribute(name).ok()??.value.into_owned())
 }
 
-/// Whether a text is a row of a sheet, `1` to `1048576`.
+/// Whether a text is a row number of a sheet, `1` to `1048576`.
 fn is_row(text: &str) -> bool {
     text.parse().is_ok_and(|row: u32| (1..=ROWS).contains(&row))
         && text.bytes().all(|byte| byte.is_ascii_digit())
 }
 
-/// Whether a text is a cell of a sheet, `A1` to `XFD1048576`.
+/// Whether a text is a cell reference of a sheet, `A1` to `XFD1048576`.
 fn is_cell(text: &str) -> bool {
     place(text).is_some()
 }
 
-/// Column and row of a cell's reference, both counted from 1.
+/// Column and row of a cell reference, both from 1.
 fn place(text: &str) -> Option<(u32, u32)> {
     let (letters, row) = text.split_at_checked(text.find(|c: char| c.is_ascii_digit())?)?;
     let digit = |column: u32, letter: u8| {
@@ -356,7 +358,7 @@ pub fn letters(column: u32) -> String {
     name
 }
 
-/// What cells of a style show of their numbers.
+/// How cells of a style display their numbers.
 fn shown(style: &Style) -> Shown {
     let format = style.number_format.as_ref();
     format.map(|format| Shown::of(&format.format_code)).unwrap_or_default()
@@ -366,20 +368,21 @@ fn opened(bytes: Vec<u8>) -> Result<Xlsx<Cursor<Vec<u8>>>, String> {
     Xlsx::new(Cursor::new(bytes)).map_err(is_none)
 }
 
-/// What the cells of a sheet say besides their values.
+/// What the cells of a sheet tell besides their values.
 #[derive(Default)]
 struct Told {
     /// Those that are struck through.
     struck: BTreeSet<Place>,
     /// Those that hold texts.
     texts: BTreeSet<Place>,
-    /// Those that show a date or a time.
+    /// Cells that display a date or a time.
     dates: BTreeMap<Place, String>,
-    /// The powers of ten of the last digits that they show.
+    /// The powers of ten of the last displayed digits.
     last_digits: BTreeMap<Place, i32>,
 }
 
-/// The cells of a sheet, and what they say besides; `size` counts the bytes of their texts.
+/// The cells of a sheet, and what they tell besides their values; `size` counts the bytes of their
+/// texts.
 fn cells(
     workbook: &mut Xlsx<Cursor<Vec<u8>>>,
     sheet: Sheet<'_>,
@@ -458,7 +461,7 @@ fn cells(
     Ok((cells, told))
 }
 
-/// A cell's text with the quotes that CSV needs about it; a line of the text is a row of the sheet.
+/// A cell's text with the quotes that CSV needs; each row of the sheet becomes one line.
 fn quoted(text: String) -> String {
     if text.contains([',', ';', '"', '\n', '\r', '#']) {
         format!("\"{}\"", text.replace('"', "\"\"").replace(['\n', '\r'], " "))
@@ -471,13 +474,13 @@ fn is_comment(row: &BTreeMap<u32, String>) -> bool {
     row.first_key_value().is_some_and(|(_, text)| text.trim_start_matches('"').starts_with('#'))
 }
 
-/// The first row that is no comment.
+/// The first row that is not a comment.
 fn header(cells: &Cells) -> Option<&BTreeMap<u32, String>> {
     cells.values().find(|row| !is_comment(row))
 }
 
-/// The table's text: its columns are those of the first row that is no comment, and a cell outside
-/// of them is a mistake, such as what a stray keystroke leaves.
+/// The table's text. Its columns are those of the first row that is not a comment; a cell outside
+/// them is an error, for example after a stray keystroke.
 fn csv(cells: &Cells) -> Result<String, String> {
     let ends =
         header(cells).and_then(|header| Some([*header.keys().next()?, *header.keys().last()?]));
@@ -488,7 +491,7 @@ fn csv(cells: &Cells) -> Result<String, String> {
         text.extend(std::iter::repeat_n('\n', (row - line) as usize));
         line = row;
         if is_comment(held) {
-            // skipped, like a line of a text
+            // skipped, like a comment line of a text
             text.push('#');
             continue;
         }
@@ -579,7 +582,7 @@ mod tests {
         assert_eq!([letters(25), letters(26), letters(16383)], ["Z", "AA", "XFD"]);
     }
 
-    /// Some megabytes of archive that unpack to gigabytes.
+    /// A few megabytes of archive that unpack to gigabytes.
     #[test]
     fn parts_are_unpacked_within_a_limit() {
         let many = |piece: &'static str, times: usize| {
@@ -601,7 +604,7 @@ mod tests {
             let said = first_sheet(bytes).unwrap_err();
             assert!(said.contains("unpacks to more than 20 MB"), "{said}");
         }
-        // a text that is stored once and stands in many cells
+        // a text that is stored once and used in many cells
         let sheet = "<c t=\"s\"><v>0</v></c>".repeat(100);
         let string = format!("<si><t>{}</t></si>", "A".repeat(1_000_000));
         let bytes =
@@ -610,8 +613,8 @@ mod tests {
         assert!(said.contains("hold more than 20 MB of text"), "{said}");
     }
 
-    /// A part that many sheets name would be read for each of them, and a parser compares the attributes of
-    /// an element two by two.
+    /// A part that many sheets name would be read for each of them, and a parser compares the
+    /// attributes of an element pairwise.
     #[test]
     fn sheets_and_attributes_have_limits() {
         let rows: &[&[&str]] = &[&["a", "1"]];

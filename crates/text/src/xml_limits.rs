@@ -1,35 +1,35 @@
-//! What an XML may be made of. Parsers compare the attributes of an element, and the namespaces of an
-//! element and of all around it, two by two: the time that they take grows with the square of their number
-//! or faster. This is looked at before a parser sees the text, in one pass over it.
+//! Limits for XML documents. Parsers compare the attributes of an element, and the namespaces in
+//! its scope, pairwise: their time grows at least with the square of the number. One pass checks
+//! this before a parser sees the text.
 
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-/// Attributes of an element, at most; its declarations of namespaces are among them.
+/// Maximum number of attributes of an element, including declarations of namespaces.
 const MOST_ATTRIBUTES: usize = 256;
 
-/// Elements in each other, at most.
+/// Maximum nesting of elements.
 const DEEPEST: usize = 256;
 
-/// Namespaces that are declared for an element, by itself or around it, at most.
+/// Maximum number of namespaces in scope of an element.
 const MOST_NAMESPACES: usize = 64;
 
-/// Something of which there is too much.
+/// A limit that the document exceeds.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Excess {
     /// The byte of the text at which the element begins.
     pub at: usize,
-    /// What was found, and how much this version takes.
+    /// What was found, and the limit.
     pub reason: String,
 }
 
-/// Looks at an XML; what is none is told by whoever reads it.
+/// Checks an XML document; invalid XML is left to the reader.
 ///
 /// # Errors
-/// The first element that has, or is, too much.
+/// The first element that exceeds a limit.
 pub fn check(text: &str) -> Result<(), Excess> {
     let mut xml = Reader::from_str(text);
-    // the number of namespaces that each open element declares
+    // the number of namespaces declared by each open element
     let mut open: Vec<usize> = Vec::new();
     let mut in_scope = 0;
     loop {
@@ -68,7 +68,7 @@ pub fn check(text: &str) -> Result<(), Excess> {
 /// How many attributes an element has, and how many of them declare a namespace.
 fn counts(element: &BytesStart<'_>) -> [usize; 2] {
     let mut counts = [0; 2];
-    // a damaged one is no end of the others
+    // an error in one attribute does not end the others
     for attribute in element.attributes().with_checks(false) {
         counts[0] += 1;
         let declares = |key: &str| key == "xmlns" || key.starts_with("xmlns:");
@@ -111,7 +111,7 @@ mod tests {
             let (_, reason) = refused(&declared(depth)).unwrap();
             assert!(reason.contains("65 namespaces for one element here"), "{reason}");
         }
-        // those of an element end with it
+        // namespaces of an element end with it
         assert_eq!(refused(&format!("<r>{}</r>", declared(40).repeat(50))), None);
     }
 

@@ -8,8 +8,8 @@ use super::names;
 /// The longest name, in bytes.
 const LONGEST: usize = 40;
 
-/// At most so many different names in one process: they are kept for ever, because factors of units
-/// are copied around by the million.
+/// Maximum number of different names in one process: they are kept forever, because factors of
+/// units are copied by the million.
 const MOST: usize = 1000;
 
 static NAMES: Mutex<Option<HashSet<&'static str>>> = Mutex::new(None);

@@ -101,7 +101,7 @@ impl Dimension {
         self.checked_pow(Exponent::new(1, n)?)
     }
 
-    /// Every exponent mapped with its place; `None` as soon as one is.
+    /// Maps every exponent with its index; `None` as soon as one result is.
     fn combine(mut self, map: impl Fn(usize, Exponent) -> Option<Exponent>) -> Option<Self> {
         for (i, exponent) in self.exponents.iter_mut().enumerate() {
             *exponent = map(i, *exponent)?;
@@ -110,15 +110,15 @@ impl Dimension {
     }
 
     /// The usual name of a quantity with this dimension, with its article: `an acceleration`,
-    /// `a plain number`. `None` where no one name fits. Where a dimension is shared by several
-    /// kinds of quantity the commonest are named: `an energy or a torque`.
+    /// `a plain number`. `None` if no single name fits. If several kinds of quantity share a
+    /// dimension, the most common are named: `an energy or a torque`.
     pub fn quantity(&self) -> Option<&'static str> {
         QUANTITIES.iter().find(|(d, _)| d == self).map(|(_, words)| *words)
     }
 
-    /// The coherent unit that a quantity of this dimension is usually given in: `W` and not
-    /// `kg m^2 s^-3`; the base units where there is no one name. Of a frequency or a rate it is `Hz`,
-    /// of an energy or a torque `J`.
+    /// The coherent unit in which a quantity of this dimension is usually given: `W` and not
+    /// `kg m^2 s^-3`; base units if there is no single name. For a frequency or a rate it is `Hz`,
+    /// for an energy or a torque `J`.
     pub fn usual_unit(&self) -> String {
         let usual = USUAL_UNITS.iter().find(|(dimension, _)| dimension == self);
         usual.map_or_else(|| self.to_string(), |(_, unit)| (*unit).to_owned())

@@ -4,9 +4,10 @@ use super::Unit;
 use super::names::{PREFIXES, SYMBOLS};
 
 impl Unit {
-    /// Parses a unit of D-SI: names with prefixes and exponents, each behind a backslash; or, behind
-    /// a bar, a text of ours; or a text without a backslash as [`Unit::parse`] takes it. Names are
-    /// taken in any case, because certificates have `\degreeCelsius` and `\degreecelsius`.
+    /// Parses a unit of D-SI: names with prefixes and exponents, each after a backslash; or, after
+    /// a bar, a text in the syntax of [`Unit::parse`]; or a text without a backslash in that
+    /// syntax. Names are accepted in any case, because certificates have `\degreeCelsius` and
+    /// `\degreecelsius`.
     ///
     /// ```
     /// use gumption_units::Unit;

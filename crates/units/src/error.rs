@@ -9,9 +9,9 @@ use super::listed::listed;
 
 /// Why a text is not a unit.
 ///
-/// Every variant carries the place (`span`, a half-open byte range inside the unit text, on
-/// character boundaries), what was found there, and where possible what would be right. `Display`
-/// says it in one sentence.
+/// Every variant carries the position (`span`, a half-open byte range inside the unit text, on
+/// character boundaries), what was found there, and if possible what would be right. `Display` says
+/// it in one sentence.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum UnitError {
@@ -21,10 +21,10 @@ pub enum UnitError {
         name: String,
         /// Where it stands.
         span: Range<usize>,
-        /// At most three unit texts that may be meant, likeliest first; each of them parses.
+        /// At most three unit texts that may be meant, most likely first; each of them parses.
         nearest: Vec<String>,
     },
-    /// A name that says what a quantity is beside its unit: `barg`, `Vpp`, `Nm3`, `dB(A)`.
+    /// A name that describes the quantity besides its unit: `barg`, `Vpp`, `Nm3`, `dB(A)`.
     QualifiedUnit {
         /// The name as written.
         name: String,
@@ -32,7 +32,7 @@ pub enum UnitError {
         span: Range<usize>,
         /// The unit: `bar`.
         unit: String,
-        /// What the name says of the quantity: `a peak-to-peak value`.
+        /// What the name says about the quantity: `a peak-to-peak value`.
         says: &'static str,
     },
     /// A prefix before a unit that takes none: `mdegC`, `kmin`, `mkg`.
@@ -46,15 +46,15 @@ pub enum UnitError {
         /// What to write instead: `mK`, `1e-3*deg`.
         instead: String,
     },
-    /// A character that cannot stand where it does.
+    /// A character that is not allowed at its position.
     UnexpectedCharacter {
         /// The character.
         found: char,
         /// Where it stands.
         span: Range<usize>,
-        /// What could stand there, in words.
+        /// What would be allowed there, in words.
         expected: &'static str,
-        /// What may be meant by the part of the text around it: `m^-3` for `m-3`.
+        /// What the surrounding text may mean: `m^-3` for `m-3`.
         suggestion: Option<String>,
     },
     /// An operator, root or pair of parentheses without the unit or number that it applies to.
@@ -63,10 +63,10 @@ pub enum UnitError {
         operator: String,
         /// Where it stands.
         span: Range<usize>,
-        /// On which side of it, or within it, something is missing.
+        /// The side on which something is missing, or inside.
         side: MissingSide,
     },
-    /// A parenthesis that is opened and not closed, or closed and not opened.
+    /// A parenthesis that is opened but not closed, or closed but not opened.
     UnbalancedParenthesis {
         /// `(` or `)`.
         found: char,
@@ -75,9 +75,9 @@ pub enum UnitError {
     },
     /// An exponent that is not a whole number, a decimal number or a fraction in parentheses.
     ExponentNotANumber {
-        /// What stands in its place; empty if nothing does.
+        /// The text found instead; empty if there is none.
         found: String,
-        /// Where that stands; the power operator if nothing does.
+        /// The span of that text; of the power operator if there is none.
         span: Range<usize>,
     },
     /// An exponent beyond the limits.
@@ -86,7 +86,7 @@ pub enum UnitError {
         found: String,
         /// Where it stands.
         span: Range<usize>,
-        /// The largest exponent there, in size; the denominator may be
+        /// The largest allowed exponent, in absolute value; for a denominator
         /// [`Unit::MAX_EXPONENT`](super::Unit::MAX_EXPONENT).
         limit: u32,
     },
@@ -100,28 +100,28 @@ pub enum UnitError {
         /// The same as a division: `(Hz^1)/2`.
         as_quotient: String,
     },
-    /// A product that is written with a space or a dot after a quotient, as in `J/kg K`: joule per
-    /// kilogram and kelvin, or kelvin times joule per kilogram? Or with a space in what is one symbol
-    /// without it, as in `° C`: degree Celsius, or degree times coulomb?
+    /// A product written with a space or a dot after a quotient, as in `J/kg K`: joule per kilogram
+    /// and kelvin, or kelvin times joule per kilogram? Or a space inside a symbol, as in `° C`:
+    /// degree Celsius, or degree times coulomb?
     AmbiguousProduct {
-        /// What can be read in two ways.
+        /// The ambiguous text.
         found: String,
         /// Where it stands.
         span: Range<usize>,
-        /// The likelier reading: `J/(kg K)`, `degC`.
+        /// The more likely reading: `J/(kg K)`, `degC`.
         likelier: String,
         /// The other one: `(J/kg) K`, `deg*C`.
         other: String,
     },
-    /// A number or a share in parentheses behind a unit without a sign between them, as in `V (23)`,
+    /// A number or a fraction in parentheses after a unit without an operator, as in `V (23)`,
     /// `ohm (0.1 %)`: an uncertainty, a coverage, or a factor?
     NumberInParentheses {
-        /// The parentheses and what stands in them.
+        /// The parentheses with their content.
         found: String,
         /// Where they stand.
         span: Range<usize>,
     },
-    /// A factor that is zero, or too large or too small for a floating-point number.
+    /// A factor that is zero, or too large or too small for an `f64`.
     FactorOutOfRange {
         /// What has that factor.
         span: Range<usize>,
@@ -142,7 +142,7 @@ pub enum UnitError {
     },
 }
 
-/// On which side of an operator its unit or number is missing.
+/// The side of an operator on which its unit or number is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MissingSide {
@@ -175,7 +175,7 @@ impl UnitError {
         }
     }
 
-    /// Unit texts that may be meant, likeliest first; possibly none.
+    /// Unit texts that may be meant, most likely first; possibly none.
     pub fn suggestions(&self) -> Vec<&str> {
         match self {
             Self::UnknownUnit { nearest, .. } => nearest.iter().map(String::as_str).collect(),
@@ -190,8 +190,8 @@ impl UnitError {
         }
     }
 
-    /// The same error, found in `text`, whose suggestions are the whole text with the part that is wrong
-    /// put right: `kg/m^3` for `kg/m3`, where [`suggestions`](Self::suggestions) says `m^3`.
+    /// The same error, found in `text`. Its suggestions are the whole text with the wrong part
+    /// corrected: `kg/m^3` for `kg/m3`, for which [`suggestions`](Self::suggestions) says `m^3`.
     #[must_use]
     pub fn in_whole(&self, text: &str) -> Self {
         let whole = |span: &Range<usize>, part: &str| {
@@ -209,7 +209,7 @@ impl UnitError {
             } else {
                 format!("{before}{part}{behind}")
             };
-            // `m3` among names that are none either
+            // `m3` among other unknown names
             if super::Unit::parse(&whole).is_ok() { whole } else { part.to_owned() }
         };
         let mut error = self.clone();
@@ -309,7 +309,7 @@ impl fmt::Display for UnitError {
     }
 }
 
-/// The largest exponent of a unit, in size, and the largest denominator of an exponent.
+/// The largest exponent of a unit, in absolute value, and the largest denominator of an exponent.
 pub(super) const MAX_EXPONENT: u32 = 24;
 
 /// "`a`", "`a` or `b`", "`a`, `b` or `c`".
@@ -318,7 +318,7 @@ fn alternatives(texts: &[String]) -> String {
     listed(&quoted, " or ")
 }
 
-/// A character in a message: quotes as they are, control characters escaped.
+/// A character in a message: quotes are unchanged, control characters are escaped.
 struct Shown(char);
 
 impl fmt::Display for Shown {
@@ -330,7 +330,7 @@ impl fmt::Display for Shown {
     }
 }
 
-/// Two units of different dimension, between which nothing can be converted.
+/// Two units of different dimension, between which no conversion exists.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct IncompatibleUnits {

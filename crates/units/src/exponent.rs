@@ -5,7 +5,7 @@ use std::fmt;
 /// The exponent of a base unit in a dimension: an exact rational number such as `-2` or `1/2`.
 ///
 /// Numerator and denominator fit in sixteen bits; every operation that would leave that range
-/// answers `None` instead of wrapping or panicking. Always in lowest terms, denominator positive.
+/// returns `None` instead of wrapping or panicking. Always in lowest terms, denominator positive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Exponent {
     numerator: i16,
@@ -18,7 +18,7 @@ impl Exponent {
     /// The exponent 1.
     pub const ONE: Self = Self::integer(1);
 
-    /// The exponent 1/2, of a square root.
+    /// The exponent 1/2, for a square root.
     pub const HALF: Self = Self { numerator: 1, denominator: 2 };
 
     /// A whole exponent.

@@ -8,7 +8,7 @@ use super::names::{self, Prefix, Symbol};
 /// A factor of a unit: a named unit or a number, to an exponent.
 ///
 /// `mV/(m/s^2)` has the factors mV, m to the exponent -1, and s to the exponent 2. Exponents are
-/// exact, and products, quotients, parentheses, powers and roots have been worked into them.
+/// exact; products, quotients, parentheses, powers and roots are resolved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Factor {
@@ -18,7 +18,7 @@ pub struct Factor {
     pub exponent: Exponent,
 }
 
-/// What a factor of a unit raises to its exponent.
+/// The base of a factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum FactorBase {
@@ -63,8 +63,8 @@ impl fmt::Display for FactorBase {
     }
 }
 
-/// Factors as one text, the same for every spelling: the factors that multiply, in order, then
-/// those that divide. Numbers keep their exponents.
+/// Factors as one text, the same for every spelling: first the factors that multiply, in order,
+/// then those that divide. Numbers keep their exponents.
 pub(super) fn normal_text(factors: &[Factor]) -> String {
     let divides = |factor: &Factor| {
         factor.exponent.numerator() < 0 && !matches!(factor.base, FactorBase::Number(_))

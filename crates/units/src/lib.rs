@@ -9,10 +9,11 @@
 //!
 //! Three things to know:
 //!
-//! * `degC` has the dimension of temperature and the factor 1, because a difference of 1 degC is
-//!   1 K. What is a value and not a difference counts from a zero of its own, [`Unit::zero`]:
-//!   [`Unit::convert`] adds 273.15, factors never do. So do `degF` and levels such as `dBm`.
-//! * Levels in `dB` and `Np` are numbers without being ratios; they convert into each other only.
+//! * `degC` has the dimension of temperature and the factor 1, because a difference of 1 degC is 1
+//!   K. A value, unlike a difference, counts from a zero of its own, [`Unit::zero`]:
+//!   [`Unit::convert`] adds 273.15, factors never do. The same applies to `degF` and to levels such
+//!   as `dBm`.
+//! * Levels in `dB` and `Np` are plain numbers but not ratios; they convert only into each other.
 //! * Angles are dimensionless, so `deg`, `rad`, `%` and `1` convert into each other.
 //! * `g` is the gram and `mg` the milligram; the standard acceleration of free fall is `g_n`.
 
@@ -111,15 +112,14 @@ impl Unit {
     ///
     /// # Errors
     ///
-    /// [`UnitError`] says what is wrong, where, and what may be meant. No text makes this panic or
-    /// take long.
+    /// [`UnitError`] says what is wrong, where, and what may be meant. No text causes a panic or a
+    /// long run time.
     pub fn parse(text: &str) -> Result<Self, UnitError> {
         let (meaning, factors) = parse::parse(text)?;
         Ok(Self::new(text.to_owned(), meaning, factors))
     }
 
-    /// Reads a unit from text in which units with names of their own may stand, as
-    /// [`Unit::defined`] makes them.
+    /// Reads a unit from a text that may contain units defined by [`Unit::defined`].
     ///
     /// # Errors
     ///
@@ -139,13 +139,13 @@ impl Unit {
         Ok(Self::new(text.to_owned(), meaning, factors))
     }
 
-    /// A unit with a name of its own that is as large as another: the hardness `HBW`, which is a
-    /// plain number. Its dimension and size are those of the definition, its text is the name.
+    /// A unit with its own name and the size of another unit: the hardness `HBW`, which is a plain
+    /// number. Its dimension and size are those of the definition, its text is the name.
     ///
     /// # Errors
     ///
-    /// Why the name cannot be one: it is not of letters and digits with a letter in front, it is
-    /// that of a unit already, or there are too many names.
+    /// The name is not of letters and digits with a letter in front, it is the name of a unit
+    /// already, or there are too many names.
     ///
     /// ```
     /// use gumption_units::Unit;
@@ -177,8 +177,8 @@ impl Unit {
         Meaning { dimension: self.dimension, scale: self.scale, flavour: self.flavour }
     }
 
-    /// Whether its values are more than a size: temperatures and levels with a zero, shares, angles
-    /// and numbers of periods.
+    /// Whether its values have a kind besides their size: temperatures and levels with a zero,
+    /// fractions, angles and numbers of periods.
     fn has_kind(&self) -> bool {
         self.flavour != Flavour::Plain
             || self.turn().is_some()
@@ -190,9 +190,9 @@ impl Unit {
         &self.text
     }
 
-    /// The factors that the unit is the product of, in the order in which they are written; none for
-    /// the number 1. Every spelling of a unit has the same: `m/s^2`, `m·s⁻²`, `m s**-2`. Factors of
-    /// one unit are not merged: `um/m` and `s*s` have two each.
+    /// The factors whose product is the unit, in the order in which they are written; none for the
+    /// number 1. Every spelling of a unit has the same: `m/s^2`, `m·s⁻²`, `m s**-2`. Factors of one
+    /// unit are not merged: `um/m` and `s*s` have two each.
     pub fn factors(&self) -> &[Factor] {
         &self.factors
     }
@@ -212,7 +212,7 @@ impl Unit {
     /// 1 for `degC`.
     ///
     /// A normal positive number. It is the nearest `f64` to the exact value unless roots or very
-    /// long literals are involved; then it is within a few units in the last place.
+    /// long literals occur; then it is within a few units in the last place.
     pub fn factor(&self) -> f64 {
         self.factor
     }
@@ -222,8 +222,8 @@ impl Unit {
         self.flavour == Flavour::Celsius
     }
 
-    /// The zero that values in the unit count from: that of the Celsius scale for `degC` and `degF`,
-    /// the reference for `dBm`. `None` for every other unit.
+    /// The zero from which values in the unit count: the zero of the Celsius scale for `degC` and
+    /// `degF`, the reference for `dBm`. `None` for every other unit.
     pub fn zero(&self) -> Option<Zero> {
         match self.flavour {
             Flavour::Celsius => Some(Zero::Celsius),
@@ -232,24 +232,24 @@ impl Unit {
         }
     }
 
-    /// Whether values in the unit are levels above a reference: those in `dBm`, not those in `dB`.
+    /// Whether values in the unit are levels with a reference: true for `dBm`, false for `dB`.
     pub fn has_reference(&self) -> bool {
         matches!(self.flavour, Flavour::Level(Some(_)))
     }
 
-    /// The exponent of the decibels (or nepers) in the unit: 1 for `dB` and `dB/m`, 0 without any.
+    /// The exponent of the decibels (or nepers) in the unit: 1 for `dB` and `dB/m`, 0 without them.
     pub fn level_exponent(&self) -> Exponent {
         self.exponent_of(|symbol| matches!(symbol.flavour, Flavour::Level(_)))
     }
 
-    /// The exponent of the degrees Celsius in the unit: -1 for `ppm/degC`. Those of Fahrenheit are none:
-    /// temperatures in `degF` are computed with as numbers of degrees Celsius, which a coefficient per
-    /// degree Fahrenheit cannot be multiplied by.
+    /// The exponent of the degrees Celsius in the unit: -1 for `ppm/degC`. Degrees Fahrenheit do
+    /// not count: formulas compute temperatures in `degF` as numbers of degrees Celsius, which a
+    /// coefficient per degree Fahrenheit must not multiply.
     pub fn celsius_exponent(&self) -> Exponent {
         self.exponent_of(|symbol| symbol.flavour == Flavour::Celsius && symbol.name() != "degF")
     }
 
-    /// The exponent that the symbols of a kind have together; 0 if that is out of range.
+    /// The total exponent of the symbols of a kind; 0 if that is out of range.
     fn exponent_of(&self, is_of_kind: impl Fn(&Symbol) -> bool) -> Exponent {
         let of_kind = self.factors.iter().filter(|factor| match factor.base {
             FactorBase::Named { symbol, .. } => is_of_kind(symbol),
@@ -261,8 +261,8 @@ impl Unit {
         sum.unwrap_or(Exponent::ZERO)
     }
 
-    /// What numbers in the unit count, for plain numbers and for powers of time: angle in `rad`,
-    /// `deg/s`, `rpm`, periods in `Hz`; `None` for `1/s`, `Bq`, and for other dimensions.
+    /// What numbers in the unit count, for plain numbers and powers of time: angle for `rad`,
+    /// `deg/s`, `rpm`, periods for `Hz`; `None` for `1/s`, `Bq`, and for other dimensions.
     pub fn turn(&self) -> Option<Turn> {
         let of = |wanted: fn(&str) -> bool| {
             let exponents = self.factors.iter().filter_map(|factor| match factor.base {
@@ -279,16 +279,16 @@ impl Unit {
         }
     }
 
-    /// What is added to a value in the unit, times its size, for the number that formulas compute
-    /// with: -160/9 for `degF`, and 0 for every other unit.
+    /// The offset that is added to a value in the unit, times its size, to give the number with
+    /// which formulas compute: -160/9 for `degF`, and 0 for every other unit.
     pub fn offset(&self) -> f64 {
         let is_fahrenheit = self.flavour == Flavour::Celsius && self.factor != 1.0;
         if is_fahrenheit { FAHRENHEIT_OFFSET } else { 0.0 }
     }
 
-    /// Whether values in both units count from the same zero, so that a quantity and a difference of
-    /// quantities are converted alike: those in `mm` and `m`, in `K` and `mK`; not those in `degC` and
-    /// `K`, nor in `degC` and `degF`.
+    /// Whether values in both units count from the same zero, so that a quantity and a difference
+    /// of quantities convert in the same way: true for `mm` and `m`, `K` and `mK`; false for `degC`
+    /// and `K`, and for `degC` and `degF`.
     pub fn has_zero_of(&self, other: &Self) -> bool {
         self.zero() == other.zero() && self.offset() == other.offset()
     }
@@ -300,9 +300,9 @@ impl Unit {
 
     /// A value in this unit, converted to the coherent SI unit. Degrees Celsius are not shifted.
     ///
-    /// Rounded once where the size of the unit is a quotient of moderate integers, as in `mm` or
-    /// `km/h`: 9 mm is 0.009 m to the last bit. This may differ from a multiplication by
-    /// [`Unit::factor`] in the last bit.
+    /// Rounded once if the size of the unit is a quotient of moderate integers, as for `mm` or
+    /// `km/h`: 9 mm is exactly the `f64` nearest to 0.009 m. A multiplication by [`Unit::factor`]
+    /// may differ in the last bit.
     pub fn to_si(&self, value: f64) -> f64 {
         match self.fraction {
             Some((numerator, denominator)) => {
@@ -325,7 +325,7 @@ impl Unit {
         }
     }
 
-    /// A value in this unit as the number that formulas compute with: as [`Unit::to_si`], and for
+    /// A value in this unit as the number with which formulas compute: as [`Unit::to_si`], but for
     /// degrees Fahrenheit the number of degrees Celsius.
     pub fn value_to_si(&self, value: f64) -> f64 {
         match self.offset() {
@@ -334,8 +334,8 @@ impl Unit {
         }
     }
 
-    /// The number that formulas compute with as a value in this unit: as [`Unit::from_si`], and for
-    /// degrees Fahrenheit from the number of degrees Celsius.
+    /// The number with which formulas compute as a value in this unit: as [`Unit::from_si`], but
+    /// for degrees Fahrenheit from the number of degrees Celsius.
     pub fn value_from_si(&self, value: f64) -> f64 {
         match self.offset() {
             0.0 => self.from_si(value),
@@ -350,8 +350,8 @@ impl Unit {
     ///
     /// # Errors
     ///
-    /// [`IncompatibleUnits`] as of [`Unit::conversion_factor`], and if the levels have references that
-    /// are not levels of one kind of quantity.
+    /// [`IncompatibleUnits`] under the conditions of [`Unit::conversion_factor`], and if the
+    /// references of levels belong to different kinds of quantity.
     pub fn convert(value: f64, from: &Self, to: &Self) -> Result<f64, IncompatibleUnits> {
         let factor = Self::conversion_factor(from, to)?;
         let shift = Zero::shift(from.zero(), to.zero());
@@ -362,7 +362,7 @@ impl Unit {
         Ok(to.value_from_si(from.value_to_si(value) + shift))
     }
 
-    /// Words for an error message: what the unit measures.
+    /// What the unit measures, in words for an error message.
     pub fn describe(&self) -> String {
         match (self.flavour, self.turn()) {
             (Flavour::Level(_), _) => format!("a level ({})", self.text.trim()),
@@ -400,7 +400,7 @@ impl Unit {
         }
     }
 
-    /// Whether the unit is one of revolutions: `rpm`, `rev/s`.
+    /// Whether the unit contains revolutions: `rpm`, `rev/s`.
     pub fn counts_revolutions(&self) -> bool {
         self.factors.iter().any(|factor| match factor.base {
             FactorBase::Named { symbol, .. } => matches!(symbol.name(), "rpm" | "rev" | "turn"),
@@ -408,19 +408,19 @@ impl Unit {
         })
     }
 
-    /// The exponent of angle in the unit: 1 for `rpm` and `rad/s`, -1 for `V/rpm`, 0 without any.
+    /// The exponent of angle in the unit: 1 for `rpm` and `rad/s`, -1 for `V/rpm`, 0 without angle.
     pub fn angle_exponent(&self) -> Exponent {
         self.exponent_of(|symbol| is_angle(symbol.name()))
     }
 
-    /// Whether angle stands in the unit, in any power: `deg`, `V/rpm`, `1/rev`.
+    /// Whether the unit contains angle, in any power: `deg`, `V/rpm`, `1/rev`.
     pub fn counts_angle(&self) -> bool {
         Counted::of(self).angle
     }
 
-    /// Whether numbers in both units count the same: not periods and angle, in whatever power, as in
-    /// `V/Hz` and `V/rpm`; nor revolutions, or degrees per time, and what may be revolutions or radians, as
-    /// in `1/min`.
+    /// Whether numbers in both units count the same. Not so for periods and angle, in any power, as
+    /// in `V/Hz` and `V/rpm`; nor for revolutions, or degrees per time, and a unit that may mean
+    /// revolutions or radians, such as `1/min`.
     fn counts_as(&self, other: &Self) -> bool {
         let own = Counted::of(self);
         let others = Counted::of(other);
@@ -433,19 +433,20 @@ impl Unit {
             || is_open(others, other) && unsaid(own))
     }
 
-    /// Whether the other unit has the same dimension, and is one of levels if this one is.
+    /// Whether the other unit has the same dimension, and is a level if this one is.
     pub fn is_compatible(&self, other: &Self) -> bool {
         self.dimension == other.dimension && self.level_exponent() == other.level_exponent()
     }
 
-    /// What a value in the unit `from` is to be multiplied by to get it in the unit `to`: 1000 from
-    /// `m` to `mm`. Computed from the exact sizes, not from the rounded factors. May be infinite or
-    /// zero if the sizes are more than about 300 powers of ten apart.
+    /// The factor by which a value in the unit `from` is multiplied to give the value in the unit
+    /// `to`: 1000 from `m` to `mm`. Computed from the exact sizes, not from the rounded factors.
+    /// May be infinite or zero if the sizes differ by more than about 300 powers of ten.
     ///
     /// # Errors
     ///
-    /// [`IncompatibleUnits`] if the dimensions differ, if one only is a level, if one is a frequency in
-    /// `Hz` and the other counts angle, or if one counts revolutions and the other nothing, as `1/min`.
+    /// [`IncompatibleUnits`] if the dimensions differ, if only one unit is a level, if one is a
+    /// frequency in `Hz` and the other counts angle, or if one counts revolutions and the other
+    /// nothing, as `1/min`.
     pub fn conversion_factor(from: &Self, to: &Self) -> Result<f64, IncompatibleUnits> {
         if !from.is_compatible(to) || !from.counts_as(to) {
             return Err(Self::incompatible(from, to));
@@ -455,14 +456,14 @@ impl Unit {
     }
 }
 
-/// What stands in a unit, in any power, that numbers in it count.
+/// What numbers in a unit count, in any power.
 #[derive(Clone, Copy)]
 struct Counted {
     /// Angle of any kind.
     angle: bool,
     /// Revolutions.
     revolutions: bool,
-    /// Degrees and their parts, which are no coherent unit.
+    /// Degrees and their parts, which are not coherent units.
     degrees: bool,
     /// Periods.
     periods: bool,
@@ -508,12 +509,12 @@ impl FromStr for Unit {
 }
 
 impl Unit {
-    /// Whether there is anything to write behind a number: not of the unit one.
+    /// Whether there is a unit to write after a number: false for the unit one.
     pub fn has_name(&self) -> bool {
         !matches!(self.text.trim(), "" | "1")
     }
 
-    /// A number with the unit behind it, if that has a name.
+    /// A number followed by the unit, unless the unit is 1.
     ///
     /// ```
     /// use gumption_units::Unit;

@@ -1,7 +1,7 @@
-//! Names and numbers one after the other in a sentence.
+//! Lists of names and numbers in a sentence.
 
-/// "a", "a and b", "a, b and c": all but the last parted by commas, `last_word` with its spaces before
-/// the last.
+/// "a", "a and b", "a, b and c": separated by commas, with `last_word` and its spaces before the
+/// last item.
 ///
 /// ```
 /// use gumption_units::listed;

@@ -1,10 +1,10 @@
-//! The names: which unit symbols and prefixes exist, and what each stands for.
+//! Unit symbols and prefixes, and their meanings.
 
 use super::dimension::Dimension;
 use super::scale::Scale;
 use super::zero::Zero;
 
-/// What a unit is besides its size.
+/// The kind of a unit besides its size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Flavour {
     /// Nothing special.
@@ -13,16 +13,16 @@ pub(super) enum Flavour {
     Celsius,
     /// A fraction of something: %, ppm, ...
     Relative,
-    /// A level in decibels or nepers, above a reference or as a difference.
+    /// A level in decibels or nepers, with a reference or as a difference.
     Level(Option<Zero>),
 }
 
-/// A unit with a symbol of its own, in every spelling that is read, and its names elsewhere.
+/// A unit symbol with all its accepted spellings, and its names in other systems.
 ///
-/// Two symbols are equal if they are the same unit: `Ω` and `ohm` are read as one symbol.
+/// Two symbols are equal if they are the same unit: `Ω` and `ohm` are one symbol.
 #[derive(Debug)]
 pub struct Symbol {
-    /// The symbol, in letters that can be typed on any keyboard where there is such a spelling.
+    /// The symbol, if possible in letters of any keyboard.
     name: &'static str,
     /// Other spellings.
     also: &'static [&'static str],
@@ -32,9 +32,9 @@ pub struct Symbol {
     fraction: (u64, u64),
     decimal: i32,
     pi: i8,
-    /// Whether an SI prefix may stand before it.
+    /// Whether an SI prefix may precede it.
     pub(super) prefixes: bool,
-    /// What it is besides its size.
+    /// Its kind besides its size.
     pub(super) flavour: Flavour,
     dsi: Option<&'static str>,
     siunitx: Option<&'static str>,
@@ -63,13 +63,13 @@ impl Symbol {
         Scale::new(self.fraction.0, self.fraction.1, self.decimal, self.pi)
     }
 
-    /// Whether an SI prefix may stand before it.
+    /// Whether an SI prefix may precede it.
     pub const fn takes_prefixes(&self) -> bool {
         self.prefixes
     }
 
-    /// Whether this prefix may: `Grad` is the German word for a degree, and nobody measures in
-    /// gigaradians; of the tonne there are only kilotonnes and larger ones, as a `ct` is a carat.
+    /// Whether it takes this prefix. `Grad` is the German word for degree, and nobody measures in
+    /// gigaradians; the tonne takes only kilo and larger prefixes, since `ct` is a carat.
     pub(super) fn takes(&self, prefix: &Prefix) -> bool {
         self.prefixes
             && match self.name {
@@ -84,17 +84,17 @@ impl Symbol {
         std::iter::once(self.name).chain(self.also.iter().copied())
     }
 
-    /// The same symbol, also in other spellings.
+    /// The same symbol with additional spellings.
     const fn also(self, also: &'static [&'static str]) -> Self {
         Self { also, ..self }
     }
 
-    /// The same symbol with its name in D-SI and in siunitx.
+    /// The same symbol with its name in D-SI and siunitx.
     const fn named(self, name: &'static str) -> Self {
         Self { dsi: Some(name), siunitx: Some(name), ..self }
     }
 
-    /// The same symbol with a name in D-SI alone.
+    /// The same symbol with a name only in D-SI.
     const fn dsi(self, name: &'static str) -> Self {
         Self { dsi: Some(name), ..self }
     }
@@ -245,7 +245,7 @@ pub(super) static SYMBOLS: &[Symbol] = &[
     si("kat", [0, 0, -1, 0, 0, 1, 0], 0).named("katal"),
     celsius("degC").also(&["°C", "℃"]),
     fahrenheit("degF").also(&["°F", "℉"]),
-    // Products with a symbol of their own in use.
+    // Common products with a symbol of their own.
     si("Nm", ENERGY, 0),
     si("VA", POWER, 0),
     si("var", POWER, 0),
@@ -390,7 +390,7 @@ pub fn symbols() -> impl Iterator<Item = &'static Symbol> {
     SYMBOLS.iter()
 }
 
-/// Every SI prefix, the commonest first.
+/// Every SI prefix, the most common first.
 pub fn prefixes() -> impl Iterator<Item = &'static Prefix> {
     PREFIXES.iter()
 }
@@ -400,7 +400,7 @@ pub(super) fn symbol(name: &str) -> Option<&'static Symbol> {
     SYMBOLS.iter().find(|symbol| symbol.spellings().any(|spelling| spelling == name))
 }
 
-/// Every way to read a name as a prefix before a symbol, allowed or not, with the spelling of each.
+/// Every way to read a name as a prefix and a symbol, allowed or not, with the spelling of each.
 pub(super) fn prefixed<'n>(name: &'n str) -> impl Iterator<Item = Prefixed<'n>> {
     prefix_spellings().filter_map(move |(spelling, prefix)| {
         let unit = name.strip_prefix(spelling)?;
@@ -413,7 +413,7 @@ pub(super) fn prefix_spellings() -> impl Iterator<Item = (&'static str, &'static
     PREFIXES.iter().flat_map(|prefix| prefix.spellings().map(move |spelling| (spelling, prefix)))
 }
 
-/// A name read as a prefix before a symbol.
+/// A name read as a prefix and a symbol.
 #[derive(Debug)]
 pub(super) struct Prefixed<'n> {
     /// The prefix.
@@ -426,9 +426,9 @@ pub(super) struct Prefixed<'n> {
     pub(super) unit: &'n str,
 }
 
-/// A name read as a unit: a symbol as it stands first (so that `min` is a minute, `ft` a foot,
-/// `Pa` a pascal and `cd` a candela), then a prefix and a symbol that takes one. No name has two
-/// readings of the second kind.
+/// A name read as a unit: first as a symbol (so that `min` is a minute, `ft` a foot, `Pa` a pascal
+/// and `cd` a candela), then as a prefix and a symbol that takes one. No name has two readings of
+/// the second kind.
 pub(super) fn read(name: &str) -> Option<(Option<&'static Prefix>, &'static Symbol)> {
     match symbol(name) {
         Some(symbol) => Some((None, symbol)),
@@ -444,18 +444,18 @@ pub(super) fn is_unit(name: &str) -> bool {
     read(name).is_some()
 }
 
-/// What a text means besides its factors.
+/// The meaning of a text besides its factors.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Meaning {
     /// The dimension.
     pub(super) dimension: Dimension,
     /// The size in coherent SI units.
     pub(super) scale: Scale,
-    /// What it is besides its size.
+    /// Its kind besides its size.
     pub(super) flavour: Flavour,
 }
 
-/// The meaning of a symbol after a prefix or none.
+/// The meaning of a symbol, with or without a prefix.
 pub(super) fn meaning(prefix: Option<&Prefix>, symbol: &Symbol) -> Option<Meaning> {
     let power = prefix.map_or(Scale::ONE, |prefix| Scale::power_of_ten(prefix.decimal));
     Some(Meaning {

@@ -1,16 +1,16 @@
-//! Names that a user probably meant: one rule for units, names in formulas, and keys and names of
-//! files.
+//! Finds names that a user probably meant. The same rule holds for units, names in formulas, keys
+//! and file names.
 
-/// The longest name that is compared, in letters.
+/// Names longer than this, in letters, are not compared.
 const LONGEST: usize = 64;
 
-/// The fewest letters of a part of names.
+/// Minimum length of a partial name, in letters.
 const SHORTEST_PART: usize = 4;
 
 /// The most names given.
 const MOST: usize = 3;
 
-/// The known name nearest to `found`, if one is near: the first of [`all_nearest`].
+/// The known name nearest to `found`, if one is near enough: the first of [`all_nearest`].
 ///
 /// ```
 /// use gumption_units::nearest;
@@ -23,15 +23,15 @@ pub fn nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) -> Opt
     all_nearest(found, known).into_iter().next()
 }
 
-/// The known names nearest to `found`, if any is near: all those at the least distance, the first
-/// three of them, in the order of `known`.
+/// The known names nearest to `found`, if any is near enough: up to three names at the least
+/// distance, in the order of `known`.
 ///
-/// The distance counts letters left out, put in, changed, and swapped with their neighbour
-/// (Damerau and Levenshtein). At most a third of the letters of `found` may differ, rounded to the
-/// nearest whole number, and at least one letter must not. Where none is so near, those count that
-/// `found`, if it has four letters or more, is a part of, or is near to a word of (words are parted by
-/// `-` or `_`). Case does not count, nor does `-` for `_`,
-/// nor the micro sign for the Greek letter. Names of more than 64 letters are not compared.
+/// The distance counts omitted, inserted, changed and swapped letters (Damerau and Levenshtein). At
+/// most a third of the letters of `found` may differ, rounded to the nearest whole number, and at
+/// least one letter must agree. If no name is that near, `found` matches a name of which it is a
+/// part, or a word of which it is near (words are separated by `-` or `_`); this requires four
+/// letters or more. Case is ignored, `-` equals `_`, and the micro sign equals the Greek letter.
+/// Names of more than 64 letters are not compared.
 ///
 /// ```
 /// use gumption_units::all_nearest;

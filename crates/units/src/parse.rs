@@ -18,11 +18,12 @@
 //!          | "%" or "‰", then letters | apostrophes, primes, quotation marks
 //! ```
 //!
-//! Products and quotients have the same rank and are taken from left to right, as in formulas:
-//! `J/kg*K` is `(J/kg)*K`, `a/b/c` is `a/(b*c)`. A product that is written with a space or a dot after
-//! a quotient, `J/kg K`, means `J/(kg K)` to most who write it: it is refused, and both are named
-//! (ISO 80000-1:2022 allows it with parentheses only). So is a symbol with a space in it, `° C`. A number in parentheses behind a unit without a
-//! sign, `V (23)`, is refused: it may be an uncertainty. Spaces are allowed around every operator.
+//! Products and quotients have the same rank and are read from left to right, as in formulas:
+//! `J/kg*K` is `(J/kg)*K`, `a/b/c` is `a/(b*c)`. A product written with a space or a dot after a
+//! quotient, `J/kg K`, means `J/(kg K)` to most writers. It is an error, and the message names both
+//! readings (ISO 80000-1:2022 allows it with parentheses only). A symbol with a space in it, `° C`,
+//! is an error too. A number in parentheses after a unit without an operator, `V (23)`, is an
+//! error: it may be an uncertainty. Spaces are allowed around every operator.
 
 use std::ops::Range;
 
@@ -35,13 +36,13 @@ use super::power::superscript;
 use super::scale::Scale;
 use super::{Unit, suggest};
 
-/// The longest text read, in bytes.
+/// The longest accepted text, in bytes.
 pub(super) const MAX_LENGTH: usize = 256;
 
 /// The deepest nesting of parentheses and roots.
 pub(super) const MAX_DEPTH: usize = 16;
 
-/// The largest exponent of a number such as the 10 in `10^-6`, in size.
+/// The largest exponent of a number such as the 10 in `10^-6`, in absolute value.
 const MAX_NUMBER_EXPONENT: u32 = 300;
 
 const FACTOR: &str = "a unit, a positive number or `(`";
@@ -49,7 +50,7 @@ const OPERATOR: &str = "`*`, `/`, `^` or the end of the unit";
 const SECOND_EXPONENT: &str =
     "`*`, `/` or the end of the unit, because a unit takes one exponent only";
 
-/// Symbols that are another unit when a space stands in them: what stands before it, what behind it,
+/// Symbols that become another unit if they contain a space: the part before it, the part after it,
 /// and the symbol. `° C` would be degree times coulomb, `% RH` a per cent of a ronnahenry.
 const SPLIT: &[(&[&str], &[&str], &str)] = &[
     (&["°", "deg", "˚"], &["C"], "degC"),
@@ -59,19 +60,19 @@ const SPLIT: &[(&[&str], &[&str], &str)] = &[
     (&["dB"], &["m"], "dBm"),
 ];
 
-/// The exponent of what is divided by.
+/// The exponent of a divisor.
 const MINUS_ONE: Exponent = Exponent::integer(-1);
 
 /// The number 1.
 pub(super) const ONE: Meaning =
     Meaning { dimension: Dimension::NONE, scale: Scale::ONE, flavour: Flavour::Plain };
 
-/// Reads a whole text without units of a file's own: its meaning and its factors.
+/// Reads a whole text without units that a file defines: its meaning and its factors.
 pub(super) fn parse(text: &str) -> Result<(Meaning, Vec<Factor>), UnitError> {
     parse_among(text, &[])
 }
 
-/// Reads a whole text, in which these units of a file's own may stand: its meaning and its factors.
+/// Reads a whole text that may contain the units `own` of a file: its meaning and its factors.
 pub(super) fn parse_among(text: &str, own: &[Unit]) -> Result<(Meaning, Vec<Factor>), UnitError> {
     if text.len() > MAX_LENGTH {
         return Err(UnitError::TooLong { length: text.len(), limit: MAX_LENGTH });
@@ -100,7 +101,8 @@ pub(super) fn parse_among(text: &str, own: &[Unit]) -> Result<(Meaning, Vec<Fact
     Ok((meaning, parser.factors))
 }
 
-/// Refuses `W/mK`, by which most mean the conductivity in W/(m K), and some a conductance per millikelvin.
+/// Rejects `W/mK`: most writers mean the conductivity in W/(m K), some a conductance per
+/// millikelvin.
 fn refuse_conductivity(text: &str, factors: &[Factor], start: usize) -> Result<(), UnitError> {
     let [watt, kelvin] = factors else { return Ok(()) };
     let is = |factor: &Factor, name: &str, exponent: Exponent| match factor.base {
@@ -120,17 +122,17 @@ fn refuse_conductivity(text: &str, factors: &[Factor], start: usize) -> Result<(
     Ok(())
 }
 
-/// A text and how far it has been read.
+/// A text, and the position up to which it has been read.
 pub(super) struct Parser<'t> {
     pub(super) text: &'t str,
     pub(super) at: usize,
     /// Units that the file defines.
     own: &'t [Unit],
-    /// The factors read. Those of a group or behind a division are raised when it ends.
+    /// The factors read so far. Those of a group or of a divisor get their exponent when it ends.
     factors: Vec<Factor>,
 }
 
-/// What kind of factor has been read, for the rules that depend on it.
+/// The kind of factor that has been read, for the rules that depend on it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Number,
@@ -152,7 +154,7 @@ impl<'t> Parser<'t> {
         Self { text, at, own: &[], factors: Vec::new() }
     }
 
-    /// What has not been read yet.
+    /// The part that has not been read yet.
     pub(super) fn rest(&self) -> &'t str {
         self.slice(self.at..self.text.len())
     }
@@ -167,7 +169,7 @@ impl<'t> Parser<'t> {
         self.rest().chars().next()
     }
 
-    /// The place of the next character.
+    /// The span of the next character.
     pub(super) fn next_span(&self) -> Range<usize> {
         self.at..self.at + self.peek().map_or(0, char::len_utf8)
     }
@@ -189,7 +191,7 @@ impl<'t> Parser<'t> {
         &rest[..end]
     }
 
-    /// Reads white space; whether there was any.
+    /// Skips white space; whether there was any.
     pub(super) fn skip_space(&mut self) -> bool {
         !self.take_while(char::is_whitespace).is_empty()
     }
@@ -200,7 +202,7 @@ impl<'t> Parser<'t> {
         UnitError::UnexpectedCharacter { found, span: self.next_span(), expected, suggestion }
     }
 
-    /// Reads factors up to the end or a closing parenthesis. Something other than space is next.
+    /// Reads factors up to the end or a closing parenthesis. The next character is not a space.
     fn product(&mut self, depth: usize) -> Result<Meaning, UnitError> {
         if let [b'.', b'0'..=b'9', ..] = self.rest().as_bytes() {
             let mut ahead = Parser::new(self.text, self.at + 1);
@@ -239,7 +241,7 @@ impl<'t> Parser<'t> {
                         && (spaced || last.kind == Kind::Number && !last.has_exponent) =>
                 {
                     self.refuse_split(&last, end)?;
-                    // half a millimetre, 1/2 mm, is read in one way only, and `g/100 g` is not
+                    // half a millimetre, 1/2 mm, has only one reading, and `g/100 g` has not
                     let is_number = |solidus: usize| {
                         !self
                             .slice(start..solidus)
@@ -263,7 +265,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Reads an operator and makes sure that a factor follows.
+    /// Reads an operator and checks that a factor follows.
     fn operator(&mut self) -> Result<(), UnitError> {
         let span = self.next_span();
         self.at = span.end;
@@ -277,9 +279,9 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Refuses a group without a sign before it that begins with a number, or in which a number stands
-    /// among numbers and shares alone, or a share alone: `V (23)`, `ohm (0.1 %)`, `V (%)`. Its factors
-    /// begin at `from`.
+    /// Rejects a group without an operator before it that begins with a number, contains a number
+    /// among numbers and fractions only, or is a single fraction: `V (23)`, `ohm (0.1 %)`, `V (%)`.
+    /// Its factors begin at `from`.
     fn refuse_number(&self, start: usize, from: usize) -> Result<(), UnitError> {
         let group = self.slice(start..self.at);
         let inside = group.trim_start_matches(|c: char| c == '(' || c.is_whitespace());
@@ -302,8 +304,8 @@ impl<'t> Parser<'t> {
         Ok(())
     }
 
-    /// What has been read since `start` has a factor behind the quotient that ends at `end`, whose
-    /// solidus stands at `solidus`: is the quotient divided by it, or multiplied?
+    /// The text read since `start` has a factor after the quotient that ends at `end`, with the
+    /// solidus at `solidus`: does the factor divide or multiply the quotient?
     fn ambiguous_product(&self, start: usize, solidus: usize, end: usize) -> UnitError {
         let [whole, dividend, divisor] = [start..self.at, start..solidus, solidus + 1..self.at]
             .map(|span| self.slice(span).trim());
@@ -317,7 +319,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Refuses a space in what is one symbol without it; the factor before the space ends at `end`.
+    /// Rejects a space inside a symbol; the factor before the space ends at `end`.
     fn refuse_split(&self, last: &Power, end: usize) -> Result<(), UnitError> {
         let before = self.slice(last.start..end);
         let mut ahead = Parser::new(self.text, self.at);
@@ -336,13 +338,13 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Neither an operator nor a factor follows where one must; `end` is where `last` ends.
+    /// The error if neither an operator nor a factor follows; `end` is where `last` ends.
     fn no_operator(&self, last: &Power, end: usize) -> UnitError {
         let next = self.peek().unwrap_or(' ');
         if last.has_exponent && (next == '^' || superscript(next).is_some()) {
             return self.unexpected(SECOND_EXPONENT, None);
         }
-        // `m-3` and `m 2` are powers without their sign, `10 000` is one number.
+        // `m-3` and `m 2` are powers without their operator, `10 000` is one number.
         let mut ahead = Parser::new(self.text, self.at);
         let sign = if ahead.sign() { "-" } else { "" };
         let digits = ahead.take_while(|c| c.is_ascii_digit());
@@ -368,8 +370,7 @@ impl<'t> Parser<'t> {
         })
     }
 
-    /// The product or quotient of what has been read since `start`, if the exponents of its factors
-    /// fit.
+    /// The product or quotient of the text read since `start`, if the exponents of its factors fit.
     fn combine(
         &self,
         left: Meaning,
@@ -390,7 +391,7 @@ impl<'t> Parser<'t> {
         self.meaning(dimension.filter(|_| fits), scale, Flavour::Plain, span)
     }
 
-    /// A meaning of which both parts must be in range.
+    /// A meaning whose parts must both be in range.
     fn meaning(
         &self,
         dimension: Option<Dimension>,
@@ -462,7 +463,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Reads a product in parentheses; the opening one is next.
+    /// Reads a product in parentheses; the opening one is the next character.
     fn group(&mut self, start: usize, depth: usize) -> Result<(Meaning, Kind), UnitError> {
         let open = self.next_span();
         let depth = deeper(depth, open.clone())?;
@@ -485,7 +486,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// The square root of what has been read since `start`, of the factors from an index on.
+    /// The square root of the text read since `start`, with the factors from an index on.
     fn root(
         &mut self,
         inner: Meaning,
@@ -499,7 +500,7 @@ impl<'t> Parser<'t> {
         Ok((meaning, Kind::Group))
     }
 
-    /// Reads a number; a digit is next.
+    /// Reads a number; the next character is a digit.
     fn number(&mut self) -> Result<(Meaning, Kind), UnitError> {
         let start = self.at;
         self.take_while(|c| c.is_ascii_digit());
@@ -536,7 +537,7 @@ impl<'t> Parser<'t> {
         (end.len() < digits.len()).then_some(rest.len() - end.len())
     }
 
-    /// Reads a name; its first character is next.
+    /// Reads a name; the next character is its first one.
     fn name(&mut self, depth: usize) -> Result<(Meaning, Kind), UnitError> {
         let (start, from) = (self.at, self.factors.len());
         match self.peek() {
@@ -580,7 +581,7 @@ impl<'t> Parser<'t> {
     }
 }
 
-/// One level deeper, if that is allowed.
+/// The next nesting level, if it is allowed.
 fn deeper(depth: usize, span: Range<usize>) -> Result<usize, UnitError> {
     if depth >= MAX_DEPTH {
         return Err(UnitError::NestedTooDeep { span, limit: MAX_DEPTH });
@@ -593,7 +594,7 @@ fn is_operator(c: char) -> bool {
     matches!(c, '*' | '/' | '.' | '·' | '⋅' | '×')
 }
 
-/// Apostrophes and primes, also those that are not units but easily taken for them.
+/// Apostrophes and primes, and characters that look like them.
 fn is_quote(c: char) -> bool {
     matches!(c, '\'' | '"' | '′' | '″' | '’' | '‘' | '“' | '”' | '`' | '´')
 }

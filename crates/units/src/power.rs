@@ -1,4 +1,4 @@
-//! Reading the exponent of a power; the grammar stands at the top of `parse.rs`.
+//! Reads the exponent of a power; the grammar is at the top of `parse.rs`.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use super::parse::Parser;
 pub(super) struct Read {
     /// Its value.
     pub(super) exponent: Exponent,
-    /// Where it stands, without the power sign.
+    /// Its span, without the power sign.
     pub(super) span: Range<usize>,
     /// Written as `^2`, without parentheses or a point.
     pub(super) bare: bool,
@@ -69,7 +69,7 @@ impl Parser<'_> {
         Ok(Some(Read { exponent: value, span, bare: bare && !inner.contains('.') }))
     }
 
-    /// Refuses `Hz^1/2`: a bare whole exponent before a division by a small whole number.
+    /// Rejects `Hz^1/2`: a bare whole exponent before a division by a small whole number.
     pub(super) fn refuse_ambiguous(
         &self,
         base: Range<usize>,
@@ -104,8 +104,8 @@ impl Parser<'_> {
     }
 }
 
-/// The value of an exponent: `2`, `-3`, `1/2`, `0.5`, with spaces. `written` is the whole of it,
-/// standing at `span`.
+/// The value of an exponent: `2`, `-3`, `1/2`, `0.5`, with spaces. `written` is the whole text at
+/// `span`.
 fn exponent(
     text: &str,
     written: &str,

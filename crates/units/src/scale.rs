@@ -1,18 +1,18 @@
-//! The size of a unit in coherent SI units, kept exact for as long as possible.
+//! The size of a unit in coherent SI units, kept exact as long as possible.
 
 use std::f64::consts::PI;
 
 use super::exponent::Exponent;
 
-/// Numerators and denominators above this are handed over to floating point; it leaves room for
-/// the long division in [`quotient`].
+/// Numerators and denominators above this limit are converted to floating point; the limit leaves
+/// room for the long division in [`quotient`].
 const LARGEST: u128 = 10_u128.pow(37);
 
-/// The largest decimal exponent kept, in size. Far beyond the range of `f64`, so that a product of
-/// very large and very small factors may still come out right.
+/// The largest decimal exponent that is kept, in absolute value. It is far beyond the range of
+/// `f64`, so that products of very large and very small factors stay correct.
 const LARGEST_EXPONENT: i64 = 20_000;
 
-/// Pi as an integer and the power of ten that it is to be multiplied by, most digits first.
+/// Parts of pi as an integer and a power of ten, the longer part first.
 const PI_DIGITS: [(u128, i64); 2] =
     [(314_159_265_358_979_323_846_264_338_327, -29), (3_141_592_653_589_793_238_463, -21)];
 
@@ -23,7 +23,7 @@ const PI_SQUARED_DIGITS: [(u128, i64); 2] =
 /// A positive number `numerator / denominator * 10^decimal * pi^pi * rest`.
 ///
 /// `rest` is 1 unless a root or an overflow forced the exact parts into floating point. Every
-/// operation answers `None` when the result is too large or too small to be kept.
+/// operation returns `None` if the result is too large or too small to be kept.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Scale {
     numerator: u128,
@@ -74,8 +74,8 @@ impl Scale {
         }
     }
 
-    /// A literal as a number and a power of ten: the number is 1 for a power of ten, and the power
-    /// is 0 for what is none and fits in an `f64`.
+    /// A literal as a number and a power of ten: for a power of ten the number is 1, for any other
+    /// literal that fits in an `f64` the power is 0.
     pub(super) fn number_and_power(self) -> (f64, i64) {
         if self.numerator == 1 && self.rest == 1.0 {
             (1.0, self.decimal)
@@ -130,7 +130,7 @@ impl Scale {
         }
     }
 
-    /// The `n`-th root for `n >= 2`: exact where every part has one.
+    /// The `n`-th root for `n >= 2`: exact if every part has an exact root.
     fn root(self, n: u32) -> Option<Self> {
         let degree = i64::from(n);
         if self.rest == 1.0
@@ -178,7 +178,7 @@ impl Scale {
         Some((exact(numerator / common)?, exact(denominator / common)?))
     }
 
-    /// The same number with pi multiplied into the integers, and what did not fit there.
+    /// The same number with pi multiplied into the integers, and the remaining factor.
     fn with_pi(self) -> (Self, f64) {
         let digits = match self.pi {
             0 => return (self, 1.0),

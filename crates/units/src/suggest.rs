@@ -1,4 +1,4 @@
-//! What may be meant by a name that is not a unit.
+//! Suggests units for a name that is not a unit.
 
 use std::ops::Range;
 
@@ -12,11 +12,11 @@ use super::nearest;
 /// The most suggestions given.
 const MOST: usize = 3;
 
-/// The fewest letters of a name for which, and of those among which, similar ones are looked for.
+/// Minimum length of a name, and of the candidates, for a search for similar names.
 const SHORTEST: usize = 3;
 
-/// Names that are not units here, in lower case, and what is probably meant. The right-hand sides
-/// are unit texts, likeliest first; none where nothing corresponds.
+/// Names that are not units here, in lower case, and their probable meaning. The right-hand sides
+/// are unit texts, most likely first; empty if no unit corresponds.
 #[rustfmt::skip]
 const SPELLED: &[(&str, &[&str])] = &[
     ("meter", &["m"]), ("metre", &["m"]), ("mtr", &["m"]),
@@ -78,16 +78,16 @@ const SPELLED: &[(&str, &[&str])] = &[
     ("nmile", &["1852*m"]), ("dbu", &[]), ("upm", &["rpm"]), ("umdr", &["rev"]),
 ];
 
-/// Nobody means a prefix beyond these powers of ten who writes an abbreviation.
+/// An abbreviation never means a prefix beyond these powers of ten.
 const FARTHEST: i32 = 24;
 
-/// Abbreviations in capital letters, whose small letters are something else: molar, the unit of enzyme
-/// activity, and full scale, to which nothing corresponds.
+/// Abbreviations in capitals that mean something else in small letters: molar, the unit of enzyme
+/// activity, and full scale, for which there is no unit.
 const ABBREVIATED: &[(&str, &[&str])] =
     &[("M", &["m", "mol/L"]), ("U", &["umol/min"]), ("FS", &[])];
 
-/// Names that say what a quantity is beside its unit, which no unit does (SI Brochure, 9th edition, 5.4.2): the
-/// unit, and what they say. They take prefixes where the unit does.
+/// Names that describe the quantity besides its unit, which a unit must not do (SI Brochure, 9th
+/// edition, 5.4.2): the name, the unit, and the description. They take prefixes if the unit does.
 #[rustfmt::skip]
 const QUALIFIED: &[(&str, &str, &str)] = &[
     ("barg", "bar", GAUGE), ("psig", "psi", GAUGE), ("Pag", "Pa", GAUGE), ("atü", "98.0665*kPa", GAUGE),
@@ -105,7 +105,7 @@ const GAUGE: &str = "a pressure above the ambient one, which formulas of the pre
 const NORMAL: &str = "a volume of gas at 0 degC and 101.325 kPa";
 const STANDARD: &str = "a volume of gas at standard conditions, of which there are several";
 
-/// Products written without a sign, and the same with one. They take prefixes.
+/// Products written without an operator, and the same with one. They take prefixes.
 const JOINED: &[(&str, &str)] = &[
     ("As", "A*s"),
     ("Vs", "V*s"),
@@ -117,9 +117,9 @@ const JOINED: &[(&str, &str)] = &[
     ("M", "mol/L"),
 ];
 
-/// The error for a whole text of which the parts are units, or look like some.
+/// The error for a whole text whose parts are units, or look like units.
 pub(super) fn whole(text: &str, span: Range<usize>) -> Option<UnitError> {
-    // revolutions in German; alone, or in other quotients, U is that of enzymes
+    // revolutions in German; alone, or in other quotients, U is the enzyme unit
     let rate = match text {
         "U/min" => "rpm",
         "U/s" => "rev/s",
@@ -128,7 +128,7 @@ pub(super) fn whole(text: &str, span: Range<usize>) -> Option<UnitError> {
     Some(UnitError::UnknownUnit { name: text.to_owned(), span, nearest: vec![rate.to_owned()] })
 }
 
-/// The error for a name that says more than a unit does.
+/// The error for a name that says more than a unit may.
 fn qualified(name: &str, span: &Range<usize>) -> Option<UnitError> {
     let of = |name: &str| QUALIFIED.iter().find(|(wrong, ..)| *wrong == name);
     let prefixed = || {
@@ -142,7 +142,7 @@ fn qualified(name: &str, span: &Range<usize>) -> Option<UnitError> {
     Some(UnitError::QualifiedUnit { name: name.to_owned(), span: span.clone(), unit, says })
 }
 
-/// The error for a name that is not a unit, standing at `span`.
+/// The error for a name at `span` that is not a unit.
 pub(super) fn unknown(name: &str, span: Range<usize>) -> UnitError {
     if let Some(error) = qualified(name, &span) {
         return error;
@@ -170,8 +170,8 @@ pub(super) fn unknown(name: &str, span: Range<usize>) -> UnitError {
     UnitError::UnknownUnit { name: name.to_owned(), span, nearest }
 }
 
-/// Names in words, with the plural and with prefixes; products without a sign; powers without `^`.
-/// An empty list means that the name is known and that nothing here corresponds to it.
+/// Names in words, with plurals and prefixes; products without an operator; powers without `^`. An
+/// empty list means that the name is known but no unit corresponds to it.
 fn spelled_out(name: &str) -> Option<Vec<String>> {
     if let Some((_, right)) = ABBREVIATED.iter().find(|(wrong, _)| *wrong == name) {
         return Some(right.iter().map(|text| (*text).to_owned()).collect());
@@ -224,8 +224,8 @@ fn word(lower: &str) -> Option<&'static [&'static str]> {
     find(lower).or_else(|| lower.strip_suffix('s').and_then(find))
 }
 
-/// A unit text with a prefix, as a power of ten where it takes none: `1e3*4.184*J` of kcal. Nothing of a
-/// prefix that nobody means, and of Celsius temperatures.
+/// A unit text with a prefix, as a power of ten if the unit takes no prefix: `1e3*4.184*J` for
+/// kcal. `None` for a prefix that nobody means, and for Celsius temperatures.
 fn with_prefix(text: &str, spelling: &str, prefix: &Prefix) -> Option<String> {
     if takes_prefix(text, prefix) {
         return Some(format!("{spelling}{text}"));
@@ -245,7 +245,7 @@ fn same_letters(a: &str, b: &str) -> bool {
     a.chars().flat_map(char::to_lowercase).eq(b.chars().flat_map(char::to_lowercase))
 }
 
-/// A prefix before a unit that takes none.
+/// The error for a prefix before a unit that takes none.
 fn bare_unit_with_prefix(name: &str, span: &Range<usize>) -> Option<UnitError> {
     let near = |found: &Prefixed<'_>| found.prefix.decimal().abs() <= FARTHEST;
     let found = prefixed(name).find(|found| !found.symbol.takes(found.prefix) && near(found))?;
@@ -261,7 +261,7 @@ fn bare_unit_with_prefix(name: &str, span: &Range<usize>) -> Option<UnitError> {
     })
 }
 
-/// A prefix before a unit that has one already.
+/// The error for a prefix before a unit that already has one.
 fn two_prefixes(name: &str, span: &Range<usize>) -> Option<UnitError> {
     let near = prefix_spellings().filter(|(_, outer)| outer.decimal().abs() <= FARTHEST);
     near.into_iter().find_map(|(spelling, outer)| {
@@ -284,7 +284,7 @@ fn two_prefixes(name: &str, span: &Range<usize>) -> Option<UnitError> {
     })
 }
 
-/// Units that differ from the name in case only, those with the fewest differences first.
+/// Units that differ from the name only in case, those with the fewest differences first.
 fn wrong_case(name: &str) -> Vec<String> {
     let mut found: Vec<(usize, String)> = every_name()
         .filter(|candidate| same_letters(candidate, name))
@@ -313,8 +313,8 @@ fn spellings() -> impl Iterator<Item = &'static str> {
     SYMBOLS.iter().flat_map(Symbol::spellings)
 }
 
-/// The name as two units without a sign between them. Only what people do join: a prefix in the
-/// middle, or a seldom one in front, would find a product in almost every abbreviation.
+/// The name as two units without an operator between them. Only common products are considered:
+/// with prefixes in the middle, or rare ones in front, almost every abbreviation would match.
 fn joined(name: &str) -> Vec<String> {
     let usual = |left: &str| {
         let seldom = |found: &Prefixed<'_>| !(-12..=9).contains(&found.prefix.decimal());
@@ -329,13 +329,14 @@ fn joined(name: &str) -> Vec<String> {
         .collect()
 }
 
-/// Words and symbols of three letters or more that are a typing error away.
+/// Words and symbols of three letters or more that are one typing error away.
 fn similar(name: &str) -> Vec<String> {
     if name.chars().count() < SHORTEST {
         return Vec::new();
     }
     let words = SPELLED.iter().filter(|(_, right)| !right.is_empty()).map(|(wrong, _)| *wrong);
-    // of three letters the first one says most: `HBW` is not a misspelt dBW, nor `cpm` rpm
+    // for three letters the first one counts most: `HBW` is not a misspelt dBW, and `cpm` is not
+    // rpm
     let is_short = name.chars().count() == SHORTEST;
     let first = |text: &str| text.chars().next().map(|c| c.to_lowercase().to_string());
     let known = words.chain(spellings()).filter(|known| {

@@ -1,12 +1,11 @@
-//! Scales that do not begin at nothing: temperatures in degrees Celsius or Fahrenheit, and levels
-//! with a reference.
+//! Zeros of scales: temperatures in degrees Celsius or Fahrenheit, and levels with a reference.
 
 use super::{Dimension, Unit};
 
 /// The zero of the Celsius scale in K (SI Brochure, 9th ed., 2.3.1).
 const CELSIUS_ZERO: f64 = 273.15;
 
-/// The zero of a scale, which a number in a unit counts from.
+/// The zero of a scale, from which a number in a unit counts.
 ///
 /// A quantity in `degC` or `degF` is a Celsius temperature: 20 degC is not twice 10 degC. In
 /// formulas both are numbers of degrees Celsius. A level with a reference, such as one in `dBm`, is
@@ -50,8 +49,8 @@ impl Zero {
         }
     }
 
-    /// The unit of power or of voltage that a level is above one of: `mW` of `dBm`. `None` where the
-    /// reference is none of the kind: the full scale of a converter, a carrier.
+    /// The unit of power or voltage to which a level refers: `mW` for `dBm`. `None` if the
+    /// reference is neither: the full scale of a converter, a carrier.
     pub const fn reference(self) -> Option<&'static str> {
         match self {
             Self::Milliwatt => Some("mW"),
@@ -63,8 +62,8 @@ impl Zero {
         }
     }
 
-    /// What a level above it grows by for ten times the quantity, in dB: 10 for powers, 20 for voltages.
-    /// `None` where the reference is neither.
+    /// The increase of a level in dB for a tenfold quantity: 10 for powers, 20 for voltages. `None`
+    /// if the reference is neither.
     pub const fn decibels_per_decade(self) -> Option<u32> {
         match self {
             Self::Milliwatt | Self::Watt => Some(10),
@@ -73,8 +72,8 @@ impl Zero {
         }
     }
 
-    /// The reference that a power or a voltage in coherent SI units is, but for the rounding of its
-    /// digits: that of `dBm` of 0.001 W. `None` for every other quantity.
+    /// The reference that equals a power or a voltage in coherent SI units, apart from rounding:
+    /// 0.001 W is the reference of `dBm`. `None` for every other quantity.
     pub fn above(dimension: Dimension, value: f64) -> Option<Self> {
         [Self::Milliwatt, Self::Watt, Self::Volt, Self::Millivolt, Self::Microvolt]
             .into_iter()
@@ -86,7 +85,7 @@ impl Zero {
             })
     }
 
-    /// How far it lies above the nothing of its kind of quantity: in K, or in dB above 1 W or 1 V.
+    /// Its height above the absolute zero of its kind of quantity: in K, or in dB above 1 W or 1 V.
     fn height(self) -> f64 {
         match self {
             Self::Celsius => CELSIUS_ZERO,
@@ -106,9 +105,9 @@ impl Zero {
         }
     }
 
-    /// What is added to a number that counts from `from` so that it counts from `to`: 273.15 from
-    /// Celsius temperatures to thermodynamic ones (`None`), -30 from dBm to dBW. In kelvins or
-    /// decibels; `None` if one is not the other counted from elsewhere.
+    /// The number to add to a value that counts from `from` so that it counts from `to`: 273.15
+    /// from Celsius to thermodynamic temperatures (`None`), -30 from dBm to dBW. In kelvins or
+    /// decibels; `None` if the two scales differ by more than their zero.
     pub fn shift(from: Option<Self>, to: Option<Self>) -> Option<f64> {
         match (from, to) {
             (a, b) if a == b => Some(0.0),
@@ -120,7 +119,7 @@ impl Zero {
     }
 }
 
-/// What a plain number, or one per time, counts.
+/// What a plain number, or a number per time, counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Turn {
     /// Periods: in Hz.

@@ -1,7 +1,8 @@
-//! Frames of a CSV file: cells between `,`, `;` or tabs (of the last two perhaps with decimal commas),
-//! with or without a header, lines that begin with `#` skipped. What an instrument writes above the header
-//! is passed by, which is said, and a line of units below it belongs to the headings. A heading with a unit is held against
-//! the unit that the recipe states, by whichever of name and number it names the column.
+//! Frames of a CSV file: cells between `,`, `;` or tabs (with `;` and tabs decimal commas are
+//! allowed), with or without a header. Lines that begin with `#` are skipped. Lines of an
+//! instrument above the header are skipped with a warning; a line of units below it belongs to the
+//! headings. A unit in a heading is compared with the unit in the recipe, whether the recipe names
+//! the column by name or by number.
 
 use std::io::{self, BufRead, BufReader, Cursor, Read};
 
@@ -15,7 +16,7 @@ use crate::separator::DecimalMarks;
 use crate::{ValueOf, gravity, heading};
 use gumption_units::{Unit, nearest};
 
-/// What instruments and programs write where they have no value.
+/// Words of instruments and programs for a missing value.
 const OF_NO_VALUE: [&str; 12] = [
     "ovld", "ol", "overload", "over", "n/a", "na", "null", "none", "err", "error", "invalid", "--",
 ];
@@ -29,27 +30,27 @@ type Whole<R> = io::Chain<Cursor<Vec<u8>>, BufReader<NarrowText<R>>>;
 pub(super) struct CsvFrames<R> {
     reader: Reader<Whole<R>>,
     record: ByteRecord,
-    /// Whether `record` holds a frame that was not given yet.
+    /// Whether `record` holds a frame that has not been returned yet.
     waiting: bool,
-    /// The record behind it, where it had to be looked at.
+    /// The record after it, if it has been read ahead.
     ahead: Option<ByteRecord>,
     marks: DecimalMarks,
     cells: usize,
-    /// The place of each wanted column.
+    /// The index of each wanted column.
     places: Vec<usize>,
     wanted: Vec<Wanted>,
     samples: u64,
     /// Lines before the reader's first.
     skipped: u64,
     beginning: Beginning,
-    /// The instants, where these are stamps of a clock.
+    /// The instants, if they are time stamps.
     stamps: Stamps,
 }
 
-/// Bytes of the lines that are looked at before the samples are read.
+/// Bytes of the lines that are examined before the samples are read.
 const MOST_BYTES: u64 = 1 << 20;
 
-/// The first lines of a text, in bytes; without a byte-order mark.
+/// The first lines of a text, as bytes, without a byte-order mark.
 fn first_lines(reader: &mut impl BufRead) -> Result<Vec<Vec<u8>>, String> {
     let (mut lines, mut left): (Vec<Vec<u8>>, u64) = (Vec::new(), MOST_BYTES);
     // remarks and blank lines are not counted
@@ -113,7 +114,7 @@ impl<R: Read> CsvFrames<R> {
         Ok(frames)
     }
 
-    /// Reads the header, or finds that there is none.
+    /// Reads the header, or determines that there is none.
     fn begin(&mut self) -> Result<(), String> {
         self.next()?;
         self.cells = self.record.len();
@@ -162,7 +163,7 @@ impl<R: Read> CsvFrames<R> {
                     names.get(found).map_or("", String::as_str)
                 ));
             }
-            // a clock tells hours, minutes and seconds, whatever its heading says of them
+            // a clock shows hours, minutes and seconds, whatever its heading says
             let is_clock = || wanted.is_time() && self.ahead_cell(found).is_some_and(is_stamp);
             let contradicted = names.get(found).filter(|_| header && !is_clock());
             let contradicted = contradicted.and_then(|name| {
@@ -182,8 +183,8 @@ impl<R: Read> CsvFrames<R> {
         Ok(())
     }
 
-    /// Passes the line of units below the header by, and looks at the first sample: what the header has
-    /// beside the names of its columns has no cells there.
+    /// Skips the line of units below the header, and examines the first sample: header cells that
+    /// do not name a column have no cells below them.
     fn pass_units(&mut self) -> Result<(), String> {
         let header = self.record.clone();
         let mut ahead = ByteRecord::new();
@@ -219,9 +220,9 @@ impl<R: Read> CsvFrames<R> {
         std::str::from_utf8(self.ahead.as_ref()?.get(place)?).ok().map(str::trim)
     }
 
-    /// Whether the first record is a header: where columns are wanted by their names, and where those that
-    /// are wanted by their numbers have no numbers in it. Text in other columns may be a state or a date
-    /// that every line has.
+    /// Whether the first record is a header: if columns are wanted by name, or if columns wanted by
+    /// number have no numbers in it. Text in other columns may be a state or a date that every line
+    /// has.
     fn has_header(&mut self) -> Result<bool, String> {
         let marks = &self.marks;
         let is_clock = |cell: &[u8]| std::str::from_utf8(cell).is_ok_and(is_stamp);
@@ -245,14 +246,14 @@ impl<R: Read> CsvFrames<R> {
         let is_number = |place: &&usize| !texts[**place];
         let value = wanted.iter().find(is_number);
         let word = wanted.iter().find(|place| !is_number(place));
-        // a value with a unit, and what stands for a missing one
+        // a value with a unit, and a mark for a missing one
         let is_sample = |place: usize| {
             let text = cell(place);
             text.is_empty()
                 || OF_NO_VALUE.contains(&text.to_lowercase().as_str())
                 || text.trim_start_matches(['-', '+', '\u{2212}', '.']).starts_with(digit)
         };
-        // an empty cell among names is a column without one
+        // an empty cell among names is a column without a name
         let is_name = |place: &usize| {
             !is_sample(*place) || cell(*place).is_empty() && !texts.contains(&false)
         };
@@ -272,8 +273,8 @@ impl<R: Read> CsvFrames<R> {
         ))
     }
 
-    /// Whether a first line with numbers where columns are wanted, and texts elsewhere, is a header: not
-    /// where the second one has texts there too.
+    /// Whether a first line with numbers in the wanted columns and texts elsewhere is a header: not
+    /// if the second line has texts there too.
     fn is_above_numbers(&mut self, texts: &[bool]) -> Result<bool, String> {
         let mut ahead = ByteRecord::new();
         if !self.reader.read_byte_record(&mut ahead).map_err(|error| error.to_string())? {
@@ -369,7 +370,7 @@ impl<R: Read> Frames for CsvFrames<R> {
                 break;
             }
             self.waiting = false;
-            // a line of blanks is none
+            // a blank line is not a record
             if self.record.len() == 1
                 && self.record.get(0).is_some_and(|c| c.trim_ascii().is_empty())
                 && self.cells > 1
@@ -382,7 +383,8 @@ impl<R: Read> Frames for CsvFrames<R> {
     }
 }
 
-/// That the heading of a column has another unit than its values are read in, and what to write.
+/// The message that the heading of a column has another unit than the one in which its values are
+/// read, and what to write.
 fn contradiction(wanted: &Wanted, heading: &str) -> Option<String> {
     let of = (&wanted.unit, ValueOf::Quantity);
     let found = heading::contradiction(|text| Unit::parse(text).ok(), heading, of)?;
@@ -436,13 +438,13 @@ mod tests {
         Ok(columns.remove(0))
     }
 
-    /// What else stands in a line of numbers makes no header of it.
+    /// Other text in a line of numbers does not make it a header.
     #[test]
     fn a_first_sample_is_no_header() {
         for text in ["1,OK\n2,OK\n", "1,\n2,\n", "1;;\n2;;\n", "1,\n2,3\n", "1\n2\n"] {
             let found = read(text);
             match text {
-                // a heading above numbers, or a cell that is missing
+                // a heading above numbers, or a missing cell
                 "1,\n2,3\n" => assert!(found.unwrap_err().contains("a header or the first sample")),
                 _ => assert_eq!(found, Ok(vec![1.0, 2.0]), "{text}"),
             }

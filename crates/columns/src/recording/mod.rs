@@ -22,14 +22,14 @@ use gumption_engine::task::Warning;
 use gumption_signal::{BLOCK, BlockVisitor, InMemorySamples, Measured, SampleSource, in_blocks};
 use gumption_units::Unit;
 
-/// Values that are held in memory at most, over all channels of a recording (256 MiB); a longer
+/// Maximum number of values held in memory, over all channels of a recording (256 MiB); a longer
 /// recording is read again for each pass.
 const MOST_IN_MEMORY: u64 = 1 << 25;
 
-/// A matrix in the bytes of a NumPy file, row by row.
+/// A matrix from the bytes of a NumPy file, row by row.
 ///
 /// # Errors
-/// What is wrong with it, as a sentence without a capital.
+/// A sentence about the problem, without a capital.
 pub fn npy_matrix(bytes: &[u8]) -> Result<(usize, usize, Vec<f64>), String> {
     npy_numbers(bytes, |shape| match *shape {
         [rows, columns] => Ok([rows, columns]),
@@ -37,10 +37,11 @@ pub fn npy_matrix(bytes: &[u8]) -> Result<(usize, usize, Vec<f64>), String> {
     })
 }
 
-/// How many columns the array of a NumPy file has, one of a plain list, and its numbers row by row.
+/// The number of columns of the array in a NumPy file, 1 for a plain list, and its numbers row by
+/// row.
 ///
 /// # Errors
-/// What is wrong with it, as a sentence without a capital.
+/// A sentence about the problem, without a capital.
 pub fn npy_columns(bytes: &[u8]) -> Result<(usize, Vec<f64>), String> {
     let found = npy_numbers(bytes, |shape| match *shape {
         [rows] => Ok([rows, 1]),
@@ -52,7 +53,7 @@ pub fn npy_columns(bytes: &[u8]) -> Result<(usize, Vec<f64>), String> {
     found.map(|(_, columns, numbers)| (columns, numbers))
 }
 
-/// Rows, columns and numbers row by row of an array whose shape has rows and columns.
+/// Rows, columns and values, row by row, of an array with up to two dimensions.
 fn npy_numbers(
     mut bytes: &[u8],
     matrix: impl Fn(&[u64]) -> Result<[u64; 2], String>,
@@ -90,20 +91,20 @@ pub enum ColumnName {
     Number(usize),
 }
 
-/// A column that is wanted, and the channel that it is for.
+/// A wanted column, and the channel for which it is read.
 #[derive(Clone, Debug)]
 pub struct Wanted {
     /// The column.
     pub column: ColumnName,
     /// The name of the channel, in messages.
     pub channel: String,
-    /// The unit that its values are read in, which its heading may not contradict; 1 of counts.
+    /// The unit in which its values are read; its heading may not contradict it. 1 for counts.
     pub unit: Unit,
-    /// The unit of what becomes of them; the same of values that are not scaled.
+    /// The unit of the converted values; the same for values that are not scaled.
     pub becomes: Unit,
 }
 
-/// What stands in the place of a channel's name for the column of instants.
+/// The name for the column of instants in messages.
 const THE_TIME: &str = "the time";
 
 impl Wanted {
@@ -113,7 +114,7 @@ impl Wanted {
     }
 }
 
-/// What a channel's raw values become, and where they saturate.
+/// How the raw values of a channel are converted, and where they saturate.
 #[derive(Clone, Debug)]
 pub struct Conversion {
     /// The raw value that means zero.
@@ -124,49 +125,49 @@ pub struct Conversion {
     pub range: Option<[f64; 2]>,
 }
 
-/// How a recording is to be read.
+/// How to read a recording.
 #[derive(Clone, Debug)]
 pub struct Reading {
     /// Its bytes.
     pub bytes: Bytes,
     /// The name in messages.
     pub name: String,
-    /// The columns, and what their values become.
+    /// The columns, and the conversions of their values.
     pub channels: Vec<(Wanted, Conversion)>,
     /// The column of instants, and its unit.
     pub time: Option<(ColumnName, Unit)>,
     /// The sampling rate in hertz that the recipe states.
     pub rate: Option<Measured>,
-    /// Whether that rate is one to begin a search with, and no statement.
+    /// Whether that rate is only the start of a search.
     pub searched: bool,
-    /// Where the part that is used begins, in seconds.
+    /// The beginning of the used part, in seconds.
     pub from: Option<f64>,
     /// Where it ends, in seconds.
     pub to: Option<f64>,
-    /// The lowest frequency of the recipe, in hertz.
+    /// The lowest frequency in the recipe, in hertz.
     pub slowest: Option<f64>,
 }
 
-/// A recording that was read through once and found right.
+/// A recording that was read once and passed the checks.
 #[derive(Debug)]
 pub struct Recording {
     reading: Reading,
-    /// The first frame that is used, and how many are.
+    /// The first used frame, and the number of used frames.
     first: u64,
     frames: u64,
     held: Option<InMemorySamples>,
     /// The sampling rate, in hertz.
     pub rate: Measured,
-    /// The instant of the first frame that is used, in seconds.
+    /// The instant of the first used frame, in seconds.
     pub start: f64,
-    /// The standard uncertainty of the instant in the middle of the record, in seconds, where the file has
-    /// a column of instants.
+    /// The standard uncertainty of the instant in the middle of the record, in seconds, if the file
+    /// has a column of instants.
     pub of_middle: Option<f64>,
     /// SHA-256 of the file, in hexadecimal.
     pub digest: String,
-    /// The step of whole numbers, where the file holds those.
+    /// The step between values, if the file holds whole numbers.
     pub whole: bool,
-    /// What is to be told of it.
+    /// What the user must be told about it.
     pub warnings: Vec<Warning>,
 }
 
@@ -177,21 +178,21 @@ trait Frames {
         None
     }
 
-    /// Whether the values are whole numbers of an integer format.
+    /// Whether the values are integers of an integer format.
     fn whole(&self) -> bool {
         false
     }
 
-    /// What stands above the samples and is not read, in words.
+    /// A description of the lines above the samples that were skipped.
     fn passed_by(&self) -> Option<String> {
         None
     }
 
-    /// Reads up to [`BLOCK`] frames into the columns, which are empty before; none at the end.
+    /// Reads up to [`BLOCK`] frames into the empty columns; none at the end.
     fn read(&mut self, columns: &mut [Vec<f64>]) -> Result<(), String>;
 }
 
-/// Reads a recording through, and checks it.
+/// Reads a recording completely and checks it.
 ///
 /// # Errors
 /// A sentence with line or sample, and channel.
@@ -233,7 +234,7 @@ impl SampleSource for Recording {
         self.frames
     }
 
-    // every sample was looked at when it was opened
+    // every sample was checked when the recording was opened
     fn is_checked(&self) -> bool {
         true
     }
@@ -265,7 +266,7 @@ impl SampleSource for Recording {
             let done = length == 0 || at >= self.first + self.frames;
             let ready = waiting.first().map_or(0, Vec::len);
             let give = if done { ready } else { ready / BLOCK * BLOCK };
-            // blocks begin at the same frames as those of a recording in memory
+            // blocks begin at the same frames as those of a recording held in memory
             for start in (0..give).step_by(BLOCK) {
                 let end = (start + BLOCK).min(give);
                 let block: Vec<&[f64]> =
@@ -293,7 +294,7 @@ impl Conversion {
     }
 }
 
-/// Where the bytes of a recording are.
+/// The source of a recording's bytes.
 #[derive(Clone, Debug)]
 pub enum Bytes {
     /// On the disk.
@@ -303,7 +304,7 @@ pub enum Bytes {
 }
 
 impl Bytes {
-    /// How many there are, where that is known.
+    /// Their number, if it is known.
     fn size(&self) -> Option<u64> {
         match self {
             Self::OnDisk(path) => {
@@ -313,7 +314,7 @@ impl Bytes {
         }
     }
 
-    /// A reader of them from the beginning.
+    /// A reader from the beginning.
     fn opened(&self) -> Result<Box<dyn Read + '_>, String> {
         let path = match self {
             Self::OnDisk(path) => path,
@@ -327,7 +328,7 @@ impl Bytes {
     }
 }
 
-/// A reader that keeps the digest of what went through it.
+/// A reader that computes the digest of the bytes it reads.
 struct Digesting<R> {
     inner: R,
     digest: Rc<RefCell<Sha256>>,
@@ -341,7 +342,7 @@ impl<R: Read> Read for Digesting<R> {
     }
 }
 
-/// The value of a sample, which counts from 1, if it is finite.
+/// The value of a sample if it is finite; samples count from 1.
 fn finite(value: f64, sample: u64, wanted: &Wanted) -> Result<f64, String> {
     if value.is_finite() {
         return Ok(value);

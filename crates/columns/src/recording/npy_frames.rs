@@ -15,10 +15,10 @@ pub(super) struct NpyFrames<R> {
     number: NpyNumber,
     /// The bytes of a frame.
     frame: Vec<u8>,
-    /// Where the wanted columns begin in it.
+    /// The offsets of the wanted columns in a frame.
     offsets: Vec<usize>,
     wanted: Vec<Wanted>,
-    /// How many frames there are, and how many were read.
+    /// The number of frames, and how many have been read.
     samples: u64,
     read: u64,
 }
@@ -132,7 +132,7 @@ mod tests {
         }
     }
 
-    /// More than a block of frames of three columns, of which the third and the first are wanted.
+    /// More than a block of frames with three columns; the third and the first are wanted.
     #[test]
     fn samples_by_channels() {
         let count = BLOCK + 3;
@@ -145,7 +145,7 @@ mod tests {
         assert_eq!(message, "its array has 3 columns, so no column 4");
     }
 
-    /// One column is the same in both orders; bytes behind the array are not of it.
+    /// One column is the same in both orders; bytes after the array are ignored.
     #[test]
     fn one_channel() {
         let data: Vec<u8> = [0.5f32, -1.25, 7.0].iter().flat_map(|v| v.to_le_bytes()).collect();

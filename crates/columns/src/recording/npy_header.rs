@@ -7,10 +7,10 @@
 
 use std::io::Read;
 
-/// The longest header that is read, in bytes; one of plain numbers has some 118.
+/// The longest accepted header, in bytes; the header of an array of plain numbers has about 118.
 const LONGEST: u64 = 1 << 16;
 
-/// What a header says of the array.
+/// The description of the array in a header.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct NpyHeader {
     pub(super) number: NpyNumber,
@@ -42,7 +42,7 @@ enum Kind {
 }
 
 impl NpyNumber {
-    /// Of a type string such as `<f8`; `None` for what is not read.
+    /// Parses a type string such as `<f8`; `None` for types that are not supported.
     fn parse(text: &str) -> Option<Self> {
         let (order, kind) = text.split_at_checked(1)?;
         let kind = match kind {
@@ -74,12 +74,12 @@ impl NpyNumber {
         }
     }
 
-    /// Whether it is of an integer format.
+    /// Whether it is an integer format.
     pub(super) fn is_whole(self) -> bool {
         !matches!(self.kind, Kind::F16 | Kind::F32 | Kind::F64)
     }
 
-    /// The number that the bytes begin with; not a number where they are too few.
+    /// The number at the start of the bytes; NaN if there are too few bytes.
     pub(super) fn value(self, bytes: &[u8]) -> f64 {
         macro_rules! of {
             ($kind:ty) => {
@@ -109,7 +109,7 @@ impl NpyNumber {
     }
 }
 
-/// The number whose 16 bits (IEEE 754, binary16) are a whole number.
+/// The number with these 16 bits (IEEE 754, binary16), given as an integer.
 fn half(bits: f64) -> f64 {
     let bits = bits as u16;
     let (exponent, fraction) = (bits >> 10 & 0x1f, f64::from(bits & 0x3ff));
@@ -124,7 +124,7 @@ fn half(bits: f64) -> f64 {
 }
 
 impl NpyHeader {
-    /// Reads a header; the reader stands at the array's first number then.
+    /// Reads a header; afterwards the reader is at the first number of the array.
     ///
     /// # Errors
     /// A sentence on what is wrong with the header.
@@ -204,14 +204,14 @@ impl NpyHeader {
     }
 }
 
-/// The text in the quotes that a text begins with. NumPy writes no escapes in the keys and types
-/// that are read here.
+/// The quoted text at the start of a text. NumPy writes no escapes in the keys and types that are
+/// read here.
 fn quoted(text: &str) -> Option<&str> {
     let quote = text.chars().next().filter(|c| matches!(c, '\'' | '"'))?;
     text.get(1..)?.split_once(quote).map(|(inside, _)| inside)
 }
 
-/// The items between commas that stand in no brackets and no quotes; what is empty is left out.
+/// The items between commas outside brackets and quotes, without empty items.
 fn items(text: &str) -> Vec<&str> {
     let (mut depth, mut quote, mut start, mut found) = (0usize, None, 0, Vec::new());
     for (at, c) in text.char_indices() {
@@ -234,7 +234,7 @@ fn items(text: &str) -> Vec<&str> {
 
 fn shape_of(text: &str) -> Option<Vec<u64>> {
     let inside = text.strip_prefix('(')?.strip_suffix(')')?;
-    // Python 2 wrote whole numbers with an L
+    // Python 2 wrote integers with an L
     items(inside).into_iter().map(|item| item.trim_end_matches('L').parse().ok()).collect()
 }
 
@@ -242,7 +242,7 @@ fn shape_of(text: &str) -> Option<Vec<u64>> {
 mod tests {
     use super::*;
 
-    /// The bytes of a file of this version whose header claims a length of its own.
+    /// The bytes of a file of this version whose header states this length.
     fn file(version: u8, length: usize, header: &str) -> Vec<u8> {
         let mut bytes = b"\x93NUMPY".to_vec();
         bytes.extend([version, 0]);
@@ -271,7 +271,7 @@ mod tests {
         for version in 1..=3 {
             assert_eq!(read(version, header), Ok(expected.clone()));
         }
-        // the reader stands behind the header
+        // the reader is after the header
         let bytes = [file(2, header.len(), header), vec![7, 8]].concat();
         let mut rest = bytes.as_slice();
         NpyHeader::read(&mut rest).unwrap();
@@ -280,7 +280,8 @@ mod tests {
         assert!(message.contains("version 4.0"), "{message}");
     }
 
-    /// What Python takes for the same: other quotes, another order, no spaces, Python 2's numbers.
+    /// Other spellings that Python accepts: other quotes, another order, no spaces, Python 2's
+    /// integers.
     #[test]
     fn spellings() {
         let expected = NpyHeader { number: number(">i2"), fortran_order: true, shape: vec![5] };
@@ -331,7 +332,7 @@ mod tests {
         }
     }
 
-    /// Every kind in both orders of bytes.
+    /// Every type in both byte orders.
     #[test]
     fn numbers() {
         let same = |kind: &str, little: &[u8], value: f64| {

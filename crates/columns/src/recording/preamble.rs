@@ -1,5 +1,5 @@
-//! What stands above the samples of a text: lines that an instrument or a program writes about them, the
-//! header, a line of units below it.
+//! The part of a text above the samples: lines of an instrument or a program, the header, and a
+//! line of units below it.
 
 use super::ColumnName;
 use super::Wanted;
@@ -11,25 +11,25 @@ use gumption_units::Unit;
 /// Lines that are looked at.
 pub(super) const MOST_LINES: usize = 512;
 
-/// Lines of numbers that show where the samples begin.
+/// Number of numeric lines that mark the beginning of the samples.
 const LEAST_NUMBERS: usize = 3;
 
-/// What stands for a unit where a column counts samples, or has none.
+/// Marks in a line of units for a column that counts samples, or that has no unit.
 const OF_NO_UNIT: [&str; 4] = ["sequence", "samples", "-", "–"];
 
 /// Where a text begins.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Beginning {
-    /// The place of the header among the lines, or of the first sample.
+    /// The index of the header among the lines, or of the first sample.
     pub(super) first: usize,
-    /// The cells of a line of units below the header.
+    /// The cells of the line of units below the header.
     pub(super) units: Option<Vec<String>>,
     /// The unit of all values, where a line above the header states one.
     of_values: Option<String>,
-    /// Lines above that are no comments: the place of the first one.
+    /// The index of the first line above the header that is not a comment.
     pub(super) above: Option<usize>,
     pub(super) separator: Separator,
-    /// Whether what begins is a header for certain.
+    /// Whether the first line is certainly a header.
     pub(super) is_header: bool,
 }
 
@@ -45,7 +45,7 @@ impl Line {
         self.cells.get(place).is_some_and(|cell| is_number(cell, self.separator))
     }
 
-    /// Whether it holds numbers and stamps alone, these among them.
+    /// Whether the line holds only numbers and time stamps, including these columns.
     fn is_of_numbers(&self, wanted: &[usize]) -> bool {
         let held = || (0..self.cells.len()).filter(|place| !self.cells[*place].is_empty());
         held().all(|place| self.is_number(place))
@@ -53,7 +53,7 @@ impl Line {
             && wanted.iter().all(|place| self.is_number(*place))
     }
 
-    /// Whether it states units below a header, of these columns among others.
+    /// Whether the line states units below a header, including units of these columns.
     fn is_of_units(&self, wanted: &[usize]) -> bool {
         let cell = |place: &usize| self.cells.get(*place).map_or("", String::as_str);
         let is_unit = |place: &usize| unit(cell(place)).is_some();
@@ -61,7 +61,7 @@ impl Line {
         wanted.iter().all(|place| is_unit(place) || is_none(place)) && wanted.iter().any(is_unit)
     }
 
-    /// The unit of all values that a line above the header states: `Vertical Units,V,V`.
+    /// The unit of all values in a line above the header: `Vertical Units,V,V`.
     fn unit_of_values(&self) -> Option<String> {
         const KEYS: [&str; 4] = ["vertical units", "vertical unit", "y_unit_label", "y units"];
         let (key, cells) = self.cells.split_first()?;
@@ -71,7 +71,7 @@ impl Line {
     }
 }
 
-/// Whether a cell is a number, as the reader of samples takes it, or a stamp.
+/// Whether a cell is a number as the reader of samples accepts it, or a time stamp.
 fn is_number(cell: &str, separator: Separator) -> bool {
     let point =
         DecimalMarks::of(separator).with_point(cell).is_ok_and(|of| of.parse::<f64>().is_ok());
@@ -108,7 +108,7 @@ fn unit(cell: &str) -> Option<String> {
     is_unit.then(|| text.to_owned())
 }
 
-/// A heading with the unit that stands below it.
+/// A heading with the unit from the line below it.
 pub(super) fn with_unit(name: &str, unit: Option<&str>) -> String {
     match unit {
         Some(unit) if heading::named(name).is_none_or(|(_, own)| own != unit) => {
@@ -119,7 +119,7 @@ pub(super) fn with_unit(name: &str, unit: Option<&str>) -> String {
 }
 
 impl Beginning {
-    /// Where a text begins whose first lines these are; `None` where no line holds anything.
+    /// Where a text begins, given its first lines; `None` if all lines are empty.
     pub(super) fn of(lines: &[String], wanted: &[Wanted]) -> Option<Self> {
         let of_line = |(place, text): (usize, &String)| {
             let separator = Separator::of_line(text);
@@ -150,7 +150,8 @@ impl Beginning {
         Some(Self { first, units, of_values, above, separator, is_header })
     }
 
-    /// The first line with the names of the columns and numbers below it, perhaps behind a line of units.
+    /// The first line with the names of the columns and numbers below it, possibly with a line of
+    /// units between them.
     fn named(lines: &[Line], wanted: &[Wanted]) -> Option<(usize, Option<Vec<String>>)> {
         if !wanted.iter().any(|wanted| matches!(wanted.column, ColumnName::Name(_))) {
             return None;
@@ -171,12 +172,12 @@ impl Beginning {
             let behind = lines.get(at + 2).filter(|behind| has_numbers(behind, &places));
             match units.filter(|_| behind.is_some()) {
                 Some(units) => Some((at, Some(units.cells.clone()))),
-                // of a first line the samples below may be mistakes
+                // below a header in the first line the samples may contain errors
                 None => (at == 0 || next.is_some_and(|next| has_numbers(next, &places)))
                     .then_some((at, None)),
             }
         });
-        // the first samples may be mistakes, which are told then
+        // the first samples may contain errors, which are reported then
         header.or_else(|| {
             let is_above = |(at, line): &(usize, &Line)| {
                 let mut below = lines.iter().skip(at + 1);
@@ -186,7 +187,7 @@ impl Beginning {
         })
     }
 
-    /// The line above the first ones of numbers alone, or above a line of units above these.
+    /// The line above the first purely numeric lines, or above a line of units on top of these.
     fn above_numbers(lines: &[Line], wanted: &[Wanted]) -> Option<(usize, Option<Vec<String>>)> {
         let place = |wanted: &Wanted| match wanted.column {
             ColumnName::Number(number) => Some(number - 1),
@@ -198,9 +199,9 @@ impl Beginning {
             next.into_iter().all(|line| line.is_of_numbers(wanted))
         };
         let first = |wanted: &[usize]| (0..lines.len()).find(|at| begins(at, wanted));
-        // a column without numbers is told as such
+        // a column without numbers is reported as such
         let mut body = first(&wanted).or_else(|| first(&[]))?;
-        // words may stand beside the first samples
+        // words may occur beside the first samples
         let is_sample = |line: &Line| wanted.iter().all(|place| line.is_number(*place));
         while !wanted.is_empty() && body > 0 && lines.get(body - 1).is_some_and(is_sample) {
             body -= 1;
@@ -217,7 +218,7 @@ impl Beginning {
         })
     }
 
-    /// The unit that is stated for a column elsewhere than in its heading, of values or of instants.
+    /// The unit of a column, of values or of instants, stated elsewhere than in its heading.
     pub(super) fn unit(&self, place: usize, is_time: bool) -> Option<String> {
         let below = || self.units.as_ref()?.get(place).and_then(|cell| unit(cell));
         below().or_else(|| self.of_values.clone().filter(|_| !is_time))
@@ -282,11 +283,11 @@ mod tests {
         assert_eq!(units(text, &numbers(&[2, 1])), ["ms", "mV"]);
         let text = "x-axis,1\nsecond,Volt\n0,1\n1,2\n2,3\n";
         assert_eq!(units(text, &numbers(&[2, 1])), ["s", "V"]);
-        // a count of samples has no unit, and numbers beside are none
+        // a count of samples has no unit, and numbers in the line are not units
         let text = "X,CH1,Start,Increment,\nSequence,VOLT,0,1e-3,\n0,1,,\n1,2,,\n";
         assert_eq!(units(text, &names(&["CH1"])), ["", "V"]);
         assert!(beginning(text, &names(&["CH1", "X"])).is_without_unit(0));
-        // a line above the header, of all channels
+        // a line above the header, for all channels
         let text = "Y_Unit_Label	mV	mV
 X_Value	U	I
 0	1	2
@@ -296,7 +297,7 @@ X_Value	U	I
         assert_eq!((found.unit(1, false).as_deref(), found.unit(0, true)), (Some("mV"), None));
     }
 
-    /// A value that is missing is no unit, and a first sample no header.
+    /// A missing value is not a unit, and a first sample is not a header.
     #[test]
     fn samples_are_not_passed_by() {
         for text in
@@ -306,15 +307,15 @@ X_Value	U	I
             assert_eq!((found.first, found.units), (0, None), "{text}");
         }
         assert_eq!(beginning("1,2\n3,4\n", &numbers(&[2])).first, 0);
-        // what an instrument writes beside its first samples
+        // words of an instrument beside its first samples
         let beside = "Record Length,4,,0,1\nSample Interval,1,,1,2\n,,,2,3\n,,,3,4\n,,,4,5\n";
         assert_eq!(beginning(beside, &numbers(&[5, 4])).first, 0);
-        // a comment beside the first sample, and mistakes in it
+        // a comment beside the first sample, and errors in it
         let noted = "Operator\tx\nX_Value\tU\tComment\n0\t1\tstart\n1\t2\t\n2\t3\t\n3\t4\t\n";
         assert_eq!(beginning(noted, &numbers(&[2, 1])).first, 1);
         let over = "P,1\nt,a\nOVLD,OVLD\n0,1\n1,2\n2,3\n";
         assert_eq!(beginning(over, &names(&["a", "t"])).first, 1);
-        // text in another column that every line has
+        // text in another column, on every line
         assert_eq!(beginning("a,state\n1,OK\n2,OK\n", &numbers(&[1])).first, 0);
     }
 }

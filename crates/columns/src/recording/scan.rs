@@ -1,4 +1,4 @@
-//! The first reading of a recording: is it whole, evenly spaced and not saturated?
+//! The first pass over a recording: is it complete, evenly spaced and not saturated?
 
 use std::cell::RefCell;
 use std::io::{self, BufReader, Read};
@@ -12,18 +12,19 @@ use super::{
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Warning;
 
-/// Equal values at the highest or lowest value that make a channel suspect, at least.
+/// Minimum number of equal consecutive values, at the highest or lowest value, that makes a channel
+/// suspect.
 const LEAST_RUN: u64 = 5;
 
-/// By how much a stated sampling rate may be another than the file's, as a share, before it is said;
-/// a WAV has whole numbers of hertz.
+/// Relative difference between the stated sampling rate and that of the file from which a warning
+/// is given; a WAV file states whole hertz.
 const RATES_APART: f64 = 1e-3;
 const WHOLE_HERTZ: f64 = 0.5;
 
-/// Uncertainties of both rates within which they agree all the same.
+/// Within this many combined standard uncertainties, both rates still agree.
 const UNCERTAINTIES_APART: f64 = 5.0;
 
-/// Scatter of instants, relative to the interval, that is said.
+/// Scatter of the instants, relative to the interval, from which a warning is given.
 const SCATTER: f64 = 0.02;
 
 pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
@@ -53,7 +54,7 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
         }
         (stated, frames.whole(), frames.passed_by(), scanned)
     };
-    // what stands behind the last frame belongs to the file too
+    // bytes after the last frame belong to the file too
     io::copy(&mut reader.by_ref(), &mut io::sink()).map_err(|error| error.to_string())?;
     if scanned.all == 0 {
         return Err("it has no samples".to_owned());
@@ -98,29 +99,29 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
 /// What was seen so far.
 struct Scanned<'r> {
     reading: &'r Reading,
-    /// The sampling rate where it is not that of the instants.
+    /// The sampling rate, if it does not come from the instants.
     known: Option<f64>,
-    /// Whether the file holds whole numbers of a converter.
+    /// Whether the file holds integers of a converter.
     whole: bool,
     all: u64,
     first: u64,
     kept: u64,
     held: Option<Vec<Vec<f64>>>,
     extremes: Vec<[Extreme; 2]>,
-    /// The smallest step between neighbours, and the value before, of each channel.
+    /// For each channel, the smallest step between neighbours, and the previous value.
     steps: Vec<(f64, f64)>,
-    /// Values at or beyond the range of each channel: in a row, and in all.
+    /// For each channel, the number of values at or beyond the range: consecutive, and in total.
     beyond: Vec<[u64; 2]>,
     clock: Option<Clock>,
 }
 
-/// A value that was computed, with six digits.
+/// A computed value, with six digits.
 fn significant(value: f64) -> Shortest {
     Shortest(format!("{value:.5e}").parse().unwrap_or(value))
 }
 
-/// The highest or lowest value, the longest run of it, and where that begins; how often it is there, and
-/// the next value to it.
+/// The highest or lowest value, its longest run and where that begins, how often it occurs, and the
+/// nearest other value.
 #[derive(Clone, Copy)]
 struct Extreme {
     sign: f64,
@@ -133,25 +134,27 @@ struct Extreme {
     next_count: u64,
 }
 
-/// Values that are apart by less than this share of themselves are one: the rounding of what was computed.
+/// Values that differ relatively by less than this are equal: the difference is rounding.
 const SAME: f64 = 1e-9;
 
-/// From this many values on that are all the highest one, as single ones among others, a channel may be
-/// saturated; where they are this many times as many as those of the next value. The values of a sine that
-/// round to its highest step are 2.4 times those that round to the next one, at most.
+/// Minimum number of occurrences of the highest value, scattered among others, from which a channel
+/// may be saturated; it must also be this many times the number of occurrences of the next value.
+/// For a sine, the values that round to its highest step are at most 2.4 times as many as those
+/// that round to the next one.
 const LEAST_AT_END: u64 = 10;
 const TIMES_NEXT: u64 = 6;
 
-/// So many values in all at or beyond the range of a channel are saturated, and two in a row.
+/// Number of values in total at or beyond the range from which a channel is saturated; two
+/// consecutive values suffice too.
 const BEYOND_IN_ALL: u64 = 3;
 
-/// Values that are so many times beyond the range are in another unit than it.
+/// Values beyond the range by this factor have another unit than the range.
 const FAR_BEYOND: f64 = 2.0;
 
 impl Extreme {
     fn see(&mut self, value: f64, sample: u64) {
         let value = self.sign * value;
-        // none was seen yet at minus infinity
+        // minus infinity until a value is seen
         let is_at = |other: f64| other.is_finite() && (value - other).abs() <= SAME * other.abs();
         if is_at(self.value) {
             self.count += 1;
@@ -175,7 +178,7 @@ impl Extreme {
         }
     }
 
-    /// Whether there are more values of it than a signal has that goes to it and comes back.
+    /// Whether it has more values than a signal that rises to it and falls again.
     fn is_heaped(&self) -> bool {
         self.value != 0.0 && self.count >= LEAST_AT_END && self.count > TIMES_NEXT * self.next_count
     }
@@ -294,7 +297,7 @@ impl<'r> Scanned<'r> {
         Ok(())
     }
 
-    /// The sampling rate: that of the recipe, else of the instants, else of the file.
+    /// The sampling rate: from the recipe, else from the instants, else from the file.
     fn rate(&self, stated: Option<f64>) -> Measured {
         let exact = |value: f64| Measured {
             value,
@@ -308,8 +311,8 @@ impl<'r> Scanned<'r> {
         }
     }
 
-    /// That the recipe states another sampling rate than the file's instants or its header, which
-    /// `header` is of.
+    /// A warning if the sampling rate of the recipe differs from the file's instants or from
+    /// `header`, the rate in its header.
     fn contradicted(&self, header: Option<f64>) -> Option<Warning> {
         let stated = self.reading.rate.filter(|_| !self.reading.searched)?;
         let (found, u, whose) = match (&self.clock, header) {
@@ -336,8 +339,8 @@ impl<'r> Scanned<'r> {
         })
     }
 
-    /// Channels that stay at their highest or lowest value for longer than a sine of the recipe's
-    /// lowest frequency and their resolution would, or are there more often.
+    /// Channels that stay at their highest or lowest value longer than a sine of the recipe's
+    /// lowest frequency with their resolution would, or that reach it more often.
     fn suspects(&self, rate: f64, channels: usize) -> Vec<Warning> {
         let mut warnings = Vec::new();
         for channel in 0..channels {
@@ -395,13 +398,14 @@ impl<'r> Scanned<'r> {
     }
 }
 
-/// Instants of samples: in order, without jumps, and their straight line of least squares.
+/// Instants of samples: in order, without jumps; and their least-squares straight line.
 struct Clock {
     first: f64,
     last: f64,
     count: u64,
     interval: f64,
-    /// Sums over samples of the deviation d from the first interval's line: i, i^2 are known.
+    /// Sums over samples of the deviation d from the line of the first interval; sums of i and i^2
+    /// are known.
     sum: f64,
     moment: f64,
     squares: f64,
@@ -412,7 +416,7 @@ impl Clock {
         Self { first, last: first, count: 1, interval: 0.0, sum: 0.0, moment: 0.0, squares: 0.0 }
     }
 
-    /// The next instant; `sample` counts from 0.
+    /// Adds the next instant; `sample` counts from 0.
     fn see(&mut self, instant: f64, sample: u64) -> Result<(), String> {
         let step = instant - self.last;
         if self.count == 1 {
@@ -469,8 +473,8 @@ impl Clock {
         (slope, scatter)
     }
 
-    /// The instant of the first sample: by the middle of the record, where the line of all instants is
-    /// known best, and the sampling rate.
+    /// The instant of the first sample, and the sampling rate. It follows from the middle of the
+    /// record, where the fitted line is known best.
     fn start(&self, rate: f64) -> f64 {
         let n = self.count as f64;
         let middle = (n - 1.0) / 2.0;
@@ -539,8 +543,9 @@ mod tests {
         assert!(after(0.42).unwrap_err().contains("jumps"));
     }
 
-    /// The line of all instants tells when the first sample was taken, and not its own stamp; the middle
-    /// of the record is known by the scatter over the root of their number.
+    /// The line through all instants tells when the first sample was taken, not its own time stamp.
+    /// The standard uncertainty in the middle is the scatter over the square root of the number of
+    /// instants.
     #[test]
     fn one_late_stamp_moves_no_start() {
         let of = |late: f64| {
@@ -559,7 +564,7 @@ mod tests {
         assert!((moved - 3e-4 * 4.0 / 1000.0).abs() < 1e-8, "{moved}");
         // s = d/sqrt(n), so d/n
         assert!((late.of_middle() - 3e-7).abs() < 2e-9, "{}", late.of_middle());
-        // with a stated rate the middle alone decides
+        // with a stated rate only the middle counts
         assert!((late.start(1000.0) - 5.0 - 3e-7).abs() < 1e-9);
     }
 }

@@ -1,13 +1,13 @@
-//! Stamps of a clock: `12:00:00.001`, `2026-03-02T12:00:00.001Z`, `02.03.2026 12:00:00,001`.
+//! Time stamps: `12:00:00.001`, `2026-03-02T12:00:00.001Z`, `02.03.2026 12:00:00,001`.
 
-/// Picoseconds of a second and of a day.
+/// Picoseconds in a second and in a day.
 const SECOND: i128 = 1_000_000_000_000;
 const DAY: i128 = 86_400 * SECOND;
 
-/// Digits of a fraction of a second that count.
+/// The number of decimals of a second that are used.
 const DIGITS: usize = 12;
 
-/// A stamp: its date, and the time of the day in picoseconds.
+/// A time stamp: its date, and the time of day in picoseconds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Stamp {
     date: Date,
@@ -64,14 +64,14 @@ fn two_digits(text: &str, below: i128) -> Option<i128> {
     text.parse().ok().filter(|number| is_number && *number < below)
 }
 
-/// A text without `AM` or `PM`, and the hours that these add.
+/// A text without `AM` or `PM`, and the hours that the suffix adds.
 fn of_half_day(text: &str) -> (&str, Option<i128>) {
     let ends = [(" AM", 0), (" am", 0), (" PM", 12), (" pm", 12)];
     let found = ends.iter().find_map(|(end, hours)| Some((text.strip_suffix(end)?, Some(*hours))));
     found.unwrap_or((text, None))
 }
 
-/// The time of a day without the zone behind it, and that in seconds.
+/// A time of day without its time zone, and the zone in seconds.
 fn with_zone(text: &str) -> Option<(&str, i128)> {
     if let Some(clock) = text.strip_suffix('Z') {
         return Some((clock, 0));
@@ -105,7 +105,7 @@ fn date(text: &str) -> Option<Date> {
     }?
 }
 
-/// The days of a date of the Gregorian calendar from a fixed one on.
+/// The number of days of a Gregorian date since a fixed day.
 fn days(year: i128, month: i128, day: i128) -> Option<Date> {
     let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
     let length = match month {
@@ -117,29 +117,29 @@ fn days(year: i128, month: i128, day: i128) -> Option<Date> {
     if !(1..=length).contains(&day) {
         return None;
     }
-    // years that begin in March have the leap day at their end
+    // in years that begin in March the leap day comes last
     let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
     let leaps = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
     Some(Date::Day(year * 365 + leaps + (153 * month + 2) / 5 + day))
 }
 
-/// Whether a text is a stamp.
+/// Whether a text is a time stamp.
 pub(super) fn is_stamp(text: &str) -> bool {
     Stamp::of(text).is_some()
 }
 
-/// The stamps of one column, in seconds from the first one on.
+/// The time stamps of one column, in seconds since the first one.
 #[derive(Debug, Default)]
 pub(super) struct Stamps {
     first: Option<Stamp>,
-    /// The time of the last one from the first one on, in picoseconds.
+    /// The last time stamp, in picoseconds since the first one.
     last: i128,
-    /// Midnights that were passed, of stamps without a date.
+    /// The number of midnights passed, for stamps without a date.
     midnights: i128,
 }
 
 impl Stamps {
-    /// The seconds of a stamp from the first one on; `None` of what is no stamp.
+    /// The seconds from the first stamp to this one; `None` if the text is not a stamp.
     ///
     /// # Errors
     /// The dates cannot be told.
@@ -159,7 +159,7 @@ impl Stamps {
             _ => return Err(format!("`{text}` is not written as the stamps before it")),
         };
         let mut since = days * DAY + stamp.time - first.time;
-        // the clock of a day begins again
+        // the time of day starts again
         if stamp.date == Date::None && self.last - since > DAY / 2 {
             self.midnights += 1;
             since += DAY;

@@ -1,4 +1,4 @@
-//! Frames of a WAV file: whole numbers as they stand in it, or floating-point numbers.
+//! Frames of a WAV file: integers as stored, or floating-point numbers.
 
 use std::io::{Chain, Cursor, Read};
 
@@ -16,13 +16,13 @@ pub(super) struct WavFrames<R> {
     samples: u64,
 }
 
-/// Bytes in which the samples begin.
+/// Number of bytes in which the samples must begin.
 const LONGEST_HEADER: u64 = 1 << 16;
 
-/// Checks what a header says before the samples, and fills in their length where the program that
-/// wrote them to a pipe could not: it leaves 0 or the largest number there. Chunks that say nothing about
-/// the samples (`LIST`, `bext`) are taken out: of odd ones the byte that fills them up is not read over
-/// otherwise.
+/// Checks the header before the samples, and fills in the length of the samples if the program that
+/// wrote the file to a pipe left it at 0 or at the largest number. Chunks without information about
+/// the samples (`LIST`, `bext`) are removed, because the reader does not skip the padding byte of
+/// odd chunks.
 fn header(start: &mut Vec<u8>, size: Option<u64>) -> Result<(), String> {
     let number = |bytes: &[u8], at: usize| -> Option<u32> {
         Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
@@ -41,7 +41,7 @@ fn header(start: &mut Vec<u8>, size: Option<u64>) -> Result<(), String> {
         match start.get(at..at + 4) {
             Some(b"fmt ") => {
                 let bits = half(start, inside + 14).unwrap_or(0);
-                // of the extensible form the kind is the beginning of a longer number
+                // in the extensible form the kind is the beginning of a longer number
                 let kind = match half(start, inside) {
                     Some(0xfffe) => half(start, inside + 24),
                     other => other,
@@ -84,7 +84,7 @@ fn header(start: &mut Vec<u8>, size: Option<u64>) -> Result<(), String> {
 }
 
 impl<R: Read> WavFrames<R> {
-    /// A file of so many bytes, as far as that is known.
+    /// A file of `size` bytes, if the size is known.
     pub(super) fn new(
         mut reader: R,
         size: Option<u64>,
@@ -99,7 +99,7 @@ impl<R: Read> WavFrames<R> {
             .map_err(|error| format!("it is not a WAV file that this version reads: {error}"))?;
         let spec = reader.spec();
         let channels = usize::from(spec.channels);
-        // what counts digits, `D` and `LSB`, is a plain number
+        // units that count digits, `D` and `LSB`, are plain numbers
         let is_quantity = |wanted: &&Wanted| {
             let unit = &wanted.unit;
             !unit.dimension().is_none() || unit.turn().is_some() || unit.factor() != 1.0
@@ -205,7 +205,7 @@ mod tests {
         bytes
     }
 
-    /// A WAV file of one channel of 16 bits at 1 kHz with these chunks before its samples.
+    /// A WAV file with one channel of 16 bits at 1 kHz and with these chunks before its samples.
     fn file(before: &[u8], stated: Option<u32>) -> Vec<u8> {
         let format: Vec<u8> = [1u16, 1].iter().flat_map(|x| x.to_le_bytes()).collect();
         let rates: Vec<u8> = [1000u32, 2000].iter().flat_map(|x| x.to_le_bytes()).collect();
@@ -237,7 +237,7 @@ mod tests {
         Ok(columns.remove(0))
     }
 
-    /// 300 is no voltage where the full scale is not known.
+    /// 300 is not a voltage if the full scale is unknown.
     #[test]
     fn whole_numbers_need_a_scale() {
         let message = read_in(&file(&[], None), Unit::parse("V").unwrap()).unwrap_err();
@@ -245,8 +245,8 @@ mod tests {
         assert!(read_in(&file(&[], None), Unit::parse("D").unwrap()).is_ok());
     }
 
-    /// Chunks of odd length are filled up by a byte, which is no part of what follows; nor is what they
-    /// take counted as samples where the length of those is not stated.
+    /// Chunks of odd length have a padding byte, which is not part of the next chunk. Chunks after
+    /// samples of unstated length do not count as samples.
     #[test]
     fn other_chunks_are_passed_over() {
         let odd = [chunk(b"LIST", b"abcde"), chunk(b"JUNK", b"x")].concat();

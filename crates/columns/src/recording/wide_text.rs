@@ -1,29 +1,29 @@
-//! Text in UTF-16 as text in UTF-8, while it is read.
+//! Converts text in UTF-16 to UTF-8 while it is read.
 
 use std::io::{self, Read};
 
-/// At most so many bytes are turned at a time.
+/// Maximum number of bytes converted at a time.
 const CHUNK: usize = 1 << 16;
 
-/// What it is that cannot be turned.
+/// The message for text that cannot be converted.
 const NO_TEXT: &str = "it begins as UTF-16 text, but is not";
 
-/// The bytes of a text: as they are, or turned into UTF-8 where they begin with a byte-order mark of
+/// The bytes of a text: unchanged, or converted to UTF-8 if they begin with a byte-order mark of
 /// UTF-16, as Windows programs write it.
 pub(super) struct NarrowText<R> {
     inner: R,
-    /// How two bytes are a code unit; nothing where the bytes are taken as they are.
+    /// How two bytes form a code unit; `None` if the bytes are passed through.
     unit: Option<fn([u8; 2]) -> u16>,
-    /// What has been turned, and how much of it was given.
+    /// The converted text, and how much of it has been returned.
     turned: Vec<u8>,
     given: usize,
-    /// Half a code unit, and the first of a pair of them.
+    /// Half a code unit, and the first code unit of a pair.
     half: Option<u8>,
     first: Option<u16>,
 }
 
 impl<R: Read> NarrowText<R> {
-    /// Looks at the first two bytes.
+    /// Examines the first two bytes.
     pub(super) fn new(mut inner: R) -> io::Result<Self> {
         let mut turned = Vec::new();
         inner.by_ref().take(2).read_to_end(&mut turned)?;
@@ -38,7 +38,7 @@ impl<R: Read> NarrowText<R> {
         Ok(Self { inner, unit, turned, given: 0, half: None, first: None })
     }
 
-    /// Turns the next bytes; false at the end.
+    /// Converts the next bytes; false at the end.
     fn turn(&mut self, unit: fn([u8; 2]) -> u16) -> io::Result<bool> {
         let no_text = || io::Error::new(io::ErrorKind::InvalidData, NO_TEXT);
         let mut bytes = Vec::with_capacity(CHUNK + 1);
@@ -96,13 +96,13 @@ mod tests {
 
     #[test]
     fn both_orders_and_pairs_across_chunks() {
-        // of odd length in code units, so that a pair lies across the end of a chunk
+        // an odd number of code units, so that a pair straddles the end of a chunk
         let text = format!("t{}", "µ,😀\n".repeat(20_000));
         for of in [u16::to_le_bytes, u16::to_be_bytes] {
             let wide: Vec<u8> =
                 std::iter::once(0xfeff).chain(text.encode_utf16()).flat_map(of).collect();
             assert!(read(&wide).unwrap() == text);
-            // half a code unit less, and half a pair less
+            // without half a code unit, and without half a pair
             for less in [1, 4] {
                 assert!(read(&wide[..wide.len() - less]).is_err(), "{less}");
             }

@@ -1,21 +1,21 @@
-//! Which sheet of a workbook is read: the one that is shown and holds what is wanted.
+//! Chooses the sheet of a workbook to read: the visible one with the wanted content.
 
 use super::{Book, SheetName};
 use crate::DiagnosticKind;
 
-/// What a sheet is to hold, in words.
+/// What a sheet must contain, in words.
 #[derive(Debug)]
 pub struct Wanted {
     /// With its article: `a budget`.
     pub a: &'static str,
-    /// As one of several: `one budget`.
+    /// One of several: `one budget`.
     pub one: &'static str,
-    /// Whether the command has an option for the name of the sheet.
+    /// Whether the command has an option for the sheet's name.
     pub has_option: bool,
 }
 
-/// The sheet of that name, or the one that is shown and holds what is wanted; the first one that is shown
-/// where none does. With it, which of several sheets it is, as a sentence.
+/// The sheet of this name, or else the visible sheet with the wanted content, or else the first
+/// visible one. The second result is a sentence that says which of several sheets it is.
 pub fn of<T>(
     book: &mut Book,
     name: Option<&str>,
@@ -70,14 +70,14 @@ pub fn of<T>(
     }
 }
 
-/// Which of several sheets it is.
+/// A sentence that says which of several sheets was read.
 fn told(own: &SheetName, sheets: &[SheetName]) -> Option<String> {
     let others: Vec<&SheetName> = sheets.iter().filter(|sheet| *sheet != own).collect();
     let others = (!others.is_empty()).then(|| list(others.into_iter(), "or"))?;
     Some(format!("sheet `{}` is read, not {others}", own.name))
 }
 
-/// Names of sheets in a sentence; not more than the first ten.
+/// Names of sheets in a sentence; at most the first ten.
 fn list<'a>(sheets: impl Iterator<Item = &'a SheetName>, and: &str) -> String {
     const MOST: usize = 10;
     let named = |sheet: &SheetName| {

@@ -1,10 +1,10 @@
-//! Cells that a spreadsheet shows as a date or a time, whatever was typed: `10.1` becomes 10 January in some
-//! locales. The number that such a cell holds is that of days, which nobody means.
+//! Cells that a spreadsheet displays as a date or a time, whatever was typed: `10.1` becomes 10
+//! January in some locales. The number in such a cell counts days, which nobody means.
 
 use calamine::{Data, ExcelDateTime};
 
-/// What a cell shows that is a date or a time; `None` of other ones. It begins with a word, so that
-/// nobody takes it for a number or for a sum of them.
+/// The date or time that a cell displays; `None` for other cells. It begins with a word, so that it
+/// cannot be taken for a number or a sum.
 pub(super) fn shown(value: &Data) -> Option<String> {
     match value {
         Data::DateTime(of) => Some(of_days(of)),
@@ -27,7 +27,7 @@ fn of_days(of: &ExcelDateTime) -> String {
     if days.fract() == 0.0 { date } else { format!("{date} {hour:02}:{minute:02}") }
 }
 
-/// Why such a cell holds no number, as a sentence that goes on behind the cell's name.
+/// Why such a cell holds no number; the sentence continues after the cell's name.
 pub(crate) fn no_number(shown: &str) -> String {
     let (what, when) = shown.split_once(' ').unwrap_or(("date", shown));
     format!(

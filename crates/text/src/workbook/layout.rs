@@ -1,5 +1,5 @@
-//! What a sheet says of its rows and cells besides their values: hidden rows, formulas that nobody has
-//! calculated, merged and struck-through cells.
+//! The layout of a sheet besides the values: hidden rows, formulas without calculated values,
+//! merged and struck-through cells.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::io::{Cursor, Read};
@@ -33,37 +33,37 @@ pub struct Layout {
     pub(crate) hidden: BTreeSet<u32>,
     /// Columns that are hidden or have no width.
     pub hidden_columns: BTreeSet<u32>,
-    /// Cells whose value is an entity of a document type, which nothing here resolves.
+    /// Cells whose value is an XML entity, which is not resolved.
     pub(crate) entities: Vec<Place>,
     /// Formulas without a stored value.
     pub(crate) unfilled: Vec<Place>,
-    /// Formulas, where the stored value of every one is 0: a writer that never calculates stores it.
+    /// Formulas, if the stored value of every one is 0: a program that never calculates stores it.
     pub(crate) zeros: Vec<Place>,
     /// Merged cells, from the first to the last one.
     pub merged: Vec<(Place, Place)>,
     /// Cells with content that is struck through.
     pub struck: BTreeSet<Place>,
-    /// Cells that hold a text, in which a number has the marks that somebody wrote.
+    /// Cells with a text; a number in a text has the decimal marks of its writer.
     pub texts: BTreeSet<Place>,
-    /// Cells of which a part is raised, lowered or struck through, with what is to be said of it.
+    /// Cells with a raised, lowered or struck-through part, and the message about each.
     pub(crate) rich: BTreeMap<Place, String>,
-    /// Cells that show a date or a time, with what they show.
+    /// Cells that display a date or a time, with the displayed text.
     pub dates: BTreeMap<Place, String>,
-    /// The power of ten of the last digit that a cell shows of its number, where its format tells.
+    /// The power of ten of the last digit that a cell displays, if its format determines it.
     pub last_digits: BTreeMap<Place, i32>,
-    /// A cell that lies beyond those that are read of a budget.
+    /// The first cell beyond those that are read.
     pub beyond: Option<Place>,
 }
 
 impl Layout {
-    /// That of the sheet of this number in the workbook, from 0; nothing where its part is not found.
+    /// The layout of the sheet with this index, from 0; empty if its part is not found.
     pub(super) fn of(parts: &mut PartsOf, sheet: usize) -> Self {
         let text = parts.sheets.get(sheet).cloned().flatten().and_then(|name| parts.part(&name));
         text.map(|text| Self::of_text(&text, &parts.shared)).unwrap_or_default()
     }
 
-    /// Why a cell holds no number though its value is one: it shows a date or a time, or a part of its text
-    /// is raised.
+    /// Why a cell holds no number although its value is one: it displays a date or a time, or a
+    /// part of its text is raised.
     pub fn no_number(&self, cell: Place) -> Option<String> {
         if let Some(reason) = self.rich.get(&cell) {
             return Some(format!("cell {} {reason}", reference(cell)));
@@ -72,7 +72,7 @@ impl Layout {
         Some(format!("cell {} {}", reference(cell), date::no_number(shown)))
     }
 
-    /// How a row is withdrawn that has a cell struck through, or is hidden, and what undoes it.
+    /// How a row with a struck-through cell or a hidden row is withdrawn, and how to undo that.
     pub fn withdrawn(&self, row: u32, is_struck: bool) -> Option<(&'static str, &'static str)> {
         if self.hidden.contains(&row) {
             Some(("hidden", "show it"))
@@ -83,11 +83,11 @@ impl Layout {
         }
     }
 
-    /// Whether all rows of a table with these ones are to be seen and stand, and all of its formulas
-    /// calculated.
+    /// Checks that all rows of a table are visible and not struck through, and that all formulas
+    /// are calculated.
     ///
     /// # Errors
-    /// What is not, as a sentence about the workbook.
+    /// A sentence about the first problem.
     pub(super) fn check_shown<'r>(
         &self,
         rows: impl Iterator<Item = &'r u32>,
@@ -108,8 +108,8 @@ impl Layout {
         }
     }
 
-    /// The first of the needed cells that is a formula without a stored value, and the first one that
-    /// holds an entity, each with what is to be done about it.
+    /// The first needed cell that is a formula without a stored value, and the first one with an
+    /// entity, each with advice.
     pub fn without_values(
         &self,
         is_needed: impl Fn(Place) -> bool,
@@ -128,8 +128,8 @@ impl Layout {
         kinds.map(|(cells, reason)| first(cells, &is_needed, reason)).into_iter().flatten()
     }
 
-    /// The first of the needed cells that is a formula, where the stored value of all is 0, with what is
-    /// to be done about it.
+    /// The first needed cell that is a formula, if the stored value of all formulas is 0, with
+    /// advice.
     pub fn uncalculated(&self, is_needed: impl Fn(Place) -> bool) -> Option<(Place, String)> {
         let reason = "is a formula whose stored value is 0, like that of every other formula, as of a \
             workbook that nobody has calculated; open and save it in a spreadsheet program, or write \
@@ -137,11 +137,11 @@ impl Layout {
         first(&self.zeros, is_needed, reason)
     }
 
-    /// Of the XML of a sheet and what is doubtful of the texts that its cells share.
+    /// Reads the XML of a sheet, given the doubts about the shared texts.
     fn of_text(text: &str, shared: &[Option<String>]) -> Self {
         let mut found = Self::default();
         let mut xml = quick_xml::Reader::from_str(text);
-        // the row and the column that come next, from 1
+        // the next row and column, from 1
         let (mut row, mut column) = (0, 0);
         let (mut is_formula, mut has_value, mut in_value) = (false, false, false);
         let (mut value, mut has_other) = (String::new(), false);
@@ -181,7 +181,7 @@ impl Layout {
                             let range = attribute(&element, "ref").unwrap_or_default();
                             let ends = range.split_once(':');
                             let ends = ends.and_then(|(a, b)| place(a).zip(place(b)));
-                            // more than there are rows in a budget are no table
+                            // more columns than a table can have
                             let is_full = found.merged.len() >= MOST_ROWS as usize;
                             let ends = ends.filter(|_| !is_full);
                             found.merged.extend(ends.map(|(a, b)| (from_zero(a), from_zero(b))));
@@ -233,7 +233,7 @@ impl Layout {
     }
 }
 
-/// A column and a row counted from 1 as a place.
+/// A column and a row, counted from 1, as a [`Place`].
 const fn from_zero((column, row): (u32, u32)) -> Place {
     (row.saturating_sub(1), column.saturating_sub(1))
 }
@@ -243,7 +243,7 @@ fn is_hidden(row: &BytesStart<'_>) -> bool {
     is_set || attribute(row, "ht").and_then(|ht| ht.parse().ok()).is_some_and(|ht: f64| ht == 0.0)
 }
 
-/// The columns of an element `col`, from 0, if they are hidden; no more than a table has.
+/// The columns of an element `col`, from 0, if they are hidden; at most as many as a table has.
 fn hidden_columns(col: &BytesStart<'_>) -> std::ops::Range<u32> {
     let is_set = attribute(col, "hidden").is_some_and(|of| matches!(of.as_str(), "1" | "true"));
     let number = |name: &str| attribute(col, name).and_then(|of| of.parse::<f64>().ok());
@@ -259,13 +259,13 @@ pub(super) struct PartsOf {
     archive: ZipArchive<Cursor<Vec<u8>>>,
     /// The part of each sheet, in their order.
     sheets: Vec<Option<String>>,
-    /// What is doubtful of the texts that cells share.
+    /// Doubts about the texts that cells share.
     shared: Vec<Option<String>>,
 }
 
 impl PartsOf {
     /// # Errors
-    /// It has too many sheets, or two of them are one part; each is read on its own.
+    /// The workbook has too many sheets, or two sheets share one part; each is read separately.
     pub(super) fn of(bytes: Vec<u8>) -> Result<Self, String> {
         let archive = ZipArchive::new(Cursor::new(bytes)).map_err(super::is_none)?;
         let mut parts = Self { archive, sheets: Vec::new(), shared: Vec::new() };
@@ -328,7 +328,7 @@ impl PartsOf {
     }
 }
 
-/// What the wanted elements of an XML hold.
+/// The contents of the wanted elements of an XML document.
 fn elements<T>(
     text: &str,
     wanted: impl Fn(&BytesStart<'_>) -> bool,
@@ -367,7 +367,7 @@ mod tests {
         assert_eq!(zeros.hidden_columns, BTreeSet::from([1, 2]));
         assert_eq!((&*zeros.entities, &*zeros.zeros), (&[(0, 0)][..], &[(0, 2), (0, 3)][..]));
         assert!(Layout::of_text(&format!("{cells}<v>2</v></c></row>"), &[]).zeros.is_empty());
-        // of a table, the zeros of its own rows alone
+        // for a table only the zeros of its own rows
         let zeros = Layout { entities: Vec::new(), ..zeros };
         let said = zeros.check_shown([0].iter()).unwrap_err();
         assert!(said.starts_with("its cell C1 is a formula whose stored value is 0"), "{said}");

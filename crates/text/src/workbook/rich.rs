@@ -1,6 +1,7 @@
-//! Texts of cells whose parts have a look of their own: raised or lowered, or struck through.
+//! Texts of cells with formatted parts: raised, lowered, or struck through.
 //!
-//! Without it `10` and a raised `3` are 103, and `0.05` with a footnote is 0.051.
+//! Without the format, `10` and a raised `3` read as 103, and `0.05` with a raised footnote mark 1
+//! as 0.051.
 
 use quick_xml::events::Event;
 
@@ -9,17 +10,17 @@ use super::attribute;
 /// The parts of one text, as they are read.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Parts {
-    /// What stands before the part that is read.
+    /// The text before the current part.
     before: String,
     text: String,
-    /// How the part looks: `raised`, `lowered` or `struck through`.
+    /// The format of the part: `raised`, `lowered` or `struck through`.
     look: Option<&'static str>,
     in_text: bool,
     found: Option<String>,
 }
 
 impl Parts {
-    /// Takes an event of the XML between the beginning and the end of the text.
+    /// Processes an XML event between the beginning and the end of the text.
     pub(super) fn take(&mut self, event: &Event<'_>) {
         match event {
             Event::Start(element) | Event::Empty(element) => match element.local_name().as_ref() {
@@ -71,14 +72,14 @@ impl Parts {
         self.before.push_str(&text);
     }
 
-    /// Why the text is no plain number; nothing where all of its parts are alike.
+    /// Why the text is not a plain number; `None` if all parts have the same format.
     pub(super) fn doubt(&mut self) -> Option<String> {
         self.close();
         self.found.take()
     }
 }
 
-/// What is doubtful of each of the texts that cells share, in their order.
+/// The doubt about each of the texts that cells share, in order.
 pub(super) fn shared(text: &str) -> Vec<Option<String>> {
     let mut xml = quick_xml::Reader::from_str(text);
     let (mut found, mut parts) = (Vec::new(), Parts::default());
