@@ -1,14 +1,14 @@
-//! The digest that a saved result carries of itself (ISO/IEC 17025:2017, 7.11.3: data are
-//! safeguarded against tampering and loss).
+//! The digest that a saved result carries (ISO/IEC 17025:2017, 7.11.3: data are safeguarded against
+//! tampering and loss).
 //!
-//! It is taken of what the file says and not of its bytes, so that another layout or order of keys
-//! is no change. Digests of the parts, shortened, tell what was changed as far as that can be told;
-//! they are part of what the whole one covers.
+//! The digest covers the content of the file and not its bytes, so that another layout or key order
+//! does not change it. Shortened digests of the parts tell what was changed, if that can be
+//! determined; the whole digest covers them too.
 
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 
-/// The key of the digest of all else in the file.
+/// The key of the digest of everything else in the file.
 pub const DIGEST: &str = "sha256";
 
 /// The key of the digests of its parts.
@@ -17,15 +17,15 @@ pub const PARTS: &str = "sha256_of_parts";
 /// Hexadecimal digits of a part's digest.
 const SHORT: usize = 16;
 
-/// The digest of an object without the one that it carries, in hexadecimal.
+/// The digest of an object without its own digest, in hexadecimal.
 pub fn digest(content: &Map<String, Value>) -> String {
     let mut canonical = String::new();
     object(content.iter().filter(|(key, _)| *key != DIGEST).collect(), &mut canonical);
     sha256(canonical.as_bytes())
 }
 
-/// The parts of a saved result, each by the keys that lead to it with `/` between them, and their
-/// digests: every key of the root, within `outputs` every key of each, within `inputs` each.
+/// The parts of a saved result with their digests, each named by its keys separated by `/`: every
+/// key of the root, every key of each entry of `outputs`, and each entry of `inputs`.
 pub fn parts(content: &Map<String, Value>) -> Vec<(String, String)> {
     let mut all = Vec::new();
     let mut add = |name: String, value: &Value| {
@@ -58,7 +58,7 @@ pub fn parts(content: &Map<String, Value>) -> Vec<(String, String)> {
     all
 }
 
-/// The parts that are not what their digests say: changed, gone, or new.
+/// The parts whose digests do not match: changed, missing, or new.
 pub fn changed(content: &Map<String, Value>) -> Vec<String> {
     let Some(Value::Object(stated)) = content.get(PARTS) else { return Vec::new() };
     let found = parts(content);
@@ -77,7 +77,7 @@ pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// A value as canonical text: keys in the order of their characters, numbers by what they are.
+/// A value as canonical text: keys in the order of their characters, numbers by their values.
 fn write(value: &Value, out: &mut String) {
     match value {
         Value::Object(members) => object(members.iter().collect(), out),
@@ -94,12 +94,12 @@ fn write(value: &Value, out: &mut String) {
             (None, Some(value)) => *out += &canonical(value),
             (None, None) => *out += &number.to_string(),
         },
-        // a text in quotes, with what is in it escaped
+        // a quoted text with escapes
         other => *out += &other.to_string(),
     }
 }
 
-/// A number that is not written as a whole one; 5.0 is 5.
+/// A number that is not written as an integer; 5.0 is 5.
 fn canonical(value: f64) -> String {
     const WHOLE: f64 = 9_007_199_254_740_992.0;
     if value.fract() == 0.0 && value.abs() <= WHOLE {
@@ -154,7 +154,7 @@ mod tests {
         }
     }
 
-    /// Against another implementation of the same words: Python's `json` and `hashlib`.
+    /// The reference is another implementation: Python's `json` and `hashlib`.
     #[test]
     fn the_digest_is_what_others_compute() {
         let mut content = read(

@@ -1,5 +1,5 @@
-//! What is made of evaluations: comparisons of results, what changed between two evaluations, plans
-//! towards a wanted uncertainty, calibration certificates, and published values recomputed.
+//! Uses of evaluations: comparisons of results, differences between two evaluations, plans for a
+//! target uncertainty, calibration certificates, and recomputed published values.
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
 #![deny(unsafe_code)]

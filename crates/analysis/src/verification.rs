@@ -1,5 +1,5 @@
-//! Published values recomputed (ISO/IEC 17025, 7.11): what a document prints beside what this
-//! program makes of it.
+//! Published values recomputed (ISO/IEC 17025, 7.11): the printed value of a document next to the
+//! value that this program computes.
 
 use gumption_engine::task::Trials;
 use serde::Deserialize;
@@ -7,9 +7,9 @@ use serde::Deserialize;
 /// A number that a document prints.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct PublishedValue {
-    /// The output; none for what belongs to all of them.
+    /// The output; `None` if the value belongs to all outputs.
     pub output: Option<String>,
-    /// Where it stands in the answer: `gum.interval[0]`.
+    /// Its path in the answer: `gum.interval[0]`.
     pub path: String,
     /// The number, in the unit of the output.
     pub value: f64,
@@ -22,9 +22,9 @@ pub struct PublishedValue {
 /// Whether a recomputed value agrees with the published one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PublishedVerdict {
-    /// The difference is not above the tolerance.
+    /// The difference is not larger than the tolerance.
     Pass,
-    /// It is above, or there is no recomputed value.
+    /// The difference is larger, or there is no recomputed value.
     Diff,
 }
 
@@ -38,7 +38,7 @@ impl PublishedVerdict {
     }
 }
 
-/// One published value and what this machine makes of it.
+/// A published value and the value recomputed on this machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecomputedValue {
     /// What is published.
@@ -69,10 +69,10 @@ pub struct RecomputedExample {
     pub source: String,
     /// What a reader of the table should know.
     pub notes: String,
-    /// Trials and seed, or that there were none.
+    /// Trials and seed; `None` without trials.
     pub trials: Option<(Trials, u64)>,
     /// Its values.
     pub rows: Vec<RecomputedValue>,
-    /// Why it could not be evaluated.
+    /// Why the example could not be evaluated.
     pub failure: Option<String>,
 }

@@ -11,7 +11,7 @@ use super::named_file::NamedFiles;
 /// A file of the page itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ServedAsset {
-    /// Its name in `/assets/`; `index.html` stands at `/`.
+    /// Its name in `/assets/`; `index.html` is served at `/`.
     pub name: &'static str,
     /// Its media type.
     pub content_type: &'static str,
@@ -19,36 +19,36 @@ pub struct ServedAsset {
     pub content: &'static [u8],
 }
 
-/// What kind of file something is, as far as its content tells.
+/// The kind of a file, as far as its content tells.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileDescription {
     /// A word for the kind, such as `model`.
     pub kind: &'static str,
-    /// The title that stands in it.
+    /// The title in the file.
     pub title: Option<String>,
 }
 
-/// A text of the page, perhaps not saved yet, with the place of its file.
+/// A text of the page, possibly not yet saved, with the path of its file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextOfFile {
-    /// The name below the opened folder, with `/` between its parts.
+    /// The path below the opened folder, with `/` between its parts.
     pub path: String,
     /// The text.
     pub text: String,
-    /// The folder that the files it names are relative to.
+    /// The folder to which the files that it names are relative.
     pub folder: PathBuf,
     /// The opened folder, above which nothing is read.
     pub root: PathBuf,
 }
 
-/// A file that is handed out.
+/// A file for download.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Exported {
     /// Its content.
     pub content: Vec<u8>,
     /// Its media type.
     pub content_type: &'static str,
-    /// The name to be saved under.
+    /// The suggested file name.
     pub name: String,
 }
 
@@ -62,26 +62,26 @@ impl fmt::Debug for Exported {
 /// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// There is nothing of that name.
+    /// Nothing of that name exists.
     Unknown(String),
-    /// The request is not as it must be.
+    /// The request is malformed.
     Request(String),
-    /// What the user wrote is at fault: the text of the message for him.
+    /// The user's text has an error; the message for the user.
     Content(String),
-    /// What the user wrote has mistakes, each with its place.
+    /// The user's text has errors, each with its position.
     Mistakes {
-        /// The text of the message for him.
+        /// The message for the user.
         message: String,
-        /// The mistakes as the page lists them.
+        /// The errors as the page lists them.
         list: serde_json::Value,
     },
-    /// It was stopped before there was anything to hand out.
+    /// It was stopped before there was a result.
     Stopped(String),
-    /// The program or the system is at fault.
+    /// An error of the program or of the system.
     Internal(String),
 }
 
-/// What answers requests. Each call may come on any thread, several at a time.
+/// Answers requests. Calls may come on any thread, several at a time.
 pub trait Answers: Send + Sync + 'static {
     /// The program's version.
     fn version(&self) -> &str;
@@ -89,8 +89,8 @@ pub trait Answers: Send + Sync + 'static {
     /// The files of the page.
     fn assets(&self) -> &[ServedAsset];
 
-    /// A call of the page, JSON in and JSON out. When `stop` becomes true, what there is by then is
-    /// the answer.
+    /// A call of the page, JSON in and JSON out. When `stop` becomes true, the answer is what has
+    /// been computed so far.
     ///
     /// # Errors
     /// Why there is none.
@@ -102,13 +102,13 @@ pub trait Answers: Send + Sync + 'static {
         stop: &Arc<AtomicBool>,
     ) -> Result<String, Refusal>;
 
-    /// What a file of that name and content is.
+    /// The kind of a file with this name and content.
     fn describe(&self, name: &str, content: &[u8]) -> FileDescription;
 
-    /// A text evaluated and written in a format.
+    /// Evaluates a text and writes the result in a format.
     ///
     /// # Errors
-    /// Why there is nothing to hand out.
+    /// Why there is no result.
     fn export(
         &self,
         file: &TextOfFile,
@@ -116,13 +116,13 @@ pub trait Answers: Send + Sync + 'static {
         stop: &Arc<AtomicBool>,
     ) -> Result<Exported, Refusal>;
 
-    /// A text evaluated as a page of HTML.
+    /// Evaluates a text and writes an HTML page.
     ///
     /// # Errors
     /// Why there is no page.
     fn page(&self, file: &TextOfFile, stop: &Arc<AtomicBool>) -> Result<String, Refusal>;
 
-    /// Puts a file in place of the one at a path, or where there is none; whole or not at all.
+    /// Writes a file at a path, new or as a replacement; completely or not at all.
     ///
     /// # Errors
     /// That it cannot be written.

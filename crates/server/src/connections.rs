@@ -1,7 +1,7 @@
 //! Connections, so many at once.
 //!
-//! Whoever connects and says nothing, or says it slowly, loses his place: to the time limit, and
-//! before that to whoever comes new. Only requests of those who may ask keep it.
+//! A client that connects and sends nothing, or sends slowly, loses its place: to the time limit,
+//! or earlier to a new client. Only requests with a valid secret keep the place.
 
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -17,13 +17,13 @@ use tokio::task::AbortHandle;
 
 use super::doorkeeper::Proven;
 
-/// Connections at once. A browser has six, and another for each page's events.
+/// Maximum number of connections. A browser uses six, and one more for the events of each page.
 const MOST: usize = 200;
 
-/// How long the headers of a request may take, and how long a connection may be idle.
+/// Time limit for the headers of a request, and for an idle connection.
 const HEADERS: Duration = Duration::from_secs(10);
 
-/// Bytes that the headers of a request may have.
+/// Maximum size of the headers of a request, in bytes.
 const MOST_HEADERS: usize = 64 << 10;
 
 #[derive(Debug)]
@@ -32,7 +32,7 @@ struct Connection {
     proven: Proven,
 }
 
-/// The connections that are open, the oldest first.
+/// The open connections, the oldest first.
 #[derive(Debug)]
 pub(crate) struct Connections {
     routes: Router,
@@ -44,7 +44,8 @@ impl Connections {
         Self { routes, open: Vec::new() }
     }
 
-    /// Serves a new one, if need be in place of the oldest that has proven nothing.
+    /// Serves a new connection, if necessary instead of the oldest one that has not proven its
+    /// secret.
     pub(crate) fn serve(&mut self, stream: TcpStream) {
         self.open.retain(|connection| !connection.task.is_finished());
         if self.open.len() >= MOST {
@@ -54,7 +55,7 @@ impl Connections {
                 None => return,
             }
         }
-        // small answers are not to wait for more
+        // small answers must not wait for more data
         let _ = stream.set_nodelay(true);
         let proven = Proven::default();
         let routes = TowerToHyperService::new(self.routes.clone());
@@ -67,7 +68,7 @@ impl Connections {
         http.timer(TokioTimer::new()).header_read_timeout(HEADERS).max_buf_size(MOST_HEADERS);
         let connection = http.serve_connection(TokioIo::new(stream), service);
         let task = tokio::spawn(async move {
-            // an error is that of the other side, who hears of it himself
+            // an error is the client's, which notices it itself
             let _ = connection.await;
         });
         self.open.push(Connection { task: task.abort_handle(), proven });

@@ -1,16 +1,15 @@
-//! Who may ask, and what a browser may do with an answer.
+//! Who may send requests, and what a browser may do with an answer.
 //!
-//! A browser runs pages of strangers beside ours. They can send requests here, but not with the name
-//! of this server and from its own pages: `Host` is another where a name of theirs leads to this
-//! machine (DNS rebinding), `Origin` and `Sec-Fetch-Site` tell other sites, and the header that
-//! every writing request has cannot be sent across sites at all. Other users of the machine have not
-//! got the token of the address.
+//! A browser also runs pages of strangers. They can send requests to this server, but not under its
+//! name and not from its own pages. `Host` differs if a name of theirs leads to this machine (DNS
+//! rebinding), `Origin` and `Sec-Fetch-Site` reveal other sites, and the header of every writing
+//! request cannot be sent across sites at all. Other users of the machine do not have the token of
+//! the address.
 //!
-//! A browser sends its cookies to every port of a machine, and so to a server of another user. Hence
-//! the cookie is good for reading what the page is made of, and nothing can be had with it that is good
-//! for more: what is asked of the program or written needs the secret of the page as well. That comes
-//! with the answer to the address's token, behind the `#` of where it leads to, which browsers keep to
-//! themselves.
+//! A browser sends its cookies to every port of a machine, and therefore also to a server of
+//! another user. Hence the cookie only gives access to the assets of the page; calls of the program
+//! and writing require the secret of the page as well. That secret is sent in the answer to the
+//! address's token, after the `#` of the redirect, which browsers do not pass on.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, PoisonError};
@@ -24,24 +23,24 @@ use axum::response::{IntoResponse, Response};
 use super::routes::refusal;
 use super::server::House;
 
-/// What pages of this server may do: show what comes from it, and run its own scripts.
+/// Policy for pages of this server: show its content, and run its own scripts.
 const POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; \
                       img-src 'self' data:; connect-src 'self'; worker-src 'self'; \
                       frame-src 'self'; frame-ancestors 'self'; base-uri 'none'; \
                       form-action 'none'";
 
-/// What a page of a report may do: show its own styles and pictures, whoever opens it.
+/// Policy for report pages: show their own styles and pictures, whoever opens them.
 pub(crate) const POLICY_OF_REPORTS: &str = "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'self'; \
      base-uri 'none'; form-action 'none'";
 
-/// The header of every request that is not for a part of the page: the secret of the page.
+/// The header of every request other than for assets: the secret of the page.
 const OWN_HEADER: &str = "x-gumption";
 
-/// Whether a connection has had a request of somebody who may ask.
+/// Whether a valid secret has come over a connection.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Proven(pub(crate) Arc<AtomicBool>);
 
-/// Why a request is not let in.
+/// Why a request is rejected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Barred {
     Host,
@@ -55,11 +54,11 @@ enum Barred {
 enum Admitted {
     /// With the cookie.
     Known,
-    /// With the token of the address: he gets the cookie.
+    /// With the token of the address: sets the cookie.
     New,
 }
 
-/// Looks at every request before anything else does, and makes every answer safe to be shown.
+/// Checks every request before anything else, and makes every answer safe to display.
 pub(crate) async fn keep(
     State(house): State<Arc<House>>,
     request: Request,
@@ -99,7 +98,7 @@ impl Barred {
             }
         };
         let mut response = refusal(status, message);
-        // whoever is barred need not stay
+        // rejected clients need not stay connected
         response.headers_mut().insert(header::CONNECTION, HeaderValue::from_static("close"));
         response
     }
@@ -112,7 +111,7 @@ fn admitted(house: &House, request: &Request) -> Result<Admitted, Barred> {
     if !own.iter().any(|own| own.eq_ignore_ascii_case(host)) {
         return Err(Barred::Host);
     }
-    // the form for proxies names a host of its own
+    // the form for proxies names its own host
     if request.uri().authority().is_some_and(|of| !of.as_str().eq_ignore_ascii_case(host)) {
         return Err(Barred::Host);
     }
@@ -127,7 +126,7 @@ fn admitted(house: &House, request: &Request) -> Result<Admitted, Barred> {
     let reads = matches!(*request.method(), Method::GET | Method::HEAD);
     let site = HeaderName::from_static("sec-fetch-site");
     if headers.contains_key(&site) {
-        // `none` is an address that somebody typed, or that a program opened
+        // `none` means that the user typed the address, or that a program opened it
         match only(headers, &site) {
             Some("same-origin") => {}
             Some("none") if reads => {}
@@ -156,8 +155,8 @@ fn admitted(house: &House, request: &Request) -> Result<Admitted, Barred> {
 }
 
 impl House {
-    /// Whether this token opens the door. That of the started browser does so once: a program's
-    /// arguments can be read by other users of the machine.
+    /// Whether this token gives access. The token of the started browser does so once: other users
+    /// of the machine can read a program's arguments.
     fn takes(&self, given: &str) -> bool {
         if self.token.is(given) {
             return true;
@@ -171,7 +170,7 @@ impl House {
     }
 }
 
-/// Sets the cookie, and leads to the address with the secret of the page in place of the token.
+/// Sets the cookie, and redirects to the address with the secret of the page instead of the token.
 fn welcome(house: &House) -> Response {
     let (name, value) = (house.cookie_name(), house.cookie.text());
     let cookie = format!("{name}={value}; Path=/; HttpOnly; SameSite=Strict");
@@ -180,7 +179,7 @@ fn welcome(house: &House) -> Response {
     (StatusCode::SEE_OTHER, to).into_response()
 }
 
-/// What every answer says to the browser.
+/// Security headers of every answer.
 fn harden(headers: &mut HeaderMap) {
     let set = [
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
@@ -193,13 +192,13 @@ fn harden(headers: &mut HeaderMap) {
     for (name, value) in set {
         headers.insert(name, HeaderValue::from_static(value));
     }
-    // the pages of reports have one of their own
+    // report pages have their own policy
     headers
         .entry(header::CONTENT_SECURITY_POLICY)
         .or_insert_with(|| HeaderValue::from_static(POLICY));
 }
 
-/// The value of a header that is there once; two of them may be read differently by others.
+/// The value of a header that occurs once; repeated ones may be read differently by others.
 fn only<'h>(headers: &'h HeaderMap, name: &HeaderName) -> Option<&'h str> {
     let mut values = headers.get_all(name).iter();
     let first = values.next()?;
@@ -213,7 +212,7 @@ fn cookies<'h>(headers: &'h HeaderMap, name: &str) -> impl Iterator<Item = &'h s
     pairs.filter(move |(of, _)| of.trim() == name).map(|(_, value)| value.trim())
 }
 
-/// The value of a name in the query of an address.
+/// The value of a parameter in the query of an address.
 pub(crate) fn query(query: &str, name: &str) -> Option<String> {
     let mut pairs = query.split('&').filter_map(|pair| pair.split_once('='));
     let (_, value) = pairs.find(|(of, _)| *of == name)?;

@@ -1,4 +1,4 @@
-//! Changes on the disk as events for the page (server-sent events).
+//! Sends changes on the disk to the page as events (server-sent events).
 
 use std::convert::Infallible;
 use std::pin::Pin;
@@ -21,13 +21,13 @@ use super::server::House;
 /// Pages that listen, at most.
 const MOST: usize = 32;
 
-/// How often something is sent where nothing happens, so that it shows who has gone.
+/// Interval of messages without an event, which reveal closed connections.
 const HEARTBEAT: Duration = Duration::from_secs(5);
 
-/// Events that wait for a slow reader, at most.
+/// Maximum number of events that wait for a slow reader.
 const WAITING: usize = 8;
 
-/// What is sent as it comes.
+/// A body that is sent piece by piece.
 struct Stream(mpsc::Receiver<Bytes>);
 
 impl HttpBody for Stream {

@@ -1,24 +1,23 @@
-//! The folder that was opened, and which paths of requests lead to a file in it.
+//! The opened folder, and the paths of requests that lead to files in it.
 //!
-//! A path of a request is words between `/`, the same on every system. It is looked at as it is
-//! written, and again with its links followed.
+//! A path of a request is words between `/`, the same on every system. It is checked as written,
+//! and again with its links resolved.
 
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-/// An empty file of this name makes its folder one below which files may name each other, as on the
-/// command line.
+/// In a folder with a file of this name, all files may name each other, as for the command line.
 pub(crate) const ROOT: &str = ".gumption-root";
 
 /// The longest path of a request, in bytes.
 const LONGEST: usize = 1024;
 
-/// Names of devices that Windows finds in every folder, whatever their extension.
+/// Names of devices that Windows has in every folder, with any extension.
 const DEVICES: [&str; 6] = ["con", "prn", "aux", "nul", "conin$", "conout$"];
 
-/// Why a path leads to no file.
+/// Why a path does not lead to a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unopened {
     /// The path leads, or could lead, out of the folder.
@@ -43,16 +42,17 @@ impl fmt::Display for Unopened {
 pub struct OpenedFolder {
     /// Links followed.
     root: PathBuf,
-    /// The file that was named on the command line, as a path of a request.
+    /// The file named on the command line, as a path of a request.
     named: Option<String>,
 }
 
 impl OpenedFolder {
-    /// A folder, or that of a file, which is then the one to be shown first: its own, or the nearest one
-    /// above that holds a file `.gumption-root`, below which files may name each other.
+    /// Opens a folder. For a file, which is then shown first, it is the file's own folder, or the
+    /// nearest parent folder with a file `.gumption-root`, below which files may name each other.
     ///
     /// # Errors
-    /// That nothing is there, or neither file nor folder; a file whose name no request can have.
+    /// Nothing exists at the path, or neither a file nor a folder; or no request can express the
+    /// file's name.
     pub fn new(path: &Path) -> io::Result<Self> {
         let found = path.canonicalize()?;
         if found.is_dir() {
@@ -62,7 +62,7 @@ impl OpenedFolder {
             let message = "it is neither a file nor a folder";
             return Err(io::Error::new(ErrorKind::InvalidInput, message));
         }
-        // a link names its file's own folder, whose other files the model may name
+        // a link stands for its file's own folder, whose other files the model may name
         let invalid = |message: &str| io::Error::new(ErrorKind::InvalidInput, message.to_owned());
         let Some(own) = found.parent() else { return Err(invalid("it stands in no folder")) };
         let root = own.ancestors().find(|folder| folder.join(ROOT).is_file()).unwrap_or(own);
@@ -78,7 +78,7 @@ impl OpenedFolder {
         &self.root
     }
 
-    /// The file that was named on the command line.
+    /// The file named on the command line.
     pub fn named(&self) -> Option<&str> {
         self.named.as_deref()
     }
@@ -89,10 +89,10 @@ impl OpenedFolder {
         name.to_string_lossy().into_owned()
     }
 
-    /// Where a path of a request leads, whether something is there or not.
+    /// The disk path for a path of a request, whether or not something exists there.
     ///
     /// # Errors
-    /// That it leads out of the folder.
+    /// The path leads out of the folder.
     pub fn path(&self, asked: &str) -> Result<PathBuf, Unopened> {
         let words = words(asked).map_err(Unopened::Refused)?;
         let path = words.iter().fold(self.root.clone(), |path, word| path.join(word));
@@ -102,11 +102,11 @@ impl OpenedFolder {
             Ok(found) if found.starts_with(&self.root) => Ok(found),
             Ok(_) => Err(outside()),
             Err(_) => {
-                // what is there and leads nowhere may lead anywhere tomorrow
+                // a link that leads nowhere now may lead anywhere later
                 if path.symlink_metadata().is_ok_and(|found| found.is_symlink()) {
                     return Err(outside());
                 }
-                // a new file stands in a folder that is there
+                // the folder of a new file must exist
                 let folder = path.parent().unwrap_or(&self.root);
                 match folder.canonicalize() {
                     Ok(found) if !found.starts_with(&self.root) => Err(outside()),
@@ -117,23 +117,23 @@ impl OpenedFolder {
         }
     }
 
-    /// The content of a file, of at most so many bytes.
+    /// The content of a file, at most `most` bytes.
     ///
     /// # Errors
-    /// A path that leads out of the folder or to nothing; what is no file, or too long, or cannot be
-    /// read.
+    /// The path leads out of the folder or to nothing, or the file is not a file, is too long, or
+    /// cannot be read.
     pub fn content(&self, asked: &str, most: u64) -> Result<Vec<u8>, Unopened> {
         read(&self.path(asked)?, most)
     }
 }
 
-/// The content of a file at a path that was looked at.
+/// The content of a file at a checked path.
 pub(crate) fn read(path: &Path, most: u64) -> Result<Vec<u8>, Unopened> {
     let failed = |error: io::Error| match error.kind() {
         ErrorKind::NotFound => Unopened::Missing,
         _ => Unopened::Unreadable(format!("it cannot be read: {error}")),
     };
-    // opening a pipe would wait for whoever writes to it
+    // opening a pipe would wait for a writer
     if !fs::metadata(path).map_err(failed)?.is_file() {
         return Err(Unopened::Unreadable("it is not a file".to_owned()));
     }
@@ -259,7 +259,7 @@ mod tests {
         assert_eq!(folder.named(), Some("m.json"));
         assert_eq!(folder.root(), place.path().canonicalize().unwrap());
         assert!(OpenedFolder::new(&place.path().join("no")).is_err());
-        // files that belong together are opened together, but only by a file of theirs
+        // files that belong together are opened together, but only through one of these files
         fs::create_dir(place.path().join("below")).unwrap();
         let below = place.path().join("below").join("n.json");
         fs::write(&below, "{}").unwrap();

@@ -1,7 +1,7 @@
-//! Work that takes long: so much of it at once, so long, and not for those who have gone.
+//! Limits long work: in number, in time, and to clients that are still connected.
 //!
-//! Each piece has a flag that stops it. It is set when the time is over, when whoever asked has hung
-//! up (his future is dropped), and when newer work needs the place.
+//! Each piece of work has a flag that stops it. The flag is set when the time is over, when the
+//! client disconnects (its future is dropped), and when newer work needs the place.
 
 use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -21,11 +21,11 @@ pub(crate) struct Limits {
     pub(crate) waiting: usize,
     /// How long one may take.
     pub(crate) time: Duration,
-    /// How long it may go on after it was stopped before it is given up.
+    /// How long work may continue after the stop flag before it is abandoned.
     pub(crate) grace: Duration,
     /// How long one may wait.
     pub(crate) patience: Duration,
-    /// Whether the oldest is stopped for a newer one.
+    /// Whether the oldest work is stopped for newer work.
     pub(crate) newest_first: bool,
 }
 
@@ -48,7 +48,7 @@ pub(crate) struct Lane {
     limits: Limits,
     places: Arc<Semaphore>,
     queue: Arc<Semaphore>,
-    /// The flags of what runs, the oldest first.
+    /// The flags of running work, the oldest first.
     running: Flags,
 }
 
@@ -61,7 +61,7 @@ impl Drop for StopWhenDropped {
     }
 }
 
-/// A place that is taken until the work ends, whoever waits for it.
+/// A place that is occupied until the work ends, whoever waits for it.
 struct Place {
     _place: OwnedSemaphorePermit,
     flag: Arc<AtomicBool>,
@@ -89,7 +89,7 @@ impl Lane {
         }
     }
 
-    /// Does a piece of work on a thread of its own.
+    /// Runs a piece of work on its own thread.
     pub(crate) async fn run<T: Send + 'static>(
         &self,
         work: impl FnOnce(&Arc<AtomicBool>) -> T + Send + 'static,

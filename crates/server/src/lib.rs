@@ -1,8 +1,8 @@
-//! The local server of the live page: HTTP on the loopback interface, who may ask, which files, and
-//! how much at once. What is asked for it asks an [`Answers`].
+//! The local server of the live page: HTTP on the loopback interface, access control, file access,
+//! and limits. An [`Answers`] computes the answers.
 //!
-//! It takes everything that comes in for an attack: from another site in the same browser, from
-//! another user of the machine, from a model file of a stranger.
+//! It treats every request as a possible attack: from another site in the same browser, from
+//! another user of the machine, or from a stranger's model file.
 
 mod answers;
 mod connections;

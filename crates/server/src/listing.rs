@@ -8,16 +8,16 @@ use serde::Serialize;
 use super::answers::Answers;
 use super::folder::{OpenedFolder, read, words};
 
-/// Folders within folders that are looked into, at most.
+/// Maximum depth of folders that are listed.
 const DEEPEST: usize = 5;
 
-/// Files that are listed, at most.
+/// Maximum number of listed files.
 const MOST: usize = 2000;
 
-/// Entries of folders that are looked at, at most: a home folder may hold millions.
+/// Maximum number of folder entries that are examined: a home folder may hold millions.
 const MOST_SEEN: usize = 50_000;
 
-/// The longest file whose content is looked at, in bytes.
+/// The longest file whose content is examined, in bytes.
 const LONGEST: u64 = 5 << 20;
 
 /// The files of the folder for the page.
@@ -26,7 +26,7 @@ pub(crate) struct Listing {
     root: String,
     files: Vec<Listed>,
     open: Option<String>,
-    /// Whether there are more files than are listed.
+    /// Whether there are more files than the limit.
     more: bool,
 }
 
@@ -37,19 +37,19 @@ struct Listed {
     title: Option<String>,
 }
 
-/// What the page can do something with, by the extension.
+/// Whether the page can use a file, by its extension.
 fn is_wanted(name: &str) -> bool {
     let extension = name.rsplit_once('.').map(|(_, of)| of.to_ascii_lowercase());
     matches!(extension.as_deref(), Some("json" | "csv" | "xlsx" | "xml"))
 }
 
-/// The files below the folder; only those in it where a file of it was opened.
+/// The files below the folder; only those directly in it if a file was opened.
 pub(crate) fn listing(folder: &OpenedFolder, answers: &dyn Answers) -> Listing {
     let mut found = Found { paths: Vec::new(), seen: 0, more: false };
     let depth = if folder.named().is_some() { 0 } else { DEEPEST };
     found.look_into(folder.root(), "", depth);
     let described = |path: String| {
-        // what cannot be read is listed all the same: opening it tells why
+        // unreadable files are listed too: opening them gives the reason
         let content = folder.path(&path).and_then(|path| read(&path, LONGEST));
         let (kind, title) = match content {
             Ok(content) => {
@@ -87,13 +87,13 @@ impl Found {
                 return;
             }
             let name = entry.file_name();
-            // names that no request can have are not for the page
+            // the page cannot use names that no request can express
             let Some(name) = name.to_str().filter(|name| words(name).is_ok()) else { continue };
             if name.starts_with('.') {
                 continue;
             }
             let Ok(kind) = entry.file_type() else { continue };
-            // folders behind links may go in a circle
+            // links to folders may form a cycle
             if kind.is_dir() {
                 folders.push(name.to_owned());
             } else if is_wanted(name) {

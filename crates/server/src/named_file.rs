@@ -1,16 +1,16 @@
-//! The files that a file of the page names.
+//! Access to the files that a file of the page names.
 
 use std::path::{Path, PathBuf};
 
 use super::folder::{OpenedFolder, ROOT, Unopened};
 use super::watch::Watch;
 
-/// The files below the opened folder as a file in it names them: relative to its own folder.
+/// The files below the opened folder, named relative to the folder of the file that names them.
 #[derive(Clone, Copy, Debug)]
 pub struct NamedFiles<'a> {
     folder: &'a OpenedFolder,
     watch: &'a Watch,
-    /// The path of the file as a request has it; `None` of a text without a file.
+    /// The path of the naming file in requests; `None` for a text without a file.
     of: Option<&'a str>,
 }
 
@@ -19,10 +19,10 @@ impl<'a> NamedFiles<'a> {
         Self { folder, watch, of }
     }
 
-    /// The folder on the disk that the names are relative to.
+    /// The folder on the disk to which the names are relative.
     ///
     /// # Errors
-    /// That it is not in the opened one.
+    /// The folder is not in the opened one.
     pub fn disk(&self) -> Result<PathBuf, Unopened> {
         let path = match self.of {
             Some(of) => self.folder.path(of)?,
@@ -31,16 +31,16 @@ impl<'a> NamedFiles<'a> {
         Ok(path.parent().unwrap_or(Path::new("")).to_owned())
     }
 
-    /// The path of the file that names the others, as messages have it.
+    /// The path of the file that names the others, for messages.
     pub fn name(&self) -> Option<&'a str> {
         self.of
     }
 
-    /// The content of a file by its name, of at most so many bytes. From then on a change of it is
-    /// told to the page.
+    /// The content of a named file, at most `most` bytes. From then on the page is notified of its
+    /// changes.
     ///
     /// # Errors
-    /// A name that leads out of the opened folder, or to nothing that can be read.
+    /// The name leads out of the opened folder, or to nothing that can be read.
     pub fn content(&self, name: &str, most: u64) -> Result<Vec<u8>, Unopened> {
         let asked = below(self.folder.root(), self.of, name)?;
         let content = self.folder.content(&asked, most)?;
@@ -49,8 +49,8 @@ impl<'a> NamedFiles<'a> {
     }
 }
 
-/// The folder of a file below which it may name others, as words: its own, or the nearest one above,
-/// within the opened folder, that says so.
+/// The folder below which a file may name others, as words: its own, or the nearest parent within
+/// the opened folder that has a root file.
 fn allowed<'o>(root: &Path, own: &[&'o str]) -> Vec<&'o str> {
     let depths = (0..=own.len()).rev();
     let says_so = |&depth: &usize| {
@@ -60,7 +60,7 @@ fn allowed<'o>(root: &Path, own: &[&'o str]) -> Vec<&'o str> {
     own[..depth].to_vec()
 }
 
-/// The path below the opened folder that a name leads to from the folder of a file.
+/// The path below the opened folder for a name in a file.
 fn below(root: &Path, of: Option<&str>, name: &str) -> Result<String, Unopened> {
     let own = of.and_then(|of| of.rsplit_once('/')).map_or("", |(folder, _)| folder);
     let own: Vec<&str> = own.split('/').filter(|word| !word.is_empty()).collect();

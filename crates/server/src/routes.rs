@@ -33,7 +33,7 @@ pub(crate) const MOST_BODY: usize = 16 << 20;
 /// How long a request may take to arrive.
 const ARRIVAL: Duration = Duration::from_secs(30);
 
-/// All routes, with the doorkeeper before them.
+/// All routes, behind the access control.
 pub(crate) fn routes(house: &Arc<House>) -> Router {
     Router::new()
         .route("/", get(index))
@@ -96,7 +96,7 @@ async fn text_of(house: &House, request: Request) -> Result<String, Response> {
         .map_err(|_| refusal(StatusCode::BAD_REQUEST, "the request is not UTF-8"))
 }
 
-/// A request as what it must be.
+/// Parses the body of a request.
 async fn request_of<T: DeserializeOwned>(house: &House, request: Request) -> Result<T, Response> {
     let text = text_of(house, request).await?;
     serde_json::from_str(&text)
@@ -149,7 +149,7 @@ impl IntoResponse for Unopened {
     }
 }
 
-/// Does work in a lane, and gives its answer or why there is none.
+/// Runs work in a lane, and gives its answer or the reason why there is none.
 async fn work<E: IntoResponse + Send + 'static>(
     lane: &Lane,
     house: &Arc<House>,
@@ -315,7 +315,7 @@ async fn export(State(house): State<Arc<House>>, request: Request) -> Response {
         let headers = [
             (header::CONTENT_TYPE, HeaderValue::from_static(made.content_type)),
             (header::CONTENT_DISPOSITION, disposition),
-            // a page that is opened in place of being saved can do nothing
+            // a page that is opened instead of saved can do nothing
             (header::CONTENT_SECURITY_POLICY, HeaderValue::from_static(POLICY_OF_REPORTS)),
         ];
         Ok::<_, Refusal>((headers, Body::from(made.content)).into_response())
@@ -323,10 +323,10 @@ async fn export(State(house): State<Arc<House>>, request: Request) -> Response {
     work(&house.makings, &house, make).await
 }
 
-/// What stays in a name as it is (RFC 8187).
+/// Characters that stay unescaped in a name (RFC 8187).
 const PLAIN: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'.').remove(b'_');
 
-/// A file to be saved, by its name.
+/// The header for a file to be saved under this name.
 fn disposition(name: &str) -> HeaderValue {
     let ascii: String = name
         .chars()

@@ -1,7 +1,7 @@
-//! A file is saved only over what the page has seen of it.
+//! Saves a file only if the page has seen its present content.
 //!
-//! Between looking and writing nobody else may write: servers on the same folder take turns by a lock
-//! that the system gives up when its process ends.
+//! Nobody else may write between the comparison and the write: servers on the same folder take
+//! turns by a lock that the system releases when a process ends.
 
 use std::fs::File;
 use std::io::{self, ErrorKind};
@@ -12,28 +12,28 @@ use super::answers::Answers;
 use super::folder::{OpenedFolder, Unopened, read, words};
 use super::watch::version;
 
-/// How long another server may take with the folder.
+/// How long to wait for another server's lock on the folder.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Where the lock is held on systems on which a folder cannot be locked itself.
+/// The lock file, on systems that cannot lock a folder.
 const LOCK: &str = ".gumption-lock";
 
-/// The longest text that is saved, in bytes.
+/// The longest text that can be saved, in bytes.
 pub(crate) const LONGEST: u64 = 16 << 20;
 
-/// What came of a wish to save.
+/// The result of saving.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Saved {
     /// It is done.
     Done,
-    /// Another content is there than the page has seen; `None` where the file is gone.
+    /// The file has other content than the page has seen; `None` if the file no longer exists.
     Conflict(Option<Vec<u8>>),
 }
 
 /// Why a file cannot be saved.
 #[derive(Debug)]
 pub(crate) enum Unsaved {
-    /// The path is not one to be written.
+    /// The path may not be written.
     Path(Unopened),
     /// The system is at fault.
     System(String),
@@ -45,8 +45,7 @@ impl From<Unopened> for Unsaved {
     }
 }
 
-/// Puts a text in place of the version that the page has seen; `None` where it has seen none, as no
-/// file is to be there.
+/// Replaces the version that the page has seen by a text; `None` if the file must not exist yet.
 pub(crate) fn save(
     folder: &OpenedFolder,
     asked: &str,
@@ -57,7 +56,7 @@ pub(crate) fn save(
     allowed(folder, asked).map_err(|message| Unsaved::Path(Unopened::Refused(message)))?;
     let failed = |error: io::Error| Unsaved::System(error.to_string());
     let _turn = lock(folder.root()).map_err(failed)?;
-    // followed while the lock is held: the other server may have made it
+    // resolved while the lock is held: another server may have created it
     let path = folder.path(asked)?;
     let there = match read(&path, LONGEST) {
         Ok(content) => Some(content),
@@ -71,8 +70,8 @@ pub(crate) fn save(
     Ok(Saved::Done)
 }
 
-/// Whether a path is one of a file that the page writes: nothing hidden, since programs do what
-/// hidden files say, and nothing but what this program reads.
+/// Whether the page may write to a path: no hidden files, since programs obey them, and only files
+/// that this program reads.
 fn allowed(folder: &OpenedFolder, asked: &str) -> Result<(), String> {
     if words(asked)?.iter().any(|word| word.starts_with('.')) {
         return Err("hidden files are not written".to_owned());
@@ -84,9 +83,9 @@ fn allowed(folder: &OpenedFolder, asked: &str) -> Result<(), String> {
     Err("files that are written have names that end in `.json`".to_owned())
 }
 
-/// Holds the folder until it is dropped.
+/// Locks the folder until the result is dropped.
 fn lock(folder: &Path) -> io::Result<File> {
-    // no file is left behind where the folder itself can be held
+    // no lock file is left behind if the folder itself can be locked
     let own = File::open(folder).and_then(wait);
     match own {
         Err(error) if error.kind() == ErrorKind::TimedOut => Err(error),
@@ -98,7 +97,7 @@ fn lock(folder: &Path) -> io::Result<File> {
     }
 }
 
-/// Waits for a lock, but not for ever.
+/// Waits for a lock, but not forever.
 fn wait(file: File) -> io::Result<File> {
     let until = Instant::now() + PATIENCE;
     loop {

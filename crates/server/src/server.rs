@@ -20,26 +20,26 @@ use super::shown_pages::ShownPages;
 use super::token::Token;
 use super::watch::{self, Watch};
 
-/// How often the flag that ends the server is looked at.
+/// How often the flag that ends the server is checked.
 const ATTENTION: Duration = Duration::from_millis(100);
 
-/// How long computations may take to end with the server.
+/// How long computations may take to end when the server stops.
 const FAREWELL: Duration = Duration::from_secs(3);
 
-/// Requests that are read into memory at once.
+/// Maximum number of request bodies in memory at the same time.
 const BODIES: usize = 8;
 
-/// Threads for work that waits or computes: those of the lanes, and one that looks at files.
+/// Threads that wait or compute: those of the lanes, and one that examines files.
 const THREADS: usize = CALLS.at_once + MAKINGS.at_once + DISK.at_once + 1;
 
 /// How long requests may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RequestTimes {
-    /// An answer of the page: what there is by then is the answer.
+    /// Time limit for an answer to the page, which contains what is computed by then.
     pub answer: Duration,
-    /// An export, or a page of a report.
+    /// Time limit for an export or a report page.
     pub export: Duration,
-    /// How long either may go on after it was stopped before it is given up.
+    /// How long either may continue after the stop before it is abandoned.
     pub grace: Duration,
 }
 
@@ -50,10 +50,10 @@ impl Default for RequestTimes {
     }
 }
 
-/// How long work goes on after it was stopped, at most.
+/// How long work may continue after the stop, at most.
 const GRACE: Duration = Duration::from_secs(20);
 
-/// What follows the hand of the user: the newest counts.
+/// Calls that follow the user's typing: the newest has priority.
 const CALLS: Limits = Limits {
     at_once: 4,
     waiting: 32,
@@ -63,7 +63,7 @@ const CALLS: Limits = Limits {
     newest_first: true,
 };
 
-/// Exports and pages, for which somebody waits.
+/// Exports and pages that the user waits for.
 const MAKINGS: Limits = Limits {
     at_once: 2,
     waiting: 8,
@@ -83,14 +83,14 @@ const DISK: Limits = Limits {
     newest_first: false,
 };
 
-/// What a server is started with.
+/// Options of a server.
 #[derive(Clone)]
 pub struct ServerOptions {
     /// The port; 0 for a free one.
     pub port: u16,
     /// The files.
     pub folder: OpenedFolder,
-    /// The language of the page, where one is wished.
+    /// The language of the page, if one is chosen.
     pub language: Option<&'static str>,
     /// What answers.
     pub answers: Arc<dyn Answers>,
@@ -105,16 +105,16 @@ impl fmt::Debug for ServerOptions {
     }
 }
 
-/// What requests have to do with.
+/// The state that requests share.
 pub(crate) struct House {
     port: u16,
-    /// That of the address, which opens the door and is nowhere else.
+    /// The secret of the address, which gives access and is stored nowhere else.
     pub(crate) token: Token,
-    /// The cookie's, which every port of the machine may get to see.
+    /// The secret in the cookie, which every port of the machine may see.
     pub(crate) cookie: Token,
-    /// The page's own, without which nothing is asked or written.
+    /// The secret of the page, which calls and writing require.
     pub(crate) page: Token,
-    /// Opens the door once, for the browser that is started.
+    /// Gives access once, to the browser that is started.
     pub(crate) launch: Mutex<Option<Token>>,
     pub(crate) folder: OpenedFolder,
     pub(crate) language: Option<&'static str>,
@@ -128,25 +128,25 @@ pub(crate) struct House {
 }
 
 impl House {
-    /// The names that this server has in requests.
+    /// The names of this server in requests.
     pub(crate) fn hosts(&self) -> Vec<String> {
         let names = ["127.0.0.1", "localhost"];
         let mut hosts: Vec<String> =
             names.iter().map(|name| format!("{name}:{}", self.port)).collect();
-        // the port of the protocol itself is left out by browsers
+        // browsers leave out the default port of the protocol
         if self.port == 80 {
             hosts.extend(names.map(str::to_owned));
         }
         hosts
     }
 
-    /// The name of the cookie; cookies are one jar for all ports of a machine.
+    /// The name of the cookie; all ports of a machine share their cookies.
     pub(crate) fn cookie_name(&self) -> String {
         format!("gumption-{}", self.port)
     }
 }
 
-/// A server on the loopback interface, bound and not yet running.
+/// A server bound to the loopback interface, not yet running.
 pub struct LocalServer {
     listener: TcpListener,
     house: Arc<House>,
@@ -160,10 +160,10 @@ impl fmt::Debug for LocalServer {
 }
 
 impl LocalServer {
-    /// Takes the port; nobody but programs of this machine can reach it.
+    /// Binds the port; only programs of this machine can reach it.
     ///
     /// # Errors
-    /// A port that is taken or not allowed; no random numbers from the system.
+    /// The port is in use or not allowed, or the system gives no random numbers.
     pub fn bind(options: ServerOptions) -> io::Result<Self> {
         let ServerOptions { port, folder, language, answers, times } = options;
         let RequestTimes { answer, export, grace } = times;
@@ -194,24 +194,24 @@ impl LocalServer {
         format!("http://127.0.0.1:{}/?token={token}", self.house.port)
     }
 
-    /// The address with the token, for the user's eyes.
+    /// The address with the token, to show to the user.
     pub fn address(&self) -> String {
         self.with(self.house.token.text())
     }
 
-    /// An address that is good for one visit, for a browser that is started with it: the arguments of
-    /// programs can be read by other users of the machine.
+    /// An address for one visit, for a browser that is started with it: other users of the machine
+    /// can read the arguments of programs.
     pub fn launch_address(&self) -> String {
         self.with(&self.launch)
     }
 
-    /// Serves until the flag is set. With glibc, memory of 1 MiB and more is mapped for itself in the
-    /// whole process from here on, so that an idle server holds none of it.
+    /// Serves until the flag is set. With glibc, from here on the whole process maps memory of 1
+    /// MiB and more separately, so that an idle server holds none of it.
     ///
     /// # Errors
-    /// Threads or system resources that cannot be had.
+    /// Threads or system resources are not available.
     pub fn run(self, stop: &AtomicBool) -> io::Result<()> {
-        // tokio, where it gets no thread, would end the process in the middle of a request
+        // tokio would end the process in the middle of a request if it cannot start a thread
         std::thread::Builder::new().spawn(|| ())?;
         memory::return_large_arrays();
         let runtime = tokio::runtime::Builder::new_current_thread()
@@ -237,7 +237,8 @@ impl LocalServer {
             match timeout(ATTENTION, listener.accept()).await {
                 Err(_) => {}
                 Ok(Ok((stream, _))) => connections.serve(stream),
-                // one that has hung up already, or no more files for this process: others go on
+                // a client that has disconnected already, or no more file handles: continue with
+                // others
                 Ok(Err(_)) => sleep(ATTENTION).await,
             }
         }
@@ -246,7 +247,7 @@ impl LocalServer {
     }
 }
 
-/// Looks at the files of the page while somebody listens.
+/// Watches the files of the page while a client listens.
 async fn look(house: Arc<House>) {
     loop {
         sleep(watch::EVERY).await;

@@ -1,7 +1,7 @@
-//! Pages that were made for the browser, for a while.
+//! Keeps report pages for the browser for a while.
 //!
-//! A page of a report has its style in itself, which the policy of the live page forbids. So it is
-//! fetched by itself, with a policy under which it can do nothing at all.
+//! A report page contains its styles, which the policy of the live page forbids. Therefore it is
+//! fetched separately, with a policy that allows it nothing else.
 
 use std::collections::VecDeque;
 use std::io;
@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::token::Token;
 
-/// Pages that are kept, at most.
+/// Maximum number of pages that are kept.
 const MOST: usize = 16;
 
 /// Bytes of them, at most.
@@ -22,7 +22,7 @@ type Kept = VecDeque<(Token, Arc<str>)>;
 pub(crate) struct ShownPages(Mutex<Kept>);
 
 impl ShownPages {
-    /// Keeps a page, and gives the name to fetch it by.
+    /// Keeps a page, and returns the name to fetch it by.
     pub(crate) fn keep(&self, html: &str) -> io::Result<String> {
         let name = Token::new()?;
         let text = name.text().to_owned();

@@ -1,10 +1,10 @@
-//! Secrets that prove that a request comes from whoever started the server.
+//! Secrets that prove that a request comes from the user who started the server.
 
 use std::fmt;
 use std::hint::black_box;
 use std::io;
 
-/// Random bytes of a secret: nobody guesses 256 bits.
+/// Random bytes of a secret: 256 bits cannot be guessed.
 const BYTES: usize = 32;
 
 /// A secret from the system's random numbers, as hexadecimal text.
@@ -28,7 +28,7 @@ impl Token {
         &self.0
     }
 
-    /// Whether this is the secret; the time that takes tells nothing of where they differ.
+    /// Whether this is the secret; the time of the comparison does not reveal where they differ.
     pub(crate) fn is(&self, given: &str) -> bool {
         let (own, given) = (self.0.as_bytes(), given.as_bytes());
         if own.len() != given.len() {

@@ -1,7 +1,7 @@
-//! Which files of the folder change on the disk.
+//! Detects files of the folder that change on the disk.
 //!
-//! They are looked at twice a second while somebody listens. That works on every system and file
-//! system, also for files on another machine, for which no system tells changes.
+//! The files are examined twice a second while a client listens. That works on every system and
+//! file system, also for files on another machine, for which no system reports changes.
 
 use std::collections::VecDeque;
 use std::fs;
@@ -15,19 +15,19 @@ use tokio::sync::broadcast;
 use super::folder::OpenedFolder;
 use super::token::hexadecimal;
 
-/// How often the files are looked at.
+/// How often the files are examined.
 pub(crate) const EVERY: Duration = Duration::from_millis(500);
 
-/// Files that are watched, at most; the one longest not asked for goes.
+/// Maximum number of watched files; beyond it the one requested longest ago is dropped.
 const MOST: usize = 64;
 
-/// Changes that wait for a slow listener, at most.
+/// Maximum number of changes that wait for a slow listener.
 const WAITING: usize = 64;
 
 /// The longest file whose content is compared, in bytes.
 const LONGEST: u64 = 64 << 20;
 
-/// What a content is told apart by.
+/// A digest that identifies a content.
 pub(crate) fn version(content: &[u8]) -> String {
     let digest = Sha256::digest(content);
     hexadecimal(&digest[..16])
@@ -41,7 +41,7 @@ pub(crate) struct Change {
     pub(crate) version: Option<String>,
 }
 
-/// What the file system says of a file.
+/// The time stamp and size of a file in the file system.
 type Stamp = Option<(Option<SystemTime>, u64)>;
 
 #[derive(Debug)]
@@ -51,7 +51,7 @@ struct Watched {
     version: Option<String>,
 }
 
-/// The files that the page has to do with.
+/// The files that the page uses.
 #[derive(Debug)]
 pub(crate) struct Watch {
     folder: OpenedFolder,
@@ -80,7 +80,7 @@ impl Watch {
 
     /// Watches a file that has, or had a moment ago, this content.
     pub(crate) fn add(&self, path: &str, content: &[u8]) {
-        // changed in between, it has a stamp of its own, and is looked at again
+        // changed meanwhile, it has another stamp and is compared again
         let stamp = self.stamp(path).filter(|(_, length)| *length == content.len() as u64);
         let new = Watched { path: path.to_owned(), stamp, version: Some(version(content)) };
         let mut files = self.files();
@@ -96,7 +96,7 @@ impl Watch {
         Some((found.modified().ok(), found.len()))
     }
 
-    /// Looks at all files, and tells what changed.
+    /// Examines all files, and reports what changed.
     pub(crate) fn look(&self) {
         let known: Vec<(String, Stamp)> =
             self.files().iter().map(|of| (of.path.clone(), of.stamp)).collect();
@@ -112,13 +112,13 @@ impl Watch {
             if of.version != now {
                 of.version.clone_from(&now);
                 drop(files);
-                // nobody listens any more: nobody misses it
+                // without listeners nobody misses it
                 let _ = self.listeners.send(Change { path, version: now });
             }
         }
     }
 
-    /// Tells at once what this server has written itself.
+    /// Reports at once what this server has written itself.
     pub(crate) fn written(&self, path: &str, content: &[u8]) {
         self.add(path, content);
         let _ =

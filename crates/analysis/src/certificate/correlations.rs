@@ -1,10 +1,10 @@
-//! How the rows of a certificate vary together.
+//! Correlations between the rows of a certificate.
 //!
 //! Two rows share an input if it has the same name in the same model file, whatever the conditions
-//! and replacements of the rows; so do results that go back to the same input through saved results.
-//! An input of a row or of one condition (`per`), and one that the certificate declares separate, is
-//! shared only where the value is the same unknown one. The covariance of two rows is then
-//! the sum over the shared inputs of c_i u_i in both (JCGM 100, F.1.2.3).
+//! and replacements of the rows. Results that go back to the same input through saved results share
+//! it too. An input of a row or of one condition (`per`), and an input that the certificate
+//! declares separate, is shared only if its value is the same unknown one. The covariance of two
+//! rows is then the sum over the shared inputs of c_i u_i in both (JCGM 100, F.1.2.3).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -15,12 +15,12 @@ use gumption_engine::propagate::gum::Gum;
 use gumption_engine::propagate::{Evaluation, Origins, linear, origins, own_roots};
 use gumption_engine::task::{Row, Sharing};
 
-/// An unknown value: model file, input, and what tells values of the same input apart.
+/// An unknown value: model file, input, and a text that distinguishes values of the same input.
 type Key = (Arc<str>, Arc<str>, String);
 
-/// The matrix of the correlation coefficients between all rows, and the standard uncertainties that they
-/// go with. Rows that are `raised` to the laboratory's capability have the standard uncertainty of that,
-/// where it is larger; what it adds is no input that another row shares.
+/// The matrix of the correlation coefficients between all rows, and the standard uncertainties to
+/// which they belong. A row that is `raised` to the laboratory's capability has the standard
+/// uncertainty of the capability if that is larger; no other row shares the added part.
 pub(super) fn between(
     certificate: &Certificate,
     evaluations: &[Evaluation],
@@ -54,13 +54,13 @@ pub(super) fn between(
         Some(if i == j { 1.0 } else { (covariance(a, b) / u / v).clamp(-1.0, 1.0) })
     };
     let count = parts.len();
-    // each of the two halves of the matrix from the same sum
+    // both halves of the matrix from the same sum
     let row = |i: usize| (0..count).map(|j| coefficient(i.min(j), i.max(j))).collect();
     let matrix = (0..count).map(row).collect();
     (matrix, spread)
 }
 
-/// Contributions c u of a result by unknown value.
+/// Contributions c u to a result, by unknown value.
 type Parts = BTreeMap<usize, f64>;
 
 /// The unknown values behind all rows.
@@ -74,7 +74,7 @@ struct Unknowns<'a> {
 }
 
 impl Unknowns<'_> {
-    /// For each output of a row of conditions its contributions.
+    /// The contributions to each output of a row of conditions.
     fn of_row(
         &mut self,
         (number, row): (usize, usize),
@@ -137,7 +137,7 @@ fn own_roots_of(certificate: &Certificate, digests: &[Arc<str>]) -> BTreeSet<Roo
     own
 }
 
-/// What an input's value is called: the same for the same unknown value.
+/// The key of an input's value: the same for the same unknown value.
 fn key(
     (certificate, own): (&Certificate, &BTreeSet<RootName>),
     (number, asked, row): (usize, &Asked, &Row),
@@ -156,8 +156,8 @@ fn key(
         None => (name.model.clone(), name.name.clone()),
     };
     if name.model != *digest {
-        // an input of another model file, behind a saved result; where the certificate evaluates that
-        // file itself, for the same figures and data, it is the one that its rows share
+        // an input of another model file, behind a saved result; if the certificate evaluates that
+        // file itself with the same values and data, it is the input that its rows share
         let is_told = own.contains(name) || name.certified.is_some();
         let told = if is_told { String::new() } else { format!("result {}", name.instance) };
         return (of, called, told);

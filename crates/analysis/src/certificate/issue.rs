@@ -1,4 +1,4 @@
-//! A certificate evaluated: every model once, then a statement for each row.
+//! An evaluated certificate: every model is evaluated once, then each row is stated.
 
 use std::fmt;
 use std::sync::Arc;
@@ -11,24 +11,25 @@ use gumption_engine::propagate::{Control, Evaluation, EvaluationError, evaluate}
 /// The results of a certificate.
 #[derive(Clone, Debug)]
 pub struct Issued {
-    /// The evaluations, in the order of the certificate's.
+    /// The evaluations, in the certificate's order.
     pub evaluations: Vec<Evaluation>,
-    /// What is stated, row by row.
+    /// The statements, row by row.
     pub statements: Vec<Statement>,
-    /// Correlation coefficients between the rows, by the law of propagation: the whole matrix, with
-    /// 1 on its diagonal. `None` where a result has no finite sensitivity coefficients, or does not
-    /// vary. What raises a row to the laboratory's capability is correlated with no other row.
+    /// Correlation coefficients between the rows by the law of propagation: the full matrix, with 1
+    /// on its diagonal. `None` if a result has no finite sensitivity coefficients, or zero
+    /// uncertainty. The part that raises a row to the laboratory's capability is uncorrelated with
+    /// all other rows.
     pub correlations: Vec<Vec<Option<f64>>>,
-    /// The standard uncertainties that the coefficients go with: by the law of propagation, or the stated
-    /// one of a row that is raised to the laboratory's capability.
+    /// The standard uncertainties to which the coefficients belong: by the law of propagation, or
+    /// the stated one for a row raised to the laboratory's capability.
     pub spreads: Vec<Option<f64>>,
-    /// Whether the evaluation was stopped before all trials were made.
+    /// Whether the evaluation was stopped before all trials were drawn.
     pub stopped: bool,
 }
 
 impl Issued {
-    /// Standard uncertainty of the difference between two rows of the same unit; `None` where their
-    /// correlation is not known.
+    /// Standard uncertainty of the difference between two rows of the same unit, in that unit;
+    /// `None` if their correlation is unknown.
     pub fn difference(&self, first: usize, second: usize) -> Option<f64> {
         let u = |row: usize| self.spreads.get(row).copied().flatten();
         let (a, b) = (u(first)?, u(second)?);
@@ -48,7 +49,7 @@ pub enum Failed {
         /// Why not.
         error: EvaluationError,
     },
-    /// A row that names an evaluation, a row of conditions or an output that there is not.
+    /// A row that names an unknown evaluation, row of conditions, or output.
     NoResult {
         /// The row, counted from 0.
         line: usize,
@@ -86,8 +87,7 @@ impl std::error::Error for Failed {}
 /// model files, in hexadecimal.
 ///
 /// # Errors
-/// An evaluation that is not possible, a row of a result that there is not, or without an expanded
-/// uncertainty.
+/// An evaluation fails, a row names an unknown result, or a result has no expanded uncertainty.
 pub fn issue(
     certificate: &Certificate,
     digests: &[Arc<str>],

@@ -1,10 +1,10 @@
-//! Calibration certificates: evaluations turned into what a laboratory states.
+//! Calibration certificates: evaluations as statements of a laboratory.
 //!
-//! [`issue`] evaluates the models of a [`Certificate`](crate::certificate::contents::Certificate) and
-//! gives a [`Statement`] for each row of its table: value, expanded uncertainty, coverage factor, and
-//! what they rest on ([`Basis`]). [`rounding`] brings them to the digits of a certificate, and
-//! [`Issued::correlations`] says how the rows vary together, so that the difference of two of them
-//! gets its right uncertainty.
+//! [`issue`] evaluates the models of a [`Certificate`](crate::certificate::contents::Certificate)
+//! and gives a [`Statement`] for each row of its table: value, expanded uncertainty, coverage
+//! factor, and their [`Basis`]. [`rounding`] rounds them to the digits of a certificate.
+//! [`Issued::correlations`] gives the correlations between rows, so that the difference of two rows
+//! gets the right uncertainty.
 
 pub mod contents;
 mod correlations;

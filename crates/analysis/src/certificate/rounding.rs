@@ -1,15 +1,15 @@
-//! Rounding of what a certificate states: the expanded uncertainty by a named rule. The digits are
-//! those of [`gumption_engine::decimal`], so that `0.4 * 0.3`, which is 0.12 but for its last bit, is
-//! not rounded up to 0.13.
+//! Rounding of stated results: the expanded uncertainty by a named rule. The digits are those of
+//! [`gumption_engine::decimal`], so that `0.4 * 0.3`, which differs from 0.12 only in its last bit,
+//! is not rounded up to 0.13.
 
 use crate::certificate::contents::Rounding;
 use gumption_engine::decimal::{Decimal, Direction};
 
-/// EA-4/02 rounds up where rounding to the nearest would take away more than this share.
+/// EA-4/02 requires rounding up if rounding to nearest reduces U by more than this fraction.
 const EA_LOSS: f64 = 0.05;
 
-/// An expanded uncertainty, above 0, rounded to `digits` significant digits by a rule; `None` for zero
-/// and for what is not a positive number, which has no digits to round to.
+/// An expanded uncertainty, above 0, rounded to `digits` significant digits by a rule; `None` for a
+/// value that is not positive, which has no significant digits.
 ///
 /// ```
 /// use gumption_analysis::certificate::rounding::expanded;
@@ -32,7 +32,7 @@ pub fn expanded(value: f64, digits: u32, rule: Rounding) -> Option<Decimal> {
     })
 }
 
-/// Whether rounding takes away more of an expanded uncertainty than EA-4/02 M:2022, 6.3, allows.
+/// Whether rounding reduces an expanded uncertainty by more than EA-4/02 M:2022, 6.3, allows.
 pub fn takes_away_too_much(value: f64, rounded: Decimal) -> bool {
     rounded.value() < (1.0 - EA_LOSS) * value
 }
@@ -60,7 +60,7 @@ mod tests {
             (1234.0, 2, Up, "1300"),
             (0.0996, 2, Nearest, "0.10"),
             (0.125, 2, Nearest, "0.13"),
-            // a product that is 0.12 but for its last bit
+            // a product that differs from 0.12 only in its last bit
             (0.4 * 0.3, 2, Up, "0.12"),
             (0.12, 2, Up, "0.12"),
             (0.120_000_1, 2, Up, "0.13"),

@@ -1,4 +1,4 @@
-//! What a certificate states of one result.
+//! The statement of a certificate about one result.
 
 use super::rounding;
 use crate::certificate::contents::Rounding;
@@ -8,7 +8,7 @@ use gumption_engine::propagate::gum::Dof;
 use gumption_engine::propagate::{Basis, CapabilityStatement, OutputEvaluation, Stated};
 use gumption_engine::task::Settings;
 
-/// A stated expanded uncertainty beside the laboratory's capability (ILAC-P14).
+/// A stated expanded uncertainty and the laboratory's capability (ILAC-P14).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
     /// The capability (CMC) at the value.
@@ -19,49 +19,48 @@ pub struct Limit {
     pub raised: bool,
 }
 
-/// What is stated of one result, in the unit of the output.
+/// The statement about one result, in the unit of the output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statement {
     /// What it rests on.
     pub basis: Basis,
-    /// The value: the estimate by the law of propagation, or of the trials where the statement
-    /// rests on them.
+    /// The value: the estimate by the law of propagation, or by the trials if the statement is
+    /// based on them.
     pub value: f64,
-    /// Its standard uncertainty; the capability over the coverage factor if it was raised to that.
+    /// Its standard uncertainty; if raised, the capability divided by the coverage factor.
     pub standard_uncertainty: f64,
-    /// The expanded uncertainty that is stated: k u, or the capability if it was raised. Where the
-    /// statement rests on the trials it is the distance of the value from the farther end of the
+    /// The stated expanded uncertainty: k u, or the capability if it was raised. If the statement
+    /// is based on the trials, it is the larger distance from the value to an endpoint of the
     /// interval.
     pub expanded_uncertainty: f64,
-    /// The coverage factor: the expanded uncertainty over the standard uncertainty; that of a normal
-    /// distribution if it was raised to the capability.
+    /// The coverage factor: the expanded uncertainty divided by the standard uncertainty; the
+    /// factor of a normal distribution if it was raised to the capability.
     pub coverage_factor: f64,
-    /// Effective degrees of freedom; undefined where there is no evaluation by the law of
-    /// propagation.
+    /// Effective degrees of freedom; undefined without an evaluation by the law of propagation.
     pub dof: Dof,
-    /// The coverage probability; `None` where a coverage factor is fixed and says nothing of it.
+    /// The coverage probability; `None` for a fixed coverage factor, which implies no probability.
     pub coverage_probability: Option<f64>,
-    /// The shortest coverage interval, where the statement rests on it.
+    /// The shortest coverage interval, if the statement is based on it.
     pub interval: Option<[f64; 2]>,
-    /// Whether that interval is from figures without the noise of trials.
+    /// Whether that interval is computed without the noise of trials.
     pub without_trials: bool,
-    /// Whether value and standard uncertainty are those of the distribution that trials show, and not
-    /// those of the law of propagation.
+    /// Whether value and standard uncertainty come from the distribution of the trials instead of
+    /// the law of propagation.
     pub of_distribution: bool,
-    /// The laboratory's capability, where it is known.
+    /// The laboratory's capability, if it is known.
     pub limit: Option<Limit>,
     /// The expanded uncertainty to the digits of the certificate; `None` if it is 0.
     pub rounded: Option<Decimal>,
 }
 
 impl Statement {
-    /// The value to the last digit of the rounded expanded uncertainty; `None` where that is 0.
+    /// The value to the last digit of the rounded expanded uncertainty; `None` if that is 0.
     pub fn rounded_value(&self) -> Option<Decimal> {
         Some(Decimal::shortest(self.value)?.round(self.rounded?.position(), Direction::Nearest))
     }
 
-    /// The ends of the interval to the same digit: to the nearest, or outwards where expanded
-    /// uncertainties are always rounded up. `None` where there is no interval, or no such digit.
+    /// The endpoints of the interval to the same digit: to the nearest, or outwards if expanded
+    /// uncertainties are always rounded up. `None` if there is no interval or no such digit.
     pub fn rounded_interval(&self, rule: Rounding) -> Option<[Decimal; 2]> {
         let position = self.rounded?.position();
         let [low, high] = self.interval?.map(Decimal::shortest);
@@ -73,7 +72,7 @@ impl Statement {
     }
 }
 
-/// What a certificate asks of every statement.
+/// Requirements of a certificate for every statement.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wanted<'a> {
     pub(super) settings: &'a Settings,
@@ -81,7 +80,7 @@ pub(super) struct Wanted<'a> {
     pub(super) digits: u32,
 }
 
-/// The statement of an output; `None` where there is no expanded uncertainty to be stated.
+/// The statement of an output; `None` if there is no expanded uncertainty to state.
 pub(super) fn of(
     output: &OutputEvaluation,
     capability: Option<&Capability>,
@@ -101,7 +100,7 @@ pub(super) fn of(
     let raised = limit.filter(|limit| limit.raised);
     let expanded_uncertainty = raised.map_or(evaluated, |limit| limit.cmc);
     let mut rounded = rounding::expanded(expanded_uncertainty, wanted.digits, wanted.rounding);
-    // rounding must not bring below the capability what is not below it
+    // rounding must not bring a value below the capability that was not below it
     let kept = limit.filter(|limit| limit.raised || !limit.below).map(|limit| limit.cmc);
     if let (Some(to), Some(cmc)) = (rounded, kept)
         && to.value() < cmc

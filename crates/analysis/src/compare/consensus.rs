@@ -1,15 +1,16 @@
-//! Reference values of laboratories that disagree: what is added to their stated uncertainties until
-//! the dispersion of their results is explained.
+//! Reference values for inconsistent results of laboratories: stated uncertainties are increased
+//! until the dispersion of the results is explained.
 //!
-//! - Birge (R. T. Birge, Phys. Rev. 40 (1932) 207) multiplies all of them by one factor.
+//! - Birge (R. T. Birge, Phys. Rev. 40 (1932) 207) multiplies all stated uncertainties by one
+//!   factor.
 //! - A random-effects model adds one variance tau^2 ("dark uncertainty") to each:
 //!   DerSimonian-Laird (Contr. Clin. Trials 7 (1986) 177) in one step, Mandel-Paule (R. C. Paule and
 //!   J. Mandel, J. Res. NBS 87 (1982) 377) so that chi-squared becomes its expectation n - 1.
-//! - Hartung and Knapp (Statist. Med. 20 (2001) 1771) take the uncertainty of such a mean from the
-//!   observed dispersion, with n - 1 degrees of freedom.
+//! - Hartung and Knapp (Statist. Med. 20 (2001) 1771) derive the uncertainty of such a mean from
+//!   the observed dispersion, with n - 1 degrees of freedom.
 //!
-//! With correlated results the same equations hold for their covariance matrix V in place of a
-//! diagonal one: weights are of (V + tau^2 I)^-1.
+//! For correlated results the same equations hold with their full covariance matrix V instead of a
+//! diagonal one: the weights follow from (V + tau^2 I)^-1.
 
 use nalgebra::DMatrix;
 
@@ -17,24 +18,24 @@ use super::laboratories::{Impossible, ReferenceValue, Results};
 use gumption_engine::linalg::DenseRoot;
 use gumption_engine::special;
 
-/// How the reference value of a comparison is made.
+/// How the reference value of a comparison is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Estimator {
-    /// The mean weighted by the inverse covariance matrix as stated.
+    /// The mean weighted by the inverse of the stated covariance matrix.
     WeightedMean,
-    /// That of the largest consistent subset.
+    /// The weighted mean of the largest consistent subset.
     LargestConsistentSubset,
     /// The weighted mean with all stated uncertainties multiplied by the Birge ratio, if that is
     /// above 1.
     Birge,
     /// Random effects with the variance between laboratories of DerSimonian and Laird.
     DerSimonianLaird,
-    /// Random effects with that of Mandel and Paule.
+    /// Random effects with the variance between laboratories of Mandel and Paule.
     MandelPaule,
 }
 
 impl Estimator {
-    /// All of them, in the order of the pages.
+    /// All estimators, in the order in which pages list them.
     pub const ALL: [Self; 5] = [
         Self::WeightedMean,
         Self::LargestConsistentSubset,
@@ -43,7 +44,7 @@ impl Estimator {
         Self::MandelPaule,
     ];
 
-    /// The name that the command line and answers use.
+    /// The name in the command line and in answers.
     pub fn name(self) -> &'static str {
         match self {
             Self::WeightedMean => "weighted-mean",
@@ -62,7 +63,7 @@ pub struct HartungKnapp {
     pub standard_uncertainty: f64,
     /// Its degrees of freedom, one fewer than there are laboratories.
     pub dof: usize,
-    /// The factor of t for 95.45 %, the probability of k = 2.
+    /// The coverage factor of the t distribution for 95.45 %, the probability of k = 2.
     pub coverage_factor: f64,
 }
 
@@ -78,11 +79,11 @@ impl HartungKnapp {
 pub struct ConsensusValue {
     /// The estimator.
     pub estimator: Estimator,
-    /// The value and its consistency with the uncertainties as the estimator takes them.
+    /// The value and its consistency with the uncertainties that the estimator uses.
     pub reference: ReferenceValue,
-    /// The factor on stated uncertainties, of Birge: the Birge ratio, at least 1.
+    /// Birge's factor for the stated uncertainties: the Birge ratio, at least 1.
     pub birge_ratio: Option<f64>,
-    /// The standard deviation tau between laboratories, of the random-effects models; at least 0.
+    /// The standard deviation tau between laboratories of a random-effects model; at least 0.
     pub tau: Option<f64>,
     /// Of the random-effects models.
     pub hartung_knapp: Option<HartungKnapp>,
@@ -95,11 +96,11 @@ impl ConsensusValue {
     }
 }
 
-/// The probability of k = 2, at which Hartung and Knapp's factor is taken.
+/// The coverage probability of k = 2 for a normal distribution, for Hartung and Knapp's factor.
 const PROBABILITY: f64 = 0.954_499_736_103_641_6;
 
-/// The value of one of the estimators that take all laboratories, and the results with the
-/// covariance matrix that it takes.
+/// The value of an estimator that uses all laboratories, and the results with the covariance matrix
+/// of that estimator.
 pub(super) fn estimated(
     results: &Results,
     estimator: Estimator,
@@ -154,8 +155,8 @@ fn moment(results: &Results, chi_squared: f64) -> Option<f64> {
     squared.is_finite().then_some(squared.max(0.0))
 }
 
-/// tau^2 of Mandel and Paule, at which chi-squared is n - 1; it falls with tau. 0 where it is not
-/// above that as stated.
+/// tau^2 of Mandel and Paule, at which chi-squared is n - 1; chi-squared decreases with tau. 0 if
+/// chi-squared is not above n - 1 as stated.
 fn iterated(results: &Results, everybody: &[usize]) -> Option<f64> {
     let expected = (results.values.len() - 1) as f64;
     let excess = |squared: f64| -> Option<f64> {
@@ -166,7 +167,7 @@ fn iterated(results: &Results, everybody: &[usize]) -> Option<f64> {
     if excess(0.0)? <= 0.0 {
         return Some(0.0);
     }
-    // with a variance of the squared range of the values chi-squared is below (n - 1)/2
+    // with the squared range of the values as variance, chi-squared is below (n - 1)/2
     let [low, high] = results
         .values
         .iter()
@@ -185,9 +186,9 @@ fn iterated(results: &Results, everybody: &[usize]) -> Option<f64> {
     }
 }
 
-/// Which estimator to take, and why, in a sentence: nothing needs to be added where the results are
-/// consistent; where they are not, nothing but a reason in the laboratories themselves says which of
-/// them is wrong.
+/// The recommended estimator, and the reason in a sentence. If the results are consistent, nothing
+/// needs to be added. If not, only evidence from the laboratories themselves can tell which of them
+/// is wrong.
 pub fn recommended(all: &ReferenceValue) -> (Estimator, &'static str) {
     if all.is_consistent() {
         let why = "take the weighted mean: the stated uncertainties explain the differences between \
@@ -231,8 +232,8 @@ mod tests {
     }
 
     /// The CLASP trials of R. DerSimonian and R. Kacker, Contemp. Clin. Trials 28 (2007) 105,
-    /// tables 3 and 4: logarithms of odds ratios from counts, so that no digit of the input is
-    /// lost. The tolerance is half a unit of the last printed digit.
+    /// tables 3 and 4: logarithms of odds ratios from counts, so that the input has all digits. The
+    /// tolerance is half a unit of the last printed digit.
     #[test]
     fn published_random_effects() {
         let (n1, n2) = (
@@ -293,7 +294,7 @@ mod tests {
         near(paule.tau.unwrap(), 8.981_807_203e-4, 1e-11);
         near(paule.reference.value, 6.673_677_537_69, 1e-10);
         near(paule.reference.standard_uncertainty, 3.016_245_755e-4, 1e-12);
-        // chi-squared is n - 1, so that Hartung and Knapp's is the same
+        // chi-squared is n - 1, so that Hartung and Knapp's uncertainty is the same
         near(paule.hartung_knapp.unwrap().standard_uncertainty, 3.016_245_755e-4, 1e-12);
     }
 

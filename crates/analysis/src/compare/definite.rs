@@ -1,19 +1,19 @@
-//! Whether correlation coefficients of laboratories can be those of one joint distribution, and one
-//! whose inverse is worth anything.
+//! Whether the correlation coefficients of laboratories belong to a joint distribution, and whether
+//! the matrix can be inverted accurately.
 
 use super::laboratories::{Impossible, Laboratory};
 use gumption_engine::linalg::{dot, packed};
 
-/// The least part of a laboratory's variance that the others must leave. What is computed by the inverse
-/// of the matrix has the rounding of double precision (1.1e-16, at most 200 times) over this part: 1e-9
-/// leaves four digits of weights and uncertainties. Coefficients are stated with fewer digits than the
-/// nine nines that come so near to 1.
+/// The smallest fraction of a laboratory's variance that the other laboratories may leave
+/// unexplained. Results computed with the inverse matrix have a relative error of double precision
+/// (1.1e-16, at most 200 times) divided by this fraction: 1e-9 leaves four digits of weights and
+/// uncertainties. Stated coefficients have fewer digits than the nine nines that come so near to 1.
 const LEAST: f64 = 1e-9;
 
-/// Whether the matrix of coefficients is positive definite, and not only by rounding.
+/// Checks that the matrix of coefficients is positive definite beyond rounding.
 ///
-/// The pivots of Cholesky's decomposition of a correlation matrix are the parts of each variance that
-/// the laboratories before it do not explain.
+/// The pivots of the Cholesky decomposition of a correlation matrix are the fractions of each
+/// variance that the previous laboratories do not explain.
 pub(super) fn check(
     laboratories: &[Laboratory],
     coefficient: impl Fn(usize, usize) -> f64,

@@ -1,10 +1,10 @@
-//! Results of many laboratories: the weighted mean as reference value, whether they are consistent
-//! with it, and degrees of equivalence (M. G. Cox, Metrologia 39 (2002) 589, procedure A). Where they
-//! are not consistent, the reference value is that of the largest consistent subset (M. G. Cox,
-//! Metrologia 44 (2007) 187).
+//! Results of many laboratories: the weighted mean as reference value, a test of consistency, and
+//! degrees of equivalence (M. G. Cox, Metrologia 39 (2002) 589, procedure A). For inconsistent
+//! results the reference value is that of the largest consistent subset (M. G. Cox, Metrologia 44
+//! (2007) 187).
 //!
-//! Correlated results are weighted by the inverse of their covariance matrix; that of independent
-//! ones is diagonal, and the formulas become Cox's.
+//! Correlated results are weighted by the inverse of their covariance matrix; for independent
+//! results it is diagonal, and the formulas become Cox's.
 
 use std::fmt;
 
@@ -32,7 +32,7 @@ pub const SIGNIFICANCE: f64 = 0.05;
 /// A weighted mean and its consistency.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferenceValue {
-    /// The laboratories that it is made from, in order.
+    /// The indices of the laboratories that contribute to it, in order.
     pub members: Vec<usize>,
     /// The value.
     pub value: f64,
@@ -42,7 +42,7 @@ pub struct ReferenceValue {
     pub chi_squared: f64,
     /// Its degrees of freedom, one fewer than there are members.
     pub dof: usize,
-    /// The probability that consistent results give as much or more.
+    /// The probability of such a chi-squared or a larger one for consistent results.
     pub p_value: f64,
 }
 
@@ -66,24 +66,23 @@ pub struct DegreeOfEquivalence {
     pub factor_stated: f64,
     /// Difference from the reference value.
     pub difference: f64,
-    /// The expanded uncertainty of the difference, k = 2; the reference value depends on the results
-    /// that it is made from.
+    /// The expanded uncertainty of the difference, k = 2; the reference value depends on the
+    /// results that contribute to it.
     pub expanded: f64,
     /// Normalized error |d|/U.
     pub normalized_error: f64,
     /// Zeta score |d|/u(d).
     pub zeta: f64,
-    /// Probability of as large a difference or a larger one.
+    /// Probability of a difference at least this large.
     pub probability: f64,
-    /// Whether the reference value is made from it.
+    /// Whether it contributes to the reference value.
     pub member: bool,
     compatible: Option<bool>,
 }
 
 impl DegreeOfEquivalence {
-    /// Whether the result is compatible with the reference value: the normalized error is at most 1,
-    /// but for the rounding of binary fractions. `None` of a laboratory whose result is the reference
-    /// value, where nothing is compared.
+    /// Whether the result is compatible with the reference value: the normalized error is at most
+    /// 1, apart from rounding. `None` for a laboratory whose result is the reference value itself.
     pub fn is_compatible(&self) -> Option<bool> {
         self.compatible
     }
@@ -94,16 +93,17 @@ impl DegreeOfEquivalence {
 pub struct Comparison {
     /// The weighted mean of all.
     pub all: ReferenceValue,
-    /// The reference value: unless another estimator is asked for that mean, or that of the largest
-    /// consistent subset.
+    /// The reference value: that of the chosen estimator, by default the weighted mean, or the mean
+    /// of the largest consistent subset.
     pub reference: ReferenceValue,
-    /// How the reference value was made.
+    /// How the reference value was computed.
     pub estimator: Estimator,
-    /// What every estimator gives; without the largest consistent subset where all are consistent.
+    /// The values of all estimators, without the largest consistent subset if all results are
+    /// consistent.
     pub estimators: Vec<ConsensusValue>,
-    /// How the subset was found; `None` where all are consistent.
+    /// How the subset was found; `None` if all are consistent.
     pub search: Option<SubsetSearch>,
-    /// The other subsets that would do as well as the largest consistent one.
+    /// Other subsets that are as good as the largest consistent one.
     pub ties: Ties,
     /// One entry for each laboratory.
     pub rows: Vec<DegreeOfEquivalence>,
@@ -115,12 +115,12 @@ pub struct Comparison {
 pub enum Impossible {
     /// Fewer than two laboratories.
     TooFew,
-    /// A value, an expanded uncertainty or a coverage factor that is none.
+    /// A value, an expanded uncertainty or a coverage factor that is not valid.
     Result {
         /// The laboratory.
         label: String,
     },
-    /// Correlation coefficients that are no matrix of them.
+    /// Correlation coefficients that do not form a correlation matrix.
     Coefficients {
         /// What is wrong.
         reason: &'static str,
@@ -135,12 +135,13 @@ pub enum Impossible {
         /// Their coefficient.
         coefficient: f64,
     },
-    /// The coefficients of a laboratory and those before it are of no joint distribution, or of one in
-    /// which its result follows from theirs.
+    /// The coefficients of a laboratory and the previous ones belong to no joint distribution, or
+    /// to one in which its result follows from theirs.
     Dependent {
         /// Its name.
         laboratory: String,
-        /// The part of its variance that the others leave, 1 where it is independent of them.
+        /// The fraction of its variance that the others do not explain; 1 if it is independent of
+        /// them.
         left: f64,
     },
 }
@@ -192,12 +193,13 @@ pub(super) struct Results {
 }
 
 impl Results {
-    /// The root of the members' covariance matrix; `None` if that is not positive definite.
+    /// The root of the members' covariance matrix; `None` if the matrix is not positive definite.
     fn root(&self, members: &[usize]) -> Option<DenseRoot> {
         DenseRoot::of(principal_part(&self.covariance, members))
     }
 
-    /// Weights of the mean of so many members and its standard uncertainty; `None` if they have none.
+    /// Weights of the mean of the members, and its standard uncertainty; `None` if they are not
+    /// defined.
     fn weights(root: &DenseRoot, members: usize) -> Option<(DVector<f64>, f64)> {
         let solved = root.solve(&DVector::from_element(members, 1.0));
         let sum = solved.sum();
@@ -208,7 +210,7 @@ impl Results {
     pub(super) fn reference(&self, members: &[usize]) -> Option<ReferenceValue> {
         let root = self.root(members)?;
         let (weights, u) = Self::weights(&root, members.len())?;
-        // about one of the values, so that a common large part costs no digits
+        // relative to one of the values, so that a large common part costs no digits
         let origin = *self.values.get(*members.first()?)?;
         let deviations = DVector::from_fn(members.len(), |i, _| self.values[members[i]] - origin);
         let mean = weights.dot(&deviations);
@@ -222,7 +224,7 @@ impl Results {
         Some(ReferenceValue { members, value, standard_uncertainty: u, chi_squared, dof, p_value })
     }
 
-    /// The members' precision, from which chi-squared without some of them follows.
+    /// The members' precision matrix, which gives chi-squared without some of them.
     pub(super) fn precision(&self, members: &[usize]) -> Option<Precision> {
         let n = members.len();
         let inverse = self.root(members)?.inverse();
@@ -254,10 +256,9 @@ impl Results {
 /// The inverse P of some laboratories' covariance matrix, with P 1 and P x, where x are their values
 /// about their mean.
 ///
-/// Taking laboratories out needs no other inverse: what is left of each of the sums 1'P1, 1'Px and
-/// x'Px is the sum without its part a' Q^-1 b, where Q is the block of P of those that are taken out
-/// and a, b are their entries of P 1 and P x (the inverse of a block matrix, by Schur's complement).
-/// Chi-squared is x'Px - (1'Px)^2 / 1'P1.
+/// Removing laboratories needs no new inverse: each of the sums 1'P1, 1'Px and x'Px decreases by a'
+/// Q^-1 b, where Q is the block of P of the removed laboratories and a, b are their entries of P 1
+/// and P x (Schur complement). Chi-squared is x'Px - (1'Px)^2 / 1'P1.
 #[derive(Debug)]
 pub(super) struct Precision {
     inverse: DMatrix<f64>,
@@ -268,7 +269,7 @@ pub(super) struct Precision {
 }
 
 impl Precision {
-    /// Chi-squared of the others without those at some places; `None` where rounding left nothing.
+    /// Chi-squared without the laboratories at the given indices; `None` if only rounding remains.
     pub(super) fn chi_squared_without(&self, out: &[usize]) -> Option<f64> {
         let k = out.len();
         let block = principal_part(&self.inverse, out);
@@ -283,7 +284,7 @@ impl Precision {
     }
 }
 
-/// What keeps coefficients from being a correlation matrix of so many results, or none at all.
+/// Why the coefficients are not a correlation matrix of `n` results; `None` if they are.
 fn fault(correlations: &[Vec<f64>], n: usize) -> Option<&'static str> {
     if correlations.is_empty() {
         return None;
@@ -308,8 +309,8 @@ fn fault(correlations: &[Vec<f64>], n: usize) -> Option<&'static str> {
 /// symmetric matrix with 1 on its diagonal, or is empty if they are independent.
 ///
 /// # Errors
-/// Fewer than two laboratories; results that are none; coefficients that are no such matrix, or that
-/// no joint distribution has.
+/// Fewer than two laboratories; invalid results; coefficients that do not form a correlation
+/// matrix, or that no joint distribution has.
 pub fn compare(
     laboratories: &[Laboratory],
     correlations: &[Vec<f64>],
@@ -317,8 +318,8 @@ pub fn compare(
     compare_by(laboratories, correlations, None)
 }
 
-/// The same with the reference value of an estimator, and degrees of equivalence from that. Those of
-/// Birge and of the random-effects models take the uncertainties as the estimator widens them.
+/// The same with the reference value of an estimator, and degrees of equivalence with respect to
+/// it. Birge's ratio and the random-effects models use the increased uncertainties.
 ///
 /// # Errors
 /// As [`compare`].
@@ -369,7 +370,7 @@ pub fn compare_by(
         Some(wanted) => wanted,
     };
     let mut estimators = Vec::new();
-    // the results with the uncertainties that the reference value was made with
+    // the results with the uncertainties that the reference value was computed with
     let mut taken = None;
     for candidate in Estimator::ALL {
         let (value, results) = match (candidate, &subset) {
@@ -388,7 +389,7 @@ pub fn compare_by(
     let rows = laboratories.iter().enumerate().map(|(number, laboratory)| {
         let difference = laboratory.result.value - reference.value;
         let u = match reference.members[..] {
-            // of a result from itself there is nothing to be known
+            // the difference of a result from itself carries no information
             [only] if only == number => 0.0,
             _ => results.of_difference(number, &reference.members)?,
         };

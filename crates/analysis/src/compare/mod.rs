@@ -1,5 +1,5 @@
-//! Results of one quantity compared: two by two ([`pair`]), and those of many laboratories with a
-//! reference value ([`laboratories`]; where they disagree [`consensus`]).
+//! Compares results for one quantity: in pairs ([`pair`]), and of many laboratories with a
+//! reference value ([`laboratories`]; [`consensus`] if they are inconsistent).
 
 pub mod consensus;
 mod definite;
@@ -15,17 +15,17 @@ pub use subset::Ties;
 use gumption_engine::model::Tolerance;
 use gumption_engine::special;
 
-/// The coverage factor of expanded uncertainties in the answers.
+/// The coverage factor of expanded uncertainties in answers.
 pub const FACTOR: f64 = 2.0;
 
-/// The probability that two values of one quantity differ by as much or more: 2 (1 - Phi(|d|/u)).
+/// The probability that two values of one quantity differ by at least this much: 2 (1 -
+/// Phi(|d|/u)).
 fn probability(difference: f64, u: f64) -> f64 {
     2.0 * special::normal::sf(difference.abs() / u)
 }
 
-/// Whether two values differ by at most the expanded uncertainty of their difference, but for the
-/// rounding of binary fractions: that of the difference, and what is left to any limit
-/// ([`Tolerance::holds`]).
+/// Whether two values differ by at most the expanded uncertainty of their difference, apart from
+/// rounding of the difference and of the distance to any limit ([`Tolerance::holds`]).
 fn agree([a, b]: [f64; 2], expanded: f64) -> bool {
     let of_difference = f64::EPSILON * (a.abs() + b.abs());
     Tolerance { lower: None, upper: Some(expanded) }.holds((a - b).abs() - of_difference)

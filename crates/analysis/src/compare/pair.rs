@@ -1,5 +1,5 @@
-//! Two results of one quantity: normalized error and zeta score (ISO 13528:2022, 9.5 and 9.7;
-//! ISO/IEC 17043), and the range of the normalized error that printed digits allow.
+//! Two results for one quantity: normalized error and zeta score (ISO 13528:2022, 9.5 and 9.7;
+//! ISO/IEC 17043), and the range of the normalized error that the printed digits allow.
 
 use super::{FACTOR, agree, probability};
 
@@ -12,19 +12,19 @@ pub struct StatedResult {
     pub expanded: f64,
     /// Its coverage factor k, above 0.
     pub factor: f64,
-    /// x and U as they are printed: with all their digits, unless a workbook shows fewer of them.
+    /// x and U as printed: with all their digits, unless a workbook displays fewer.
     pub printed: [f64; 2],
-    /// By how much these may be rounded: half a unit of their last printed digits, or 0.
+    /// The largest rounding error of each: half a unit of the last printed digit, or 0.
     pub rounding: [f64; 2],
 }
 
 impl StatedResult {
-    /// A result that is printed with all its digits and not rounded.
+    /// A result that is printed with all its digits and is not rounded.
     pub fn new(value: f64, expanded: f64, factor: f64) -> Self {
         Self { value, expanded, factor, printed: [value, expanded], rounding: [0.0; 2] }
     }
 
-    /// Whether it is a result: finite numbers, U and what may be rounded at least 0, k above 0.
+    /// Whether it is valid: finite numbers, U and rounding at least 0, k above 0.
     pub fn is_possible(&self) -> bool {
         let [of_value, of_expanded] = self.rounding;
         let [printed_value, printed_expanded] = self.printed;
@@ -68,30 +68,29 @@ pub struct ComparedPair {
     pub label: String,
     /// x1 - x2.
     pub difference: f64,
-    /// Its expanded uncertainty U with k = 2; results that are stated with other factors are brought
-    /// to that.
+    /// Its expanded uncertainty U with k = 2; results with other factors are converted to k = 2.
     pub expanded: f64,
     /// Normalized error |d|/U.
     pub normalized_error: f64,
     /// Zeta score |d|/u(d).
     pub zeta: f64,
-    /// The normalized errors that the printed digits allow, from and to; infinite where U may be 0.
+    /// The smallest and the largest normalized error that the printed digits allow; infinite if U
+    /// may be 0.
     pub range: [f64; 2],
-    /// Probability that two results of one value differ by as much or more.
+    /// Probability that two results for one value differ by at least this much.
     pub probability: f64,
     compatible: bool,
 }
 
 impl ComparedPair {
-    /// Whether the results are compatible: the normalized error is at most 1, but for the rounding of
-    /// binary fractions.
+    /// Whether the results are compatible: the normalized error is at most 1, apart from rounding.
     pub fn is_compatible(&self) -> bool {
         self.compatible
     }
 }
 
 impl ResultPair {
-    /// The comparison; `None` if the difference has no uncertainty, a result is none
+    /// The comparison; `None` if the difference has no uncertainty, a result is invalid
     /// ([`StatedResult::is_possible`]), or the coefficient is not from -1 to 1.
     pub fn compare(&self) -> Option<ComparedPair> {
         let results = self.results.iter().all(StatedResult::is_possible);
@@ -102,7 +101,7 @@ impl ResultPair {
         let [u1, u2] = self.results.map(|result| result.standard_uncertainty());
         let difference = a.value - b.value;
         let u = squared([u1, u2], self.correlation).max(0.0).sqrt();
-        // u of fully correlated results may be nothing but rounding
+        // u of fully correlated results may be pure rounding
         (u > 1e-12 * (u1 + u2)).then(|| ComparedPair {
             label: self.label.clone(),
             difference,
@@ -115,8 +114,8 @@ impl ResultPair {
         })
     }
 
-    /// The least and the greatest normalized error over all values and uncertainties that print as
-    /// these do.
+    /// The smallest and the largest normalized error over all values and uncertainties that print
+    /// as these do.
     fn range(&self) -> [f64; 2] {
         let [a, b] = self.results;
         let (d, slack) = ((a.printed[0] - b.printed[0]).abs(), a.rounding[0] + b.rounding[0]);
@@ -136,9 +135,9 @@ fn squared([u1, u2]: [f64; 2], r: f64) -> f64 {
     u1 * u1 + u2 * u2 - 2.0 * r * u1 * u2
 }
 
-/// The least and the greatest standard uncertainty of a difference over a rectangle of standard
-/// uncertainties. Its square is convex: the greatest is at a corner, the least on an edge where that
-/// is flat, or at a corner.
+/// The smallest and the largest standard uncertainty of a difference over a rectangle of standard
+/// uncertainties. Its square is convex: the largest is at a corner, the smallest at a corner or on
+/// an edge at a point with zero slope.
 fn extremes([a, b]: [[f64; 2]; 2], r: f64) -> (f64, f64) {
     let corners = a.iter().flat_map(|&u1| b.map(|u2| [u1, u2]));
     let flat_on_a = a.map(|u1| [u1, (r * u1).clamp(b[0], b[1])]);
@@ -177,7 +176,7 @@ mod tests {
         assert!((found.expanded - 2.0 * 3.25f64.sqrt()).abs() < 1e-14);
     }
 
-    /// The range is that of a fine grid over everything that prints alike.
+    /// The range equals that of a fine grid over everything that prints alike.
     #[test]
     fn the_range_of_printed_digits() {
         for r in [-1.0, -0.4, 0.0, 0.3, 0.9, 1.0] {
@@ -219,9 +218,10 @@ mod tests {
         assert!((found.normalized_error - 0.0433 / 0.0396f64.hypot(0.0433)).abs() < 1e-12);
     }
 
-    /// By hand: 0.03 and 0.04 are U = 0.05, and values that are 0.05 apart have En = 1 wherever they lie,
-    /// also where the binary difference is above 0.05 or, of large values, off by more than 1e-12 of it;
-    /// 0.0500001 is too much. A difference of five U among frequencies with fifteen digits stays one.
+    /// By hand: 0.03 and 0.04 give U = 0.05, and values that are 0.05 apart have En = 1 wherever
+    /// they lie, even if the binary difference exceeds 0.05 or, for large values, deviates by more
+    /// than 1e-12 of it; 0.0500001 is too much. A difference of five U between frequencies with
+    /// fifteen digits stays incompatible.
     #[test]
     fn a_normalized_error_of_one_is_compatible() {
         let is = |x1: f64, x2: f64, [u1, u2]: [f64; 2]| {

@@ -2,13 +2,13 @@
 
 use super::laboratories::{ReferenceValue, Results};
 
-/// How the subset was looked for.
+/// How the subset was searched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SubsetSearch {
-    /// Among all subsets: it is the largest one, and of those of its size the one with the smallest
-    /// chi-squared.
+    /// Among all subsets: it is the largest one, and among subsets of its size the one with the
+    /// smallest chi-squared.
     All,
-    /// By taking out one laboratory at a time, that whose absence lowers chi-squared most: where
+    /// By removing one laboratory at a time, the one whose removal lowers chi-squared most; used if
     /// there are too many subsets.
     OneAtATime,
 }
@@ -23,22 +23,21 @@ impl SubsetSearch {
     }
 }
 
-/// At most so many subsets are looked at.
+/// Maximum number of subsets that are evaluated.
 const MOST: u64 = 200_000;
 
-/// Other subsets that would do as well as the one that is taken: of the same size, with the same
-/// chi-squared.
+/// Other subsets that are as good as the chosen one: of the same size, with the same chi-squared.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Ties {
-    /// How many there are; of subsets that are made by taking out one laboratory at a time, how many
-    /// times another one could have been taken out.
+    /// Their number; if one laboratory is removed at a time, how many times another one could have
+    /// been removed.
     pub count: usize,
-    /// The members of the first of them, in the order of the rows; none where one laboratory is taken
-    /// out at a time.
+    /// The members of the first of these subsets, in the order of the rows; empty if one laboratory
+    /// is removed at a time.
     pub subsets: Vec<Vec<usize>>,
 }
 
-/// Of so many other subsets the members are kept.
+/// Maximum number of other subsets whose members are kept.
 const MOST_KEPT: usize = 10;
 
 /// The largest consistent subset and how it was found.
@@ -61,7 +60,7 @@ pub(super) fn largest(results: &Results, count: usize) -> Option<Found> {
         }
         let (members, ties) = smallest(results, (count, out), noise)?;
         let reference = results.reference(&members)?;
-        // the others of its size have larger chi-squared
+        // the other subsets of its size have a larger chi-squared
         if reference.is_consistent() {
             return Some(Found { reference, search: SubsetSearch::All, ties });
         }
@@ -69,7 +68,7 @@ pub(super) fn largest(results: &Results, count: usize) -> Option<Found> {
     None
 }
 
-/// The next choice of as many out of `count`, in lexical order; `false` after the last.
+/// The next combination out of `count`, in lexical order; `false` after the last.
 fn next(chosen: &mut [usize], count: usize) -> bool {
     let size = chosen.len();
     let Some(place) = (0..size).rev().find(|&place| chosen[place] < count - size + place) else {
@@ -82,17 +81,17 @@ fn next(chosen: &mut [usize], count: usize) -> bool {
     true
 }
 
-/// Differences of chi-squared below this share are rounding.
+/// Relative differences of chi-squared below this are rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// What rounding makes of chi-squared of some laboratories, which is computed as that of all without
-/// the part of the others: the doubles that are subtracted have 1.1e-16 each, a few hundred times.
+/// The rounding of the chi-squared of some laboratories, which is computed by subtraction from that
+/// of all: a few hundred times the rounding of doubles, 1.1e-16.
 fn noise(of_all: f64) -> f64 {
     1e-13 * of_all
 }
 
-/// The subset without `out` laboratories that has the smallest chi-squared, the first one of equals, and
-/// the equals.
+/// The subset without `out` laboratories that has the smallest chi-squared, the first one among
+/// equals, and the equals.
 fn smallest(
     results: &Results,
     (count, out): (usize, usize),
@@ -103,7 +102,7 @@ fn smallest(
     let mut ties = Ties::default();
     let mut members: Vec<usize> = (0..count - out).collect();
     loop {
-        // what is left of a few is told best by themselves
+        // for the few remaining ones a direct computation is more accurate
         let chi_squared = if 2 * out > count {
             results.reference(&members)?.chi_squared
         } else {
@@ -132,7 +131,7 @@ fn smallest(
     }
 }
 
-/// The places below `count` that are not among these, which are in order.
+/// The indices below `count` that are not in the sorted list `places`.
 fn without(places: &[usize], count: usize) -> Vec<usize> {
     let mut others = Vec::with_capacity(count - places.len());
     let mut from = 0;

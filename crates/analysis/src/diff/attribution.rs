@@ -1,18 +1,17 @@
-//! Shares of a change that is brought about by several causes together.
+//! Attributes a change with several causes to each of them.
 
-/// Up to so many causes, every subset of them is evaluated.
+/// Up to this number of causes, every subset is evaluated.
 const ALL_SUBSETS: usize = 10;
 
-/// Beyond, about so many evaluations are made.
+/// The approximate number of evaluations for more causes.
 const EVALUATIONS: usize = 4000;
 
 /// The Shapley values of `causes` causes: the part of `value(all) - value(none)` that each explains
-/// when causes are put into effect one after the other, averaged over all orders. They sum to the
-/// change, and do not depend on how the causes are numbered.
+/// when causes take effect one after the other, averaged over all orders. They sum to the change,
+/// and do not depend on the numbering of the causes.
 ///
-/// `value` gives the figures with the marked causes in effect. With more than ten causes orders are
-/// taken in pairs, one and its reverse, which is still exact where no more than two causes act
-/// upon each other.
+/// `value` gives the results with the marked causes in effect. For more than ten causes the orders
+/// are sampled in pairs, one and its reverse, which is still exact if at most two causes interact.
 pub(super) fn shapley(causes: usize, value: &dyn Fn(&[bool]) -> Vec<f64>) -> Vec<Vec<f64>> {
     if causes <= ALL_SUBSETS { by_subsets(causes, value) } else { by_orders(causes, value) }
 }
@@ -40,7 +39,7 @@ fn by_subsets(causes: usize, value: &dyn Fn(&[bool]) -> Vec<f64>) -> Vec<Vec<f64
     shares
 }
 
-/// Averages over turns of the order as numbered and over their reverses.
+/// Averages over rotations of the numbered order and over their reverses.
 fn by_orders(causes: usize, value: &dyn Fn(&[bool]) -> Vec<f64>) -> Vec<Vec<f64>> {
     let turns = (EVALUATIONS / (2 * causes)).clamp(1, causes);
     let mut shares: Vec<Vec<f64>> = Vec::new();
@@ -73,7 +72,7 @@ mod tests {
         marks.iter().enumerate().filter(|(_, m)| **m).map(|(c, _)| c)
     }
 
-    /// In x y each of two causes has half of their common effect; a third that does nothing has
+    /// In x y each of two causes gets half of their joint effect; a third cause without effect gets
     /// nothing.
     #[test]
     fn what_two_do_together_is_halved() {
@@ -94,8 +93,8 @@ mod tests {
         }
     }
 
-    /// Both ways agree where causes act by themselves and in pairs: sum of i + 1, and of products
-    /// of neighbours.
+    /// Both methods agree if causes act alone and in pairs: sum of i + 1, and of products of
+    /// neighbours.
     #[test]
     fn pairs_of_orders_are_exact_for_pairs_of_causes() {
         let value = |m: &[bool]| {

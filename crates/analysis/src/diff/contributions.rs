@@ -1,15 +1,15 @@
-//! The change of one output's u^2 and k between two saved results, shared out among the inputs.
+//! Attributes the change of one output's u^2 and k between two saved results to the inputs.
 
 use super::attribution::shapley;
 use gumption_engine::propagate::gum;
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::task::Coverage;
 
-/// Figures of a file that a computation from its inputs gives to this are those of the file but for
-/// rounding.
+/// Relative tolerance between a value in the file and the same value recomputed from the file's
+/// inputs.
 const ROUNDING: f64 = 1e-6;
 
-/// How a coverage factor follows from the degrees of freedom.
+/// How the coverage factor follows from the degrees of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rule {
     coverage: Coverage,
@@ -29,8 +29,8 @@ impl Rule {
     }
 }
 
-/// The rules that give a coverage factor at these degrees of freedom: t at their integer part, t at
-/// the real number, or the factor as it stands.
+/// The rules that give this coverage factor at these degrees of freedom: t with their integer part,
+/// t with the real number, or a fixed factor.
 fn rules(probability: Option<f64>, factor: f64, dof: f64) -> Vec<Rule> {
     let close = |rule: &Rule| {
         rule.factor(dof).is_some_and(|found| (found - factor).abs() <= ROUNDING * factor)
@@ -48,22 +48,22 @@ fn rules(probability: Option<f64>, factor: f64, dof: f64) -> Vec<Rule> {
     fitting
 }
 
-/// One output in one of two files; lists have an entry for each input of either.
+/// One output in one of two files; lists have an entry for each input of either file.
 #[derive(Clone, Debug)]
 pub(super) struct Known {
     /// Standard uncertainty.
     pub(super) standard_uncertainty: f64,
     /// Coverage factor.
     pub(super) coverage_factor: f64,
-    /// Effective degrees of freedom; not a number where they are undefined.
+    /// Effective degrees of freedom; NaN if they are undefined.
     pub(super) dof: f64,
     /// Coverage probability, if it is known.
     pub(super) probability: Option<f64>,
-    /// Signed contributions c u, in the unit of the standard uncertainty; 0 of what is absent.
+    /// Signed contributions c u, in the unit of the standard uncertainty; 0 for an absent input.
     pub(super) contributions: Vec<f64>,
     /// Degrees of freedom of the inputs.
     pub(super) input_dof: Vec<f64>,
-    /// Coefficients between inputs, by their indices, in order.
+    /// Correlation coefficients between inputs, by their indices, in order.
     pub(super) correlations: Vec<(usize, usize, f64)>,
 }
 
@@ -74,14 +74,14 @@ pub(super) enum Cause {
     Input(usize),
     /// Correlation coefficients.
     Correlations,
-    /// Coverage probability, or how the factor follows from it.
+    /// Coverage probability, or the rule that gives the factor.
     Coverage,
     /// What none of them explains.
     Rest,
 }
 
-/// The parts of the changes of u^2 and k; they sum to the changes. Causes that change nothing are
-/// not among them.
+/// The parts of the changes of u^2 and k; they sum to the changes. Causes without effect are left
+/// out.
 pub(super) fn parts(sides: [&Known; 2]) -> Vec<(Cause, [f64; 2])> {
     let [first, second] = sides;
     let fitting = sides.map(|side| rules(side.probability, side.coverage_factor, side.dof));
@@ -105,7 +105,7 @@ pub(super) fn parts(sides: [&Known; 2]) -> Vec<(Cause, [f64; 2])> {
     if from != to {
         causes.push(Cause::Coverage);
     }
-    // where each cause stands, found once for all evaluations
+    // the index of each cause, found once for all evaluations
     let place = |wanted: Cause| causes.iter().position(|cause| *cause == wanted);
     let (of_correlations, of_coverage) = (place(Cause::Correlations), place(Cause::Coverage));
     let mut of_input = vec![None; first.contributions.len()];
@@ -132,7 +132,7 @@ pub(super) fn parts(sides: [&Known; 2]) -> Vec<(Cause, [f64; 2])> {
         vec![combined.variance, rule.factor(combined.dof).unwrap_or(f64::NAN)]
     };
     let stated = |side: &Known| vec![side.standard_uncertainty.powi(2), side.coverage_factor];
-    // both ends are the files' own figures, so that the parts sum to the change to the last digit
+    // both ends are the files' own values, so that the parts sum to the change to the last digit
     let value = |marks: &[bool]| {
         let computed = figures(marks);
         let end = match marks.iter().filter(|mark| **mark).count() {
@@ -167,12 +167,12 @@ struct Combined {
     dof: f64,
 }
 
-/// The law of propagation and the Welch-Satterthwaite formula (JCGM 100, 5.2.2 and G.2b). Inputs of
-/// finite degrees of freedom that are correlated are one term, as a result that has degrees of
+/// The law of propagation and the Welch-Satterthwaite formula (JCGM 100, 5.2.2 and G.2b).
+/// Correlated inputs with finite degrees of freedom form one term, because a result with degrees of
 /// freedom has such inputs only from paired readings.
 fn combined(contributions: &[f64], dof: &[f64], correlations: &[(usize, usize, f64)]) -> Combined {
     let at = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(0.0);
-    // the first input of the term that each belongs to
+    // the first input of the term to which each belongs
     let mut term: Vec<usize> = (0..contributions.len()).collect();
     let mut variance: f64 = contributions.iter().map(|c| c * c).sum();
     for &(i, j, r) in correlations {

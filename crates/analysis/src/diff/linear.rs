@@ -1,4 +1,4 @@
-//! What a saved result tells: outputs as weighted sums of inputs, to first order.
+//! A saved result as a linear model: outputs as weighted sums of inputs, to first order.
 
 use std::fmt;
 
@@ -11,15 +11,15 @@ use gumption_engine::propagate::origins;
 use gumption_engine::task::Task;
 use gumption_units::Unit;
 
-/// Outputs to first order in the inputs that they go back to.
+/// Outputs to first order in their original inputs.
 #[derive(Clone, Debug)]
 pub struct LinearResult {
     /// The outputs, in order.
     pub outputs: Vec<LinearOutput>,
-    /// The inputs that they go back to.
+    /// The original inputs.
     pub inputs: Vec<Root>,
-    /// The model that takes these inputs directly, as [`RootName::model`] names it (the SHA-256 of
-    /// a model file); the other inputs stand behind saved results.
+    /// The model that has these inputs directly, as [`RootName::model`] names it (the SHA-256 of a
+    /// model file); the other inputs come from saved results.
     pub model: String,
     /// Correlation coefficients between inputs: their indices and the coefficient.
     pub correlations: Vec<(usize, usize, f64)>,
@@ -36,27 +36,27 @@ pub struct LinearOutput {
     pub standard_uncertainty: f64,
     /// Effective degrees of freedom; not a number where they are undefined.
     pub dof: f64,
-    /// Coverage factor; `None` where U is not defined.
+    /// Coverage factor; `None` if U is not defined.
     pub coverage_factor: Option<f64>,
     /// Coverage probability, if it is known.
     pub probability: Option<f64>,
-    /// What the trials say; `None` without trials.
+    /// The results of the trials; `None` without trials.
     pub by_trials: Option<ByTrials>,
-    /// Sensitivity coefficients to the inputs, in order; 0 beyond the end.
+    /// Sensitivity coefficients with respect to the inputs, in order; 0 beyond the end.
     pub sensitivities: Vec<f64>,
 }
 
 impl LinearOutput {
-    /// The coefficient to the input of this index.
+    /// The sensitivity coefficient for the input with this index.
     pub(super) fn sensitivity(&self, index: usize) -> f64 {
         self.sensitivities.get(index).copied().unwrap_or(0.0)
     }
 }
 
-/// A task with several rows of conditions, where one is needed.
+/// A task with another number of rows of conditions than one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SeveralRows {
-    /// How many there are; 0 is possible.
+    /// The number of rows; 0 is possible.
     pub rows: usize,
 }
 
@@ -69,12 +69,12 @@ impl fmt::Display for SeveralRows {
 impl std::error::Error for SeveralRows {}
 
 impl LinearResult {
-    /// The outputs of a task's only row by the law of propagation, and what its trials say.
+    /// The outputs of a task's only row by the law of propagation, and the results of its trials.
     ///
     /// # Errors
-    /// A task with another number of rows of conditions than one.
+    /// The task does not have exactly one row of conditions.
     pub fn of_task(task: &Task, control: &Control<'_>) -> Result<Self, SeveralRows> {
-        // any name serves that is not a hash
+        // any name that is not a hash
         const MODEL: &str = "this file";
         let [row] = task.rows.as_slice() else {
             return Err(SeveralRows { rows: task.rows.len() });
@@ -111,25 +111,25 @@ impl LinearResult {
         })
     }
 
-    /// Whether the input is the model's own, not one of a saved result that it took.
+    /// Whether the input belongs to the model itself, not to a saved result that it uses.
     pub(super) fn is_own(&self, index: usize) -> bool {
         self.inputs.get(index).is_some_and(|root| *root.name.model == *self.model)
     }
 }
 
-/// An input of one side or of both.
+/// An input of one side or both sides.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Matched {
-    /// Its name; of an input behind a saved result whose name others have as well, with the
-    /// beginning of its file's hash.
+    /// Its name; for an input of a saved result whose name is not unique, with the beginning of its
+    /// file's hash.
     pub(super) label: String,
     /// Its indices.
     pub(super) indices: [Option<usize>; 2],
 }
 
-/// The inputs of both sides, those of the first in order, then what only the second has. Own inputs
-/// are the same by their name. Inputs behind saved results are the same by file and name, and where
-/// that file is not on the other side, by name.
+/// The inputs of both sides: first those of the first side in order, then those that only the
+/// second has. Own inputs are matched by name. Inputs of saved results are matched by file and
+/// name, or by name alone if that file is not on the other side.
 pub(super) fn matched(sides: [&LinearResult; 2]) -> Vec<Matched> {
     let [first, second] = sides;
     let name = |side: usize, index: usize| sides[side].inputs.get(index).map(|root| &root.name);

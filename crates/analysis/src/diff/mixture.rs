@@ -1,4 +1,4 @@
-//! Evaluations in which a part of what is known comes from one task and the rest from the other.
+//! Evaluations that take some inputs and settings from one task and the rest from the other.
 
 use std::cell::OnceCell;
 use std::collections::HashMap;
@@ -10,10 +10,10 @@ use gumption_engine::propagate::gum;
 use gumption_engine::task::{Row, Task};
 use gumption_units::Unit;
 
-/// What can be taken from the first or from the second task.
+/// A cause: an item that can come from the first or from the second task.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Cause {
-    /// What is known about a variable of both tasks.
+    /// The state of knowledge about a variable of both tasks.
     Moved(String),
     /// A variable that only the first task has; its uncertainty vanishes.
     Removed(String),
@@ -25,19 +25,19 @@ pub(super) enum Cause {
     Coverage,
 }
 
-/// The two tasks at a row of each.
+/// A row of each of the two tasks.
 pub(super) struct Mixture<'a> {
     tasks: [&'a Task; 2],
     rows: [&'a Row; 2],
     /// The tasks without their rows.
     empty: &'a [Task; 2],
-    /// By the sides of the model, of the correlations and of the coverage: a task takes longer to
-    /// copy than to evaluate, and there are thousands of evaluations.
+    /// Indexed by the sides of the model, of the correlations and of the coverage: copying a task
+    /// takes longer than evaluating it, and there are thousands of evaluations.
     made: [[[OnceCell<Task>; 2]; 2]; 2],
     indices: [HashMap<&'a str, usize>; 2],
-    /// Places of the outputs to be compared.
+    /// Indices of the outputs to compare.
     outputs: Vec<[usize; 2]>,
-    /// From the second task's unit of each output to the first's.
+    /// Conversion factors from the second task's unit of each output to the first task's unit.
     factors: Vec<f64>,
 }
 
@@ -63,7 +63,7 @@ impl<'a> Mixture<'a> {
         }
     }
 
-    /// The causes that are not nothing, in an order of their own: that of the names.
+    /// The causes with an effect, in the order of their names.
     pub(super) fn causes(&self) -> Vec<Cause> {
         let mut names: Vec<&str> = self.indices.iter().flat_map(|p| p.keys().copied()).collect();
         names.sort_unstable();
@@ -111,7 +111,7 @@ impl<'a> Mixture<'a> {
     }
 
     /// u^2 and k of every common output, one after the other, by the model of one side, with some
-    /// causes in effect. Where there is none, the figure is not a number.
+    /// causes in effect. NaN if a value is undefined.
     pub(super) fn figures(&self, model: Side, in_effect: &[&Cause]) -> Vec<f64> {
         let own = model.index();
         let is = |cause: &Cause| in_effect.contains(&cause);
@@ -131,7 +131,7 @@ impl<'a> Mixture<'a> {
                     return distribution.cloned();
                 }
                 match self.indices[1 - own].get(variable.name.as_str()) {
-                    // the state that this side has not: known exactly
+                    // the state that this side does not have: exactly known
                     None => distribution.map(|d| Arc::new(known(d))),
                     Some(&other) => self.taken(1 - own, other, &variable.unit),
                 }
@@ -154,7 +154,7 @@ impl<'a> Mixture<'a> {
         figures.collect()
     }
 
-    /// The task of one side with the correlations and the coverage of others.
+    /// The task of one side with the correlations and the coverage of the other sides.
     fn task(&self, own: usize, correlations: usize, coverage: usize) -> &Task {
         self.made[own][correlations][coverage].get_or_init(|| {
             let mut task = self.empty[own].clone();
@@ -166,7 +166,7 @@ impl<'a> Mixture<'a> {
         })
     }
 
-    /// A variable of one side in the unit of the other.
+    /// A variable of one side, in the unit of the other.
     fn taken(&self, side: usize, index: usize, unit: &Unit) -> Option<Arc<Distribution>> {
         let distribution = self.rows[side].distributions.get(index)?;
         let variable = self.tasks[side].variables.get(index)?;
@@ -176,7 +176,7 @@ impl<'a> Mixture<'a> {
         // only estimate, uncertainty and degrees of freedom count here
         let factor = Unit::conversion_factor(&variable.unit, unit).ok()?;
         let mean = distribution.mean();
-        // a component is a difference, which knows no zero of a scale
+        // a component is a difference, so the zero of a scale does not matter
         let mean = match variable.name.contains('/') {
             true => mean * factor,
             false => Unit::convert(mean, &variable.unit, unit).ok()?,
@@ -190,7 +190,7 @@ impl<'a> Mixture<'a> {
         taken.map(Arc::new)
     }
 
-    /// The coefficients of one side between variables of the model of another.
+    /// The coefficients of one side between variables of another side's model.
     fn correlations(&self, side: usize, model: usize) -> Vec<Correlation> {
         let named = self.named_correlations(side).into_iter();
         let indexed = named.filter_map(|(a, b, coefficient)| {

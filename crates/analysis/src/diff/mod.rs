@@ -3,13 +3,13 @@
 //!
 //! # How the change is shared out
 //!
-//! The causes are the inputs (their components one by one), the declared correlations, the coverage
-//! and the model itself. A cause's part of the change of u^2, and of the change of k, is its
-//! Shapley value: what it adds when the causes are put into effect one after the other, averaged
-//! over all orders. As long as only standard uncertainties change, that is the change of the
-//! input's own contribution (c u)^2, and half of the change of every correlation term that it is
-//! in; the effect of moved estimates on sensitivity coefficients, and whatever causes do together,
-//! is shared equally among them. The part of the change of U = k u is then
+//! The causes are the inputs (component by component), the declared correlations, the coverage and
+//! the model. The part of a cause in the change of u^2, and in the change of k, is its Shapley
+//! value: the change that it adds when the causes take effect one after the other, averaged over
+//! all orders. If only standard uncertainties change, this is the change of the input's own
+//! contribution (c u)^2 plus half the change of each of its correlation terms. The effect of
+//! changed estimates on sensitivity coefficients, and joint effects of causes, are shared equally
+//! among them. The part in the change of U = k u is then
 //!
 //! ```text
 //! mean(k) * part(u^2) / (u_A + u_B) + mean(u) * part(k)
@@ -18,21 +18,21 @@
 //! with the means of both files' values. These parts sum to U_B - U_A exactly, whatever the order
 //! of the inputs in the files.
 //!
-//! Where the law of propagation is not valid (JCGM 101, clause 8) that is not the change of what is
-//! stated: the half-lengths of the trials' intervals stand beside it ([`add_trials`]).
+//! If the law of propagation is not valid (JCGM 101, clause 8), this is not the change of the
+//! stated result: the half-lengths of the trials' intervals are given in addition ([`add_trials`]).
 //!
 //! # Tasks and saved results
 //!
-//! Where the model changed, inputs that only the first file has lose their uncertainty before, and
-//! inputs that only the second has get theirs after; the average is taken of changing the model
-//! first and of changing it last.
+//! If the model changed, inputs that only the first file has lose their uncertainty before the
+//! model changes, and inputs that only the second file has get theirs after it; the average is
+//! taken over changing the model first and changing it last.
 //!
-//! A saved result does not tell its equations, but its sensitivity coefficients: u^2 is a sum of
-//! contributions c u and of their correlation terms ([`compare_linear`]). An input's part is then
-//! that of its whole contribution, whether its uncertainty moved or its sensitivity coefficient,
-//! and that of its degrees of freedom. An input that no output has a sensitivity to is listed where it
-//! changed, as the outputs may depend on it by terms of second order. A task that is compared with a saved result is evaluated
-//! and taken in the same way ([`LinearResult::of_task`]).
+//! A saved result has no equations, but sensitivity coefficients: u^2 is a sum of contributions c u
+//! and of their correlation terms ([`compare_linear`]). The part of an input is then that of its
+//! whole contribution, whether its uncertainty or its sensitivity coefficient changed, and that of
+//! its degrees of freedom. An input without sensitivity coefficients is listed if it changed,
+//! because the outputs may depend on it by second-order terms. A task that is compared with a saved
+//! result is evaluated and linearized in the same way ([`LinearResult::of_task`]).
 
 mod attribution;
 mod contributions;
@@ -54,7 +54,7 @@ use gumption_engine::task::{Row, Task};
 use gumption_units::Unit;
 use mixture::{Cause, Common, Mixture};
 
-/// Changes of U below this share of it are rounding.
+/// Relative changes of U below this are rounding.
 const ROUNDING: f64 = 1e-14;
 
 /// What differs between two evaluations.
@@ -82,17 +82,17 @@ pub struct RowDifference {
 pub struct OutputDifference {
     /// The output.
     pub name: String,
-    /// Its unit in the first file, for all figures.
+    /// The unit of the first file, used for all values.
     pub unit: String,
-    /// U of the law of propagation in both files; `None` where it is not defined.
+    /// U by the law of propagation in both files; `None` if it is not defined.
     pub expanded: [Option<f64>; 2],
-    /// What the trials of both files say; `None` without trials.
+    /// The results of the trials of both files; `None` without trials.
     pub by_trials: [Option<ByTrials>; 2],
-    /// The inputs in the order of the files, then everything else that changed.
+    /// The inputs in the order of the files, then all other changes.
     pub parts: Vec<ChangePart>,
 }
 
-/// What a part of the change is due to.
+/// The cause of a part of the change.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ChangeCause {
     /// An input, or a component of one.
@@ -103,7 +103,7 @@ pub enum ChangeCause {
     Coverage,
     /// The equations or the typed model.
     Model,
-    /// What the inputs of saved results do not account for.
+    /// The rest that the inputs of saved results do not explain.
     Rest,
 }
 
@@ -112,22 +112,22 @@ pub enum ChangeCause {
 pub struct ChangePart {
     /// What it is due to.
     pub due: ChangeCause,
-    /// What both files know of an input; `None` where it is absent.
+    /// The state of an input in both files; `None` if it is absent.
     pub states: [Option<InputState>; 2],
-    /// Change of U; `None` where it cannot be told.
+    /// Change of U; `None` if it is unknown.
     pub change: Option<f64>,
-    /// Share of the change of U; `None` where U does not change.
+    /// Share of the change of U; `None` if U does not change.
     pub share: Option<f64>,
 }
 
 impl ChangePart {
-    /// Whether the two files know different things.
+    /// Whether the two files differ about the input.
     pub fn is_changed(&self) -> bool {
         !matches!(self.due, ChangeCause::Input(_)) || self.states[0] != self.states[1]
     }
 }
 
-/// What is known of an input.
+/// The state of knowledge about an input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputState {
     /// Estimate.
@@ -140,8 +140,8 @@ pub struct InputState {
     pub dof: f64,
     /// Unit of estimate and standard uncertainty.
     pub unit: String,
-    /// Sensitivity coefficient of the output to it, output unit per input unit, where the equations
-    /// are not known.
+    /// Sensitivity coefficient of the output with respect to it, in output units per input unit, if
+    /// the equations are unknown.
     pub sensitivity: Option<f64>,
 }
 
@@ -161,10 +161,10 @@ impl Side {
     }
 }
 
-/// Compares two tasks by the law of propagation; rows are compared where both have the same values
-/// of the same conditions. Of what changed beside the inputs only a different number of rows is
-/// listed, as two programs cannot be told apart in words: a caller that has the equations' text
-/// puts its own list before.
+/// Compares two tasks by the law of propagation; rows are compared if both tasks have the same
+/// values of the same conditions. Besides inputs, only a different number of rows is listed,
+/// because two programs cannot be compared in words: a caller that has the equations as text adds
+/// its own list in front.
 pub fn compare(first: &Task, second: &Task) -> Difference {
     let tasks = [first, second];
     let mut changes = Vec::new();
@@ -205,7 +205,7 @@ fn pairs<'a>(tasks: [&'a Task; 2]) -> Vec<[&'a Row; 2]> {
     if names(first) != names(second) {
         return Vec::new();
     }
-    // rows mostly stand at the same index; of others the first with the same values counts
+    // rows mostly have the same index; otherwise the first row with the same values is taken
     let key = |row: &Row| -> Vec<u64> {
         row.conditions.iter().map(|value| (value + 0.0).to_bits()).collect()
     };
@@ -259,7 +259,7 @@ fn expanded(gums: [Option<&Gum>; 2], factor: f64) -> [Option<f64>; 2] {
     [first, second.map(|expanded| expanded * factor)]
 }
 
-/// The parts of u^2 and k of all outputs: of each cause, and last of the model.
+/// The parts of u^2 and k for all outputs: one for each cause, and the last one for the model.
 fn attribute(mixture: &Mixture<'_>, causes: &[Cause]) -> Vec<Vec<f64>> {
     let game = |model: Side, players: &[&Cause], before: &[&Cause]| {
         shapley(players.len(), &|marks: &[bool]| {
@@ -285,7 +285,7 @@ fn attribute(mixture: &Mixture<'_>, causes: &[Cause]) -> Vec<Vec<f64>> {
             }
         }
     };
-    // the model last: what both have and what leaves, the model, what enters
+    // the model last: common inputs and removed ones, the model, added ones
     add(&leaving, game(Side::First, &leaving, &[]));
     add(&added, game(Side::Second, &added, &common));
     // the model first
@@ -313,7 +313,7 @@ struct Attributed<'a> {
 }
 
 impl Attributed<'_> {
-    /// Parts of u^2 and k of a cause, or of the model.
+    /// Parts of u^2 and k for a cause, or for the model.
     fn of(&self, cause: Option<&Cause>) -> [f64; 2] {
         let index = match cause {
             Some(cause) => self.causes.iter().position(|known| known == cause),
@@ -369,7 +369,7 @@ fn list(
         }
         let states = [state(0, name), state(1, name)];
         let cause = causes.get(name.as_str()).copied();
-        // the estimate that components are added to has a line only where it moved
+        // the estimate to which components are added has a line only if it changed
         if !variable.shown && cause.is_none() {
             continue;
         }
@@ -406,8 +406,8 @@ fn list(
     parts
 }
 
-/// The part of the change of U = k u that belongs to parts of the changes of u^2 and k; `None` if
-/// one is not finite.
+/// The part of the change of U = k u that corresponds to parts of the changes of u^2 and k; `None`
+/// if one is not finite.
 fn change_of_expanded(u: [f64; 2], k: [f64; 2], [of_variance, of_factor]: [f64; 2]) -> Option<f64> {
     let sum = u[0] + u[1];
     let of_u = if sum == 0.0 { 0.0 } else { of_variance / sum };
@@ -415,7 +415,7 @@ fn change_of_expanded(u: [f64; 2], k: [f64; 2], [of_variance, of_factor]: [f64; 
     change.is_finite().then_some(change)
 }
 
-/// Shares of the sum of all changes, which is the change of U but for rounding.
+/// Shares of the sum of all changes, which is the change of U apart from rounding.
 fn share_out(parts: &mut [ChangePart], rounding: f64) {
     let total: Option<f64> = parts.iter().map(|part| part.change).sum();
     let Some(total) = total.filter(|total| total.abs() > rounding) else {

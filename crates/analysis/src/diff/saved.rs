@@ -1,4 +1,4 @@
-//! Saved results compared with each other, or with tasks.
+//! Compares saved results with each other, or with tasks.
 
 use super::contributions::{Cause, Known, parts};
 use super::linear::{LinearOutput, LinearResult, Matched, matched};
@@ -9,11 +9,11 @@ use super::{
 use gumption_engine::number::smallest_first;
 use gumption_units::Unit;
 
-/// Sensitivity coefficients that differ by less than this share are equal but for rounding.
+/// Sensitivity coefficients whose relative difference is below this are equal apart from rounding.
 const EQUAL: f64 = 1e-12;
 
-/// Compares two results to first order in the inputs that they go back to; inputs that are known
-/// exactly are not in saved results and take no part.
+/// Compares two results to first order in their original inputs; exactly known inputs are not in
+/// saved results and take no part.
 pub fn compare_linear(first: &LinearResult, second: &LinearResult) -> Difference {
     let sides = [first, second];
     let inputs = matched(sides);
@@ -54,7 +54,7 @@ pub fn compare_linear(first: &LinearResult, second: &LinearResult) -> Difference
 /// The coefficients of one side by the indices in the common list, in order.
 fn indexed(side: &LinearResult, inputs: &[Matched], which: usize) -> Vec<(usize, usize, f64)> {
     let index = |own: usize| inputs.iter().position(|input| input.indices[which] == Some(own));
-    // one that no output goes back to stands there for other results, and changes nothing here
+    // an input that no output depends on is present for other results, and changes nothing here
     let counts = |own: usize| side.outputs.iter().any(|output| output.sensitivity(own) != 0.0);
     let known = side.correlations.iter().filter(|(i, j, r)| *r != 0.0 && counts(*i) && counts(*j));
     let indexed = known.filter_map(|&(i, j, r)| {
@@ -94,13 +94,14 @@ fn changed_correlations(
 struct Pair<'a> {
     sides: [&'a LinearResult; 2],
     outputs: [&'a LinearOutput; 2],
-    /// From the second one's unit to the first one's.
+    /// Conversion factor from the second unit to the first.
     factor: f64,
     inputs: &'a [Matched],
 }
 
 impl Pair<'_> {
-    /// The output's coefficient to an input of the common list, in the side's own units.
+    /// The output's sensitivity coefficient for an input of the common list, in the side's own
+    /// units.
     fn sensitivity(&self, side: usize, input: &Matched) -> f64 {
         input.indices[side].map_or(0.0, |index| self.outputs[side].sensitivity(index))
     }
@@ -109,7 +110,8 @@ impl Pair<'_> {
         if side == 0 { 1.0 } else { self.factor }
     }
 
-    /// Which sensitivity coefficients moved, as what that does is counted with their inputs.
+    /// A sentence about changed sensitivity coefficients, whose effect is counted with their
+    /// inputs.
     fn changed_sensitivities(&self) -> Option<String> {
         let changed = |input: &&Matched| {
             let [Some(a), Some(b)] = input.indices else {
@@ -136,8 +138,8 @@ impl Pair<'_> {
         })
     }
 
-    /// Whether an own input may act on this output although that has no sensitivity to it: none of the
-    /// outputs has one, here or there.
+    /// Whether an own input may affect this output although its sensitivity coefficient is zero: it
+    /// is zero for all outputs, on both sides.
     fn may_act(&self, input: &Matched) -> bool {
         (0..2).all(|side| {
             let of = self.sides[side];
@@ -198,7 +200,7 @@ impl Pair<'_> {
         let mut list: Vec<ChangePart> = Vec::new();
         for (index, input) in self.inputs.iter().enumerate() {
             let states = [self.state(0, input), self.state(1, input)];
-            // an input that this output does not go back to, here or there
+            // an input on which this output does not depend, on either side
             let is_apart = (0..2).all(|side| self.sensitivity(side, input) == 0.0);
             if is_apart && !(states[0] != states[1] && self.may_act(input)) {
                 continue;

@@ -1,4 +1,4 @@
-//! What trials say beside the U that is shared out, which is that of the law of propagation.
+//! Results of trials beside the attributed change of U, which is that of the law of propagation.
 
 use super::{Difference, common_outputs, pairs};
 use gumption_engine::distribution::Fits;
@@ -7,27 +7,29 @@ use gumption_engine::propagate::validate::numerical_tolerance;
 use gumption_engine::propagate::{Control, OutputEvaluation, evaluate};
 use gumption_engine::task::{Row, Task, Trials};
 
-/// Trials of a row, at most: their figures stand beside others, and two digits of them are enough.
+/// Maximum number of trials for a row: their results are shown beside others, and two digits of
+/// them are enough.
 const MOST_TRIALS: u64 = 100_000;
 
-/// Numerical standard error of an end of the symmetric interval in standard uncertainties, times the
-/// square root of the number of trials: of a normal distribution at 2.3 %, and of most others less.
+/// Numerical standard error of an endpoint of the symmetric interval in standard uncertainties,
+/// times the square root of the number of trials: for a normal distribution at 2.3 %, and less for
+/// most others.
 const ERROR_OF_AN_END: f64 = 2.9;
 
-/// What the trials say of an output.
+/// The results of the trials for an output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ByTrials {
     /// Half the length of the symmetric coverage interval.
     pub half_length: f64,
-    /// Its numerical standard error; 0 where it is not known.
+    /// Its numerical standard error; 0 if it is unknown.
     pub numerical_standard_error: f64,
-    /// Whether the interval of the law of propagation is valid (JCGM 101, clause 8); `None` where it is
-    /// not decided.
+    /// Whether the interval of the law of propagation is validated (JCGM 101, clause 8); `None` if
+    /// undecided.
     pub gum_valid: Option<bool>,
 }
 
 impl ByTrials {
-    /// What an evaluation has; `None` without trials.
+    /// From an evaluation; `None` without trials.
     fn of(found: &OutputEvaluation) -> Option<Self> {
         let figures = found.monte_carlo.as_ref()?;
         let [low, high] = figures.symmetric_interval;
@@ -40,8 +42,8 @@ impl ByTrials {
         })
     }
 
-    /// What a saved result tells: both intervals, the standard uncertainty and the number of trials,
-    /// infinite where it is not known. The verdict is that for two digits.
+    /// From a saved result: both intervals, the standard uncertainty and the number of trials,
+    /// which is infinite if unknown. The verdict is that for two digits.
     pub fn saved(gum: Option<[f64; 2]>, trials: [f64; 2], u: f64, count: f64) -> Self {
         let error = ERROR_OF_AN_END * u / count.sqrt();
         let tolerance = numerical_tolerance(u, 2);
@@ -57,7 +59,7 @@ impl ByTrials {
         }
     }
 
-    /// In a unit that is so much smaller.
+    /// In a unit that is smaller by `factor`.
     #[must_use]
     pub(super) fn scaled(self, factor: f64) -> Self {
         Self {
@@ -68,15 +70,15 @@ impl ByTrials {
     }
 }
 
-/// What trials say of the outputs of these rows of a task, row by row; nothing where there are to be
-/// none, or where they cannot be made.
+/// The results of the trials for these rows of a task, row by row; empty if no trials are wanted or
+/// possible.
 pub(super) fn of_rows(
     task: &Task,
     rows: &[&Row],
     control: &Control<'_>,
 ) -> Vec<Vec<Option<ByTrials>>> {
     let mut tried = task.clone();
-    // draws that were fitted are those of the rows as they are
+    // draws that were fitted belong to the unchanged rows
     if rows.len() != task.rows.len() {
         tried.rows = rows.iter().map(|row| (*row).clone()).collect();
         tried.fits = Fits::default();
@@ -93,7 +95,7 @@ pub(super) fn of_rows(
     found.rows.iter().map(|row| of_row(&row.outputs)).collect()
 }
 
-/// Adds what the trials of both tasks say to their comparison by the law of propagation.
+/// Adds the results of the trials of both tasks to their comparison by the law of propagation.
 pub fn add_trials(difference: &mut Difference, tasks: [&Task; 2], control: &Control<'_>) {
     let outputs = common_outputs(tasks);
     let pairs = pairs(tasks);

@@ -12,25 +12,25 @@ use gumption_engine::distribution::{
 use gumption_engine::propagate::{Control, evaluate};
 use gumption_engine::task::{Row, Task};
 
-/// What the trials of a plan say.
+/// The results of the trials for a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanCheck {
     /// How many trials there were.
     pub trials: u64,
-    /// Half the length of the symmetric coverage interval, or the standard uncertainty where that is
-    /// wanted; `None` where the trials do not tell it.
+    /// Half the length of the symmetric coverage interval, or the standard uncertainty if that is
+    /// wanted; `None` if the trials do not determine it.
     pub figure: Option<f64>,
     /// Its numerical standard error.
     pub numerical_standard_error: Option<f64>,
-    /// Whether the target holds; `None` where it is within two numerical standard errors of it, or
-    /// not known.
+    /// Whether the target holds; `None` if the result is within two numerical standard errors of
+    /// it, or unknown.
     pub holds: Option<bool>,
-    /// Variables that are drawn from a normal or t distribution of the planned standard uncertainty,
-    /// because theirs has no width that could be changed alone.
+    /// Variables that are drawn from a normal or t distribution of the planned standard
+    /// uncertainty, because theirs has no width that can be changed alone.
     pub stood_in: Vec<usize>,
-    /// The fewest degrees of freedom that an input of the plan is drawn with.
+    /// The fewest degrees of freedom with which an input of the plan is drawn.
     pub drawn_dof: f64,
-    /// The input that makes the trials miss the target where aiming lower would not help.
+    /// The input because of which the trials miss the target, if a lower target would not help.
     pub excess: Option<Excess>,
 }
 
@@ -90,8 +90,8 @@ pub(super) fn of(
     })
 }
 
-/// A shape with another standard uncertainty about the same estimate, its degrees of freedom kept;
-/// `None` for one without a width of its own.
+/// A distribution with another standard uncertainty, the same estimate and the same degrees of
+/// freedom; `None` for a distribution without its own width.
 fn narrowed(stated: &Distribution, u: f64) -> Option<Result<Distribution, Invalid>> {
     let mean = stated.mean();
     if u == 0.0 {
@@ -99,7 +99,7 @@ fn narrowed(stated: &Distribution, u: f64) -> Option<Result<Distribution, Invali
     }
     let dof = stated.dof();
     let with = |made: Result<Distribution, Invalid>| Some(made);
-    // what a width is divided by to give u
+    // the divisor of a width that gives u
     let half_width = stated.divisor().map(|divisor| divisor * u);
     match stated {
         Distribution::Normal(_) if dof.is_finite() => {

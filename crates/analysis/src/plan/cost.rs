@@ -2,35 +2,35 @@
 
 use super::trial_budget::{Plannable, TrialBudget};
 
-/// How an input can be improved, and at what cost.
+/// Ways to improve an input, and their cost.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Improvement {
-    /// A standard uncertainty u in place of u0 costs `cost` ((u0/u)^`power` - 1): nothing as it is,
-    /// and `cost` (2^`power` - 1) for half of it.
+    /// A standard uncertainty u instead of u0 costs `cost` ((u0/u)^`power` - 1): nothing if
+    /// unchanged, and `cost` (2^`power` - 1) for half of it.
     Continuous {
         /// The scale of the cost, above 0.
         cost: f64,
         /// The power, above 0.
         power: f64,
-        /// The smallest standard uncertainty that can be had, in the input's unit; 0 or more.
+        /// The smallest possible standard uncertainty, in the input's unit; 0 or more.
         least: f64,
     },
     /// Each further reading costs the same.
     Readings {
         /// The cost of a reading, above 0.
         each: f64,
-        /// The most readings that can be taken altogether.
+        /// The largest possible number of readings in total.
         most: u64,
     },
-    /// One of these can be taken in place of what there is.
+    /// One of these can replace the present input.
     Offers(Vec<Offer>),
 }
 
 /// An offer: another instrument, another calibration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Offer {
-    /// The standard uncertainty that the input then has, in its unit; above 0.
+    /// The resulting standard uncertainty of the input, in its unit; above 0.
     pub standard_uncertainty: f64,
     /// Its cost, 0 or more.
     pub cost: f64,
@@ -42,20 +42,19 @@ pub struct Offer {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Costs {
-    /// Halving any standard uncertainty costs 1, also by readings, of which three times as many are
-    /// needed in addition.
+    /// Halving any standard uncertainty costs 1, also by readings, which must then be quadrupled.
     Equal,
-    /// For each variable of the task how it can be improved; `None` for one that stays as it is.
+    /// For each variable of the task, how it can be improved; `None` for one that stays unchanged.
     Stated {
         /// The improvements.
         improvements: Vec<Option<Improvement>>,
-        /// What costs are counted in, for pages; may be empty.
+        /// The unit of costs, for pages; may be empty.
         currency: String,
     },
 }
 
 impl Costs {
-    /// How a variable can be improved; `None` where it stays.
+    /// How a variable can be improved; `None` if it stays unchanged.
     pub(super) fn improvement(
         &self,
         budget: &TrialBudget<'_>,

@@ -1,9 +1,10 @@
-//! What makes the trials miss a target that the law of propagation meets, and whether a lower target
+//! Finds why the trials miss a target that the law of propagation meets, and whether a lower target
 //! would help.
 //!
-//! Where the model is not linear over the uncertainty of an input, the trials' part of it does not shrink
-//! with U of the law of propagation: an angle about 0 deg, whose cosine has a sensitivity coefficient of
-//! 0, is no part of that at all. A lower target then only makes other inputs dearer.
+//! If the model is not linear over the uncertainty of an input, its contribution to the trials does
+//! not shrink with U by the law of propagation. An angle about 0 deg, whose cosine has a
+//! sensitivity coefficient of 0, does not contribute to that U at all. A lower target then only
+//! makes other inputs more expensive.
 
 use super::check;
 use super::cost::Costs;
@@ -12,38 +13,38 @@ use super::trial_budget::{Change, Changes, Plannable, TrialBudget};
 use gumption_engine::propagate::Control;
 use gumption_engine::task::{Task, Trials};
 
-/// Trials of each attempt, at most.
+/// Maximum number of trials of each attempt.
 const MOST_TRIALS: u64 = 50_000;
 
-/// Inputs that are tried one by one, at most.
+/// Maximum number of inputs that are tried one by one.
 const MOST_TRIED: usize = 40;
 
-/// Halvings of a standard uncertainty, after which three digits are certain.
+/// Number of bisections of a standard uncertainty, which gives three digits.
 const HALVINGS: u32 = 16;
 
-/// A lower target helps where the trials come within this share above the wanted one.
+/// A lower target helps if the trials exceed the wanted one by less than this fraction.
 const ABOUT: f64 = 0.1;
 
-/// The input that makes the trials miss a target.
+/// The input because of which the trials miss a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excess {
-    /// Place of the variable in the task.
+    /// Index of the variable in the task.
     pub variable: usize,
-    /// What the trials give without its uncertainty, all others as planned.
+    /// The result of the trials without its uncertainty, all others as planned.
     pub without: f64,
-    /// The largest standard uncertainty of it alone with which the trials meet the target; `None` where
-    /// they do not even without, or where it has no width that could be changed.
+    /// The largest standard uncertainty of this input alone with which the trials meet the target;
+    /// `None` if they miss it even with 0, or if it has no width that can be changed.
     pub needed: Option<f64>,
 }
 
-/// The target that a plan by the law of propagation would have to aim for in order that the trials meet
-/// the wanted one, if both shrink alike.
+/// The target for a plan by the law of propagation with which the trials would meet the wanted one,
+/// if both shrink by the same factor.
 pub(super) fn lower_target(budget: &TrialBudget<'_>, by_propagation: f64, by_trials: f64) -> f64 {
     budget.limit * by_propagation / by_trials
 }
 
-/// The input that makes the trials of these changes give `by_trials`; `None` where a plan for the lower
-/// target `aim` would help, or where no input stands out.
+/// The input because of which the trials of these changes give `by_trials`; `None` if a plan for
+/// the lower target `aim` would help, or if no input stands out.
 pub(super) fn of(
     (task, costs): (&Task, &Costs),
     budget: &TrialBudget<'_>,
@@ -75,7 +76,7 @@ pub(super) fn of(
         return None;
     }
     let linear = budget.figure(changes)?;
-    // what its uncertainty adds to the trials beyond what it adds to the law of propagation
+    // its excess: the contribution to the trials beyond the contribution by the law of propagation
     let mut most: Option<(f64, usize, f64)> = None;
     for variable in candidates {
         if control.is_stopped() {
@@ -106,7 +107,7 @@ pub(super) fn of(
     Some(Excess { variable, without, needed: needed.filter(|needed| *needed > 0.0) })
 }
 
-/// The standard uncertainty of a variable with these changes.
+/// The standard uncertainty of a variable after these changes.
 fn planned(budget: &TrialBudget<'_>, changes: &Changes, variable: usize) -> f64 {
     let changed = changes.iter().find(|(of, _)| *of == variable);
     changed.map_or_else(

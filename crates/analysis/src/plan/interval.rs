@@ -8,7 +8,7 @@ use super::trial_budget::{Change, Changes, Plannable, TrialBudget};
 pub enum DriftLaw {
     /// In proportion to time: a steady drift of unknown sign and rate.
     Linear,
-    /// With the square root of time: steps that know nothing of each other (a random walk).
+    /// With the square root of time: independent steps (a random walk).
     RandomWalk,
 }
 
@@ -33,12 +33,12 @@ impl DriftLaw {
     }
 }
 
-/// An input whose uncertainty is that of a drift over a stated time.
+/// An input whose uncertainty is due to drift over a stated time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drift {
     /// Place of the variable in the task.
     pub variable: usize,
-    /// The time for which its uncertainty is stated, in whatever unit; above 0.
+    /// The time for which its uncertainty is stated, in any unit; above 0.
     pub stated: f64,
     /// How it grows.
     pub law: DriftLaw,
@@ -49,25 +49,25 @@ pub struct Drift {
 pub struct PlannedInterval {
     /// The drift.
     pub drift: Drift,
-    /// The longest time for which the target holds, in the unit of the stated one: 0 where it does
-    /// not hold even at once, `None` where the drift never matters.
+    /// The longest time for which the target holds, in the unit of the stated one: 0 if it does not
+    /// hold even at once, `None` if the drift never matters.
     pub longest: Option<f64>,
-    /// The standard uncertainty of the drift at its end.
+    /// The standard uncertainty of the drift after the longest time.
     pub standard_uncertainty: Option<f64>,
-    /// Times with what is wanted of the output at each, for a figure.
+    /// Points of a curve for a plot: time, and the uncertainty of the output (U or u).
     pub curve: Vec<(f64, f64)>,
 }
 
-/// A drift matters within so many times its stated time, or never.
+/// A drift matters within this multiple of its stated time, or never.
 const MOST: f64 = 1e6;
 
-/// The factor between times that are tried before the end is bisected.
+/// The ratio of successive trial times before bisection.
 const STEP: f64 = 1.1;
 
 /// Points of the figure.
 const POINTS: u32 = 60;
 
-/// The longest interval; `None` where the input has no uncertainty that could grow.
+/// The longest interval; `None` if the input has no uncertainty that can grow.
 pub(super) fn longest(budget: &TrialBudget<'_>, drift: Drift) -> Option<PlannedInterval> {
     let u = budget.uncertainty(drift.variable);
     if matches!(budget.plannable(drift.variable), Plannable::Not(_)) {

@@ -1,14 +1,14 @@
-//! Planning backwards: from the uncertainty that is wanted of an output to what its inputs would
-//! have to become, by the law of propagation, with a Monte Carlo check of the plan.
+//! Planning: from the target uncertainty of an output to the required uncertainties of its inputs,
+//! by the law of propagation, with a Monte Carlo check of the plan.
 //!
-//! An input is changed by its standard uncertainty alone: its estimate and its degrees of freedom
-//! stay, and with them the sensitivity coefficients. Readings are changed by their number n, with
-//! u = s/sqrt(n) and n - 1 degrees of freedom. The coverage factor follows the effective degrees of
-//! freedom as in any evaluation, so that U may jump where their integer part does; every answer is
-//! checked on the side where the target holds.
+//! An input is changed only by its standard uncertainty: its estimate and its degrees of freedom
+//! stay, and so do the sensitivity coefficients. Readings are changed by their number n, with u =
+//! s/sqrt(n) and n - 1 degrees of freedom. The coverage factor follows the effective degrees of
+//! freedom as in any evaluation, so that U may jump where their integer part jumps; every answer
+//! lies on the side where the target holds.
 //!
-//! Of a sweep the row in which U is furthest above its target is planned, and the plan is tried in all
-//! others.
+//! In a sweep, the row in which U exceeds its target most is planned, and the plan is checked in
+//! all other rows.
 
 mod check;
 mod cost;
@@ -36,18 +36,20 @@ use trial_budget::{Changes, Plannable, TrialBudget};
 /// The uncertainty that is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanTarget {
-    /// Place of the output in the task.
+    /// Index of the output in the task.
     pub output: usize,
-    /// Whether the expanded uncertainty U is meant, or else the standard uncertainty u.
+    /// Whether the target is for the expanded uncertainty U; otherwise for the standard uncertainty
+    /// u.
     pub expanded: bool,
-    /// The most that it may be, a share of the modulus of the estimate; 0 or above.
+    /// The relative part of the limit, as a fraction of the modulus of the estimate; 0 or above.
     pub share: f64,
-    /// What is added to that share, in the output's unit; 0 or above, and one of the two above 0.
+    /// The absolute part of the limit, in the output's unit; 0 or above, and one of the two parts
+    /// above 0.
     pub most: f64,
 }
 
 impl PlanTarget {
-    /// The most that the uncertainty of this estimate may be, both in the output's unit.
+    /// The limit for the uncertainty at this estimate, both in the output's unit.
     pub fn limit(&self, estimate: f64) -> f64 {
         self.share * estimate.abs() + self.most
     }
@@ -60,27 +62,28 @@ pub struct PlanQuestion {
     pub target: PlanTarget,
     /// What improvements cost.
     pub costs: Costs,
-    /// The input that grows with time, for a calibration interval.
+    /// The input whose uncertainty grows with time, for a calibration interval.
     pub drift: Option<Drift>,
 }
 
-/// What one input alone would have to become.
+/// The required uncertainty of a single input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputNeed {
     /// Place of the variable in the task.
     pub variable: usize,
     /// Its standard uncertainty now.
     pub standard_uncertainty: f64,
-    /// The largest standard uncertainty with which the target holds; `None` where it does not even
-    /// with 0, or where the input cannot be planned.
+    /// The largest standard uncertainty with which the target holds; `None` if it does not hold
+    /// even with 0, or if the input cannot be planned.
     pub needed: Option<f64>,
-    /// How many readings there are now, of an input that is changed by their number.
+    /// The present number of readings, for an input that is changed by their number.
     pub readings: Option<u64>,
-    /// The least number of readings with which the target holds; `None` where no number does.
+    /// The smallest number of readings with which the target holds; `None` if there is none.
     pub readings_needed: Option<u64>,
     /// Why it cannot be planned.
     pub fixed: Option<&'static str>,
-    /// Standard uncertainties with what is wanted of the output at each, for a figure.
+    /// Points of a curve for a plot: standard uncertainty of the input, and the uncertainty of the
+    /// output (U or u).
     pub curve: Vec<(f64, f64)>,
 }
 
@@ -89,21 +92,21 @@ pub struct InputNeed {
 pub struct Plan {
     /// What was asked for.
     pub target: PlanTarget,
-    /// The row of the task that is planned.
+    /// The index of the planned row.
     pub row: usize,
     /// The output as it is.
     pub now: Gum,
-    /// U or u as it is.
+    /// The present U or u.
     pub figure: f64,
-    /// The most that it may be in the planned row, in the output's unit.
+    /// The limit in the planned row, in the output's unit.
     pub limit: f64,
     /// One entry for each line of the budget, in order.
     pub inputs: Vec<InputNeed>,
-    /// The cheapest combination of improvements; `None` where the target holds already.
+    /// The cheapest combination of improvements; `None` if the target already holds.
     pub cheapest: Option<CheapestPlan>,
-    /// The longest calibration interval, where a drift was given.
+    /// The longest calibration interval, if a drift was given.
     pub interval: Option<PlannedInterval>,
-    /// Rows in which the plan misses the target, though it holds in the planned one.
+    /// Rows in which the plan misses the target although it holds in the planned row.
     pub missed_rows: Vec<usize>,
     /// The Monte Carlo check of the plan; `None` without trials.
     pub check: Option<PlanCheck>,
@@ -113,28 +116,29 @@ pub struct Plan {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NoPlan {
-    /// The law of propagation gives nothing here: a sensitivity coefficient or the coverage factor is
+    /// The law of propagation gives no result: a sensitivity coefficient or the coverage factor is
     /// not defined.
     Undefined,
-    /// The target is a share of an estimate that is 0.
+    /// The target is a fraction of an estimate that is 0.
     NoEstimate,
-    /// The target holds already; what it is now, in the output's unit.
+    /// The target already holds; the present value, in the output's unit.
     Met(f64),
-    /// The target holds already by the law of propagation, which plans, and not by the trials.
+    /// The target already holds by the law of propagation, which is used for planning, but not by
+    /// the trials.
     MetByPropagation {
-        /// What it is now by the law of propagation, in the output's unit.
+        /// The present value by the law of propagation, in the output's unit.
         figure: f64,
-        /// What it is by the trials.
+        /// The present value by the trials.
         by_trials: f64,
-        /// The most that it may be by the law of propagation for the trials to come to the target,
-        /// where both shrink alike.
+        /// The limit for the law of propagation with which the trials would meet the target, if
+        /// both shrink by the same factor.
         instead: f64,
-        /// The input that makes the difference where they do not.
+        /// The input that causes the difference, if they do not.
         excess: Option<Excess>,
     },
-    /// The target holds with no combination of improvements; the least that was found.
+    /// No combination of improvements reaches the target; the smallest value that was found.
     Unreachable(f64),
-    /// More combinations of offers than can be tried.
+    /// Too many combinations of offers.
     TooManyOffers {
         /// How many there are.
         found: usize,
@@ -182,11 +186,11 @@ impl fmt::Display for NoPlan {
 
 impl std::error::Error for NoPlan {}
 
-/// Plans a measurement: the law of propagation with the task's coverage, then trials with its
-/// settings.
+/// Plans a measurement by the law of propagation with the task's coverage, then checks the plan by
+/// trials with the task's settings.
 ///
 /// # Errors
-/// That there is no plan, and why.
+/// Why there is no plan.
 pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Result<Plan, NoPlan> {
     let target = question.target;
     let budgets: Vec<TrialBudget<'_>> =
@@ -217,7 +221,7 @@ pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Resu
     if met && interval.is_none() {
         return Err(unplanned((task, &question.costs), budget, figure, control)?);
     }
-    // before the needs of the inputs, which take longer and are of no use where there is no plan
+    // before the requirements of the inputs, which take longer and are useless without a plan
     let cheapest = if met { None } else { Some(optimum::cheapest(budget, &question.costs)?) };
     let inputs = now.budget().map(|line| need(budget, line.variable, met)).collect();
     let changes = cheapest.as_ref().map(CheapestPlan::changes).unwrap_or_default();
@@ -241,8 +245,8 @@ pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Resu
     Ok(Plan { target, row, now, figure, limit, inputs, cheapest, interval, missed_rows, check })
 }
 
-/// Why nothing is planned where the target holds by the law of propagation: it is met, unless the
-/// trials miss it.
+/// Why nothing is planned if the target already holds by the law of propagation: it is met, unless
+/// the trials miss it.
 fn unplanned(
     (task, costs): (&Task, &Costs),
     budget: &TrialBudget<'_>,
@@ -264,7 +268,7 @@ fn unplanned(
     })
 }
 
-/// What one variable alone would have to become.
+/// The required uncertainty of a single variable.
 fn need(budget: &TrialBudget<'_>, variable: usize, met: bool) -> InputNeed {
     let u = budget.uncertainty(variable);
     let mut need = InputNeed {

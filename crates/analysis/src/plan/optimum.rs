@@ -1,15 +1,15 @@
 //! The cheapest combination of improvements.
 //!
-//! Of inputs that can be improved by any amount, the cost is least where for all of them the same
-//! share of the combined variance is bought for a unit of cost: with C_i (u_i0/u_i)^p_i the cost and
-//! D_i = (d u^2/d u_i) u_i/2 what the variance has of input i (c_i^2 u_i^2 without correlations),
-//! p_i C_i (u_i0/u_i)^p_i = lambda D_i, between the least u_i that can be had and u_i0. lambda is
-//! found so that the target just holds; with a fixed coverage factor and no negative correlations the
-//! problem is convex in ln u_i and this is its minimum. That k itself moves with the shares is taken
-//! into account where the target is tried, not in the condition.
+//! For inputs that can be improved continuously, the cost is minimal if one unit of cost buys the
+//! same share of the combined variance for each of them. With the cost C_i (u_i0/u_i)^p_i and the
+//! share D_i = (d u^2/d u_i) u_i/2 of input i (c_i^2 u_i^2 without correlations), the condition is
+//! p_i C_i (u_i0/u_i)^p_i = lambda D_i, between the smallest possible u_i and u_i0. lambda is
+//! determined so that the target just holds. With a fixed coverage factor and no negative
+//! correlations the problem is convex in ln u_i, and this is its minimum. The dependence of k on
+//! the shares is taken into account when the target is checked, not in the condition.
 //!
-//! Numbers of readings are first taken as real (their cost has that form, with power 2), then whole
-//! numbers about what was found are all tried. Offers are tried in all combinations.
+//! Numbers of readings are first real (their cost has that form, with power 2), then all integers
+//! near the solution are tried. Offers are tried in all combinations.
 
 use super::NoPlan;
 use super::cost::{Costs, Improvement, Offer};
@@ -19,24 +19,24 @@ use gumption_engine::propagate::gum::Gum;
 /// Combinations of offers, at most.
 const MOST_COMBINATIONS: usize = 2000;
 
-/// Combinations of whole numbers of readings, at most.
+/// Maximum number of combinations of integer numbers of readings.
 const MOST_WHOLE: usize = 400;
 
-/// Steps in which shares of correlated inputs settle.
+/// Number of iterations for the shares of correlated inputs.
 const SETTLING: usize = 25;
 
-/// What becomes of an input in a plan.
+/// An input in a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedInput {
     /// Place of the variable in the task.
     pub variable: usize,
     /// Its standard uncertainty now.
     pub from: f64,
-    /// Its standard uncertainty in the plan.
+    /// Its planned standard uncertainty.
     pub to: f64,
-    /// The number of readings, where it is changed by that.
+    /// The planned number of readings, if that is changed.
     pub readings: Option<u64>,
-    /// The offer that is taken, in words.
+    /// The chosen offer, in words.
     pub offer: Option<String>,
     /// What it costs.
     pub cost: f64,
@@ -54,7 +54,7 @@ pub struct CheapestPlan {
 }
 
 impl CheapestPlan {
-    /// The inputs that differ from what they are, with what they become.
+    /// The changed inputs with their changes.
     pub(super) fn changes(&self) -> Changes {
         let changed = self.inputs.iter().filter(|input| input.to != input.from);
         changed
@@ -66,7 +66,7 @@ impl CheapestPlan {
     }
 }
 
-/// An input that can be improved by any amount.
+/// An input that can be improved continuously.
 #[derive(Clone, Copy, Debug)]
 struct Smooth {
     variable: usize,
@@ -74,7 +74,7 @@ struct Smooth {
     cost: f64,
     power: f64,
     least: f64,
-    /// The number of readings now, if u stands for such a number.
+    /// The present number of readings, if u depends on it.
     readings: Option<f64>,
 }
 
@@ -91,7 +91,7 @@ impl Smooth {
     }
 }
 
-/// An input that is improved by readings.
+/// An input that is improved by more readings.
 #[derive(Clone, Copy, Debug)]
 struct Counted {
     variable: usize,
@@ -172,8 +172,8 @@ pub(super) fn cheapest(budget: &TrialBudget<'_>, costs: &Costs) -> Result<Cheape
 }
 
 impl Problem<'_> {
-    /// The cheapest solution behind the offers that are taken; `None` where the target cannot be
-    /// reached with them.
+    /// The cheapest solution for the chosen offers; `None` if the target cannot be reached with
+    /// them.
     fn solve(&self, taken: &Changes) -> Option<Solution> {
         if self.counted.is_empty() {
             return self.balanced(taken, &self.smooth);
@@ -203,7 +203,7 @@ impl Problem<'_> {
                 (count.map_or(of.now, |count| count.floor() as u64)).clamp(of.now, of.most)
             })
             .collect();
-        // as wide about that as can be tried
+        // the widest range that can be tried
         let count = u32::try_from(self.counted.len()).unwrap_or(u32::MAX);
         let width = (2..=12_usize)
             .rev()
@@ -215,7 +215,7 @@ impl Problem<'_> {
         for number in 0..=combinations {
             let (mut rest, mut fixed, mut cost) = (number, taken.clone(), 0.0);
             for (of, &middle) in self.counted.iter().zip(&middle) {
-                // the last try rounds all of them up
+                // the last attempt rounds all of them up
                 let step = if number == combinations { below + 1 } else { (rest % width) as u64 };
                 rest /= width;
                 let whole = (middle + step).saturating_sub(below).clamp(of.now, of.most);
@@ -238,7 +238,7 @@ impl Problem<'_> {
         best.or_else(|| self.further(taken, upper?))
     }
 
-    /// Where no whole numbers about the real ones do, because k moves: further readings of all,
+    /// If no integers near the real numbers suffice, because k changes: more readings of all inputs
     /// until the target holds.
     fn further(&self, taken: &Changes, mut fixed: Changes) -> Option<Solution> {
         for _ in 0..10_000 {
@@ -273,7 +273,7 @@ impl Problem<'_> {
         None
     }
 
-    /// The cheapest standard uncertainties of the inputs of any amount, with others fixed.
+    /// The cheapest standard uncertainties of the continuous inputs, with the others fixed.
     fn balanced(&self, fixed: &Changes, smooth: &[Smooth]) -> Option<Solution> {
         let with = |u: &[f64]| -> Changes {
             let own = smooth.iter().zip(u).filter(|(of, u)| **u != of.now);
@@ -289,7 +289,8 @@ impl Problem<'_> {
             return Some(solution(&now));
         }
         let least: Vec<f64> = smooth.iter().map(|of| of.least).collect();
-        // what the variance has of each input, over the square of its standard uncertainty
+        // the share of each input in the variance, divided by the square of its standard
+        // uncertainty
         let slopes = |u: &[f64]| self.slopes(&with(u), smooth, u);
         let at = |lambda: f64| -> Option<Vec<f64>> {
             let mut u = now.clone();
@@ -319,7 +320,7 @@ impl Problem<'_> {
             }
             Some(u)
         };
-        // the logarithm of lambda at which the first input begins to move
+        // the logarithm of lambda at which the first input begins to change
         let first = smooth
             .iter()
             .zip(slopes(&now)?)
@@ -343,7 +344,7 @@ impl Problem<'_> {
         Some(solution(&at(lambda)?))
     }
 
-    /// For each input of any amount D_i/u_i^2 = c_i^2 + sum_j r_ij c_i c_j u_j/u_i.
+    /// For each continuous input D_i/u_i^2 = c_i^2 + sum_j r_ij c_i c_j u_j/u_i.
     fn slopes(&self, changes: &Changes, smooth: &[Smooth], u: &[f64]) -> Option<Vec<f64>> {
         let gum = self.budget.gum(changes)?;
         let variance = gum.standard_uncertainty.powi(2);
@@ -353,14 +354,14 @@ impl Problem<'_> {
             let own = lines.iter().find(|line| line.variable == of.variable);
             let own = own.map_or(0.0, |line| line.sensitivity * line.sensitivity);
             let linked = links.iter().filter(|link| link.variables.contains(&of.variable));
-            // the share is that of both
+            // the share belongs to both
             let joint: f64 = linked.map(|link| 0.5 * link.share * variance).sum();
             if u > 0.0 && joint != 0.0 { own + joint / (u * u) } else { own }
         };
         Some(smooth.iter().zip(u).map(of).collect())
     }
 
-    /// The least that the figure can be, for the message.
+    /// The smallest reachable value, for the message.
     fn least(&self, offers: &[(usize, Vec<Offer>)]) -> f64 {
         let smooth = self.smooth.iter().map(|of| (of.variable, Change::Width(of.least)));
         let counted = self.counted.iter().map(|of| (of.variable, Change::Readings(of.most as f64)));

@@ -1,18 +1,19 @@
-//! What one input alone would have to become.
+//! The required uncertainty of a single input.
 
 use super::trial_budget::{Change, TrialBudget};
 
-/// Steps in which a standard uncertainty is taken down before it is bisected: U may rise on the way,
-/// where contributions cancel by correlation or the coverage factor grows.
+/// Number of steps by which a standard uncertainty is reduced before bisection: U may rise on the
+/// way, if correlated contributions cancel or the coverage factor grows.
 const STEPS: u32 = 200;
 
-/// Halvings of an interval, after which neighbouring numbers are left.
+/// Number of bisections, after which the interval holds only neighbouring numbers.
 const HALVINGS: u32 = 60;
 
-/// More readings than this nobody takes.
+/// Larger numbers of readings are unrealistic.
 pub(super) const MOST_READINGS: u64 = 1_000_000_000;
 
-/// The largest standard uncertainty of a variable, below what it is, with which the target holds.
+/// The largest standard uncertainty of a variable, below the present one, with which the target
+/// holds.
 pub(super) fn needed(budget: &TrialBudget<'_>, variable: usize) -> Option<f64> {
     let now = budget.uncertainty(variable);
     let holds = |u: f64| budget.holds(&vec![(variable, Change::Width(u))]);
@@ -21,8 +22,8 @@ pub(super) fn needed(budget: &TrialBudget<'_>, variable: usize) -> Option<f64> {
     Some(boundary(step(first), step(first - 1), holds))
 }
 
-/// The end of the range from `inside`, where a condition holds, towards `outside`, where it does
-/// not; on the inside.
+/// The boundary between `inside`, where a condition holds, and `outside`, where it does not; the
+/// result is on the inside.
 pub(super) fn boundary(inside: f64, outside: f64, holds: impl Fn(f64) -> bool) -> f64 {
     let (mut inside, mut outside) = (inside, outside);
     for _ in 0..HALVINGS {
@@ -36,7 +37,7 @@ pub(super) fn boundary(inside: f64, outside: f64, holds: impl Fn(f64) -> bool) -
     inside
 }
 
-/// The least number of readings above the present one with which the target holds.
+/// The smallest number of readings above the present one with which the target holds.
 pub(super) fn readings_needed(budget: &TrialBudget<'_>, variable: usize, now: u64) -> Option<u64> {
     let holds = |count: u64| budget.holds(&vec![(variable, Change::Readings(count as f64))]);
     let (mut below, mut above) = (now, now.saturating_mul(2).max(2));
@@ -60,7 +61,8 @@ pub(super) fn readings_needed(budget: &TrialBudget<'_>, variable: usize, now: u6
 /// Points of the curve of an input.
 const POINTS: u32 = 40;
 
-/// U (or u) against the standard uncertainty of a variable, from 0 to one and a half of what it is.
+/// U (or u) as a function of the standard uncertainty of a variable, from 0 to 1.5 times the
+/// present value.
 pub(super) fn curve(budget: &TrialBudget<'_>, variable: usize) -> Vec<(f64, f64)> {
     let now = budget.uncertainty(variable);
     let point = |number: u32| {

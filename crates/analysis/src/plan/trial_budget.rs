@@ -7,36 +7,36 @@ use gumption_engine::distribution::{Constant, Distribution, Invalid, Normal, Stu
 use gumption_engine::propagate::gum::{AtEstimates, Gum};
 use gumption_engine::task::{Row, Task};
 
-/// What of an input can be changed.
+/// What can be changed for an input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Plannable {
     /// Its standard uncertainty.
     Width,
-    /// The number of its readings, of which there are so many.
+    /// The number of its readings; the value is the present number.
     Readings(u64),
     /// Nothing, and why.
     Not(&'static str),
 }
 
-/// What an input is changed to.
+/// The change of an input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Change {
     /// A standard uncertainty.
     Width(f64),
-    /// A number of readings, of which a part may be meant on the way to a whole number.
+    /// A number of readings, which may be fractional on the way to an integer.
     Readings(f64),
 }
 
-/// Variables with what they are changed to.
+/// Variables with their changes.
 pub(super) type Changes = Vec<(usize, Change)>;
 
-/// A row of a task and the output that is planned.
+/// A row of a task and its planned output.
 #[derive(Debug)]
 pub(super) struct TrialBudget<'a> {
     pub(super) task: &'a Task,
     pub(super) row: &'a Row,
     pub(super) target: PlanTarget,
-    /// The most that the uncertainty may be in this row, in the output's unit.
+    /// The limit for the uncertainty in this row, in the output's unit.
     pub(super) limit: f64,
     at: AtEstimates<'a>,
 }
@@ -56,12 +56,12 @@ impl<'a> TrialBudget<'a> {
         self.row.distributions.get(variable)
     }
 
-    /// The standard uncertainty of a variable as it is.
+    /// The present standard uncertainty of a variable.
     pub(super) fn uncertainty(&self, variable: usize) -> f64 {
         self.distribution(variable).map_or(0.0, |known| known.standard_uncertainty())
     }
 
-    /// What of a variable can be changed.
+    /// What can be changed for a variable.
     pub(super) fn plannable(&self, variable: usize) -> Plannable {
         let Some(known) = self.distribution(variable) else {
             return Plannable::Not("no such quantity");
@@ -73,7 +73,7 @@ impl<'a> TrialBudget<'a> {
             Distribution::SavedResult(_) => {
                 Plannable::Not("a saved result: plan the evaluation that it comes from")
             }
-            // one of them alone, at a coefficient that all points decide, cannot be bought
+            // a single reading cannot be bought if all points determine a coefficient
             Distribution::Fitted(_) => {
                 Plannable::Not("a parameter of a calibration function: plan the points of its fit")
             }
@@ -82,7 +82,7 @@ impl<'a> TrialBudget<'a> {
             }
             Distribution::Readings(readings) => {
                 let count = readings.values().len();
-                // where it is the scatter of these readings that decides
+                // if the scatter of these readings determines it
                 if known.dof() == count as f64 - 1.0 {
                     Plannable::Readings(count as u64)
                 } else {
@@ -93,7 +93,7 @@ impl<'a> TrialBudget<'a> {
         }
     }
 
-    /// The standard uncertainty and the degrees of freedom that a change gives.
+    /// The standard uncertainty and the degrees of freedom after a change.
     fn changed(&self, variable: usize, change: Change) -> (f64, f64) {
         let (u, dof) = self
             .distribution(variable)
@@ -104,24 +104,24 @@ impl<'a> TrialBudget<'a> {
         }
     }
 
-    /// The standard uncertainty that a change gives.
+    /// The standard uncertainty after a change.
     pub(super) fn changed_uncertainty(&self, variable: usize, change: Change) -> f64 {
         self.changed(variable, change).0
     }
 
-    /// The output with some inputs changed; `None` where it is not defined.
+    /// The output after some changes; `None` if it is not defined.
     pub(super) fn gum(&self, changes: &Changes) -> Option<Gum> {
         let mut distributions = self.row.distributions.to_vec();
         for &(variable, change) in changes {
             let (u, dof) = self.changed(variable, change);
             let place = distributions.get_mut(variable)?;
-            // estimate, standard uncertainty and degrees of freedom are all that counts here
+            // only estimate, standard uncertainty and degrees of freedom count here
             *place = Arc::new(stand_in(place.mean(), u, dof).ok()?);
         }
         self.at.with(distributions.into()).into_iter().nth(self.target.output)?
     }
 
-    /// U or u, whichever is wanted, with some inputs changed.
+    /// U or u, as the target requires, after some changes.
     pub(super) fn figure(&self, changes: &Changes) -> Option<f64> {
         let gum = self.gum(changes)?;
         if self.target.expanded {
@@ -131,12 +131,12 @@ impl<'a> TrialBudget<'a> {
         }
     }
 
-    /// Whether the target holds with some inputs changed.
+    /// Whether the target holds after some changes.
     pub(super) fn holds(&self, changes: &Changes) -> bool {
         self.figure(changes).is_some_and(|figure| figure <= self.limit)
     }
 
-    /// The changes for another row: widths by the same factor.
+    /// The changes for another row: widths change by the same factor.
     pub(super) fn carried_to(&self, other: &TrialBudget<'_>, changes: &Changes) -> Changes {
         let carried = |&(variable, change): &(usize, Change)| match change {
             Change::Width(u) => {
@@ -150,7 +150,7 @@ impl<'a> TrialBudget<'a> {
     }
 }
 
-/// A distribution of an estimate, a standard uncertainty and its degrees of freedom.
+/// A distribution with an estimate, a standard uncertainty and degrees of freedom.
 pub(super) fn stand_in(mean: f64, u: f64, dof: f64) -> Result<Distribution, Invalid> {
     Ok(if u == 0.0 {
         Constant::new(mean)?.into()

@@ -1,11 +1,12 @@
-//! Whom and what a certificate is about: texts that are stated as they are given.
+//! Parties and device of a certificate: texts that are stated as given.
 
 use super::Localized;
 
-/// What a certificate says beside its results. Everything may be left out but what a format needs.
+/// The content of a certificate besides its results. Everything is optional unless a format
+/// requires it.
 #[derive(Clone, Debug, Default)]
 pub struct AdministrativeData {
-    /// The title; that of the language if there is none.
+    /// The title; `None` for the standard title of the language.
     pub title: Option<Localized>,
     /// The number of the certificate.
     pub number: Option<String>,
@@ -117,7 +118,7 @@ impl PerformanceLocation {
         Self::Other,
     ];
 
-    /// The name that files and digital certificates use.
+    /// The name in files and digital certificates.
     pub fn name(self) -> &'static str {
         match self {
             Self::Laboratory => "laboratory",

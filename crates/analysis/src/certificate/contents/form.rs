@@ -27,7 +27,7 @@ impl Language {
         }
     }
 
-    /// The decimal mark that is usual in it.
+    /// The usual decimal mark of the language.
     pub fn decimal_mark(self) -> DecimalMark {
         match self {
             Self::English => DecimalMark::Point,
@@ -41,7 +41,7 @@ impl Language {
     }
 }
 
-/// What stands between a number's whole and its decimals (ISO 80000-1 allows both).
+/// The mark between the integer part of a number and its decimals (ISO 80000-1 allows both).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DecimalMark {
     /// A point: 0.5.
@@ -81,13 +81,13 @@ impl Localized {
         Self { texts: vec![(None, text.into())] }
     }
 
-    /// The text in a language, or in another one where it has none.
+    /// The text in a language, or in another language if it is missing.
     pub fn get(&self, language: Language) -> &str {
         let own = self.texts.iter().find(|(of, _)| of.is_none_or(|of| of == language));
         own.or(self.texts.first()).map_or("", |(_, text)| text)
     }
 
-    /// The text in these languages, each different one once.
+    /// The text in these languages, without repetitions.
     pub fn all(&self, languages: &[Language]) -> Vec<&str> {
         let mut texts: Vec<&str> = Vec::new();
         for text in languages.iter().map(|language| self.get(*language)) {
@@ -110,7 +110,7 @@ pub enum Rounding {
     /// To the nearest, a half up (JCGM 100, 7.2.6).
     #[default]
     Nearest,
-    /// To the nearest, but up where that would take away more than 5 % (EA-4/02 M:2022, 6.3).
+    /// To the nearest, but up if that would reduce U by more than 5 % (EA-4/02 M:2022, 6.3).
     Ea,
     /// Always up.
     Up,

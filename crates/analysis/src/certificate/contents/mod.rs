@@ -1,4 +1,4 @@
-//! A calibration certificate that is to be made: what is stated, for which device, in which form.
+//! The contents of a calibration certificate: results, device and form.
 
 mod administrative;
 mod form;
@@ -12,7 +12,7 @@ use gumption_engine::model::Capability;
 use gumption_engine::regression::CurveFunction;
 use gumption_engine::task::{Coverage, Task};
 
-/// A certificate that is to be made.
+/// The contents of a certificate.
 #[derive(Clone, Debug)]
 pub struct Certificate {
     /// Device, parties, dates and texts.
@@ -26,17 +26,17 @@ pub struct Certificate {
     pub rounding: Rounding,
     /// Significant digits of a rounded expanded uncertainty.
     pub digits: u32,
-    /// Whether the models are stated: their equations and what the symbols mean.
+    /// Whether the models are stated, with their equations and the meaning of the symbols.
     pub equations: bool,
-    /// What is evaluated: each model file with each set of replacements once.
+    /// The evaluations: each model file once for each set of replacements.
     pub evaluations: Vec<Asked>,
     /// The rows of the table, in order.
     pub lines: Vec<Line>,
-    /// The calibration functions that are stated, in order.
+    /// The calibration functions to state, in order.
     pub functions: Vec<StatedFunction>,
-    /// Names of the conditions that the table shows; all of them if there are none.
+    /// Names of the conditions in the table; empty for all.
     pub shown: Vec<String>,
-    /// Names of inputs that are one and the same quantity in all model files.
+    /// Names of inputs that are the same quantity in all model files.
     pub shared: Vec<String>,
     /// Names of inputs that have a value of their own in every evaluation.
     pub separate: Vec<String>,
@@ -47,9 +47,9 @@ pub struct Certificate {
 pub struct Asked {
     /// The model file, as the certificate file names it.
     pub model: String,
-    /// The place of the model file among those of the certificate.
+    /// The index of the model file among those of the certificate.
     pub file: usize,
-    /// What is replaced: names with their values as text.
+    /// Replacements: names with their values as text.
     pub set: Vec<(String, String)>,
     /// The evaluation.
     pub task: Task,
@@ -58,13 +58,13 @@ pub struct Asked {
 /// A calibration function that is stated with its expanded uncertainty over its range.
 #[derive(Clone, Debug)]
 pub struct StatedFunction {
-    /// The place of the model file among those of the certificate.
+    /// The index of the model file among those of the certificate.
     pub file: usize,
     /// The function.
     pub curve: Arc<CurveFunction>,
     /// The coverage that is asked for.
     pub coverage: Coverage,
-    /// What it is called instead of its name.
+    /// Its label instead of its name.
     pub label: Option<Localized>,
 }
 
@@ -73,14 +73,14 @@ pub struct StatedFunction {
 pub struct Line {
     /// The evaluation, by its place.
     pub evaluation: usize,
-    /// The row of conditions, by its place in the task.
+    /// The index of the row of conditions in the task.
     pub row: usize,
-    /// The output, by its place in the model.
+    /// The index of the output in the model.
     pub output: usize,
-    /// What the row is called instead of the output's name.
+    /// The label of the row instead of the output's name.
     pub label: Option<Localized>,
     /// The nominal value, in the output's unit.
     pub nominal: Option<f64>,
-    /// The laboratory's capability: that of the row, or else of the output.
+    /// The laboratory's capability: for the row, or else for the output.
     pub capability: Option<Capability>,
 }
