@@ -1,15 +1,15 @@
-//! The other shapes that somebody might have assumed in place of a Type B distribution.
+//! Other distributions that could have been assumed instead of a Type B distribution.
 
 use gumption_engine::distribution::{
     Arcsine, Distribution, Invalid, Normal, Rectangular, StudentT, Trapezoidal, Triangular,
 };
 
-/// What an alternative has in common with the stated distribution.
+/// What an alternative shares with the stated distribution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kept {
-    /// The standard uncertainty; of a t distribution its scale.
+    /// The standard uncertainty; for a t distribution its scale.
     StandardUncertainty,
-    /// The limits; those of a normal or t distribution are two standard deviations or scales about
+    /// The limits; for a normal or t distribution two standard deviations or scales on each side of
     /// its mean.
     Limits,
 }
@@ -39,7 +39,7 @@ enum Shape {
 }
 
 impl Shape {
-    /// The shape with a standard deviation (of a t: a scale) about a mean.
+    /// The distribution with this standard deviation (for a t distribution: scale) and mean.
     fn with_std(self, mean: f64, std: f64) -> Result<Distribution, Invalid> {
         let half_width = match self {
             Self::Normal | Self::T(_) => 2.0 * std,
@@ -51,7 +51,7 @@ impl Shape {
         self.with_limits(mean, half_width)
     }
 
-    /// The shape with limits so far from their middle.
+    /// The distribution with limits `half_width` from their middle.
     fn with_limits(self, middle: f64, half_width: f64) -> Result<Distribution, Invalid> {
         Ok(match self {
             Self::Normal => Normal::new(middle, 0.5 * half_width)?.into(),
@@ -63,8 +63,8 @@ impl Shape {
         })
     }
 
-    /// The shape of a stated distribution, if it is one of these. One whose width is not known
-    /// exactly is none of them.
+    /// The shape of a stated distribution; `None` for a distribution that is not listed or whose
+    /// width is not known exactly.
     fn of(stated: &Distribution) -> Option<Self> {
         match stated {
             Distribution::Rectangular(_)
@@ -85,7 +85,8 @@ impl Shape {
     }
 }
 
-/// The limits that a distribution states: all values lie within them, `None` for one without.
+/// The limits that a distribution states, between which all values lie; `None` for one without
+/// limits.
 pub(super) fn limits(stated: &Distribution) -> Option<[f64; 2]> {
     let bounded = matches!(
         stated,
@@ -97,7 +98,7 @@ pub(super) fn limits(stated: &Distribution) -> Option<[f64; 2]> {
             | Distribution::Beta(_)
             | Distribution::LogUniform(_)
     );
-    // limits that are not known exactly are stated about the middle
+    // inexact limits are stated about the middle
     if let (Some(_), Some(divisor), true) = (stated.drawn_as(), stated.divisor(), bounded) {
         let half_width = divisor * stated.standard_uncertainty();
         return Some([stated.mean() - half_width, stated.mean() + half_width]);
@@ -108,8 +109,9 @@ pub(super) fn limits(stated: &Distribution) -> Option<[f64; 2]> {
 }
 
 /// Every other reasonable shape, once with the standard uncertainty kept and once with the limits
-/// kept where it has any. A normal distribution with degrees of freedom is drawn as a t, so the normal
-/// one is among its alternatives. Data (samples, saved results) have no limits to keep.
+/// kept, if there are limits. A normal distribution with degrees of freedom is drawn as a t
+/// distribution, so the normal distribution is among its alternatives. Data (samples, saved
+/// results) have no limits to keep.
 pub(super) fn alternatives(stated: &Distribution) -> Vec<(Kept, Distribution)> {
     let own = Shape::of(stated);
     let dof = stated.dof();
@@ -131,7 +133,7 @@ pub(super) fn alternatives(stated: &Distribution) -> Vec<(Kept, Distribution)> {
     };
     let mut found = Vec::new();
     for shape in shapes {
-        // a width that is lost beside the estimate has no alternatives
+        // a width that is lost in the rounding of the estimate has no alternatives
         if let Ok(other) = shape.with_std(mean, std) {
             found.push((Kept::StandardUncertainty, other));
         }
@@ -186,7 +188,7 @@ mod tests {
         let exponential: Distribution = Exponential::new(2.0).unwrap().into();
         assert!(names(&exponential).iter().all(|(_, kept)| *kept == Kept::StandardUncertainty));
         assert_eq!(names(&exponential).len(), 5);
-        // a triangle with its mode off the middle may have been a symmetric one
+        // a triangle whose mode is not in the middle could have been a symmetric one
         let skew: Distribution = Triangular::between(0.0, 4.0, Some(1.0)).unwrap().into();
         assert!(names(&skew).contains(&("triangular", Kept::Limits)));
         let limits = limits(&skew).unwrap();

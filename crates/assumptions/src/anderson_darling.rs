@@ -15,9 +15,9 @@ pub(super) fn statistic(probabilities: &[[f64; 2]]) -> f64 {
     -n - sum / n
 }
 
-/// The probability that n readings of the distribution give at least this statistic: the
-/// approximation of G. and J. Marsaglia, Journal of Statistical Software 9 (2004) 2, which is good
-/// to some 2e-5.
+/// The probability that n readings from the distribution give at least this statistic: the
+/// approximation of G. and J. Marsaglia, Journal of Statistical Software 9 (2004) 2, accurate to
+/// about 2e-5.
 pub(super) fn p_value(statistic: f64, n: usize) -> f64 {
     if !statistic.is_finite() {
         return 0.0;
@@ -44,7 +44,7 @@ fn limiting(z: f64) -> f64 {
     }
 }
 
-/// What n readings add to it.
+/// The correction of the limiting distribution for n readings.
 fn correction(x: f64, n: f64) -> f64 {
     let kink = 0.012_65 + 0.1757 / n;
     if x > 0.8 {
@@ -85,9 +85,9 @@ mod tests {
         (2.0 * std::f64::consts::PI).sqrt() / z * sum
     }
 
-    /// The approximation departs from it by up to 2e-5, far less than the third decimal
-    /// of a p-value that is printed; the 5 % point is 2.492 (Stephens, JASA 69
-    /// (1974) 730, Table 1), printed to three decimals.
+    /// The approximation deviates by up to 2e-5, far less than the third decimal of a printed
+    /// p-value; the 5 % point is 2.492 (Stephens, JASA 69 (1974) 730, Table 1), printed to three
+    /// decimals.
     #[test]
     fn the_limiting_distribution() {
         for z in [0.3, 0.5, 1.0, 1.5, 1.99, 2.01, 2.492, 3.0, 4.0, 6.0] {
@@ -96,8 +96,8 @@ mod tests {
         assert!((limiting(2.492) - 0.95).abs() < 5e-5);
     }
 
-    /// One reading: A^2 = -1 - ln(F (1 - F)), so A^2 >= z where F (1 - F) <= exp(-1 - z), with
-    /// probability 1 - sqrt(1 - 4 exp(-1 - z)). The approximation is for n above that, but near.
+    /// One reading: A^2 = -1 - ln(F (1 - F)), so A^2 >= z if F (1 - F) <= exp(-1 - z), with
+    /// probability 1 - sqrt(1 - 4 exp(-1 - z)). The approximation is for larger n, but close.
     #[test]
     fn few_readings() {
         let statistic = statistic(&[[0.1, 0.9]]);

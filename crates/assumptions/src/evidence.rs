@@ -1,7 +1,7 @@
-//! Whether readings agree with what is assumed about a quantity.
+//! Tests whether readings agree with the stated distribution of a quantity.
 //!
-//! The stated distribution is taken as it is, with its centre: readings that scatter about another
-//! value contradict it as well as readings that scatter too widely.
+//! The stated distribution is tested including its centre: readings that scatter about another
+//! value contradict it just as readings that scatter too widely.
 
 use super::alternatives::limits;
 use super::anderson_darling::{p_value, statistic};
@@ -10,28 +10,29 @@ use gumption_engine::number::{COLUMN, Column, ascending};
 use gumption_engine::special;
 use std::sync::Arc;
 
-/// What readings say about a stated distribution.
+/// The result of testing readings against a stated distribution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EvidenceTest {
-    /// Place of the variable in the task.
+    /// Index of the variable in the task.
     pub variable: usize,
     /// Number of readings.
     pub readings: usize,
-    /// Probability that readings of the stated distribution depart from it as far as these do
-    /// (Anderson-Darling).
+    /// Probability that readings from the stated distribution deviate from it at least as much as
+    /// these (Anderson-Darling).
     pub p_value: f64,
     /// The width that the readings support.
     pub supported: SupportedWidth,
-    /// How many readings lie outside the stated limits.
+    /// Number of readings outside the stated limits.
     pub outside: usize,
     /// The verdict.
     pub verdict: EvidenceVerdict,
-    /// That readings which contradict the stated distribution lie together, off its centre.
+    /// The offset, if readings that contradict the stated distribution lie close together away from
+    /// its centre.
     pub offset: Option<EvidenceOffset>,
 }
 
-/// Readings that scatter little about a value which is not the stated centre: a systematic effect to
-/// be corrected (JCGM 100, 3.2.4) rather than a width or a shape.
+/// Readings that scatter little about a value other than the stated centre: a systematic effect
+/// that should be corrected (JCGM 100, 3.2.4), not a wrong width or shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EvidenceOffset {
     /// The mean of the readings, in the variable's unit.
@@ -45,19 +46,19 @@ pub struct EvidenceOffset {
 }
 
 impl EvidenceOffset {
-    /// The probability with which the mean of normal readings about the stated centre lies so near to
-    /// it that no offset is said (t test, two-sided).
+    /// Confidence level of an offset (t test, two-sided).
     pub const LEVEL: f64 = 0.99;
 
-    /// By how much the mean is off the stated centre.
+    /// The mean minus the stated centre.
     pub fn difference(&self) -> f64 {
         self.mean - self.stated
     }
 
-    /// The offset of readings about `stated`, if it is significant and much larger than their scatter.
+    /// The offset of readings from `stated`, if it is significant and much larger than their
+    /// scatter.
     fn of(stated: f64, readings: &[f64]) -> Option<Self> {
         let n = readings.len() as f64;
-        // from the first reading, so that no digits are lost
+        // relative to the first reading, so that no digits are lost
         let first = *readings.first()?;
         let mean = first + readings.iter().map(|x| x - first).sum::<f64>() / n;
         let squares: f64 = readings.iter().map(|x| (x - mean).powi(2)).sum();
@@ -71,29 +72,29 @@ impl EvidenceOffset {
     }
 }
 
-/// The width of a distribution of the stated shape and centre that readings support.
+/// The width that readings support for a distribution with the stated shape and centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SupportedWidth {
-    /// Which width it is: `half_width`, `std` or `scale`.
+    /// The parameter of the width: `half_width`, `std` or `scale`.
     pub parameter: &'static str,
     /// The stated one.
     pub stated: f64,
     /// Estimate, in the variable's unit: the width for which half of such sets of readings would
-    /// reach farther; for a normal distribution the root mean square deviation.
+    /// extend farther; for a normal distribution the root mean square deviation.
     pub estimate: f64,
     /// 95 % confidence interval.
     pub interval: [f64; 2],
 }
 
-/// What readings say about a stated distribution, the first that holds.
+/// The verdict about a stated distribution; the first one that holds is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EvidenceVerdict {
     /// Fewer than five readings.
     TooFew,
-    /// A reading lies outside the stated limits, or the supported interval wholly above the stated
-    /// width.
+    /// A reading lies outside the stated limits, or the supported interval lies entirely above the
+    /// stated width.
     TooNarrow,
-    /// The supported interval lies wholly below the stated width, at 99.5 % instead of 97.5 %.
+    /// The supported interval lies entirely below the stated width, at 99.5 % instead of 97.5 %.
     TooWide,
     /// The p-value is below 0.01.
     WrongShape,
@@ -117,29 +118,29 @@ impl EvidenceVerdict {
 /// Readings that tell something.
 const FEWEST: usize = 5;
 
-/// Probabilities left out at the ends of the supported interval.
+/// Probability outside each end of the supported interval.
 const TAIL: f64 = 0.025;
 
-/// One set of readings in so many of the stated distribution is called too wide. All false verdicts
-/// together are to be fewer than one in twenty, and one in forty is spent on those that matter most.
+/// The false positive rate of "too wide". All false verdicts together must be rarer than one in
+/// twenty, and one in forty is reserved for the verdicts that matter most.
 const TOO_WIDE: f64 = 0.005;
 
-/// p-values below this speak against the shape.
+/// p-values below this contradict the shape.
 const WRONG_SHAPE: f64 = 0.01;
 
-/// An offset is said of readings whose standard deviation is smaller than it by this factor: what is
-/// left once it is corrected is no width that matters beside it.
+/// An offset is reported if it exceeds the standard deviation of the readings by this factor: after
+/// a correction the remaining width is negligible.
 const MUCH_LARGER: f64 = 3.0;
 
-/// Rounding of a limit that is no reading outside of it, in half-widths.
+/// Rounding within which a reading is not outside a limit, in half-widths.
 const ROUNDING: f64 = 1e-9;
 
-/// Simulated sets for shapes whose widths have no tabulated distribution: so many, and not more
-/// draws in all.
+/// Number of simulated sets for shapes whose widths have no tabulated distribution, and limit for
+/// the total number of draws.
 const SETS: usize = 4000;
 const DRAWS: usize = 4_000_000;
 
-/// Compares readings with a distribution; `None` for one without a width, or without readings.
+/// Tests readings against a distribution; `None` for one without a width, or without readings.
 pub fn agreement(
     variable: usize,
     stated: &Arc<Distribution>,
@@ -180,8 +181,8 @@ pub fn agreement(
     Some(EvidenceTest { variable, readings, p_value, supported, outside, verdict, offset })
 }
 
-/// The distribution of the population: degrees of freedom say how well a normal distribution's
-/// width is known, and are no part of it.
+/// The distribution of the population: degrees of freedom describe how well the width of a normal
+/// distribution is known, and are not part of it.
 fn population(stated: &Arc<Distribution>) -> Arc<Distribution> {
     match &**stated {
         Distribution::Normal(_) => {
@@ -192,7 +193,7 @@ fn population(stated: &Arc<Distribution>) -> Arc<Distribution> {
     }
 }
 
-/// Which width the statement is about, and its value.
+/// The parameter of the width, and its value.
 fn parameter(stated: &Distribution) -> (&'static str, f64) {
     match stated {
         Distribution::Normal(_) | Distribution::Readings(_) => {
@@ -206,7 +207,7 @@ fn parameter(stated: &Distribution) -> (&'static str, f64) {
     }
 }
 
-/// How many readings lie where the stated distribution cannot be.
+/// Number of readings outside the support of the stated distribution.
 fn outside(stated: &Distribution, readings: &[f64]) -> usize {
     let positive = matches!(
         stated,
@@ -223,9 +224,10 @@ fn outside(stated: &Distribution, readings: &[f64]) -> usize {
     readings.iter().filter(|x| **x < low - slack || **x > high + slack).count()
 }
 
-/// The probabilities below and above readings in ascending order. A reading that is printed to a digit can
-/// have been anything within half of that: equal ones are spread evenly over the probability there, so
-/// that neither a reading at a limit nor a display of few steps is a contradiction by itself.
+/// The probabilities below and above readings in ascending order. A reading rounded to a digit may
+/// have been anything within half of that digit. Equal readings are therefore spread evenly over
+/// the corresponding probability, so that neither a reading at a limit nor a display with few steps
+/// contradicts the distribution.
 fn of_rounded(stated: &Distribution, sorted: &[f64]) -> Vec<[f64; 2]> {
     let half = 0.5 * last_digit(sorted);
     let equal = sorted.chunk_by(|a, b| b - a < half);
@@ -241,11 +243,12 @@ fn of_rounded(stated: &Distribution, sorted: &[f64]) -> Vec<[f64; 2]> {
     spread.collect()
 }
 
-/// So many readings are not all even by chance.
+/// Number of readings that are not all even by chance.
 const MANY: usize = 10;
 
-/// What one in the last decimal digit of readings is: the largest power of ten that all are multiples of,
-/// to the digits that sums of readings have. Of many also 2 or 5 of it, the steps of displays.
+/// One unit of the last decimal digit of readings: the largest power of ten of which all are
+/// multiples, to the digits that sums of readings have. For many readings also 2 or 5 times that
+/// power, the steps of displays.
 fn last_digit(readings: &[f64]) -> f64 {
     let is_multiple = |digit: f64| {
         readings.iter().all(|x| {
@@ -300,8 +303,8 @@ fn factors(stated: &Arc<Distribution>, readings: &[f64]) -> Factors {
     }
 }
 
-/// Of a symmetric shape between limits: by the largest deviation from the middle. It cannot be
-/// larger than the half-width, which is therefore the lower end; the upper end leaves out 5 %.
+/// For a symmetric shape between limits, from the largest deviation from the middle. It cannot
+/// exceed the half-width, so it is the lower end; the upper end leaves out 5 %.
 fn largest_deviation(stated: &Distribution, readings: &[f64]) -> Factors {
     let middle = stated.mean();
     let reach = stated.quantile_upper(f64::MIN_POSITIVE) - middle;
@@ -314,7 +317,8 @@ fn largest_deviation(stated: &Distribution, readings: &[f64]) -> Factors {
     Factors { estimate: at(0.5), interval: [largest, at(2.0 * TAIL)], surely_below: at(TOO_WIDE) }
 }
 
-/// Of any other shape: by the mean deviation from the mean, compared with that of simulated sets.
+/// For any other shape, from the mean deviation from the mean, compared with that of simulated
+/// sets.
 fn mean_deviation(stated: &Arc<Distribution>, readings: &[f64]) -> Factors {
     let mean = stated.mean();
     let n = readings.len();
@@ -329,7 +333,8 @@ fn mean_deviation(stated: &Arc<Distribution>, readings: &[f64]) -> Factors {
     Factors { estimate: at(0.5), interval: [at(1.0 - TAIL), at(TAIL)], surely_below: at(TOO_WIDE) }
 }
 
-/// The mean deviations of sets of n readings of the stated distribution, always the same ones.
+/// The mean deviations of sets of n readings drawn from the stated distribution, always the same
+/// ones.
 fn simulated_deviations(stated: &Arc<Distribution>, n: usize, sets: usize) -> Vec<f64> {
     let key = StreamKey::new(1, "simulated readings");
     let from_score = FromScore::of(stated);

@@ -1,9 +1,9 @@
-//! Sums in lanes: a fixed order of additions that vectors of any width can follow.
+//! Sums in lanes: a fixed order of additions that suits vectors of any width.
 
-/// Sums are taken in so many lanes, and values sought among so many at a time.
+/// Number of lanes in sums, and of values compared at a time in searches.
 pub(super) const LANES: usize = 16;
 
-/// Calls `add` with the place of each of so many values and the lane that it belongs to.
+/// Calls `add` with the index of each of `count` values and its lane.
 #[inline(always)]
 pub(super) fn in_lanes(count: usize, mut add: impl FnMut(usize, usize)) {
     let whole = count / LANES * LANES;
@@ -17,7 +17,7 @@ pub(super) fn in_lanes(count: usize, mut add: impl FnMut(usize, usize)) {
     }
 }
 
-/// Sums of deviations from a reference and of their squares, with those of more values.
+/// Sums of deviations from a reference and of their squares, with further values added.
 #[inline(always)]
 pub(super) fn with_deviations(
     [mut sums, mut squares]: [[f64; LANES]; 2],

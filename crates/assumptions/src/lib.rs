@@ -2,8 +2,8 @@
 //! contradict.
 //!
 //! Every variant of the evaluation uses the same random numbers (`sampler`): a quantity's value is
-//! the quantile at the probability of its standard normal score, whatever its shape. Quantities that
-//! are correlated keep their scores' dependence (a Gaussian copula) when one of them is given another
+//! the quantile at the probability of its standard normal score, whatever its shape. Correlated
+//! quantities keep the dependence of their scores (a Gaussian copula) when one of them gets another
 //! shape.
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
@@ -41,8 +41,8 @@ use width_change::WidthSearch;
 pub struct Question {
     /// Number of trials of every variant, at least 20 000.
     pub trials: u64,
-    /// Relative change of the expanded uncertainty (half the length of the coverage interval) that
-    /// is allowed, above 0.
+    /// Allowed relative change of the expanded uncertainty (half the length of the coverage
+    /// interval), above 0.
     pub allowed: f64,
 }
 
@@ -55,7 +55,7 @@ pub struct Audit {
     pub coverage_probability: f64,
     /// One entry for each row of conditions.
     pub rows: Vec<RowAudit>,
-    /// What the readings say, one entry for each input with evidence.
+    /// The tests of readings, one for each input with evidence.
     pub evidence: Vec<EvidenceTest>,
     /// Notes.
     pub warnings: Vec<Warning>,
@@ -73,11 +73,11 @@ pub struct RowAudit {
 /// The audit of one output.
 #[derive(Clone, Debug)]
 pub struct OutputAudit {
-    /// The figures with all distributions as stated.
+    /// The results with all distributions as stated.
     pub baseline: VariantFigures,
     /// One entry for each line of the budget, in order.
     pub inputs: Vec<InputAudit>,
-    /// Sobol indices of quantities that are drawn together, with their places in the task.
+    /// Sobol indices of quantities that are drawn together, with their indices in the task.
     pub sets: Vec<(Vec<usize>, Option<Sobol>)>,
 }
 
@@ -90,24 +90,24 @@ pub struct VariantFigures {
     pub symmetric_interval: [f64; 2],
 }
 
-/// One input's assumption and what depends on it.
+/// The assumption about one input, and its effect.
 #[derive(Clone, Debug)]
 pub struct InputAudit {
-    /// Place of the variable in the task.
+    /// Index of the variable in the task.
     pub variable: usize,
     /// The stated distribution.
     pub distribution: Arc<Distribution>,
-    /// Share of the combined variance by the law of propagation; `None` where that has no figure.
+    /// Share of the combined variance by the law of propagation; `None` if it is not defined.
     pub share: Option<f64>,
     /// Its Sobol indices; `None` for a quantity that is drawn together with others.
     pub sobol: Option<Sobol>,
-    /// Other shapes; none for an input of type A or a constant.
+    /// Other shapes; empty for a Type A input or a constant.
     pub alternatives: Vec<Alternative>,
-    /// The width halved; `None` as for the alternatives.
+    /// The variant with half the width; `None` as for the alternatives.
     pub halved: Option<VariantChange>,
     /// The width doubled.
     pub doubled: Option<VariantChange>,
-    /// The relative changes of the width that the output allows, from -1 (no width) to infinity.
+    /// The relative changes of the width that the output tolerates, from -1 (no width) to infinity.
     pub allowed: Option<[f64; 2]>,
 }
 
@@ -116,29 +116,29 @@ pub struct InputAudit {
 pub struct Alternative {
     /// The distribution.
     pub distribution: Distribution,
-    /// What it has in common with the stated one.
+    /// What it shares with the stated distribution.
     pub kept: Kept,
     /// What it does.
     pub moved: VariantChange,
 }
 
-/// How a variant departs from the baseline.
+/// The difference between a variant and the baseline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VariantChange {
-    /// The variant's figures; `None` if some of its trials are not finite.
+    /// The variant's results; `None` if some of its trials are not finite.
     pub figures: Option<VariantFigures>,
-    /// Relative change of half the length of the interval; `None` if the baseline has no length.
+    /// Relative change of half the length of the interval; `None` if the baseline's length is zero.
     pub change: Option<f64>,
-    /// Numerical standard error of the change, from the scatter of batches. Of changes far below
-    /// 0.1 %, which move no trial past another one in a batch, it is too small.
+    /// Numerical standard error of the change, from the scatter of batches. For changes far below
+    /// 0.1 %, where no trials of a batch change their order, it is too small.
     pub error: Option<f64>,
 }
 
-/// Changes below this are not told from none.
+/// Smaller changes count as none.
 const SMALLEST: f64 = 5e-4;
 
 impl VariantChange {
-    /// Whether there is a change to be seen: at least 0.05 %, and more than twice its numerical
+    /// Whether the change is significant: at least 0.05 %, and more than twice its numerical
     /// standard error.
     pub fn is_seen(&self) -> bool {
         let error = self.error.unwrap_or(0.0);
@@ -147,7 +147,7 @@ impl VariantChange {
 }
 
 impl InputAudit {
-    /// The largest change that another shape makes.
+    /// The largest change due to another shape.
     pub fn largest_change(&self) -> Option<f64> {
         let seen = self.alternatives.iter().map(|other| &other.moved);
         let seen = seen.filter(|moved| moved.is_seen()).filter_map(|moved| moved.change);
@@ -187,7 +187,7 @@ pub fn audit(
     })?
 }
 
-/// The trials that the audit of a task makes.
+/// The number of trials in the audit of a task.
 pub fn trials_to_make(task: &Task, question: Question) -> u64 {
     let row = |row: &Row| {
         let variants = row.distributions.iter().zip(&task.variables).map(|(known, variable)| {
@@ -200,12 +200,12 @@ pub fn trials_to_make(task: &Task, question: Question) -> u64 {
     task.rows.iter().map(row).sum::<u64>().saturating_mul(question.trials)
 }
 
-/// Whether there is an assumption to be changed.
+/// Whether the input has an assumption that can be varied.
 fn changed(evaluation: EvaluationType, known: &Distribution) -> bool {
     evaluation == EvaluationType::B && known.constant().is_none()
 }
 
-/// Compares the readings of one input with what the first row states.
+/// Tests the readings of one input against the distribution in the first row.
 fn agree(task: &Task, evidence: &Evidence, warnings: &mut Vec<Warning>) -> Option<EvidenceTest> {
     let name = task.variables.get(evidence.variable).map_or("", |v| v.name.as_str());
     let first = task.rows.first()?.distributions.get(evidence.variable)?;
@@ -233,7 +233,7 @@ fn agree(task: &Task, evidence: &Evidence, warnings: &mut Vec<Warning>) -> Optio
     agreement(evidence.variable, first, &evidence.readings)
 }
 
-/// The audit of one row in the making.
+/// The audit of one row in progress.
 #[derive(Clone, Copy)]
 struct Auditor<'a> {
     task: &'a Task,
@@ -242,14 +242,14 @@ struct Auditor<'a> {
     control: &'a Control<'a>,
 }
 
-/// A variant to be evaluated: whose it is, and the fewest degrees of freedom of what is drawn.
+/// A variant to evaluate: its variable, and the fewest degrees of freedom of the drawn quantities.
 struct Variant {
     place: usize,
     change: Change,
     drawn_dof: f64,
 }
 
-/// What became of one quantity's variants, in order.
+/// The results of one quantity's variants, in order.
 type Moves = Vec<Vec<VariantChange>>;
 
 impl Auditor<'_> {
@@ -323,7 +323,7 @@ impl Auditor<'_> {
                 let widths = own.get(shapes.len()..).unwrap_or_default();
                 let reached = reach.get(output).and_then(|reach| reach.get(variable));
                 let sobol = match place.filter(|_| reached == Some(&true)) {
-                    // a constant, or nothing that the output depends on
+                    // a constant, or no output depends on it
                     None => Some(Sobol { first: 0.0, total: 0.0, standard_error: [0.0; 2] }),
                     Some(place) => index(alone.get(place).copied().flatten()),
                 };
@@ -351,15 +351,15 @@ impl Auditor<'_> {
         Ok(Some(RowAudit { conditions: row.conditions.clone(), outputs }))
     }
 
-    /// The stated distribution of the quantity at a place, if it is an assumption.
+    /// The stated distribution of the quantity at an index, if it is an assumption.
     fn stated(&self, sampler: &Sampler, place: usize) -> Option<&Arc<Distribution>> {
         let variable = *sampler.variables.get(place)?;
         let known = self.row.distributions.get(variable)?;
         changed(self.task.variables.get(variable)?.evaluation, known).then_some(known)
     }
 
-    /// The fewest degrees of freedom of what an output depends on, where a variable is drawn with
-    /// others than stated.
+    /// The fewest degrees of freedom among the quantities on which an output depends, if one
+    /// variable is drawn with others than stated.
     fn fewest_dof(&self, reach: &[Vec<bool>], output: usize, other: Option<(usize, f64)>) -> f64 {
         let reached = reach.get(output).map_or(&[][..], Vec::as_slice);
         let known = self.row.distributions.iter().enumerate().zip(reached);
@@ -372,7 +372,7 @@ impl Auditor<'_> {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// The baseline of each output, and for each what every variant does; `None` if stopped.
+    /// The baseline of each output, and the result of every variant for it; `None` if stopped.
     fn moves(
         &self,
         sampler: &Sampler,
@@ -387,7 +387,7 @@ impl Auditor<'_> {
             standard_uncertainty: (dof > 2.0).then_some(spread.std),
             symmetric_interval: spread.interval,
         };
-        // variants of a quantity that nothing depends on are the baseline
+        // variants of a quantity on which nothing depends equal the baseline
         let made: Vec<&Variant> =
             variants.iter().filter(|variant| sampler.is_used(variant.place)).collect();
         let at_a_time = (control.memory / spread::bytes(sampler, question.trials).max(1)).max(2);
@@ -444,7 +444,7 @@ impl Auditor<'_> {
         Ok(Some((stated, moves)))
     }
 
-    /// What is to be known about quantities that are drawn together.
+    /// Warnings about quantities that are drawn together.
     fn note_links(
         &self,
         sampler: &Sampler,
@@ -471,8 +471,8 @@ impl Auditor<'_> {
     }
 }
 
-/// The sets of quantities whose indices are estimated, those drawn together last, and for each place
-/// the set of it alone.
+/// The sets of quantities whose indices are estimated, with those drawn together last, and for each
+/// quantity the index of its own set.
 fn factors(sampler: &Sampler, linked: &[Vec<usize>]) -> (Vec<Vec<usize>>, Vec<Option<usize>>) {
     let mut sets: Vec<Vec<usize>> = Vec::new();
     let mut alone = vec![None; sampler.variables.len()];

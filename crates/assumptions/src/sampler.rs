@@ -1,4 +1,4 @@
-//! Trials from standard normal scores, so that a quantity can be given another shape or width while
+//! Trials from standard normal scores, so that a quantity can get another shape or width while
 //! everything keeps its random numbers.
 
 use gumption_engine::distribution::{BLOCK, Draws, FromScore, StreamKey, Varying};
@@ -9,17 +9,17 @@ use gumption_engine::propagate::onto_branch;
 use gumption_engine::propagate::{EvaluationError, gum, joint};
 use gumption_engine::task::{Row, Task};
 
-/// One row of a task made ready for trials with changes.
+/// One row of a task, prepared for trials with changes.
 #[derive(Debug)]
 pub(super) struct Sampler {
     schedule: Schedule,
     varying: Varying,
-    /// The task's variables that vary, in the order of their registers.
+    /// The task's variables with an uncertainty, in the order of their registers.
     pub variables: Vec<usize>,
     keys: Vec<StreamKey>,
     /// Streams of a second, independent sample.
     second: Vec<StreamKey>,
-    /// How values follow from scores; `None` for those that are drawn as values.
+    /// How values follow from scores; `None` for variables that are drawn as values.
     from_score: Vec<Option<FromScore>>,
     branches: Vec<Option<(f64, f64)>>,
 }
@@ -35,25 +35,25 @@ pub(super) enum Change {
     Width { place: usize, mean: f64, factor: f64 },
 }
 
-/// A change with what is to be computed again for it.
+/// A change with the steps that it requires to be computed again.
 #[derive(Clone, Debug)]
 pub(super) struct Prepared<'a> {
     change: &'a Change,
     /// `None` where nothing changes.
     following: Option<Following>,
-    /// Whether the change before it gives the same quantity the same shape, with other limits.
+    /// Whether the previous change gives the same quantity the same shape, with other limits.
     has_shape_before: bool,
 }
 
 impl Prepared<'_> {
-    /// Whether the change can move an output; the change that is none moves all, so that they are
-    /// looked at.
+    /// Whether the change can move an output; the unchanged case moves all, so that all are
+    /// evaluated.
     pub(super) fn moves(&self, output: usize) -> bool {
         self.following.as_ref().is_none_or(|following| following.moves(output))
     }
 }
 
-/// A set of quantities with what is to be computed again where they have other values.
+/// A set of quantities with the steps to be computed again for other values of them.
 #[derive(Clone, Debug)]
 pub(super) struct PreparedSet<'a> {
     places: &'a [usize],
@@ -97,7 +97,7 @@ impl Sampler {
         Ok(Self {
             schedule: Schedule::keeping_all(&task.model.program, &bound),
             branches: branches.collect(),
-            // no name of a variable has a bar
+            // names of variables never contain a bar
             keys: key(""),
             second: key("|second sample"),
             varying,
@@ -110,17 +110,17 @@ impl Sampler {
         self.schedule.outputs.len()
     }
 
-    /// Whether an output depends on the quantity at a place.
+    /// Whether an output depends on the quantity at an index.
     pub(super) fn is_used(&self, place: usize) -> bool {
         self.schedule.used.get(place).copied().unwrap_or(false)
     }
 
-    /// Whether the quantity at a place can be given another shape.
+    /// Whether the quantity at an index can get another shape.
     pub(super) fn has_scores(&self, place: usize) -> bool {
         self.from_score.get(place).is_some_and(Option::is_some)
     }
 
-    /// The places of quantities that are drawn together.
+    /// The indices of quantities that are drawn together.
     pub(super) fn linked(&self) -> Vec<Vec<usize>> {
         self.varying.linked()
     }
@@ -162,13 +162,13 @@ impl Sampler {
         PreparedSet { places, following: self.schedule.following(places) }
     }
 
-    /// An estimate of the bytes of a change or set that is made ready.
+    /// An estimate of the memory of a prepared change or set, in bytes.
     pub(super) fn prepared_bytes(&self) -> usize {
-        // a step takes about as much as a place of the registers' table
+        // a step takes about as much as an entry of the registers' table
         64 * self.schedule.registers
     }
 
-    /// Hands over the outputs of the first `count` trials of block `block` with each of the changes,
+    /// Passes on the outputs of the first `count` trials of block `block` with each of the changes,
     /// column by column.
     pub(super) fn changed(
         &self,
@@ -215,10 +215,10 @@ impl Sampler {
         }
     }
 
-    /// Hands over the outputs of the first `count` trials of block `block`: of the first sample (0)
-    /// and of the second one (1), then of the second with each of the sets of quantities taken from
-    /// the first. With (A, B) = (second, first) that is what Jansen's estimators need: A, B and A with
-    /// one set from B.
+    /// Passes on the outputs of the first `count` trials of block `block`: for the first sample (0)
+    /// and the second one (1), then for the second with each of the sets of quantities taken from
+    /// the first. With (A, B) = (second, first) these are the terms of Jansen's estimators: A, B,
+    /// and A with one set from B.
     pub(super) fn mixed(
         &self,
         (path, block, count): (CodePath, u64, usize),
@@ -238,7 +238,7 @@ impl Sampler {
             self.values(path, scores, values);
             others.scores_on(path, scores, &places);
             self.values(path, scores, second);
-            // the second sample last, as the sets are taken into it
+            // the second sample last, as the sets are put into it
             for (number, sample) in [&*values, &*second].into_iter().enumerate() {
                 registers[..quantities].clone_from_slice(sample);
                 self.schedule.run_on(path, registers);
@@ -270,7 +270,7 @@ impl Sampler {
         drawn
     }
 
-    /// What an output follows from where only the quantity at `place` changes; `None` where it does
+    /// The steps to an output if only the quantity at `place` changes; `None` if the output does
     /// not depend on it.
     pub(super) fn widening(&self, place: usize, output: usize) -> Option<Widening<'_>> {
         let outputs = self.schedule.outputs.get(output..=output)?;
@@ -294,7 +294,7 @@ impl Sampler {
         }
     }
 
-    /// The column of an output that was found.
+    /// The column of a scheduled output.
     fn found(&self, found: ScheduledOutput, registers: &[Column], output: usize, out: &mut [f64]) {
         match found {
             ScheduledOutput::Register(register) => out.copy_from_slice(&registers[register].0),
@@ -306,7 +306,7 @@ impl Sampler {
     }
 }
 
-/// Room for the registers of what is computed again.
+/// Allocates the registers of steps that are computed again.
 fn make_room(registers: &mut Vec<Column>, following: &Following) {
     if registers.len() < following.registers {
         registers.resize(following.registers, Column::ZERO);
@@ -320,14 +320,14 @@ fn widen(values: &Column, mean: f64, factor: f64, out: &mut Column) {
     }
 }
 
-/// Takes the outputs of trials, column by column.
+/// Receives the outputs of trials, column by column.
 pub(super) trait Taker {
-    /// Takes the first `count` trials of a column of all outputs, under the change or in the sample of
-    /// this number.
+    /// Receives the first `count` trials of a column of all outputs, under the change or for the
+    /// sample with this number.
     fn take(&mut self, path: CodePath, number: usize, outputs: &mut [Column], count: usize);
 }
 
-/// What an output follows from where only one quantity changes.
+/// The steps to an output if only one quantity changes.
 #[derive(Clone, Debug)]
 pub(super) struct Widening<'a> {
     sampler: &'a Sampler,
@@ -337,19 +337,20 @@ pub(super) struct Widening<'a> {
 }
 
 impl Widening<'_> {
-    /// The registers of computed values that are needed again, beside those of the variables.
+    /// The registers of computed values that are needed again, besides those of the variables.
     fn computed(&self) -> &[usize] {
         let variables = self.sampler.variables.len();
         let first = self.following.reads.partition_point(|&register| register < variables);
         &self.following.reads[first..]
     }
 
-    /// How many columns [`Self::before`] adds for each column of trials.
+    /// Number of columns that [`Self::before`] adds for each column of trials.
     pub(super) fn columns(&self) -> usize {
         self.computed().len()
     }
 
-    /// Adds the columns of what is computed from a column of trials before the quantity matters.
+    /// Adds the columns computed from a column of trials by the steps that do not depend on the
+    /// quantity.
     pub(super) fn before(
         &self,
         path: CodePath,
@@ -367,9 +368,9 @@ impl Widening<'_> {
         self.sampler.schedule.run_on(path, registers);
     }
 
-    /// The output for one column of trials, of which the quantity's values are changed to `mean`
-    /// plus `factor` times their distances from it. `before` is what was computed before, or nothing,
-    /// which is then computed again.
+    /// The output for one column of trials, in which the quantity's values are `mean` plus `factor`
+    /// times their distances from it. `before` holds the columns computed before, or nothing, in
+    /// which case they are computed again.
     pub(super) fn widened(
         &self,
         path: CodePath,

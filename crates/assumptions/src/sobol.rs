@@ -1,7 +1,7 @@
-//! Sobol indices: the share of the output's variance that an input causes by itself (first-order),
-//! and with all that it does together with others (total). By Jansen's estimators (M. J. W. Jansen,
+//! Sobol indices: the share of the output's variance due to an input alone (first-order), and due
+//! to the input including all its interactions (total). By Jansen's estimators (M. J. W. Jansen,
 //! Computer Physics Communications 117 (1999) 35; Saltelli et al., ibid. 181 (2010) 259, Table 2):
-//! with samples A and B, and AB_i that is A with input i from B,
+//! with samples A and B, and AB_i, which is A with input i from B,
 //!
 //! S_i = 1 - mean((f(B) - f(AB_i))^2) / 2V,  ST_i = mean((f(A) - f(AB_i))^2) / 2V
 //!
@@ -30,10 +30,10 @@ pub struct Sobol {
 #[derive(Clone, Debug, Default)]
 struct Sums {
     count: f64,
-    /// Of both samples about the reference, and their squares.
+    /// Sums over both samples of deviations from the reference, and of their squares.
     sum: f64,
     squares: f64,
-    /// For each set the squared differences to B and to A.
+    /// For each set the squared differences from B and from A.
     differences: Vec<[f64; 2]>,
 }
 
@@ -49,7 +49,7 @@ impl Sums {
         }
     }
 
-    /// First-order and total index of a set; `None` without a variance.
+    /// First-order and total index of a set; `None` if the variance is zero.
     fn indices(&self, set: usize) -> Option<[f64; 2]> {
         let mean = self.sum / (2.0 * self.count);
         let variance = (self.squares - 2.0 * self.count * mean * mean) / (2.0 * self.count - 1.0);
@@ -60,13 +60,13 @@ impl Sums {
     }
 }
 
-/// The squared differences of one set to B and to A, in lanes.
+/// The squared differences of one set from B and from A, in lanes.
 type Differences = [[f64; LANES]; 2];
 
 /// The sums of one output in lanes.
 #[derive(Clone, Debug)]
 struct Lanes {
-    /// Of both samples about the reference, and their squares.
+    /// Sums over both samples of deviations from the reference, and of their squares.
     samples: [[f64; LANES]; 2],
     differences: Vec<Differences>,
 }
@@ -122,7 +122,7 @@ struct AddSample<'a, 's> {
 impl Kernel for AddSample<'_, '_> {
     type Output = ();
 
-    // the model takes most of the time
+    // evaluating the model takes most of the time
     const WIDEST: bool = false;
 
     #[inline(always)]
@@ -154,15 +154,15 @@ impl Kernel for AddSample<'_, '_> {
     }
 }
 
-/// For each output the indices of each set of places; `None` for an output that does not vary or has
-/// trials that are not finite. The whole is `None` if stopped.
+/// For each output the indices of each set of variables; `None` for an output that does not vary or
+/// has trials that are not finite. `None` altogether if stopped.
 pub(super) fn indices(
     sampler: &Sampler,
     sets: &[Vec<usize>],
     trials: u64,
     control: &Control<'_>,
 ) -> Option<Vec<Vec<Option<Sobol>>>> {
-    // the sums of every set that is taken at a time
+    // the sums of all sets that are evaluated at a time
     let set = size_of::<Differences>() * sampler.outputs() + sampler.prepared_bytes();
     let at_a_time = (control.memory / set).max(1);
     let mut all = vec![Vec::with_capacity(sets.len()); sampler.outputs()];
@@ -182,7 +182,7 @@ fn indices_of(
 ) -> Option<Vec<Vec<Option<Sobol>>>> {
     let outputs = sampler.outputs();
     let sets: Vec<PreparedSet<'_>> = sets.iter().map(|set| sampler.prepared_set(set)).collect();
-    // about a value of the output, so that a common large part costs no digits
+    // relative to a value of the output, so that a common large part costs no digits
     let mut first = First(Vec::new());
     sampler.mixed((control.path, 0, 1), &[], &mut sampler.buffers(), &mut first);
     let references = first.0;

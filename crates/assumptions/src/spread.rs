@@ -1,8 +1,9 @@
-//! How widely the outputs scatter under changes of the inputs, all from the same random numbers.
+//! The spread of the outputs under changes of the inputs, all with the same random numbers.
 //!
-//! Trials are made in batches whose own figures tell how far the ratio of two spreads scatters; what
-//! both have in common cancels in it. Of each output only the values about the ends of the coverage
-//! interval are kept, between limits that a pilot of the first blocks fixes.
+//! Trials are made in batches. The scatter of the batches' own results gives the uncertainty of the
+//! ratio of two spreads, in which the common scatter cancels. Only the values near the endpoints of
+//! the coverage interval are kept for each output, between limits that a pilot of the first blocks
+//! sets.
 
 use gumption_engine::parallel;
 
@@ -19,10 +20,10 @@ const BATCHES: u64 = 32;
 /// Blocks of the pilot.
 const PILOT: u64 = 16;
 
-/// Runs of at most so many blocks keep all values.
+/// Runs of at most this many blocks keep all values.
 const SMALL: u64 = 64;
 
-/// How many standard deviations of a rank the limits are wider than they need to be on average.
+/// How many standard deviations of a rank the limits are wider than needed on average.
 const MARGIN: f64 = 6.0;
 
 /// The spread of one output under one change.
@@ -34,7 +35,7 @@ pub(super) struct Spread {
     pub(super) interval: [f64; 2],
     /// Half the interval's length in each batch.
     half_lengths: Vec<f64>,
-    /// Trials that were left out because an output was not finite, of all.
+    /// Fraction of trials that were left out because an output was not finite.
     pub(super) undefined: f64,
 }
 
@@ -44,8 +45,8 @@ impl Spread {
         0.5 * self.interval[1] - 0.5 * self.interval[0]
     }
 
-    /// The change of half the length relative to another spread, and its numerical standard error;
-    /// `None` where that other one has no length.
+    /// The relative change of half the length from another spread, and its numerical standard
+    /// error; `None` if the length of the other one is zero.
     pub(super) fn change(&self, from: &Self) -> Option<[f64; 2]> {
         let ratio = |a: f64, b: f64| if b > 0.0 { Some(a / b - 1.0) } else { None };
         let change = ratio(self.half_length(), from.half_length())?;
@@ -55,7 +56,7 @@ impl Spread {
     }
 }
 
-/// The standard error of the mean of independent values; not a number of fewer than two.
+/// The standard error of the mean of independent values; NaN for fewer than two.
 pub(super) fn standard_error(values: &[f64]) -> f64 {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
@@ -70,7 +71,7 @@ pub(super) fn batches(trials: u64) -> Vec<std::ops::Range<u64>> {
     (0..count).map(|b| b * blocks / count..(b + 1) * blocks / count).collect()
 }
 
-/// How many of the first `trials` trials lie in a block.
+/// Number of the first `trials` trials that lie in a block.
 pub(super) fn trials_in(block: u64, trials: u64) -> usize {
     trials.saturating_sub(block * BLOCK as u64).min(BLOCK as u64) as usize
 }
@@ -82,14 +83,14 @@ enum Limits {
     About([[f64; 2]; 2]),
 }
 
-/// How the values of one output under one change are taken.
+/// How the values of one output under one change are collected.
 #[derive(Clone, Copy, Debug)]
 struct OutputPlan {
     limits: Limits,
     /// What the sums are about.
     reference: f64,
-    /// Whether they are taken: not where the change does not move the output, whose values are those
-    /// of the baseline.
+    /// Whether they are collected: not if the change does not move the output, whose values are
+    /// then those of the baseline.
     is_taken: bool,
 }
 
@@ -104,7 +105,8 @@ struct Tally {
     squares: [f64; LANES],
     below: [u64; 2],
     kept: [Vec<f64>; 2],
-    /// Half the length of the coverage interval, of a whole batch; `None` if an end was not kept.
+    /// Half the length of the coverage interval of a whole batch; `None` if an endpoint was not
+    /// kept.
     half_length: Option<f64>,
 }
 
@@ -115,7 +117,7 @@ struct Batch {
     outputs: Vec<Tally>,
 }
 
-/// The spreads of all outputs under each of the changes, of which the first is the baseline; `None`
+/// The spreads of all outputs under each of the changes, the first of which is the baseline; `None`
 /// if stopped.
 pub(super) fn spreads(
     sampler: &Sampler,
@@ -132,7 +134,7 @@ pub(super) fn spreads(
             return Some(found);
         }
         if plans.iter().flatten().any(|plan| !plan.is_taken) {
-            // trials were left out, of which an output that is not moved has others then
+            // trials were left out, so an output that is not moved has other ones
             plans.iter_mut().flatten().for_each(|plan| plan.is_taken = true);
         } else {
             // a limit missed a value that is needed
@@ -206,7 +208,7 @@ impl Taker for Pilot {
     }
 }
 
-/// All batches, in order; for each the changes.
+/// All batches, in order; each holds the changes.
 fn tallies(
     sampler: &Sampler,
     changes: &[Prepared<'_>],
@@ -240,10 +242,10 @@ fn tallies(
     parallel::map(batches(trials), batch).into_iter().collect()
 }
 
-/// Moves the trials whose outputs are all finite to the front, and tells how many there are.
+/// Moves the trials with finite outputs to the front, and returns their number.
 #[inline(always)]
 fn defined(outputs: &mut [Column], count: usize) -> usize {
-    // all values are counted, so that several are looked at at a time
+    // all values are counted, so that several are compared at a time
     let finite = |column: &Column| {
         column.0[..count].iter().map(|value| u64::from(value.is_finite())).sum::<u64>()
     };
@@ -260,7 +262,7 @@ fn defined(outputs: &mut [Column], count: usize) -> usize {
     left
 }
 
-/// Takes values into the tallies of a batch.
+/// Collects values into the tallies of a batch.
 struct Tallies<'a> {
     found: Vec<Batch>,
     plans: &'a [Plan],
@@ -282,7 +284,7 @@ struct AddTallies<'a, 't> {
 impl Kernel for AddTallies<'_, '_> {
     type Output = ();
 
-    // the model takes most of the time
+    // evaluating the model takes most of the time
     const WIDEST: bool = false;
 
     #[inline(always)]
@@ -301,7 +303,7 @@ impl Kernel for AddTallies<'_, '_> {
 }
 
 impl Tally {
-    /// Takes at most a column of values.
+    /// Adds at most a column of values.
     #[inline(always)]
     fn add(&mut self, values: &[f64], plan: &OutputPlan) {
         self.trials += values.len() as u64;
@@ -323,7 +325,7 @@ impl Tally {
                         count += usize::from(is_kept(value));
                     }
                 };
-                // few are kept, and mostly none of some neighbours
+                // few values are kept, and mostly none of some neighbours
                 for chunk in values.chunks(LANES) {
                     if chunk.iter().map(|&value| u64::from(is_kept(value))).sum::<u64>() > 0 {
                         keep(chunk);
@@ -345,7 +347,7 @@ impl Tally {
         [self.sums.iter().sum(), self.squares.iter().sum()]
     }
 
-    /// The coverage interval; `None` if an end was not kept.
+    /// The coverage interval; `None` if an endpoint was not kept.
     fn interval(&mut self, limits: Limits, probability: f64) -> Option<[f64; 2]> {
         let ranks = Ranks::new(self.trials, probability);
         let mut at = |side: usize, rank: u64| {
@@ -359,7 +361,7 @@ impl Tally {
     }
 }
 
-/// The spreads under all changes; `None` if an end was not kept.
+/// The spreads under all changes; `None` if an endpoint was not kept.
 fn finish_all(
     batches: &[Vec<Batch>],
     plans: &[Plan],
@@ -373,7 +375,7 @@ fn finish_all(
     Some(found)
 }
 
-/// The spreads under one change; `None` if an end was not kept.
+/// The spreads under one change; `None` if an endpoint was not kept.
 fn finish(
     batches: &[Vec<Batch>],
     change: usize,
@@ -386,7 +388,7 @@ fn finish(
     let plan = plans.get(change)?;
     let spread = |(output, plan): (usize, &OutputPlan)| {
         if !plan.is_taken {
-            // where trials are left out of either, they are not the same trials
+            // if trials are left out of either, they are not the same trials
             let baseline = baseline?.get(output)?;
             return (undefined == 0 && baseline.undefined == 0.0).then(|| baseline.clone());
         }

@@ -1,5 +1,5 @@
-//! The width at widths: how far a stated width may be wrong before the expanded uncertainty moves by
-//! more than is allowed.
+//! How far a stated width may be wrong before the expanded uncertainty changes by more than the
+//! allowed amount.
 
 use super::sampler::{Buffers, Change, Sampler, Taker, Widening};
 use gumption_engine::distribution::BLOCK;
@@ -7,32 +7,32 @@ use gumption_engine::number::{COLUMN, CodePath, Column, ascending, at_rank};
 use gumption_engine::propagate::Control;
 use gumption_engine::propagate::monte_carlo::Ranks;
 
-/// Factors of the width above this are not looked at.
+/// Largest factor of the width in the search.
 const LARGEST: f64 = 1024.0;
 
-/// The factor is found to so much.
+/// Tolerance of the factor.
 const TOLERANCE: f64 = 1e-4;
 
-/// Values of all quantities that are held at a time.
+/// Maximum number of values of all quantities in memory.
 const MOST_VALUES: usize = 16 << 20;
 
-/// Blocks that the search uses, at least and at most.
+/// Minimum and maximum number of blocks in the search.
 const BLOCKS: [u64; 2] = [16, 64];
 
-/// The first trials, kept to be used again and again.
+/// The first trials, kept for repeated use.
 #[derive(Debug)]
 pub(super) struct WidthSearch<'a> {
     sampler: &'a Sampler,
     /// The values of all quantities, column by column.
     values: Vec<Column>,
-    /// Half the lengths of the outputs' coverage intervals as stated.
+    /// Half the lengths of the outputs' coverage intervals with the stated distributions.
     stated: Vec<f64>,
     probability: f64,
     allowed: f64,
 }
 
-/// The range of relative changes of a width: from -1 (no width at all) on; the upper end is infinite
-/// where no factor up to 1024 does too much.
+/// The range of relative changes of a width, from -1 (no width); the upper end is infinite if no
+/// factor up to 1024 exceeds the allowed change.
 pub(super) type Allowed = [f64; 2];
 
 impl<'a> WidthSearch<'a> {
@@ -59,9 +59,9 @@ impl<'a> WidthSearch<'a> {
         Self { sampler, values, stated, probability, allowed }
     }
 
-    /// Half the length of an output's coverage interval where the width of a quantity is multiplied;
-    /// not a number where a trial is not finite. `before` is what does not depend on it, column by
-    /// column, or nothing.
+    /// Half the length of an output's coverage interval if the width of a quantity is multiplied;
+    /// NaN if a trial is not finite. `before` holds the columns that do not depend on it, or
+    /// nothing.
     fn half_length(
         &self,
         (widening, before): (&Widening<'_>, &[Column]),
@@ -84,8 +84,8 @@ impl<'a> WidthSearch<'a> {
         self.values.chunks(self.sampler.variables.len().max(1))
     }
 
-    /// What is computed before a quantity matters, column by column; nothing where that would take
-    /// more memory than the values of all quantities may.
+    /// The columns computed before the quantity matters; empty if they would take more memory than
+    /// the values of all quantities may.
     fn before(
         &self,
         widening: &Widening<'_>,
@@ -102,8 +102,8 @@ impl<'a> WidthSearch<'a> {
         before
     }
 
-    /// For each output how far the width of the quantity at `place` may change; `None` for an output
-    /// without a spread.
+    /// For each output how far the width of the quantity at `place` may change; `None` for an
+    /// output without spread.
     pub(super) fn allowed(
         &self,
         place: usize,
@@ -132,7 +132,7 @@ impl<'a> WidthSearch<'a> {
         let before = self.before(&widening, buffers, control);
         let mut at =
             |factor: f64| self.half_length((&widening, &before), (mean, factor), buffers, control);
-        // the square of the length is nearly linear in that of the width
+        // the square of the length is nearly linear in the square of the width
         let mut excess = |square: f64| {
             let change = at(square.sqrt()) / stated - 1.0;
             if change.is_nan() { f64::INFINITY } else { change.abs() - self.allowed }
@@ -156,8 +156,9 @@ impl<'a> WidthSearch<'a> {
     }
 }
 
-/// Where the excess turns positive on the way from `inside` to `outside`, each with its excess: false
-/// position with the retained end's weight halved (the Illinois rule), the last point inside.
+/// The point between `inside` and `outside` at which the excess becomes positive, each with its
+/// excess: false position with the weight of the retained end halved (Illinois rule). Returns the
+/// last point inside.
 fn crossing(
     [mut inside, mut low]: [f64; 2],
     [mut outside, mut high]: [f64; 2],
@@ -169,7 +170,7 @@ fn crossing(
             break;
         }
         let share = if high.is_finite() && high > low { -low / (high - low) } else { 0.5 };
-        // never so near an end that nothing is gained
+        // never so close to an end that nothing is gained
         let next = inside + share.clamp(0.01, 0.99) * (outside - inside);
         let found = excess(next);
         if found <= 0.0 {
@@ -195,7 +196,7 @@ fn half_length(values: &mut [f64], probability: f64) -> f64 {
     let places = [place(ranks.r), place(ranks.r + ranks.q)];
     let [low, high] = in_tails(values, places).unwrap_or_else(|| {
         let low = at_rank(values, places[0]);
-        // the upper end is among those above the lower one
+        // the upper endpoint is among the values above the lower one
         let high = match places[1].checked_sub(places[0] + 1) {
             Some(place) => at_rank(&mut values[places[0] + 1..], place),
             None => low,
@@ -205,14 +206,14 @@ fn half_length(values: &mut [f64], probability: f64) -> f64 {
     0.5 * high - 0.5 * low
 }
 
-/// The first so many values tell where the tails lie.
+/// Number of first values that locate the tails.
 const PILOT: usize = 2048;
 
 /// How many standard deviations of a rank of the pilot the tails are wider than their ends.
 const MARGIN: f64 = 6.0;
 
-/// The values at two places of the order, sought in the tails alone; `None` where they are not there
-/// for sure.
+/// The values at two positions of the order, searched in the tails only; `None` if they are not
+/// certainly there.
 fn in_tails(values: &[f64], places: [usize; 2]) -> Option<[f64; 2]> {
     let mut pilot = values.get(..PILOT).filter(|pilot| values.len() >= 8 * pilot.len())?.to_vec();
     ascending(&mut pilot);
@@ -227,7 +228,7 @@ fn in_tails(values: &[f64], places: [usize; 2]) -> Option<[f64; 2]> {
     let mut low: Vec<f64> = Vec::with_capacity(values.len() / 8);
     let mut high = low.clone();
     for chunk in values.chunks(16) {
-        // all are counted, so that several are looked at at a time
+        // all are counted, so that several are compared at a time
         if chunk.iter().map(|&value| u64::from(value <= below)).sum::<u64>() > 0 {
             low.extend(chunk.iter().filter(|value| **value <= below));
         }
@@ -260,8 +261,8 @@ impl Taker for Collected {
 mod tests {
     use super::*;
 
-    /// Ends that are sought in the tails alone are those of all values, also where many are equal or
-    /// the pilot is of other values than the rest.
+    /// Endpoints found in the tails equal those of all values, even if many values are equal or the
+    /// pilot has other values than the rest.
     #[test]
     fn ends_are_in_the_tails() {
         let mut state = 1u64;
@@ -286,7 +287,7 @@ mod tests {
         }
     }
 
-    /// The square root of 1.3225 is 1.15: a length that grows as the width, 15 % allowed.
+    /// The square root of 1.3225 is 1.15: a length proportional to the width, 15 % allowed.
     #[test]
     fn the_crossing_is_found() {
         let mut excess = |square: f64| (square.sqrt() - 1.0).abs() - 0.15;

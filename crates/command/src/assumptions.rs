@@ -21,7 +21,7 @@ pub(super) struct Assumptions {
     answer: Answer<Format>,
     #[command(flatten)]
     interactive: Interactive,
-    /// Relative change of the expanded uncertainty that is allowed
+    /// Allowed relative change of the expanded uncertainty
     #[arg(
         long, value_name = "SHARE", default_value = "0.05", value_parser = allowed,
         allow_negative_numbers = true
@@ -41,11 +41,11 @@ pub(super) struct Assumptions {
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// A page of text for people
+    /// A text page
     Table,
-    /// A page as GitHub shows it
+    /// A Markdown page, as GitHub shows it
     Markdown,
-    /// A page with figures for a browser and for print, in one file
+    /// An HTML page with figures, in one file
     Html,
     /// The whole answer for programs
     Json,
@@ -53,13 +53,13 @@ enum Format {
     Csv,
 }
 
-/// The fewest trials from which moves can be told.
+/// Minimum number of trials with which changes can be detected.
 const FEWEST: u64 = 20_000;
 
-/// The most trials: some hundred megabytes of kept values for each variant.
+/// Maximum number of trials: some hundred megabytes of kept values for each variant.
 const MOST: u64 = 1_000_000_000;
 
-/// Trials where the file asks for none, or for as many as it takes.
+/// Number of trials if the file requests none, or an adaptive run.
 const USUAL: u64 = 1_000_000;
 
 fn allowed(text: &str) -> Result<f64, String> {
@@ -111,7 +111,7 @@ impl Assumptions {
         Ok(Exit::Done)
     }
 
-    /// The command line beats the file.
+    /// The command line takes precedence over the file.
     fn trials(&self, task: &Task, warnings: &mut Vec<Warning>) -> u64 {
         match (self.trials, task.settings.trials) {
             (Some(trials), _) => trials,

@@ -33,22 +33,23 @@ pub(super) struct Certificate {
     interactive: Interactive,
     #[command(flatten)]
     seed: Seed,
-    /// Number of Monte Carlo trials for each row; 0 for the law of propagation alone
+    /// Number of Monte Carlo trials for each row; 0 for only the law of propagation
     #[arg(
         long, value_name = "N|adaptive", value_parser = options::trials,
         allow_negative_numbers = true
     )]
     trials: Option<Trials>,
-    /// Where the figures come from that are stated in place of those of the law of propagation: exact
-    /// ones, or those of quasi-random points, which no seed moves; those of the trials unless the model files say
-    /// otherwise; auto takes exact ones where there are any, else quasi-random ones
+    /// Source of the stated values that do not come from the law of propagation: exact values,
+    /// values of quasi-random points (independent of the seed), or values of the trials, which are
+    /// the default unless the model files say otherwise; auto takes exact values if available, else
+    /// quasi-random ones
     #[arg(long, value_name = "METHOD", value_parser = options::method())]
     method: Option<MethodChoice>,
-    /// Version of the digital certificate, with `--format dcc`; 3.2.1 unless given
+    /// Version of the digital certificate, with `--format dcc` [default: 3.2.1]
     #[arg(long, value_name = "VERSION")]
     dcc_version: Option<Version>,
-    /// Write a stylesheet beside the digital certificate, NAME.xsl, that shows it to people, and name it
-    /// in the certificate; with `--format dcc --output NAME.xml`
+    /// Also write NAME.xsl, a stylesheet that displays the digital certificate in a browser, and
+    /// refer to it in the certificate; with `--format dcc --output NAME.xml`
     #[arg(long)]
     stylesheet: bool,
     #[command(flatten)]
@@ -60,21 +61,21 @@ pub(super) struct Certificate {
 /// The format of a certificate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// A page of text for people
+    /// A text page
     Table,
     /// The whole answer for programs
     Json,
     /// One line for each row of the table
     Csv,
-    /// A page as GitHub shows it
+    /// A Markdown page, as GitHub shows it
     Markdown,
     /// A LaTeX file for `article` with `booktabs` and `siunitx`
     Latex,
-    /// A page for a browser and for print, in one file
+    /// An HTML page, in one file
     Html,
     /// A workbook
     Xlsx,
-    /// A Digital Calibration Certificate of the PTB
+    /// A Digital Calibration Certificate (PTB)
     Dcc,
 }
 
@@ -84,7 +85,7 @@ enum Version {
     /// The newest version that can be written
     #[value(name = "3.2.1")]
     V3_2_1,
-    /// For readers that do not know newer ones
+    /// For software that cannot read newer versions
     #[value(name = "3.1.2")]
     V3_1_2,
 }
@@ -189,7 +190,7 @@ impl Certificate {
         Ok(Exit::Done)
     }
 
-    /// The path of the stylesheet and its name, where one is asked for.
+    /// The path of the stylesheet and its name, if one is requested.
     fn beside(&self) -> Result<Option<(PathBuf, String)>, Failure> {
         let refuse = |reason: &str| Err(Failure::Argument(reason.to_owned()));
         if !self.stylesheet {
@@ -215,7 +216,7 @@ impl Certificate {
         Ok(options::opened(files, &self.file, text, |path| files.certificate(path))??)
     }
 
-    /// The paths of the file, of its models, and of the tables that these name.
+    /// The paths of the file, of its models, and of the tables that they name.
     fn paths(&self, file: &CertificateFile) -> Vec<PathBuf> {
         let mut paths = options::with_named(&self.file, file.models.iter().map(|of| &of.name));
         for (number, model) in file.models.iter().enumerate() {
@@ -226,7 +227,7 @@ impl Certificate {
         paths
     }
 
-    /// Whether the certificate can be given in the format that was asked for.
+    /// Checks that the certificate can be written in the requested format.
     fn check_format(&self, file: &CertificateFile) -> Result<(), Failure> {
         if self.answer.format == Format::Xlsx && self.answer.is_terminal() {
             return Err(options::workbook_in_terminal());
@@ -262,7 +263,7 @@ impl Certificate {
     }
 }
 
-/// The trials of all evaluations; `None` if an adaptive one is among them.
+/// The total number of trials of all evaluations; `None` if one of them is adaptive.
 fn trials_to_make(certificate: &Asked) -> Option<u64> {
     let of = |asked: &gumption_analysis::certificate::contents::Asked| match asked
         .task
@@ -275,10 +276,10 @@ fn trials_to_make(certificate: &Asked) -> Option<u64> {
     certificate.evaluations.iter().map(of).sum()
 }
 
-/// What should be known about a certificate that is made all the same: notes of the model files, of
-/// their evaluations, and uncertainties below the laboratory's capability.
+/// Warnings about a certificate that can still be issued: notes of the model files and of their
+/// evaluations, and uncertainties below the laboratory's capability.
 fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
-    // said here for each row instead
+    // reported here for each row instead
     const OF_ROWS: [&str; 2] = ["below-cmc", "raised-to-cmc"];
     let mut notes = file.warnings.clone();
     notes.extend(not_stated(&file.certificate));
@@ -332,14 +333,14 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
     notes
 }
 
-/// Why there are no figures without the noise of trials, where they were asked for.
+/// Why there are no values without the noise of trials although they were requested.
 fn seeded<'a>(issued: &'a Issued, line: &Line) -> Option<&'a str> {
     let row = issued.evaluations.get(line.evaluation)?.rows.get(line.row)?;
     row.outputs.get(line.output)?.noiseless.as_ref()?.as_ref().err().map(String::as_str)
 }
 
-/// What ISO/IEC 17025 asks of a certificate and this one does not say. A file without a number is no
-/// certificate that leaves the house.
+/// The items required by ISO/IEC 17025 that this certificate does not state. A file without a
+/// number is a draft and not issued.
 fn not_stated(certificate: &Asked) -> Option<Warning> {
     let of = &certificate.administrative;
     of.number.as_ref()?;
@@ -366,7 +367,7 @@ fn not_stated(certificate: &Asked) -> Option<Warning> {
     (!missing.is_empty()).then(|| Warning::new("not-stated", "certificate".to_owned(), text))
 }
 
-/// A certificate that cannot be made, as a mistake with its place where it is the user's.
+/// A certificate that cannot be issued, as an error with its position if the user caused it.
 fn failure(file: &CertificateFile, failed: Failed) -> Failure {
     let message = failed.to_string();
     let line = match &failed {

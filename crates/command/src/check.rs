@@ -28,12 +28,12 @@ pub(super) struct Check {
 struct Verdict<'n> {
     ok: bool,
     errors: Vec<Mistake>,
-    /// What is right and seldom meant, as a run says it.
+    /// Notes about correct but unusual content, as a run prints them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<Said<'n>>,
 }
 
-/// A note, with the keys that it has in every answer.
+/// A note with the keys that it has in every answer.
 #[derive(Debug, Serialize)]
 struct Said<'n> {
     code: &'n str,
@@ -48,7 +48,7 @@ impl<'n> From<&'n Warning> for Said<'n> {
     }
 }
 
-/// A mistake in a file as `check --format json` tells it.
+/// An error in a file as `check --format json` reports it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Mistake {
     /// The file's name.
@@ -57,7 +57,7 @@ pub struct Mistake {
     pub line: usize,
     /// The column in characters, counted from 1.
     pub column: usize,
-    /// A short name of the kind of mistake.
+    /// A short identifier of the kind of error.
     pub code: &'static str,
     /// What is wrong, in a sentence.
     pub message: String,
@@ -104,7 +104,7 @@ impl Check {
                 format!("{}: no mistakes found\n", plain(&self.file.display().to_string()))
             }
             Format::Table => {
-                // a list of mistakes is an error message wherever it goes
+                // a list of errors is an error message wherever it is sent
                 return Err(Failure::Diagnostics(found));
             }
         };

@@ -11,30 +11,30 @@ use gumption_foreign::{ComparisonOptions, ComparisonTable, ReadComparison};
 use gumption_report::compare::{self as report, Compare as ComparedPair};
 use gumption_units::nearest;
 
-/// Compare results two by two, or those of many laboratories.
+/// Compare results in pairs, or results of many laboratories.
 #[derive(Debug, Args)]
 pub(super) struct Compare {
-    /// The table, CSV or XLSX: columns label, x1, U1, x2, U2 and perhaps k1, k2, r; or of
-    /// laboratories label, x, U and perhaps k; - for CSV on standard input
+    /// The table, CSV or XLSX: columns label, x1, U1, x2, U2 and optionally k1, k2, r; for
+    /// laboratories label, x, U and optionally k; - for CSV on standard input
     table: PathBuf,
-    /// The sheet of the workbook, where several hold a table
+    /// The sheet of the workbook, if several contain a table
     #[arg(long, value_name = "NAME")]
     sheet: Option<String>,
     /// Take the second results from the JSON answer of a run: the label names the output
     #[arg(long, value_name = "RUN.json")]
     against: Option<PathBuf>,
-    /// Correlation coefficients between laboratories: a header of their names, then the rows in that
-    /// order, or with their names before them; one half of the matrix is enough
+    /// Correlation coefficients between laboratories: a header with their names, then the rows in
+    /// the same order, or each row with its name first; half of the symmetric matrix is enough
     #[arg(long, value_name = "FILE")]
     correlations: Option<PathBuf>,
-    /// How the reference value of laboratories is made; without it the weighted mean, or that of the
-    /// largest consistent subset where they are not consistent
+    /// How to compute the reference value of laboratories; the default is the weighted mean, or
+    /// that of the largest consistent subset if they are not consistent
     #[arg(long, value_name = "NAME", value_parser = estimator)]
     estimator: Option<Estimator>,
-    /// Show the normalized errors that the printed digits allow
+    /// Show the range of the normalized error that the printed digits allow
     #[arg(long)]
     rounding: bool,
-    /// End with exit code 3 if results are not compatible, or laboratories not consistent
+    /// Exit with code 3 if results are not compatible, or laboratories not consistent
     #[arg(long)]
     fail: bool,
     #[command(flatten)]
@@ -46,11 +46,11 @@ pub(super) struct Compare {
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// A page of text for people
+    /// A text page
     Table,
-    /// A page with a figure for a browser and for print, in one file
+    /// An HTML page with a figure, in one file
     Html,
-    /// A page for GitHub and notebooks
+    /// A Markdown page, for GitHub and notebooks
     Markdown,
     /// The whole answer for programs
     Json,
@@ -58,7 +58,7 @@ enum Format {
     Csv,
 }
 
-/// The estimators by name, and by the short forms of two of them.
+/// The estimators by name, and by short forms for two of them.
 fn estimator(text: &str) -> Result<Estimator, String> {
     let short = match text {
         "weighted" => Some(Estimator::WeightedMean),
@@ -101,7 +101,7 @@ impl Compare {
                 return Err(Failure::Argument(message.to_owned()));
             }
             ComparisonTable::Pairs(pairs) => {
-                // pairs without an uncertainty are mistakes of the table
+                // pairs without an uncertainty are errors of the table
                 let compared = pairs.iter().filter_map(ResultPair::compare).collect();
                 ComparedPair::Pairs { pairs, compared, units, rounding: self.rounding }
             }

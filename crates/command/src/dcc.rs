@@ -10,12 +10,12 @@ use super::{Exit, Failure};
 use gumption_files::{CertificateListing, ListedQuantity};
 use gumption_report::{on_one_line, plain, pretty};
 
-/// List what a digital calibration certificate holds, and how a model file takes it.
+/// List the contents of a digital calibration certificate, and how a model file uses them.
 ///
-/// Each quantity has its place, from 0, its id, `refType` and name, the unit and the number of its values,
-/// what it stands in, and its status before or after an adjustment. Below it stands the input of a model
-/// file that takes it: of several values the first one; `"at": "CONDITION"` in place of `"index"`
-/// interpolates them over a condition.
+/// Each quantity has its index, from 0, its id, `refType` and name, the unit and the number of its
+/// values, the element that contains it, and its status before or after an adjustment. Below it is
+/// the input of a model file that uses it: the first of several values; `"at": "CONDITION"` instead
+/// of `"index"` interpolates them over a condition.
 #[derive(Debug, Args)]
 pub(super) struct Dcc {
     /// The certificate (XML); - for standard input
@@ -41,7 +41,7 @@ impl Dcc {
     }
 }
 
-/// The quantities under what they are of.
+/// The quantities, grouped by the elements that contain them.
 fn page(listing: &CertificateListing) -> String {
     let mut text = String::new();
     let mut before = None;
@@ -77,7 +77,7 @@ fn heading(of: &ListedQuantity) -> String {
     }
 }
 
-/// What a quantity is, and how many values it has.
+/// The kind of a quantity, and the number of its values.
 fn described(of: &ListedQuantity) -> String {
     let id = of.id.as_ref().map(|id| format!("id {id}"));
     let kind = of.ref_type.as_ref().map(|kind| format!("ref_type {kind}"));

@@ -1,16 +1,16 @@
-//! How mistakes look: `FILE:LINE:COLUMN: message`, then the place underlined.
+//! Formats errors: `FILE:LINE:COLUMN: message`, then the underlined place.
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use gumption_text::{Diagnostic, DiagnosticKind, Diagnostics};
 
-/// Longer lines are cut around the place.
+/// Longer lines are cut around the position.
 const LONGEST: usize = 160;
 
-/// So many mistakes are shown; a table of a million faulty cells helps nobody.
+/// Maximum number of errors shown: a list of a million faulty cells helps nobody.
 const MOST: usize = 200;
 
-/// All mistakes as text, with colours or without.
+/// All errors as text, with or without colours.
 pub(crate) fn render(diagnostics: &Diagnostics, colours: bool) -> String {
     let renderer = if colours { Renderer::styled() } else { Renderer::plain() };
     let mut text: String =
@@ -22,7 +22,7 @@ pub(crate) fn render(diagnostics: &Diagnostics, colours: bool) -> String {
     text
 }
 
-/// The command that helps with a mistake, to be said after its sentence.
+/// The command that helps with an error, to follow its message.
 pub(crate) fn command(kind: &DiagnosticKind) -> &'static str {
     match kind {
         DiagnosticKind::Outside { .. } => "; `--allow-path DIR` allows another folder",
@@ -54,7 +54,7 @@ fn one(diagnostic: &Diagnostic, renderer: &Renderer) -> String {
     if content.trim().is_empty() {
         return text;
     }
-    // a place over several lines is underlined on its first
+    // a range over several lines is underlined on its first
     let from = (diagnostic.span.start - start).min(content.len());
     let to = diagnostic.span.end.saturating_sub(start).clamp(from, content.len());
     let (content, from, to) = cut(content, from, to);
@@ -72,7 +72,7 @@ fn one(diagnostic: &Diagnostic, renderer: &Renderer) -> String {
     text
 }
 
-/// A long line's part around the place.
+/// The part of a long line around the position.
 fn cut(line: &str, from: usize, to: usize) -> (&str, usize, usize) {
     if line.len() <= LONGEST {
         return (line, from, to);

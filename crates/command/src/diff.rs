@@ -13,10 +13,10 @@ use gumption_files::ModelOrResult;
 use gumption_report as report;
 use gumption_text::Diagnostics;
 
-/// Compare two model files, two saved results, or one with the other.
+/// Compare two model files, two saved results, or a model file with a saved result.
 #[derive(Debug, Args)]
 pub(super) struct Diff {
-    /// The first file, a model or what `run --save` wrote; - for standard input
+    /// The first file, a model or a file of `run --save`; - for standard input
     a: PathBuf,
     /// The second one
     b: PathBuf,
@@ -35,13 +35,13 @@ pub(super) struct Diff {
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// A page of text for people
+    /// A text page
     Table,
     /// The whole answer for programs
     Json,
-    /// A page as GitHub shows it
+    /// A Markdown page, as GitHub shows it
     Markdown,
-    /// A page for a browser and for print, in one file
+    /// An HTML page, in one file
     Html,
 }
 
@@ -55,7 +55,7 @@ impl Diff {
         let (mut first, mut second) =
             match (self.read(program, &self.a)?, self.read(program, &self.b)?) {
                 (Ok(first), Ok(second)) => (first, second),
-                // the mistakes of both at once
+                // the errors of both files together
                 (first, second) => {
                     let found = [first.err(), second.err()].into_iter().flatten();
                     return Err(
@@ -113,7 +113,7 @@ impl Diff {
     }
 }
 
-/// The paths of a file and of those that it names.
+/// The paths of a file and of the files that it names.
 fn named(path: &Path, file: &ModelOrResult) -> Vec<PathBuf> {
     let tables = match file {
         ModelOrResult::Model(model) => model.files.as_slice(),

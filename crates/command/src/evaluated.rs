@@ -1,5 +1,4 @@
-//! How the answer of an evaluation is given: formats, result file, trials, figures, and what `--fail`
-//! asks.
+//! Options and output of an evaluation: formats, result file, trials, figures, and `--fail`.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -18,38 +17,38 @@ use gumption_files::ModelFile;
 use gumption_report as report;
 use gumption_report::{BudgetColumn, EvaluationReport, Shown, TableStyle};
 
-/// How the answer of an evaluation is given, and what is left beside it.
+/// How to give the answer of an evaluation, and what to write besides it.
 #[derive(Debug, Args)]
 pub(super) struct Evaluated {
     #[command(flatten)]
     pub(super) answer: Answer<Page>,
     #[command(flatten)]
     interactive: Interactive,
-    /// More columns of the budget in a table: names with commas between them
+    /// More columns of the budget in a table: names separated by commas
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = options::columns())]
     columns: Vec<BudgetColumn>,
     /// Draw the distribution of each output below the table, with the coverage intervals
     #[arg(long)]
     histogram: bool,
-    /// Write a result file, from which inputs of other models can be taken
+    /// Write a result file, which inputs of other models can use
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
-    /// Write the trials: a .csv or a .npy file
+    /// Write the trials to a .csv or .npy file
     #[arg(long, value_name = "FILE", value_parser = save::samples)]
     samples: Option<save::SampleFile>,
-    /// End with exit code 3 if clause 8 finds a GUM interval not valid, an output does not conform, or
-    /// that is undecided
+    /// Exit with code 3 if clause 8 does not validate a GUM interval, an output does not conform,
+    /// or either is undecided
     #[arg(long)]
     fail: bool,
 }
 
-/// What was evaluated, and what came of it.
+/// The model, the task, and its evaluation.
 type Answered<'a> = (&'a ModelFile, &'a Task, &'a Evaluation, Option<Vec<Vec<f64>>>);
 
-/// Rows of conditions whose distributions are drawn in a terminal, at most.
+/// Maximum number of rows of conditions whose distributions are drawn in a terminal.
 const MOST_DRAWN_ROWS: usize = 100;
 
-/// The files that the answer goes to, open since before the evaluation.
+/// The output files, opened before the evaluation.
 #[derive(Debug)]
 pub(super) struct Places {
     answer: Option<Destination>,
@@ -58,7 +57,7 @@ pub(super) struct Places {
 }
 
 impl Evaluated {
-    /// Whether the answer of a task can be given as it was asked for.
+    /// Checks that the answer of a task can be given as requested.
     pub(super) fn check(&self, task: &Task) -> Result<(), Failure> {
         save::check(task, self.save.as_deref(), self.samples.as_ref())?;
         self.check_format(task)?;
@@ -76,7 +75,7 @@ impl Evaluated {
         self.save.is_some()
     }
 
-    /// Opens the files; `read` are those that the answer is made from.
+    /// Opens the files; `read` are the files from which the answer is computed.
     pub(super) fn open(&self, read: &[PathBuf]) -> Result<Places, Failure> {
         let asked = [
             ("--output", output::to_file(self.answer.output.as_deref())),
@@ -87,8 +86,8 @@ impl Evaluated {
         Ok(Places { answer, saved, samples })
     }
 
-    /// Gives the answer; the quantiles for a result file are there where they are known already.
-    /// `replaced` are the values that were put in place of the file's, as they were given.
+    /// Gives the answer. The quantiles for a result file are passed if they are already known.
+    /// `replaced` are the values that replaced those of the file, as given.
     pub(super) fn give(
         &self,
         (file, task, evaluation, quantiles): Answered<'_>,
@@ -112,7 +111,7 @@ impl Evaluated {
             replaced,
             model: text,
         };
-        // what fails is told when all that can be written is
+        // a failure is reported after everything that can be written
         let saver = save::Saver { report: &report, control, quantiles: quantiles.as_deref() };
         let Places { answer, saved, samples } = places;
         let left = [
@@ -148,8 +147,8 @@ impl Evaluated {
         if self.fail { self.judged(task, evaluation) } else { Ok(Exit::Done) }
     }
 
-    /// How a run with `--fail` ends: with "no" where clause 8 or the conformity of an output is
-    /// against it, or undecided.
+    /// The exit code with `--fail`: "no" if clause 8 or the conformity of an output fails or is
+    /// undecided.
     fn judged(&self, task: &Task, evaluation: &Evaluation) -> Result<Exit, Failure> {
         let judgements = judgements(task, evaluation);
         if judgements.iter().all(|judgement| judgement.verdict.is_none()) {
@@ -165,7 +164,7 @@ impl Evaluated {
         Ok(if against.is_empty() { Exit::Done } else { Exit::No })
     }
 
-    /// Whether the answer can be given in the format that was asked for.
+    /// Checks that the answer can be given in the requested format.
     fn check_format(&self, task: &Task) -> Result<(), Failure> {
         self.interactive.of(&self.answer)?;
         let refuse = |reason: &str| Err(Failure::Argument(reason.to_owned()));
@@ -209,7 +208,7 @@ impl Evaluated {
         Ok(())
     }
 
-    /// For each row the histograms of its outputs, where the answer shows them.
+    /// For each row the histograms of its outputs, if the answer shows them.
     fn histograms(
         &self,
         report: &EvaluationReport<'_>,
@@ -228,7 +227,7 @@ impl Evaluated {
         Ok(all)
     }
 
-    /// How the figures settle, where the answer shows it.
+    /// The convergence of the results, if the answer shows it.
     fn convergence(
         &self,
         report: &EvaluationReport<'_>,
@@ -242,7 +241,7 @@ impl Evaluated {
     }
 }
 
-/// Writes the answer in a format; `page` is what is done to a page for a browser.
+/// Writes the answer in a format; `page` modifies an HTML page.
 fn write(
     (format, page): (Page, fn(String) -> String),
     report: &EvaluationReport<'_>,
@@ -264,7 +263,7 @@ fn write(
     }
 }
 
-/// What `--fail` asks of an output, and the answer.
+/// The result of `--fail` for an output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Verdict {
     Yes,
@@ -272,7 +271,7 @@ enum Verdict {
     Undecided,
 }
 
-/// The answer for an output in a row; `None` where it could not be asked.
+/// The result for an output in a row; `None` if it could not be determined.
 struct Judgement {
     output: String,
     row: Option<usize>,
@@ -293,7 +292,7 @@ impl Judgement {
     }
 }
 
-/// Judgements that are told, at most.
+/// Maximum number of judgements that are listed.
 const MOST_JUDGEMENTS: usize = 20;
 
 fn judgements(task: &Task, evaluation: &Evaluation) -> Vec<Judgement> {

@@ -14,11 +14,11 @@ use gumption_text::{Diagnostics, printable};
 pub enum Exit {
     /// Done.
     Done,
-    /// Done, and the answer is "no" where `--fail` was given.
+    /// Done, and the result is "no" with `--fail`.
     No,
-    /// A file was checked and found wrong; the mistakes are the answer.
+    /// A file was checked and has errors; the errors are the answer.
     Wrong,
-    /// The parts of a run are put together, and another pass over its blocks is needed.
+    /// The parts of a run are merged, and another pass over its blocks is needed.
     Again,
     /// Interrupted by a signal.
     Interrupted,
@@ -30,21 +30,21 @@ impl Exit {
             Self::Done => 0,
             Self::Wrong => 2,
             Self::No => 3,
-            // EX_TEMPFAIL of sysexits.h: to be tried again
+            // EX_TEMPFAIL of sysexits.h: try again
             Self::Again => 75,
             Self::Interrupted => signals::exit_code(),
         })
     }
 }
 
-/// A command that could not be done.
+/// A command that failed.
 #[derive(Debug)]
 pub enum Failure {
-    /// The user's files are at fault.
+    /// Errors in the user's files.
     Diagnostics(Diagnostics),
-    /// The user's arguments are at fault.
+    /// An error in the user's arguments.
     Argument(String),
-    /// The system is at fault: a full disk, a missing permission.
+    /// An error of the system: a full disk, a missing permission.
     System(String),
 }
 
@@ -66,7 +66,7 @@ impl fmt::Display for Failure {
 }
 
 impl Failure {
-    /// Says what is wrong on standard error and gives the exit code.
+    /// Prints the error on standard error and returns the exit code.
     pub(super) fn report(&self) -> ExitCode {
         match self {
             Self::Diagnostics(diagnostics) => say(&diagnostics::render(diagnostics, true)),
@@ -76,13 +76,13 @@ impl Failure {
     }
 }
 
-/// Says a sentence, in which texts of files may stand, on a line of standard error.
+/// Prints a sentence, which may contain texts of files, on a line of standard error.
 pub(super) fn say_line(sentence: &str) {
     say(&(printable(sentence) + "\n"));
 }
 
-/// Says something on standard error. Where that cannot be written, as on a full disk, it is not
-/// said: what was computed counts more.
+/// Prints a text on standard error. Failures to write, as on a full disk, are ignored: the computed
+/// result is more important.
 pub(super) fn say(text: &str) {
     if in_call(|call| call.notes.push_str(text)).is_some() {
         return;

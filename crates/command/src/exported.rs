@@ -1,4 +1,4 @@
-//! A text evaluated by the command that goes with it, for programs that show or hand out its answer.
+//! Evaluates a text by the matching command, for programs that show or offer the answer.
 
 use std::ffi::OsString;
 use std::fmt;
@@ -10,7 +10,7 @@ use gumption_engine::task::{Task, Trials};
 use gumption_files::TextKind;
 use gumption_text::Diagnostics;
 
-/// Trials in all rows that are made while somebody waits, at most: minutes on a usual machine.
+/// Maximum number of trials over all rows while a user waits: minutes on a usual machine.
 const MOST_TRIALS: u64 = 2_000_000_000;
 
 /// An answer in a format, as a file.
@@ -20,7 +20,7 @@ pub struct ExportedAnswer {
     pub content: Vec<u8>,
     /// The media type.
     pub content_type: &'static str,
-    /// The name to be saved under.
+    /// The suggested file name.
     pub name: String,
 }
 
@@ -30,15 +30,15 @@ impl fmt::Debug for ExportedAnswer {
     }
 }
 
-/// Why an answer is not handed out; the text is for the user.
+/// Why there is no answer; the text is for the user.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum NotExported {
     /// There is no such format.
     Format(String),
-    /// The text asks for too much.
+    /// The text requests too much.
     Content(String),
-    /// The text, or a file that it names, is at fault: the mistakes, each with its place.
+    /// The errors of the text, or of a file that it names, each with its position.
     Mistakes(Diagnostics),
     /// It was stopped.
     Stopped(String),
@@ -46,7 +46,7 @@ pub enum NotExported {
     System(String),
 }
 
-/// Formats by the commands' names for them, with extension and media type.
+/// Formats by their names in the commands, with extension and media type.
 const FORMATS: [(&str, &str, &str); 9] = [
     ("table", "txt", "text/plain; charset=utf-8"),
     ("json", "json", "application/json"),
@@ -85,12 +85,12 @@ fn stem(path: &str) -> &str {
 }
 
 impl CommandLine {
-    /// A text evaluated by the command that goes with it (`run`, `gap`, `certificate`, `observe`,
+    /// A text evaluated by the matching command (`run`, `gap`, `certificate`, `observe`,
     /// `compare`), in one of the formats of that command, or as `result`, the file of `run --save`.
-    /// `stop` does what a signal does.
+    /// `stop` acts like a signal.
     ///
     /// # Errors
-    /// Why there is nothing to hand out.
+    /// Why there is no answer.
     pub fn exported(
         &self,
         given: GivenFile,
@@ -163,7 +163,7 @@ impl CommandLine {
         std::fs::read(&path).map_err(system)
     }
 
-    /// Whether the trials that a text asks for can be made while somebody waits.
+    /// Checks that the number of trials in a text is possible while a user waits.
     fn check_trials(&self, given: &GivenFile, kind: TextKind) -> Result<(), NotExported> {
         let GivenFile { name, text, folder, within, held } = given;
         let files = self.files().holding(held).within(within.as_deref());
@@ -171,7 +171,7 @@ impl CommandLine {
             Trials::Fixed(trials) => trials.saturating_mul(task.rows.len() as u64),
             Trials::Adaptive => 0,
         };
-        // the mistakes of a text are told by what is done with it
+        // errors of a text are reported by the code that uses it
         let asked: u64 = match kind {
             TextKind::Model => {
                 files.model_text(name, text, folder, &[]).map_or(0, |file| of(&file.task))

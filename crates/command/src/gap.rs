@@ -19,7 +19,7 @@ use gumption_report::Provenance;
 pub(super) struct Gap {
     #[command(flatten)]
     case: Case,
-    /// Conditions (CSV) at which to give the corrected prediction as well
+    /// Table of conditions (CSV) at which to compute the corrected prediction as well
     #[arg(long, value_name = "CONDITIONS.csv")]
     predict: Option<PathBuf>,
     #[command(flatten)]
@@ -37,11 +37,11 @@ pub(super) struct Gap {
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// A page of text with plots, for people
+    /// A text page with plots
     Table,
-    /// A page with figures for a browser and for print, in one file
+    /// An HTML page with figures, in one file
     Html,
-    /// The page for GitHub and editors, without figures
+    /// A Markdown page without figures, for GitHub and editors
     Markdown,
     /// The whole answer for programs
     Json,
@@ -59,7 +59,7 @@ impl Gap {
         let mut read = self.case.paths(&file);
         read.extend(self.predict.clone());
         let place = self.answer.open(&read)?;
-        // from the first word on, who interrupts gets what there is
+        // from the first output on, an interrupt gives the results so far
         let stop = signals::stop_flag();
         self.answer.say(&file.warnings);
         let diagnosis = self.diagnose(&file, at.as_deref(), &stop)?;
@@ -70,7 +70,7 @@ impl Gap {
             Format::Json => report::gap::json(&diagnosis),
             Format::Csv => report::gap::csv(&diagnosis),
         };
-        // a page on standard output has the notes itself
+        // a page on standard output contains the notes itself
         if self.answer.format != Format::Table || self.answer.is_to_file() {
             self.answer.note(diagnosis.notes.iter().map(|note| note.text.as_str()));
         }
@@ -78,7 +78,7 @@ impl Gap {
         Ok(if diagnosis.interrupted { Exit::Interrupted } else { Exit::Done })
     }
 
-    /// The digests of all files that the answer rests on.
+    /// The digests of all files on which the answer depends.
     fn provenance(&self, file: &CaseFile) -> Result<Provenance, Failure> {
         let mut files = file.files.clone();
         if let Some(path) = &self.predict {

@@ -20,9 +20,9 @@ use gumption_gap as gap;
 use gumption_gap::check::{BlindDraw, CheckedNoise, Truth, score, truth};
 use gumption_report as report;
 
-/// Check the diagnosis blindly at a case's own design.
+/// Test the diagnosis on simulated data of this case (blind).
 ///
-/// The case's design, uncertainties and candidate effects are used, not its data.
+/// The test uses the case's design, uncertainties and candidate effects, not its data.
 #[derive(Debug, Args)]
 pub(super) struct GapCheck {
     #[command(flatten)]
@@ -33,7 +33,7 @@ pub(super) struct GapCheck {
         allow_negative_numbers = true
     )]
     draws: u64,
-    /// What the noise of the draws is
+    /// The noise of the simulated data
     #[arg(long, value_enum, default_value_t)]
     noise: Noise,
     #[command(flatten)]
@@ -44,19 +44,21 @@ pub(super) struct GapCheck {
     seed: Seed,
     #[command(flatten)]
     threads: Threads,
-    /// Keep the drawn cases and, in its folder `sealed`, their truths
+    /// Keep the simulated cases and, in the folder `sealed`, their truths
     #[arg(long, value_name = "FOLDER")]
     keep: Option<PathBuf>,
-    /// Make some of the draws, for `--parts`: those from A to B - 1 of the N, or the K-th of M parts
+    /// Make only some of the draws, for `--parts`: those from A to B - 1 of the N, or the K-th of M
+    /// parts
     #[arg(
         long, value_name = "A..B|K/M", value_parser = parts::blocks, requires = "partial",
         conflicts_with = "output"
     )]
     share: Option<parts::Blocks>,
-    /// Write those draws to a file
+    /// Write these draws to a file
     #[arg(long, value_name = "FILE", requires = "share")]
     partial: Option<PathBuf>,
-    /// Take the draws from the files of `--partial` in a folder: the answer is that of one machine
+    /// Read the draws from the files of `--partial` in a folder; the answer is the same as on one
+    /// machine
     #[arg(long, value_name = "DIR", conflicts_with_all = ["share", "keep"])]
     parts: Option<PathBuf>,
 }
@@ -64,21 +66,22 @@ pub(super) struct GapCheck {
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// A page of text for people
+    /// A text page
     Table,
-    /// A page with figures for a browser and for print, in one file
+    /// An HTML page with figures, in one file
     Html,
     /// The whole answer for programs
     Json,
 }
 
-/// What the noise of the draws is.
+/// The noise of the simulated data.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum Noise {
     /// As it is stated
     #[default]
     AsStated,
-    /// Drawn as well: as stated, uncertainties off by a factor, single rows off, neighbours correlated
+    /// Drawn as well: as stated, uncertainties wrong by a factor, single outlying rows, correlated
+    /// neighbours
     Uncertain,
 }
 
@@ -105,7 +108,7 @@ impl GapCheck {
         let read = self.case.paths(&file);
         let place = self.answer.open(&read)?;
         let [partial] = output::open([("--partial", self.partial.as_deref())], &read)?;
-        // from the first word on, an interrupt leaves nothing behind
+        // from the first output on, an interrupt leaves nothing behind
         let stop = signals::stop_flag();
         self.answer.say(&file.warnings);
         let seed = self.seed.or(file.case.task.settings.seed);
@@ -141,7 +144,7 @@ impl GapCheck {
         Ok(Exit::Done)
     }
 
-    /// Makes draws, in a folder that is kept or not; `None` if it was interrupted.
+    /// Makes draws in a folder, which is kept or temporary; `None` if it was interrupted.
     fn made(
         &self,
         program: &CommandLine,
@@ -164,7 +167,7 @@ impl GapCheck {
         self.threads.install(|| self.checked(program, file, folder, (seed, range), stop))
     }
 
-    /// The three steps in turn: truths and data, diagnoses, comparison; `None` if they were
+    /// The three steps in order: truths and data, diagnoses, comparison; `None` if they were
     /// interrupted.
     fn checked(
         &self,
@@ -187,7 +190,7 @@ impl GapCheck {
         checked.collect::<Result<Vec<_>, Failure>>().map(Some)
     }
 
-    /// Draws the truths: each case in a folder of its own, its truth in the folder `sealed`.
+    /// Draws the truths: each case in its own folder, its truth in the folder `sealed`.
     fn write(
         &self,
         file: &CaseFile,

@@ -7,13 +7,13 @@ use super::{Arguments, Exit, Failure};
 use gumption_report::reference::{self, Topic};
 use gumption_units::nearest;
 
-/// Tell how a command is called, or what may stand in files and formulas.
+/// Help on commands, file keys, distributions, functions and units.
 #[derive(Debug, Args)]
 pub(super) struct Help {
     /// A command, or one of model, distributions, functions, units, case, certificate-file, recipe,
     /// costs, saved-result
     topic: Option<String>,
-    /// Format of what is told about files and formulas
+    /// Format of help on files and formulas
     #[arg(long, value_enum, default_value = "table")]
     format: Form,
 }
@@ -21,9 +21,9 @@ pub(super) struct Help {
 /// A format of the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Form {
-    /// A page of text for people
+    /// A text page
     Table,
-    /// A page as GitHub shows it
+    /// A Markdown page, as GitHub shows it
     Markdown,
 }
 
@@ -42,7 +42,7 @@ impl Help {
     }
 }
 
-/// The commands, and the topics below them.
+/// The commands, and the other topics below them.
 fn overview() -> String {
     let mut text = Arguments::command().render_long_help().to_string();
     text += "\nHelp on files and formulas, by `gumption help TOPIC`:\n";

@@ -17,66 +17,69 @@ use gumption_foreign::{
 };
 use gumption_report::{budget_template, pretty};
 
-/// Make a model file of a budget in a spreadsheet (CSV, or the sheet of an XLSX file that holds one).
+/// Convert an uncertainty budget in a spreadsheet (CSV, or a sheet of an XLSX file) into a model
+/// file.
 ///
-/// The budget is a table with a row of headings and a row for each quantity. Headings are known in English,
-/// German, French and Spanish; `--column` says what other columns hold. An equation on the sheet, such as `R =
-/// U/I`, is the model; without one the result is the sum of the quantities times their sensitivity
-/// coefficients. What the sheet does not say, or what can be two things, is an error that names the readings
-/// and the option that decides. A result that the sheet states is compared with the model: a difference is an
-/// error.
+/// The budget is a table with a row of headings and a row for each quantity. Headings are
+/// recognized in English, German, French and Spanish; `--column` sets the meaning of other columns.
+/// An equation on the sheet, such as `R = U/I`, is the model; without one the result is the sum of
+/// the quantities times their sensitivity coefficients. Missing or ambiguous information is an
+/// error, which names the possible readings and the option that decides. A result on the sheet is
+/// compared with the model: a difference is an error.
 #[derive(Debug, Args)]
 pub(super) struct Import {
     /// The budget: a CSV or XLSX file
     #[arg(required_unless_present = "template")]
     file: Option<PathBuf>,
-    /// The sheet of the workbook, where several hold a budget
+    /// The sheet of the workbook, if several contain a budget
     #[arg(long, value_name = "NAME")]
     sheet: Option<String>,
-    /// What a column holds, by its letter, number or heading: estimate=C, U="Expanded", k=G, ignore=H
+    /// Meaning of a column, given by letter, number or heading: estimate=C, U="Expanded", k=G,
+    /// ignore=H
     #[arg(long, value_name = "NAME=COLUMN", value_parser = pair)]
     column: Vec<(String, String)>,
     /// The unit of a column of numbers: U=mV
     #[arg(long, value_name = "NAME=UNIT", value_parser = pair)]
     column_unit: Vec<(String, String)>,
-    /// What a row is, by its number: result=12, ignore=13,14, heading=3, constant=7
+    /// Meaning of a row, given by its number: result=12, ignore=13,14, heading=3, constant=7
     #[arg(long, value_name = "KIND=ROW", value_parser = pair)]
     row: Vec<(String, String)>,
     /// The unit of the result
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
-    /// The estimate of the result, where the sheet states none; `sum` for that of the products
+    /// The estimate of the result, if the sheet states none; `sum` for the sum of the products
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     estimate: Option<String>,
-    /// The coverage factor of expanded uncertainties for which the sheet states none
+    /// The coverage factor of expanded uncertainties, if the sheet states none
     #[arg(long, value_name = "NUMBER", value_parser = factor)]
     k: Option<f64>,
     /// The distribution of rows that name none
     #[arg(long, value_name = "NAME")]
     distribution: Option<String>,
-    /// What coefficients without units are: in the unit of the result per unit of the quantity (units), plain
-    /// numbers (ratios), or 1 where there is no column of them (one)
+    /// Meaning of coefficients without units: in units of the result per unit of the quantity
+    /// (units), plain numbers (ratios), or 1 if there is no column of them (one)
     #[arg(long, value_name = "KIND", value_parser = coefficients)]
     coefficients: Option<Coefficients>,
-    /// The equation of the result, `R = U/I`, in place of what stands on the sheet
+    /// The equation of the result, `R = U/I`, instead of the one on the sheet
     #[arg(long, value_name = "EQUATION")]
     equation: Option<String>,
-    /// The equation is one of the numbers in the units of the sheet
+    /// The equation is between the numbers in the units of the sheet
     #[arg(long)]
     numbers: bool,
-    /// Keep these options in FILE.columns.json beside the sheet, where they are read again
+    /// Save these options in FILE.columns.json next to the sheet, from which they are read the next
+    /// time
     #[arg(long, conflicts_with = "template")]
     keep_columns: bool,
-    /// Write a workbook to be filled in, which is read without a question
+    /// Write an empty workbook to fill in, which can be imported without options
     #[arg(long, value_name = "FILE", conflicts_with_all = ["file", "output"])]
     template: Option<PathBuf>,
     /// Write the model file here instead of to standard output
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// The form of the answer: the model file (table), or json with notes and questions
+    /// The format of the answer: the model file (table), or json with notes and questions
     #[arg(long, value_enum, default_value_t = Format::Table, hide_possible_values = true, value_name = "table|json")]
     format: Format,
-    /// Do not say how the sheet was read
+    /// Do not report how the sheet was read
     #[arg(long)]
     quiet: bool,
 }
@@ -111,7 +114,7 @@ fn coefficients(text: &str) -> Result<Coefficients, String> {
     }
 }
 
-/// The file beside a sheet that keeps the options for it.
+/// The file next to a sheet that keeps the options for it.
 fn kept_beside(sheet: &Path) -> PathBuf {
     let mut name = OsString::from(sheet);
     name.push(".columns.json");
@@ -163,7 +166,7 @@ impl Import {
         Ok(Exit::Done)
     }
 
-    /// The options, completed by those that are kept beside the sheet, and what is said of those.
+    /// The options, completed by those in the file next to the sheet, and a note about these.
     fn options(&self, sheet: &Path) -> Result<(ImportOptions, Option<String>), Failure> {
         let own = ImportOptions {
             sheet: self.sheet.clone(),
@@ -185,7 +188,7 @@ impl Import {
         Ok((options, Some(format!("the options of `{}` are used", kept.display()))))
     }
 
-    /// The mistakes and questions as the answer of a program.
+    /// The errors and questions as an answer for programs.
     fn refused(&self, place: Place, refused: &RefusedBudget) -> Result<Exit, Failure> {
         let errors = refused.diagnostics.0.iter().map(Mistake::from).collect();
         let questions = &refused.questions;

@@ -1,18 +1,18 @@
-//! A panic is a mistake of the program itself. It is told with the place in the sources, temporary
-//! files go with the process, and the exit code is 1.
+//! A panic is an error of the program itself. The message names the place in the sources, temporary
+//! files are removed, and the exit code is 1.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::exit::say;
 use super::signals;
 
-/// The exit code of the system's and the program's own failures.
+/// The exit code of failures of the system and of the program.
 const INTERNAL: i32 = 1;
 
-/// Whether the process survives a panic that is caught.
+/// Whether the process continues after a caught panic.
 static SURVIVED: AtomicBool = AtomicBool::new(false);
 
-/// Ends the process at a panic, in whichever thread it is.
+/// Ends the process at a panic in any thread.
 pub(super) fn watch() {
     let tell = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
@@ -29,7 +29,7 @@ pub(super) fn watch() {
     }));
 }
 
-/// Leaves panics to a server, which answers that the work failed and goes on.
+/// Leaves panics to a server, which answers that the work failed, and continues.
 pub(super) fn leave_to_server() {
     SURVIVED.store(true, Ordering::Relaxed);
 }
@@ -42,7 +42,8 @@ mod tests {
 
     const CHILD: &str = "GUMPTION_TEST_OF_A_PANIC";
 
-    /// The test is its own child, which panics in another thread while a temporary file is there.
+    /// The test starts itself as a child process, which panics in another thread while a temporary
+    /// file exists.
     #[test]
     fn a_panic_ends_with_1_and_leaves_no_file() {
         if let Some(path) = std::env::var_os(CHILD) {

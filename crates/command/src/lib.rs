@@ -68,7 +68,7 @@ pub use verify::PublishedExamples;
 struct Arguments {
     #[command(subcommand)]
     command: Command,
-    /// Colours: on a terminal, always or never; NO_COLOR is heeded unless this says otherwise
+    /// Colours on a terminal, always or never; auto respects NO_COLOR
     #[arg(
         long,
         global = true,
@@ -83,42 +83,43 @@ struct Arguments {
 enum Command {
     /// Evaluate a model file by GUM and by Monte Carlo and print its budget and intervals
     Run(run::Run),
-    /// Put the parts of a run together (`gumption run --blocks`), and give its answer
+    /// Merge the parts of a run (`gumption run --blocks`) and print its answer
     Merge(merge::Merge),
-    /// Test the Type B assumptions of a model file: which matter, which the readings contradict
+    /// Test the Type B assumptions of a model file: which ones matter, which ones the readings
+    /// contradict
     Assumptions(assumptions::Assumptions),
     /// Make a calibration certificate from a certificate file and its models
     Certificate(certificate::Certificate),
-    /// Check a file and list all of its mistakes
+    /// Check a file and list all of its errors
     Check(check::Check),
-    /// Compare results two by two (normalized errors), or those of many laboratories
+    /// Compare results in pairs (normalized errors), or results of many laboratories
     Compare(compare::Compare),
-    /// List what a digital calibration certificate holds, and how a model file takes it
+    /// List the contents of a digital calibration certificate, and how a model file uses them
     Dcc(dcc::Dcc),
-    /// Make a model file of a budget in a spreadsheet
+    /// Convert an uncertainty budget in a spreadsheet into a model file
     Import(import::Import),
-    /// Write a model file to start from: from options, or from answers to questions
+    /// Write a new model file, from options or from answers to questions
     New(new::New),
     /// List the typed measurement models, or describe one
     Models(models::Models),
     /// Recompute the published examples on this machine, or compare its code paths
     Verify(verify::Verify),
-    /// Say what changed between two model files or saved results, and what it did to U
+    /// Show what changed between two model files or saved results, and how it changed U
     Diff(diff::Diff),
-    /// Say what inputs would have to become for a wanted uncertainty, and which way is the cheapest
+    /// Find the cheapest improvement of the inputs that meets a target uncertainty
     Plan(plan::Planning),
     /// Diagnose where measured data depart from a model, and which effect is missing
     Gap(gap::Gap),
-    /// Check that diagnosis blindly at a case's own design: how far its answers can be trusted
+    /// Test the diagnosis on simulated data of this case (blind)
     GapCheck(gap_check::GapCheck),
-    /// Take amplitudes, phases and delays with their uncertainties from raw recordings
+    /// Determine amplitudes, phases and delays with their uncertainties from raw recordings
     Observe(observe::Observe),
-    /// Work on a file or folder on a page in the browser, which answers while you type
+    /// Edit a file or folder on a page in the browser, with results while you type
     #[cfg(feature = "open")]
     Open(open::Open),
     /// Print the JSON Schema of the files, for editors
     Schema(schema::Schema),
-    /// Tell how a command is called, or what may stand in files and formulas
+    /// Help on commands, file keys, distributions, functions and units
     Help(help::Help),
 }
 
@@ -133,18 +134,18 @@ impl Command {
     }
 }
 
-/// What a command gave that was called as a function.
+/// The result of a command that was called as a function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Answered {
-    /// What it would have printed on standard output.
+    /// The text for standard output.
     pub answer: Vec<u8>,
-    /// What it would have said on standard error.
+    /// The text for standard error.
     pub notes: String,
     /// How it ended.
     pub exit: Exit,
 }
 
-/// The command line with what it knows: typed measurements and published examples.
+/// The command line with its typed measurements and published examples.
 #[derive(Clone, Debug, Default)]
 pub struct CommandLine {
     catalogue: Catalogue,
@@ -157,32 +158,31 @@ impl CommandLine {
         Self { catalogue, published }
     }
 
-    /// The same with one more measurement that files can name; it takes the place of one of the same
-    /// name.
+    /// The same with one more measurement that files can name; it replaces one of the same name.
     #[must_use]
     pub fn with(self, entry: CatalogueEntry) -> Self {
         Self { catalogue: self.catalogue.with(entry), ..self }
     }
 
-    /// The readers of files that may name the measurements.
+    /// The reader of files, which may name the measurements.
     pub fn files(&self) -> FileReader<'_> {
         FileReader::new(&self.catalogue)
     }
 
-    /// The answers behind the live page, for files that may name the measurements.
+    /// The answers of the live page, for files that may name the measurements.
     pub fn live(&self) -> Live<'_> {
         Live::new(&self.catalogue, self.published.starting_points())
     }
 
-    /// Runs with the arguments of the process: says what is wrong on standard error, and ends with
-    /// 0 (done), 1 (the system is at fault), 2 (the arguments or files are), 3 (done, and the answer
-    /// is "no" where `--fail` was given), 75 (`merge`: another pass is needed), or 130, 143 or 129
+    /// Runs with the arguments of the process. Prints errors on standard error, and ends with 0
+    /// (done), 1 (error of the system), 2 (error in the arguments or files), 3 (done, and the
+    /// result is "no" with `--fail`), 75 (`merge`: another pass is needed), or 130, 143 or 129
     /// (interrupted, terminated, hung up).
     pub fn main(&self) -> ExitCode {
         self.main_of(std::env::args_os())
     }
 
-    /// The same with these arguments, the first of which is the name of the program.
+    /// The same with these arguments; the first one is the name of the program.
     pub fn main_of(&self, arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         signals::watch();
         internal_error::watch();
@@ -203,14 +203,14 @@ impl CommandLine {
         }
     }
 
-    /// Runs a command as a function: what would go to standard output and standard error is handed
-    /// back, and nothing of the process is touched. `arguments` are those behind the name of the
-    /// program; `input` is what `-` stands for where a command reads a model file, and its text
-    /// wherever else `-` may stand. `stop` does what a signal does.
+    /// Runs a command as a function: returns what would go to standard output and standard error,
+    /// and changes nothing of the process. `arguments` follow the name of the program. `input`
+    /// replaces standard input for `-`: as a file if a command reads a model file, otherwise its
+    /// text. `stop` acts like a signal.
     ///
     /// # Errors
-    /// What the program says on standard error with the exit codes 1 and 2; its `Display` is the
-    /// same text, without colours.
+    /// The message that the program prints on standard error with the exit codes 1 and 2; its
+    /// `Display` is the same text, without colours.
     pub fn call(
         &self,
         arguments: impl IntoIterator<Item = OsString>,
@@ -263,8 +263,8 @@ impl CommandLine {
     }
 }
 
-/// What to say of a command that there is not: the nearest one, or all; and the way to say it where a
-/// file stands in its place.
+/// The hint for an unknown command: the nearest command, or all commands; and the right form if a
+/// file is given instead of a command.
 fn misspelt(error: &clap::Error) -> Option<String> {
     if error.kind() != ErrorKind::InvalidSubcommand {
         return None;
@@ -288,7 +288,7 @@ fn misspelt(error: &clap::Error) -> Option<String> {
     Some(format!("there is no command `{name}`; {hint}"))
 }
 
-/// The question after names that are near to what was written, if there are any.
+/// The question after a message with the nearest names, if there are any.
 fn did_you_mean(near: &[&str]) -> Option<String> {
     let near: Vec<String> = near.iter().map(|name| format!("`{name}`")).collect();
     (!near.is_empty()).then(|| format!("did you mean {}?", gumption_units::listed(&near, " or ")))
@@ -320,7 +320,7 @@ mod tests {
         assert_eq!(String::from_utf8(answered.answer).unwrap().lines().count(), 3);
         assert!(answered.notes.contains("few"), "{}", answered.notes);
         assert_eq!(answered.exit, Exit::Done);
-        // the surroundings of one call are not those of the next
+        // one call must not use the surroundings of another
         let schema = call(&["schema"], None).unwrap();
         assert!(schema.answer.starts_with(b"{") && schema.notes.is_empty());
     }

@@ -12,16 +12,16 @@ use super::parts::{NEXT_PASS, PartsFolder};
 use super::{CommandLine, Exit, Failure, signals};
 use gumption_files::{SharedModelError, SharedRun};
 
-/// Put the parts of a run together.
+/// Merge the parts of a run.
 ///
-/// The parts that `gumption run --blocks` wrote to a folder become the answer, the same as that of the
-/// run on one machine. Where that takes another pass over the blocks, the command ends with exit code
-/// 75 and a file `next-pass` in the folder, for `gumption run --blocks … --pass`.
+/// Combines the parts that `gumption run --blocks` wrote to a folder. The answer is the same as
+/// that of a run on one machine. If another pass over the blocks is needed, the command ends with
+/// exit code 75 and writes a file `next-pass` in the folder, for `gumption run --blocks … --pass`.
 #[derive(Debug, Args)]
 pub(super) struct Merge {
     /// The folder with the parts
     folder: PathBuf,
-    /// The model file, where it is not where the parts were made
+    /// The model file, if it is not where the parts were made
     #[arg(long, value_name = "FILE")]
     model: Option<PathBuf>,
     #[command(flatten)]
@@ -56,7 +56,7 @@ impl Merge {
         read.extend(self.model.clone());
         read.extend(run.model_path.as_ref().map(PathBuf::from));
         let places = self.evaluated.open(&read)?;
-        // a signal ends it at once: the parts are there
+        // a signal ends it at once: the parts are kept
         let never = AtomicBool::new(false);
         let control = self.threads.control(&never).with_memory(run.memory);
         match folder.merge(&PartedRun::new(&file, &task, &run), self.evaluated.saves(), &control)? {

@@ -1,4 +1,4 @@
-//! `gumption new`: a model file to start from, from options or from answers to questions.
+//! `gumption new`: writes a new model file from options or from answers to questions.
 
 use std::io::{self, BufRead, Write};
 use std::path::{Path, PathBuf};
@@ -15,13 +15,14 @@ use gumption_report::plain;
 use gumption_text::DiagnosticKind;
 use gumption_units::{Unit, nearest};
 
-/// Write a model file to start from. Without --equation the measurement is asked for.
+/// Write a new model file. Without --equation the command asks questions.
 #[derive(Debug, Args)]
 pub(super) struct New {
-    /// What is measured, in a line
+    /// Title of the measurement
     #[arg(long)]
     title: Option<String>,
-    /// An equation, NAME=FORMULA; in order, the last one is reported unless --unit names others
+    /// An equation, NAME=FORMULA (repeatable, in order); the last one is reported unless --unit
+    /// names others
     #[arg(long, value_name = "NAME=FORMULA")]
     equation: Vec<String>,
     /// An input, NAME=UNIT,DISTRIBUTION,KEY=VALUE,...: `R=ohm,normal,mean=100,std=0.2`; readings
@@ -36,7 +37,7 @@ pub(super) struct New {
     output: Option<PathBuf>,
 }
 
-/// What a file is made of.
+/// The contents of a new file.
 #[derive(Debug, Default)]
 struct Draft {
     title: Option<String>,
@@ -51,7 +52,7 @@ impl New {
         let draft = if self.equation.is_empty() { self.asked()? } else { self.told()? };
         let missing = draft.missing();
         let text = draft.text();
-        // what is there must be right; what is missing is told
+        // given content must be valid; missing content is reported
         if missing.is_empty()
             && let Err(found) = program.files().check_text("the new file", &text, Path::new(""))
         {
@@ -75,7 +76,8 @@ impl New {
         Ok(Exit::Done)
     }
 
-    /// That an output needs a unit, of one that was not told: there is no line yet to look at.
+    /// The message that an output needs a unit, for an output without one: there is no line yet to
+    /// point to.
     fn unit_needed(&self, kind: &DiagnosticKind) -> Option<String> {
         let DiagnosticKind::WrongDimension { name, expected, expected_as, .. } = kind else {
             return None;
@@ -88,7 +90,7 @@ impl New {
             .then(|| format!("`{name}` is {expected_as}; say its unit: `--unit {name}={expected}`"))
     }
 
-    /// The draft that the options tell.
+    /// The draft given by the options.
     fn told(&self) -> Result<Draft, Failure> {
         let mut draft = Draft { title: self.title.clone(), ..Draft::default() };
         for equation in &self.equation {
@@ -131,7 +133,7 @@ impl New {
         Ok(draft)
     }
 
-    /// The draft that is told on standard input, question by question.
+    /// The draft given on standard input, question by question.
     fn asked(&self) -> Result<Draft, Failure> {
         if !(self.input.is_empty() && self.unit.is_empty()) {
             let message =
@@ -196,7 +198,7 @@ impl<R: BufRead> Questions<R> {
         }
     }
 
-    /// Asks until the answer can be read.
+    /// Repeats a question until the answer is valid.
     fn until<T>(
         &mut self,
         question: &str,
@@ -231,7 +233,7 @@ impl Draft {
         Ok(())
     }
 
-    /// The names that equations use and no equation gives, in the order in which they occur.
+    /// The names that equations use but do not define, in the order in which they occur.
     fn quantities(&self) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         for (place, (_, text)) in self.equations.iter().enumerate() {
@@ -246,7 +248,7 @@ impl Draft {
         names
     }
 
-    /// Puts the inputs in the order of the equations, with blanks for those that were not told.
+    /// Puts the inputs in the order of the equations, with blanks for missing ones.
     fn complete(&mut self, needed: &[String]) {
         let mut told = std::mem::take(&mut self.inputs);
         for name in needed {
@@ -256,7 +258,7 @@ impl Draft {
         }
     }
 
-    /// What has no value yet: `mean and std of voltage`.
+    /// Missing values: `mean and std of voltage`.
     fn missing(&self) -> Vec<String> {
         let of = |(name, keys): &(String, Map<String, Value>)| {
             let missing = keys.iter().filter(|(_, value)| value.is_null());
@@ -267,7 +269,7 @@ impl Draft {
         self.inputs.iter().filter_map(of).collect()
     }
 
-    /// The file, with remarks at keys that programs skip.
+    /// The file, with remarks under keys that programs ignore.
     fn text(&self) -> String {
         let mut file = Map::new();
         file.insert("$comment".into(), json!("Keys that begin with $ are remarks. `gumption help model` lists all keys, `gumption help distributions` what an input may be. `about` of an input says where it is known from; certificates print its first sentence as the meaning of the symbol."));
@@ -286,7 +288,7 @@ impl Draft {
     }
 }
 
-/// An input of which nothing is known yet.
+/// An input without values.
 fn blank() -> Map<String, Value> {
     let keys = [
         ("unit", Value::Null),
@@ -336,7 +338,7 @@ fn described(said: &str) -> Result<Map<String, Value>, String> {
     Ok(keys)
 }
 
-/// A value as JSON: a number, a list of numbers where the key is one of lists, else a text.
+/// A value as JSON: a number, a list of numbers if the key holds one, else a text.
 fn read(key: &str, value: &str) -> Value {
     let number = |text: &str| serde_json::from_str::<serde_json::Number>(text).map(Value::Number);
     if key == "values" {
@@ -350,7 +352,7 @@ fn unit_of(text: &str) -> Result<(), String> {
     Unit::parse(text).map(|_| ()).map_err(|why| why.to_string())
 }
 
-/// A name and what is said of it.
+/// A name and the text after its equals sign.
 fn halves<'a>(text: &'a str, option: &str, form: &str) -> Result<(&'a str, &'a str), Failure> {
     let (name, said) = text
         .split_once('=')

@@ -1,4 +1,4 @@
-//! Progress where there is neither a terminal nor a clock, as in a browser: none.
+//! Progress without a terminal and a clock, as in a browser: none.
 
 /// A bar that nobody sees.
 #[derive(Debug)]

@@ -11,10 +11,10 @@ use gumption_files::{FileReader, RecipeFile};
 use gumption_report::observe::{self as report, ObservationReport};
 use gumption_signal::{Observation, RecordTrace, observe, observe_with_traces};
 
-/// Take amplitudes, phases and delays from recordings.
+/// Determine amplitudes, phases and delays from recordings.
 #[derive(Debug, Args)]
 pub(super) struct Observe {
-    /// The recipe: recordings, channels and what is taken from them; - for standard input
+    /// The recipe: recordings, channels and the quantities to determine; - for standard input
     recipe: PathBuf,
     #[command(flatten)]
     allowed: AllowedFolders,
@@ -29,15 +29,15 @@ pub(super) struct Observe {
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// A page of text for people
+    /// A text page
     Table,
     /// The whole answer for programs
     Json,
     /// One line for each row and frequency
     Csv,
-    /// A page as GitHub shows it
+    /// A Markdown page, as GitHub shows it
     Markdown,
-    /// A page for a browser and for print, in one file
+    /// An HTML page, in one file
     Html,
 }
 
@@ -89,7 +89,7 @@ impl Observe {
             Format::Markdown => report::markdown(&found),
             Format::Html => page(report::html(&found)),
         };
-        // a page on standard output has the notes itself
+        // a page on standard output contains the notes itself
         if self.answer.format != Format::Table || self.answer.is_to_file() {
             self.answer.say(&warnings);
         }
@@ -98,10 +98,10 @@ impl Observe {
     }
 }
 
-/// What was found in a row, with notes and the digests of its files.
+/// The results of a row, with notes and the digests of its files.
 struct Row {
     observation: Observation,
-    /// What figures show, where there are figures.
+    /// Curves for figures, if there are figures.
     traces: Vec<RecordTrace>,
     warnings: Vec<Warning>,
     digests: Vec<(String, String)>,

@@ -23,7 +23,7 @@ use gumption_text::bytes;
 /// The format of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Format {
-    /// A page of text for people
+    /// A text page
     Table,
     /// The whole answer for programs
     Json,
@@ -31,41 +31,41 @@ pub(super) enum Format {
     Csv,
 }
 
-/// The format of an answer that goes to people in many ways.
+/// The format of an answer that is available in many formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Page {
-    /// A page of text for people
+    /// A text page
     Table,
     /// The whole answer for programs
     Json,
     /// One line for each output
     Csv,
-    /// A page as GitHub shows it
+    /// A Markdown page, as GitHub shows it
     Markdown,
     /// A LaTeX file for `article` with `booktabs` and `siunitx`
     Latex,
-    /// A page with figures for a browser and for print, in one file
+    /// An HTML page with figures, in one file
     Html,
-    /// A workbook with the budget in live formulas
+    /// A workbook with the budget as live formulas
     Xlsx,
 }
 
-/// How the answer is given, in one of the formats that the command has.
+/// The options for giving an answer in one of the formats of a command.
 #[derive(Debug, Args)]
 pub(super) struct Answer<F: ValueEnum + Send + Sync + 'static> {
     /// Format of the answer
     #[arg(long, value_enum, default_value = "table")]
     pub(super) format: F,
-    /// Write the answer to this file instead of standard output, which `-` is as well
+    /// Write to FILE instead of standard output (- for standard output)
     #[arg(long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
-    /// No progress, notes or warnings on standard error
+    /// Print no progress, notes or warnings on standard error
     #[arg(long)]
     pub(super) quiet: bool,
 }
 
 impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
-    /// Opens the place of the answer; `read` are the files that it is made from.
+    /// Opens the destination of the answer; `read` are the files from which it is computed.
     pub(super) fn open(&self, read: &[PathBuf]) -> Result<Place, Failure> {
         let [file] = output::open([("--output", output::to_file(self.output.as_deref()))], read)?;
         let is_page = self.format.to_possible_value().is_some_and(|of| of.get_name() == "table");
@@ -78,12 +78,12 @@ impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
         output::to_file(self.output.as_deref()).is_some()
     }
 
-    /// Warnings and notes on standard error, unless nothing is to be said.
+    /// Prints warnings and notes on standard error, unless `--quiet` is given.
     pub(super) fn say(&self, warnings: &[Warning]) {
         self.note(warnings.iter().map(|warning| warning.text.as_str()));
     }
 
-    /// Sentences on standard error, unless nothing is to be said.
+    /// Prints sentences on standard error, unless `--quiet` is given.
     pub(super) fn note<'t>(&self, texts: impl IntoIterator<Item = &'t str>) {
         for text in texts.into_iter().filter(|_| !self.quiet) {
             say_line(&format!("note: {text}"));
@@ -96,20 +96,21 @@ impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
     }
 }
 
-/// Whether a page for a browser has a script.
+/// Whether an HTML page has a script.
 #[derive(Debug, Args)]
 pub(super) struct Interactive {
-    /// Give the HTML page a script: values under the pointer, tables that sort, figures that enlarge,
-    /// methods that hide. It loads nothing, and the page says the same without it
+    /// Add a script to the HTML page: values under the pointer, sortable tables, enlargeable
+    /// figures, methods that can be hidden. The script loads nothing, and the page is complete
+    /// without it
     #[arg(long)]
     interactive: bool,
 }
 
 impl Interactive {
-    /// What is done to the page.
+    /// The modification of the page.
     ///
     /// # Errors
-    /// Where the answer is no page.
+    /// The answer is not an HTML page.
     pub(super) fn of<F: ValueEnum + Send + Sync>(
         &self,
         answer: &Answer<F>,
@@ -125,7 +126,7 @@ impl Interactive {
     }
 }
 
-/// A workbook on a screen is no answer.
+/// A workbook cannot be printed on a screen.
 pub(super) fn workbook_in_terminal() -> Failure {
     let reason = "a workbook cannot be shown in a terminal; add `--output FILE.xlsx`, or give it \
                   to a pipe";
@@ -141,7 +142,7 @@ pub(super) struct Seed {
 }
 
 impl Seed {
-    /// The seed, unless given that of the file.
+    /// The given seed, or else that of the file.
     pub(super) fn or(&self, of_file: u64) -> u64 {
         self.seed.unwrap_or(of_file)
     }
@@ -153,8 +154,8 @@ pub(super) struct CoverageOption {
     /// Coverage probability
     #[arg(long, value_name = "P", value_parser = probability, allow_negative_numbers = true)]
     coverage: Option<f64>,
-    /// Coverage factor for infinite degrees of freedom, which sets the coverage probability; 2
-    /// (approximately 95 %) unless given
+    /// Coverage factor for infinite degrees of freedom, which sets the coverage probability
+    /// [default: 2, approximately 95 %]
     #[arg(
         long,
         value_name = "K",
@@ -171,7 +172,8 @@ impl CoverageOption {
         self.coverage.is_some() || self.k.is_some()
     }
 
-    /// The coverage, unless given that of the file. A factor that the file keeps fixed is kept fixed.
+    /// The given coverage, or else that of the file. A factor that the file keeps fixed stays
+    /// fixed.
     pub(super) fn or(&self, of_file: Coverage) -> Coverage {
         let given = self.k.map(|factor| of_file.with_factor(factor));
         self.coverage.map(Coverage::Probability).or(given).unwrap_or(of_file)
@@ -181,7 +183,7 @@ impl CoverageOption {
 /// The number of threads.
 #[derive(Debug, Args)]
 pub(super) struct Threads {
-    /// Number of threads; all of the machine's unless given
+    /// Number of threads [default: all of the machine]
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     threads: Option<usize>,
 }
@@ -192,11 +194,11 @@ impl Threads {
         self.threads.unwrap_or(0)
     }
 
-    /// Starts them; where the system gives none, that is said once.
+    /// Starts the threads; a failure of the system is reported once.
     fn started(&self) -> Arc<Pool> {
         static SAID: Once = Once::new();
         let pool = parallel::pool(self.count());
-        // a browser's program has the thread that it is called on, and no more are expected
+        // in a browser only the calling thread exists
         if let Some(reason) = parallel::refused().filter(|_| !cfg!(target_family = "wasm")) {
             SAID.call_once(|| {
                 say_line(&format!(
@@ -214,46 +216,46 @@ impl Threads {
         self.started().install(work)
     }
 
-    /// A run on them that a flag stops.
+    /// A run with these threads that a flag stops.
     pub(super) fn control<'s>(&self, stop: &'s AtomicBool) -> Control<'s> {
         self.started();
         Control::default().with_threads(self.count()).with_stop(stop)
     }
 }
 
-/// Folders beside that of a file that its names may lead to.
+/// Other folders in which files may name files.
 #[derive(Debug, Args)]
 pub(super) struct AllowedFolders {
-    /// Let files name others below this folder too, and not only below their own (repeatable)
+    /// Let files name other files below this folder too, not only below their own (repeatable)
     #[arg(long = "allow-path", value_name = "DIR")]
     folders: Vec<PathBuf>,
 }
 
 impl AllowedFolders {
-    /// The readers of files that may name others below these folders.
+    /// The reader of files, which may name others below these folders.
     pub(super) fn files<'f>(&'f self, program: &'f CommandLine) -> FileReader<'f> {
         program.files().allowing(&self.folders)
     }
 }
 
-/// What is taken of files that others may have written.
+/// How far files that others may have written are trusted.
 #[derive(Debug, Args)]
 pub(super) struct Trust {
     #[command(flatten)]
     folders: AllowedFolders,
-    /// Take saved results that were changed since they were written
+    /// Accept saved results that were changed after they were written
     #[arg(long)]
     accept_changed: bool,
 }
 
 impl Trust {
-    /// The readers of files that are trusted so far.
+    /// The reader of files with this trust.
     pub(super) fn files<'f>(&'f self, program: &'f CommandLine) -> FileReader<'f> {
         self.folders.files(program).accepting_changed_results(self.accept_changed)
     }
 }
 
-/// A file that was given and those that it names, as paths.
+/// The paths of a given file and of the files that it names.
 pub(super) fn with_named<'n>(
     file: &Path,
     names: impl IntoIterator<Item = &'n String>,
@@ -281,7 +283,7 @@ impl Model {
         self.read_for(program, None)
     }
 
-    /// The same for a run with so many trials, whatever the file says.
+    /// The same for a run with this number of trials, whatever the file says.
     pub(super) fn read_for(
         &self,
         program: &CommandLine,
@@ -294,23 +296,23 @@ impl Model {
         Ok(opened(files, &self.model, text, |path| files.model(path, replaced))??)
     }
 
-    /// Its path; `None` of standard input.
+    /// Its path; `None` for standard input.
     pub(super) fn path(&self) -> Option<&Path> {
         Some(self.model.as_path()).filter(|path| *path != Path::new("-"))
     }
 
-    /// The paths of the file and of those that it names.
+    /// The paths of the file and of the files that it names.
     pub(super) fn paths(&self, file: &ModelFile) -> Vec<PathBuf> {
         with_named(&self.model, file.files.iter().map(|(name, _)| name))
     }
 }
 
-/// The file that stands in place of standard input where a program calls a command.
+/// The file that replaces standard input if a program calls a command.
 fn given_file(path: &Path) -> Option<Arc<GivenFile>> {
     in_call(|call| call.input.clone()).flatten().filter(|_| path == Path::new("-"))
 }
 
-/// What a file argument names: standard input for `-`, else a file.
+/// The file named by an argument: standard input for `-`.
 pub(super) fn given<T>(
     path: &Path,
     text: impl FnOnce(&str) -> T,
@@ -319,8 +321,8 @@ pub(super) fn given<T>(
     if path == Path::new("-") { Ok(text(&standard_input()?)) } else { Ok(file(path)) }
 }
 
-/// What a file argument names, read by what may name files: as [`given`], and a file that a program
-/// gives in place of standard input has a name, a folder and files of its own.
+/// The file named by an argument, for content that may name files: as [`given`], but a file that a
+/// program gives instead of standard input has its own name, folder and files.
 pub(super) fn opened<T>(
     files: FileReader<'_>,
     path: &Path,
@@ -357,7 +359,7 @@ impl Case {
         Ok(opened(files, &self.case, text, |path| files.case(path))??)
     }
 
-    /// What its sim has in the rows of a table of conditions.
+    /// The model of the sim at the rows of a table of conditions.
     pub(super) fn at(&self, program: &CommandLine, rows: &Path) -> Result<Vec<Row>, Failure> {
         let files = self.trust.files(program);
         let text = |files: FileReader<'_>, name: &str, text: &str, folder: &Path| {
@@ -366,7 +368,7 @@ impl Case {
         Ok(opened(files, &self.case, text, |path| files.case_at(path, rows))??)
     }
 
-    /// The paths of the file and of those that it names.
+    /// The paths of the file and of the files that it names.
     pub(super) fn paths(&self, file: &CaseFile) -> Vec<PathBuf> {
         with_named(&self.case, file.files.iter().map(|(name, _)| name))
     }
@@ -392,7 +394,7 @@ pub(super) fn trials(text: &str) -> Result<Trials, String> {
         return Ok(Trials::Adaptive);
     }
     let value: f64 = text.parse().map_err(|_| NEEDED.to_owned())?;
-    // 1e-400 is no double, and 0 is the GUM evaluation alone
+    // 1e-400 is not representable, and 0 means only the GUM evaluation
     let mantissa = text.split(['e', 'E']).next().unwrap_or_default();
     if value == 0.0 && mantissa.contains(|c: char| matches!(c, '1'..='9')) {
         return Err(NEEDED.to_owned());
@@ -404,10 +406,10 @@ pub(super) fn trials(text: &str) -> Result<Trials, String> {
     }
 }
 
-/// The least of the largest number of trials of an adaptive run: two blocks.
+/// Minimum value of the largest number of trials of an adaptive run: two blocks.
 const LEAST_OF_MOST: u64 = 20_000;
 
-/// The largest number of trials of an adaptive run, which may be written as 1e9.
+/// The largest number of trials of an adaptive run; 1e9 is accepted.
 pub(super) fn max_trials(text: &str) -> Result<u64, String> {
     match trials(text) {
         Ok(Trials::Fixed(most)) if most >= LEAST_OF_MOST => Ok(most),
@@ -423,7 +425,7 @@ pub(super) fn digits(text: &str) -> Result<u32, String> {
     }
 }
 
-/// Bytes of memory that can be asked for.
+/// Maximum number of bytes of memory.
 #[cfg(target_pointer_width = "64")]
 const MOST_MEMORY: usize = 1 << 40;
 #[cfg(not(target_pointer_width = "64"))]
@@ -444,7 +446,7 @@ pub(super) fn memory(text: &str) -> Result<usize, String> {
         "G" => 1 << 30,
         _ => return Err(needed()),
     };
-    // digits that are no number are too many of them
+    // digits that do not fit a number are too large
     let bytes = number.parse::<usize>().ok().and_then(|number| number.checked_mul(factor));
     match bytes {
         Some(bytes) if bytes < 1 << 20 => {
@@ -467,7 +469,7 @@ pub(super) fn rule() -> impl TypedValueParser<Value = StoppingRule> {
         .try_map(|name| StoppingRule::named(&name).ok_or("there is no such rule"))
 }
 
-/// Which figures without noise are wanted.
+/// The method for results without noise.
 pub(super) fn method() -> impl TypedValueParser<Value = MethodChoice> {
     PossibleValuesParser::new(MethodChoice::ALL.map(MethodChoice::name))
         .try_map(|name| MethodChoice::named(&name).ok_or("there is no such method"))

@@ -1,8 +1,8 @@
-//! Giving the answer: to standard output, or to a file that is there whole or not at all.
+//! Writes the answer to standard output, or to a file, completely or not at all.
 //!
-//! Files are opened before anything is computed, so that a missing folder or a full disk is told at
-//! once, and so that nothing that is read is written over. What is written has no name until it is
-//! whole ([`Replacement`]); then it takes the place of what was there.
+//! Files are opened before the computation, so that a missing folder or a full disk is reported at
+//! once, and so that no input file is overwritten. A new file has no name until it is complete
+//! ([`Replacement`]); then it replaces the old one.
 
 use std::fmt;
 use std::fs::{File, OpenOptions};
@@ -18,14 +18,14 @@ use super::{Failure, paint, signals};
 pub(super) enum Place {
     /// To standard output.
     StandardOutput,
-    /// To standard output as a page of text, which looks its best on a terminal.
+    /// A text page to standard output, formatted for a terminal.
     Page,
     /// To a file.
     File(Destination),
 }
 
 impl Place {
-    /// Writes the answer. A reader that closed the pipe has had enough; that is no failure.
+    /// Writes the answer. A closed pipe is not an error: the reader has had enough.
     pub(super) fn write(self, text: &str) -> Result<(), Failure> {
         self.write_with(|out| out.write_all(text.as_bytes()))
     }
@@ -44,7 +44,7 @@ impl Place {
                     .or_else(unless_closed)
             }
             Self::StandardOutput | Self::Page => {
-                // not within a borrow: what is written may say something
+                // outside the borrow: `write` may print something
                 let mut bytes = Vec::new();
                 if in_call(|_| ()).is_some() {
                     write(&mut bytes).map_err(|error| {
@@ -60,7 +60,7 @@ impl Place {
     }
 }
 
-/// The page with its colours; what is no text stays as it is.
+/// The page with colours; bytes that are not text stay unchanged.
 fn painted(bytes: Vec<u8>) -> String {
     match String::from_utf8(bytes) {
         Ok(page) => paint::painted(&page),
@@ -68,7 +68,7 @@ fn painted(bytes: Vec<u8>) -> String {
     }
 }
 
-/// A reader that closed the pipe has had enough.
+/// Ignores a closed pipe: the reader has had enough.
 fn unless_closed(error: io::Error) -> Result<(), Failure> {
     match error.kind() {
         ErrorKind::BrokenPipe => Ok(()),
@@ -76,7 +76,7 @@ fn unless_closed(error: io::Error) -> Result<(), Failure> {
     }
 }
 
-/// A file that is to be written, open since before the computation.
+/// An output file, opened before the computation.
 #[derive(Debug)]
 pub(super) struct Destination {
     path: PathBuf,
@@ -85,17 +85,17 @@ pub(super) struct Destination {
 
 #[derive(Debug)]
 enum Sink {
-    /// A new file that takes the place of the wanted one.
+    /// A new file that replaces the existing one.
     Replacement(Replacement),
-    /// A device or a pipe, or a file that cannot be replaced: one of several names, or in a folder
-    /// that takes no other file.
+    /// A device or a pipe, or a file that cannot be replaced: one with several names, or in a
+    /// folder that takes no other file.
     InPlace(File),
 }
 
-/// The options that name a file, and the file.
+/// An option that names a file, and the file.
 pub(super) type Asked<'a> = (&'static str, Option<&'a Path>);
 
-/// The file of an `--output`; none of `-`, which is standard output as it is standard input of a model.
+/// The file of an `--output`; `None` for `-`, which is standard output.
 pub(super) fn to_file(asked: Option<&Path>) -> Option<&Path> {
     asked.filter(|path| !is_standard(path))
 }
@@ -104,11 +104,10 @@ fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// Opens the files that are asked for, those that are; `read` are the files that the answer rests
-/// on.
+/// Opens the requested files; `read` are the files from which the answer is computed.
 ///
 /// # Errors
-/// A file that would be written twice, or that is read; one that cannot be written.
+/// A file would be written twice, or is an input, or cannot be written.
 pub(super) fn open<const N: usize>(
     asked: [Asked<'_>; N],
     read: &[PathBuf],
@@ -121,7 +120,7 @@ pub(super) fn open<const N: usize>(
     Ok(opened)
 }
 
-/// Whether every file is written once, and none that is read.
+/// Checks that every file is written only once, and no input is overwritten.
 fn check(asked: &[Asked<'_>], read: &[PathBuf]) -> Result<(), Failure> {
     let wanted: Vec<(&str, &Path, Identity)> = asked
         .iter()
@@ -150,7 +149,7 @@ fn check(asked: &[Asked<'_>], read: &[PathBuf]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What tells a file from others, whatever it is called.
+/// Identifies a file, whatever it is called.
 #[derive(Debug, PartialEq, Eq)]
 enum Identity {
     /// Device and number of a file on Unix.
@@ -161,7 +160,7 @@ enum Identity {
 }
 
 impl Identity {
-    /// Nothing for devices, which may be written as often as one likes.
+    /// `None` for devices, which may be written several times.
     fn of(path: &Path) -> Option<Self> {
         let Ok(found) = std::fs::metadata(path) else {
             let target = target(path);
@@ -180,7 +179,7 @@ impl Identity {
     }
 }
 
-/// The folder that a file stands in.
+/// The folder that contains a file.
 pub(super) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -189,7 +188,7 @@ pub(super) fn folder_of(path: &Path) -> &Path {
 }
 
 impl Destination {
-    /// Opens a file that the program names itself.
+    /// Opens a file whose name the program chooses.
     pub(super) fn open(path: &Path) -> Result<Self, Failure> {
         let sink = Sink::open(path).map_err(|error| not_opened(path, &error))?;
         Ok(Self { path: path.to_owned(), sink })
@@ -200,7 +199,7 @@ impl Destination {
         &self.path
     }
 
-    /// Lets `write` write the content; where it gives false, or fails, the file stays as it is.
+    /// Lets `write` write the content; if it returns false or fails, the file stays unchanged.
     pub(super) fn write_with(
         self,
         write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<bool>,
@@ -219,7 +218,7 @@ impl Destination {
     }
 }
 
-/// Writes over the content of a file, or to a device or a pipe.
+/// Overwrites the content of a file, or writes to a device or a pipe.
 fn in_place(
     file: File,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<bool>,
@@ -256,7 +255,7 @@ impl Sink {
         if !existing.is_file() {
             return in_place().map(Self::InPlace);
         }
-        // whoever made it so wants it to stay as it is, whatever the system would allow
+        // a read-only file stays unchanged, whatever the system would allow
         if existing.permissions().readonly() {
             return Err(io::Error::new(ErrorKind::PermissionDenied, "the file is read-only"));
         }
@@ -268,7 +267,7 @@ impl Sink {
     }
 }
 
-/// Whether a name is that of the console or of what takes everything, which have no metadata.
+/// Whether a name is that of the console or of the null device, which have no metadata.
 #[cfg(windows)]
 fn is_device(path: &Path) -> bool {
     ["NUL", "CON"].iter().any(|device| path.as_os_str().eq_ignore_ascii_case(device))
@@ -287,7 +286,7 @@ fn not_written(path: &Path, error: impl fmt::Display) -> String {
     format!("cannot write `{}`: {error}", shown(path))
 }
 
-/// Why a file could not be opened: a place that there is not is the argument's fault.
+/// Why a file could not be opened: a missing folder is an error of the argument.
 fn not_opened(path: &Path, error: &io::Error) -> Failure {
     match error.kind() {
         ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => {

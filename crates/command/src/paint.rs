@@ -1,11 +1,11 @@
-//! What a terminal shows beside the text: its width, bold titles, coloured verdicts.
+//! Formatting for terminals: width, bold titles, coloured verdicts.
 
 use std::io::{self, IsTerminal};
 
 use anstream::{AutoStream, ColorChoice};
 use clap::ValueEnum;
 
-/// Columns of an answer that goes to no terminal.
+/// Columns of an answer that does not go to a terminal.
 const PIPED: usize = 100;
 
 /// When there are colours.
@@ -31,7 +31,7 @@ impl When {
     }
 }
 
-/// Columns of the page: those of the terminal.
+/// Columns of the page: the width of the terminal.
 pub(super) fn width() -> usize {
     if !io::stdout().is_terminal() {
         return PIPED;
@@ -50,7 +50,7 @@ const YELLOW: &str = "\u{1b}[33m";
 const RED: &str = "\u{1b}[31m";
 const PLAIN: &str = "\u{1b}[0m";
 
-/// What is said of a result, and how it looks. Longer words stand before those that they contain.
+/// Verdicts and their colours. Longer words precede those that they contain.
 const VERDICTS: [(&str, &str); 8] = [
     ("GUM interval is not valid here", YELLOW),
     ("GUM interval is valid here", GREEN),
@@ -62,7 +62,7 @@ const VERDICTS: [(&str, &str); 8] = [
     ("There is a gap", BOLD),
 ];
 
-/// A page of text with bold titles and coloured verdicts.
+/// A text page with bold titles and coloured verdicts.
 pub(super) fn painted(page: &str) -> String {
     let lines: Vec<&str> = page.split('\n').collect();
     let is_rule = |line: &str| !line.is_empty() && line.chars().all(|c| matches!(c, '═' | '─'));
@@ -75,7 +75,7 @@ pub(super) fn painted(page: &str) -> String {
         let next = lines.get(place + 1).is_some_and(|next| {
             is_rule(next) && next.chars().count() == lines[place].chars().count()
         });
-        // a line with gaps heads a table
+        // a line with gaps is the head of a table
         next && !lines[place].contains("  ")
     };
     let painted = lines.iter().enumerate().map(|(place, line)| {

@@ -1,7 +1,8 @@
-//! A run that is made in parts: its passes and parts as the bytes of files, whoever carries them.
+//! A run that is made in parts: its passes and parts as the bytes of files, independent of their
+//! transport.
 //!
-//! `gumption run --blocks` and `gumption merge` carry them in files of a folder; a program that has an
-//! executor of its own hands them over as they are.
+//! `gumption run --blocks` and `gumption merge` store them in files of a folder; a program with its
+//! own executor passes them on directly.
 
 use std::fmt::Display;
 use std::ops::Range;
@@ -20,7 +21,7 @@ pub struct PartedRun<'a> {
     pub(super) run: &'a SharedRun,
 }
 
-/// A pass over the blocks of a run, and the bytes that the engine writes of it.
+/// A pass over the blocks of a run, and its description in bytes.
 #[derive(Clone, Debug)]
 pub struct PassOfRun {
     pub(super) pass: SharedPass,
@@ -43,27 +44,27 @@ impl PassOfRun {
         SharedFileHeader::new(run.clone(), self.number(), &self.bytes, kind)
     }
 
-    /// The file `next-pass` that holds it.
+    /// The content of the file `next-pass`.
     pub fn file(&self, run: &SharedRun) -> Vec<u8> {
         self.header(run, SharedFileKind::Pass).file(&self.bytes)
     }
 }
 
-/// Why something that is called so is not taken.
+/// Why a file of this name is rejected.
 pub(super) fn refused(name: &dyn Display, reason: &dyn Display) -> Failure {
     Failure::Argument(format!("{name}: {reason}"))
 }
 
 impl<'a> PartedRun<'a> {
-    /// The run of a task that a model file gave; `run` is what its parts are told by.
+    /// The run of a task from a model file; `run` identifies its parts.
     pub fn new(file: &'a ModelFile, task: &'a Task, run: &'a SharedRun) -> Self {
         Self { file, task, run }
     }
 
-    /// How many blocks there are to share.
+    /// The number of blocks that can be distributed.
     ///
     /// # Errors
-    /// A run that cannot be shared.
+    /// The run cannot be divided.
     pub fn blocks(&self) -> Result<u64, Failure> {
         blocks(self.task).map_err(|reason| Failure::Argument(reason.to_string()))
     }
@@ -84,7 +85,7 @@ impl<'a> PartedRun<'a> {
     /// The pass of a file; `name` is used in messages.
     ///
     /// # Errors
-    /// A file that is none, or of another run.
+    /// The file is not a pass, or belongs to another run.
     pub fn pass(&self, name: &dyn Display, file: &[u8]) -> Result<PassOfRun, Failure> {
         let (header, content) = shared_file(file).map_err(|error| refused(name, &error))?;
         if header.kind != SharedFileKind::Pass {
@@ -98,10 +99,11 @@ impl<'a> PartedRun<'a> {
         Ok(PassOfRun { pass, bytes: content.to_owned() })
     }
 
-    /// The file of the part that belongs to a range of blocks; `None` if it was stopped.
+    /// The file of the part with a range of blocks; `None` if it was stopped.
     ///
     /// # Errors
-    /// Blocks that the run has not; correlations that cannot be drawn; threads that cannot be started.
+    /// Blocks that the run does not have; correlations that cannot be drawn; threads that cannot be
+    /// started.
     pub fn part(
         &self,
         pass: &PassOfRun,
@@ -120,8 +122,8 @@ impl<'a> PartedRun<'a> {
         Ok(part.map(|part| header(range).file(&part)))
     }
 
-    /// The blocks of a part of this pass; `None` of one of a pass before it. `again` is what makes a
-    /// part again.
+    /// The blocks of a part of this pass; `None` for a part of an earlier pass. `again` says how to
+    /// repeat a part.
     ///
     /// # Errors
     /// A part of another run or of another pass.
@@ -156,7 +158,7 @@ impl<'a> PartedRun<'a> {
         Ok(Some(range.clone()))
     }
 
-    /// Begins to put the parts of a pass together.
+    /// Begins to merge the parts of a pass.
     ///
     /// # Errors
     /// Correlations that cannot be drawn; threads that cannot be started.
@@ -171,7 +173,7 @@ impl<'a> PartedRun<'a> {
     }
 }
 
-/// Puts the parts of a pass together as they come, in any order.
+/// Merges the parts of a pass in any order.
 #[derive(Debug)]
 pub struct PartedMerging<'a> {
     of: PartedRun<'a>,
@@ -180,10 +182,10 @@ pub struct PartedMerging<'a> {
 }
 
 impl PartedMerging<'_> {
-    /// Takes the file of a part; `name` is used in messages. It gives the blocks of the part.
+    /// Adds the file of a part; `name` is used in messages. Returns the blocks of the part.
     ///
     /// # Errors
-    /// A file that is none, or of another run or pass; blocks that are there already.
+    /// The file is not a part, or belongs to another run or pass; its blocks are already present.
     pub fn add(&mut self, name: &dyn Display, file: &[u8]) -> Result<Range<u64>, Failure> {
         let (header, content) = shared_file(file).map_err(|error| refused(name, &error))?;
         let range = self.of.range(self.pass, name, &header, &"")?;
@@ -192,15 +194,15 @@ impl PartedMerging<'_> {
         Ok(range)
     }
 
-    /// The ranges of blocks that are not there yet.
+    /// The missing ranges of blocks.
     pub fn missing(&self) -> Vec<Range<u64>> {
         self.merging.missing()
     }
 
-    /// The evaluation, or the next pass; all blocks must be there.
+    /// The evaluation, or the next pass; all blocks must be present.
     ///
     /// # Errors
-    /// As of an evaluation on one machine.
+    /// The errors of an evaluation on one machine.
     pub fn finish(self, with_quantiles: bool) -> Result<MergedRun, Failure> {
         let Self { of, merging, .. } = self;
         Ok(match merging.finish(with_quantiles).map_err(|error| of.failed(error))? {
@@ -215,10 +217,10 @@ impl PartedMerging<'_> {
     }
 }
 
-/// What was made of all parts of a pass.
+/// The result of all parts of a pass.
 #[derive(Debug)]
 pub enum MergedRun {
-    /// The evaluation, and the quantiles that a result file holds, where they took passes.
+    /// The evaluation, and the quantiles for a result file if they needed passes.
     Evaluation(Box<Evaluation>, Option<Vec<Vec<f64>>>),
     /// The next pass.
     Again(PassOfRun),

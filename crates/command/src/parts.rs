@@ -1,4 +1,4 @@
-//! Parts of a run in files: made for a range of blocks, found in a folder, put together.
+//! Parts of a run in files: made for a range of blocks, found in a folder, merged.
 
 use std::fs::{self, File};
 use std::io::BufReader;
@@ -16,25 +16,25 @@ use gumption_files::{
 };
 use gumption_report::plain;
 
-/// The file that says what the next pass is to count.
+/// The file that describes the next pass.
 pub(super) const NEXT_PASS: &str = "next-pass";
 
-/// Into how many parts a run that can be resumed is cut: what a signal may cost is one of them.
+/// Number of parts of a run that can be resumed: a signal loses at most one of them.
 const KEPT_PARTS: u64 = 64;
 
-/// Ranges of blocks that a message lists, at most.
+/// Maximum number of ranges of blocks that a message lists.
 const MOST_LISTED: usize = 8;
 
-/// Which blocks, or which of other things that are counted, a part is to make.
+/// The blocks, or other counted things, that a part contains.
 #[derive(Clone, Debug)]
 pub(super) enum Blocks {
-    /// From the first to before the second.
+    /// From the first up to, but not including, the second.
     Range(u64, u64),
-    /// One of so many parts of equal length, from 1.
+    /// One of several parts of equal length, from 1.
     Share(u64, u64),
 }
 
-/// Blocks as they are written: `A..B` or `K/N`.
+/// Parses blocks: `A..B` or `K/N`.
 pub(super) fn blocks(text: &str) -> Result<Blocks, String> {
     let pair = |by: &str| {
         let (first, second) = text.split_once(by)?;
@@ -50,8 +50,8 @@ pub(super) fn blocks(text: &str) -> Result<Blocks, String> {
 }
 
 impl Blocks {
-    /// The range among so many; a range that reaches beyond the last one ends with it. The option and
-    /// the word for what is counted are for messages.
+    /// The range among `all`; a range beyond the last one is cut. The option and the word for the
+    /// counted things are for messages.
     pub(super) fn of(&self, all: u64, (option, what): (&str, &str)) -> Result<Range<u64>, Failure> {
         match *self {
             Self::Range(from, _) if from >= all => Err(Failure::Argument(format!(
@@ -69,13 +69,13 @@ impl Blocks {
     }
 }
 
-/// A part that is asked for.
+/// A requested part.
 pub(super) struct Asked<'a> {
     pub(super) blocks: &'a Blocks,
     pub(super) partial: &'a Path,
-    /// The file of the pass; the first one where there is none.
+    /// The file of the pass; `None` for the first pass.
     pub(super) pass: Option<&'a Path>,
-    /// The files that it is made from.
+    /// The files from which it is made.
     pub(super) read: Vec<PathBuf>,
     pub(super) quiet: bool,
 }
@@ -113,30 +113,30 @@ fn content(path: &Path) -> Result<Vec<u8>, Failure> {
     shared_file_bytes(path).map_err(|error| refused(&path.display(), &error))
 }
 
-/// The pass of a file, which must be of this run.
+/// The pass in a file, which must belong to this run.
 fn pass_of(run: &PartedRun<'_>, path: &Path) -> Result<PassOfRun, Failure> {
     run.pass(&path.display(), &content(path)?)
 }
 
-/// The parts of a run that are in a folder.
+/// The parts of a run in a folder.
 #[derive(Debug)]
 pub struct PartsFolder {
     path: PathBuf,
-    /// Whether there is a file that says what the pass is to count.
+    /// Whether there is a file that describes the pass.
     has_pass: bool,
     parts: Vec<(PathBuf, SharedFileHeader)>,
     /// Files that are none.
     others: usize,
 }
 
-/// An evaluation with the quantiles that a result file holds, where they took passes.
+/// An evaluation with the quantiles for a result file, if they needed passes.
 pub(super) type WithQuantiles = (Box<Evaluation>, Option<Vec<Vec<f64>>>);
 
 impl PartsFolder {
-    /// Looks at the headers of all files in a folder.
+    /// Reads the headers of all files in a folder.
     ///
     /// # Errors
-    /// A folder or a file of it that cannot be read; damaged parts.
+    /// A folder or one of its files cannot be read; damaged parts.
     pub fn open(path: &Path) -> Result<Self, Failure> {
         if path.is_file() {
             return Err(Failure::Argument(format!(
@@ -170,10 +170,10 @@ impl PartsFolder {
         Ok(found)
     }
 
-    /// The same of a folder that is made where there is none.
+    /// The same for a folder that is created if it does not exist.
     ///
     /// # Errors
-    /// As of [`PartsFolder::open`], and a folder that cannot be made.
+    /// The errors of [`PartsFolder::open`], or the folder cannot be created.
     pub fn made(path: &Path) -> Result<Self, Failure> {
         fs::create_dir_all(path).map_err(|error| {
             let path = plain(&path.display().to_string());
@@ -182,7 +182,7 @@ impl PartsFolder {
         Self::open(path)
     }
 
-    /// The run that the folder is of.
+    /// The run to which the folder belongs.
     pub(super) fn run(&self) -> Result<SharedRun, Failure> {
         if self.has_pass {
             let path = self.next_pass();
@@ -206,7 +206,7 @@ impl PartsFolder {
         Ok(header.run.clone())
     }
 
-    /// The files that an answer is made from.
+    /// The files from which an answer is computed.
     pub(super) fn files(&self) -> impl Iterator<Item = PathBuf> + '_ {
         self.parts.iter().map(|(path, _)| path.clone()).chain([self.next_pass()])
     }
@@ -215,7 +215,7 @@ impl PartsFolder {
         self.path.join(NEXT_PASS)
     }
 
-    /// The pass that is under way.
+    /// The current pass.
     ///
     /// # Errors
     /// A file `next-pass` of another run.
@@ -223,10 +223,11 @@ impl PartsFolder {
         if self.has_pass { pass_of(run, &self.next_pass()) } else { run.first(control) }
     }
 
-    /// The parts of that pass in the order of their blocks; those of passes before it are not needed.
+    /// The parts of the current pass in the order of their blocks; parts of earlier passes are not
+    /// needed.
     ///
     /// # Errors
-    /// Parts of another run, and blocks that are there twice.
+    /// Parts of another run, or blocks that occur twice.
     pub fn parts(
         &self,
         run: &PartedRun<'_>,
@@ -268,7 +269,7 @@ impl PartsFolder {
         if missing.is_empty() {
             return self.merge_pass(run, (&pass, parts), with_quantiles, control);
         }
-        // a further pass may have been asked for by `--save` alone
+        // a further pass may be needed only for `--save`
         if self.has_pass && !with_quantiles {
             let first = run.first(control)?;
             if let Ok(parts) = self.parts(run, &first)
@@ -282,7 +283,7 @@ impl PartsFolder {
         Err(self.incomplete(&missing, all, pass.number()))
     }
 
-    /// Puts all parts of a pass together.
+    /// Merges all parts of a pass.
     fn merge_pass(
         &self,
         run: &PartedRun<'_>,
@@ -290,7 +291,7 @@ impl PartsFolder {
         with_quantiles: bool,
         control: &Control<'_>,
     ) -> Result<MergedRun, Failure> {
-        // half an answer would be none
+        // half an answer would be useless
         let mut whole = *control;
         whole.stop = None;
         let mut merging = run.merging(pass, whole)?;
@@ -317,7 +318,7 @@ impl PartsFolder {
         ))
     }
 
-    /// Writes what the next pass is to count.
+    /// Writes the description of the next pass.
     ///
     /// # Errors
     /// What the system says.
@@ -325,7 +326,7 @@ impl PartsFolder {
         write(&self.next_pass(), &next.file(run))
     }
 
-    /// Removes the parts that were kept for a pass that is merged.
+    /// Removes the parts that were kept for a merged pass.
     ///
     /// # Errors
     /// What the system says.
@@ -344,10 +345,10 @@ impl PartsFolder {
 }
 
 impl PartedRun<'_> {
-    /// Keeps the file of a part in a folder, under a name that says which one it is.
+    /// Stores the file of a part in a folder, under a name that identifies it.
     ///
     /// # Errors
-    /// A file that is no part; what the system says.
+    /// The file is not a part, or the system reports an error.
     pub fn keep(&self, folder: &Path, part: &[u8]) -> Result<(), Failure> {
         let header = SharedFileHeader::read(&mut &*part);
         let header = header.map_err(|error| refused(&"a part", &error))?;
@@ -359,12 +360,12 @@ impl PartedRun<'_> {
     }
 }
 
-/// How the names of the parts begin that are kept for a pass.
+/// The prefix of the names of parts that are kept for a pass.
 fn kept_prefix(pass: u64) -> String {
     format!("part-{pass}-")
 }
 
-/// Which of all blocks no part has; the parts are in order.
+/// The blocks that no part contains; the parts are in order.
 pub(super) fn missing<T>(parts: &[(T, Range<u64>)], all: u64) -> Vec<Range<u64>> {
     let mut missing = Vec::new();
     let mut next = 0;
@@ -391,14 +392,14 @@ pub(super) fn ranges(of: &[Range<u64>]) -> String {
     listed.join(", ") + &more
 }
 
-/// Writes a file that is there whole or not at all.
+/// Writes a file completely or not at all.
 pub(super) fn write(path: &Path, content: &[u8]) -> Result<(), Failure> {
     let destination = Destination::open(path)?;
     destination.write_with(|out| out.write_all(content).map(|()| true))
 }
 
-/// Makes a run in parts that are kept in a folder, from those that are there on; `None` if it was
-/// stopped.
+/// Makes a run in parts that are kept in a folder, and continues from the parts in it; `None` if it
+/// was stopped.
 pub(super) fn resume(
     run: PartedRun<'_>,
     (path, with_quantiles): (&Path, bool),

@@ -22,14 +22,14 @@ use gumption_report::plan as report;
 pub(super) struct Planning {
     #[command(flatten)]
     model: Model,
-    /// What is wanted: "U(y) <= 0.01 m/s^2", "U(y)/y <= 0.5 %", or "u(y) <= ..." for the standard
-    /// uncertainty; without a unit in that of the output
+    /// The target: "U(y) <= 0.01 m/s^2", "U(y)/y <= 0.5 %", or "u(y) <= ..." for the standard
+    /// uncertainty; without a unit in the unit of the output
     #[arg(long, value_name = "TARGET")]
     target: String,
-    /// What improvements of inputs cost; without it halving any of them costs the same
+    /// Costs of improving the inputs; by default halving any of them costs the same
     #[arg(long, value_name = "FILE")]
     cost: Option<PathBuf>,
-    /// Give the longest calibration interval too: the input or component whose uncertainty is that of
+    /// Also compute the longest calibration interval: the input or component whose uncertainty is
     /// the drift over this time ("reference/drift=365 d")
     #[arg(long, value_name = "NAME=TIME")]
     drift: Option<String>,
@@ -42,7 +42,7 @@ pub(super) struct Planning {
     interactive: Interactive,
     #[command(flatten)]
     seed: Seed,
-    /// Number of Monte Carlo trials of the plan's check, 0 for none
+    /// Number of Monte Carlo trials for checking the plan, 0 for none
     #[arg(long, value_name = "N", value_parser = options::trials, allow_negative_numbers = true)]
     trials: Option<Trials>,
     #[command(flatten)]
@@ -54,15 +54,15 @@ pub(super) struct Planning {
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// A page of text for people
+    /// A text page
     Table,
-    /// A page as GitHub shows it
+    /// A Markdown page, as GitHub shows it
     Markdown,
     /// The whole answer for programs
     Json,
     /// One line for each input
     Csv,
-    /// A page with figures for a browser and for print, in one file
+    /// An HTML page with figures, in one file
     Html,
 }
 

@@ -1,7 +1,7 @@
-//! A file that takes the place of another one when it is whole.
+//! A new file that replaces another one once it is complete.
 //!
-//! On Linux it has no name until then (`O_TMPFILE`), so that nothing is left of it however the
-//! process ends. Elsewhere, and on file systems without such files, it has a hidden one.
+//! On Linux it has no name until then (`O_TMPFILE`), so that nothing remains of it however the
+//! process ends. Elsewhere, and on file systems without such files, it has a hidden name.
 
 use std::fs::{File, Metadata};
 use std::io::{self, ErrorKind, Seek, Write};
@@ -10,22 +10,22 @@ use std::path::{Path, PathBuf};
 use super::output::folder_of;
 use super::signals::{self, Temporary};
 
-/// Bytes that are written and taken back at once: a disk that has no room for them is full.
+/// Bytes that are written and removed at once: if there is no room for them, the disk is full.
 const PROBE: usize = 1 << 16;
 
-/// Links that lead from one to the next, at most.
+/// Maximum number of links in a chain.
 const MOST_LINKS: usize = 40;
 
-/// A new file, and the path that it is to have.
+/// A new file, and its final path.
 #[derive(Debug)]
 pub(super) struct Replacement {
     file: File,
     target: PathBuf,
-    /// `None` of a file without one.
+    /// `None` for a file without a name.
     name: Option<Temporary>,
 }
 
-/// Where a path leads, links followed to their end, also if nothing is there.
+/// The target of a path, with links resolved, even if nothing exists there.
 pub(super) fn target(path: &Path) -> PathBuf {
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {
@@ -38,7 +38,7 @@ pub(super) fn target(path: &Path) -> PathBuf {
 }
 
 impl Replacement {
-    /// A file where there is none.
+    /// A new file at a path where none exists.
     pub(super) fn of_none(target: &Path) -> io::Result<Self> {
         let folder = folder_of(target);
         if !folder.exists() {
@@ -51,9 +51,9 @@ impl Replacement {
         Self::new(target)?.with_room()
     }
 
-    /// A file in place of one that is there, with its mode and owner; `None` where that must be
-    /// written in place, because it has several names, or its folder takes no other file, or the new
-    /// one would have another owner.
+    /// A file that replaces an existing one, with its mode and owner. `None` if the file must be
+    /// written in place: it has several names, its folder takes no other file, or the new file
+    /// would have another owner.
     pub(super) fn of(target: &Path, existing: &Metadata) -> io::Result<Option<Self>> {
         if names(existing) > 1 {
             return Ok(None);
@@ -88,7 +88,7 @@ impl Replacement {
         Err(ErrorKind::AlreadyExists.into())
     }
 
-    /// Whether there is room on the disk at all.
+    /// Checks that there is room on the disk.
     fn with_room(mut self) -> io::Result<Self> {
         self.file.write_all(&vec![0; PROBE])?;
         self.file.rewind()?;
@@ -107,7 +107,7 @@ impl Replacement {
         let name = match self.name {
             Some(name) => name,
             None => {
-                // at once where nothing is there; a link does not replace
+                // directly if no file exists; a link does not replace a file
                 match link(&self.file, &self.target) {
                     Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
                     other => return other,
@@ -129,12 +129,12 @@ impl Replacement {
     }
 }
 
-/// A hidden name beside the wanted one.
+/// A hidden name next to the wanted one.
 fn hidden(target: &Path, number: u32) -> PathBuf {
     folder_of(target).join(format!(".gumption-{}-{number}", std::process::id()))
 }
 
-/// A file without a name; `None` where the system has none.
+/// A file without a name; `None` if the system does not support it.
 #[cfg(target_os = "linux")]
 fn nameless(folder: &Path) -> io::Result<Option<File>> {
     use std::os::unix::fs::OpenOptionsExt;
@@ -147,7 +147,7 @@ fn nameless(folder: &Path) -> io::Result<Option<File>> {
         std::fs::OpenOptions::new().write(true).mode(0o666).custom_flags(flags).open(folder);
     let none = [Errno::OPNOTSUPP, Errno::ISDIR, Errno::NOENT, Errno::INVAL];
     match opened {
-        // its only way to a name is through /proc
+        // it can get a name only through /proc
         Ok(file) => Ok(own_path(&file).exists().then_some(file)),
         Err(error) if Errno::from_io_error(&error).is_some_and(|e| none.contains(&e)) => Ok(None),
         Err(error) => Err(error),
@@ -176,7 +176,7 @@ fn link(_: &File, _: &Path) -> io::Result<()> {
     Err(ErrorKind::Unsupported.into())
 }
 
-/// How many names a file has.
+/// The number of names of a file.
 #[cfg(unix)]
 fn names(file: &Metadata) -> u64 {
     use std::os::unix::fs::MetadataExt;
@@ -188,13 +188,13 @@ fn names(_: &Metadata) -> u64 {
     1
 }
 
-/// Gives a new file the owner and, where that is allowed, the group of another one.
+/// Gives a new file the owner and, if allowed, the group of another one.
 #[cfg(unix)]
 fn takes_over_owner(new: &File, old: &Metadata) -> bool {
     use std::os::unix::fs::{MetadataExt, fchown};
     let Ok(own) = new.metadata() else { return false };
     if own.gid() != old.gid() {
-        // its group is changed where the owner may; else the mode says what others may do
+        // its group is changed if the owner may do so; otherwise the mode limits others
         let _ = fchown(new, None, Some(old.gid()));
     }
     own.uid() == old.uid() || fchown(new, Some(old.uid()), None).is_ok()

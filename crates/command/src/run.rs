@@ -23,7 +23,7 @@ pub(super) struct Run {
     evaluated: Evaluated,
     #[command(flatten)]
     seed: Seed,
-    /// Number of Monte Carlo trials; 0 for the GUM evaluation alone, `adaptive` for as many as the
+    /// Number of Monte Carlo trials; 0 for only the GUM evaluation, `adaptive` for as many as the
     /// digits need (JCGM 101, 7.9)
     #[arg(
         long, value_name = "N|adaptive", value_parser = options::trials,
@@ -31,12 +31,12 @@ pub(super) struct Run {
     )]
     trials: Option<Trials>,
     /// When an adaptive run stops: by JCGM 101, 7.9, or by Stein's two-stage rule, which meets the
-    /// tolerance more often; 7.9 unless the file says otherwise
+    /// tolerance more often [default: that of the file, else 7.9]
     #[arg(long, value_name = "7.9|stein", value_parser = options::rule())]
     rule: Option<StoppingRule>,
-    /// Figures without the noise of trials beside those of the trials: exact ones of sums and products
-    /// of independent contributions, or those of quasi-random points; auto takes exact ones where
-    /// there are any; none unless asked for
+    /// Results without the noise of trials in addition to those of the trials: exact ones for sums
+    /// and products of independent contributions, or quasi-random ones; auto takes exact ones if
+    /// available [default: none]
     #[arg(long, value_name = "METHOD", value_parser = options::method())]
     method: Option<MethodChoice>,
     /// Make as many trials as the validation of the GUM interval needs (JCGM 101, 8.2)
@@ -58,7 +58,8 @@ pub(super) struct Run {
     memory: usize,
     #[command(flatten)]
     coverage: CoverageOption,
-    /// Significant digits of the standard uncertainty that are held meaningful (clause 8)
+    /// Number of significant digits of the standard uncertainty that are regarded as meaningful
+    /// (clause 8)
     #[arg(
         long, value_name = "N", value_parser = options::digits,
         allow_negative_numbers = true
@@ -67,8 +68,8 @@ pub(super) struct Run {
     /// Take the coverage factor at the real number of effective degrees of freedom
     #[arg(long, value_name = "real")]
     dof: Option<DofRule>,
-    /// Make a part of the run, for `gumption merge`: the blocks A to B - 1 of 1024 trials each, or the
-    /// K-th of N parts
+    /// Make a part of the run, for `gumption merge`: the blocks A to B - 1 of 1024 trials each, or
+    /// the K-th of N parts
     #[arg(
         long, value_name = "A..B|K/N", value_parser = parts::blocks, requires = "partial",
         conflicts_with_all = ["output", "save", "samples", "histogram", "columns", "fail"]
@@ -77,11 +78,10 @@ pub(super) struct Run {
     /// Write that part to a file
     #[arg(long, value_name = "FILE", requires = "blocks")]
     partial: Option<PathBuf>,
-    /// Make the part of a later pass: the file `next-pass` of `gumption merge`
+    /// Make the part for a later pass: the file `next-pass` of `gumption merge`
     #[arg(long, value_name = "FILE", requires = "blocks")]
     pass: Option<PathBuf>,
-    /// Make the run in parts that are kept in a folder; a run that was stopped goes on from those that
-    /// are there
+    /// Make the run in parts that are kept in a folder; a stopped run continues from these parts
     #[arg(long, value_name = "DIR", conflicts_with_all = ["blocks", "samples"])]
     resume: Option<PathBuf>,
 }
@@ -132,7 +132,7 @@ impl Run {
         self.evaluated.give(found, &replaced, places, (&control, &stop))
     }
 
-    /// The command line beats the file.
+    /// The command line takes precedence over the file.
     fn settings(&self, task: &mut Task) {
         let settings = task.settings;
         let asked = SettingsChanges {
@@ -172,7 +172,7 @@ impl Run {
     }
 }
 
-/// An evaluation that failed, as a mistake with its place where it is the user's.
+/// A failed evaluation, as an error with its position if the user caused it.
 pub(super) fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
     Failure::Diagnostics(file.evaluation_failed(error.to_string()))
 }

@@ -1,4 +1,4 @@
-//! What a run leaves for others: a result file, and its trials.
+//! Output files of a run besides the answer: a result file, and its trials.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use gumption_engine::task::{Task, Trials};
 use gumption_report as report;
 use gumption_report::{EvaluationReport, SaveError, TrialsForm};
 
-/// Where to write trials, and in which form.
+/// A file for trials, and its format.
 #[derive(Clone, Debug)]
 pub(super) struct SampleFile {
     path: PathBuf,
@@ -23,7 +23,7 @@ impl SampleFile {
     }
 }
 
-/// A file of trials; its extension says the form.
+/// A file for trials; its extension selects the format.
 pub(super) fn samples(text: &str) -> Result<SampleFile, String> {
     let path = PathBuf::from(text);
     let form = path.extension().and_then(|e| TrialsForm::of_extension(&e.to_string_lossy()));
@@ -31,7 +31,7 @@ pub(super) fn samples(text: &str) -> Result<SampleFile, String> {
     Ok(SampleFile { path, form })
 }
 
-/// Whether the task has what is to be written.
+/// Checks that the task has the data to be written.
 pub(super) fn check(
     task: &Task,
     save: Option<&Path>,
@@ -55,12 +55,12 @@ pub(super) fn check(
     Ok(())
 }
 
-/// Writes what was asked for beside the answer.
+/// Writes the requested files besides the answer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Saver<'a> {
     pub(super) report: &'a EvaluationReport<'a>,
     pub(super) control: &'a Control<'a>,
-    /// The quantiles of the outputs, where they are known.
+    /// The quantiles of the outputs, if they are known.
     pub(super) quantiles: Option<&'a [Vec<f64>]>,
 }
 
@@ -83,11 +83,11 @@ impl From<EvaluationError> for BlockError {
 }
 
 impl Saver<'_> {
-    /// The result file; `false` if the run was stopped, and the file is as it was.
+    /// Writes the result file; `false` if the run was stopped and the file is unchanged.
     pub(super) fn result(&self, file: Destination) -> Result<bool, Failure> {
         let text = match report::saved_result(self.report, self.quantiles, self.control) {
             Ok(Some(text)) => text,
-            // the trials of a run that was stopped before the first one
+            // the run was stopped before the first trial
             Ok(None) | Err(SaveError::NoTrials | SaveError::Rows) => return Ok(false),
             Err(SaveError::Evaluation(error)) => return Err(error.into()),
             Err(error) => return Err(Failure::Argument(format!("`--save`: {error}"))),
@@ -96,7 +96,7 @@ impl Saver<'_> {
         Ok(true)
     }
 
-    /// The trials, block by block; `false` if the run was stopped, and the file is as it was.
+    /// Writes the trials, block by block; `false` if the run was stopped and the file is unchanged.
     pub(super) fn samples(&self, asked: &SampleFile, file: Destination) -> Result<bool, Failure> {
         let EvaluationReport { task, evaluation, .. } = *self.report;
         if self.control.is_stopped() {

@@ -1,4 +1,4 @@
-//! Draws of a blind check in files: made for a range of them, found in a folder, put together.
+//! Draws of a blind test in files: made for a range of them, found in a folder, merged.
 
 use std::fs::File;
 use std::ops::Range;
@@ -15,19 +15,19 @@ use gumption_files::CaseFile;
 use gumption_gap::check::{BlindDraw, CheckedNoise};
 use gumption_text::bytes;
 
-/// The check that draws belong to: all that they depend on.
+/// The test to which draws belong: everything that they depend on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct SharedCheck {
     /// The version of this program.
     gumption: String,
     /// The digest of the case's text.
     case_sha256: String,
-    /// Names and digests of the files that it names.
+    /// Names and digests of the files that the case names.
     files: Vec<(String, String)>,
     seed: u64,
-    /// How many draws the whole check has.
+    /// The number of draws of the whole test.
     draws: u64,
-    /// What their noise is drawn as.
+    /// How their noise is drawn.
     #[serde(default)]
     noise: CheckedNoise,
 }
@@ -36,12 +36,12 @@ pub(super) struct SharedCheck {
 #[derive(Debug, Serialize, Deserialize)]
 struct Part {
     blind_check: SharedCheck,
-    /// The first, and the one behind the last.
+    /// The first one, and the one after the last.
     range: [u64; 2],
     checked: Vec<BlindDraw>,
 }
 
-/// A range of the draws, and what came of them.
+/// A range of draws, and their results.
 type DrawsOfRange = (Range<u64>, Vec<BlindDraw>);
 
 impl SharedCheck {
@@ -57,7 +57,7 @@ impl SharedCheck {
         }
     }
 
-    /// What tells another check from this one, as the end of a sentence.
+    /// The difference between another test and this one, as the end of a sentence.
     fn difference(&self, other: &Self) -> Option<String> {
         Some(if self.gumption != other.gumption {
             format!("were made by gumption {}, not {}", other.gumption, self.gumption)
@@ -86,7 +86,7 @@ impl SharedCheck {
         let part = Part { blind_check: self.clone(), range, checked };
         let line = serde_json::to_string(&part);
         let line = line.map_err(|error| Failure::System(format!("cannot write draws: {error}")))?;
-        // what JSON has no numbers for would not come back
+        // numbers that JSON does not have would be lost
         let again = serde_json::from_str::<Part>(&line).is_ok_and(|of| of.checked == part.checked);
         if !again {
             let reason = "a draw has a figure that is not finite, so that it cannot be carried";
@@ -96,7 +96,7 @@ impl SharedCheck {
         Ok(format!("{line}\n{digest}\n"))
     }
 
-    /// The draws of a file, with their range; `None` of another kind of file.
+    /// The draws of a file, with their range; `None` for another kind of file.
     fn read(&self, path: &Path) -> Result<Option<DrawsOfRange>, Failure> {
         let refuse = |reason: &dyn std::fmt::Display| refused(&path.display(), reason);
         let file = File::open(path).map_err(|error| refuse(&error))?;

@@ -1,9 +1,9 @@
 //! Signals that ask the program to end: Ctrl-C, the SIGTERM of schedulers and services, the SIGHUP of
 //! a terminal that closes.
 //!
-//! A command that can hand back what it has asks for a flag: the first signal sets it, and the
-//! second ends the process. Without a flag the first one does, but not in the middle of a file that
-//! is becoming whole, and not without taking temporary files along.
+//! A command that can return partial results requests a flag: the first signal sets it, and the
+//! second ends the process. Without a flag the first signal ends the process, but not while a file
+//! is being completed, and only after removing temporary files.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
@@ -11,29 +11,29 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::surroundings::in_call;
 
-/// What a shell adds to the number of the signal that ended a program.
+/// A shell adds this to the number of the signal that ended a program.
 const BY_SIGNAL: u8 = 128;
 
 /// The number of Ctrl-C's signal.
 const INTERRUPT: u8 = 2;
 
-/// What the first signal is to set.
+/// The flag that the first signal sets.
 static FLAG: Mutex<Option<Arc<AtomicBool>>> = Mutex::new(None);
 
-/// The number of the first signal; 0 before.
+/// The number of the first signal; 0 before it.
 static RECEIVED: AtomicU8 = AtomicU8::new(0);
 
 /// Held while the process must not end.
 static WHOLE: Mutex<()> = Mutex::new(());
 
-/// Files and folders that are to be gone in the end.
+/// Files and folders to remove at the end.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn lock<T>(mutex: &'static Mutex<T>) -> MutexGuard<'static, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A flag that the first signal sets; a second one ends the process.
+/// A flag that the first signal sets; the second ends the process.
 pub(super) fn stop_flag() -> Arc<AtomicBool> {
     if let Some(flag) = in_call(|call| Arc::clone(&call.stop)) {
         return flag;
@@ -43,7 +43,7 @@ pub(super) fn stop_flag() -> Arc<AtomicBool> {
     flag
 }
 
-/// The exit code of a command that a signal stopped.
+/// The exit code of a command stopped by a signal.
 pub(super) fn exit_code() -> u8 {
     match RECEIVED.load(Ordering::Relaxed) {
         0 => BY_SIGNAL + INTERRUPT,
@@ -56,7 +56,7 @@ pub(super) fn whole() -> MutexGuard<'static, ()> {
     lock(&WHOLE)
 }
 
-/// A file or folder that goes with the process unless it is forgotten.
+/// A file or folder that is removed when the process ends, unless it is kept.
 #[derive(Debug)]
 pub(super) struct Temporary(PathBuf);
 
@@ -78,12 +78,12 @@ impl Drop for Temporary {
     }
 }
 
-/// Removes what may be gone already.
+/// Removes a file or folder, which may no longer exist.
 fn remove(path: &Path) {
     let _ = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
 }
 
-/// What a signal of that number does.
+/// Handles a signal with this number.
 #[cfg(any(unix, windows))]
 fn received(number: u8) {
     let _ = RECEIVED.compare_exchange(0, number, Ordering::Relaxed, Ordering::Relaxed);
@@ -97,8 +97,8 @@ fn received(number: u8) {
     std::process::exit(i32::from(exit_code()));
 }
 
-/// Ends the process from whichever thread, which may be the one that keeps it whole: what is becoming
-/// whole has a second for it.
+/// Ends the process from any thread, possibly the one that holds the lock: a file that is being
+/// completed gets one second.
 pub(super) fn end(code: i32) {
     let free = (0..100).find_map(|_| {
         let free = WHOLE.try_lock().ok();
@@ -114,24 +114,24 @@ pub(super) fn end(code: i32) {
     std::process::exit(code);
 }
 
-/// Takes over the signals. It must come before any thread is started: threads inherit which signals
-/// they leave to the one that waits here.
+/// Installs the signal handling. It must run before any thread is started: threads inherit which
+/// signals they leave to the thread that waits here.
 #[cfg(unix)]
 pub(super) fn watch() {
     use nix::sys::signal::{SigSet, Signal};
 
-    // a write beyond a limit of files then fails, and is told (setrlimit(2), RLIMIT_FSIZE)
+    // a write beyond a file size limit then fails and is reported (setrlimit(2), RLIMIT_FSIZE)
     let mut unheard = SigSet::empty();
     unheard.add(Signal::SIGXFSZ);
     let _ = unheard.thread_block();
     let mut signals = SigSet::empty();
     signals.add(Signal::SIGINT);
     signals.add(Signal::SIGTERM);
-    // `nohup` has it ignored, which is a wish
+    // with `nohup` it is ignored on purpose
     if !is_ignored(Signal::SIGHUP as u8) {
         signals.add(Signal::SIGHUP);
     }
-    // where they cannot be taken over, they end the process, which is all right as well
+    // without handlers, signals end the process, which is acceptable
     if signals.thread_block().is_err() {
         return;
     }
@@ -145,7 +145,7 @@ pub(super) fn watch() {
     }
 }
 
-/// Whether the process was started with a signal ignored, as far as the system tells.
+/// Whether the process was started with a signal ignored, if the system tells.
 #[cfg(unix)]
 fn is_ignored(number: u8) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -154,13 +154,13 @@ fn is_ignored(number: u8) -> bool {
     mask.is_some_and(|mask| mask >> (number - 1) & 1 == 1)
 }
 
-/// There are none to take over.
+/// There are no signals to handle.
 #[cfg(not(any(unix, windows)))]
 pub(super) fn watch() {}
 
 /// Takes over Ctrl-C.
 #[cfg(windows)]
 pub(super) fn watch() {
-    // without a handler Ctrl-C ends the process, which is all right as well
+    // without a handler Ctrl-C ends the process, which is acceptable
     let _ = ctrlc::set_handler(|| received(INTERRUPT));
 }

@@ -1,6 +1,7 @@
-//! Where a command's answer and notes go, what stops it, and what standard input is.
+//! The surroundings of a command: the destinations of its answer and notes, the stop flag, and
+//! standard input.
 //!
-//! As a program these are the process's own streams and signals. A program that calls the command
+//! In a program these are the process's own streams and signals. A program that calls the command
 //! line as a function ([`CommandLine::call`](super::CommandLine::call)) has them in memory instead,
 //! for the thread of the call: commands compute on many threads, but read and write on one.
 
@@ -8,22 +9,22 @@ use std::cell::RefCell;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// A model file that stands in place of standard input (`-`) in a call.
+/// A model file that replaces standard input (`-`) in a call.
 #[derive(Clone, Debug, Default)]
 pub struct GivenFile {
     /// What messages call it.
     pub name: String,
     /// Its text.
     pub text: String,
-    /// The folder that the files it names are looked for in.
+    /// The folder that contains the files it names.
     pub folder: std::path::PathBuf,
-    /// The folder above which nothing is looked for, whatever a `.gumption-root` says there.
+    /// The folder above which nothing is looked for, even if a `.gumption-root` allows it.
     pub within: Option<std::path::PathBuf>,
-    /// Files in memory that it may name, by their names.
+    /// Files in memory that it may name, by name.
     pub held: Vec<(String, Vec<u8>)>,
 }
 
-/// What stands in place of the process's streams and signals.
+/// Replacements of the process's streams and signals.
 #[derive(Debug, Default)]
 pub(super) struct Surroundings {
     pub(super) answer: Vec<u8>,
@@ -36,14 +37,14 @@ thread_local! {
     static CALL: RefCell<Option<Surroundings>> = const { RefCell::new(None) };
 }
 
-/// Does something with the surroundings of a call; `None` where the process's own are to be taken.
+/// Uses the surroundings of a call; `None` if the process's own are to be used.
 pub(super) fn in_call<R>(work: impl FnOnce(&mut Surroundings) -> R) -> Option<R> {
     CALL.with_borrow_mut(|call| call.as_mut().map(work))
 }
 
-/// Runs `work` in these surroundings, and gives back what they have become.
+/// Runs `work` in these surroundings, and returns them afterwards.
 pub(super) fn within<R>(given: Surroundings, work: impl FnOnce() -> R) -> (R, Surroundings) {
-    /// Leaves the surroundings also where `work` panics.
+    /// Leaves the surroundings even if `work` panics.
     struct Leave(Option<Surroundings>);
     impl Drop for Leave {
         fn drop(&mut self) {

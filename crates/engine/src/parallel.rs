@@ -1,12 +1,12 @@
 //! Threads, and loops over independent items on all threads of the current pool.
 //!
-//! A system may refuse threads: a container with a limit of processes, `ulimit -u`. Then whoever asks
-//! is the one thread, and the answer is the same; [`refused`] says why.
+//! A system may refuse threads: a container with a limit of processes, `ulimit -u`. Then the
+//! calling thread does the work, and the answer is the same; [`refused`] gives the reason.
 //!
-//! A loop of rayon's iterators is compiled for every function that it calls, ten kilobytes each; here
-//! the scheduling is compiled once, and what is compiled for each loop is the loop. It costs a lock and a
-//! call per item, which items of a microsecond do not notice. Loops whose items are shorter, and those
-//! that keep sums for each thread, stay with rayon.
+//! A loop of rayon's iterators is compiled for every function that it calls, ten kilobytes each.
+//! Here the scheduling is compiled once, and only the loop body for each use. The cost is a lock
+//! and a call per item, which is negligible for items of a microsecond. Loops with shorter items,
+//! and loops that keep sums for each thread, use rayon.
 
 use std::convert::Infallible;
 use std::error::Error;
@@ -18,15 +18,15 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::threads::OfProcess;
 
-/// What the system said when it first refused a thread.
+/// The system's message when it first refused a thread.
 static REFUSED: OnceLock<String> = OnceLock::new();
 
-/// Why the system gave no threads, if that has happened: one thread does the work since.
+/// Why the system refused threads, if it did: since then one thread does the work.
 pub fn refused() -> Option<&'static str> {
     REFUSED.get().map(String::as_str)
 }
 
-/// Whether the system gives one more thread now.
+/// Whether the system provides one more thread now.
 ///
 /// # Errors
 /// Why it does not.
@@ -40,7 +40,7 @@ pub struct Pool(Kind);
 
 #[derive(Debug)]
 enum Kind {
-    /// The pool that the calling thread is in, and rayon's global one if it is in none.
+    /// The pool of the calling thread, or rayon's global one.
     Callers,
     Own(ThreadPool),
     /// The calling thread alone.
@@ -48,8 +48,8 @@ enum Kind {
 }
 
 impl Pool {
-    /// A pool of so many threads for itself, 0 for as many as the machine has; where the system gives
-    /// none, the calling thread alone.
+    /// A new pool with `threads` threads, 0 for as many as the machine has; if the system provides
+    /// none, only the calling thread.
     pub fn new(threads: usize) -> Self {
         let made = ThreadPoolBuilder::new().num_threads(threads).build();
         Self(made.map_or_else(|error| refuse(&error), Kind::Own))
@@ -65,15 +65,15 @@ impl Pool {
         work()
     }
 
-    /// Whether it is one of so many threads for itself.
+    /// Whether it is a separate pool with this number of threads.
     fn is_of(&self, threads: usize) -> bool {
         matches!(&self.0, Kind::Own(pool) if pool.current_num_threads() == threads)
     }
 }
 
-/// A pool of so many threads: the last one, if it has as many. New threads begin on the processor of
-/// the one that starts them and may wait there for milliseconds, as long as a run of a million trials
-/// takes. 0 for the pool that the caller is in, rayon's global one if it is in none.
+/// A pool with this number of threads: the last one, if it has as many. New threads begin on the
+/// processor of the thread that starts them and may wait there for milliseconds, as long as a run
+/// of a million trials takes. 0 means the caller's pool, or rayon's global one.
 pub fn pool(threads: usize) -> Arc<Pool> {
     static LAST: OfProcess<Pool> = OfProcess::new();
     if threads == 0 {
@@ -85,15 +85,15 @@ pub fn pool(threads: usize) -> Arc<Pool> {
     pool
 }
 
-/// Sees to it that the calling thread has threads: those of the pool that it is in, or of rayon's
-/// global one, whose first use by itself panics where the system gives no threads.
+/// Ensures that the calling thread has a pool: its own, or rayon's global one, whose first use
+/// panics if the system provides no threads.
 fn enter() {
     static HAS_GLOBAL: OnceLock<bool> = OnceLock::new();
     if rayon::current_thread_index().is_some() {
         return;
     }
     let has_global = HAS_GLOBAL.get_or_init(|| match ThreadPoolBuilder::new().build_global() {
-        // without a source: somebody else has made it
+        // an error without a source: another thread has created it
         Err(error) if error.source().is_some() => {
             refuse(&error);
             false
@@ -111,7 +111,7 @@ fn refuse(error: &ThreadPoolBuildError) -> Kind {
     Kind::Alone
 }
 
-/// Makes the calling thread a pool of one for good, unless it is in one.
+/// Makes the calling thread a permanent pool of one, unless it is in a pool.
 fn alone() {
     if rayon::current_thread_index().is_none() {
         let pool = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
@@ -119,14 +119,14 @@ fn alone() {
     }
 }
 
-/// An item before its turn, and what became of it.
+/// An item before its call, and its result.
 enum Slot<I, T> {
     Waiting(I),
     Taken,
     Done(T),
 }
 
-/// What a function makes of each item, in the order of the items.
+/// Applies a function to each item; the results are in the order of the items.
 pub fn map<I: Send, T: Send>(
     items: impl IntoIterator<Item = I>,
     of: impl Fn(I) -> T + Sync,
@@ -134,7 +134,7 @@ pub fn map<I: Send, T: Send>(
     let slots: Vec<Mutex<Slot<I, T>>> =
         items.into_iter().map(|item| Mutex::new(Slot::Waiting(item))).collect();
     each(slots.len(), &|place| {
-        // no two calls have the same place: the lock is never waited for
+        // no two calls have the same index: the lock is never contended
         let mut slot = slots[place].lock().unwrap_or_else(PoisonError::into_inner);
         if let Slot::Waiting(item) = mem::replace(&mut *slot, Slot::Taken) {
             *slot = Slot::Done(of(item));
@@ -149,7 +149,7 @@ pub fn map<I: Send, T: Send>(
     done.collect()
 }
 
-/// The same with room to work in, of which no more are made than calls go on at a time.
+/// The same with working memory; no more are created than there are calls at a time.
 pub fn map_with<W: Send, I: Send, T: Send>(
     items: impl IntoIterator<Item = I>,
     room: impl Fn() -> W + Sync,
@@ -176,7 +176,8 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// A thousand items that move, within one another, in their order; and places that are written to.
+    /// A thousand items that are moved, in nested loops, in their order; and slots that are
+    /// written.
     #[test]
     fn items_keep_their_order() {
         let texts = (0..1000).map(|n| n.to_string());
@@ -189,7 +190,7 @@ mod tests {
         assert!(map(Vec::<u8>::new(), |n| n).is_empty());
     }
 
-    /// No more rooms than threads, and every item has one to itself.
+    /// No more working memories than threads, and every item has one to itself.
     #[test]
     fn rooms_are_used_again() {
         let pool = Pool::new(3);

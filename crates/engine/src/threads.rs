@@ -1,11 +1,11 @@
-//! What belongs to one process: pools of threads, which a forked child does not have.
+//! Pools of threads belong to one process: a forked child does not have them.
 
 use std::sync::{Arc, Mutex, TryLockError};
 
 /// A pool of threads that is kept from one call to the next, for the process that made it.
 ///
-/// A child that was forked inherits the memory of its parent and none of its threads: what it hands to
-/// its parent's pool waits forever. Here a child makes a pool of its own.
+/// A forked child inherits the memory of its parent but none of its threads: work for its parent's
+/// pool would wait forever. Here a child creates its own pool.
 #[derive(Debug)]
 pub struct OfProcess<P>(Mutex<Option<(u32, Arc<P>)>>);
 
@@ -21,7 +21,8 @@ impl<P> OfProcess<P> {
         Self(Mutex::new(None))
     }
 
-    /// The kept pool, if this process made it and it fits; else a new one, which is kept in its place.
+    /// The stored pool, if this process created it and it fits; otherwise a new one, which replaces
+    /// it.
     ///
     /// # Errors
     /// Those of `make`.
@@ -31,7 +32,7 @@ impl<P> OfProcess<P> {
         make: impl FnOnce() -> Result<P, E>,
     ) -> Result<Arc<P>, E> {
         let process = std::process::id();
-        // another thread may have held the lock when this process was forked: it is not waited for
+        // another thread may have held the lock when this process was forked, so do not wait for it
         let mut kept = match self.0.try_lock() {
             Ok(kept) => kept,
             Err(TryLockError::Poisoned(kept)) => kept.into_inner(),
@@ -47,7 +48,7 @@ impl<P> OfProcess<P> {
         if let Some((of, pool)) = kept.replace((process, Arc::clone(&made)))
             && of != process
         {
-            // waiting for the end of threads that are not there would take forever
+            // waiting for the end of threads that do not exist would take forever
             std::mem::forget(pool);
         }
         Ok(made)

@@ -6,11 +6,11 @@ use gumption_engine::decimal::significant;
 use gumption_engine::task::Warning;
 use gumption_files::CertificateFile;
 
-/// Digits that an expanded uncertainty is stated to, at most (ILAC-P14:09/2020, 5.3).
+/// Maximum number of digits of a stated expanded uncertainty (ILAC-P14:09/2020, 5.3).
 const MOST_DIGITS: u32 = 2;
 
-/// More digits than an accredited certificate may state, and expanded uncertainties that rounding makes
-/// smaller than it may.
+/// Notes about more digits than an accredited certificate may state, and about expanded
+/// uncertainties that rounding reduces too much.
 pub(super) fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
     let digits = file.certificate.digits;
     let mut notes = Vec::new();

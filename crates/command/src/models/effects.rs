@@ -8,7 +8,7 @@ use gumption_files as file;
 use gumption_files::EffectListing;
 use gumption_units::nearest;
 
-/// The effects of that name, or all of them.
+/// The effects with this name, or all.
 pub(super) fn named(name: Option<&str>) -> Result<EffectListing, Failure> {
     let EffectListing { names, mut effects } = file::catalogue();
     let Some(name) = name else { return Ok(EffectListing { names, effects }) };

@@ -1,4 +1,5 @@
-//! `gumption models --examples`: the published measurements that the program carries, to start from.
+//! `gumption models --examples`: published measurements included in the program, as starting
+//! points.
 
 use gumption_units::nearest;
 use serde::Deserialize;
@@ -6,7 +7,7 @@ use serde::Deserialize;
 use super::super::{Failure, PublishedExamples};
 use super::one_line;
 
-/// What a list tells of an example.
+/// An example in a list.
 #[derive(Deserialize)]
 struct Sourced {
     #[serde(default)]
@@ -17,7 +18,7 @@ struct Sourced {
 /// The list of examples, or the model file of one.
 ///
 /// # Errors
-/// A name that no example has.
+/// No example has this name.
 pub(super) fn named(published: &PublishedExamples, name: Option<&str>) -> Result<String, Failure> {
     let Some(name) = name else { return list(published) };
     let models = published.starting_points();

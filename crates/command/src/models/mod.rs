@@ -20,13 +20,13 @@ use gumption_units::all_nearest;
 pub(super) struct Models {
     /// A model to describe; with --effects the effect, with --examples the example
     name: Option<String>,
-    /// Print a model file of it, ready to fill in
+    /// Print a model file for it, ready to fill in
     #[arg(long, requires = "name")]
     template: bool,
     /// List the effects that a gap case can name in its `catalogue`
     #[arg(long, conflicts_with = "template")]
     effects: bool,
-    /// List the published measurements that the program carries, or print the model file of one
+    /// List the published measurements included in the program, or print the model file of one
     #[arg(long, conflicts_with_all = ["template", "effects"])]
     examples: bool,
     /// Format of the answer; json with --effects only
@@ -82,7 +82,7 @@ fn unknown(catalogue: &Catalogue, name: &str) -> Failure {
     Failure::Argument(format!("there is no typed model `{name}`; {hint}"))
 }
 
-/// A doc text as a page has it: no indentation, and links by their text.
+/// A doc text for a page: without indentation, and links as their text.
 fn plain(about: &str) -> String {
     let lines: Vec<&str> = about.trim().lines().map(str::trim).collect();
     let mut text = String::new();
@@ -127,7 +127,7 @@ fn wrapped(paragraph: &str) -> String {
     wrapped_to(paragraph, 100)
 }
 
-/// On lines of at most so many characters, unless a word is longer.
+/// On lines of at most `longest` characters, unless a word is longer.
 fn wrapped_to(paragraph: &str, longest: usize) -> String {
     let mut text = String::new();
     let mut width = 0;

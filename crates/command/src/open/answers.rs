@@ -1,4 +1,4 @@
-//! What the page is answered: by the commands that there are, called as functions.
+//! Answers for the live page: the commands, called as functions.
 
 use std::io;
 use std::path::Path;
@@ -17,7 +17,7 @@ use gumption_server::{
 };
 use gumption_text::FileSource;
 
-/// Idle pools of threads that are kept for later, at most.
+/// Maximum number of idle thread pools that are kept.
 const KEPT_POOLS: usize = 2;
 
 /// The answers of this program.
@@ -32,8 +32,8 @@ impl PageAnswers {
         Self { program, assets: files_of_page::all(), pools: Mutex::default() }
     }
 
-    /// Does work in a pool of threads that nobody else works in: within one, the jobs of a short piece
-    /// of work would come after those of a long one.
+    /// Runs work in a thread pool of its own: in a shared one, the jobs of short work would wait
+    /// for those of long work.
     fn in_own_pool<R: Send>(
         &self,
         work: impl FnOnce() -> Result<R, Refusal> + Send,
@@ -49,7 +49,7 @@ impl PageAnswers {
         done
     }
 
-    /// A text in a format of the command that goes with it.
+    /// A text in a format of the matching command.
     fn exported(
         &self,
         file: &TextOfFile,

@@ -12,7 +12,7 @@ pub(super) fn open(address: &str) -> Result<(), String> {
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     let mut child =
         command.spawn().map_err(|error| format!("no browser was opened (`{name}`: {error})"))?;
-    // it may live as long as the browser does; its end is only to be heard of
+    // it may live as long as the browser; only its end is waited for
     let wait = move || child.wait();
     let _ = std::thread::Builder::new().name("browser".to_owned()).spawn(wait);
     Ok(())
@@ -37,7 +37,7 @@ fn command(address: &str) -> Result<Command, String> {
 
 #[cfg(not(any(windows, target_os = "macos")))]
 fn command(address: &str) -> Result<Command, String> {
-    // without a display `xdg-open` starts a browser in the terminal, where the server is
+    // without a display `xdg-open` starts a browser in the terminal of the server
     let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     if !["DISPLAY", "WAYLAND_DISPLAY", "BROWSER"].into_iter().any(is_set) {
         return Err("there is no display to open a browser on".to_owned());

@@ -18,29 +18,29 @@ use answers::PageAnswers;
 use gumption_report::plain;
 use gumption_server::{LocalServer, OpenedFolder, RequestTimes, ServerOptions};
 
-/// Work on a file or folder on a page in the browser, which answers while you type.
+/// Edit a file or folder on a page in the browser, with results while you type.
 ///
-/// A server on this machine alone (127.0.0.1) serves the page. It reads and writes files of the folder,
-/// and no others; the address holds a secret, so that no other user and no other site can ask it.
+/// A server on this machine (127.0.0.1) provides the page. It reads and writes only files of the
+/// folder; the address contains a secret, so that other users and other sites have no access.
 /// Ctrl-C ends it.
 #[derive(Debug, Args)]
 pub(super) struct Open {
-    /// The file to be shown, whose folder is opened, or the folder
+    /// The file to show, whose folder is opened, or the folder
     #[arg(value_name = "FILE or FOLDER", default_value = ".")]
     path: PathBuf,
-    /// Port of the server; a free one unless given
+    /// Port of the server [default: a free one]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     port: u16,
-    /// Print the address, and do not open the browser
+    /// Print the address without opening the browser
     #[arg(long)]
     no_browser: bool,
-    /// Language of the page; that of the browser unless given
+    /// Language of the page [default: that of the browser]
     #[arg(long, value_name = "de|en", hide_possible_values = true)]
     lang: Option<Language>,
-    /// Write the page as a folder of files that need no server, and end
+    /// Write the page as a folder of files that need no server, and exit
     #[arg(long = "static", value_name = "DIR", conflicts_with_all = ["port", "no_browser", "lang"])]
     folder: Option<PathBuf>,
-    /// The program for that page, as `page/build-wasm.sh` makes it
+    /// The program for that page, as built by `page/build-wasm.sh`
     #[arg(long, value_name = "FILE", requires = "folder")]
     wasm: Option<PathBuf>,
 }
@@ -113,7 +113,7 @@ fn shown(path: &Path) -> String {
     plain(&path.display().to_string())
 }
 
-/// Says where the page is, at once also where standard output is a pipe.
+/// Prints the address of the page, at once even if standard output is a pipe.
 fn print_line(line: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     let written = writeln!(out, "{line}").and_then(|()| out.flush());

@@ -1,4 +1,4 @@
-//! The page as a folder of files that any web server, or none of ours, may serve.
+//! The page as a folder of files for any web server.
 
 use std::fs::File;
 use std::io;
@@ -11,13 +11,13 @@ use crate::output::Destination;
 use crate::{Exit, Failure};
 use gumption_text::bytes;
 
-/// Where the program stands in the folder.
+/// The path of the program in the folder.
 const PROGRAM: &str = "assets/gumption.wasm";
 
-/// What a program for browsers begins with.
+/// The first bytes of a WebAssembly program.
 const MAGIC: &[u8] = b"\0asm";
 
-/// The largest program that is taken, in bytes.
+/// The largest accepted program, in bytes.
 const MOST: u64 = 256 << 20;
 
 /// Writes the files of the page, and the program if it is given.

@@ -1,5 +1,5 @@
-//! The published examples that ship with the program: model files with the values that documents
-//! print, and where these stand in the answer.
+//! The published examples in the program: model files with the values that documents print, and the
+//! paths of these values in the answer.
 
 use gumption_analysis::verification::PublishedValue;
 use serde::Deserialize;
@@ -19,7 +19,7 @@ pub(crate) struct Example {
     pub(crate) notes: String,
 }
 
-/// What a document publishes of a measurement: ready file, replacements in it, published values.
+/// A published measurement: ready file, replacements in it, published values.
 #[derive(Deserialize)]
 struct PublishedMeasurement {
     example: String,
@@ -30,23 +30,23 @@ struct PublishedMeasurement {
     notes: String,
 }
 
-/// Published examples as texts, which a program carries with it.
+/// Published examples as texts in the program.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PublishedExamples {
-    /// Worked examples of documents: name and model file.
+    /// Worked examples from documents: name and model file.
     pub cases: &'static [(&'static str, &'static str)],
-    /// What documents publish, as a JSON list of measurements: the case or ready file (`model`),
-    /// replacements in it (`set`), the document (`source`), the values (`published`) and what a reader
-    /// should know (`notes`). Empty for nothing.
+    /// Published values, as a JSON list of measurements: the case or ready file (`model`),
+    /// replacements in it (`set`), the document (`source`), the values (`published`) and notes for
+    /// the reader (`notes`). May be empty.
     pub values: &'static str,
     /// Ready files that the list names besides the cases.
     pub models: &'static [(&'static str, &'static str)],
-    /// Further model files to start from, by name; what they are is in their `title` and `source`.
+    /// Further model files as starting points, by name; their `title` and `source` describe them.
     pub more: &'static [(&'static str, &'static str)],
 }
 
 impl PublishedExamples {
-    /// The model files to start from, by name.
+    /// The model files that serve as starting points, by name.
     pub(crate) fn starting_points(&self) -> impl Iterator<Item = (&str, &str)> + Clone {
         self.cases.iter().chain(self.more).copied()
     }
@@ -54,7 +54,7 @@ impl PublishedExamples {
     /// All with published values, in the order in which they are printed.
     ///
     /// # Errors
-    /// A text that cannot be read.
+    /// A text cannot be read.
     pub(crate) fn with_values(&self) -> Result<Vec<Example>, String> {
         if self.values.is_empty() {
             return Ok(Vec::new());

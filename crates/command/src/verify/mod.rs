@@ -19,8 +19,7 @@ use recompute::Machine;
 /// Recompute the published examples.
 #[derive(Debug, Args)]
 pub(super) struct Verify {
-    /// Instead: run every code path that this machine has and print the hash over all trials of
-    /// each
+    /// Instead, run every code path of this machine and print the hash over all trials of each
     #[arg(long, conflicts_with_all = ["format", "output"])]
     paths: bool,
     #[command(flatten)]
@@ -31,7 +30,7 @@ pub(super) struct Verify {
     interactive: Interactive,
     #[command(flatten)]
     threads: Threads,
-    /// End with exit code 3 if a value differs, or with --paths a hash
+    /// Exit with code 3 if a value differs, or with --paths a hash
     #[arg(long)]
     fail: bool,
 }
@@ -39,15 +38,15 @@ pub(super) struct Verify {
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// A page of text for people
+    /// A text page
     Table,
     /// The whole answer for programs
     Json,
     /// One line for each published value
     Csv,
-    /// A page to file, as GitHub shows it
+    /// A Markdown page for the records, as GitHub shows it
     Markdown,
-    /// A page to file, for a browser and for print, in one file
+    /// An HTML page for the records, in one file
     Html,
 }
 

@@ -14,7 +14,7 @@ use gumption_engine::task::Trials;
 /// Compare code paths.
 #[derive(Debug, Args)]
 pub(super) struct Paths {
-    /// With --paths: the model file whose trials are compared; a built-in one unless given
+    /// With --paths: the model file whose trials are compared [default: a built-in one]
     #[arg(long, value_name = "FILE", requires = "paths")]
     model: Option<PathBuf>,
     /// With --paths: number of trials

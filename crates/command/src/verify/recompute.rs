@@ -14,7 +14,7 @@ use gumption_files::Override;
 use gumption_report as report;
 use gumption_report::{EvaluationReport, Provenance};
 
-/// What is shared by all runs.
+/// Settings shared by all runs.
 #[derive(Clone, Copy)]
 pub(super) struct Machine<'a> {
     /// Number of threads; 0 for all.
@@ -22,13 +22,13 @@ pub(super) struct Machine<'a> {
     pub(super) stop: &'a AtomicBool,
 }
 
-/// Whether a figure comes from trials.
+/// Whether a value comes from trials.
 fn needs_trials(path: &str) -> bool {
     !path.starts_with("gum.")
 }
 
-/// Evaluates an example with the settings of its file, without trials where no published value
-/// comes from them.
+/// Evaluates an example with the settings of its file, without trials if no published value needs
+/// them.
 pub(super) fn recompute(example: Example, machine: Machine<'_>) -> RecomputedExample {
     let mut trials = None;
     let (answer, failure) = match answer(&example, machine, &mut trials) {
@@ -115,7 +115,7 @@ mod tests {
         assert_eq!(verdict(published("monte_carlo.estimate", 1.0, 9.0)), PublishedVerdict::Diff);
     }
 
-    /// An example that this program cannot read is a difference with its reason, no failure.
+    /// An example that this program cannot read is a difference with its reason, not a failure.
     #[test]
     fn what_cannot_be_evaluated_is_a_difference() {
         let example = Example {

@@ -1,19 +1,19 @@
-//! Rounding, done once: the decimal digits of a number, and which of them are kept.
+//! Rounding, defined in one place: the decimal digits of a number, and which of them are kept.
 //!
-//! What a page, a workbook or a certificate prints is decimal, so the rule for a tie must be one on
+//! Pages, workbooks and certificates print decimal numbers, so the rule for a tie must be based on
 //! decimal digits too. The digits of a number are those of the shortest text that reads back as the
-//! same binary64: 2.675 is a tie at its second decimal, although the binary64 that stands for it is
-//! a little less. A half goes away from zero, so that no uncertainty is rounded down at a tie (JCGM
-//! 100, 7.2.6 rounds up where in doubt).
+//! same binary64: 2.675 is a tie at its second decimal, although its binary64 is slightly smaller.
+//! A half rounds away from zero, so that no uncertainty is rounded down at a tie (JCGM 100, 7.2.6
+//! rounds up if in doubt).
 //!
 //! # Noise
 //!
-//! A computed result is off by some of its last bits: k u may be 0.124 999 999 999 999 99 where
-//! 0.125 is meant. A number is therefore first rounded to twelve digits, or to two more than are
-//! kept where these are more. Twelve, because a sum of squares over thousands of contributions is
-//! good to about 1e-13, relatively, and no uncertainty is known to twelve digits; two more than are
-//! kept, because a frequency with an uncertainty of 1e-15, relatively, has digits behind the
-//! twelfth, and then moves by 0.005 units of the last kept digit at most.
+//! A computed result has errors in its last bits: k u may be 0.124 999 999 999 999 99 where 0.125
+//! is meant. A number is therefore first rounded to twelve digits, or to two more than are kept if
+//! that is more. Twelve, because a sum of squares over thousands of contributions has a relative
+//! error of about 1e-13, and no uncertainty is known to twelve digits. Two more than are kept,
+//! because a frequency with a relative uncertainty of 1e-15 has digits after the twelfth, and then
+//! changes by at most 0.005 units of the last kept digit.
 
 mod text;
 
@@ -21,16 +21,16 @@ pub use text::{MISSING, exact, rounded, significant};
 
 use std::cmp::Ordering;
 
-/// Significant digits that a computed number is held to have, at least.
+/// Minimum number of significant digits that a computed number is assumed to have.
 const HELD_DIGITS: i32 = 12;
 
-/// Digits behind those that are kept which decide about them.
+/// Additional digits after the kept ones that decide their rounding.
 const GUARD_DIGITS: i32 = 2;
 
-/// The most digits of a [`Decimal`]; 17 tell any two binary64 from each other.
+/// The most digits of a [`Decimal`]; 17 distinguish any two binary64.
 const MOST_DIGITS: i32 = 18;
 
-/// All digits of any binary64 stand well between this power of ten and its inverse.
+/// All digits of any binary64 are well between this power of ten and its inverse.
 const BEYOND: i32 = 400;
 
 /// A finite number in decimal digits: an integer of at most 18 digits times a power of ten.
@@ -42,7 +42,7 @@ pub struct Decimal {
     position: i32,
 }
 
-/// Which way to go from a number that is between two with fewer digits.
+/// The direction of rounding for a number between two with fewer digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// To the nearest, a half away from zero.
@@ -103,8 +103,8 @@ impl Decimal {
         self.negative
     }
 
-    /// Rounded to a position, the power of ten of the last digit to be kept. Below the eighteenth
-    /// digit, where no binary64 has one, the number ends there.
+    /// Rounded to a position, the power of ten of the last kept digit. No binary64 has more than
+    /// eighteen digits, so the number ends there.
     ///
     /// ```
     /// use gumption_engine::decimal::{Decimal, Direction};
@@ -129,14 +129,14 @@ impl Decimal {
     }
 
     /// Rounded to a number of significant digits, 1 to 15. The position is decided after rounding:
-    /// 9.96 with two digits is 10, so its last digit is that of the units. Zero stays as it is.
+    /// 9.96 with two digits is 10, so its last digit is that of the units. Zero is unchanged.
     #[must_use]
     pub fn round_to_digits(self, digits: u32, direction: Direction) -> Self {
         let Some(leading) = self.leading() else { return self };
         let position = leading - digits.clamp(1, text::MOST_DIGITS) as i32 + 1;
         let rounded = self.round(position, direction);
         match rounded.leading() {
-            // what is rounded to a new power of ten has a zero more than asked for
+            // a number rounded up to a new power of ten has one zero more than requested
             Some(carried) if carried > leading => rounded.cut(position + 1, Direction::Nearest),
             _ => rounded,
         }
@@ -150,13 +150,12 @@ impl Decimal {
         if negative { -modulus } else { modulus }
     }
 
-    /// One step of rounding, on all the digits that there are; zeros are added at a position below
-    /// the last digit.
+    /// One step of rounding, on all digits; zeros are added at a position below the last digit.
     fn cut(self, position: i32, direction: Direction) -> Self {
         let Self { negative, coefficient, position: last } = self;
         let power = 10_u64.checked_pow(position.abs_diff(last));
         let coefficient = match (position.cmp(&last), power) {
-            // `round` asks for 18 digits at most, which fit
+            // `round` requests at most 18 digits, which fit
             (Ordering::Less | Ordering::Equal, power) => {
                 power.map_or(coefficient, |power| coefficient.saturating_mul(power))
             }
@@ -178,7 +177,7 @@ impl Decimal {
 }
 
 /// The power of ten of the last of `digits` significant digits of a value, after rounding to them:
-/// -3 for 0.0123 with two digits. `None` for zero and for what is not finite.
+/// -3 for 0.0123 with two digits. `None` for zero and for values that are not finite.
 ///
 /// ```
 /// use gumption_engine::decimal::position;
@@ -192,13 +191,14 @@ pub fn position(value: f64, digits: u32) -> Option<i32> {
     Some(decimal.round_to_digits(digits, Direction::Nearest).position)
 }
 
-/// A value rounded to a position; what is not finite stays as it is.
+/// A value rounded to a position; values that are not finite are unchanged.
 pub fn to_position(value: f64, position: i32) -> f64 {
     Decimal::shortest(value)
         .map_or(value, |decimal| decimal.round(position, Direction::Nearest).value())
 }
 
-/// A value rounded to a number of significant digits, 1 to 15; what is not finite stays as it is.
+/// A value rounded to a number of significant digits, 1 to 15; values that are not finite are
+/// unchanged.
 ///
 /// ```
 /// assert_eq!(gumption_engine::decimal::to_digits(0.1 + 0.2, 12), 0.3);
@@ -208,8 +208,8 @@ pub fn to_digits(value: f64, digits: u32) -> f64 {
         .map_or(value, |decimal| decimal.round_to_digits(digits, Direction::Nearest).value())
 }
 
-/// A value without the digits that only binary rounding makes: to fifteen significant ones, of which a
-/// binary64 holds every one; what is not finite stays as it is.
+/// A value without the digits due to binary rounding: rounded to fifteen significant digits, all of
+/// which a binary64 holds; values that are not finite are unchanged.
 ///
 /// ```
 /// assert_eq!(gumption_engine::decimal::to_15_digits(100.0 * 0.07), 7.0);

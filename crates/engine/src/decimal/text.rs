@@ -4,17 +4,17 @@ use std::fmt;
 
 use super::{Decimal, Direction, position};
 
-/// What is printed where there is no number.
+/// Printed if there is no number.
 pub const MISSING: &str = "-";
 
-/// Digits of which a binary64 holds every one; no more are printed.
+/// Number of digits that a binary64 always holds; no more are printed.
 pub(super) const MOST_DIGITS: u32 = 15;
 
-/// Significant digits of a number that is known exactly; more would show binary rounding.
+/// Significant digits of an exactly known number; more would show binary rounding.
 const EXACT_DIGITS: u32 = 12;
 
-/// Leading digits at these powers of ten and between are written without an exponent: up to the
-/// gigahertz in hertz and the gigaohm in ohms, as certificates state them.
+/// Numbers whose leading digit has one of these powers of ten are written without an exponent: up
+/// to gigahertz in hertz and gigaohms in ohms, as certificates state them.
 const PLAIN: std::ops::RangeInclusive<i32> = -5..=9;
 
 /// A zero is written with this many decimals at most.
@@ -54,7 +54,7 @@ pub fn significant(value: f64, digits: u32) -> String {
     rounded(value, position(value, digits).unwrap_or(0))
 }
 
-/// A number that is known exactly: as many digits as it needs, up to twelve.
+/// An exactly known number: as many digits as it needs, up to twelve.
 ///
 /// ```
 /// assert_eq!(gumption_engine::decimal::exact(0.1 + 0.2), "0.3");

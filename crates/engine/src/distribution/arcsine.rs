@@ -4,7 +4,7 @@ use super::shape::{Invalid, Shape, finite, limits, positive};
 use super::stream::Stream;
 use crate::number::{COLUMN, Column, elementary};
 
-/// A quantity that cycles sinusoidally between two limits, met at an unknown phase.
+/// A quantity that cycles sinusoidally between two limits, observed at an unknown phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arcsine {
     mean: f64,
@@ -30,10 +30,10 @@ impl Arcsine {
         Self::new(mean, half_width)
     }
 
-    /// The value at a probability: sin(pi (p - 1/2)) = -cos(pi p) of the amplitude.
+    /// The value at a probability: sin(pi (p - 1/2)) = -cos(pi p) times the amplitude.
     #[inline(always)]
     fn at(&self, p: f64) -> f64 {
-        // no rounding brings a value beyond the limits
+        // rounding must not bring a value beyond the limits
         let cos = elementary::sin_quarters(1.0 - 2.0 * p);
         let cos = if cos > 1.0 { 1.0 } else { cos };
         let cos = if cos < -1.0 { -1.0 } else { cos };

@@ -1,5 +1,5 @@
-//! The beta distribution between two limits: a flexible shape for a bounded quantity (a share, for
-//! one), not among those of JCGM 101, Table 1.
+//! The beta distribution between two limits: a flexible shape for a bounded quantity such as a
+//! fraction. It is not in JCGM 101, Table 1.
 
 use super::gamma;
 use super::shape::{Invalid, Shape, finite, limits};
@@ -59,9 +59,9 @@ impl Shape for Beta {
         self.lower + self.width * (1.0 - from_above)
     }
 
-    /// The share X / (X + Y) of two gamma quantities, as 1 / (1 + e^(ln Y - ln X)): at small shapes
-    /// both may be below the smallest number, but their logarithms
-    /// are not. Above the middle it is 1 less the other share, which keeps the digits near 1.
+    /// The fraction X / (X + Y) of two gamma quantities, as 1 / (1 + e^(ln Y - ln X)): for small
+    /// shapes both may be below the smallest number, but their logarithms are not. Above the middle
+    /// it is 1 minus the other fraction, which keeps the digits near 1.
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
         let mut other = Column::ZERO;

@@ -1,5 +1,5 @@
-//! Characteristic functions of the distributions that have one in closed form, with what an inversion
-//! needs to know of them: a bound that never rises, and how far the quantity can be from its mean.
+//! Characteristic functions of the distributions that have one in closed form, with the data for an
+//! inversion: a bound that never increases, and the distance of the quantity from its mean.
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
@@ -18,14 +18,14 @@ pub(crate) fn product(a: Complex, b: Complex) -> Complex {
     [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
 }
 
-/// The probability beyond which nothing of a distribution matters.
+/// Probabilities below this are negligible.
 pub(crate) const NEGLIGIBLE: f64 = 1e-17;
 
-/// Degrees of freedom from which on a t is drawn as a normal distribution.
+/// Degrees of freedom from which a t distribution is drawn as a normal distribution.
 const AS_GOOD_AS_NORMAL: f64 = 1e9;
 
-/// The characteristic function E exp(i t (X - mean)) of a distribution. Where there is no mean, the
-/// middle stands for it.
+/// The characteristic function E exp(i t (X - mean)) of a distribution. If there is no mean, the
+/// middle replaces it.
 #[derive(Clone, Debug)]
 pub(crate) enum Characteristic {
     Normal {
@@ -33,8 +33,8 @@ pub(crate) enum Characteristic {
     },
     Student(Student),
     /// A sum of two rectangular quantities of these half-widths, whose width is multiplied by a
-    /// factor equally likely within `share` of 1: rectangle, triangle, trapezoid, and all of them
-    /// with a width that is not known exactly.
+    /// factor uniformly distributed within `share` of 1: rectangle, triangle, trapezoid, and all of
+    /// them with an inexact width.
     Trapezoid {
         wide: f64,
         narrow: f64,
@@ -52,7 +52,7 @@ pub(crate) enum Characteristic {
         shape: f64,
         rate: f64,
     },
-    /// Values, less their mean, and their probabilities.
+    /// Values minus their mean, and their probabilities.
     Points(Vec<[f64; 2]>),
 }
 
@@ -70,7 +70,7 @@ pub(crate) struct Student {
 impl Student {
     fn new(scale: f64, dof: f64) -> Self {
         let half = 0.5 * dof;
-        // a strip of half-width pi/2 about the real axis: e^(-pi^2/step) is left out
+        // a strip of half-width pi/2 about the real axis: the error is e^(-pi^2/step)
         let step = f64::min(0.2, 0.6 / half.sqrt());
         let exponent = |v: f64| half * (libm::expm1(v) - v);
         let mut nodes = Vec::new();
@@ -108,19 +108,19 @@ impl Student {
     }
 }
 
-/// How far a quantity lies from its mean.
+/// The distance of a quantity from its mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Reach {
     /// Never farther than this.
     Bounded(f64),
-    /// Farther than this with a probability that does not matter.
+    /// The probability of a larger distance is negligible.
     Light(f64),
-    /// So far that no grid holds it; the number is its scale.
+    /// So far that no grid can hold it; the number is its scale.
     Heavy(f64),
 }
 
 impl Characteristic {
-    /// That of a distribution; `None` where it has no closed form.
+    /// For a distribution; `None` if there is no closed form.
     pub(crate) fn of(distribution: &Distribution) -> Option<Self> {
         let student = |scale: f64, dof: f64| {
             if dof < AS_GOOD_AS_NORMAL {
@@ -154,7 +154,7 @@ impl Characteristic {
         })
     }
 
-    /// That of a multiple of a t quantity.
+    /// For a multiple of a t quantity.
     pub(crate) fn student(scale: f64, dof: f64) -> Self {
         Self::Student(Student::new(scale, dof))
     }
@@ -183,7 +183,7 @@ impl Characteristic {
         }
     }
 
-    /// What the modulus does not exceed at `t` > 0 and beyond.
+    /// An upper bound of the modulus at `t` > 0 and beyond.
     pub(crate) fn bound(&self, t: f64) -> f64 {
         match self {
             Self::Normal { .. } | Self::Student(_) => self.at(t)[0],
@@ -191,7 +191,7 @@ impl Characteristic {
                 let least = (1.0 - share) * t;
                 let of = |width: f64| f64::min(1.0, 1.0 / (width * least));
                 let exact = of(*wide) * of(*narrow);
-                // over the widths of a rectangle the sines average out as well: by parts
+                // averaged over the widths of a rectangle, the sines cancel as well: by parts
                 let averaged = 2.0 / (wide * least * share * wide * t);
                 if *share > 0.0 && *narrow == 0.0 { exact.min(averaged) } else { exact }
             }
@@ -210,7 +210,7 @@ impl Characteristic {
         }
     }
 
-    /// How far the quantity lies from its mean.
+    /// The distance of the quantity from its mean.
     pub(crate) fn reach(&self) -> Reach {
         match self {
             Self::Normal { std } => Reach::Light(8.7 * std),
@@ -240,7 +240,7 @@ impl Characteristic {
         }
     }
 
-    /// The variance; infinite where there is none.
+    /// The variance; infinite if it does not exist.
     pub(crate) fn variance(&self) -> f64 {
         match self {
             Self::Normal { std } => std * std,
@@ -268,13 +268,13 @@ impl Characteristic {
         }
     }
 
-    /// Whether the density is symmetric and falls from the middle: so is that of any sum of such
-    /// quantities (Wintner 1938).
+    /// Whether the density is symmetric and decreases from the middle: then the density of any sum
+    /// of such quantities does so too (Wintner 1938).
     pub(crate) fn is_symmetric_unimodal(&self) -> bool {
         matches!(self, Self::Normal { .. } | Self::Student(_) | Self::Trapezoid { .. })
     }
 
-    /// How many evaluations of an exponential or a sine one value costs, about.
+    /// Approximate cost of one value, in evaluations of an exponential or a sine.
     pub(crate) fn cost(&self) -> usize {
         match self {
             Self::Student(student) => student.nodes.len(),
@@ -363,8 +363,8 @@ fn points(samples: &Samples) -> Vec<[f64; 2]> {
     values.iter().map(|value| [value - origin - offset, 1.0 / n]).collect()
 }
 
-/// Points that stand for the quantile function of a saved result: three in each of its cells, by the
-/// rule of Gauss, and the lumps beyond its ends.
+/// Points that represent the quantile function of a saved result: three in each of its cells, by
+/// Gauss's rule, and the point masses at its ends.
 fn saved_points(saved: &SavedResult) -> Vec<[f64; 2]> {
     const THREE: [[f64; 2]; 3] = [
         [0.112_701_665_379_258_31, 5.0 / 18.0],

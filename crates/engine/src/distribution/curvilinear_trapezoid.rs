@@ -8,7 +8,7 @@ use crate::number::{COLUMN, Column, elementary};
 use crate::special::ln_1p_minus;
 use crate::special::root::{Point, Trend, find};
 
-/// A rectangular distribution of inexactly known width about a known middle.
+/// A rectangular distribution with inexact width and a known middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvilinearTrapezoid {
     mean: f64,
@@ -17,8 +17,8 @@ pub struct CurvilinearTrapezoid {
 }
 
 impl CurvilinearTrapezoid {
-    /// Limits `lower` and `upper`, each of them known to within `inexactness` either way: above
-    /// zero and below half of the distance of the limits, so that the limits cannot cross.
+    /// Limits `lower` and `upper`, each known to within +- `inexactness`: above zero and below half
+    /// the distance between the limits, so that the limits cannot cross.
     ///
     /// # Errors
     /// Limits that are not finite or not in order, an inexactness out of range.
@@ -37,7 +37,7 @@ impl CurvilinearTrapezoid {
         }
     }
 
-    /// The same about a middle. The inexactness may be all of the half-width.
+    /// The same about a middle. The inexactness may equal the half-width.
     pub(super) fn of_width(mean: f64, half_width: f64, inexactness: f64) -> Self {
         Self { mean, half_width, inexactness }
     }
@@ -47,7 +47,7 @@ impl CurvilinearTrapezoid {
         Characteristic::Trapezoid { wide: self.half_width, narrow: 0.0, share }
     }
 
-    /// How far from the middle the quantity can be.
+    /// The largest distance of the quantity from the middle.
     fn reach(&self) -> f64 {
         self.half_width + self.inexactness
     }

@@ -4,7 +4,7 @@ use super::shape::{Invalid, Shape, positive, within};
 use super::stream::Stream;
 use crate::number::{COLUMN, Column, elementary};
 
-/// A quantity above zero of which nothing but its best estimate is known.
+/// A positive quantity of which only the best estimate is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exponential {
     mean: f64,
@@ -49,7 +49,7 @@ impl Shape for Exponential {
         }
     }
 
-    /// The exponential distribution of that expectation.
+    /// The exponential distribution with that expectation.
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
         Self::new(positive("estimate", estimate)?)
     }

@@ -1,4 +1,4 @@
-//! Distributions of other crates: `rand_distr`, `statrs`, or a function of one's own.
+//! Distributions from other crates: `rand_distr`, `statrs`, or a user's function.
 
 use std::fmt;
 use std::sync::Arc;
@@ -7,13 +7,14 @@ use super::shape::{Invalid, Shape, finite, positive};
 use super::stream::{Stream, StreamRng};
 use crate::number::{COLUMN, Column};
 
-/// Draws that are compared with what is stated of them.
+/// Number of draws compared with the stated parameters.
 const COMPARED: usize = 1 << 14;
 
-/// Standard errors of the draws' mean and variance by which they may miss what is stated.
+/// Largest allowed deviation of the draws' mean and variance from the stated ones, in standard
+/// errors.
 const MOST_ERRORS: f64 = 20.0;
 
-/// The kurtosis of draws above which their variance does not tell that of the distribution.
+/// Kurtosis of draws above which their variance does not determine that of the distribution.
 const LONG_TAILS: f64 = 50.0;
 
 type Draw = dyn Fn(&mut StreamRng) -> f64 + Send + Sync;
@@ -37,31 +38,31 @@ type Quantile = dyn Fn(f64) -> f64 + Send + Sync;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Trials are drawn from the stream of the input, so they are repeatable as all others are: the
-/// random words are the same everywhere, and what becomes of them follows the version of the crate
-/// that draws. Without [`External::with_quantile`] such an input cannot be correlated, and its
-/// density is not drawn on pages.
+/// Trials are drawn from the stream of the input, so they are repeatable like all others. The
+/// random words are the same everywhere; the values depend on the version of the crate that draws.
+/// Without [`External::with_quantile`] such an input cannot be correlated, and pages do not show
+/// its density.
 #[derive(Clone)]
 pub struct External {
     name: &'static str,
     mean: f64,
     std: f64,
-    /// What is added to what is drawn.
+    /// Offset added to the drawn values.
     shift: f64,
     draw: Arc<Draw>,
     quantile: Option<Arc<Quantile>>,
 }
 
 impl External {
-    /// A distribution of this name (for budgets), mean and standard deviation (> 0, finite), and how
-    /// a value is drawn. The same words must give the same value.
+    /// A distribution with this name (for budgets), mean and standard deviation (> 0, finite), and
+    /// the function that draws a value. The same words must give the same value.
     ///
     /// # Errors
-    /// A mean or a standard deviation that is not finite, a standard deviation that is not above
-    /// zero; draws that are not finite, or whose mean is not the stated one: 16,384 draws are made
-    /// and may miss it by 0.16 standard deviations, 20 times their standard error. Nor may their
-    /// variance miss the stated one by more than 20 times its standard error (22 % of a normal
-    /// distribution), unless their tails are too long for it to be told (a kurtosis above 50).
+    /// The mean or the standard deviation is not finite, or the standard deviation is not positive;
+    /// draws are not finite, or their mean is not the stated one: 16,384 draws are made, whose mean
+    /// may deviate by 0.16 standard deviations, 20 times its standard error. Their variance may
+    /// also deviate by at most 20 times its standard error (22 % for a normal distribution), unless
+    /// the tails are too long to determine it (a kurtosis above 50).
     pub fn new(
         name: &'static str,
         mean: f64,
@@ -69,7 +70,7 @@ impl External {
         draw: impl Fn(&mut StreamRng) -> f64 + Send + Sync + 'static,
     ) -> Result<Self, Invalid> {
         let made = Self::known(name, [mean, std], draw)?;
-        // about the stated mean, so that a large one does not cost digits
+        // relative to the stated mean, so that a large one does not cost digits
         let count = COMPARED as f64;
         let offsets: Vec<f64> = made.compared()?.into_iter().map(|value| value - mean).collect();
         let offset = offsets.iter().sum::<f64>() / count;
@@ -77,7 +78,7 @@ impl External {
         if (found - mean).abs() > MOST_ERRORS * std / count.sqrt() {
             return Err(Invalid::NotOfDraws { parameter: "mean", stated: mean, found });
         }
-        // in units of the stated standard deviation, whose square may be none of double precision
+        // in units of the stated standard deviation, whose square may overflow
         let squares = offsets.iter().map(|value| {
             let z = (value - offset) / std;
             z * z
@@ -86,7 +87,7 @@ impl External {
         let kurtosis = squares.map(|z| z * z).sum::<f64>() / (count * variance * variance);
         let error = ((kurtosis - 1.0) / count).sqrt() * variance.max(1.0);
         let misses = kurtosis <= LONG_TAILS && (variance - 1.0).abs() > MOST_ERRORS * error;
-        // of equal draws there is no kurtosis
+        // equal draws have no kurtosis
         if misses || variance == 0.0 {
             let found = std * variance.sqrt();
             return Err(Invalid::NotOfDraws { parameter: "std", stated: std, found });
@@ -95,12 +96,12 @@ impl External {
     }
 
     /// The same with its quantile function: the value below which a drawn value lies with
-    /// probability p, 0 < p < 1. Correlated inputs are drawn through it, and pages show the density
-    /// that it gives.
+    /// probability p, 0 < p < 1. Correlated inputs are drawn through it, and pages show the
+    /// corresponding density.
     ///
     /// # Errors
-    /// Quartiles or a median that are not finite, or that do not part 16,384 draws as they should to
-    /// within 10 times the standard error of their share.
+    /// Quartiles or a median that are not finite, or that do not divide 16,384 draws correctly to
+    /// within 10 times the standard error of the fraction.
     pub fn with_quantile(
         self,
         quantile: impl Fn(f64) -> f64 + Send + Sync + 'static,
@@ -117,7 +118,7 @@ impl External {
         Ok(self.with_known_quantile(quantile))
     }
 
-    /// The same, of a distribution whose draws are known to have this mean and standard deviation.
+    /// The same for a distribution whose draws are known to have this mean and standard deviation.
     pub(super) fn known(
         name: &'static str,
         [mean, std]: [f64; 2],
@@ -127,7 +128,7 @@ impl External {
         Ok(Self { name, mean, std, shift: 0.0, draw: Arc::new(draw), quantile: None })
     }
 
-    /// With a quantile function that is known to be that of the draws.
+    /// With a quantile function that is known to match the draws.
     pub(super) fn with_known_quantile(
         self,
         quantile: impl Fn(f64) -> f64 + Send + Sync + 'static,
@@ -136,12 +137,12 @@ impl External {
     }
 
     /// A distribution of `rand_distr` (`drawn`) with mean, standard deviation and quantiles of the
-    /// matching one of `statrs` (`law`). The parameters of the two crates do not always stand in the
-    /// same order; draws that do not follow the law are refused.
+    /// matching distribution of `statrs` (`law`). The parameters of the two crates are not always
+    /// in the same order; draws that do not follow the law are an error.
     ///
     /// # Errors
-    /// As [`External::new`] and [`External::with_quantile`]; a law without mean or standard
-    /// deviation.
+    /// The errors of [`External::new`] and [`External::with_quantile`]; a law without mean or
+    /// standard deviation.
     pub fn of_law<L>(
         name: &'static str,
         law: L,
@@ -182,7 +183,7 @@ impl fmt::Debug for External {
     }
 }
 
-/// Clones are equal, as long as they are not moved apart; two functions cannot be compared.
+/// Clones are equal unless one of them is moved; two functions cannot be compared.
 impl PartialEq for External {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.draw, &other.draw) && self.mean == other.mean
@@ -204,7 +205,7 @@ impl Shape for External {
         self.std
     }
 
-    /// Not a number where it is not known.
+    /// NaN if it is not known.
     fn quantile(&self, p: f64) -> f64 {
         self.quantile.as_ref().map_or(f64::NAN, |quantile| self.shift + quantile(p))
     }

@@ -9,11 +9,11 @@ use crate::number::Column;
 use crate::regression::Regression;
 
 /// A parameter of a calibration function. All parameters of one fit are drawn together: from their
-/// joint normal distribution, or the multivariate t where their uncertainties come from the residuals,
-/// or, where they are not linear in the data, each trial from a fit to data of its own.
+/// joint normal distribution, or from the multivariate t distribution if their uncertainties come
+/// from the residuals. If they are not linear in the data, each trial is a fit to data of its own.
 ///
-/// A further reading that has the scatter of the residuals goes with them: what its standard deviation
-/// is not known by is the same as for the parameters.
+/// A further reading with the scatter of the residuals belongs to the same set: the uncertainty of
+/// its standard deviation is the same as for the parameters.
 #[derive(Clone, Debug)]
 pub struct Fitted {
     fit: Arc<Regression>,
@@ -24,7 +24,7 @@ pub struct Fitted {
 }
 
 impl Fitted {
-    /// A parameter of a fit, by its number.
+    /// A parameter of a fit, by its index.
     ///
     /// # Errors
     /// A parameter without a finite estimate or a standard uncertainty above zero.
@@ -37,8 +37,9 @@ impl Fitted {
         })
     }
 
-    /// A reading, or mean of readings, whose standard uncertainty `scale` comes from the residuals of
-    /// a fit that is linear in its parameters; independent of these but for that common scatter.
+    /// A reading, or mean of readings, whose standard uncertainty `scale` comes from the residuals
+    /// of a fit that is linear in its parameters; independent of these apart from the common
+    /// scatter.
     ///
     /// # Errors
     /// A mean that is not finite, or a standard uncertainty that is not above zero.
@@ -56,7 +57,7 @@ impl Fitted {
         &self.fit
     }
 
-    /// The number of the parameter; `None` for a reading.
+    /// The index of the parameter; `None` for a reading.
     pub fn parameter(&self) -> Option<usize> {
         self.parameter
     }

@@ -6,11 +6,11 @@ use super::stream::Stream;
 use crate::number::{COLUMN, Column, Kernel, elementary};
 use crate::special;
 
-/// The least shape: a draw in a thousand is then below the smallest normal number, which stands for
-/// it.
+/// The smallest shape: one draw in a thousand is then below the smallest normal number, which
+/// replaces it.
 pub(super) const LEAST_SHAPE: f64 = 0.01;
 
-/// The largest shape: beyond, the distribution is so narrow that rounding distorts it.
+/// The largest shape: above it, the distribution is so narrow that rounding distorts it.
 pub(super) const MOST_SHAPE: f64 = 1e15;
 
 /// A gamma distribution by shape and rate.
@@ -21,8 +21,8 @@ pub struct Gamma {
 }
 
 impl Gamma {
-    /// A gamma distribution of the given shape (0.01 to 1e15) and rate (> 0): its density goes
-    /// as x^(shape - 1) e^(-rate x), its expectation is shape / rate.
+    /// A gamma distribution with the given shape (0.01 to 1e15) and rate (> 0): its density is
+    /// proportional to x^(shape - 1) e^(-rate x), its expectation is shape / rate.
     ///
     /// # Errors
     /// Parameters that are not finite or out of their range.
@@ -76,7 +76,7 @@ impl Shape for Gamma {
         }
     }
 
-    /// The gamma distribution of the same shape, so of the same relative standard uncertainty.
+    /// The gamma distribution with the same shape, and so the same relative standard uncertainty.
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
         Self::new(self.shape, self.shape / positive("estimate", estimate)?)
     }
@@ -116,7 +116,7 @@ struct LogarithmKernel<'a> {
 impl Kernel for LogarithmKernel<'_> {
     type Output = ();
 
-    // drawn for beta distributions and small shapes only
+    // only drawn for beta distributions and small shapes
     const WIDEST: bool = false;
 
     #[inline(always)]
@@ -142,8 +142,8 @@ impl Kernel for LogarithmKernel<'_> {
 /// The rejection method of Marsaglia and Tsang (ACM Transactions on Mathematical Software 26,
 /// 2000) for shapes from 1 on: with a normal x and t = c x, the value is d (1 + t)^3.
 ///
-/// At least 95 % of the candidates are accepted. They are made and judged side by side, then the
-/// accepted ones are taken in order, so a block's draws follow from its stream alone.
+/// At least 95 % of the candidates are accepted. They are generated and tested side by side, then
+/// the accepted ones are taken in order, so a block's draws follow from its stream alone.
 #[derive(Clone, Copy)]
 struct Generator {
     d: f64,

@@ -1,4 +1,4 @@
-//! An input quantity of a measurement, with what is known about it.
+//! An input quantity of a measurement, with the state of knowledge about it.
 
 use std::fmt;
 
@@ -36,7 +36,7 @@ impl EvaluationType {
     }
 }
 
-/// What is known about one input quantity: a distribution of its value in a unit.
+/// The state of knowledge about one input quantity: a distribution of its value in a unit.
 ///
 /// ```
 /// use gumption_engine::distribution::Input;
@@ -54,7 +54,7 @@ pub struct Input {
     pub unit: Unit,
     /// Type A or B.
     pub evaluation: EvaluationType,
-    /// A group for subtotals of the budget.
+    /// A group for subtotals in the budget.
     pub group: Option<String>,
     /// The source of uncertainty, in words.
     pub about: String,
@@ -76,7 +76,7 @@ impl Input {
         })
     }
 
-    /// A value that is known exactly.
+    /// An exactly known value.
     ///
     /// # Errors
     /// A value that is not finite, a unit that does not parse.
@@ -87,7 +87,7 @@ impl Input {
     /// A normal distribution with standard deviation `std` > 0.
     ///
     /// # Errors
-    /// Parameters that [`Normal::new`] refuses, a unit that does not parse.
+    /// The errors of [`Normal::new`], or a unit that does not parse.
     pub fn normal(mean: f64, std: f64, unit: &str) -> Result<Self, InputError> {
         Self::new(Normal::new(mean, std)?, unit)
     }
@@ -119,7 +119,7 @@ impl Input {
     /// A rectangular distribution within `half_width` > 0 of `mean`.
     ///
     /// # Errors
-    /// Parameters that [`Rectangular::new`] refuses, a unit that does not parse.
+    /// The errors of [`Rectangular::new`], or a unit that does not parse.
     pub fn rectangular(mean: f64, half_width: f64, unit: &str) -> Result<Self, InputError> {
         Self::new(Rectangular::new(mean, half_width)?, unit)
     }
@@ -127,7 +127,7 @@ impl Input {
     /// A symmetric triangular distribution within `half_width` > 0 of `mean`.
     ///
     /// # Errors
-    /// Parameters that [`Triangular::new`] refuses, a unit that does not parse.
+    /// The errors of [`Triangular::new`], or a unit that does not parse.
     pub fn triangular(mean: f64, half_width: f64, unit: &str) -> Result<Self, InputError> {
         Self::new(Triangular::new(mean, half_width)?, unit)
     }
@@ -135,7 +135,7 @@ impl Input {
     /// A t distribution of scale > 0 with `dof` > 0 degrees of freedom.
     ///
     /// # Errors
-    /// Parameters that [`StudentT::new`] refuses, a unit that does not parse.
+    /// The errors of [`StudentT::new`], or a unit that does not parse.
     pub fn t(mean: f64, scale: f64, dof: f64, unit: &str) -> Result<Self, InputError> {
         Self::new(StudentT::new(mean, scale, dof)?, unit)
     }
@@ -143,7 +143,7 @@ impl Input {
     /// Repeated readings (Type A).
     ///
     /// # Errors
-    /// Readings that [`Readings::new`] refuses, a unit that does not parse.
+    /// The errors of [`Readings::new`], or a unit that does not parse.
     pub fn readings(values: &[f64], unit: &str) -> Result<Self, InputError> {
         Self::new(Readings::new(values.to_vec())?, unit)
     }

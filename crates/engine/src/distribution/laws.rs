@@ -1,9 +1,9 @@
-//! Distributions that JCGM 101 does not have: drawn by `rand_distr`, with the moments and quantiles of
+//! Distributions that are not in JCGM 101: drawn by `rand_distr`, with the moments and quantiles of
 //! `statrs`.
 //!
-//! The random words are those of the input's stream. What the two crates make of them takes logarithms
-//! and powers of the platform, so that last digits may differ from one platform to another, and with the
-//! versions of the crates.
+//! The random words come from the input's stream. The two crates apply logarithms and powers of the
+//! platform to them, so that last digits may differ between platforms and between versions of the
+//! crates.
 
 use rand_distr::Distribution as _;
 use statrs::distribution::ContinuousCDF;
@@ -13,10 +13,12 @@ use super::External;
 use super::shape::{Invalid, finite, positive};
 use super::stream::StreamRng;
 
-/// The largest number of trials, and the largest population: more than that are no exact sums of doubles.
+/// The largest number of trials, and the largest population: sums of doubles are exact only up to
+/// such numbers.
 const MOST_COUNTED: u64 = 1 << 40;
 
-/// What a crate refuses although the parameters have been looked at: they are too large or too small.
+/// The error for parameters that a crate rejects although they passed the checks: they are too
+/// large or too small.
 fn refused(parameter: &'static str, value: f64) -> Invalid {
     Invalid::OutOfRange { parameter, value, range: "one that double precision can compute with" }
 }
@@ -36,11 +38,11 @@ fn whole(
 }
 
 impl External {
-    /// A Weibull distribution: `shape` > 0, `scale` > 0 in the unit of the quantity; below the scale lies
-    /// 1 - 1/e of it.
+    /// A Weibull distribution: `shape` > 0, `scale` > 0 in the unit of the quantity; the
+    /// probability of values below the scale is 1 - 1/e.
     ///
     /// # Errors
-    /// Parameters that are not above zero, or so small a shape that the variance is no double.
+    /// Parameters that are not positive, or a shape so small that the variance overflows.
     pub fn weibull(shape: f64, scale: f64) -> Result<Self, Invalid> {
         let (shape, scale) = (positive("shape", shape)?, positive("scale", scale)?);
         let refused = || refused("shape", shape);
@@ -62,11 +64,11 @@ impl External {
         Self::at("gumbel", law, [location, scale], move |random| drawn.sample(random))
     }
 
-    /// A Pareto distribution: `scale` > 0, the least value, in the unit of the quantity; above a value x the
-    /// share (scale/x)^shape lies.
+    /// A Pareto distribution: `scale` > 0, the smallest value, in the unit of the quantity; the
+    /// probability of values above x is (scale/x)^shape.
     ///
     /// # Errors
-    /// A scale that is not above zero; a shape that is not above 2, as there is no variance then.
+    /// A scale that is not positive; a shape that is not above 2, for which there is no variance.
     pub fn pareto(shape: f64, scale: f64) -> Result<Self, Invalid> {
         let (shape, scale) = (positive("shape", shape)?, positive("scale", scale)?);
         if shape <= 2.0 {
@@ -90,11 +92,11 @@ impl External {
         Self::at("chi-squared", law, [0.0, 1.0], move |random| drawn.sample(random))
     }
 
-    /// The number of successes among `trials` (up to 2^40) that each succeed with `probability`, between 0
-    /// and 1. It cannot be correlated, as its quantiles are steps.
+    /// The number of successes among `trials` (up to 2^40), each with the given `probability`,
+    /// between 0 and 1. It cannot be correlated, because its quantiles are steps.
     ///
     /// # Errors
-    /// A probability of 0 or 1 or beyond, no trial or too many.
+    /// A probability of 0 or 1 or outside this range, zero trials or too many.
     pub fn binomial(trials: u64, probability: f64) -> Result<Self, Invalid> {
         let whole = whole("trials", trials, MOST_COUNTED, "at most 2^40")?;
         if !(probability > 0.0 && probability < 1.0) {
@@ -111,11 +113,11 @@ impl External {
         Self::counted("binomial", &law, move |random| drawn.sample(random))
     }
 
-    /// The number of marked ones among `draws` from a `population` (up to 2^40) with `marked` ones, without
-    /// putting back. It cannot be correlated, as its quantiles are steps.
+    /// The number of marked items among `draws` from a `population` (up to 2^40) with `marked`
+    /// marked ones, without replacement. It cannot be correlated, because its quantiles are steps.
     ///
     /// # Errors
-    /// More marked ones or draws than the population has; a number that is certain.
+    /// More marked items or draws than the population has; a number without uncertainty.
     pub fn hypergeometric(population: u64, marked: u64, draws: u64) -> Result<Self, Invalid> {
         let population = whole("population", population, MOST_COUNTED, "at most 2^40")?;
         let within = "at most the population";
@@ -129,7 +131,7 @@ impl External {
         Self::counted("hypergeometric", &law, move |random| drawn.sample(random))
     }
 
-    /// A law about 0 with the scale 1, at a location and with a scale.
+    /// A law with location 0 and scale 1, moved to a location and a scale.
     fn at<L>(
         name: &'static str,
         law: L,

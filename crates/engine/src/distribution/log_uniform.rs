@@ -5,7 +5,8 @@ use super::shape::{Invalid, Shape, finite, positive};
 use super::stream::Stream;
 use crate::number::{COLUMN, Column, elementary};
 
-/// A positive quantity whose logarithm is rectangular between those of two limits.
+/// A positive quantity whose logarithm is uniformly distributed between the logarithms of two
+/// limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogUniform {
     lower: f64,
@@ -41,8 +42,8 @@ impl LogUniform {
         }
     }
 
-    /// The value at the position `s`, from -1 to 1 between the limits, kept from leaving them by
-    /// rounding.
+    /// The value at the position `s`, from -1 to 1 between the limits; rounding cannot move it
+    /// beyond them.
     #[inline(always)]
     fn at(&self, middle: f64, spread: f64, s: f64) -> f64 {
         let x = middle * elementary::exp(spread * s);
@@ -98,7 +99,7 @@ impl Shape for LogUniform {
         }
     }
 
-    /// Both limits are multiplied by the same number, so their ratio stays.
+    /// Both limits are multiplied by the same number, so their ratio is unchanged.
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
         let factor = positive("estimate", estimate)? / self.mean();
         let (lower, upper) = (self.lower * factor, self.upper * factor);

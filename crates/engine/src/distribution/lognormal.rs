@@ -1,4 +1,4 @@
-//! The lognormal distribution, of a positive quantity whose logarithm is normal (JCGM 101, 6.4.7,
+//! The lognormal distribution for a positive quantity whose logarithm is normal (JCGM 101, 6.4.7,
 //! for the logarithm).
 
 use super::normal;
@@ -7,7 +7,7 @@ use super::stream::Stream;
 use crate::number::{COLUMN, Column, elementary};
 use crate::special;
 
-/// Ratios of standard deviation and expectation beyond this are no measurements any more.
+/// Larger ratios of standard deviation and expectation do not occur in measurements.
 const MOST_RELATIVE: f64 = 1e6;
 
 /// A lognormal distribution by the expectation and standard deviation of the quantity itself.
@@ -47,7 +47,7 @@ impl Lognormal {
         [elementary::ln(self.mean) - 0.5 * self.sigma * self.sigma, self.sigma]
     }
 
-    /// The value at a standard normal deviate of the logarithm.
+    /// The value at a standard normal value of the logarithm.
     #[inline(always)]
     fn at(&self, z: f64) -> f64 {
         self.mean * elementary::exp(self.sigma * (z - 0.5 * self.sigma))
@@ -85,7 +85,7 @@ impl Shape for Lognormal {
         }
     }
 
-    /// The lognormal distribution of that expectation and the same standard deviation.
+    /// The lognormal distribution with that expectation and the same standard deviation.
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
         Self::new(positive("estimate", estimate)?, self.std)
     }

@@ -1,8 +1,8 @@
-//! What is known about a quantity: probability distributions, one file each, and the joint draw of
-//! many quantities.
+//! The state of knowledge about quantities: probability distributions, one file each, and the joint
+//! draw of many quantities.
 //!
-//! The seam for a new shape is one file that implements `shape::Shape` and one line in the list
-//! of `Distribution`.
+//! A new shape is one file that implements `shape::Shape`, and one line in the list of
+//! `Distribution`.
 
 mod arcsine;
 mod beta;
@@ -94,7 +94,7 @@ macro_rules! distributions {
         )*
 
         impl Distribution {
-            /// The canonical name, as files and budgets have it.
+            /// The canonical name, as in files and budgets.
             pub fn name(&self) -> &'static str {
                 match self { $(Self::$shape(shape) => shape.name(),)* }
             }
@@ -104,8 +104,8 @@ macro_rules! distributions {
                 match self { $(Self::$shape(shape) => shape.mean(),)* }
             }
 
-            /// The standard uncertainty on the GUM side: the standard deviation, but the scale of
-            /// a t distribution and s/sqrt(n) of readings.
+            /// The standard uncertainty for the law of propagation: the standard deviation, but the
+            /// scale of a t distribution, and s/sqrt(n) for readings.
             pub fn standard_uncertainty(&self) -> f64 {
                 match self { $(Self::$shape(shape) => shape.standard_uncertainty(),)* }
             }
@@ -115,28 +115,28 @@ macro_rules! distributions {
                 match self { $(Self::$shape(shape) => shape.dof(),)* }
             }
 
-            /// What the stated width (the half-width of the limits, an expanded uncertainty, the
-            /// standard uncertainty itself) is divided by to give the standard uncertainty; `None`
-            /// for a shape that is not stated by one width.
+            /// The divisor of the stated width (the half-width of the limits, an expanded
+            /// uncertainty, the standard uncertainty itself) that gives the standard uncertainty;
+            /// `None` for a shape that is not stated by one width.
             pub fn divisor(&self) -> Option<f64> {
                 match self { $(Self::$shape(shape) => shape.divisor(),)* }
             }
 
-            /// Degrees of freedom of the t distribution that trials are drawn from; infinite for
+            /// Degrees of freedom of the t distribution from which trials are drawn; infinite for
             /// all other shapes. Moments of that order and above do not exist.
             pub fn drawn_dof(&self) -> f64 {
                 match self { $(Self::$shape(shape) => shape.drawn_dof(),)* }
             }
 
-            /// The name of what trials are drawn from, where that is not the stated shape: a t for
-            /// a normal distribution, a curvilinear trapezoid for a rectangular one, and one of
-            /// inexact width for a triangular or trapezoidal one whose standard uncertainty has
-            /// finite degrees of freedom.
+            /// The name of the distribution from which trials are drawn, if it is not the stated
+            /// one: a t distribution for a normal distribution, a curvilinear trapezoid for a
+            /// rectangular one, and one with inexact width for a triangular or trapezoidal one
+            /// whose standard uncertainty has finite degrees of freedom.
             pub fn drawn_as(&self) -> Option<&'static str> {
                 match self { $(Self::$shape(shape) => shape.drawn_as(),)* }
             }
 
-            /// Standard deviation of the drawn values; infinite where it does not exist.
+            /// Standard deviation of the drawn values; infinite if it does not exist.
             pub fn standard_deviation(&self) -> f64 {
                 match self { $(Self::$shape(shape) => shape.standard_deviation(),)* }
             }
@@ -147,26 +147,26 @@ macro_rules! distributions {
             }
 
             /// The value above which a drawn value lies with probability `q`, 0 < q < 1: the
-            /// quantile of 1 - q, also where that rounds to 1.
+            /// quantile of 1 - q, even if that rounds to 1.
             pub fn quantile_upper(&self, q: f64) -> f64 {
                 match self { $(Self::$shape(shape) => shape.quantile_upper(q),)* }
             }
 
-            /// The same distribution with its estimate moved: limits move along. Shapes of
-            /// positive quantities keep the shape (gamma, exponential, log-uniform) or the
-            /// standard deviation (lognormal); a count becomes the one of that estimate.
+            /// The same distribution with its estimate moved: limits move along. Distributions of
+            /// positive quantities keep the shape (gamma, exponential, log-uniform) or the standard
+            /// deviation (lognormal); a count becomes the one with that estimate.
             ///
             /// # Errors
-            /// An estimate that is not finite, or that the shape cannot have.
+            /// The estimate is not finite, or impossible for the shape.
             pub fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
                 match self {
                     $(Self::$shape(shape) => Ok(Self::$shape(shape.moved_to(estimate)?)),)*
                 }
             }
 
-            /// The distribution of the value times a factor above 0, as in another unit. `None`
-            /// for other shapes than constants, normal, rectangular, triangular, t and arc sine
-            /// distributions, and where the result is not finite.
+            /// The distribution of the value times a factor above 0, as in another unit. `None` for
+            /// shapes other than constants, normal, rectangular, triangular, t and arcsine
+            /// distributions, and if the result is not finite.
             pub(crate) fn times(&self, factor: f64) -> Option<Self> {
                 match self {
                     $(Self::$shape(shape) => Shape::times(shape, factor).map(Self::$shape),)*
@@ -184,7 +184,7 @@ macro_rules! distributions {
 distributions! {
     /// Known exactly.
     Constant,
-    /// Normal, or the t that stands for it at few degrees of freedom.
+    /// Normal, or the t distribution that replaces it for few degrees of freedom.
     Normal,
     /// Rectangular (uniform).
     Rectangular,
@@ -210,7 +210,7 @@ distributions! {
     Beta,
     /// Rectangular in the logarithm.
     LogUniform,
-    /// Expectation of a Poisson process, of which events were counted.
+    /// Expectation of a Poisson process, given a number of counted events.
     PoissonCount,
     /// Empirical: samples drawn with replacement.
     Samples,
@@ -229,7 +229,7 @@ distributions! {
 }
 
 impl Distribution {
-    /// The value of a quantity that is known exactly.
+    /// The value of an exactly known quantity.
     pub fn constant(&self) -> Option<f64> {
         match self {
             Self::Constant(constant) => Some(constant.mean()),
@@ -237,8 +237,8 @@ impl Distribution {
         }
     }
 
-    /// The quantiles of probabilities below one half, in order, of the median and of what is left of one
-    /// above it; each once.
+    /// The quantiles for probabilities below one half, in order, the median, and the quantiles for
+    /// the complementary probabilities; each once.
     pub(crate) fn quantiles_about_median(&self, below: &[f64]) -> Vec<f64> {
         let lower = below.iter().map(|&p| self.quantile(p));
         let upper = below.iter().rev().map(|&q| self.quantile_upper(q));
@@ -247,7 +247,7 @@ impl Distribution {
         all
     }
 
-    /// The saved result, if it is one.
+    /// The saved result; `None` for other distributions.
     pub fn saved(&self) -> Option<&SavedResult> {
         match self {
             Self::SavedResult(saved) => Some(saved),
@@ -260,7 +260,8 @@ impl Distribution {
         !matches!(self, Self::External(external) if !external.has_quantiles())
     }
 
-    /// Whether trials are drawn from a normal distribution, so that a joint normal is exact.
+    /// Whether trials are drawn from a normal distribution, so that a joint normal distribution is
+    /// exact.
     pub fn is_drawn_normal(&self) -> bool {
         matches!(self, Self::Normal(normal) if normal.drawn_dof().is_infinite())
     }

@@ -1,4 +1,4 @@
-//! The normal distribution (JCGM 101, 6.4.7), and the t distribution that stands for it where the
+//! The normal distribution (JCGM 101, 6.4.7), and the t distribution that replaces it if the
 //! standard uncertainty itself has few degrees of freedom (JCGM 101, 6.4.9.7).
 
 use super::shape::{Invalid, Shape, drawn_degrees_of_freedom, finite, positive};
@@ -13,7 +13,7 @@ pub struct Normal {
     mean: f64,
     std: f64,
     dof: f64,
-    /// What the stated uncertainty was divided by to give `std`.
+    /// The divisor of the stated uncertainty that gave `std`.
     divisor: f64,
 }
 
@@ -26,8 +26,8 @@ impl Normal {
         Self::with_dof(mean, std, f64::INFINITY)
     }
 
-    /// The same with degrees of freedom (at least 0.2) of the standard uncertainty, as a certificate gives
-    /// them. Trials are then drawn from the t distribution of JCGM 101, 6.4.9.7.
+    /// The same with degrees of freedom (at least 0.2) of the standard uncertainty, as on a
+    /// certificate. Trials are then drawn from the t distribution of JCGM 101, 6.4.9.7.
     ///
     /// # Errors
     /// Parameters that are not finite, a standard deviation or degrees of freedom not above zero.
@@ -36,8 +36,8 @@ impl Normal {
         Ok(Self { mean, std, dof: drawn_degrees_of_freedom(dof)?, divisor: 1.0 })
     }
 
-    /// The same, known to come from an expanded uncertainty of coverage factor `factor` (> 0). The
-    /// distribution stays as it is; a budget may show the factor as the divisor.
+    /// The same, derived from an expanded uncertainty with coverage factor `factor` (> 0). The
+    /// distribution is unchanged; a budget may show the factor as the divisor.
     ///
     /// # Errors
     /// A factor that is not finite or not above zero.
@@ -111,9 +111,10 @@ impl Normal {
     }
 }
 
-/// Box-Muller: a pair of uniforms gives two independent normals (JCGM 101, C.4). The cosines fill
-/// the first half of the column, the sines the second. Compiled once for each path and called by
-/// every distribution that begins with it, as a call is nothing beside a column.
+/// Box-Muller: a pair of uniform numbers gives two independent normal ones (JCGM 101, C.4). The
+/// cosines fill the first half of the column, the sines the second. Compiled once for each code
+/// path and called by every distribution that begins with it, because a call costs nothing compared
+/// with a column.
 pub(super) fn draw(mean: f64, std: f64, stream: &mut Stream, out: &mut Column) {
     stream.path().run(DrawKernel { mean, std, stream, out });
 }

@@ -1,4 +1,4 @@
-//! What a count of events tells of their expected number (JCGM 101, 6.4.11).
+//! The expected number of events, given a count (JCGM 101, 6.4.11).
 
 use super::gamma::Gamma;
 use super::shape::{Invalid, Shape, finite};
@@ -8,8 +8,8 @@ use crate::number::Column;
 /// The largest count.
 const MOST: u64 = 999_999_999_999_999;
 
-/// The expected number of events of a Poisson process, of which some number was counted: the gamma
-/// distribution of the shape count + 1 and the rate 1. Estimate and variance are count + 1.
+/// The expected number of events of a Poisson process, given the number of counted events: the
+/// gamma distribution with shape count + 1 and rate 1. Estimate and variance are count + 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoissonCount {
     count: u64,
@@ -17,7 +17,7 @@ pub struct PoissonCount {
 }
 
 impl PoissonCount {
-    /// The knowledge after `count` events were counted (below 1e15), and nothing known before.
+    /// The posterior after `count` events were counted (below 1e15), without prior knowledge.
     ///
     /// # Errors
     /// A count out of range.
@@ -29,7 +29,7 @@ impl PoissonCount {
         Ok(Self { count, gamma: Gamma::new(count as f64 + 1.0, 1.0)? })
     }
 
-    /// The number of events that were counted.
+    /// The number of counted events.
     pub fn count(&self) -> u64 {
         self.count
     }
@@ -59,7 +59,7 @@ impl Shape for PoissonCount {
         self.gamma.draw(stream, out);
     }
 
-    /// The count whose estimate that is: one less.
+    /// The count with that estimate: one less.
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
         let count = finite("estimate", estimate)? - 1.0;
         if count.fract() == 0.0 && (0.0..=MOST as f64).contains(&count) {

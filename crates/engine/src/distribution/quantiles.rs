@@ -1,4 +1,4 @@
-//! A distribution stated by some of its quantiles, as experts and other programs give it.
+//! A distribution given by some of its quantiles, as experts and other programs state it.
 
 use std::sync::Arc;
 
@@ -8,10 +8,10 @@ use crate::number::{COLUMN, Column};
 use crate::special::normal;
 use crate::special::tails::moments;
 
-/// A quantity of which some quantiles are known. Between them the quantile function is a monotone
-/// cubic (Fritsch, Carlson 1980). With the probabilities 0 and 1 among them these are hard limits,
-/// and the interpolation is in the probability; without them it is in the normal score, and both
-/// tails are normal: quantiles of a normal distribution give that distribution.
+/// A quantity with some known quantiles. Between them the quantile function is a monotone cubic
+/// (Fritsch, Carlson 1980). If the probabilities 0 and 1 are among them, these are hard limits, and
+/// the interpolation is in the probability. Without them it is in the normal score, and both tails
+/// are normal: quantiles of a normal distribution give that distribution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantiles {
     /// Probabilities, or normal scores.
@@ -24,11 +24,12 @@ pub struct Quantiles {
 }
 
 impl Quantiles {
-    /// The distribution of these quantiles, at rising probabilities.
+    /// The distribution with these quantiles, at increasing probabilities.
     ///
     /// # Errors
-    /// Fewer than two, not as many values as probabilities; probabilities that do not rise, are
-    /// outside 0 to 1, or have one of 0 and 1 without the other; values that fall.
+    /// Fewer than two quantiles, or different numbers of values and probabilities; probabilities
+    /// that do not increase, are outside 0 to 1, or include only one of 0 and 1; values that
+    /// decrease.
     pub fn new(probabilities: &[f64], values: &[f64]) -> Result<Self, Invalid> {
         let wrong = |parameter, value, range| Err(Invalid::OutOfRange { parameter, value, range });
         let count = probabilities.len();
@@ -76,11 +77,11 @@ impl Quantiles {
         Ok(made)
     }
 
-    /// The value at a probability, or at a normal score.
+    /// The value at a probability or at a normal score.
     fn curve(&self, t: f64) -> f64 {
         let last = self.at.len() - 1;
         let (first, end) = (self.at[0], self.at[last]);
-        // straight beyond the ends: normal tails
+        // straight lines beyond the ends: normal tails
         if t <= first {
             return self.values[0] + self.slopes[0] * (t - first);
         }
@@ -99,8 +100,8 @@ impl Quantiles {
     }
 }
 
-/// Slopes at the points that keep a cubic between them from falling: harmonic means of the slopes of
-/// the lines on both sides, those of the lines at the ends.
+/// Slopes at the points for which the cubics between them never decrease: harmonic means of the
+/// slopes of the lines on both sides; at the ends the slopes of the lines.
 fn monotone_slopes(xs: &[f64], ys: &[f64]) -> Vec<f64> {
     let widths: Vec<f64> = xs.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let steep: Vec<f64> =
@@ -161,7 +162,7 @@ impl Shape for Quantiles {
 mod tests {
     use super::*;
 
-    /// Quantiles of a normal distribution give it back, tails included. 1e-9: the quadrature.
+    /// Quantiles of a normal distribution reproduce it, including the tails. 1e-9: the quadrature.
     #[test]
     fn quantiles_of_a_normal_are_that_normal() {
         let p = [0.025, 0.16, 0.5, 0.84, 0.975];

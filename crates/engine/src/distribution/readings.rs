@@ -9,16 +9,16 @@ use crate::number::Column;
 /// the t distribution with n - 1 degrees of freedom, scaled by s/sqrt(n).
 ///
 /// Readings of several quantities that were taken together are *paired* ([`Readings::paired`]): the
-/// i-th readings of all belong to one observation. They are drawn from the multivariate t
-/// distribution of JCGM 102, 5.3, with n - N degrees of freedom for N quantities.
+/// i-th readings of all quantities belong to one observation. They are drawn from the multivariate
+/// t distribution of JCGM 102, 5.3, with n - N degrees of freedom for N quantities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Readings {
     values: Vec<f64>,
     mean: f64,
     scale: f64,
-    /// How many quantities were read together with this one, itself included.
+    /// Number of quantities read together, including this one.
     together: usize,
-    /// Whether the standard uncertainty is that of the t distribution.
+    /// Whether the standard uncertainty is the standard deviation of the t distribution.
     bayesian: bool,
 }
 
@@ -36,7 +36,7 @@ impl Readings {
             finite("values", value)?;
         }
         let n = count as f64;
-        // about the first reading, so that a common large part does not cost digits
+        // relative to the first reading, so that a common large part does not cost digits
         let origin = values[0];
         let offset = values.iter().map(|v| v - origin).sum::<f64>() / n;
         let squares: f64 = values.iter().map(|v| (v - origin - offset).powi(2)).sum();
@@ -59,12 +59,12 @@ impl Readings {
     }
 
     /// The same readings, taken together with those of other quantities: `together` quantities,
-    /// this one included. All paired readings of equal length are drawn together, and there must be
-    /// as many of them.
+    /// including this one. All paired readings of equal length are drawn together, and there must
+    /// be `together` of them.
     ///
     /// # Errors
-    /// Not above `together` readings, for which there is no joint distribution. With one or two more
-    /// there is one without a covariance ([`Readings::have_covariance`]).
+    /// There are not more than `together` readings, so that there is no joint distribution. With
+    /// one or two more it has no covariance ([`Readings::have_covariance`]).
     pub fn paired(self, together: usize) -> Result<Self, Invalid> {
         let count = self.values.len();
         if count > together {
@@ -74,24 +74,24 @@ impl Readings {
         }
     }
 
-    /// Whether the joint t distribution of the paired readings, of n - N degrees of freedom, has a
-    /// covariance (JCGM 102, 5.3): more than N + 2 readings of each of N quantities.
+    /// Whether the joint t distribution of the paired readings, with n - N degrees of freedom, has
+    /// a covariance (JCGM 102, 5.3): more than N + 2 readings of each of N quantities.
     pub fn have_covariance(&self) -> bool {
         self.values.len() > self.together + 2
     }
 
-    /// What is wrong with trials of paired readings without a covariance; `None` of others.
+    /// The error for trials of paired readings without a covariance; `None` for other readings.
     pub fn without_covariance(&self) -> Option<Invalid> {
         let (count, together) = (self.values.len(), self.together);
         (together > 1 && !self.have_covariance())
             .then_some(Invalid::TooFewPaired { count, together })
     }
 
-    /// The same readings with the standard deviation of their t distribution as standard uncertainty,
-    /// which has no degrees of freedom (JCGM 101, 6.4.9.4).
+    /// The same readings with the standard deviation of their t distribution as standard
+    /// uncertainty, which has no degrees of freedom (JCGM 101, 6.4.9.4).
     ///
     /// # Errors
-    /// Fewer than four readings, for which there is no such standard deviation.
+    /// Fewer than four readings, for which this standard deviation does not exist.
     pub fn bayesian(self) -> Result<Self, Invalid> {
         let count = self.values.len();
         if count < 4 {
@@ -101,13 +101,13 @@ impl Readings {
         Ok(Self { bayesian: true, ..self })
     }
 
-    /// How many quantities were read together with this one, itself included: 1 unless paired.
+    /// Number of quantities read together, including this one: 1 unless paired.
     pub fn together(&self) -> usize {
         self.together
     }
 
-    /// The scale of the t distribution that trials are drawn from: s/sqrt(n), and of paired
-    /// readings the same with the divisor n - N in s.
+    /// The scale of the t distribution from which trials are drawn: s/sqrt(n), for paired readings
+    /// with the divisor n - N in s.
     pub(crate) fn drawn_scale(&self) -> f64 {
         let dof = self.values.len() as f64 - 1.0;
         self.scale * (dof / self.drawn_dof()).sqrt()
@@ -130,8 +130,8 @@ impl Shape for Readings {
         if self.bayesian { self.standard_deviation() } else { self.scale }
     }
 
-    /// The root of their number, which their standard deviation is divided by; of a Bayesian
-    /// evaluation, whose standard uncertainty is another one, 1.
+    /// The square root of their number, by which their standard deviation is divided; 1 for a
+    /// Bayesian evaluation, whose standard uncertainty is a different one.
     fn divisor(&self) -> Option<f64> {
         Some(if self.bayesian { 1.0 } else { (self.values.len() as f64).sqrt() })
     }

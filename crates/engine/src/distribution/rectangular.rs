@@ -34,14 +34,14 @@ impl Rectangular {
         Self::new(mean, half_width)
     }
 
-    /// Half the distance of the limits.
+    /// Half the distance between the limits.
     pub(super) fn half_width(&self) -> f64 {
         self.half_width
     }
 
-    /// The same with degrees of freedom (at least 0.5) that say how well the half-width is known
-    /// (JCGM 100, G.4.2). Trials are then drawn from the curvilinear trapezoid (JCGM 101, 6.4.3)
-    /// whose inexactness is the half-width over sqrt(2 dof).
+    /// The same with degrees of freedom (at least 0.5), which describe how well the half-width is
+    /// known (JCGM 100, G.4.2). Trials are then drawn from the curvilinear trapezoid (JCGM 101,
+    /// 6.4.3) whose inexactness is the half-width divided by sqrt(2 dof).
     ///
     /// # Errors
     /// Degrees of freedom below 0.5, with which the limits could cross.
@@ -51,7 +51,7 @@ impl Rectangular {
         Ok(Self { width, ..self })
     }
 
-    /// What is drawn in place of a rectangle whose width is not known exactly.
+    /// The distribution that is drawn instead of a rectangle with inexact width.
     pub(super) fn inexact(&self) -> Option<CurvilinearTrapezoid> {
         (!self.width.is_exact()).then(|| {
             let inexactness = self.half_width * self.width.share();

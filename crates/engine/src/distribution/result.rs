@@ -1,13 +1,14 @@
-//! One output of a saved result (JCGM 101, 6.4.12: a distribution known from an earlier evaluation).
+//! One output of a saved result (JCGM 101, 6.4.12: a distribution known from an earlier
+//! evaluation).
 //!
 //! Trials are drawn through the quantile function of the saved run's trials. It is tabulated over
 //! normal scores: entry k is the quantile at the probability Phi(z_k), z_k = from + k step. Equal
-//! steps of the score are steps that become finer towards the tails, the position in the table follows
-//! from one multiplication, and a nearly normal result is nearly a straight line. Between entries
-//! the function is straight, so it never falls; beyond them it is constant.
+//! steps of the score become finer in probability towards the tails, one multiplication gives the
+//! position in the table, and a nearly normal result is nearly a straight line. Between entries the
+//! function is linear, so it never decreases; beyond them it is constant.
 //!
-//! To first order a result is a weighted sum of the inputs that its model file names ([`Root`]). Two
-//! results with a common root depend on each other, and by how much follows from the weights.
+//! To first order a result is a weighted sum of the inputs that its model file names ([`Root`]).
+//! Two results with a common root are dependent, and their weights give the correlation.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, HashMap};
@@ -32,8 +33,8 @@ pub struct Scores {
 }
 
 impl Scores {
-    /// The scores of the files that this version writes: six standard deviations to both sides, a
-    /// probability of 1e-9 beyond either end.
+    /// The scores in the files that this version writes: six standard deviations on both sides,
+    /// with a probability of 1e-9 beyond either end.
     pub const WRITTEN: Self = Self { from: -6.0, step: 0.007_812_5, count: 1537 };
 
     /// The scores in order.
@@ -42,45 +43,47 @@ impl Scores {
     }
 }
 
-/// A named input of a model file; files are told apart by their content, and evaluations of one file
-/// by what they took the input for. A value of a certificate is the same in all model files that take it
-/// from there, whatever they call it and in whichever unit.
+/// A named input of a model file. Files are distinguished by their content, and evaluations of one
+/// file by the values that they used for the input. A value of a certificate is the same in all
+/// model files that take it from there, whatever its name and unit.
 #[derive(Clone, Debug)]
 pub struct RootName {
     /// SHA-256 of the model file, in hexadecimal.
     pub model: Arc<str>,
     /// The input, or `input/component`.
     pub name: Arc<str>,
-    /// What the evaluation took it for: its figures and its [`Occasion`], as text.
+    /// The values that the evaluation used for it, and its [`Occasion`], as text.
     pub instance: Arc<str>,
-    /// Of a value of a certificate the certificate's content, the value's place in it and the row, as
-    /// text: it alone tells whether two are the same.
+    /// For a value of a certificate: the certificate's content, the value's path in it and the row,
+    /// as text. It alone decides whether two are the same.
     pub certified: Option<Arc<str>>,
 }
 
-/// What beside its figures tells an input from that of the same name in another evaluation of the same
-/// model file, whose text does not show that its data, its row or a value on the command line was
-/// another one.
+/// The context that distinguishes an input from that of the same name and values in another
+/// evaluation of the same model file: other data, another row or another value on the command line,
+/// which the file's text does not show.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Occasion {
-    /// SHA-256 of what the files hold that it was read from; `None` if the model file says it all.
+    /// SHA-256 of the data files from which it was read; `None` if the model file contains
+    /// everything.
     pub data: Option<Arc<str>>,
-    /// The conditions that it has a value of its own for; `None` where all rows share one.
+    /// The conditions for which it has its own value; `None` if all rows share one.
     pub row: Option<Arc<str>>,
-    /// Where its figures follow the conditions, so that others are no other quantity: what was put in
-    /// place of the file's values, which may be nothing.
+    /// If its values follow the conditions, so that other values do not mean another quantity: the
+    /// replacements of the file's values, possibly none.
     pub follows: Option<Arc<str>>,
-    /// Of a value of a certificate, which is what `data` is of, its place there; `None` of others, and
-    /// where something was put in its place.
+    /// For a value of a certificate (the file of `data`), its path there; `None` for other values,
+    /// and if it was replaced.
     pub certified: Option<Arc<str>>,
 }
 
-/// Digits of a standard uncertainty, and the share of it to which estimates are told apart: far below
-/// what two readings differ by, and far above the rounding of two machines.
+/// The relative difference of values, in standard uncertainties for estimates, above which two
+/// inputs are different. It is far below the difference of two readings, and far above the rounding
+/// differences of machines.
 const TOLD_APART: f64 = 1e-6;
 
 impl RootName {
-    /// The name of an input with these figures.
+    /// The name of an input with these values.
     pub fn new(
         (model, name): (Arc<str>, Arc<str>),
         occasion: &Occasion,
@@ -103,7 +106,7 @@ impl RootName {
         Self { model, name, instance: instance.into(), certified }
     }
 
-    /// What is equal of two that are the same.
+    /// The parts that are equal for two names of the same input.
     fn identity(&self) -> [&str; 3] {
         match &self.certified {
             Some(certified) => ["", "", certified],
@@ -138,7 +141,7 @@ impl Ord for RootName {
     }
 }
 
-/// What an evaluation knows of an input.
+/// The values of an input in an evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RootFigures {
     /// Its estimate in its unit.
@@ -150,7 +153,7 @@ pub struct RootFigures {
 }
 
 impl RootFigures {
-    /// Of an input that is known by a distribution.
+    /// The values of an input with a distribution.
     pub fn of(known: &Distribution) -> Self {
         Self {
             estimate: known.mean(),
@@ -168,7 +171,7 @@ impl RootFigures {
     }
 }
 
-/// An input that a result goes back to, as it was when the result was saved.
+/// An original input of a result, as it was when the result was saved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Root {
     /// Which one.
@@ -181,11 +184,11 @@ pub struct Root {
     pub estimate: f64,
     /// Its standard uncertainty in its unit.
     pub standard_uncertainty: f64,
-    /// Standard deviation of its drawn values; infinite where there is none.
+    /// Standard deviation of its drawn values; infinite if there is none.
     pub standard_deviation: f64,
     /// Degrees of freedom of its standard uncertainty.
     pub dof: f64,
-    /// What tells it from its namesakes.
+    /// The context that distinguishes it from inputs of the same name.
     pub occasion: Occasion,
 }
 
@@ -215,27 +218,27 @@ pub struct Origin {
     pub file: Arc<str>,
     /// The output's name in it.
     pub output: String,
-    /// The roots with their weights c u(x)/u(y): dimensionless, signed. Where the result has no
-    /// finite sensitivity coefficients, it is itself its only root.
+    /// The roots with their weights c u(x)/u(y): dimensionless, signed. If the result has no finite
+    /// sensitivity coefficients, it is its own only root.
     pub roots: Vec<(Root, f64)>,
     /// Whether the roots come from sensitivity coefficients.
     pub linear: bool,
-    /// Coefficients between roots of the file.
+    /// Correlation coefficients between roots of the file.
     pub correlations: Arc<[RootCorrelation]>,
-    /// All roots of the file, also those that only other outputs go back to: what goes back to them
-    /// elsewhere may be correlated with this result.
+    /// All roots of the file, including those on which only other outputs depend: results that
+    /// depend on them elsewhere may be correlated with this result.
     pub known: Arc<[Root]>,
-    /// Coefficients with the other outputs of the file, from its trials.
+    /// Correlation coefficients with the other outputs of the file, from its trials.
     pub siblings: Vec<(String, f64)>,
-    /// SHA-256 of the model file that was saved.
+    /// SHA-256 of the model file whose result was saved.
     pub model: Arc<str>,
-    /// The number of trials that its figures are worth: those of its run, or fewer where that took saved
-    /// results of few trials. Infinite if the file does not say.
+    /// The effective number of trials behind its values: that of its run, or fewer if the run used
+    /// saved results of few trials. Infinite if the file does not say.
     pub trials: f64,
     /// The seed of its random streams.
     pub seed: Option<u64>,
-    /// Its ranks, from 0, in some of the trials; entry i of all outputs of the file is of the same
-    /// trial. `None` if the file has none.
+    /// Its ranks, from 0, in some of the trials; entry i belongs to the same trial for all outputs
+    /// of the file. `None` if the file has none.
     pub ranks: Option<Arc<[u32]>>,
 }
 
@@ -245,7 +248,7 @@ impl Origin {
         self.roots.iter().any(|(root, _)| root.dof.is_finite())
     }
 
-    /// Whether no root of finite degrees of freedom is correlated with another one, so that the
+    /// Whether no root with finite degrees of freedom is correlated with another one, so that the
     /// Welch-Satterthwaite formula holds for them.
     pub(crate) fn has_independent_roots(&self) -> bool {
         let find = |name: &RootName| self.roots.iter().find(|(root, _)| root.name == *name);
@@ -256,18 +259,18 @@ impl Origin {
     }
 }
 
-/// The figures of a saved output, in one unit.
+/// The values of a saved output, in one unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Saved {
-    /// The estimate by the law of propagation, or that of the trials where there is none.
+    /// The estimate by the law of propagation, or by the trials if there is none.
     pub estimate: f64,
-    /// The standard uncertainty that goes with it.
+    /// The corresponding standard uncertainty.
     pub standard_uncertainty: f64,
-    /// Standard deviation of the trials; infinite where the distribution has none.
+    /// Standard deviation of the trials; infinite if the distribution has none.
     pub standard_deviation: f64,
-    /// Effective degrees of freedom; not a number where they are undefined.
+    /// Effective degrees of freedom; NaN if they are undefined.
     pub dof: f64,
-    /// The fewest degrees of freedom of a t distribution that the trials depend on.
+    /// The fewest degrees of freedom of any t distribution that affects the trials.
     pub drawn_dof: f64,
 }
 
@@ -277,7 +280,7 @@ pub struct SavedResult {
     saved: Saved,
     from: f64,
     per_score: f64,
-    /// Value and rise to the next entry.
+    /// Value and difference to the next entry.
     cells: Arc<[[f64; 2]]>,
     /// Expectation of the drawn values.
     drawn_mean: f64,
@@ -285,12 +288,12 @@ pub struct SavedResult {
 }
 
 impl SavedResult {
-    /// A result with the given figures, whose quantiles over `scores` are `quantiles`, in the
-    /// same unit.
+    /// A result with the given values, whose quantiles over `scores` are `quantiles`, in the same
+    /// unit.
     ///
     /// # Errors
-    /// Numbers that are not finite, a standard uncertainty that is not above zero, fewer than two
-    /// quantiles or not as many as scores, quantiles that fall.
+    /// Numbers that are not finite, a standard uncertainty that is not positive, fewer than two
+    /// quantiles or another number than scores, quantiles that decrease.
     pub fn new(
         saved: Saved,
         scores: Scores,
@@ -326,7 +329,7 @@ impl SavedResult {
     /// The same result in another unit, `factor` of which make one of the present one.
     ///
     /// # Errors
-    /// Values beyond the range of numbers.
+    /// Values beyond the range of `f64`.
     pub fn scaled(&self, factor: f64) -> Result<Self, Invalid> {
         let saved = Saved {
             estimate: finite("estimate", factor * self.saved.estimate)?,
@@ -342,7 +345,7 @@ impl SavedResult {
         Self { saved, cells, drawn_mean, ..self.clone() }.within_range()
     }
 
-    /// Refuses tables with ends beyond the range of numbers.
+    /// The error for tables with ends beyond the range of `f64`.
     fn within_range(self) -> Result<Self, Invalid> {
         for cell in [self.cells.first(), self.cells.last()].into_iter().flatten() {
             finite("quantiles", cell[0])?;
@@ -366,13 +369,13 @@ impl SavedResult {
         Scores { from: self.from, step: 1.0 / self.per_score, count: self.cells.len() }
     }
 
-    /// Expectation of the drawn values; the estimate may be another, as it is that of the law of
-    /// propagation.
+    /// Expectation of the drawn values; it may differ from the estimate, which is that of the law
+    /// of propagation.
     pub(crate) fn drawn_mean(&self) -> f64 {
         self.drawn_mean
     }
 
-    /// The value at a normal score. Plain arithmetic, so the same bits on every machine.
+    /// The value at a normal score. Plain arithmetic, so the bits are the same on every machine.
     #[inline(always)]
     pub(super) fn at(&self, score: f64) -> f64 {
         let last = self.cells.len() - 1;
@@ -382,8 +385,8 @@ impl SavedResult {
         start + rise * (position - cell as f64)
     }
 
-    /// The value at `share` (from 0 to 1) of the stretch of probability of the rank `rank`, counted
-    /// from 0, of `count` ones.
+    /// The value at the fraction `share` (from 0 to 1) of the probability interval of the rank
+    /// `rank`, counted from 0, out of `count`.
     pub(super) fn in_rank(&self, rank: u32, share: f64, count: u32) -> f64 {
         let (rank, count) = (f64::from(rank), f64::from(count));
         // the tail on the near side keeps its digits
@@ -394,20 +397,21 @@ impl SavedResult {
         })
     }
 
-    /// Whether the two results depend on each other: outputs of one file, or results that go back
-    /// to a common root or to correlated ones.
+    /// Whether the two results are dependent: outputs of one file, or results with a common root or
+    /// with correlated roots.
     pub fn is_linked(&self, other: &Self) -> bool {
         let (a, b) = (&self.origin, &other.origin);
         a.file == b.file || !shared(a, b).is_empty()
     }
 
-    /// Whether coefficients between the roots of the two results tell how they depend on each other.
+    /// Whether correlation coefficients between the roots of the two results determine their
+    /// dependence.
     pub(crate) fn is_told_by_roots(&self, other: &Self) -> bool {
         !shared(&self.origin, &other.origin).is_empty()
     }
 
-    /// The correlation coefficient of two linked results by the law of propagation; `None` if they
-    /// are not linked, or if it cannot be told because one has no sensitivity coefficients.
+    /// The correlation coefficient of two dependent results by the law of propagation; `None` if
+    /// they are independent, or if one has no sensitivity coefficients.
     pub fn linear_coefficient(&self, other: &Self) -> Option<f64> {
         let (a, b) = (&self.origin, &other.origin);
         let one_file = a.file == b.file;
@@ -419,8 +423,8 @@ impl SavedResult {
         told.then(|| shared.iter().map(|term| term.product).sum::<f64>().clamp(-1.0, 1.0))
     }
 
-    /// The correlation coefficient of the trials of two linked results: as saved for two outputs of
-    /// one file, else that of the weighted sums of the roots as they are drawn.
+    /// The correlation coefficient of the trials of two dependent results: as saved for two outputs
+    /// of one file, otherwise that of the weighted sums of the roots as drawn.
     pub fn drawn_coefficient(&self, other: &Self) -> Option<f64> {
         let (a, b) = (&self.origin, &other.origin);
         if a.file == b.file && a.output != b.output {
@@ -433,11 +437,11 @@ impl SavedResult {
         let product = |a: &Origin, b: &Origin| shared(a, b).iter().map(|t| t.drawn).sum::<f64>();
         let drawn = product(a, b) / (product(a, a) * product(b, b)).sqrt();
         let drawn = drawn.clamp(-1.0, 1.0);
-        // a root without a variance gives none
+        // a root without a variance contributes none
         Some(if drawn.is_finite() { drawn } else { linear })
     }
 
-    /// Whether the dependence of two results comes from common roots alone, so that degrees of
+    /// Whether the dependence of two results comes only from common roots, so that degrees of
     /// freedom can be counted root by root.
     pub(crate) fn is_by_roots(&self, other: &Self) -> bool {
         let (a, b) = (&self.origin, &other.origin);
@@ -455,7 +459,7 @@ fn cells(values: impl Iterator<Item = f64>) -> Arc<[[f64; 2]]> {
 }
 
 /// Expectation and standard deviation of the tabulated function of a standard normal quantity:
-/// integrals of its straight pieces, of the deviation from the middle entry.
+/// integrals of its linear pieces, of the deviation from the middle entry.
 fn moments(cells: &[[f64; 2]], scores: Scores) -> (f64, f64) {
     let density = |z: f64| libm::exp(-0.5 * z * z) / std::f64::consts::TAU.sqrt();
     let (Some(&[first, _]), Some(&[last, _])) = (cells.first(), cells.last()) else {
@@ -487,10 +491,10 @@ fn moments(cells: &[[f64; 2]], scores: Scores) -> (f64, f64) {
     (middle + sum, (squares - sum * sum).max(0.0).sqrt())
 }
 
-/// A product of two weights that adds to the correlation of two results.
+/// A product of two weights that contributes to the correlation of two results.
 struct Term {
     product: f64,
-    /// The same with standard deviations of drawn values in place of standard uncertainties.
+    /// The same with standard deviations of drawn values instead of standard uncertainties.
     drawn: f64,
     /// Whether both weights belong to one root.
     same: bool,
@@ -498,7 +502,7 @@ struct Term {
     finite_dof: bool,
 }
 
-/// What two results have in common: equal roots, and correlated ones.
+/// The common part of two results: equal roots, and correlated ones.
 fn shared(a: &Origin, b: &Origin) -> Vec<Term> {
     let by_name = |origin: &'_ Origin| -> HashMap<RootName, (f64, Root)> {
         origin.roots.iter().map(|(root, w)| (root.name.clone(), (*w, root.clone()))).collect()
@@ -520,7 +524,7 @@ fn shared(a: &Origin, b: &Origin) -> Vec<Term> {
     for (root, _) in &a.roots {
         add(&root.name, &root.name, 1.0);
     }
-    // both files may tell the same coefficient
+    // both files may state the same coefficient
     let mut coefficients = BTreeMap::new();
     for c in a.correlations.iter().chain(b.correlations.iter()) {
         let names = (c.first.clone().min(c.second.clone()), c.first.clone().max(c.second.clone()));

@@ -1,4 +1,4 @@
-//! Samples: an empirical distribution, as another calculation may have left it (JCGM 101, 7.5).
+//! Samples: an empirical distribution, for example from another calculation (JCGM 101, 7.5).
 
 use std::sync::Arc;
 
@@ -6,10 +6,10 @@ use super::shape::{Invalid, Shape, finite};
 use super::stream::Stream;
 use crate::number::{COLUMN, Column, ascending};
 
-/// Samples of a quantity, each as likely as any other and drawn with replacement. The standard
-/// uncertainty is their standard deviation with the divisor n.
+/// Samples of a quantity, all equally likely and drawn with replacement. The standard uncertainty
+/// is their standard deviation with the divisor n.
 ///
-/// Their order does not matter. They are shared between clones.
+/// Their order does not matter. Clones share them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples {
     /// In ascending order.
@@ -33,7 +33,7 @@ impl Samples {
         }
         ascending(&mut values);
         let n = count as f64;
-        // about the median, so that a common large part does not cost digits
+        // relative to the median, so that a common large part does not cost digits
         let origin = values[count / 2];
         let offset = values.iter().map(|v| v - origin).sum::<f64>() / n;
         let squares: f64 = values.iter().map(|v| (v - origin - offset).powi(2)).sum();
@@ -62,7 +62,7 @@ impl Shape for Samples {
         self.std
     }
 
-    /// The least sample that at least the share `p` of the samples does not exceed.
+    /// The smallest sample that at least the fraction `p` of the samples does not exceed.
     fn quantile(&self, p: f64) -> f64 {
         let n = self.values.len();
         let number = (p * n as f64).ceil() as usize;

@@ -1,14 +1,14 @@
-//! Where a value lies in a distribution.
+//! The position of a value in a distribution.
 
 use super::Distribution;
 use crate::special;
 
-/// Scores beyond this leave less than the smallest doubles.
+/// Larger scores leave less probability than the smallest doubles.
 const FARTHEST: f64 = 37.0;
 
 impl Distribution {
-    /// The value at a standard normal score: the quantile at the score's probability, also deep in
-    /// both tails.
+    /// The value at a standard normal score: the quantile at the score's probability, accurate deep
+    /// in both tails.
     pub(crate) fn at_score(&self, score: f64) -> f64 {
         if score < 0.0 {
             self.quantile(special::normal::cdf(score))
@@ -17,8 +17,8 @@ impl Distribution {
         }
     }
 
-    /// The standard normal score of a value: the probability below the value is that below the score.
-    /// By halving, to 1e-13; from -37 to 37.
+    /// The standard normal score of a value: the probability below the value equals that below the
+    /// score. By bisection, to 1e-13; from -37 to 37.
     pub fn score_of(&self, value: f64) -> f64 {
         let (mut low, mut high) = (-FARTHEST, FARTHEST);
         while high - low > 1e-13 {

@@ -1,4 +1,4 @@
-//! What every distribution tells, and what is wrong with one that cannot be.
+//! The trait of all distributions, and the errors of their parameters.
 
 use std::fmt;
 
@@ -7,13 +7,13 @@ use crate::number::{Column, Shortest};
 
 /// A probability distribution of one quantity.
 ///
-/// The GUM side uses [`Shape::mean`], [`Shape::standard_uncertainty`] and [`Shape::dof`]; the
-/// Monte Carlo side [`Shape::draw`] and, for dependent quantities, [`Shape::quantile`].
+/// The law of propagation uses [`Shape::mean`], [`Shape::standard_uncertainty`] and [`Shape::dof`];
+/// Monte Carlo uses [`Shape::draw`] and, for dependent quantities, [`Shape::quantile`].
 pub(crate) trait Shape {
-    /// The canonical name, as files and budgets have it.
+    /// The canonical name, as in files and budgets.
     const NAME: &'static str;
 
-    /// The name of this one, where not all of the kind have the same.
+    /// The name of this distribution, if not all of the kind have the same.
     fn name(&self) -> &'static str {
         Self::NAME
     }
@@ -21,8 +21,8 @@ pub(crate) trait Shape {
     /// The estimate: the expectation.
     fn mean(&self) -> f64;
 
-    /// The standard uncertainty on the GUM side: the standard deviation, but for a t distribution
-    /// its scale (JCGM 100, 4.2.3 and G.3).
+    /// The standard uncertainty for the law of propagation: the standard deviation, but the scale
+    /// of a t distribution (JCGM 100, 4.2.3 and G.3).
     fn standard_uncertainty(&self) -> f64;
 
     /// Degrees of freedom of the standard uncertainty; infinite unless it was estimated.
@@ -30,26 +30,26 @@ pub(crate) trait Shape {
         f64::INFINITY
     }
 
-    /// What the stated width (the half-width of the limits, an expanded uncertainty, the standard
-    /// uncertainty itself) is divided by to give the standard uncertainty; `None` for a shape that
-    /// is not stated by one width.
+    /// The divisor of the stated width (the half-width of the limits, an expanded uncertainty, the
+    /// standard uncertainty itself) that gives the standard uncertainty; `None` for a shape that is
+    /// not stated by one width.
     fn divisor(&self) -> Option<f64> {
         None
     }
 
-    /// Degrees of freedom of the t distribution that trials are drawn from, infinite for all other
+    /// Degrees of freedom of the t distribution from which trials are drawn, infinite for all other
     /// shapes. Moments of that order and above do not exist.
     fn drawn_dof(&self) -> f64 {
         f64::INFINITY
     }
 
-    /// The name of what trials are drawn from, where that is another shape because the standard
-    /// uncertainty has finite degrees of freedom.
+    /// The name of the distribution from which trials are drawn, if it is another shape because the
+    /// standard uncertainty has finite degrees of freedom.
     fn drawn_as(&self) -> Option<&'static str> {
         None
     }
 
-    /// Standard deviation of the drawn values; infinite where it does not exist.
+    /// Standard deviation of the drawn values; infinite if it does not exist.
     fn standard_deviation(&self) -> f64 {
         self.standard_uncertainty()
     }
@@ -57,9 +57,9 @@ pub(crate) trait Shape {
     /// The value below which the drawn quantity lies with probability `p`, 0 < p < 1.
     fn quantile(&self, p: f64) -> f64;
 
-    /// The value above which the drawn quantity lies with probability `q`, 0 < q < 1. Where 1 - `q`
-    /// rounds to 1 the default stays at the largest double below; a shape with a tail that matters
-    /// there has its own.
+    /// The value above which the drawn quantity lies with probability `q`, 0 < q < 1. If 1 - `q`
+    /// rounds to 1, the default stays at the largest double below 1; a shape with a relevant tail
+    /// overrides it.
     fn quantile_upper(&self, q: f64) -> f64 {
         self.quantile((1.0 - q).min(1.0 - 0.5 * f64::EPSILON))
     }
@@ -67,8 +67,8 @@ pub(crate) trait Shape {
     /// Fills a column with independent draws.
     fn draw(&self, stream: &mut Stream, out: &mut Column);
 
-    /// The distribution of the value times a factor above 0, as in another unit; `None` where the
-    /// result is not finite, and for shapes that nobody needs it of.
+    /// The distribution of the value times a factor above 0, as in another unit; `None` if the
+    /// result is not finite, and for shapes for which it is not needed.
     fn times(&self, _factor: f64) -> Option<Self>
     where
         Self: Sized,
@@ -77,13 +77,13 @@ pub(crate) trait Shape {
     }
 
     /// The same distribution with its estimate moved to `estimate`. A shape with a location is
-    /// shifted, its limits move along; a shape of positive quantities says itself what it keeps.
+    /// shifted with its limits; a shape of positive quantities decides what it keeps.
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid>
     where
         Self: Sized;
 }
 
-/// Why a distribution cannot be made from the given numbers.
+/// Why a distribution cannot be constructed from the given numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Invalid {
     /// A parameter is infinite or not a number.
@@ -126,7 +126,7 @@ pub enum Invalid {
         /// How many readings there are.
         count: usize,
     },
-    /// The readings differ, but by so much or so little that their variance is no number above zero.
+    /// The readings differ, but by so much or so little that their variance overflows or vanishes.
     ScatterOutOfRange {
         /// How many readings there are.
         count: usize,
@@ -143,16 +143,16 @@ pub enum Invalid {
     },
     /// Too few paired readings for a joint distribution with a covariance.
     TooFewPaired {
-        /// How many readings there are of each quantity.
+        /// Number of readings of each quantity.
         count: usize,
         /// How many quantities are paired.
         together: usize,
     },
-    /// What is stated of a distribution is not true of its draws.
+    /// The draws of a distribution contradict its stated parameters.
     NotOfDraws {
         /// Name of the parameter.
         parameter: &'static str,
-        /// What is stated; of a quantile its probability.
+        /// The stated value; for a quantile its probability.
         stated: f64,
         /// What the draws have.
         found: f64,
@@ -169,7 +169,7 @@ pub enum Invalid {
 }
 
 impl Invalid {
-    /// The parameter that is at fault, by the name that files use.
+    /// The invalid parameter, by its name in files.
     pub fn parameter(&self) -> &'static str {
         match self {
             Self::NotFinite { parameter, .. }
@@ -277,8 +277,8 @@ pub(crate) fn degrees_of_freedom(value: f64) -> Result<f64, Invalid> {
     if value > 0.0 { Ok(value) } else { Err(Invalid::NotPositive { parameter: "dof", value }) }
 }
 
-/// Degrees of freedom of a t distribution that is drawn: at least 0.2, infinite allowed. Below, a
-/// draw can exceed the largest number that there is.
+/// Degrees of freedom of a t distribution that is drawn: at least 0.2, infinite allowed. With
+/// fewer, a draw can exceed the largest `f64`.
 pub(crate) fn drawn_degrees_of_freedom(value: f64) -> Result<f64, Invalid> {
     let value = degrees_of_freedom(value)?;
     if value >= 0.2 {
@@ -288,7 +288,7 @@ pub(crate) fn drawn_degrees_of_freedom(value: f64) -> Result<f64, Invalid> {
     }
 }
 
-/// The value if it lies from `least` to `most`, which `range` says in words.
+/// The value if it lies from `least` to `most`; `range` describes this in words.
 pub(crate) fn within(
     parameter: &'static str,
     value: f64,

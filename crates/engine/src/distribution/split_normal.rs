@@ -1,13 +1,13 @@
 //! The split normal distribution: two halves of normal distributions of different width, joined at
-//! the mode, as asymmetric uncertainties are stated (5 +0.2 -0.1).
+//! the mode, for stated asymmetric uncertainties (5 +0.2 -0.1).
 
 use super::shape::{Invalid, Shape, finite, positive};
 use super::stream::Stream;
 use crate::number::{COLUMN, Column};
 use crate::special::normal;
 
-/// A quantity whose density falls off as a normal one on either side of its mode, with a standard
-/// deviation of its own on each.
+/// A quantity whose density decreases like a normal one on either side of its mode, with a
+/// different standard deviation on each.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplitNormal {
     mode: f64,
@@ -81,8 +81,8 @@ impl Shape for SplitNormal {
 mod tests {
     use super::*;
 
-    /// 5 +0.2 -0.1: expectation 5 + 0.1 sqrt(2/pi), variance 0.01 (1 - 2/pi) + 0.02; the share 1/3
-    /// is below the mode.
+    /// 5 +0.2 -0.1: expectation 5 + 0.1 sqrt(2/pi), variance 0.01 (1 - 2/pi) + 0.02; the
+    /// probability below the mode is 1/3.
     #[test]
     fn moments_and_quantiles() {
         let split = SplitNormal::new(5.0, 0.1, 0.2).unwrap();

@@ -6,8 +6,8 @@ use super::stream::Stream;
 use crate::number::{COLUMN, Column, Kernel, elementary};
 use crate::special;
 
-/// From here on the t distribution and the normal one differ by less than 1e-9 in any probability,
-/// and the generator of t values would lose digits.
+/// From here on, any probability of the t distribution differs from the normal one by less than
+/// 1e-9, and the generator of t values would lose digits.
 const AS_GOOD_AS_NORMAL: f64 = 1e9;
 
 /// A t distribution: expectation `mean`, `scale` and degrees of freedom.
@@ -79,7 +79,7 @@ impl Shape for StudentT {
     }
 }
 
-/// Standard deviation of a t distribution; infinite at two degrees of freedom and below.
+/// Standard deviation of a t distribution; infinite for two degrees of freedom or fewer.
 pub(super) fn standard_deviation(scale: f64, dof: f64) -> f64 {
     if dof.is_infinite() {
         scale
@@ -96,8 +96,8 @@ pub(super) fn standard_quantile(p: f64, dof: f64) -> f64 {
 }
 
 /// Bailey's polar form (Mathematics of Computation 62, 1994): exact for any degrees of freedom,
-/// one logarithm, one exponential, one root and one cosine a value, and nothing is rejected. Compiled
-/// once for each path, as [`normal::draw`].
+/// with one logarithm, one exponential, one root and one cosine per value, and without rejection.
+/// Compiled once for each code path, as [`normal::draw`].
 pub(super) fn draw(mean: f64, scale: f64, dof: f64, stream: &mut Stream, out: &mut Column) {
     if dof >= AS_GOOD_AS_NORMAL {
         normal::draw(mean, scale, stream, out);
@@ -124,12 +124,12 @@ impl Kernel for DrawKernel<'_> {
         let mut turn = [0.0; COLUMN];
         stream.uniform(&mut radius);
         stream.uniform(&mut turn);
-        // no logarithm is below that of the least uniform number
+        // no logarithm is below that of the smallest uniform number
         if LARGEST_LOGARITHM * 2.0 / dof <= elementary::EXP_LIMIT {
             let grown = elementary::exp_minus_one_positive;
             fill((mean, scale, dof), (&radius, &turn), grown, out);
         } else {
-            // of less than an eighth of a degree of freedom hardly any draw is near the middle
+            // with less than an eighth of a degree of freedom hardly any draw is near the middle
             let grown =
                 |x: f64| if x < 1e-3 { x * (1.0 + 0.5 * x) } else { elementary::exp(x) - 1.0 };
             fill((mean, scale, dof), (&radius, &turn), grown, out);
@@ -137,7 +137,7 @@ impl Kernel for DrawKernel<'_> {
     }
 }
 
-/// Minus the logarithm of the least uniform number, 2^-53.
+/// Minus the logarithm of the smallest uniform number, 2^-53.
 const LARGEST_LOGARITHM: f64 = 36.8;
 
 /// `grown` is exp(x) - 1.
@@ -151,7 +151,7 @@ fn fill(
     let exponent = -2.0 / dof;
     for i in 0..COLUMN {
         let x = exponent * elementary::ln_uniform(radius[i]);
-        // a cosine over a whole turn is a sine over half of one, there and back
+        // a cosine over a whole turn is a sine over half a turn, forth and back
         let cos = elementary::sin_quarters(4.0 * (turn[i] - 0.5).abs() - 1.0);
         out.0[i] = mean + scale * ((dof * grown(x)).sqrt() * cos);
     }

@@ -16,8 +16,8 @@ pub struct Trapezoidal {
 }
 
 impl Trapezoidal {
-    /// A trapezoid of the given half-width (> 0) of its base about `mean`; `beta` is the width of
-    /// its top over that of its base, from 0 (a triangle) to 1 (a rectangle).
+    /// A trapezoid with the given half-width (> 0) of its base about `mean`; `beta` is the width of
+    /// its top divided by that of its base, from 0 (a triangle) to 1 (a rectangle).
     ///
     /// # Errors
     /// Parameters that are not finite, a half-width that is not above zero, a ratio out of range.
@@ -39,9 +39,9 @@ impl Trapezoidal {
         Self::new(mean, half_width, beta)
     }
 
-    /// The same with degrees of freedom (at least 0.5) that say how well its width is known
-    /// (JCGM 100, G.4.2). Every trial then has limits of its own, which are as much farther from
-    /// the middle or nearer to it, by up to the share 1/sqrt(2 dof).
+    /// The same with degrees of freedom (at least 0.5), which describe how well its width is known
+    /// (JCGM 100, G.4.2). Every trial then has its own limits, whose distance from the middle is
+    /// multiplied by a factor between 1 - 1/sqrt(2 dof) and 1 + 1/sqrt(2 dof).
     ///
     /// # Errors
     /// Degrees of freedom below 0.5, with which the width could be negative.
@@ -99,7 +99,7 @@ impl Shape for Trapezoidal {
             let distance = half_width * inexact.distance(beta, tail);
             return mean + if p < 0.5 { -distance } else { distance };
         }
-        // the flanks hold (1 - beta) / (1 + beta) of the probability, half of it each
+        // the flanks have the probability (1 - beta) / (1 + beta), half of it each
         if 2.0 * tail * (1.0 + beta) < 1.0 - beta {
             let inwards = (2.0 * tail * (1.0 - beta) * (1.0 + beta)).sqrt();
             mean + half_width * if p < 0.5 { inwards - 1.0 } else { 1.0 - inwards }

@@ -48,9 +48,9 @@ impl Triangular {
         }
     }
 
-    /// The same with degrees of freedom (at least 0.5) that say how well its width is known
-    /// (JCGM 100, G.4.2). Every trial then has limits of its own, all of them as much farther from
-    /// the mode or nearer to it, by up to the share 1/sqrt(2 dof).
+    /// The same with degrees of freedom (at least 0.5), which describe how well its width is known
+    /// (JCGM 100, G.4.2). Every trial then has its own limits, whose distances from the mode are
+    /// multiplied by a factor between 1 - 1/sqrt(2 dof) and 1 + 1/sqrt(2 dof).
     ///
     /// # Errors
     /// Degrees of freedom below 0.5, with which the width could be negative.
@@ -64,10 +64,11 @@ impl Triangular {
         self.rise + self.fall
     }
 
-    /// The value that lies with the probability `tail` below it, or above it, where the width is
-    /// not known exactly. `near` is the distance of that limit from the mode, `far` of the other.
+    /// The distance of the value from the mode below (or above) which the probability `tail` lies,
+    /// for an inexact width. `near` is the distance of that limit from the mode, `far` that of the
+    /// other.
     fn inexact_distance(&self, tail: f64, near: f64, far: f64) -> f64 {
-        // the shares of the two sides, which keep them at any width
+        // the probabilities of the two sides, which do not depend on the width
         let share = near / (near + far);
         if tail < share {
             near * self.inexact.distance(0.0, 0.5 * tail / share)
@@ -78,7 +79,7 @@ impl Triangular {
 }
 
 impl Triangular {
-    /// `None` for a triangle with its mode off the middle and an inexact width.
+    /// `None` for a triangle with an inexact width whose mode is not in the middle.
     pub(super) fn characteristic(&self) -> Option<Characteristic> {
         let Self { rise, fall, inexact, .. } = *self;
         if rise == fall {
@@ -88,7 +89,7 @@ impl Triangular {
         inexact.is_exact().then_some(Characteristic::Triangle { rise, fall })
     }
 
-    /// The distances from the mode to the limits, where these are known exactly.
+    /// The distances from the mode to the limits, if these are known exactly.
     pub(crate) fn exact_sides(&self) -> Option<[f64; 2]> {
         self.inexact.is_exact().then_some([self.rise, self.fall])
     }
@@ -103,7 +104,7 @@ impl Shape for Triangular {
     const NAME: &'static str = "triangular";
 
     fn mean(&self) -> f64 {
-        // the middle of a symmetric one to the last bit: 0 and not 1e-17
+        // the middle of a symmetric triangle to the last bit: 0 and not 1e-17
         if self.rise == self.fall {
             return self.lower + self.rise;
         }
@@ -129,7 +130,7 @@ impl Shape for Triangular {
         (square * self.standard_uncertainty().powi(2) + (square - 1.0) * off * off).sqrt()
     }
 
-    /// The limits of a triangle with its mode off the middle are not one width.
+    /// The limits of a triangle whose mode is not in the middle are not one width.
     fn divisor(&self) -> Option<f64> {
         let off = (self.rise - self.fall).abs();
         (off <= 1e-9 * self.width()).then(|| 6f64.sqrt())
@@ -197,7 +198,8 @@ impl Shape for Triangular {
 mod tests {
     use super::*;
 
-    /// A correction of 0 within symmetric limits has the estimate 0, of which nothing is a share.
+    /// A correction of 0 within symmetric limits has the estimate exactly 0, so no relative width
+    /// exists.
     #[test]
     fn means_of_symmetric_triangles_are_exact() {
         for n in 1..1000 {

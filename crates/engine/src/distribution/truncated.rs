@@ -1,4 +1,4 @@
-//! Any distribution cut off at limits that the quantity cannot be beyond.
+//! Any distribution truncated at limits of the quantity.
 
 use super::Distribution;
 use super::shape::{Invalid, Shape, finite};
@@ -6,11 +6,11 @@ use super::stream::Stream;
 use crate::number::{COLUMN, Column, elementary};
 use crate::special::tails::moments;
 
-/// The least probability within the limits.
+/// The smallest accepted probability within the limits.
 const LEAST: f64 = 1e-12;
 
-/// A distribution of which only what lies between two limits is left. Its estimate and its standard
-/// uncertainty are those of what is left, by quadrature; degrees of freedom stay.
+/// A distribution truncated to the range between two limits. Its estimate and its standard
+/// uncertainty are those of the truncated distribution, by quadrature; degrees of freedom are kept.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truncated {
     base: Box<Distribution>,
@@ -26,11 +26,11 @@ pub struct Truncated {
 }
 
 impl Truncated {
-    /// A distribution between two limits, of which one may be infinite.
+    /// A distribution between two limits, one of which may be infinite.
     ///
     /// # Errors
-    /// Limits that are not in order, that leave less than 1e-12 of the probability, or a distribution
-    /// that cannot be cut: one without quantiles, a saved result, a constant.
+    /// Limits that are not in order, or that leave a probability below 1e-12; a distribution that
+    /// cannot be truncated: one without quantiles, a saved result, a constant.
     pub fn cut(base: Distribution, lower: f64, upper: f64) -> Result<Distribution, Invalid> {
         if lower.is_nan() || upper.is_nan() || lower >= upper {
             return Err(Invalid::LimitsReversed { lower, upper });
@@ -87,7 +87,7 @@ impl Truncated {
         if made.std > 0.0 { Ok(made.into()) } else { out_of_range(lower) }
     }
 
-    /// The distribution that is cut off.
+    /// The distribution before truncation.
     pub fn base(&self) -> &Distribution {
         &self.base
     }
@@ -99,8 +99,8 @@ impl Truncated {
 }
 
 /// Whether a tail is as long as that of a t distribution with 2 degrees of freedom, whose quantiles
-/// grow with the root of 1/p: its second moment is infinite, and whatever a quadrature gives for it
-/// depends on where that ends.
+/// grow with the square root of 1/p: its second moment is infinite, and the result of a quadrature
+/// depends on where it ends.
 fn has_no_variance(quantile: impl Fn(f64) -> f64) -> bool {
     let [near, far] = [1e-100, 1e-200].map(|p| quantile(p).abs());
     far.is_infinite() || elementary::log10(far / near) / 100.0 > 0.5 - 1e-6
@@ -116,7 +116,7 @@ fn share(value: f64, quantile: impl Fn(f64) -> f64) -> f64 {
     if value >= quantile(high) {
         return 1.0;
     }
-    // in the logarithm while that is wide, so that a small tail has digits
+    // in the logarithm while the bracket is wide, so that a small tail has digits
     for _ in 0..HALVINGS {
         let middle =
             if high > 4.0 * low { low.sqrt() * high.sqrt() } else { 0.5 * low + 0.5 * high };
@@ -198,9 +198,10 @@ mod tests {
     use crate::distribution::{Normal, Rectangular, StudentT};
     use crate::special::normal;
 
-    /// A normal of expectation 0.02 and standard deviation 0.05 that is not negative: with
-    /// a = -0.4, the inverse Mills ratio l = phi(a)/(1 - Phi(a)), expectation mu + s l, variance
-    /// s^2 (1 + a l - l^2) (Johnson, Kotz, Balakrishnan, 13.10). The quadrature leaves 1e-10.
+    /// A normal distribution with expectation 0.02 and standard deviation 0.05, truncated at 0:
+    /// with a = -0.4, the inverse Mills ratio l = phi(a)/(1 - Phi(a)), expectation mu + s l,
+    /// variance s^2 (1 + a l - l^2) (Johnson, Kotz, Balakrishnan, 13.10). The quadrature leaves
+    /// 1e-10.
     #[test]
     fn a_normal_that_is_not_negative() {
         let of = Truncated::cut(Normal::new(0.02, 0.05).unwrap().into(), 0.0, f64::INFINITY);
@@ -224,9 +225,9 @@ mod tests {
         assert!((of.standard_uncertainty() - 1.0 / 3.0_f64.sqrt()).abs() < 1e-10);
     }
 
-    /// Far out in the tail of a t: what is left begins at the limit, and has the Pareto tail of the t;
-    /// with 5 degrees of freedom the density goes as x^-6, so that the mean is 5/4 of the limit to
-    /// within (5/limit^2).
+    /// Far out in the tail of a t distribution: the truncated distribution begins at the limit and
+    /// has a Pareto tail; with 5 degrees of freedom the density is proportional to x^-6, so that
+    /// the mean is 5/4 of the limit to within (5/limit^2).
     #[test]
     fn a_tail_alone() {
         let base = StudentT::new(0.0, 1.0, 5.0).unwrap();
@@ -235,7 +236,8 @@ mod tests {
         assert_eq!(of.dof(), 5.0);
     }
 
-    /// The second moment of a t with 2 degrees of freedom or fewer is infinite unless both sides end.
+    /// The second moment of a t distribution with 2 degrees of freedom or fewer is infinite unless
+    /// both sides are truncated.
     #[test]
     fn tails_without_a_variance() {
         for dof in [1.0, 1.7, 2.0] {

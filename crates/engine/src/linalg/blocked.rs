@@ -1,12 +1,12 @@
 //! Cholesky roots of large matrices, in square tiles.
 //!
-//! The order of the operations on every entry is fixed by the matrix alone, however many threads
-//! take part and whatever their vectors' width is: each tile is computed by one thread, and within it
-//! every entry has its products subtracted one after the other.
+//! The matrix alone fixes the order of the operations on every entry, whatever the number of
+//! threads and the width of their vectors: each tile is computed by one thread, and within it every
+//! entry has its products subtracted one after the other.
 //!
-//! A covariance matrix whose correlations die away has a root whose far entries do so too, down to
-//! numbers below the least normal one, on which processors work a hundred times slower. Such an
-//! entry is zero here (see [`NEGLIGIBLE`]), and tiles of zeros are passed over.
+//! A covariance matrix whose correlations decay has a root whose far entries decay too, down to
+//! numbers below the smallest normal one, on which processors work a hundred times more slowly.
+//! Such an entry is zero here (see [`NEGLIGIBLE`]), and tiles of zeros are skipped.
 
 use crate::parallel;
 
@@ -15,7 +15,7 @@ use crate::number::{CodePath, Kernel};
 /// Rows and columns of a tile: two of them fit a second-level cache.
 const TILE: usize = 128;
 
-/// Rows and columns of the part of a tile that stays in registers, those of AVX2 among them.
+/// Rows and columns of the part of a tile that stays in registers, including those of AVX2.
 const ROWS: usize = 4;
 const COLUMNS: usize = 8;
 
@@ -23,9 +23,10 @@ const COLUMNS: usize = 8;
 /// them one after the other. A panel stays in a first-level cache while a whole tile passes it.
 const PANEL: usize = COLUMNS * TILE;
 
-/// An entry of the root is zero below this share of its row's length (the root of the diagonal entry
-/// of the matrix): what it would add to an entry (i, j) of L L' is below 1e-40 of the root of the
-/// product of the diagonal entries i and j, 24 digits below the rounding of that entry itself.
+/// An entry of the root is zero below this fraction of its row's length (the square root of the
+/// diagonal entry of the matrix): its contribution to an entry (i, j) of L L' is below 1e-40 of the
+/// square root of the product of the diagonal entries i and j, 24 digits below the rounding of that
+/// entry itself.
 const NEGLIGIBLE: f64 = 1e-40;
 
 /// The Cholesky root of a symmetric matrix.
@@ -42,8 +43,8 @@ impl BlockedRoot {
     /// given.
     ///
     /// # Errors
-    /// The first row (counted from 0) whose pivot is not above `least` times its diagonal entry: up
-    /// to there the matrix is not positive definite.
+    /// The first row (counted from 0) whose pivot is not above `least` times its diagonal entry:
+    /// the matrix is positive definite only up to there.
     pub fn of(
         order: usize,
         least: f64,
@@ -139,7 +140,7 @@ impl BlockedRoot {
         }
     }
 
-    /// The part of row i in the tile of column j; empty where that tile is zero.
+    /// The part of row i in the tile of column j; empty if that tile is zero.
     fn row(&self, i: usize, j: usize) -> &[f64] {
         let block = i / TILE;
         let tile = &self.tiles[block * (block + 1) / 2 + j];
@@ -147,7 +148,7 @@ impl BlockedRoot {
     }
 }
 
-/// The tile (i, j) of a matrix, of the identity beyond it.
+/// The tile (i, j) of a matrix, or of the identity beyond it.
 fn filled(order: usize, i: usize, j: usize, entry: &impl Fn(usize, usize) -> f64) -> Vec<f64> {
     let mut tile = vec![0.0; TILE * TILE];
     for (r, row) in tile.chunks_exact_mut(TILE).enumerate() {
@@ -174,7 +175,7 @@ fn transposed(tile: &[f64]) -> Vec<f64> {
     turned
 }
 
-/// A tile transposed, in panels; nothing of a tile of zeros.
+/// A tile transposed, in panels; empty for a tile of zeros.
 fn panels(tile: &[f64]) -> Vec<f64> {
     if tile.is_empty() {
         return Vec::new();
@@ -189,7 +190,7 @@ fn panels(tile: &[f64]) -> Vec<f64> {
     turned
 }
 
-/// The root of a tile on the diagonal; the first row whose pivot is not above what `least` says.
+/// The root of a tile on the diagonal; the first row whose pivot is not above `least`.
 fn factor(tile: &mut [f64], negligible: &[f64], least: impl Fn(usize) -> f64) -> Result<(), usize> {
     for i in 0..TILE {
         let (above, rest) = tile.split_at_mut(i * TILE);
@@ -217,7 +218,7 @@ fn unless_negligible(x: f64, negligible: f64) -> f64 {
     if x.abs() < negligible { 0.0 } else { x }
 }
 
-/// Subtracts the product of two tiles, the second of which is transposed already, in panels.
+/// Subtracts the product of two tiles, the second of which is already transposed, in panels.
 struct Subtract<'a> {
     from: &'a mut [f64],
     left: &'a [f64],
@@ -315,9 +316,9 @@ mod tests {
         }
     }
 
-    /// An autoregressive process, V(i, j) = r^|i - j|, has the root L(i, 0) = r^i and
-    /// L(i, j) = sqrt(1 - r^2) r^(i - j) beyond the first column. Its far entries are not negligible
-    /// for the root's length only down to 1e-40, r^875; the other bound is that of rounding.
+    /// An autoregressive process, V(i, j) = r^|i - j|, has the root L(i, 0) = r^i and L(i, j) =
+    /// sqrt(1 - r^2) r^(i - j) beyond the first column. Its far entries are negligible below 1e-40
+    /// of the root's length, r^875; the other bound is that of rounding.
     #[test]
     fn what_dies_away_ends_in_zeros() {
         let (n, r) = (1200, 0.9_f64);

@@ -4,7 +4,8 @@ use nalgebra::DMatrix;
 
 use super::{Eigen, add_multiple, dot, packed};
 
-/// Pivots of a correlation matrix from here on make its Cholesky factor well determined.
+/// With pivots of at least this size the Cholesky factor of a correlation matrix is well
+/// determined.
 const PIVOT: f64 = 1e-10;
 
 /// Eigenvalues above minus this, times the number of rows, are zero up to rounding.
@@ -13,8 +14,8 @@ const ROUNDING: f64 = 1e-12;
 /// Projections of [`CorrelationMatrix::nearest`] at most.
 const PROJECTIONS: usize = 400;
 
-/// Rows cubed times projections at most: about ten seconds. From 250 rows on the search may end
-/// before the nearest matrix is found, at a possible one near to it.
+/// Maximum of rows cubed times projections: about ten seconds. From 250 rows on the search may end
+/// before the nearest matrix is found, at a possible one close to it.
 const WORK: f64 = 4e8;
 
 /// A symmetric matrix with ones on its diagonal, possible or not.
@@ -24,7 +25,7 @@ pub struct CorrelationMatrix {
 }
 
 impl CorrelationMatrix {
-    /// The matrix of `n` quantities that are not correlated.
+    /// The matrix of `n` uncorrelated quantities.
     pub fn identity(n: usize) -> Self {
         Self { entries: DMatrix::identity(n, n) }
     }
@@ -58,7 +59,7 @@ impl CorrelationMatrix {
         (0..n).flat_map(move |i| (i + 1..n).map(move |j| (i, j)))
     }
 
-    /// The root of the sum of the squared differences of all entries.
+    /// The square root of the sum of the squared differences of all entries.
     pub fn distance(&self, other: &Self) -> f64 {
         distance(&self.entries, &other.entries)
     }
@@ -70,8 +71,8 @@ impl CorrelationMatrix {
             || self.first_below(&order, -ROUNDING * self.size() as f64).is_none()
     }
 
-    /// The first index in the order at which the rows so far have an eigenvalue below `limit` < 0.
-    /// It is told without eigenvalues: as long as there is none, the matrix less `limit` on its
+    /// The first index in the order at which the rows up to it have an eigenvalue below `limit` <
+    /// 0. No eigenvalues are computed: as long as there is none, the matrix minus `limit` on its
     /// diagonal has a Cholesky factor.
     pub fn first_below(&self, order: &[usize], limit: f64) -> Option<usize> {
         packed::cholesky(&mut self.lower(order, -limit), 0.0).err()
@@ -107,7 +108,8 @@ impl CorrelationMatrix {
     /// Gram-Schmidt on the rows of Q sqrt(max(D, 0)).
     fn singular_factor(&self) -> Vec<f64> {
         let eigen = Eigen::of(&self.entries);
-        // the root of an eigenvalue that is zero but for rounding would be no rounding any more
+        // the square root of an eigenvalue that is zero apart from rounding would be far above
+        // rounding
         let zero = 4.0 * f64::EPSILON * self.size() as f64;
         let root = |e: f64| if e > zero { e.sqrt() } else { 0.0 };
         let scaled: Vec<(f64, &[f64])> = eigen.pairs().map(|(e, q)| (root(e), q)).collect();
@@ -116,7 +118,7 @@ impl CorrelationMatrix {
         for i in 0..self.size() {
             let mut rest: Vec<f64> = scaled.iter().map(|(root, q)| q[i] * root).collect();
             let mut row: Vec<f64> = vec![0.0; basis.len()];
-            // twice is enough: the second pass takes away what the first one's rounding left
+            // twice is enough: the second pass removes the rounding of the first one
             for _ in 0..2 {
                 for (entry, unit) in row.iter_mut().zip(&basis) {
                     let along = dot(&rest, unit);
@@ -135,9 +137,9 @@ impl CorrelationMatrix {
         factor
     }
 
-    /// The possible correlation matrix nearest to this one in the root of the sum of squares, by
-    /// alternating projections with Dykstra's correction (Higham, IMA Journal of Numerical Analysis
-    /// 22, 2002, algorithm 3.3), and at last scaled to an exact diagonal of ones.
+    /// The possible correlation matrix nearest to this one in the Frobenius norm, by alternating
+    /// projections with Dykstra's correction (Higham, IMA Journal of Numerical Analysis 22, 2002,
+    /// algorithm 3.3), finally scaled to an exact diagonal of ones.
     #[must_use]
     pub fn nearest(&self) -> Self {
         let n = self.size();
@@ -170,7 +172,7 @@ impl CorrelationMatrix {
     }
 }
 
-/// The root of the sum of the squared differences of all entries.
+/// The square root of the sum of the squared differences of all entries.
 fn distance(a: &DMatrix<f64>, b: &DMatrix<f64>) -> f64 {
     a.iter().zip(b.iter()).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }

@@ -1,5 +1,6 @@
-//! Cholesky roots of dense matrices and products of these, compiled once: nalgebra's loops are generic, so
-//! that each crate that calls them compiles its own, as slow as the crate's own level of optimization is.
+//! Cholesky roots of dense matrices and products of these, compiled once: nalgebra's loops are
+//! generic, so each crate that calls them compiles its own copy, with the crate's own level of
+//! optimization.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -8,12 +9,13 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 pub struct DenseRoot(Cholesky<f64, Dyn>);
 
 impl DenseRoot {
-    /// Of a matrix, of which the lower triangle is read; `None` where it is not positive definite.
+    /// The root of a matrix, of which the lower triangle is read; `None` if it is not positive
+    /// definite.
     pub fn of(matrix: DMatrix<f64>) -> Option<Self> {
         matrix.cholesky().map(Self)
     }
 
-    /// What the matrix has to be multiplied by to give a vector.
+    /// The solution x of A x = `vector` for the matrix A.
     pub fn solve(&self, vector: &DVector<f64>) -> DVector<f64> {
         self.0.solve(vector)
     }
@@ -24,12 +26,12 @@ impl DenseRoot {
     }
 }
 
-/// The rows and columns of a matrix that are in these places, in their order.
+/// The rows and columns of a matrix with these indices, in their order.
 pub fn principal_part(matrix: &DMatrix<f64>, places: &[usize]) -> DMatrix<f64> {
     DMatrix::from_fn(places.len(), places.len(), |i, j| matrix[(places[i], places[j])])
 }
 
-/// The products of the columns of a matrix with those of another of as many rows.
+/// The products of the columns of a matrix with those of another with as many rows.
 pub fn column_products(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     a.tr_mul(b)
 }
@@ -45,7 +47,7 @@ mod tests {
         let matrix = DMatrix::from_row_slice(2, 2, &[4.0, 2.0, 2.0, 3.0]);
         let root = DenseRoot::of(matrix.clone()).unwrap();
         let solved = root.solve(&DVector::from_row_slice(&[10.0, 9.0]));
-        // of numbers of this size within some roundings
+        // for numbers of this size within some roundings
         assert!((solved[0] - 1.5).abs() < 1e-15 && (solved[1] - 2.0).abs() < 1e-15);
         assert!((root.inverse() * &matrix - DMatrix::identity(2, 2)).amax() < 1e-15);
         assert_eq!(principal_part(&matrix, &[1, 0]).as_slice(), [3.0, 2.0, 2.0, 4.0]);

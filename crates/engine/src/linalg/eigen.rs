@@ -1,14 +1,14 @@
-//! Eigenvalues and eigenvectors of symmetric matrices: reflections to three diagonals, then
-//! rotations with implicit shifts (Golub and Van Loan, Matrix Computations, 8.3).
+//! Eigenvalues and eigenvectors of symmetric matrices: reduction to tridiagonal form by
+//! reflections, then rotations with implicit shifts (Golub and Van Loan, Matrix Computations, 8.3).
 //!
-//! The entries of an eigenvector stand beside each other in memory, and every step runs along them:
-//! a matrix of a thousand rows then takes seconds and not minutes.
+//! The entries of an eigenvector are adjacent in memory, and every step runs along them: a matrix
+//! of a thousand rows then takes seconds instead of minutes.
 
 use nalgebra::DMatrix;
 
 use super::{add_multiple, dot};
 
-/// Rotations of one eigenvalue at most; two sweeps for each are the rule.
+/// Maximum number of sweeps for one eigenvalue; two are usual.
 const MOST_SWEEPS: usize = 60;
 
 /// Eigenvalues and eigenvectors of a symmetric matrix.
@@ -39,17 +39,17 @@ impl Eigen {
 
     /// The eigenvalues, each with its eigenvector.
     pub fn pairs(&self) -> impl Iterator<Item = (f64, &[f64])> {
-        // no columns of length 0 are asked for where there are no eigenvalues
+        // columns of length 0 do not exist, so without eigenvalues nothing is split
         let n = self.values.len().max(1);
         self.values.iter().copied().zip(self.vectors.as_slice().chunks_exact(n))
     }
 }
 
-/// A symmetric matrix brought to three diagonals: with Q the matrix of the vectors, Q T Q' is the
-/// given matrix.
+/// A symmetric matrix in tridiagonal form: with Q the matrix of the vectors, Q T Q' is the given
+/// matrix.
 struct Tridiagonal {
     diagonal: Vec<f64>,
-    /// The entries beside the diagonal; the last one is none.
+    /// The entries beside the diagonal; the last one is unused.
     beside: Vec<f64>,
     vectors: DMatrix<f64>,
 }
@@ -63,7 +63,7 @@ fn tridiagonal(mut a: DMatrix<f64>) -> Tridiagonal {
         let from = (k + 1) * n;
         let a = &mut a.as_mut_slice()[from..];
         let q = &mut vectors.as_mut_slice()[from..];
-        // the reflection that leaves of row k only the entry beside the diagonal
+        // the reflection that leaves only the entry beside the diagonal of row k
         let mut v: Vec<f64> = a.chunks_exact(n).map(|column| column[k]).collect();
         let below: f64 = v[1..].iter().map(|x| x * x).sum();
         let norm = (v[0] * v[0] + below).sqrt();
@@ -98,7 +98,7 @@ fn tridiagonal(mut a: DMatrix<f64>) -> Tridiagonal {
     Tridiagonal { diagonal: a.diagonal().as_slice().to_vec(), beside, vectors }
 }
 
-/// The end of the block that begins at `first`: the entry beside its last diagonal one is 0 up to
+/// The end of the block that begins at `first`: the entry beside its last diagonal entry is 0 up to
 /// rounding.
 fn block_end(first: usize, Tridiagonal { diagonal, beside, .. }: &Tridiagonal) -> usize {
     let end = diagonal.len().saturating_sub(1);

@@ -1,9 +1,9 @@
 //! Dense linear algebra with a fixed order of operations.
 //!
 //! The type of a matrix is nalgebra's `DMatrix`, and its products, Cholesky and triangular solves
-//! are nalgebra's generic loops: with its features `alloc` and `libm-force`, and without `std`, there
-//! is neither matrixmultiply, whose kernels fuse products on machines that can, nor a logarithm of
-//! the platform. What nalgebra does not have stands here:
+//! are nalgebra's generic loops. With its features `alloc` and `libm-force`, and without `std`, it
+//! uses neither matrixmultiply, whose kernels fuse products on some machines, nor logarithms of the
+//! platform. This module adds what nalgebra does not have:
 //!
 //! - [`BlockedRoot`]: Cholesky roots of large matrices, in tiles and on all threads;
 //! - [`DenseRoot`]: roots of dense matrices, compiled once for all crates;

@@ -1,19 +1,19 @@
-//! Lower triangles stored row by row: the entry (i, j), j <= i, stands at `triangle(i) + j`.
+//! Lower triangles stored row by row: the entry (i, j), j <= i, is at `triangle(i) + j`.
 //!
-//! A symmetric matrix and its Cholesky root L, with L L' the matrix, both fit such a triangle, and
-//! factoring, inverting and solving work in place. A slice's length gives the order.
+//! A symmetric matrix and its Cholesky root L, with L L' the matrix, both fit into such a triangle;
+//! factoring, inverting and solving work in place. The length of a slice gives the order.
 //!
-//! Left of the first entry of a row that is not zero the row of the Cholesky root is zero too (its
+//! Left of the first nonzero entry of a row, the row of the Cholesky root is zero too (its
 //! envelope: George and Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981,
-//! chapter 4). Zeros there are passed over, so that blocks which have nothing to do with each other
-//! cost what each of them costs; no sum changes by it.
+//! chapter 4). Zeros there are skipped, so that independent blocks cost no more than each block
+//! alone; no sum changes by this.
 
 use nalgebra::DMatrix;
 
 use super::{add_multiple, dot};
 use crate::number::{CodePath, Kernel, elementary};
 
-/// Number of entries of a lower triangle of so many rows.
+/// Number of entries of a lower triangle with `order` rows.
 pub const fn triangle(order: usize) -> usize {
     order * (order + 1) / 2
 }
@@ -25,7 +25,7 @@ pub fn rows(lower: &[f64]) -> impl DoubleEndedIterator<Item = &[f64]> + ExactSiz
 
 /// The order of a lower triangle.
 fn order(lower: &[f64]) -> usize {
-    // (sqrt(8 n + 1) - 1)/2, exact as long as n is: no triangle in memory is beyond 2^53
+    // (sqrt(8 n + 1) - 1)/2, exact if n is: no triangle in memory has more than 2^53 entries
     (((8 * lower.len() + 1) as f64).sqrt() as usize - 1) / 2
 }
 
@@ -69,8 +69,9 @@ pub fn cholesky(matrix: &mut [f64], least: f64) -> Result<(), usize> {
     Ok(())
 }
 
-/// The same for a matrix that is positive definite but for rounding, such as the identity plus
-/// products: a pivot that rounding leaves at zero or below is taken as the smallest normal number.
+/// The same for a matrix that is positive definite apart from rounding, such as the identity plus
+/// products: a pivot that rounding leaves at zero or below is replaced by the smallest normal
+/// number.
 pub fn cholesky_of_definite(matrix: &mut [f64]) {
     let firsts = firsts(matrix);
     for i in 0..firsts.len() {
@@ -78,8 +79,8 @@ pub fn cholesky_of_definite(matrix: &mut [f64]) {
     }
 }
 
-/// Replaces row i of a matrix by that of its root, given the root's rows above and where each row
-/// begins; the pivot is given back and not stored.
+/// Replaces row i of a matrix by that of its root, given the root's rows above and the beginning of
+/// each row; the pivot is returned and not stored.
 fn eliminate(matrix: &mut [f64], firsts: &[usize], i: usize) -> f64 {
     let (above, rest) = matrix.split_at_mut(triangle(i));
     let (row, diagonal) = rest.split_at_mut(i);
@@ -91,21 +92,20 @@ fn eliminate(matrix: &mut [f64], firsts: &[usize], i: usize) -> f64 {
     diagonal[0] - dot(&row[firsts[i]..], &row[firsts[i]..])
 }
 
-/// Where each row of a lower triangle begins: the place of its first entry that is not zero, or of
-/// its diagonal.
+/// The column of the first nonzero entry of each row of a lower triangle, or of its diagonal.
 fn firsts(lower: &[f64]) -> Vec<usize> {
     let first = |(i, row): (usize, &[f64])| first_of(row).min(i);
     rows(lower).enumerate().map(first).collect()
 }
 
-/// The place of the first value that is not zero; the number of values where all are.
+/// The index of the first nonzero value; the number of values if all are zero.
 #[inline(always)]
 fn first_of(values: &[f64]) -> usize {
     values.iter().position(|value| *value != 0.0).unwrap_or(values.len())
 }
 
-/// The sum of the logarithms of a triangle's diagonal: of a Cholesky root half the logarithm of the
-/// determinant of its matrix.
+/// The sum of the logarithms of a triangle's diagonal: for a Cholesky root half the logarithm of
+/// the determinant of its matrix.
 pub fn ln_diagonal(lower: &[f64]) -> f64 {
     rows(lower).filter_map(<[f64]>::last).map(|pivot| elementary::ln(*pivot)).sum()
 }
@@ -116,7 +116,7 @@ pub fn invert(lower: &mut [f64]) {
         let (above, rest) = lower.split_at_mut(triangle(i));
         let pivot = 1.0 / rest[i];
         for j in 0..i {
-            // columns left of j in this row are the inverse's already, those from j on are not
+            // columns left of j in this row already belong to the inverse, those from j on do not
             let sum: f64 = (j..i).map(|k| rest[k] * above[triangle(k) + j]).sum();
             rest[j] = -pivot * sum;
         }
@@ -131,15 +131,15 @@ pub fn solve(lower: &[f64], y: &mut [f64]) {
     }
 }
 
-/// Vectors that are worked on together, beside each other in memory.
+/// Number of vectors that are processed together, interleaved in memory.
 pub const TOGETHER: usize = 16;
 
-/// Replaces each of many vectors y by inv(L) y for a lower triangle L of their length, and adds up the
-/// squares of each result. Groups of [`TOGETHER`] vectors follow each other; in a group entry i of
-/// vector n stands at `i * TOGETHER + n`. The bits are those of [`solve`].
+/// Replaces each of many vectors y by inv(L) y for a lower triangle L of their length, and adds the
+/// squares of each result. Groups of [`TOGETHER`] vectors follow each other; in a group, entry i of
+/// vector n is at `i * TOGETHER + n`. The bits are those of [`solve`].
 ///
 /// # Panics
-/// If there is not a sum of squares for each vector.
+/// If the numbers of sums of squares and of vectors differ.
 pub fn solve_many(lower: &[f64], vectors: &mut [f64], squares: &mut [f64]) {
     assert_eq!(vectors.len(), squares.len() * order(lower), "a sum for each vector");
     CodePath::best().run(SolveMany { lower, vectors, squares });
@@ -161,8 +161,8 @@ impl Kernel for SolveMany<'_> {
         let groups = self.vectors.chunks_exact_mut(group);
         for (group, squares) in groups.zip(self.squares.chunks_exact_mut(TOGETHER)) {
             let mut lengths = [0.0; TOGETHER];
-            // results before the first entries that are not zero are zero, and so are later ones whose
-            // rows reach no further back than `end`, the last that is not
+            // results before the first nonzero entries are zero, and so are later ones whose rows
+            // do not extend back to `end`, the last nonzero entry
             let begin = first_of(group) / TOGETHER;
             let mut end = begin;
             for i in begin..group.len() / TOGETHER {

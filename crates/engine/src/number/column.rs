@@ -1,8 +1,8 @@
 //! Columns: many trials at once.
 //!
 //! An operation runs over a whole column in one plain loop without branches, which the compiler
-//! turns into vector instructions of whatever width the code path has ([`super::path`]). The
-//! element's arithmetic is that of `scalar`, so a trial has the same bits as a lone number.
+//! turns into vector instructions with the width of the code path ([`super::path`]). The element's
+//! arithmetic is that of `scalar`, so a trial has the same bits as a single number.
 
 use super::{Binary, Unary, elementary, scalar};
 
@@ -19,7 +19,7 @@ impl Column {
     pub const ZERO: Self = Self([0.0; COLUMN]);
 }
 
-/// An operand of a step over columns: a register or a number that is the same in all trials.
+/// An operand of a step over columns: a register, or a number that is the same in all trials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Operand {
     Register(usize),
@@ -118,7 +118,7 @@ fn zip(registers: &mut [Column], x: Operand, y: Operand, out: usize, f: impl Fn(
     }
 }
 
-/// Rare operations, one call an element.
+/// Rare operations, with one call for each element.
 #[inline(never)]
 fn map_called(x: &[f64; COLUMN], out: &mut [f64; COLUMN], operation: Unary) {
     map(x, out, |x| scalar::unary(operation, x));

@@ -1,4 +1,4 @@
-//! Numbers that may be complex, for formulas: what is real stays so, with the same operations.
+//! Numbers that may be complex, for formulas: real numbers stay real, with the same operations.
 
 use std::sync::Arc;
 
@@ -7,14 +7,13 @@ use crate::model::typed::Complex;
 
 /// A real number, or a complex one as a pair of numbers.
 ///
-/// Sums, products, quotients, powers and the elementary functions that are known of complex numbers
-/// are computed with their principal values; of every other operation a complex operand gives not a
-/// number.
+/// Sums, products, quotients, powers and the elementary functions of complex numbers are computed
+/// with their principal values; every other operation with a complex operand gives NaN.
 #[derive(Clone, Copy, Debug)]
 pub struct ComplexNumber<T> {
     /// The real part.
     pub re: T,
-    /// The imaginary part; `None` of a real number.
+    /// The imaginary part; `None` for a real number.
     pub im: Option<T>,
 }
 
@@ -24,17 +23,17 @@ impl<T: Number> ComplexNumber<T> {
         Self { re, im: None }
     }
 
-    /// A complex number of these parts.
+    /// A complex number with these parts.
     pub fn new(re: T, im: T) -> Self {
         Self { re, im: Some(im) }
     }
 
-    /// A complex number of that modulus and phase in radians.
+    /// A complex number with this modulus, and this phase in radians.
     pub fn polar(modulus: T, phase: T) -> Self {
         Complex::polar(modulus, phase).into()
     }
 
-    /// Distance from zero, which is that of a real number too.
+    /// Distance from zero, also for a real number.
     pub fn modulus(self) -> T {
         match self.im {
             None => self.re.abs(),
@@ -93,7 +92,7 @@ impl<T: Number> Number for ComplexNumber<T> {
         match (operation, self.im, other.im) {
             (Binary::Add, ..) => (x + y).into(),
             (Binary::Subtract, ..) => (x - y).into(),
-            // a real factor has two products, and not four
+            // a real factor needs two products instead of four
             (Binary::Multiply, None, _) => (y * x.re).into(),
             (Binary::Multiply, _, None) => (x * y.re).into(),
             (Binary::Multiply, ..) => (x * y).into(),
@@ -104,7 +103,7 @@ impl<T: Number> Number for ComplexNumber<T> {
                 Complex::polar(modulus, x.phase() * y.re).into()
             }
             (Binary::Power, ..) => (x.ln() * y).exp().into(),
-            // a branch by a real condition
+            // a choice by a real condition
             (Binary::When | Binary::Unless, None, _) => {
                 Self::new(x.re.binary(operation, y.re), x.re.binary(operation, y.im))
             }

@@ -2,8 +2,8 @@
 
 use super::{Binary, Number, Unary, scalar};
 
-/// The derivative of an operation at `x`, where its result is `y`. At a kink it is that of JCGM
-/// use: of a modulus at 0 it is 0.
+/// The derivative of an operation at `x`, where its result is `y`. At a kink it follows JCGM use:
+/// for a modulus at 0 it is 0.
 #[inline(always)]
 pub(crate) fn unary(operation: Unary, x: f64, y: f64) -> f64 {
     match operation {
@@ -38,17 +38,18 @@ pub(crate) fn unary(operation: Unary, x: f64, y: f64) -> f64 {
         Unary::Atanh => 1.0 / ((1.0 - x) * (1.0 + x)),
         Unary::ExpMinusOne => Number::exp(x),
         Unary::LnOnePlus => 1.0 / (1.0 + x),
-        // between the steps; on one the value of a quantity that varies is there for no time
+        // between the steps; a continuous quantity is exactly on a step with probability 0
         Unary::Floor | Unary::Ceil | Unary::Round => 0.0,
         Unary::Erf => std::f64::consts::FRAC_2_SQRT_PI * Number::exp(-(x * x)),
         Unary::Gamma => y * crate::special::gamma::digamma(x),
     }
 }
 
-/// The derivatives of an operation by its operands `x` and `y`, where its result is `value`.
+/// The derivatives of an operation with respect to its operands `x` and `y`, where its result is
+/// `value`.
 ///
-/// Of `min`, `max` and choices they are 1 for the operand that is taken, at a tie the first one, and 0 for
-/// the other; of a comparison 0.
+/// For `min`, `max` and choices they are 1 for the operand that is taken, at a tie the first one,
+/// and 0 for the other; for a comparison 0.
 #[inline(always)]
 pub(crate) fn binary(operation: Binary, x: f64, y: f64, value: f64) -> [f64; 2] {
     match operation {
@@ -62,13 +63,13 @@ pub(crate) fn binary(operation: Binary, x: f64, y: f64, value: f64) -> [f64; 2] 
             [by_base, value * Number::ln(x)]
         }
         Binary::Atan2 => {
-            // of atan2(x, y): the point is (y, x); divided one after the other so that the
-            // square of a small radius does not vanish
+            // for atan2(x, y): the point is (y, x); two divisions, so that the square of a small
+            // radius does not underflow
             let radius = scalar::binary(Binary::Hypot, x, y);
             [y / radius / radius, -x / radius / radius]
         }
         Binary::Hypot => [x / value, y / value],
-        // the operand that is taken; a comparison has no slope
+        // the operand that is taken; a comparison has zero slope
         Binary::Min if y < x => [0.0, 1.0],
         Binary::Max if y > x => [0.0, 1.0],
         Binary::Min | Binary::Max => [1.0, 0.0],
@@ -79,9 +80,8 @@ pub(crate) fn binary(operation: Binary, x: f64, y: f64, value: f64) -> [f64; 2] 
     }
 }
 
-/// A derivative on its way through an operation: times the slope. One that is 0 stays 0 whatever the
-/// slope, so that an infinite slope of a constant part does no harm.
-/// What comes out as 0 has no sign.
+/// The gradient multiplied by the slope of an operation. A gradient of 0 stays 0 whatever the
+/// slope, so that an infinite slope of a constant part has no effect. A zero result has no sign.
 #[inline(always)]
 pub(crate) fn chain(gradient: f64, slope: f64) -> f64 {
     if gradient == 0.0 { 0.0 } else { gradient * slope + 0.0 }

@@ -1,5 +1,5 @@
 //! Dual numbers: a value with its exact gradient, carried through every operation by the chain
-//! rule. They give the sensitivity coefficients c_i of JCGM 100, 5.1.3, with no step to choose.
+//! rule. They give the sensitivity coefficients c_i of JCGM 100, 5.1.3, without finite differences.
 
 use std::sync::Arc;
 
@@ -7,11 +7,11 @@ use super::{Binary, Number, Routine, Unary, derivative, number_operators, scalar
 
 /// A value and its partial derivatives with respect to `N` chosen inputs.
 ///
-/// A model of more than `N` inputs is evaluated several times, `N` inputs at a time, so the type
+/// A model with more than `N` inputs is evaluated several times, `N` inputs at a time, so the type
 /// stays small enough for registers.
 ///
-/// At a kink the derivative is that of JCGM use: of a modulus at 0 it is 0, of `min` and `max` at
-/// a tie that of the first operand, of a comparison 0.
+/// At a kink the derivative follows JCGM use: for a modulus at 0 it is 0, for `min` and `max` at a
+/// tie that of the first operand, for a comparison 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<const N: usize> {
     /// The value.
@@ -66,7 +66,7 @@ impl<const N: usize> Number for Dual<N> {
         let (x, y) = (self.value, other.value);
         let value = scalar::binary(operation, x, y);
         match operation {
-            // the operand that is not taken has no say, however steep it is
+            // the operand that is not taken has no effect, however steep it is
             Binary::Min if y < x => other.chain(value, 1.0),
             Binary::Max if y > x => other.chain(value, 1.0),
             Binary::Min | Binary::Max => self.chain(value, 1.0),

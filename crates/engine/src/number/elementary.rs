@@ -13,8 +13,8 @@
 //! with SSE2 or NEON. The fused operation appears explicitly in the source of `cbrt` only and is
 //! never introduced by the compiler.
 //!
-//! Which NaN an operation returns does differ between processors, so every function here returns
-//! the one bit pattern [`f64::NAN`].
+//! Processors differ in the NaN that an operation returns, so every function here returns the one
+//! bit pattern [`f64::NAN`].
 //!
 //! The polynomial coefficients, and the splitting of π/2 and ln 2 into parts, are those published
 //! in Sun's fdlibm (`k_sin.c`, `k_cos.c`, `e_rem_pio2.c`, `e_exp.c`, `e_log.c`).
@@ -56,7 +56,7 @@ const C6: f64 = -1.13596475577881948265e-11;
 
 /// First 32 bits of ln 2; its product with any binary exponent is exact.
 const LN2_HI: f64 = 6.93147180369123816490e-01;
-/// ln 2 less the part above.
+/// ln 2 minus the part above.
 const LN2_LO: f64 = 1.90821492927058770002e-10;
 
 const P1: f64 = 1.66666666666666019037e-01;
@@ -112,7 +112,7 @@ fn quarters(x: f64) -> (f64, u64) {
     (rounded - ROUNDER, rounded.to_bits())
 }
 
-/// What is left of an angle without `n` quarter turns.
+/// The rest of an angle after subtracting `n` quarter turns.
 #[inline(always)]
 fn without_quarters(x: f64, n: f64) -> f64 {
     // The first product and difference are exact; the second product is small, so that only the
@@ -312,10 +312,10 @@ pub fn exp(x: f64) -> f64 {
     if x.is_nan() { f64::NAN } else { scaled }
 }
 
-/// e to the power `x`, less 1, for 0 <= `x` <= [`EXP_LIMIT`], within 3 ulp; meaningless elsewhere.
+/// e to the power `x`, minus 1, for 0 <= `x` <= [`EXP_LIMIT`], within 3 ulp; meaningless elsewhere.
 ///
-/// The parts of [`exp`] without the cases that draws do not have; a small `x` keeps its digits, because
-/// 1 is taken away before anything is added to it.
+/// The parts of [`exp`] without the cases that do not occur in draws; a small `x` keeps its digits,
+/// because 1 is subtracted before anything is added.
 #[inline(always)]
 pub(crate) fn exp_minus_one_positive(x: f64) -> f64 {
     let (power, rest) = exp_parts(x);
@@ -329,9 +329,9 @@ pub(crate) const EXP_LIMIT: f64 = 700.0;
 /// The sine of `quarter` quarter turns, for `quarter` in [-1, 1], to an absolute error below 2^-51; at
 /// the ends it may be as much above 1.
 ///
-/// One polynomial for half a turn: where a draw needs but one of sine and cosine, this is a third of the
-/// work of [`sin_cos_turn`]. The coefficients are those of the expansion of sin(pi q/2)/q in Chebyshev
-/// polynomials of q^2 on [0, 1], cut off below 4e-19.
+/// One polynomial for half a turn: if a draw needs only one of sine and cosine, this is a third of
+/// the work of [`sin_cos_turn`]. The coefficients are those of the expansion of sin(pi q/2)/q in
+/// Chebyshev polynomials of q^2 on [0, 1], truncated below 4e-19.
 #[inline(always)]
 pub(crate) fn sin_quarters(quarter: f64) -> f64 {
     const C: [f64; 9] = [

@@ -1,14 +1,14 @@
-//! The arithmetic that a measurement model is written in, and the numbers that it runs with.
+//! The arithmetic of measurement models, and the numbers with which they run.
 //!
 //! A model is a function that is generic over [`Number`]. The same body runs with
 //!
 //! - `f64`: the estimate of the measurand;
 //! - [`Dual`]: the estimate together with exact sensitivity coefficients;
-//! - a recording number (`model::Traced`), which writes down the operations once, so that
-//!   the Monte Carlo method can run them over whole [`Column`]s of trials.
+//! - a recording number (`model::Traced`), which records the operations once, so that the Monte
+//!   Carlo method can run them over whole [`Column`]s of trials.
 //!
-//! Every elementary function is gumption's own or comes from the `libm` crate, and nothing is ever
-//! fused, so results are the same bits on every machine and at every vector width.
+//! Every elementary function is gumption's own or comes from the `libm` crate, and no operations
+//! are fused, so results have the same bits on every machine and at every vector width.
 
 mod column;
 mod complex_number;
@@ -37,10 +37,10 @@ use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::Arc;
 
-/// What a measurement model computes with.
+/// The numbers with which a measurement model computes.
 ///
-/// Angles are in radians. Functions follow IEEE 754: where the argument lies outside a function's
-/// domain the result is not a number, and the run that meets it is stopped with the place.
+/// Angles are in radians. Functions follow IEEE 754: outside a function's domain the result is NaN,
+/// and the run stops with an error that names the operation.
 ///
 /// ```
 /// use gumption_engine::number::{Dual, Number};
@@ -67,7 +67,7 @@ pub trait Number:
     + Mul<f64, Output = Self>
     + Div<f64, Output = Self>
 {
-    /// A number that is known exactly.
+    /// An exactly known number.
     fn constant(value: f64) -> Self;
 
     /// Applies an operation of one operand.
@@ -94,7 +94,7 @@ pub trait Number:
         self.unary(Unary::Tan)
     }
 
-    /// Inverse sine, in radians within half a turn's quarter of 0.
+    /// Inverse sine, in radians from -pi/2 to pi/2.
     fn asin(self) -> Self {
         self.unary(Unary::Asin)
     }
@@ -169,7 +169,7 @@ pub trait Number:
         self.binary(Binary::Max, other)
     }
 
-    /// Square root of the sum of the squares of two numbers, without overflow on the way.
+    /// Square root of the sum of the squares of two numbers, without intermediate overflow.
     fn hypot(self, other: Self) -> Self {
         self.binary(Binary::Hypot, other)
     }

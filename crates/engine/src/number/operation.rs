@@ -1,4 +1,4 @@
-//! The operations of the arithmetic: the only list of them.
+//! The only list of the operations of the arithmetic.
 
 /// An operation of one operand. Angles are in radians.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -58,7 +58,7 @@ pub enum Unary {
 }
 
 impl Unary {
-    /// The name that formulas and messages use.
+    /// The name in formulas and messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Negate => "-",
@@ -112,24 +112,24 @@ pub enum Binary {
     Min,
     /// the larger
     Max,
-    /// 1 where `x < y`, else 0
+    /// 1 if `x < y`, else 0
     Less,
-    /// 1 where `x <= y`, else 0
+    /// 1 if `x <= y`, else 0
     LessOrEqual,
-    /// 1 where `x = y`, else 0
+    /// 1 if `x = y`, else 0
     Equal,
-    /// 1 where `x != y`, else 0
+    /// 1 if `x != y`, else 0
     NotEqual,
-    /// what is left of `x` after whole multiples of `y`, with the sign of `y`
+    /// the remainder of `x` modulo `y`, with the sign of `y`
     Modulo,
-    /// `y` where `x` is not 0, else 0 whatever `y` is: the branch of a choice that is taken
+    /// `y` if `x` is not 0, else 0 whatever `y` is: the branch of a choice that is taken
     When,
-    /// `y` where `x` is 0, else 0 whatever `y` is: the other branch
+    /// `y` if `x` is 0, else 0 whatever `y` is: the other branch
     Unless,
 }
 
 impl Binary {
-    /// The name that formulas and messages use.
+    /// The name in formulas and messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Add => "+",
@@ -165,13 +165,13 @@ impl Binary {
         )
     }
 
-    /// Whether the result has no slope: it is the same beside the values as at them.
+    /// Whether the result has zero slope wherever it has one.
     pub fn is_flat(self) -> bool {
         matches!(self, Self::Less | Self::LessOrEqual | Self::Equal | Self::NotEqual)
     }
 
     /// Whether the result is one of the operands or a number: the operand that is not taken has no
-    /// say, however steep it is, or without a value.
+    /// effect, even if it is steep or undefined.
     pub fn chooses(self) -> bool {
         matches!(self, Self::Min | Self::Max | Self::When | Self::Unless)
     }

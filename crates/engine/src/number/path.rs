@@ -1,14 +1,14 @@
 //! Code paths: the same source compiled for several vector widths, chosen at run time.
 //!
-//! The paths differ in speed only. No path fuses a product and a sum, and no path uses the
+//! The paths differ only in speed. No path fuses a product and a sum, and no path uses the
 //! platform's own elementary functions, so all give the same bits (a test compares them).
 #![allow(unsafe_code)]
 
 use std::fmt;
 use std::str::FromStr;
 
-/// A compiled form of the engine's inner loops that this machine can run. Only detection makes one,
-/// so whoever holds a path may use its instructions.
+/// A compiled form of the engine's inner loops that this machine can run. Values are created only
+/// by detection, so a value proves that its instructions exist.
 ///
 /// ```
 /// use gumption_engine::number::CodePath;
@@ -22,7 +22,7 @@ use std::str::FromStr;
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct CodePath(Instructions);
 
-/// The instructions that a path is compiled for.
+/// The instructions for which a path is compiled.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
 pub(crate) enum Instructions {
@@ -50,14 +50,14 @@ impl fmt::Display for UnavailablePath {
 
 impl std::error::Error for UnavailablePath {}
 
-/// Work that is compiled once for each code path. `run` must be `#[inline(always)]`, and all that
-/// it does in its inner loops as well, so that it takes on the vector width of its caller.
+/// Work that is compiled once for each code path. `run` and everything in its inner loops must be
+/// `#[inline(always)]`, so that they get the vector width of their caller.
 pub trait Kernel {
     /// What the work gives.
     type Output;
 
-    /// Whether it is compiled for the widest registers as well: not where little of the time of what
-    /// calls it is its own.
+    /// Whether it is compiled for the widest registers as well; false if it takes little of the
+    /// time of its callers.
     const WIDEST: bool = true;
 
     /// Does the work.
@@ -105,9 +105,9 @@ impl CodePath {
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
         #[cfg(target_arch = "x86_64")]
         match self.0 {
-            // SAFETY: a path is made only where the machine has its instructions.
+            // SAFETY: a path exists only if the machine has its instructions.
             Instructions::Avx512 if K::WIDEST => return unsafe { run_avx512(kernel) },
-            // SAFETY: as above, and what has AVX-512 has AVX2.
+            // SAFETY: as above; a machine with AVX-512 has AVX2.
             Instructions::Avx512 | Instructions::Avx2 => return unsafe { run_avx2(kernel) },
             Instructions::Baseline => {}
         }

@@ -1,5 +1,5 @@
-//! Sorting by a number that goes with each element: one compiled sort for whatever is sorted, places and
-//! counts among it, which are exact as numbers.
+//! Sorting by a number of each element: one compiled sort for all types, including indices and
+//! counts, which are exact as numbers.
 
 /// Sorts from the smallest number to the largest; equal ones keep their order. Numbers compare as
 /// [`f64::total_cmp`] does.
@@ -28,14 +28,14 @@ pub fn largest_first<T>(items: &mut [T], mut number: impl FnMut(&T) -> f64) {
     arrange(items, from);
 }
 
-/// The places of the numbers from the smallest to the largest.
+/// The indices of the numbers from the smallest to the largest.
 fn order(numbers: Vec<f64>) -> Vec<usize> {
     let mut places: Vec<usize> = (0..numbers.len()).collect();
     places.sort_unstable_by(|&a, &b| numbers[a].total_cmp(&numbers[b]).then(a.cmp(&b)));
     places
 }
 
-/// Moves to each place what stands at `from` of it, cycle by cycle.
+/// Moves to each position the element at its entry of `from`, cycle by cycle.
 fn arrange<T>(items: &mut [T], mut from: Vec<usize>) {
     for start in 0..items.len() {
         let mut at = start;
@@ -49,8 +49,8 @@ fn arrange<T>(items: &mut [T], mut from: Vec<usize>) {
     }
 }
 
-/// Sorts numbers from the smallest to the largest, as [`f64::total_cmp`] does. One function for all, as each
-/// crate that sorts numbers would have a copy of its own.
+/// Sorts numbers from the smallest to the largest, as [`f64::total_cmp`] does. A single function,
+/// so that crates that sort numbers do not each compile a copy.
 ///
 /// ```
 /// let mut values = [2.0, -1.0, 0.5];
@@ -62,8 +62,8 @@ pub fn ascending(values: &mut [f64]) {
     values.sort_unstable_by(f64::total_cmp);
 }
 
-/// The number that stands at a place (from 0) once they are sorted; those below it are before it, those
-/// above it behind.
+/// Moves the number with this rank (from 0) to its sorted position; smaller ones are before it,
+/// larger ones after it.
 ///
 /// ```
 /// let mut values = [2.0, -1.0, 0.5];
@@ -78,8 +78,8 @@ pub fn at_rank(values: &mut [f64], place: usize) -> f64 {
     *values.select_nth_unstable_by(place, f64::total_cmp).1
 }
 
-/// The number in the middle of the sorted ones, of an even number of them the upper one of the two;
-/// `None` of no numbers.
+/// The median element; for an even number of elements the larger of the two in the middle; `None`
+/// without numbers.
 ///
 /// ```
 /// use gumption_engine::number::median;
@@ -96,8 +96,8 @@ pub fn median(mut values: Vec<f64>) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// As the standard library's stable sort, for numbers with many ties, infinities and zeros of
-    /// both signs.
+    /// The same as the standard library's stable sort, for numbers with many ties, infinities and
+    /// zeros of both signs.
     #[test]
     fn the_order_is_that_of_a_stable_sort() {
         let special = [f64::INFINITY, f64::NEG_INFINITY, 0.0, -0.0, f64::NAN, -f64::NAN];
@@ -119,7 +119,7 @@ mod tests {
         }
     }
 
-    /// One long cycle, as of a sorted table with a row that comes late.
+    /// One long cycle, as for a sorted table with a late row.
     #[test]
     fn the_last_of_a_million_goes_first() {
         let mut items: Vec<f64> = (1..1_000_000).map(f64::from).chain([0.0]).collect();

@@ -1,4 +1,4 @@
-//! Functions of several numbers that are no operation: a table's interpolation, the root of an
+//! Functions of several numbers that are not operations: interpolation in a table, the root of an
 //! equation.
 
 use std::fmt::Debug;
@@ -7,19 +7,19 @@ use super::COLUMN;
 
 /// A function that a program calls as one step, with its derivatives.
 ///
-/// Where it has no value it gives a NaN, and [`Routine::undefined`] says why.
+/// Where it is undefined it returns NaN, and [`Routine::undefined`] gives the reason.
 pub trait Routine: Debug + Send + Sync {
-    /// The name that formulas and messages use.
+    /// The name in formulas and messages.
     fn name(&self) -> &'static str;
 
     /// The value at some operands.
     fn value(&self, operands: &[f64]) -> f64;
 
-    /// What the value changes by with each operand, where it is `value`; as many numbers as
-    /// operands.
+    /// The partial derivatives with respect to the operands, where the value is `value`; as many
+    /// numbers as operands.
     fn slopes(&self, operands: &[f64], value: f64) -> Vec<f64>;
 
-    /// Why there is no value at these operands, in words.
+    /// Why the function is undefined at these operands, in words.
     fn undefined(&self, operands: &[f64]) -> String;
 
     /// The values of a column of trials, each with the bits of [`Routine::value`].

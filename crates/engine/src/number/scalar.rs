@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Binary, Number, Routine, Unary, elementary};
 
-/// One operation on one number; columns of trials apply the very same code to every element.
+/// One operation on one number; columns of trials apply the same code to every element.
 #[inline(always)]
 pub(super) fn unary(operation: Unary, x: f64) -> f64 {
     match operation {
@@ -49,7 +49,7 @@ pub(super) fn binary(operation: Binary, x: f64, y: f64) -> f64 {
         Binary::Power => elementary::pow(x, y),
         Binary::Atan2 => elementary::atan2(x, y),
         Binary::Hypot => hypot(x, y),
-        // a comparison with a number that is not one must not hide it
+        // a comparison with NaN must not hide it
         Binary::Min => {
             if y < x || y.is_nan() {
                 y
@@ -69,7 +69,7 @@ pub(super) fn binary(operation: Binary, x: f64, y: f64) -> f64 {
         Binary::Equal => truth(x == y),
         Binary::NotEqual => truth(x != y),
         Binary::Modulo => modulo(x, y),
-        // a condition that is no number is no decision
+        // a NaN condition is no decision
         Binary::When | Binary::Unless if x.is_nan() => f64::NAN,
         Binary::When => {
             if x == 0.0 {
@@ -88,7 +88,7 @@ pub(super) fn binary(operation: Binary, x: f64, y: f64) -> f64 {
     }
 }
 
-/// `x - y floor(x/y)`, exactly but for one rounding where the signs differ; NaN for y = 0.
+/// `x - y floor(x/y)`, exact apart from one rounding if the signs differ; NaN for y = 0.
 fn modulo(x: f64, y: f64) -> f64 {
     let rest = libm::fmod(x, y);
     if rest.is_nan() {
@@ -100,7 +100,7 @@ fn modulo(x: f64, y: f64) -> f64 {
     }
 }
 
-/// The larger modulus is taken out first, so that neither square overflows; within 2 ulp.
+/// The larger modulus is factored out first, so that neither square overflows; within 2 ulp.
 #[inline(always)]
 fn hypot(x: f64, y: f64) -> f64 {
     let (x, y) = (x.abs(), y.abs());
@@ -108,7 +108,7 @@ fn hypot(x: f64, y: f64) -> f64 {
     let smaller = if x > y { y } else { x };
     let ratio = smaller / larger;
     let length = larger * (1.0 + ratio * ratio).sqrt();
-    // 0/0 of two zeros; a NaN among the two compares false everywhere and stays
+    // 0/0 for two zeros; a NaN operand compares false everywhere and stays
     if larger == 0.0 && smaller == 0.0 { 0.0 } else { length }
 }
 

@@ -9,7 +9,7 @@ pub(super) struct Chebyshev {
 }
 
 impl Chebyshev {
-    /// Those of a range of x.
+    /// The polynomials for a range of x.
     pub(super) fn over([least, most]: [f64; 2], count: usize) -> Self {
         let half = 0.5 * (most - least);
         let half = if half > 0.0 { half } else { 1.0 };
@@ -39,7 +39,7 @@ impl Chebyshev {
         (sum, slope_of_sum / self.half)
     }
 
-    /// The matrix that makes of the coefficients those of the powers of x - origin, row by row.
+    /// The matrix that converts the coefficients to those of the powers of x - origin, row by row.
     pub(super) fn to_powers(self, origin: f64) -> Vec<f64> {
         let n = self.count;
         // t as a polynomial of x - origin

@@ -18,20 +18,20 @@ pub enum Curve {
     Program(Program),
 }
 
-/// How many variables are differentiated by at a time.
+/// Number of variables for simultaneous differentiation.
 const AT_A_TIME: usize = 8;
 
-/// Halvings of the range before the root is made exact: after them it is known to 2e-5 of the range.
+/// Number of bisections before Newton's method: the root is then known to 2e-5 of the range.
 const HALVINGS: usize = 16;
 
-/// Steps of Newton's method thereafter; three double the digits beyond all.
+/// Number of Newton steps thereafter; three already give all digits.
 const STEPS: usize = 4;
 
-/// Steps of a difference quotient, as a share of the range.
+/// Step of a difference quotient, as a fraction of the range.
 const DIFFERENCE: f64 = 1e-5;
 
 impl Curve {
-    /// A polynomial of that degree in x itself; 1 is a straight line.
+    /// A polynomial of this degree in x itself; degree 1 is a straight line.
     pub fn polynomial(degree: usize) -> Self {
         Self::Polynomial { degree, origin: 0.0 }
     }
@@ -62,11 +62,12 @@ impl Curve {
         }
     }
 
-    /// The x in or near the range where the curve is y. Over the range the curve rises (`sign` 1) or
-    /// falls (`sign` -1). Where there is none it is not a number.
+    /// The x in or near the range at which the curve has the value y; NaN if there is none. Over
+    /// the range the curve increases (`sign` 1) or decreases (`sign` -1).
     ///
-    /// A straight line has its own formula. Any other is found by halving the range, which tells all
-    /// trials alike, and Newton's steps, which also carry the exact derivatives.
+    /// A straight line has its own formula. Any other curve is solved by bisection of the range,
+    /// with the same steps for all trials, and by Newton's steps, which also carry the exact
+    /// derivatives.
     pub fn inverse<T: Number>(&self, y: T, parameters: &[T], range: [f64; 2], sign: f64) -> T {
         if let (Self::Polynomial { degree: 1, origin }, [a, b]) = (self, parameters) {
             let x = (y - *a) / *b;
@@ -77,7 +78,7 @@ impl Curve {
         for _ in 0..HALVINGS {
             let middle = (least + most) * 0.5;
             let missing = (y - self.value(middle, parameters)) * sign;
-            // 1 where the root lies above the middle
+            // 1 if the root lies above the middle
             let above = T::constant(0.0).binary(Binary::Less, missing);
             least = least + above * (middle - least);
             most = middle + above * (most - middle);
@@ -86,13 +87,13 @@ impl Curve {
         for _ in 0..STEPS {
             x = x + (y - self.value(x, parameters)) / self.slope(x, parameters, width);
         }
-        // no root, no number: far beyond the range the steps may end anywhere
+        // without a root NaN: far beyond the range the steps may end anywhere
         let left = (y - self.value(x, parameters)).abs() / self.slope(x, parameters, width).abs();
         x + (T::constant(1e-6 * width) - left).sqrt() * 0.0
     }
 
-    /// The slope at x: of a program by a central difference, whose error of the order of the square
-    /// of its step slows Newton's method down by nothing that is seen.
+    /// The slope at x: for a program a central difference, whose second-order error does not
+    /// noticeably slow Newton's method.
     fn slope<T: Number>(&self, x: T, parameters: &[T], width: f64) -> T {
         match self {
             Self::Polynomial { origin, .. } => {
@@ -111,7 +112,7 @@ impl Curve {
     }
 }
 
-/// A program that is differentiated at many points: its nodes' values are kept from one to the next.
+/// A program that is differentiated at many points: the values of its nodes are reused.
 #[derive(Clone, Debug)]
 pub(super) struct Differentiated<'p> {
     program: &'p Program,
@@ -124,7 +125,7 @@ impl<'p> Differentiated<'p> {
         Self { program, values: Vec::new(), variables: vec![0.0; program.variables()] }
     }
 
-    /// The value at x, the derivative by x, and those by the parameters.
+    /// The value at x, the derivative with respect to x, and those with respect to the parameters.
     pub(super) fn at(&mut self, x: f64, parameters: &[f64], each: &mut [f64]) -> (f64, f64) {
         if let Some((first, rest)) = self.variables.split_first_mut() {
             *first = x;

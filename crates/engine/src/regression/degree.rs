@@ -1,4 +1,5 @@
-//! The degree of a polynomial (ISO/TS 28038): the corrected criterion of Akaike beside chi-squared.
+//! The choice of a polynomial degree (ISO/TS 28038): the corrected Akaike criterion besides
+//! chi-squared.
 
 use std::sync::Arc;
 
@@ -16,17 +17,18 @@ pub struct DegreeChoice {
     pub chi2: f64,
     /// Degrees of freedom.
     pub dof: usize,
-    /// The probability of so large a sum, where uncertainties are stated.
+    /// The probability of a sum at least this large, if uncertainties are stated.
     pub p_value: Option<f64>,
-    /// The corrected criterion of Akaike; the smallest one is chosen.
+    /// The corrected Akaike criterion; the degree with the smallest one is chosen.
     pub aicc: f64,
 }
 
-/// Fits polynomials of the degrees from 1 to `most`, and gives the one with the smallest corrected
-/// criterion of Akaike, with all that were tried. Degrees that the points cannot tell are left out.
+/// Fits polynomials with degrees from 1 to `most`, and returns the one with the smallest corrected
+/// Akaike criterion, together with all degrees tried. Degrees that the points do not determine are
+/// left out.
 ///
 /// # Errors
-/// Points that not even a straight line can be fitted to.
+/// Not even a straight line can be fitted to the points.
 pub fn choose_degree(
     name: &str,
     origin: f64,
@@ -60,12 +62,12 @@ pub fn choose_degree(
     Ok(fitted)
 }
 
-/// The criterion; `None` where there are too few points for the correction.
+/// The criterion; `None` if there are too few points for the correction.
 fn aicc(fitted: &Regression) -> Option<f64> {
     let n = fitted.points.len() as f64;
     let (deviance, parameters) = match fitted.factor {
         None => (fitted.chi2, fitted.count() as f64),
-        // the scatter is a parameter more
+        // the scatter is an additional parameter
         Some(_) => (n * libm::log(fitted.chi2 / n), fitted.count() as f64 + 1.0),
     };
     let left = n - parameters - 1.0;

@@ -28,7 +28,7 @@ impl fmt::Display for Coordinate {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RegressionError {
-    /// Not as many numbers as points.
+    /// Another number of values than of points.
     Length {
         /// Of what.
         coordinate: Coordinate,
@@ -37,14 +37,14 @@ pub enum RegressionError {
         /// How many there are.
         found: usize,
     },
-    /// A number that is infinite or none.
+    /// A number that is infinite or NaN.
     NotFinite {
         /// Of what.
         coordinate: Coordinate,
         /// The point, from 0.
         point: usize,
     },
-    /// A variance that is not above zero.
+    /// A variance that is not positive.
     NoVariance {
         /// Of what.
         coordinate: Coordinate,
@@ -53,7 +53,7 @@ pub enum RegressionError {
     },
     /// A covariance matrix that is not positive definite.
     NotDefinite {
-        /// Whose rows fail, if one coordinate's do.
+        /// The coordinate whose rows fail, if it is only one.
         coordinate: Option<Coordinate>,
         /// The point up to which it is positive definite, from 0.
         point: usize,
@@ -62,36 +62,36 @@ pub enum RegressionError {
     TooFewPoints {
         /// How many there are.
         points: usize,
-        /// How many parameters the curve has.
+        /// The number of parameters of the curve.
         parameters: usize,
-        /// Whether the uncertainties are to be found from the residuals too.
+        /// Whether the uncertainties are also estimated from the residuals.
         estimated: bool,
     },
-    /// Fewer different abscissae than a polynomial has coefficients.
+    /// Fewer different abscissae than coefficients of the polynomial.
     TooFewAbscissae {
         /// How many there are.
         different: usize,
-        /// How many coefficients the polynomial has.
+        /// The number of coefficients of the polynomial.
         parameters: usize,
     },
-    /// Parameters that the points cannot tell from the others.
+    /// Parameters that the points cannot distinguish from the others.
     Dependent {
         /// The parameter, from 0.
         parameter: usize,
     },
-    /// The uncertainties of abscissae are stated and those of ordinates are not.
+    /// The uncertainties of the abscissae are stated but those of the ordinates are not.
     OrdinatesUnknown,
     /// The curve has no value at a point.
     Undefined {
         /// The point, from 0.
         point: usize,
     },
-    /// The iteration finds no smallest sum of squares.
+    /// The iteration does not converge to a minimum.
     NotConverged {
         /// How many steps it took.
         steps: usize,
     },
-    /// The points lie on the curve, so that nothing tells their uncertainty.
+    /// The points lie exactly on the curve, so that their uncertainty cannot be estimated.
     NoScatter,
 }
 

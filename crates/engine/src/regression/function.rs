@@ -1,4 +1,4 @@
-//! A calibration function as formulas call it.
+//! A calibration function in formulas.
 
 use std::sync::Arc;
 
@@ -20,9 +20,9 @@ pub struct CurveFunction {
     pub y: Unit,
     /// The parameters' names, `line.a`, with their units.
     pub parameters: Vec<(String, Unit)>,
-    /// The numbers that formulas compute with.
+    /// The numbers with which formulas compute.
     pub form: NumberForm,
-    /// Whether units are said of x and of y; those of which none is said are taken as plain numbers.
+    /// Whether the units of x and of y are stated; without a stated unit they are plain numbers.
     pub is_stated: [bool; 2],
 }
 
@@ -33,7 +33,7 @@ impl PartialEq for CurveFunction {
 }
 
 impl CurveFunction {
-    /// A fit whose points are in these units.
+    /// A fit with points in these units.
     pub fn new(
         fit: Arc<Regression>,
         (x, y): (Unit, Unit),
@@ -43,20 +43,20 @@ impl CurveFunction {
         Self { fit, x, y, parameters, form, is_stated: [true; 2] }
     }
 
-    /// The same where it is said for x and for y whether they are in a unit.
+    /// The same with flags for x and y whether their units are stated.
     #[must_use]
     pub fn stating(self, is_stated: [bool; 2]) -> Self {
         Self { is_stated, ..self }
     }
 
-    /// The curve's value, or with `inverse` the x that belongs to a value, as the number of formulas;
-    /// so are the parameters, and `argument` is already in the unit of its side.
+    /// The curve's value, or with `inverse` the x that gives a value, as a number of formulas; the
+    /// parameters are such numbers too, and `argument` is already in the unit of its side.
     pub(crate) fn value<T: Number>(&self, argument: T, parameters: &[T], inverse: bool) -> T {
         let own: Vec<T> = parameters
             .iter()
             .zip(&self.parameters)
             .map(|(value, (_, unit))| match self.form {
-                // those of a temperature or a level count from its zero
+                // temperatures and levels count from their zero
                 NumberForm::Coherent => in_unit(*value, unit, Typing::in_unit(unit)),
                 NumberForm::Declared => *value,
             })

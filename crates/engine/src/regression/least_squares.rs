@@ -2,7 +2,7 @@
 
 use crate::linalg::{add_multiple, dot};
 
-/// Parameters and the root of their normal equations.
+/// Parameters, and the root of the normal equations.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Solution {
     /// The parameters.
@@ -11,11 +11,11 @@ pub(super) struct Solution {
     pub(super) triangle: Vec<f64>,
 }
 
-/// The x with the smallest |A x - b|, where `columns` are those of A one after the other. A and b are
-/// used up: b becomes Q'b, whose entries behind the first ones are what is left of it.
+/// The x that minimizes |A x - b|; `columns` are those of A one after the other. A and b are
+/// overwritten: b becomes Q'b, whose entries after the first ones are the residual.
 ///
 /// # Errors
-/// The first column that depends on those before it, to `least` of its length.
+/// The first column that depends on the previous ones, to `least` of its length.
 pub(super) fn solve(
     columns: &mut [f64],
     b: &mut [f64],
@@ -61,7 +61,7 @@ pub(super) fn solve(
 
 /// The inverse of R'R, row by row.
 pub(super) fn inverse_of_normal(triangle: &[f64], count: usize) -> Vec<f64> {
-    // the inverse of R, upper triangular too
+    // the inverse of R, also upper triangular
     let mut inverse = vec![0.0; count * count];
     for k in 0..count {
         inverse[k * count + k] = 1.0 / triangle[k * count + k];
@@ -89,7 +89,7 @@ mod tests {
     use super::*;
 
     /// NIST StRD Longley: six regressors of very different size, nearly dependent; the certified
-    /// parameters. Householder's reflections leave 8 digits and more.
+    /// parameters. Householder's reflections give at least 8 digits.
     #[test]
     fn longley() {
         const DATA: [[f64; 7]; 16] = [

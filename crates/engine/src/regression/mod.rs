@@ -1,10 +1,10 @@
 //! Calibration functions: curves fitted to points, with the uncertainties of both coordinates
 //! (ISO/TS 28037 straight lines, ISO/TS 28038 polynomials, and formulas by non-linear least squares).
 //!
-//! All of them are one problem: the parameters and the true abscissae that make the weighted sum of
-//! squares of all residuals smallest, by Gauss and Newton, with the abscissae eliminated. A polynomial
-//! is fitted in Chebyshev polynomials over the range of its abscissae, which keeps the digits that its
-//! coefficients lose; their covariance is carried over.
+//! All of them are one problem: find the parameters and the true abscissae that minimize the
+//! weighted sum of squares of all residuals, by the Gauss-Newton method with the abscissae
+//! eliminated. A polynomial is fitted in Chebyshev polynomials over the range of its abscissae,
+//! which keeps the digits that its power coefficients lose; the covariance matrix is converted.
 //!
 //! ```
 //! use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! The points that a curve is fitted to.
+//! The points to which a curve is fitted.
 
 use super::error::{Coordinate, RegressionError};
 use crate::linalg::{BlockedRoot, packed};
@@ -6,8 +6,8 @@ use crate::linalg::{BlockedRoot, packed};
 /// The variances and covariances of one coordinate of all points, in squares of its unit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Spread {
-    /// None: abscissae are exact; of ordinates nothing is stated, and their common standard
-    /// uncertainty is estimated from the residuals.
+    /// No uncertainties: abscissae are exact; for ordinates a common standard uncertainty is
+    /// estimated from the residuals.
     None,
     /// The variance of each point, independent of the others.
     Each(Vec<f64>),
@@ -20,13 +20,13 @@ pub enum Spread {
 pub enum Cross {
     /// They are independent.
     None,
-    /// Of each point's own two coordinates.
+    /// Between the two coordinates of each point.
     Each(Vec<f64>),
-    /// Of abscissa i with ordinate j, row by row.
+    /// Between abscissa i and ordinate j, row by row.
     Joint(Vec<f64>),
 }
 
-/// Points with what is known of their uncertainty.
+/// Points with their stated uncertainties.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Points {
     /// Abscissae.
@@ -39,15 +39,16 @@ pub struct Points {
     pub of_y: Spread,
     /// Covariances of the two.
     pub cross: Cross,
-    /// Whether the stated uncertainties are relative to each other only: the residuals then tell their
-    /// common factor. It is so where nothing is stated of the ordinates.
+    /// Whether the stated uncertainties are only relative: the residuals then determine their
+    /// common factor. It is true if nothing is stated for the ordinates.
     pub estimated: bool,
 }
 
-/// What the solver needs to know of all coordinates together.
+/// The covariances of all coordinates, as the solver needs them.
 #[derive(Clone, Debug)]
 pub(super) enum Noise {
-    /// Nothing links different points: variances of x, of y, and their covariance; empty for none.
+    /// Different points are independent: variances of x, of y, and their covariance; empty for
+    /// none.
     Single { x: Vec<f64>, y: Vec<f64>, xy: Vec<f64> },
     /// Exact abscissae, and the root of the covariance matrix of the ordinates.
     Ordinates(Root),
@@ -62,14 +63,14 @@ pub(super) enum Root {
     Blocked(BlockedRoot),
 }
 
-/// From this order on tiles pay.
+/// From this order on tiles are faster.
 const LARGE: usize = 256;
 
-/// A pivot below this share of its variance is rounding: the matrix is singular.
+/// A pivot below this fraction of its variance is rounding: the matrix is singular.
 const LEAST_PIVOT: f64 = 1e-13;
 
 impl Root {
-    /// The root of a symmetric matrix; the first row whose pivot is none.
+    /// The root of a symmetric matrix; the first row with an invalid pivot.
     pub(super) fn of(
         order: usize,
         entry: impl Fn(usize, usize) -> f64 + Sync,
@@ -122,7 +123,7 @@ impl Root {
 }
 
 impl Points {
-    /// Points of which nothing is stated but their places.
+    /// Points without stated uncertainties.
     pub fn new(x: Vec<f64>, y: Vec<f64>) -> Self {
         let (of_x, of_y) = (Spread::None, Spread::None);
         Self { x, y, of_x, of_y, cross: Cross::None, estimated: true }
@@ -147,7 +148,7 @@ impl Points {
         Self { cross, ..self }
     }
 
-    /// The same with uncertainties that are relative to each other only.
+    /// The same with uncertainties that are only relative.
     #[must_use]
     pub fn estimated(self) -> Self {
         Self { estimated: true, ..self }
@@ -174,17 +175,17 @@ impl Points {
         self.of_x == Spread::None
     }
 
-    /// The standard uncertainty of an ordinate; `None` where none is stated.
+    /// The standard uncertainty of an ordinate; `None` if none is stated.
     pub fn uncertainty_of_y(&self, point: usize) -> Option<f64> {
         uncertainty(&self.of_y, point)
     }
 
-    /// The standard uncertainty of an abscissa; `None` where it is exact.
+    /// The standard uncertainty of an abscissa; `None` if it is exact.
     pub fn uncertainty_of_x(&self, point: usize) -> Option<f64> {
         uncertainty(&self.of_x, point)
     }
 
-    /// Checks that the points can be fitted, and takes their covariances apart.
+    /// Checks that the points can be fitted, and decomposes their covariances.
     pub(super) fn noise(&self) -> Result<Noise, RegressionError> {
         let n = self.len();
         for (coordinate, values) in [(Coordinate::X, &self.x), (Coordinate::Y, &self.y)] {
@@ -325,7 +326,7 @@ fn check_spread(coordinate: Coordinate, spread: &Spread, n: usize) -> Result<(),
         Spread::Joint(lower) => lower[packed::triangle(point) + point],
         Spread::None => 0.0,
     };
-    // an abscissa may be exact beside others that are not
+    // an abscissa may be exact although others are not
     let may_vanish = coordinate == Coordinate::X && matches!(spread, Spread::Each(_));
     for point in 0..n {
         let variance = variance(point);

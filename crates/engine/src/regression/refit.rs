@@ -1,8 +1,8 @@
-//! The parameters of one trial: a fit to points that are drawn about the stated ones.
+//! The parameters of one trial: a fit to points drawn about the stated ones.
 //!
-//! Where a curve is linear in its parameters and its abscissae are exact, the parameters are linear in
-//! the data, and their joint distribution is normal, or t: no trial needs a fit. Elsewhere each trial
-//! has its own.
+//! If a curve is linear in its parameters and its abscissae are exact, the parameters are linear in
+//! the data, and their joint distribution is normal, or t: no trial needs a fit. Otherwise each
+//! trial has its own fit.
 
 use std::sync::Arc;
 
@@ -11,11 +11,11 @@ use super::result::Regression;
 use crate::distribution::{Normal, Stream};
 use crate::number::{COLUMN, Column};
 
-/// Steps of a trial's fit end where they change nothing by more than this share of a standard
-/// uncertainty, which no number of trials resolves.
+/// A trial's fit ends when a step changes nothing by more than this fraction of a standard
+/// uncertainty, which no number of trials can resolve.
 const TOLERANCE: f64 = 1e-7;
 
-/// The parameters of a fit, which trials draw together.
+/// The parameters of a fit that trials draw together.
 #[derive(Clone, Debug)]
 pub(crate) struct Refit {
     /// Indices of the parameters among the quantities that are drawn.
@@ -23,25 +23,26 @@ pub(crate) struct Refit {
     /// Which parameters they are.
     pub(crate) parameters: Vec<usize>,
     pub(crate) fit: Arc<Regression>,
-    /// The root of the covariance matrix of all coordinates, where points are linked.
+    /// The root of the covariance matrix of all coordinates, if points are correlated.
     root: Option<Arc<Root>>,
 }
 
 impl Refit {
     pub(crate) fn new(members: Vec<usize>, parameters: Vec<usize>, fit: Arc<Regression>) -> Self {
-        // it has been made once when the fit was
+        // it was already computed for the fit
         let root = fit.noise.joint_root().ok().flatten().map(Arc::new);
         Self { members, parameters, fit, root }
     }
 
-    /// The same parameters counted among those at `varying` (in order) only; all of them are there.
+    /// The same parameters, indexed among those at `varying` (in order) only; all of them are
+    /// there.
     pub(crate) fn among(&self, varying: &[usize]) -> Self {
         let index = |member: &usize| varying.binary_search(member).unwrap_or(*member);
         Self { members: self.members.iter().map(index).collect(), ..self.clone() }
     }
 
-    /// Draws the next column of every member; `register[q]` is where it goes. A function of its own,
-    /// compiled once.
+    /// Draws the next column of every member; `register[q]` is its destination. A function of its
+    /// own, compiled once.
     #[inline(never)]
     pub(crate) fn draw(
         &self,
@@ -84,8 +85,8 @@ impl Refit {
         }
     }
 
-    /// What the stated uncertainties are multiplied by in each trial: 1 where they are known, else
-    /// their common factor with its own uncertainty, s sqrt(nu/chi2).
+    /// The factor of the stated uncertainties in each trial: 1 if they are known, else their common
+    /// factor with its own uncertainty, s sqrt(nu/chi2).
     fn factors(&self, stream: &mut Stream) -> [f64; COLUMN] {
         let Some(factor) = self.fit.factor else { return [1.0; COLUMN] };
         let (mut squares, mut normals) = ([0.0; COLUMN], Column::ZERO);
@@ -98,7 +99,7 @@ impl Refit {
         squares.map(|sum| factor * (self.fit.dof as f64 / sum).sqrt())
     }
 
-    /// Makes errors of all coordinates, x before y, of independent standard normals.
+    /// Converts independent standard normal numbers to errors of all coordinates, x before y.
     fn scatter(&self, drawn: &mut [f64]) {
         let n = self.fit.points.len();
         match (&*self.fit.noise, &self.root) {

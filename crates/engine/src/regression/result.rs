@@ -12,10 +12,10 @@ use super::points::{Noise, Points};
 use super::solver::{Basis, Solver};
 use crate::special;
 
-/// Steps end where they change the parameters by so many standard uncertainties.
+/// Iteration ends when the change of the parameters is below this number of standard uncertainties.
 const TOLERANCE: f64 = 1e-11;
 
-/// Residuals below this share of the ordinates are rounding.
+/// Residuals below this fraction of the ordinates are rounding.
 const NO_SCATTER: f64 = 1e-14;
 
 /// A curve fitted to points.
@@ -33,20 +33,21 @@ pub struct Regression {
     pub estimates: Vec<f64>,
     /// Their covariance matrix, row by row.
     covariance: Vec<f64>,
-    /// The same in the basis that the fit is made in.
+    /// The same in the basis of the fit.
     pub(super) inner: Inner,
-    /// The weighted sum of squares of the residuals; with unit weights where nothing is stated.
+    /// The weighted sum of squares of the residuals; with unit weights if no uncertainties are
+    /// stated.
     pub chi2: f64,
-    /// Degrees of freedom: points less parameters.
+    /// Degrees of freedom: number of points minus number of parameters.
     pub dof: usize,
-    /// The common factor of the stated standard uncertainties that the residuals tell, if it is used:
-    /// where nothing is stated, the standard deviation of the residuals.
+    /// The common factor of the stated standard uncertainties from the residuals, if it is used;
+    /// the standard deviation of the residuals if none are stated.
     pub factor: Option<f64>,
-    /// The degrees that were compared, where the degree was chosen.
+    /// The compared degrees, if the degree was chosen.
     pub degrees: Vec<DegreeChoice>,
 }
 
-/// The parameters in the basis that the fit is made in, and their covariance matrix.
+/// The parameters in the basis of the fit, and their covariance matrix.
 #[derive(Clone, Debug)]
 pub(super) struct Inner {
     pub(super) basis: Option<Chebyshev>,
@@ -58,7 +59,7 @@ impl Regression {
     /// Fits a curve; `start` are values near the parameters of a [`Curve::Program`].
     ///
     /// # Errors
-    /// Points that cannot be fitted, and why ([`RegressionError`]).
+    /// The points cannot be fitted ([`RegressionError`]).
     pub fn of(
         name: &str,
         curve: &Curve,
@@ -69,7 +70,7 @@ impl Regression {
         Self::with(name, curve, (points, noise), start)
     }
 
-    /// The same where the covariances have been taken apart already.
+    /// The same with covariances that are already decomposed.
     pub(super) fn with(
         name: &str,
         curve: &Curve,
@@ -164,32 +165,32 @@ impl Regression {
         (self.covariance(first, second) / product).clamp(-1.0, 1.0)
     }
 
-    /// Degrees of freedom of the parameters' uncertainties: infinite where those of the points are
-    /// stated.
+    /// Degrees of freedom of the parameters' uncertainties: infinite if the uncertainties of the
+    /// points are stated.
     pub fn degrees_of_freedom(&self) -> f64 {
         if self.factor.is_some() { self.dof as f64 } else { f64::INFINITY }
     }
 
-    /// The probability of a sum of squares at least this large where the curve and the stated
-    /// uncertainties are right; `None` where there is nothing to compare.
+    /// The probability of a sum of squares at least this large if the curve and the stated
+    /// uncertainties are right; `None` if there is nothing to compare.
     pub fn p_value(&self) -> Option<f64> {
         let tested = self.factor.is_none() && self.dof > 0;
         tested.then(|| special::gamma::sf(0.5 * self.chi2, 0.5 * self.dof as f64))
     }
 
-    /// Whether the points agree with the curve: the sum of squares is not above the 95 % quantile of
-    /// the chi-squared distribution.
+    /// Whether the points agree with the curve: the sum of squares does not exceed the 95 %
+    /// quantile of the chi-squared distribution.
     pub fn is_valid(&self) -> Option<bool> {
         self.p_value().map(|p| p >= 0.05)
     }
 
-    /// The 95 % quantile of the chi-squared distribution of the degrees of freedom.
+    /// The 95 % quantile of the chi-squared distribution with these degrees of freedom.
     pub fn limit_of_chi2(&self) -> Option<f64> {
         let tested = self.factor.is_none() && self.dof > 0;
         tested.then(|| 2.0 * special::gamma::quantile(0.95, 0.5 * self.dof as f64))
     }
 
-    /// Ordinates less the curve at the stated abscissae.
+    /// Ordinates minus the curve at the stated abscissae.
     pub fn residuals(&self) -> Vec<f64> {
         let points = self.points.x.iter().zip(&self.points.y);
         points.map(|(x, y)| y - self.at(*x)).collect()
@@ -216,7 +217,7 @@ impl Regression {
         (value, slope, each)
     }
 
-    /// Whether residuals are there to tell an uncertainty, where none is stated.
+    /// Whether residuals can determine an uncertainty if none is stated.
     pub fn has_scatter(&self) -> bool {
         let largest = self.points.y.iter().fold(0.0, |largest: f64, y| largest.max(y.abs()));
         match (self.factor, &self.points.of_y) {
@@ -226,11 +227,11 @@ impl Regression {
         }
     }
 
-    /// Whether the curve rises (1) or falls (-1) all over the range of the points; otherwise an x
-    /// where it turns.
+    /// Whether the curve increases (1) or decreases (-1) over the whole range of the points;
+    /// otherwise an x at which it turns.
     ///
     /// # Errors
-    /// Where it turns, in the unit of x.
+    /// An x at which it turns, in the unit of x.
     pub fn direction(&self) -> Result<f64, f64> {
         const PLACES: usize = 400;
         let [least, most] = self.points.range();
@@ -243,8 +244,8 @@ impl Regression {
         }
     }
 
-    /// How much the standard uncertainty of the curve differs, relatively and at most over the range,
-    /// when it is computed from the coefficients of the powers: what they lose by rounding.
+    /// The largest relative difference of the standard uncertainty of the curve over the range if
+    /// it is computed from the coefficients of the powers: their loss by rounding.
     pub fn rounding(&self) -> f64 {
         let Curve::Polynomial { origin, .. } = &self.curve else { return 0.0 };
         let [least, most] = self.points.range();
@@ -265,24 +266,24 @@ impl Regression {
         (0..=20).map(|k| worst(at(f64::from(k) / 20.0))).fold(0.0, f64::max)
     }
 
-    /// Whether the parameters are linear in data that are normal, so that the joint normal or t
-    /// distribution of them is exact.
+    /// Whether the parameters are linear in normal data, so that their joint normal or t
+    /// distribution is exact.
     pub fn is_linear(&self) -> bool {
         matches!(self.curve, Curve::Polynomial { .. }) && self.points.is_exact_in_x()
     }
 
-    /// The memory of a fit to other points of the same uncertainty.
+    /// The working memory for fits to other points with the same uncertainty.
     pub(super) fn solver(&self) -> Solver<'_> {
         let basis = basis_of(&self.curve, self.inner.basis);
         Solver::new(&self.noise, basis, self.count(), self.points.estimated)
     }
 
-    /// Parameters in the basis of the fit as those of the curve.
+    /// Converts parameters from the basis of the fit to those of the curve.
     pub(super) fn outer(&self, parameters: &[f64], powers: &[f64]) -> Vec<f64> {
         if powers.is_empty() { parameters.to_vec() } else { product(powers, parameters) }
     }
 
-    /// The matrix of [`Regression::outer`]; empty where nothing changes.
+    /// The matrix of [`Regression::outer`]; empty if it is the identity.
     pub(super) fn powers(&self) -> Vec<f64> {
         match (self.inner.basis, &self.curve) {
             (Some(basis), Curve::Polynomial { origin, .. }) => basis.to_powers(*origin),
@@ -310,7 +311,7 @@ fn basis_of(curve: &Curve, basis: Option<Chebyshev>) -> Basis<'_> {
     }
 }
 
-/// The parameters of a formula, with x taken as exact and y as independent where they are not.
+/// The parameters of a formula; x is taken as exact and y as independent.
 fn search(
     solver: &mut Solver<'_>,
     curve: &Curve,

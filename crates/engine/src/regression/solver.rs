@@ -1,11 +1,12 @@
-//! The smallest weighted sum of squares: Gauss and Newton's method with the true abscissae eliminated.
+//! Minimizes the weighted sum of squares by the Gauss-Newton method with the true abscissae
+//! eliminated.
 //!
-//! About a guess of the parameters and of the true abscissae the condition that every true point lies
-//! on the curve is linear. Its misfits e = y - f - f'(x - x*) have the covariance matrix
-//! S = Vy - F' Vxy - Vyx F' + F' Vx F', and the change of the parameters is the generalized least
-//! squares of e; what it leaves corrects the abscissae. At the end the parameters' covariance matrix is
-//! the inverse of A' S^-1 A, A being the derivatives by the parameters (ISO/TS 28037, clauses 6 to 10
-//! are cases of it).
+//! Near a guess of the parameters and of the true abscissae the condition that every true point
+//! lies on the curve is linear. Its misfits e = y - f - f'(x - x*) have the covariance matrix S =
+//! Vy - F' Vxy - Vyx F' + F' Vx F', and the change of the parameters is the generalized
+//! least-squares solution for e; the remaining misfits correct the abscissae. Finally, the
+//! covariance matrix of the parameters is the inverse of A' S^-1 A, where A holds the derivatives
+//! with respect to the parameters (ISO/TS 28037, clauses 6 to 10 are cases of it).
 
 use super::chebyshev::Chebyshev;
 use super::curve::Differentiated;
@@ -20,28 +21,27 @@ pub(super) enum Basis<'p> {
     Program(Differentiated<'p>),
 }
 
-/// A column that is shorter than this share of itself once those before it are taken out depends on
-/// them.
+/// A column depends on the previous ones if less than this fraction of it remains without them.
 const DEPENDENT: f64 = 1e-11;
 
 /// Most steps of a fit.
 const MOST_STEPS: usize = 500;
 
-/// Misfits within this share of the largest ordinate are rounding: the curve goes through the points,
-/// and sums of their squares fall and rise without end.
+/// Misfits within this fraction of the largest ordinate are rounding: the curve goes through the
+/// points, and sums of squares fall and rise without end.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// The damping that the search of a formula's parameters begins with, and that it ends at.
+/// The initial damping in the search for a formula's parameters.
 const FIRST_DAMPING: f64 = 1e-3;
 const MOST_DAMPING: f64 = 1e18;
 
-/// The memory of a fit, and what stays the same from one set of points to the next.
+/// The working memory of a fit, with the parts that are the same for all sets of points.
 #[derive(Debug)]
 pub(super) struct Solver<'p> {
     noise: &'p Noise,
     basis: Basis<'p>,
     count: usize,
-    /// Whether uncertainties are relative to each other only.
+    /// Whether uncertainties are only relative.
     estimated: bool,
     /// The true abscissae.
     abscissae: Vec<f64>,
@@ -49,7 +49,8 @@ pub(super) struct Solver<'p> {
     pub(super) parameters: Vec<f64>,
     /// The root of the normal equations and the last step.
     pub(super) solution: Solution,
-    /// Derivatives by the parameters, one column after the other, and the same whitened.
+    /// Derivatives with respect to the parameters, one column after the other, and the same
+    /// whitened.
     derivatives: Vec<f64>,
     whitened: Vec<f64>,
     misfits: Vec<f64>,
@@ -79,7 +80,7 @@ impl<'p> Solver<'p> {
         }
     }
 
-    /// Whether one step is all that there is: the curve is linear in its parameters and x is exact.
+    /// Whether one step is sufficient: the curve is linear in its parameters and x is exact.
     pub(super) fn is_linear(&self) -> bool {
         matches!(self.basis, Basis::Chebyshev(_)) && self.is_exact_in_x()
     }
@@ -92,8 +93,8 @@ impl<'p> Solver<'p> {
         }
     }
 
-    /// Finds the parameters from those that are there; gives the weighted sum of squares. Steps end
-    /// where they change nothing by more than `tolerance` standard uncertainties.
+    /// Finds the parameters, starting from the present ones; returns the weighted sum of squares.
+    /// Iteration ends when a step changes nothing by more than `tolerance` standard uncertainties.
     pub(super) fn fit(
         &mut self,
         x: &[f64],
@@ -120,7 +121,7 @@ impl<'p> Solver<'p> {
             }
             steps += 1;
             let exact = self.is_exact_in_x();
-            // a second step of a linear fit mends the rounding of the first
+            // a second step of a linear fit corrects the rounding of the first
             if (linear && steps == 2) || (ends && exact) {
                 return Ok(squares);
             }
@@ -128,8 +129,8 @@ impl<'p> Solver<'p> {
                 return Err(RegressionError::NotConverged { steps });
             }
             if !exact {
-                // parameters that stay where they are say nothing while the abscissae still move: the
-                // first step, from a curve without slope, leaves those where they were measured
+                // constant parameters mean nothing while the abscissae still move: the first step,
+                // from a curve without slope, leaves them at the measured values
                 let moved = self.correct_abscissae(x);
                 if ends && steps > 1 && moved <= tolerance * self.scale(squares) {
                     return Ok(squares);
@@ -138,12 +139,12 @@ impl<'p> Solver<'p> {
         }
     }
 
-    /// What the last step leaves of the squares.
+    /// The sum of squares after the last step.
     fn left(&self) -> f64 {
         self.white_misfits.iter().skip(self.count).map(|misfit| misfit * misfit).sum()
     }
 
-    /// What the stated uncertainties are to be multiplied by.
+    /// The factor of the stated uncertainties.
     fn scale(&self, squares: f64) -> f64 {
         let spare = self.white_misfits.len().saturating_sub(self.count).max(1) as f64;
         if self.estimated { (squares / spare).sqrt() } else { 1.0 }
@@ -153,7 +154,7 @@ impl<'p> Solver<'p> {
     /// parameters.
     fn is_small(&self, squares: f64, tolerance: f64) -> bool {
         let scale = self.scale(squares);
-        // R times the step, which is what the step changes in units of the misfits
+        // R times the step: the change in units of the misfits
         let moved: f64 =
             self.white_misfits.iter().take(self.count).map(|change| change * change).sum();
         let steps = self.parameters.iter().zip(&self.solution.parameters);
@@ -161,7 +162,7 @@ impl<'p> Solver<'p> {
             || steps.into_iter().all(|(parameter, step)| step.abs() <= 1e-13 * parameter.abs())
     }
 
-    /// Whether the curve meets the points but for rounding.
+    /// Whether the curve passes through the points apart from rounding.
     fn meets(&self, y: &[f64]) -> bool {
         let largest = y.iter().fold(0.0_f64, |largest, y| largest.max(y.abs()));
         self.misfits.iter().all(|misfit| misfit.abs() <= ROUNDING * largest)
@@ -230,12 +231,12 @@ impl<'p> Solver<'p> {
         Ok(())
     }
 
-    /// The true abscissae that belong to the step, and by how much they moved: the root of the sum of
-    /// squares, each in its standard uncertainty.
+    /// The true abscissae after the step, and their change: the square root of the sum of squares,
+    /// each in its standard uncertainty.
     fn correct_abscissae(&mut self, x: &[f64]) -> f64 {
         let n = x.len();
         let mut moved = 0.0;
-        // a move within the rounding of the abscissa is none
+        // a change within the rounding of the abscissa counts as zero
         let share = |to: f64, from: f64, variance: f64| {
             let by = to - from;
             if by.abs() <= 1e-13 * to.abs() { 0.0 } else { by * by / variance }
@@ -279,8 +280,8 @@ impl<'p> Solver<'p> {
         moved.sqrt()
     }
 
-    /// The parameters of a curve that is not linear in them, by the method of Levenberg and Marquardt
-    /// from those that are there, with x taken as exact. What it finds [`Solver::fit`] makes exact.
+    /// The parameters of a curve that is not linear in them, by the Levenberg-Marquardt method from
+    /// the present ones, with x taken as exact. [`Solver::fit`] refines the result.
     pub(super) fn search(&mut self, x: &[f64], y: &[f64]) -> Result<(), RegressionError> {
         let n = x.len();
         self.abscissae.clear();
@@ -324,7 +325,7 @@ impl<'p> Solver<'p> {
                 }
                 damping *= 10.0;
                 if damping > MOST_DAMPING {
-                    // no step makes it smaller: this is the place, or rounding hides it
+                    // no step decreases the sum: this is the minimum, or rounding hides it
                     self.parameters = before;
                     return Ok(());
                 }
@@ -335,7 +336,7 @@ impl<'p> Solver<'p> {
 }
 
 impl Noise {
-    /// The variance of a point's misfit where the curve has this slope.
+    /// The variance of a point's misfit if the curve has this slope.
     #[inline]
     fn of_misfit(&self, point: usize, slope: f64) -> f64 {
         let Self::Single { x, y, xy } = self else { return 1.0 };

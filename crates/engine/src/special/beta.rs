@@ -5,11 +5,11 @@ use super::quadrature::decaying;
 use super::root::{Point, Trend, find};
 use super::weight::{beta_excess, beta_weight, exp_m1_minus, ln_1p_minus, ln_gamma_1p};
 
-/// Shapes from here on take the quadrature for the tail that they rule.
+/// Shapes from here on use the quadrature for the tail that they determine.
 const LARGE: f64 = 8.0;
 
-/// Terms of a series at most. The ratio of terms is at most 15/16 ([`smaller_side`]), so some
-/// 600 terms are needed.
+/// Maximum number of terms of a series. The ratio of terms is at most 15/16 ([`smaller_side`]), so
+/// about 600 terms are needed.
 const TERMS: u32 = 1000;
 
 /// I_x(a, b): the probability of a beta quantity of shapes a and b below `x`.

@@ -7,11 +7,11 @@ use super::root::{Point, Trend, find};
 use super::weight::{exp_m1_minus, gamma_weight, ln_gamma_1p};
 use crate::number::elementary;
 
-/// Shapes from here on take the quadrature on both sides of the mean.
+/// Shapes from here on use the quadrature on both sides of the mean.
 const LARGE: f64 = 8.0;
 
-/// Terms of a series at most. The terms of the longest one met (shape and x below 8) fall below
-/// rounding after some 60.
+/// Maximum number of terms of a series. The terms of the longest one (shape and x below 8) fall
+/// below rounding after about 60.
 const TERMS: u32 = 200;
 
 /// The logarithmic derivative of the gamma function; NaN at 0 and at negative whole numbers.
@@ -120,7 +120,7 @@ fn between(p: f64, q: f64, shape: f64) -> f64 {
     }
 }
 
-/// The natural logarithm of Q(a, x), also where Q is smaller than any double.
+/// The natural logarithm of Q(a, x), also if Q is smaller than any double.
 ///
 /// Shapes 0.5 to 1e7; relative error of Q below 1e-9, which is enough to rank tails. By the power
 /// series below a + 1 and by the continued fraction above (DLMF 8.7.1 and 8.9.2).

@@ -14,7 +14,7 @@ const RULE: [(f64, f64); 10] = [
     (0.993_128_599_185_094_924_79, 0.017_614_007_139_152_118_312),
 ];
 
-/// How many nodes the rule has.
+/// Number of nodes of the rule.
 pub(crate) const COUNT: usize = 20;
 
 /// The nodes and weights on \[0, 1\], in ascending order.
@@ -27,8 +27,8 @@ pub(crate) fn nodes() -> [[f64; 2]; COUNT] {
     nodes
 }
 
-/// The integral of a function over a range of the given start and width: exact to rounding for
-/// what a polynomial of degree 39 is close to, such as eight periods of a sine.
+/// The integral of a function over a range with the given start and width: exact to rounding if a
+/// polynomial of degree 39 approximates the function, such as eight periods of a sine.
 pub(crate) fn integrate(start: f64, width: f64, f: impl Fn(f64) -> f64) -> f64 {
     let mut sum = 0.0;
     for (node, weight) in RULE.iter().rev() {

@@ -5,10 +5,10 @@
 //! - [`gamma`]: the regularized incomplete gamma function and its inverse;
 //! - [`beta`]: the regularized incomplete beta function and its inverse.
 //!
-//! Arguments that mean nothing (a NaN, a probability outside \[0, 1\], a shape that is not
-//! positive) give NaN; the probabilities 0 and 1 give the exact ends of the support. Every
-//! iteration has a fixed bound. Elementary functions come from `libm`, so that results are the
-//! same bits on every machine.
+//! Invalid arguments (a NaN, a probability outside \[0, 1\], a shape that is not positive) give
+//! NaN; the probabilities 0 and 1 give the exact ends of the support. Every iteration has a fixed
+//! bound. Elementary functions come from `libm`, so that results have the same bits on every
+//! machine.
 //!
 //! Incomplete gamma and beta functions share one design. The distribution function is the weight
 //! x^a e^(-x) / Γ(a), or x^a (1 - x)^b / B(a, b), times the integral of a ratio that is 1 at its

@@ -15,12 +15,12 @@ pub(crate) enum Trend {
     Falling,
 }
 
-/// Steps that may be Newton's. From the approximations that searches start from, 60 000 random
+/// Number of steps that may be Newton's. From the usual starting approximations 60 000 random
 /// quantiles took at most 17.
 const NEWTON_STEPS: u32 = 40;
 
-/// Steps of a search at most: after Newton's, enough halvings of the logarithm of the whole range
-/// of doubles (2^11 factors of 2) to come down to one unit in the last place (2^-52).
+/// Maximum number of steps of a search: after Newton's, enough bisections of the logarithm of the
+/// whole range of doubles (2^11 factors of 2) to reach one unit in the last place (2^-52).
 const STEPS: u32 = NEWTON_STEPS + 64;
 
 /// The x in \[`low`, `high`\] (both positive) with f(x) = `target`: Newton's method on ln f over

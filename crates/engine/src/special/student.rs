@@ -7,8 +7,8 @@ use super::normal;
 use super::root::{Point, Trend, find};
 use super::weight::{ln_1p_minus, stirling_error};
 
-/// From here on the distribution is the normal one: the quantile differs from that by a relative
-/// (z² + 1) / (4 dof), below 4e-18 for every z that a double tail can ask for.
+/// From here on the distribution is the normal one: the quantile differs from it by a relative (z²
+/// + 1) / (4 dof), below 4e-18 for every z that corresponds to a double tail.
 const NORMAL: f64 = 1e20;
 
 /// The probability of a t quantity below `t`, for `dof` > 0 degrees of freedom (infinite: normal).

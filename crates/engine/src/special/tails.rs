@@ -4,9 +4,9 @@
 const STEPS: i32 = 480;
 const STEP: f64 = 1.0 / 80.0;
 
-/// Expectation and variance of a distribution from both of its quantile functions, by the
-/// tanh-sinh rule in the probability (Takahasi, Mori 1974), on both halves apart: what is large at an
-/// end, where a tail is infinite, is met there. The error is some 1e-11 for smooth densities.
+/// Expectation and variance of a distribution from both of its quantile functions, by the tanh-sinh
+/// rule in the probability (Takahasi, Mori 1974), separately on both halves, so that the rule
+/// resolves the ends, where a tail may be infinite. The error is about 1e-11 for smooth densities.
 pub(crate) fn moments(
     quantile: impl Fn(f64) -> f64,
     quantile_upper: impl Fn(f64) -> f64,

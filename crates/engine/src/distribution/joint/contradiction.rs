@@ -1,18 +1,18 @@
-//! Coefficients that contradict each other: which they are, and what rounding explains.
+//! Contradictory coefficients: which they are, and whether rounding explains them.
 
 use super::Correlation;
 use super::error::{CorrelationError, unit};
 use crate::linalg::CorrelationMatrix;
 
-/// Units of the last decimal that the nearest possible coefficient may be away from one that was only
-/// rounded. The rounding of 2000 quantities, half a unit each and 0.29 in the root mean square, takes
-/// the nearest matrix up to one unit away in some of the two million coefficients.
+/// Largest allowed distance, in units of the last decimal, between a rounded coefficient and the
+/// nearest possible one. The rounding of 2000 quantities, half a unit each and 0.29 in the root
+/// mean square, moves the nearest matrix by up to one unit in some of the two million coefficients.
 const FARTHEST: f64 = 2.0;
 
-/// Whether a matrix may be a possible one whose coefficients were rounded to so many decimals. Such
-/// a one lies at most half a unit of the last decimal away in each coefficient, so the nearest
-/// possible one is not farther than that in all of them together. Among many quantities that leaves
-/// room for one coefficient that is quite wrong, so none may be farther than [`FARTHEST`] either.
+/// Whether a matrix may be a possible one whose coefficients were rounded to `decimals`. Such a
+/// matrix differs by at most half a unit of the last decimal in each coefficient, so the nearest
+/// possible one is not farther than that in all of them together. Among many quantities that would
+/// still allow one coefficient to be quite wrong, so none may be farther than [`FARTHEST`] either.
 pub(super) fn is_rounding(
     declared: &CorrelationMatrix,
     nearest: &CorrelationMatrix,
@@ -25,7 +25,7 @@ pub(super) fn is_rounding(
         && declared.pairs().map(change).all(|change| change <= FARTHEST * unit(decimals))
 }
 
-/// The error for coefficients that no quantities can have.
+/// The error for impossible coefficients.
 pub(super) fn contradiction(
     members: &[usize],
     declared: &CorrelationMatrix,
@@ -42,15 +42,15 @@ pub(super) fn contradiction(
     }
 }
 
-/// Rows that contradict each other: leaving out any one of them leaves a possible matrix. Where
-/// several sets do, it is the one that remains when row after row is left out as long as the others
-/// still contradict each other.
+/// A minimal set of contradictory rows: without any one of them, the rest is possible. If there are
+/// several sets, it is the one that remains after leaving out row after row while the others still
+/// contradict each other.
 fn offending(matrix: &CorrelationMatrix, rounding: f64) -> Vec<usize> {
     let mut found: Vec<usize> = Vec::new();
     let mut rest: Vec<usize> = (0..matrix.size()).collect();
     loop {
-        // beside those found, from the last row upwards as many as it takes: the row that makes
-        // the contradiction belongs to it, and what stands above that row is not needed
+        // add rows from the last one upwards until the contradiction appears: the row that causes
+        // it belongs to the set, and the rows above it are not needed
         let order: Vec<usize> = found.iter().chain(rest.iter().rev()).copied().collect();
         match matrix.first_below(&order, -rounding) {
             Some(index) if index >= found.len() => {
@@ -59,7 +59,7 @@ fn offending(matrix: &CorrelationMatrix, rounding: f64) -> Vec<usize> {
                 rest.drain(..rest.len() - taken);
             }
             Some(_) => break,
-            // no row is at fault beyond rounding, only all of them together
+            // no row alone is contradictory beyond rounding, only all of them together
             None => return (0..matrix.size()).collect(),
         }
     }

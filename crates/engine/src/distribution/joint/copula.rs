@@ -1,5 +1,5 @@
-//! The Gaussian copula: quantities of any distributions, drawn through joint standard normals whose
-//! coefficients are fitted so that the quantities have theirs.
+//! The Gaussian copula: quantities with any distributions, drawn through joint standard normal ones
+//! whose coefficients are fitted so that the quantities have the wanted coefficients.
 //!
 //! With x = g(z) in standard deviations from the mean, g = sum of c_k He_k(z) / sqrt(k!) in
 //! Hermite's polynomials, two quantities whose normals have the coefficient r have the coefficient
@@ -10,42 +10,43 @@
 
 use super::profile::Profile;
 
-/// Terms of Hermite's series at most, for profiles of up to 32 768 nodes.
+/// Maximum number of terms of Hermite's series, for profiles of up to 32 768 nodes.
 const MOST_TERMS: usize = 512;
 
-/// Nodes times terms at most: a profile in many pieces is one of many small steps, of which few
-/// terms leave little.
+/// Maximum of nodes times terms: a profile in many pieces consists of many small steps, for which
+/// few terms suffice.
 const MOST_WORK: usize = 1 << 24;
 
-/// The series ends where it holds all but this of the variance and
+/// The series ends when the rest of the variance is below this, and two successive coefficients
+/// are negligible.
 const COMPLETE: f64 = 1e-10;
 
-/// two coefficients in a row (every other one of a symmetric distribution is 0) are below this.
+/// A coefficient below this is negligible; every other one of a symmetric distribution is 0.
 const NEGLIGIBLE: f64 = 1e-13;
 
-/// How far beyond a limit a coefficient may lie by rounding.
+/// Rounding by which a coefficient may lie beyond a limit.
 const ROUNDING: f64 = 1e-9;
 
-/// Steps of the search: the interval of r, 2 wide, comes down to neighbouring doubles at 1.
+/// Steps of the search: the interval of r, 2 wide, shrinks to neighbouring doubles at 1.
 const STEPS: usize = 56;
 
-/// What the fit needs to know of one quantity.
+/// Data of one quantity for the fit.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Margin<'a> {
-    /// Normal: the quantity is its standard normal.
+    /// Normal: the quantity is its own standard normal one.
     Normal,
     /// Any other.
     Shaped {
         profile: &'a Profile,
-        /// Hermite's coefficients from the first on.
+        /// Hermite's coefficients, from the first.
         terms: &'a [f64],
     },
 }
 
 /// The coefficients c_1, c_2, ... of a profile.
 pub(super) fn hermite(profile: &Profile) -> Vec<f64> {
-    // Hermite functions He_k(z) sqrt(phi(z) / k!) stay bounded; the other half of the density goes
-    // with the values
+    // Hermite functions He_k(z) sqrt(phi(z) / k!) stay bounded; the other half of the density
+    // multiplies the values
     let (mut points, mut factors, mut current) = (Vec::new(), Vec::new(), Vec::new());
     for (z, weight, value) in profile.pieces().iter().flat_map(|piece| piece.nodes()) {
         let root = super::profile::density(z).sqrt();
@@ -75,14 +76,14 @@ pub(super) fn hermite(profile: &Profile) -> Vec<f64> {
     terms
 }
 
-/// Two quantities and what their normals' coefficient makes of theirs.
+/// Two quantities, and the relation between their coefficient and that of their normal scores.
 #[derive(Clone, Debug)]
 pub(super) struct Pair {
     terms: Vec<f64>,
     /// The coefficients of comonotone and antimonotone quantities.
     highest: f64,
     lowest: f64,
-    /// What tails beyond all doubles may add to either.
+    /// What tails beyond the range of doubles may add to either.
     beyond: f64,
 }
 
@@ -116,13 +117,13 @@ impl Pair {
         }
     }
 
-    /// The coefficients that a joint distribution of the two can have.
+    /// The coefficients that are possible for the two quantities.
     pub(super) fn attainable(&self) -> [f64; 2] {
         let slack = self.beyond + ROUNDING;
         [(self.lowest - slack).max(-1.0), (self.highest + slack).min(1.0)]
     }
 
-    /// The coefficient of the quantities whose normals have the coefficient `r`.
+    /// The coefficient of the quantities if their normal scores have the coefficient `r`.
     pub(super) fn of_normals(&self, r: f64) -> f64 {
         let (mut power, mut sum, mut at_one) = (1.0, 0.0, 0.0);
         let sign = 1f64.copysign(r);
@@ -137,7 +138,8 @@ impl Pair {
         sum + (limit - at_one) * remainder(self.terms.len(), r.abs())
     }
 
-    /// The coefficient of the normals for that of the quantities; `None` beyond reach.
+    /// The coefficient of the normal scores for that of the quantities; `None` if it is not
+    /// attainable.
     pub(super) fn fit(&self, coefficient: f64) -> Option<f64> {
         let [least, most] = self.attainable();
         if !(least..=most).contains(&coefficient) {
@@ -149,7 +151,7 @@ impl Pair {
         if coefficient == 0.0 {
             return Some(0.0);
         }
-        // the search is over the half line on which the coefficient lies
+        // the search is on the half-axis of the coefficient
         let (mut near, mut far) = (0.0, 1f64.copysign(coefficient));
         if coefficient >= self.highest || coefficient <= self.lowest {
             return Some(far);
@@ -166,9 +168,9 @@ impl Pair {
     }
 }
 
-/// What is left of the terms beyond `count` at `r` >= 0, as a share of what they are at 1, if they
-/// fall off as k^(-3/2), as those of a step do: with x = -count ln r, the integral from 1 of
-/// exp(-x t) t^(-3/2) / 2. Series of smooth quantities leave nothing here.
+/// The rest of the series after `count` terms at `r` >= 0, as a fraction of its value at 1, if the
+/// terms decrease as k^(-3/2), as those of a step do: with x = -count ln r, the integral from 1 of
+/// exp(-x t) t^(-3/2) / 2. For smooth quantities the rest is zero here.
 fn remainder(count: usize, r: f64) -> f64 {
     if r == 0.0 {
         return 0.0;
@@ -228,7 +230,7 @@ mod tests {
 
     const COEFFICIENTS: [f64; 9] = [-0.999, -0.9, -0.5, -0.01, 0.1, 0.5, 0.8, 0.99, 0.9999];
 
-    /// Two rectangulars: (6 / pi) asin(r / 2) (Pearson 1907).
+    /// Two rectangular quantities: (6 / pi) asin(r / 2) (Pearson 1907).
     #[test]
     fn rectangulars_have_their_closed_form() {
         let profile = rectangular();
@@ -242,7 +244,8 @@ mod tests {
         assert_eq!(pair.fit(-1.0), Some(-1.0));
     }
 
-    /// Two lognormals: (exp(s t r) - 1) / sqrt((exp(s^2) - 1)(exp(t^2) - 1)), limits at r = 1, -1.
+    /// Two lognormal quantities: (exp(s t r) - 1) / sqrt((exp(s^2) - 1)(exp(t^2) - 1)), limits at r
+    /// = 1, -1.
     #[test]
     fn lognormals_have_their_closed_form() {
         for (s, t) in [(0.1, 0.1), (0.7, 0.3), (1.0, 2.0), (2.5, 0.5)] {
@@ -283,8 +286,8 @@ mod tests {
         assert_eq!(Pair::new(&Margin::Normal, &Margin::Normal).fit(0.3), Some(0.3));
     }
 
-    /// Two signs: (2 / pi) asin(r) (Sheppard 1899), the slowest series there is. 1e-5 is what the
-    /// terms beyond the 512th leave after their law is allowed for.
+    /// Two signs: (2 / pi) asin(r) (Sheppard 1899), the slowest series. 1e-5 is the remaining error
+    /// of the 512 terms after the correction for the rest.
     #[test]
     fn steps_have_their_closed_form() {
         let profile = sign();
@@ -296,7 +299,7 @@ mod tests {
         }
     }
 
-    /// A hundred thousand equal steps, as those of an empirical distribution, are a rectangular
+    /// A hundred thousand equal steps, as in an empirical distribution, equal a rectangular
     /// distribution to 1e-6.
     #[test]
     fn many_steps_are_nearly_smooth() {
@@ -313,7 +316,7 @@ mod tests {
     }
 
     /// Heavy tails: two t quantities with the same degrees of freedom can have 1 and -1, and the
-    /// coefficient is an odd function of that of the normals, which never falls.
+    /// coefficient is an odd, never decreasing function of that of the normal scores.
     #[test]
     fn heavy_tails_rise() {
         for dof in [2.02, 2.1, 3.0, 5.0, 30.0] {

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use super::Correlation;
 use crate::distribution::Distribution;
 
-/// The decimals that the coefficients of a group are given with: those of the longest, as trailing
-/// zeros are often left out, but at least 2, lest a rough 0.9 be taken as anything from 0.85 to
-/// 0.95, and at most 6. The coefficients of saved results scatter with their trials; they count as given with 2.
+/// The number of decimals with which the coefficients of a group are given: that of the longest
+/// one, because trailing zeros are often left out. It is at least 2, so that a rough 0.9 does not
+/// mean anything from 0.85 to 0.95, and at most 6. The coefficients of saved results scatter with
+/// their trials; they count as given with 2.
 pub(super) fn decimals(
     members: &[usize],
     correlations: &[Correlation],
@@ -22,7 +23,7 @@ pub(super) fn decimals(
     inside.map(of).max().unwrap_or(0).clamp(2, 6)
 }
 
-/// Whether two quantities are saved results that depend on each other by themselves.
+/// Whether two quantities are dependent saved results.
 pub(super) fn are_linked_results(
     distributions: &[Arc<Distribution>],
     first: usize,

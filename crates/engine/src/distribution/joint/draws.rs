@@ -9,12 +9,12 @@ use crate::linalg::packed;
 use crate::number::{CodePath, Column, Kernel};
 use crate::regression::Refit;
 
-/// The quantities of a row that vary, and the joint draw of those that are linked.
+/// The quantities of a row with an uncertainty, and the joint draw of the dependent ones.
 #[derive(Debug)]
 pub struct Varying {
     distributions: Vec<Arc<Distribution>>,
     joint: Arc<Joint>,
-    /// The members of the joint draw's groups as the row has them.
+    /// The members of the joint draw's groups with their distributions in this row.
     members: Vec<Vec<Member>>,
     /// Outputs of saved results.
     rank_samples: Vec<RankSample>,
@@ -23,7 +23,8 @@ pub struct Varying {
     in_group: Vec<bool>,
 }
 
-/// A quantity of a group: its index among those that vary, and what a drawn value becomes.
+/// A quantity of a group: its index among those with an uncertainty, and the conversion of drawn
+/// values.
 #[derive(Clone, Copy, Debug)]
 struct Member {
     index: usize,
@@ -32,7 +33,7 @@ struct Member {
 }
 
 impl Varying {
-    /// The quantities at `varying` (in order) of a row; no group has members outside it.
+    /// The quantities at `varying` (in order) of a row; all members of groups are among them.
     pub fn new(row: &[Arc<Distribution>], varying: &[usize], joint: &Arc<Joint>) -> Self {
         let distributions: Vec<Arc<Distribution>> =
             varying.iter().filter_map(|&v| row.get(v).cloned()).collect();
@@ -78,8 +79,8 @@ impl Varying {
         &self.distributions
     }
 
-    /// For each whether [`Draws::scores_on`] gives its values and no scores: paired readings, and
-    /// outputs of a saved result that are drawn together.
+    /// For each quantity whether [`Draws::scores_on`] gives values instead of scores: paired
+    /// readings, and outputs of a saved result that are drawn together.
     pub fn without_scores(&self) -> Vec<bool> {
         let mut without = vec![false; self.len()];
         let groups = self.joint.groups.iter().zip(&self.members);
@@ -130,7 +131,7 @@ impl<'a> Draws<'a> {
         Self { varying, streams: keys.iter().map(|key| key.block_on(path, block)).collect() }
     }
 
-    /// Draws the next column of every quantity that is `used`; `register[q]` is where it goes.
+    /// Draws the next column of every quantity that is `used`; `register[q]` is its destination.
     #[inline(always)]
     pub(crate) fn column(&mut self, registers: &mut [Column], register: &[usize], used: &[bool]) {
         let varying = self.varying;
@@ -156,9 +157,9 @@ impl<'a> Draws<'a> {
         }
     }
 
-    /// Draws the next column of standard normal scores of every quantity, dependent as the
-    /// quantities are; of those [`Varying::without_scores`] the values. `register[q]` is where that of
-    /// quantity `q` goes.
+    /// Draws the next column of standard normal scores of every quantity, with the dependence of
+    /// the quantities; values for those of [`Varying::without_scores`]. `register[q]` is the
+    /// destination for quantity `q`.
     #[inline(never)]
     pub fn scores_on(&mut self, path: CodePath, registers: &mut [Column], register: &[usize]) {
         path.run(ScoresKernel { draws: self, registers, register });
@@ -183,9 +184,9 @@ impl<'a> Draws<'a> {
         }
     }
 
-    /// Standard normals, or a spherical t, mixed by the factor from the last row upwards, so that
-    /// every row still finds the columns above it unmixed. With `scores` the mixed normals are left
-    /// as they are.
+    /// Standard normal quantities, or a spherical t distribution, mixed by the factor from the last
+    /// row upwards, so that every row finds the columns above it unmixed. With `scores` the mixed
+    /// normal ones are not converted.
     #[inline(always)]
     fn group(
         &mut self,

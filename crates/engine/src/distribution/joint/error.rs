@@ -1,18 +1,17 @@
-//! Why quantities cannot be drawn with the correlations that are declared.
+//! Why quantities cannot be drawn with the declared correlations.
 
 use std::fmt;
 
 use super::Correlation;
 
-/// At most so many coefficients are listed in a sentence.
+/// Maximum number of coefficients listed in a message.
 const LISTED: usize = 12;
 
 /// Why quantities with these correlations cannot be drawn.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CorrelationError {
-    /// More quantities are linked with each other than can be served: their matrix has a number for
-    /// each pair.
+    /// More dependent quantities than the limit: their matrix has a number for each pair.
     TooMany {
         /// How many there are.
         count: usize,
@@ -28,54 +27,54 @@ pub enum CorrelationError {
         eigenvalue: f64,
         /// The nearest possible coefficients that differ from the declared ones.
         nearest: Vec<Correlation>,
-        /// Decimals that the coefficients are worth.
+        /// Number of decimals of the coefficients.
         decimals: usize,
     },
-    /// Each pair of these quantities can have its coefficient, but a Gaussian copula cannot give
-    /// them all at once.
+    /// Each pair of these quantities can have its coefficient, but a Gaussian copula cannot produce
+    /// all of them together.
     BeyondCopula {
         /// The quantities.
         members: Vec<usize>,
-        /// The nearest coefficients that the copula gives, where they differ.
+        /// The nearest coefficients that the copula can produce, if they differ.
         nearest: Vec<Correlation>,
-        /// Decimals that the coefficients are worth.
+        /// Number of decimals of the coefficients.
         decimals: usize,
     },
     /// No joint distribution of the two quantities has this coefficient.
     OutOfReach {
         /// The declared coefficient.
         declared: Correlation,
-        /// The lowest and the highest coefficient that they can have.
+        /// The lowest and the highest coefficient that is possible for them.
         attainable: [f64; 2],
     },
     /// A correlated quantity has no variance, so that the coefficient does not exist.
     NoVariance {
         /// The quantity.
         member: usize,
-        /// The degrees of freedom that it is drawn with; infinite where they are not the reason.
+        /// The degrees of freedom with which it is drawn; infinite if they are not the reason.
         dof: f64,
     },
-    /// A correlated quantity whose quantiles are not known, so that a copula cannot draw it.
+    /// A correlated quantity with unknown quantiles, which a copula cannot draw.
     NoQuantiles {
         /// The quantity.
         member: usize,
     },
-    /// Paired readings that are not as many as they say.
+    /// Paired readings whose number of partners differs from the declared one.
     Unpaired {
         /// The quantity.
         member: usize,
-        /// How many paired readings of that length there are.
+        /// Number of paired quantities with that number of readings.
         count: usize,
     },
-    /// A coefficient is declared for a parameter of a calibration function, whose joint distribution
-    /// is that of its fit.
+    /// A coefficient is declared for a parameter of a calibration function, whose joint
+    /// distribution follows from its fit.
     GivenByFit {
         /// The parameter.
         member: usize,
         /// The other quantity.
         other: usize,
     },
-    /// A coefficient is declared for paired readings, whose joint distribution is that of their
+    /// A coefficient is declared for paired readings, whose joint distribution follows from their
     /// sample.
     GivenByReadings {
         /// The quantity with paired readings.
@@ -88,13 +87,13 @@ pub enum CorrelationError {
 }
 
 impl CorrelationError {
-    /// Whether it is in the way of trials alone: the law of propagation needs no more than the standard
+    /// Whether the error concerns only trials: the law of propagation needs only the standard
     /// uncertainties of the quantities and the coefficient (JCGM 100, 5.2.2).
     pub fn is_of_trials(&self) -> bool {
         matches!(self, Self::NoVariance { .. } | Self::NoQuantiles { .. })
     }
 
-    /// Whether a declared coefficient is one of those at fault.
+    /// Whether a declared coefficient is involved in the error.
     pub fn concerns(&self, c: &Correlation) -> bool {
         let of = |member: usize| c.first == member || c.second == member;
         match self {
@@ -196,14 +195,14 @@ fn list(coefficients: &[Correlation], decimals: usize, name: &dyn Fn(usize) -> S
     text
 }
 
-/// One unit of the last of so many decimals.
+/// One unit of the last decimal.
 pub(super) fn unit(decimals: usize) -> f64 {
     (0..decimals).fold(1.0, |unit, _| unit / 10.0)
 }
 
-/// Four decimals, cut off, so that the printed limit can be used.
+/// Four decimals, truncated, so that the printed limit can be used.
 fn toward_zero(limit: f64) -> String {
-    // a limit of 1 comes out of an integral as 1 up to rounding
+    // a limit of 1 results from an integral as 1 up to rounding
     let cut = (limit.abs() * 1e4 + 1e-4).floor() / 1e4;
     format!("{}", cut.copysign(limit))
 }

@@ -12,8 +12,8 @@ use super::{Correlation, CorrelationError};
 use crate::distribution::Distribution;
 use crate::linalg::CorrelationMatrix;
 
-/// How far the drawn coefficients of saved results may be from theirs: the copula of dependent
-/// outputs need not be Gaussian. The change is told.
+/// Largest allowed change of the coefficients of saved results in draws: the copula of dependent
+/// outputs need not be Gaussian. The change is reported.
 const RESULTS: f64 = 0.05;
 
 /// A group of quantities.
@@ -32,13 +32,13 @@ pub(super) struct Fit<'a> {
 pub(super) struct Fitted {
     /// The coefficients of the normals.
     pub(super) normals: CorrelationMatrix,
-    /// The largest change of a coefficient that was needed.
+    /// The largest necessary change of a coefficient.
     pub(super) adjusted: f64,
-    /// The coefficients that the copula does not give as they are: wanted, and drawn.
+    /// The coefficients that the copula cannot produce exactly: wanted, and drawn.
     pub(super) changes: Vec<(Correlation, f64)>,
 }
 
-/// Pairs of shapes with the fits made for them: members of equal shapes are frequent.
+/// Pairs of shapes with their fits: members with equal shapes are frequent.
 #[derive(Debug)]
 struct Pairs<'a> {
     margins: Vec<Margin<'a>>,
@@ -50,7 +50,7 @@ struct Pairs<'a> {
 #[derive(Debug)]
 struct Known {
     pair: Pair,
-    /// Coefficients of the normals, by the bits of those of the quantities.
+    /// Coefficients of the normal scores, by the bits of those of the quantities.
     fits: HashMap<u64, Option<f64>>,
 }
 
@@ -84,7 +84,7 @@ impl<'a> Pairs<'a> {
         &self.known(i, j).pair
     }
 
-    /// The coefficient of the normals of two members for that of the quantities.
+    /// The coefficient of the normal scores of two members for that of the quantities.
     fn fit(&mut self, i: usize, j: usize, coefficient: f64) -> Option<f64> {
         let Known { pair, fits } = self.known(i, j);
         *fits.entry(coefficient.to_bits()).or_insert_with(|| pair.fit(coefficient))
@@ -92,7 +92,7 @@ impl<'a> Pairs<'a> {
 }
 
 impl Fit<'_> {
-    /// The coefficients of the normals that give the quantities the wanted ones.
+    /// The coefficients of the normal scores that give the quantities the wanted ones.
     pub(super) fn fit(&self, wanted: &CorrelationMatrix) -> Result<Fitted, CorrelationError> {
         let Self { members, distributions, decimals, .. } = *self;
         let mut pairs = Pairs::new(self.profiles);
@@ -106,7 +106,7 @@ impl Fit<'_> {
             }
             let mut found = pairs.fit(i, j, coefficient);
             if found.is_none() && are_linked_results(distributions, members[i], members[j]) {
-                // one is a function of the other, and the copula stops at rounding short of it
+                // one is a function of the other, and the copula reaches it up to rounding
                 let [least, most] = pairs.pair(i, j).attainable();
                 let nearest = coefficient.clamp(least, most);
                 let change = (coefficient - nearest).abs();

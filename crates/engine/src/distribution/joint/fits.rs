@@ -1,5 +1,5 @@
-//! Joint draws found so far. Fits take their time, and the check of a file, its evaluation and what
-//! is generated again all need the same ones.
+//! A cache of joint draws. Fits take time, and the check of a file, its evaluation and repeated
+//! generation need the same ones.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -8,18 +8,18 @@ use super::standard::Standard;
 use super::{Correlation, CorrelationError, Joint};
 use crate::distribution::Distribution;
 
-/// A joint draw that rows share, or why there is none.
+/// A joint draw that rows share, or its error.
 pub(crate) type Shared = Result<Arc<Joint>, CorrelationError>;
 
-/// Quantities in all joint draws that are kept at a time. Each may have a table of 7 kB, and each
+/// Maximum number of quantities in all cached joint draws. Each may have a table of 7 kB, and each
 /// pair of a draw has a number.
 const MOST: usize = 8192;
 
-/// Pairs whose numbers take the memory of a table.
+/// Number of pairs whose numbers take the memory of a table.
 const PAIRS: usize = 1000;
 
-/// Joint draws by what they depend on: the shapes of the linked quantities and their coefficients.
-/// Copies share what they hold.
+/// Joint draws by their parameters: the shapes of the dependent quantities and their coefficients.
+/// Copies share their content.
 #[derive(Clone, Debug, Default)]
 pub struct Fits(Arc<Known>);
 
@@ -32,12 +32,12 @@ struct Known {
 #[derive(Debug, Default)]
 struct Draws {
     correlations: Vec<Correlation>,
-    /// The quantities that the coefficients name, in order.
+    /// The quantities in the coefficients, in order.
     named: Vec<usize>,
     found: Vec<(Linked, Arc<OnceLock<Shared>>)>,
 }
 
-/// The linked quantities with their shapes, in order.
+/// The dependent quantities with their shapes, in order.
 type Linked = Vec<(usize, Standard)>;
 
 impl Fits {
@@ -48,13 +48,13 @@ impl Fits {
         correlations: &[Correlation],
     ) -> Shared {
         let entry = self.entry(distributions, correlations);
-        // other rows wait for the first that needs the same fit
+        // other rows wait for the first one that needs the same fit
         let fit = || Joint::with(&self.0.profiles, distributions, correlations).map(Arc::new);
         entry.get_or_init(fit).clone()
     }
 
-    /// As [`joint`](Self::joint), for an evaluation without trials: what is in the way of trials alone
-    /// is no error.
+    /// As [`joint`](Self::joint), for an evaluation without trials: errors that concern only trials
+    /// are ignored.
     pub fn of_propagation(
         &self,
         distributions: &[Arc<Distribution>],
@@ -68,7 +68,7 @@ impl Fits {
         }
     }
 
-    /// Where the joint draw is kept, or will be.
+    /// The entry of the joint draw, filled or not.
     fn entry(
         &self,
         distributions: &[Arc<Distribution>],

@@ -1,21 +1,21 @@
-//! The dependence of a joint draw, for those that integrate instead of drawing.
+//! The dependence of a joint draw, for methods that integrate instead of drawing.
 
 use super::{Joint, Member};
 
 /// How quantities depend on each other.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Dependence {
-    /// Standard normal scores, the product of this packed lower triangular factor and independent
+    /// Standard normal scores: the product of this packed lower triangular factor and independent
     /// ones.
     Scores(Vec<f64>),
-    /// A multivariate t distribution of these degrees of freedom and this factor of its correlation
-    /// matrix.
+    /// A multivariate t distribution with these degrees of freedom and this factor of its
+    /// correlation matrix.
     Student(f64, Vec<f64>),
-    /// Trials of a saved result, or fits of drawn points: known by draws alone.
+    /// Trials of a saved result, or fits of drawn points: known only by draws.
     Trials,
 }
 
-/// Quantities that depend on each other.
+/// A set of dependent quantities.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Linked {
     /// The quantities, in the order of the factor's rows.
@@ -25,7 +25,7 @@ pub(crate) struct Linked {
 }
 
 impl Joint {
-    /// The sets of quantities that depend on each other.
+    /// The sets of dependent quantities.
     pub(crate) fn linked(&self) -> Vec<Linked> {
         let groups = self.groups.iter().map(|group| Linked {
             members: group.members.iter().map(|member: &Member| member.index).collect(),

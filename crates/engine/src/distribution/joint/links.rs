@@ -23,7 +23,7 @@ pub(crate) fn connected(correlations: &[Correlation]) -> Vec<Vec<usize>> {
     sets.into_values().filter(|set| set.len() > 1).collect()
 }
 
-/// The first quantity of a set; ways that were gone become shorter.
+/// The first quantity of a set; visited paths are shortened.
 fn first(earlier: &mut [usize], index: usize) -> usize {
     let mut at = index;
     while let Some(&next) = earlier.get(at).filter(|&&next| next != at) {

@@ -1,17 +1,18 @@
 //! The joint distribution of many quantities: which of them are drawn together, and how.
 //!
-//! - Quantities that declared coefficients link are drawn from joint standard normals: normal ones
-//!   exactly, all others through a Gaussian copula fitted to their coefficients ([`copula`],
-//!   [`profile`]).
+//! - Quantities with declared coefficients are drawn from joint standard normal ones: normal
+//!   quantities exactly, all others through a Gaussian copula fitted to their coefficients
+//!   ([`copula`], [`profile`]).
 //! - Outputs of one saved result are drawn as they varied in its trials ([`rank_sample`]), unless a
 //!   coefficient links one of them to another quantity.
 //! - Paired readings are drawn from a multivariate t distribution ([`paired`]).
-//! - Parameters of a fitted calibration function are drawn from their joint normal or t distribution,
-//!   or each trial's from points of its own.
+//! - Parameters of a fitted calibration function are drawn from their joint normal or t
+//!   distribution, or, in each trial, from a fit to points of its own.
 //!
-//! Contradictory coefficients are refused, never changed: only what lies within the rounding of
-//! their last decimals is taken as the nearest possible, and said to be. The same holds where each
-//! pair can have its coefficient but the normals behind the copula cannot.
+//! Contradictory coefficients are an error and never changed. Only a contradiction within the
+//! rounding of their last decimals is replaced by the nearest possible coefficients, with a
+//! warning. The same holds if each pair can have its coefficient but the normal scores of the
+//! copula cannot.
 
 mod contradiction;
 mod copula;
@@ -60,8 +61,7 @@ pub struct Correlation {
     pub coefficient: f64,
 }
 
-/// At most so many quantities are linked with each other. A matrix of so many, and its factor, are
-/// 64 MB.
+/// Maximum number of dependent quantities. Their matrix and its factor take 64 MB.
 const MOST_LINKED: usize = 2000;
 
 /// A quantity of a group.
@@ -71,12 +71,12 @@ struct Member {
     shape: MemberShape,
 }
 
-/// What the group's own standard normal or t quantity becomes.
+/// How the group's standard normal or t quantity is converted.
 #[derive(Clone, Debug)]
 enum MemberShape {
-    /// The quantity, but for its location and scale.
+    /// The quantity, apart from its location and scale.
     Plain,
-    /// A value of this shape, that the table gives.
+    /// A value of this shape, from the table.
     Tabulated(Standard, Arc<Table>),
 }
 
@@ -111,25 +111,26 @@ struct Group {
     dof: Option<f64>,
 }
 
-/// How a set of quantities is drawn, but for the locations and scales that each row has of its own.
+/// How a set of quantities is drawn, apart from the locations and scales, which differ between
+/// rows.
 #[derive(Clone, Debug, Default)]
 pub struct Joint {
     groups: Vec<Group>,
     /// Outputs of saved results.
     rank_samples: Vec<RankSample>,
-    /// Parameters of fits, each trial's from points of its own.
+    /// Parameters of fits, in each trial from points of its own.
     refits: Vec<Refit>,
     /// Whether some matrix was positive semi-definite only up to the rounding of its coefficients.
     pub(crate) rounded: bool,
-    /// The quantities that are drawn through a Gaussian copula, in order. Normal ones that share a
-    /// group with others are among them.
+    /// The quantities that are drawn through a Gaussian copula, in order. They include normal ones
+    /// that share a group with others.
     pub(crate) copula: Vec<usize>,
     /// The largest change of a coefficient, within its rounding, that a copula needed.
     pub(crate) adjusted: f64,
-    /// The coefficients that a copula does not give as they are: wanted, and drawn.
+    /// The coefficients that a copula cannot produce exactly: wanted, and drawn.
     pub(crate) changes: Arc<Vec<(Correlation, f64)>>,
-    /// Whether nothing is drawn: it is that of an evaluation without trials, of quantities that the law
-    /// of propagation alone can correlate.
+    /// Whether nothing is drawn: for an evaluation without trials, of quantities that only the law
+    /// of propagation can correlate.
     pub(crate) undrawn: bool,
 }
 
@@ -144,8 +145,8 @@ impl Joint {
         Fits::default().joint(&shared, correlations)
     }
 
-    /// The joint draw of quantities with these distributions and coefficients. Constants take no
-    /// part; coefficients of 0 say nothing. `profiles` is kept for the next one.
+    /// The joint draw of quantities with these distributions and coefficients. Constants and
+    /// coefficients of 0 are ignored. `profiles` is kept for the next call.
     fn with(
         profiles: &Mutex<Profiles>,
         distributions: &[Arc<Distribution>],
@@ -185,7 +186,7 @@ impl Joint {
         }
         let linked = connected(&active);
         joint.rank_samples = rank_samples(distributions);
-        // a link to another quantity takes all of them out
+        // a coefficient with another quantity takes all of them out
         joint.rank_samples.retain(|set| {
             let other = |m: &usize| !set.members.contains(m);
             !linked.iter().any(|ms| ms.iter().any(|m| !other(m)) && ms.iter().any(other))
@@ -200,7 +201,7 @@ impl Joint {
         Ok(joint)
     }
 
-    /// Adds the group of quantities that coefficients link.
+    /// Adds the group of quantities connected by coefficients.
     fn add_correlated(
         &mut self,
         members: &[usize],
@@ -242,11 +243,12 @@ impl Joint {
         Ok(())
     }
 
-    /// The joint draw of an evaluation without trials, of quantities that cannot be drawn with these
-    /// coefficients: the law of propagation needs their standard uncertainties alone (JCGM 100, 5.2.2).
+    /// The joint draw for an evaluation without trials, for quantities that cannot be drawn with
+    /// these coefficients: the law of propagation needs only their standard uncertainties (JCGM
+    /// 100, 5.2.2).
     ///
     /// # Errors
-    /// Coefficients that no quantities can have, or too many of them.
+    /// Impossible coefficients, or too many of them.
     fn of_propagation(
         distributions: &[Arc<Distribution>],
         correlations: &[Correlation],
@@ -260,7 +262,8 @@ impl Joint {
         Ok(joint)
     }
 
-    /// The coefficients of a group, or the nearest possible ones within their rounding, which is noted.
+    /// The coefficients of a group, or the nearest possible ones within their rounding, with a
+    /// flag.
     fn possible(
         &mut self,
         members: &[usize],
@@ -289,7 +292,7 @@ impl Joint {
     }
 }
 
-/// The coefficients that say something: not 0, and of quantities that vary.
+/// The coefficients that have an effect: not 0, and between quantities with an uncertainty.
 fn active(distributions: &[Arc<Distribution>], correlations: &[Correlation]) -> Vec<Correlation> {
     let varies = |q: usize| distributions.get(q).is_some_and(|d| d.constant().is_none());
     let says = |c: &Correlation| c.coefficient != 0.0 && varies(c.first) && varies(c.second);

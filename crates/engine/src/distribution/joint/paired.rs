@@ -5,7 +5,7 @@
 //! multivariate t distribution of JCGM 102, 5.3: N quantities read n times have n - N degrees of
 //! freedom and the scale matrix S/n, with the divisor n - N in S.
 //!
-//! The parameters of one fitted calibration function are an ensemble too, with the coefficients of
+//! The parameters of one fitted calibration function form an ensemble too, with the coefficients of
 //! their covariance matrix and the degrees of freedom of its residuals.
 
 use std::sync::Arc;
@@ -24,7 +24,7 @@ pub struct Ensemble {
     pub members: Vec<usize>,
     /// Correlation coefficients of the sample.
     pub(super) coefficients: CorrelationMatrix,
-    /// The fit whose parameters they are.
+    /// The fit to which the parameters belong.
     pub(super) fit: Option<Arc<Regression>>,
 }
 
@@ -89,7 +89,7 @@ impl Ensemble {
         })
     }
 
-    /// Whether every member has as many partners as it says.
+    /// Checks that every member has the declared number of partners.
     pub(super) fn check(
         &self,
         distributions: &[Arc<Distribution>],
@@ -109,12 +109,12 @@ impl Ensemble {
     }
 }
 
-/// Correlation coefficients of samples of equal length, none of them constant.
+/// Correlation coefficients of samples of equal length, none of which is constant.
 fn coefficients(samples: &[&[f64]]) -> CorrelationMatrix {
     let offsets: Vec<Vec<f64>> = samples
         .iter()
         .map(|values| {
-            // about the first value, so that a common large part does not cost digits
+            // relative to the first value, so that a common large part does not cost digits
             let origin = values[0];
             let mean = values.iter().map(|v| v - origin).sum::<f64>() / values.len() as f64;
             values.iter().map(|v| v - origin - mean).collect()

@@ -1,10 +1,10 @@
 //! A quantity as a function of a standard normal one: quantile(Phi(z)), tabulated.
 //!
-//! The line of z is cut into cells a quarter wide. In each cell the function is a polynomial
+//! The axis of z is divided into cells a quarter wide. In each cell the function is a polynomial
 //! through its values at the eight nodes of the Gauss-Legendre rule, so that the same numbers serve
-//! integrals and draws. Where a cell's polynomial misses the function, at its ends or in its
+//! integrals and draws. If a cell's polynomial deviates from the function, at the ends or in the
 //! middle, the cell is halved again for the integrals (kinks, steps of empirical distributions),
-//! and draws in that cell take the quantile function itself.
+//! and draws in that cell use the quantile function itself.
 
 use std::sync::Arc;
 
@@ -30,20 +30,21 @@ const RULE: [(f64, f64); NODES] = [
 /// Width of a cell.
 const WIDTH: f64 = 0.25;
 
-/// Cells on either side of 0 that draws look up. One standard normal in 1e19 lies beyond.
+/// Number of cells on either side of 0 in the table for draws. One standard normal value in 1e19
+/// lies beyond.
 const TABLE: i32 = 36;
 
-/// Cells on either side of 0 at most. Beyond z = 37 a tail is below the smallest doubles.
+/// Maximum number of cells on either side of 0. Beyond z = 37 a tail is below the smallest doubles.
 const MOST: i32 = 148;
 
-/// Pieces that integrals are cut into at most.
+/// Maximum number of pieces for integrals.
 const MOST_PIECES: usize = 8192;
 
-/// What a polynomial may miss of the function in an integral: deviation in standard deviations
-/// times width times density of z.
+/// Allowed error of a polynomial in an integral: deviation in standard deviations times width times
+/// density of z.
 const INTEGRAL: f64 = 1e-10;
 
-/// What a polynomial may miss of the function in a draw, as a share of its change over the cell.
+/// Allowed error of a polynomial in a draw, as a fraction of its change over the cell.
 const DRAW: f64 = 1e-9;
 
 /// 1 / sqrt(2 pi).
@@ -54,8 +55,8 @@ pub(super) fn density(z: f64) -> f64 {
     DENSITY * libm::exp(-0.5 * z * z)
 }
 
-/// The value of a quantity where a standard normal one, rising together with it, is `z`. Never
-/// infinite: the tails end at 37.
+/// The value of a quantity at `z` of a standard normal one with which it increases. Never infinite:
+/// the tails end at 37.
 pub(super) fn at_normal(distribution: &Distribution, z: f64) -> f64 {
     if let Some(saved) = distribution.saved() {
         return saved.at(z);
@@ -72,7 +73,7 @@ pub(super) fn at_normal(distribution: &Distribution, z: f64) -> f64 {
 type Polynomial = [f64; NODES];
 
 /// The polynomial through `values` at the nodes: Legendre coefficients by the rule, which is exact
-/// for them, then sorted by powers. Of the values less one of them, so that rounding is relative to
+/// for them, then sorted by powers. One value is subtracted first, so that rounding is relative to
 /// their change.
 fn through(values: &[f64; NODES]) -> Polynomial {
     let base = values[NODES / 2];
@@ -104,7 +105,7 @@ fn horner(polynomial: &Polynomial, t: f64) -> f64 {
     polynomial.iter().rev().fold(0.0, |sum, c| sum * t + c)
 }
 
-/// The function over one stretch of z, in standard deviations from the mean.
+/// The function over one interval of z, in standard deviations from the mean.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
     left: f64,
@@ -139,14 +140,14 @@ impl Piece {
         piece
     }
 
-    /// The share of the variance: the integral of the square under the normal density.
+    /// The contribution to the variance: the integral of the square under the normal density.
     fn variance(&self) -> f64 {
         self.nodes().map(|(z, w, v)| w * density(z) * v * v).sum()
     }
 }
 
-/// A cell of the table that draws look up: the value less the mean as a polynomial, and the values
-/// at both ends, which no draw leaves.
+/// A cell of the table for draws: the value minus the mean as a polynomial, and the values at both
+/// ends, which bound the draws.
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
     polynomial: Polynomial,
@@ -154,19 +155,19 @@ pub(super) struct Cell {
     high: f64,
 }
 
-/// Places of the table: those of cells, and further ones without a cell.
+/// Number of entries of the table: cells, and further entries without a cell.
 const PLACES: usize = 128;
 
-/// A place without a cell, for what lies outside of the table.
+/// An entry without a cell, for values outside the table.
 const OUTSIDE: i32 = PLACES as i32 - 1;
 
-/// The values of a quantity at standard normal ones: cells on \[-9, 9\]. Where there is none the
-/// figures are no numbers, and the quantile function itself has to be taken.
+/// The values of a quantity at standard normal ones: cells on \[-9, 9\]. Entries without a cell are
+/// NaN, and the quantile function itself is used.
 #[derive(Clone, Debug)]
 pub(super) struct Table {
     distribution: Arc<Distribution>,
     mean: f64,
-    /// For each power its coefficients by place.
+    /// For each power the coefficients by entry.
     polynomials: Box<[[f64; PLACES]; NODES]>,
     low: Box<[f64; PLACES]>,
     high: Box<[f64; PLACES]>,
@@ -187,12 +188,12 @@ impl Table {
         Self { distribution: Arc::clone(distribution), mean, polynomials, low, high }
     }
 
-    /// Whether both are of the same distribution.
+    /// Whether both belong to the same distribution.
     pub(super) fn is_of(&self, other: &Self) -> bool {
         self.distribution == other.distribution
     }
 
-    /// The values of a column, operation by operation, so that several are made at a time.
+    /// The values of a column, operation by operation, so that several are computed at a time.
     #[inline(always)]
     pub(super) fn values(&self, z: &[f64; COLUMN], out: &mut [f64; COLUMN]) {
         let mut places = [OUTSIDE; COLUMN];
@@ -228,7 +229,7 @@ impl Table {
         }
     }
 
-    /// How many cells with |z| below 6 need the quantile function itself.
+    /// Number of cells with |z| below 6 that need the quantile function itself.
     #[cfg(test)]
     fn exact_cells(&self) -> usize {
         self.low.iter().skip(12).take(48).filter(|low| low.is_nan()).count()
@@ -240,7 +241,7 @@ impl Table {
 pub(super) struct Profile {
     /// In the order of z.
     pieces: Vec<Piece>,
-    /// The variance that the pieces hold, 1 but for tails beyond all doubles.
+    /// The variance contained in the pieces: 1 apart from tails beyond the range of doubles.
     pub(super) variance: f64,
 }
 
@@ -254,8 +255,8 @@ impl Profile {
         (profile, Table::new(distribution, mean, &cells))
     }
 
-    /// The profile of a rising function of z with this mean and standard deviation, and the cells
-    /// of a table of it.
+    /// The profile of an increasing function of z with this mean and standard deviation, and the
+    /// cells of its table.
     pub(super) fn new(
         mean: f64,
         std: f64,
@@ -282,7 +283,7 @@ impl Profile {
                 break;
             }
         }
-        // halved level by level, so that a limit of pieces leaves the finest ones undone
+        // halved level by level, so that the limit on pieces drops only the finest ones
         while !open.is_empty() {
             let mut halves = Vec::new();
             for sampled in open {
@@ -305,21 +306,21 @@ impl Profile {
         &self.pieces
     }
 
-    /// The mean of the product with another quantity that rises with it: the correlation
+    /// The mean of the product with another quantity that increases with it: the correlation
     /// coefficient of comonotone quantities.
     pub(super) fn comonotone(&self, other: &Self) -> f64 {
         product(&self.pieces, &other.pieces)
     }
 
-    /// The same for a quantity that falls as this one rises.
+    /// The same for a quantity that decreases as this one increases.
     pub(super) fn antimonotone(&self, other: &Self) -> f64 {
         let mirrored: Vec<Piece> = other.pieces.iter().rev().map(Piece::mirrored).collect();
         product(&self.pieces, &mirrored)
     }
 }
 
-/// The mean of the product of two functions of the same standard normal quantity. Pieces come from
-/// halving the same cells, so of two that overlap one lies within the other.
+/// The mean of the product of two functions of the same standard normal quantity. Pieces result
+/// from halving the same cells, so one of two overlapping pieces lies within the other.
 fn product(a: &[Piece], b: &[Piece]) -> f64 {
     let (mut i, mut j, mut sum) = (0, 0, 0.0);
     while let (Some(p), Some(q)) = (a.get(i), b.get(j)) {
@@ -339,14 +340,14 @@ fn product(a: &[Piece], b: &[Piece]) -> f64 {
     sum
 }
 
-/// A function to be cut into pieces.
+/// A function to be divided into pieces.
 struct Sampler<F> {
     mean: f64,
     std: f64,
     value: F,
 }
 
-/// A piece with what tells whether it is good enough.
+/// A piece with its error.
 struct Sampled {
     piece: Piece,
     /// The largest deviation from the function, in standard deviations.
@@ -381,7 +382,7 @@ impl Sampled {
         self.deviation * width * density(nearest.max(0.0)) <= INTEGRAL
     }
 
-    /// The cell for draws, if its polynomial is as good as the quantile function.
+    /// The cell for draws, if its polynomial is accurate enough.
     fn cell<F: Fn(f64) -> f64>(&self, of: &Sampler<F>) -> Option<Cell> {
         let [low, high] = self.ends;
         let largest = low.abs().max(high.abs()).max(of.mean.abs());
@@ -417,8 +418,8 @@ mod tests {
         }
     }
 
-    /// Looked-up values are those of the quantile function to 1e-9 of the standard deviation and
-    /// rounding of the value, rise with z, and stay within the limits.
+    /// Tabulated values equal the quantile function to 1e-9 of the standard deviation and rounding
+    /// of the value, increase with z, and stay within the limits.
     #[test]
     fn looked_up_values_are_the_quantiles() {
         for distribution in shapes() {
@@ -434,7 +435,8 @@ mod tests {
                 table.values(&z, &mut out);
                 for (z, x) in z.into_iter().zip(out) {
                     let exact = at_normal(&distribution, z);
-                    // in far tails the standard deviation is no scale; there, of the value
+                    // in far tails the standard deviation is not a suitable scale; there relative
+                    // to the value
                     let scale = std + (exact - distribution.mean()).abs();
                     let allowed = 1e-9 * scale + 16.0 * f64::EPSILON * exact.abs();
                     assert!((x - exact).abs() <= allowed, "{distribution:?} at {z}: {x}, {exact}");
@@ -459,8 +461,8 @@ mod tests {
         }
     }
 
-    /// The pieces hold the whole variance; a t of 2.1 degrees of freedom has a hundredth of it
-    /// beyond all doubles.
+    /// The pieces contain the whole variance; a t distribution with 2.1 degrees of freedom has a
+    /// hundredth of it beyond the range of doubles.
     #[test]
     fn pieces_hold_the_variance() {
         for distribution in shapes() {

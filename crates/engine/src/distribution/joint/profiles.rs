@@ -1,4 +1,4 @@
-//! Profiles of the shapes met so far, as equal ones are frequent.
+//! A cache of profiles, as equal shapes are frequent.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use super::copula::{self, Margin};
 use super::profile::{Profile, Table};
 use super::standard::Standard;
 
-/// Profiles that are kept at a time.
+/// Maximum number of cached profiles.
 const MOST: usize = 64;
 
 /// Profiles by their shapes.
@@ -22,7 +22,7 @@ pub(super) struct Profiled {
 }
 
 impl Profiles {
-    /// The profile of a shape; `None` for those that need none.
+    /// The profile of a shape; `None` for shapes that need none.
     pub(super) fn of(&mut self, standard: &Standard) -> Option<Arc<Profiled>> {
         if let Some((_, known)) = self.0.iter().find(|(shape, _)| shape == standard) {
             return Some(Arc::clone(known));

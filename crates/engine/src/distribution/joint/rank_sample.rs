@@ -1,10 +1,10 @@
 //! Outputs of one saved result, drawn together as they varied in its trials.
 //!
-//! The file holds the ranks that its outputs had in some trials which stand for all. A draw takes one
-//! of these trials, and for each output a probability within the stretch that belongs to its rank
-//! there: an empirical copula, whose margins are uniform whatever the trials, so that every output
-//! keeps its quantile function. What is lost is how outputs vary together within a stretch, one in
-//! so many trials wide.
+//! The file holds the ranks of its outputs in a sample of its trials. A draw takes one of these
+//! trials, and for each output a probability within the interval of its rank there: an empirical
+//! copula, whose margins are uniform whatever the trials, so that every output keeps its quantile
+//! function. The dependence of outputs within an interval, whose width is one divided by the number
+//! of ranks, is lost.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::number::{COLUMN, Column};
 pub(crate) struct RankSample {
     /// Indices of the inputs, in order.
     pub members: Vec<usize>,
-    /// For each member, which of the outputs it is.
+    /// For each member, the index of its output.
     columns: Vec<usize>,
     /// The ranks of the outputs.
     ranks: Vec<Arc<[u32]>>,
@@ -53,19 +53,19 @@ pub(super) fn rank_samples(distributions: &[Arc<Distribution>]) -> Vec<RankSampl
 }
 
 impl RankSample {
-    /// How many trials the file holds.
+    /// Number of trials in the file.
     pub(crate) fn trials(&self) -> usize {
         self.ranks.first().map_or(0, |ranks| ranks.len())
     }
 
-    /// The same inputs counted among those at `varying` (in order) only; all of them are there.
+    /// The same inputs, indexed among those at `varying` (in order) only; all of them are there.
     pub(super) fn among(&self, varying: &[usize]) -> Self {
         let index = |member: &usize| varying.binary_search(member).unwrap_or(*member);
         Self { members: self.members.iter().map(index).collect(), ..self.clone() }
     }
 
-    /// Draws the next column of every member; `register[q]` is where it goes. A function of its own,
-    /// compiled once, as tables are looked up and not computed side by side.
+    /// Draws the next column of every member; `register[q]` is its destination. A function of its
+    /// own, compiled once, as tables are looked up and not computed side by side.
     #[inline(never)]
     pub(super) fn draw(
         &self,
@@ -83,7 +83,7 @@ impl RankSample {
         let mut shares: Vec<Column> = vec![Column::ZERO; self.ranks.len()];
         let mut drawn = vec![false; self.ranks.len()];
         for (&member, &column) in self.members.iter().zip(&self.columns) {
-            // an output that several inputs name has one value
+            // an output that several inputs use has one value
             if !std::mem::replace(&mut drawn[column], true) {
                 streams[member].uniform(&mut shares[column].0);
             }

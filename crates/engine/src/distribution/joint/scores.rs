@@ -1,6 +1,6 @@
-//! Quantities from standard normal scores: the value at the probability that the score stands for.
-//! Two shapes that are given the same scores share their random numbers, and those of a Gaussian
-//! copula keep their dependence.
+//! Quantities from standard normal scores: the value at the score's probability. Two shapes with
+//! the same scores share their random numbers, and those of a Gaussian copula keep their
+//! dependence.
 
 use std::sync::Arc;
 
@@ -44,7 +44,7 @@ impl FromScore {
         }
     }
 
-    /// Whether both have one shape, at another place or of another width.
+    /// Whether both have the same shape, with another location or width.
     pub fn has_shape_of(&self, other: &Self) -> bool {
         match (&self.function, &other.function) {
             (Function::Score, Function::Score) => true,
@@ -66,8 +66,8 @@ impl FromScore {
         }
     }
 
-    /// The values of the shape in its standard place and width; [`Self::placed`] makes the
-    /// quantity's values of them. Compiled once for each path.
+    /// The values of the shape in its standard location and width; [`Self::placed`] converts them
+    /// to the quantity's values. Compiled once for each code path.
     #[inline(never)]
     pub fn standard_on(&self, path: CodePath, scores: &Column, out: &mut Column) {
         match &self.function {
@@ -118,7 +118,8 @@ mod tests {
     use crate::special;
 
     /// Values are the quantiles at the scores' probabilities: the table's bound of 1e-9 of the
-    /// standard deviation, and the quantile function itself for a t without a variance.
+    /// standard deviation, and the quantile function itself for a t distribution without a
+    /// variance.
     #[test]
     fn values_are_quantiles() {
         let shapes: [Distribution; 4] = [

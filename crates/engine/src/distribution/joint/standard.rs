@@ -1,11 +1,11 @@
-//! What a fit of a joint draw depends on: the shape of a quantity, without its location and width
-//! where many rows of a sweep share it.
+//! The parameters of a fit of a joint draw: the shape of a quantity, without its location and width
+//! if many rows of a sweep share it.
 
 use std::sync::Arc;
 
 use super::super::{Distribution, Rectangular, StudentT};
 
-/// The shape that a quantity is a multiple of.
+/// The shape of which a quantity is a multiple.
 #[derive(Clone, Debug)]
 pub(super) enum Standard {
     /// Known exactly.
@@ -49,7 +49,7 @@ impl Standard {
         }
     }
 
-    /// A quantity of that shape; `None` for those that have no table of their own.
+    /// A quantity of that shape; `None` for shapes without a table.
     pub(super) fn distribution(&self) -> Option<Arc<Distribution>> {
         match self {
             Self::Constant | Self::Normal => None,
@@ -61,8 +61,8 @@ impl Standard {
         }
     }
 
-    /// Where a drawn value of a quantity of that shape lies: the quantity is the first of these
-    /// plus the second times what is drawn.
+    /// Location and scale for drawn values of a quantity of that shape: the quantity is the first
+    /// plus the second times the drawn value.
     pub(super) fn placed(&self, distribution: &Distribution) -> [f64; 2] {
         match (self, distribution) {
             (Self::Own(_), _) => [0.0, 1.0],
@@ -72,7 +72,7 @@ impl Standard {
     }
 }
 
-/// Mean and scale of a quantity that is a multiple of a standard normal one or of a standard t.
+/// Mean and scale of a quantity that is a multiple of a standard normal or standard t quantity.
 pub(super) fn plain(distribution: &Distribution) -> [f64; 2] {
     let scale = match distribution {
         Distribution::Readings(readings) => readings.drawn_scale(),

@@ -4,8 +4,8 @@
 //! b), and the block's numbers follow from it. So any thread can compute any block, a block can be
 //! computed again, and adding or reordering inputs does not change the draws of the others.
 //!
-//! The generator is xoshiro256++ (Blackman and Vigna, 2021) in eight lanes side by side; states are
-//! spread by the finalizer of splitmix64 (Steele, Lea, Flood, 2014). All of it is integer
+//! The generator is xoshiro256++ (Blackman and Vigna, 2021) in eight lanes side by side; the
+//! finalizer of splitmix64 (Steele, Lea, Flood, 2014) spreads the states. All of it is integer
 //! arithmetic and therefore the same on every machine.
 
 #![allow(unsafe_code)] // instructions of a path that the machine has
@@ -25,10 +25,10 @@ pub const BLOCK: usize = 1024;
 
 const LANES: usize = 8;
 
-/// The bits of 1, whose mantissa the generator's bits become.
+/// The bits of 1.0, whose mantissa is replaced by the generator's bits.
 const ONE: u64 = 0x3ff0_0000_0000_0000;
 
-/// 1 - 2^-53: brings the mantissa's [1, 2) to the middle of its cells on (0, 1).
+/// 1 - 2^-53: moves the mantissa's [1, 2) to the middle of its cells on (0, 1).
 const SHIFT: f64 = 0.999_999_999_999_999_9;
 
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
@@ -119,8 +119,8 @@ impl Stream {
         self.fill(out);
     }
 
-    /// As [`Stream::uniform`]. Called, not copied: whoever draws is compiled for each code path, often
-    /// draws in many places, and a call costs nothing beside a column of numbers.
+    /// As [`Stream::uniform`]. Called, not inlined: callers are compiled for each code path, and
+    /// often draw in many places; a call costs nothing compared with a column of numbers.
     #[inline(never)]
     fn fill(&mut self, out: &mut [f64]) {
         #[cfg(target_arch = "x86_64")]
@@ -170,9 +170,9 @@ mod tests {
         assert_ne!(draw(1, "tilt", 7), draw(1, "tilt/resolution", 7));
     }
 
-    /// The lanes are the generator of the reference code: its first outputs from the state
-    /// 1, 2, 3, 4 are published with it (Blackman and Vigna, xoshiro256plusplus.c, and the tests
-    /// of the crate `rand_xoshiro`).
+    /// The lanes reproduce the reference code: its first outputs from the state 1, 2, 3, 4 are
+    /// published with it (Blackman and Vigna, xoshiro256plusplus.c, and the tests of the crate
+    /// `rand_xoshiro`).
     #[test]
     fn lanes_follow_the_reference_generator() {
         let mut stream = Stream {

@@ -6,11 +6,11 @@ use rand_core::{TryRng, utils};
 
 use super::{LANES, Stream, StreamKey};
 
-/// The random words of a stream one by one: a generator for `rand`, `rand_distr` and whatever else
-/// draws from a [`rand_core::Rng`] (version 0.10).
+/// The random words of a stream one by one: a generator for `rand`, `rand_distr` and any other user
+/// of [`rand_core::Rng`] (version 0.10).
 ///
-/// The words are the same on every machine. What another crate makes of them may follow that crate's
-/// version, and the machine where it computes with the standard library's functions.
+/// The words are the same on every machine. Values computed by another crate may depend on its
+/// version, and on the machine if it uses the standard library's functions.
 ///
 /// ```
 /// use gumption_engine::distribution::StreamRng;
@@ -25,13 +25,13 @@ use super::{LANES, Stream, StreamKey};
 pub struct StreamRng {
     stream: Stream,
     words: [u64; LANES],
-    /// How many of the words were handed out.
+    /// Number of words already returned.
     used: usize,
 }
 
 impl StreamRng {
-    /// The generator of a seed and a name. Other seeds and names give independent generators. It
-    /// begins as the first block of the trials of an input of that name does.
+    /// The generator for a seed and a name. Other seeds and names give independent generators. It
+    /// begins as the first block of the trials of an input with that name.
     pub fn new(seed: u64, name: &str) -> Self {
         Self::of(StreamKey::new(seed, name).block(0))
     }
@@ -41,7 +41,7 @@ impl StreamRng {
         Self { stream, words: [0; LANES], used: LANES }
     }
 
-    /// The stream behind the words that were made, whether they were handed out or not.
+    /// The stream after the words that were generated, whether they were returned or not.
     pub(crate) fn into_stream(self) -> Stream {
         self.stream
     }
@@ -77,7 +77,7 @@ mod tests {
 
     use super::*;
 
-    /// The words are those that the uniform numbers of the stream are made of.
+    /// The words are those from which the stream's uniform numbers are made.
     #[test]
     fn words_are_those_of_the_stream() {
         let mut uniform = [0.0; 128];

@@ -1,5 +1,5 @@
-//! The generator's lanes in the machine's vector registers: the compiler takes them apart otherwise.
-//! Integer arithmetic, so the same bits as the plain loops.
+//! The generator's lanes in the machine's vector registers, because the compiler would split them
+//! otherwise. Integer arithmetic, so the bits are the same as in plain loops.
 #![cfg(target_arch = "x86_64")]
 #![allow(unsafe_code)]
 
