@@ -1,4 +1,4 @@
-//! What stands above the results: device, parties, dates.
+//! The part above the results: device, parties, dates.
 
 use super::CertificateReport;
 use super::words::{self, Words, beside};
@@ -17,7 +17,7 @@ pub(super) fn title(report: &CertificateReport<'_>) -> String {
     }
 }
 
-/// Names with what is stated; what is not given is left out.
+/// Names with the stated items; missing ones are left out.
 pub(super) fn sheet(report: &CertificateReport<'_>) -> Sheet {
     let lines = lines(report);
     let mut sheet = Sheet::default();
@@ -65,7 +65,7 @@ pub(super) fn lines(report: &CertificateReport<'_>) -> Vec<(String, String)> {
     add(|w| w.calibrated, period);
     add(|w| w.issued, of.issued.clone());
     let place = PerformanceLocation::ALL.iter().position(|place| *place == of.place).unwrap_or(0);
-    // a certificate with a number says where the calibration was made (ISO/IEC 17025, 7.8.2.1 c)
+    // a certificate with a number states the place of calibration (ISO/IEC 17025, 7.8.2.1 c)
     let stated = place > 0 || of.number.is_some();
     add(|w| w.place, stated.then(|| beside(languages, |w| w.places[place])));
     add(|w| w.environment, of.environment.as_ref().map(local));

@@ -1,4 +1,4 @@
-//! What is decided about rows with a tolerance, in the languages of the certificate (ISO/IEC 17025,
+//! Decisions about rows with a tolerance, in the languages of the certificate (ISO/IEC 17025,
 //! 7.8.6.2: which results, which specification, which rule).
 
 use super::CertificateReport;
@@ -37,7 +37,7 @@ fn said(row: &Stated<'_>, found: &Conformity, of: Said) -> String {
     let words = of.words();
     // a risk that is the probability of conformity of a value that is rejected (JCGM 106, 9.3)
     let chance = if found.conforms { words.conforming } else { words.all_the_same };
-    // an uncertainty that is stated in place of the evaluated one has no trials
+    // a stated uncertainty that replaces the evaluated one has no trials
     let trials = row.found.monte_carlo.as_ref().filter(|_| !row.is_raised());
     let trials = trials.map(|figures| figures.trials);
     let probability = percent(percent_of(found, found.probability, trials), of);
@@ -76,8 +76,8 @@ fn percent(probability: Percent, of: Said) -> String {
     of.words().percent[place].replace("{p}", &of.in_marks(number))
 }
 
-/// What a probability rests on beside the measurement (ISO/IEC 17025, 7.8.6; JCGM 106:2012, 6.3), and
-/// what it is without.
+/// The prior knowledge behind a probability besides the measurement (ISO/IEC 17025, 7.8.6; JCGM
+/// 106:2012, 6.3), and the probability without it.
 fn with_prior(
     row: &Stated<'_>,
     found: &Conformity,
@@ -98,7 +98,7 @@ fn with_prior(
     Some(words.with_prior.replace("{prior}", &about).replace("{p}", &alone))
 }
 
-/// The value that was decided upon, where the one that is stated would show another decision.
+/// The value on which the decision is based, if the stated one would suggest another decision.
 fn unrounded(row: &Stated<'_>, found: &Conformity, of: Said) -> Option<String> {
     let shown = row.statement.rounded_value()?.value();
     let alike = |limits: &Tolerance| limits.holds(shown) == limits.holds(found.estimate);
@@ -111,8 +111,8 @@ fn unrounded(row: &Stated<'_>, found: &Conformity, of: Said) -> Option<String> {
     Some(of.words().unrounded.replace("{value}", &of.in_marks(&value)))
 }
 
-/// A value with one digit more than those that show on which side of limits it lies, whether a reader
-/// takes as many or more of them.
+/// A value with one digit more than needed to show on which side of the limits it lies, whether a
+/// reader uses that many digits or more.
 fn telling(value: f64, limits: &[&Tolerance]) -> f64 {
     let tells = |digits: u32| {
         let shown = to_digits(value, digits);
@@ -122,8 +122,8 @@ fn telling(value: f64, limits: &[&Tolerance]) -> f64 {
     to_digits(value, digits.unwrap_or(15) + 1)
 }
 
-/// What is decided. A value that a guarded rule rejects although it lies within the tolerance is not
-/// shown to conform; that it does not conform is not shown either (JCGM 106:2012, 8.3).
+/// The decision. A value that a guarded rule rejects although it lies within the tolerance is not
+/// shown to conform; its nonconformity is not shown either (JCGM 106:2012, 8.3).
 fn decision(found: &Conformity, words: &Words) -> &'static str {
     let [conforms, not] = words.decisions;
     let [outside, never] = words.not_shown;
@@ -166,7 +166,7 @@ fn rule(row: &Stated<'_>, found: &Conformity, of: Said) -> String {
     filled(words.guarded).replace("{guard}", &guard).replace("{limits}", &accepted)
 }
 
-/// Limits with their unit; to a place if there is one.
+/// Limits with their unit; rounded to a position if it is given.
 fn limits(row: &Stated<'_>, of: &Tolerance, place: Option<i32>, words: &Words) -> String {
     let [both, lower, upper] = words.limits;
     let (low, high) = (of.lower.map(|end| to(end, place)), of.upper.map(|end| to(end, place)));
@@ -188,8 +188,8 @@ fn limits(row: &Stated<'_>, of: &Tolerance, place: Option<i32>, words: &Words) -
 mod tests {
     use super::*;
 
-    /// 10.064 to two digits is beyond 10.06 by chance and to four it is not: it takes the five. So it
-    /// does where the limit lies between 10.055 and the 10.06 of four digits.
+    /// 10.064 with two decimals is beyond 10.06 by rounding, with four digits it is not: it needs
+    /// the five. The same holds if the limit lies between 10.055 and the 10.06 of four digits.
     #[test]
     fn a_value_is_told_with_the_digits_that_decide() {
         let below = |upper: f64| Tolerance { lower: None, upper: Some(upper) };

@@ -23,13 +23,12 @@ const COLUMNS: [&str; 15] = [
     "model",
 ];
 
-/// The last column, where some row has a tolerance.
+/// The last column, if some row has a tolerance.
 const DECISION: &str = "decision";
 
 /// The rows as comma-separated values: value, expanded uncertainty, coverage factor and interval
-/// rounded as they are stated, the standard uncertainty in full; where some row has a tolerance what
-/// is decided about it, `accepted` or `rejected`. An empty cell stands for what is infinite or not
-/// defined.
+/// rounded as stated, the standard uncertainty with all digits; if some row has a tolerance, the
+/// decision `accepted` or `rejected`. An empty cell means infinite or undefined.
 pub fn csv(report: &CertificateReport<'_>) -> String {
     of_records(|writer| {
         let rows = stated::rows(report);

@@ -71,7 +71,7 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
     document
 }
 
-/// The remarks in a language: the laboratory's own, and those that ISO/IEC 17025 asks for.
+/// The remarks in a language: the laboratory's own, and those required by ISO/IEC 17025.
 pub(super) fn remarks(report: &CertificateReport<'_>, language: Language) -> Vec<String> {
     let languages = &report.certificate.languages;
     let remarks = report.certificate.administrative.remarks.iter();
@@ -80,7 +80,7 @@ pub(super) fn remarks(report: &CertificateReport<'_>, language: Language) -> Vec
     remarks.chain(asked.into_iter().map(str::to_owned)).collect()
 }
 
-/// What stands below the lines to be signed on.
+/// The text below the lines for signatures.
 pub(super) fn signature(report: &CertificateReport<'_>) -> [String; 2] {
     let languages = &report.certificate.languages;
     let signer = report.certificate.administrative.responsible.as_ref().map(|name| plain(name));
@@ -89,8 +89,8 @@ pub(super) fn signature(report: &CertificateReport<'_>) -> [String; 2] {
     [place, signature]
 }
 
-/// A remark among those of a language: its text in it, or with those of the first language what is the
-/// same in all of them, or is not written in any.
+/// The laboratory's remark in a language: its text in that language. A text that is the same in all
+/// languages, or missing in all of them, appears with the first one.
 fn own<'r>(remark: &'r Localized, language: Language, languages: &[Language]) -> Option<&'r str> {
     let written = |language: &Language| remark.texts.iter().any(|(of, _)| *of == Some(*language));
     let first = languages.first() == Some(&language);
@@ -98,7 +98,7 @@ fn own<'r>(remark: &'r Localized, language: Language, languages: &[Language]) ->
     stands.then(|| remark.get(language))
 }
 
-/// Every page names the certificate and says which of its pages it is (ISO/IEC 17025, 7.8.2.1 d).
+/// Every page names the certificate and its page number (ISO/IEC 17025, 7.8.2.1 d).
 fn foot(report: &CertificateReport<'_>) -> Foot {
     let languages = report.certificate.languages.as_slice();
     let about = match &report.certificate.administrative.number {
@@ -116,7 +116,7 @@ pub(super) fn provenance(report: &CertificateReport<'_>) -> Vec<String> {
         format!("{}: gumption {}", word(|w| w.program), env!("CARGO_PKG_VERSION")),
         format!("{}: {}", word(|w| w.certificate_file), report.digest),
     ];
-    // folders are the laboratory's own business: a customer's paper has names alone
+    // folders are internal to the laboratory: the customer sees only names
     for (number, model) in report.models.iter().enumerate() {
         let name = plain(file_name(model.name));
         let mut line = format!("{} {name}, SHA-256: {}", word(|w| w.model_file), model.digest);

@@ -1,4 +1,4 @@
-//! Calibration functions as a certificate states them: parameters, and values with U over the range.
+//! Calibration functions on a certificate: parameters, and values with U over the range.
 
 use super::CertificateReport;
 use super::sentences::Said;
@@ -16,7 +16,7 @@ use gumption_engine::decimal::{Decimal, Direction, to_digits};
 /// Decimal place of coverage factors.
 const FACTOR: i32 = -2;
 
-/// A line of the table: abscissa, value and expanded uncertainty, as they are printed.
+/// A line of the table: abscissa, value and expanded uncertainty, as printed.
 pub(super) struct At {
     pub(super) x: Figure,
     pub(super) value: Figure,
@@ -45,7 +45,7 @@ pub(super) fn stated(report: &CertificateReport<'_>, of: &StatedFunction) -> Vec
     fits::places(curve, STATED).map(at).collect()
 }
 
-/// The coverage factor as it is printed.
+/// The coverage factor as printed.
 pub(super) fn factor(of: &StatedFunction) -> String {
     rounded(fits::factor(&of.curve, of.coverage), FACTOR)
 }
@@ -58,7 +58,7 @@ pub(super) fn title(of: &StatedFunction, languages: &[Language]) -> String {
     beside(languages, |w| w.function).replace("{name}", &name)
 }
 
-/// The equation with its range, and what U is.
+/// The equation with its range, and the meaning of U.
 pub(super) fn sentences(of: &StatedFunction, said: Said) -> [String; 2] {
     let words = said.words();
     let [low, high] = of.curve.fit.points.range().map(|end| said.in_marks(&exact(end)));
@@ -68,8 +68,8 @@ pub(super) fn sentences(of: &StatedFunction, said: Said) -> [String; 2] {
     [range, words.band.replace("{k}", &said.in_marks(&factor(of)))]
 }
 
-/// Parameters with their standard uncertainties, to one digit more than a certificate has, so that the
-/// function can be computed from them.
+/// Parameters with their standard uncertainties, to one digit more than usual on a certificate, so
+/// that the function can be computed from them.
 pub(super) fn parameters(report: &CertificateReport<'_>, of: &StatedFunction) -> Sheet {
     let languages = &report.certificate.languages;
     let (fit, digits) = (&*of.curve.fit, report.certificate.digits + 1);

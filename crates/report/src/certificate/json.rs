@@ -15,9 +15,8 @@ use gumption_engine::propagate::gum::Dof;
 use gumption_engine::task::Trials;
 use serde_json::Value;
 
-/// The certificate as JSON, keys in a fixed order; `null` stands for what is infinite or not defined.
-/// `stated` has the texts that every format prints, the other figures have full precision. It ends in
-/// a newline.
+/// The certificate as JSON, keys in a fixed order; `null` means infinite or undefined. `stated` has
+/// the texts that every format prints, the other numbers have all digits. It ends in a newline.
 pub fn json(report: &CertificateReport<'_>) -> String {
     let CertificateReport { certificate, issued, .. } = report;
     let languages = &certificate.languages;
@@ -88,7 +87,7 @@ fn measured(report: &CertificateReport<'_>) -> Value {
     list(models)
 }
 
-/// A calibration function: its parameters in full precision, and what is stated.
+/// A calibration function: its parameters with all digits, and the stated values.
 fn function(report: &CertificateReport<'_>, of: &StatedFunction) -> Value {
     let languages = &report.certificate.languages;
     let stated = functions::stated(report, of);

@@ -1,7 +1,8 @@
 //! The measurement behind the results: its equations and what their symbols mean.
 //!
-//! The paper is the customer's. What a model says of its inputs may name a laboratory's own files;
-//! such words are left out, and so are estimates and uncertainties of inputs, which are the budget's.
+//! The certificate is for the customer. A model's descriptions of inputs may name internal files of
+//! the laboratory; such words are left out, and so are estimates and uncertainties of inputs, which
+//! belong to the budget.
 
 use super::units::{printed_formula, printed_text};
 use super::words::{Words, beside, stacked};
@@ -12,24 +13,24 @@ use crate::sheet::{Kind, Sheet};
 use crate::statement;
 use gumption_engine::task::Task;
 
-/// Symbols that are explained, at most: a paper for a customer is no list of variables.
+/// Maximum number of explained symbols: a certificate is not a list of variables.
 const MOST_SYMBOLS: usize = 40;
 
-/// What stands for words that are not the customer's.
+/// The replacement for words that are not for the customer.
 const LEFT_OUT: &str = "…";
 
-/// What a model computes, as the certificate states it.
+/// The equations of a model, as stated on the certificate.
 #[derive(PartialEq, Eq)]
 pub(super) struct Stated {
     /// Quantities with their equations, in the order in which they are computed.
     pub(super) equations: Vec<[String; 2]>,
-    /// Symbols with their meaning, which may be empty, and unit; where they are very many those that have
-    /// a meaning, and none where these are as well.
+    /// Symbols with their meaning, which may be empty, and unit. If there are very many, only those
+    /// with a meaning, and none if these are too many as well.
     pub(super) symbols: Vec<[String; 3]>,
 }
 
-/// What is stated of each model file, by its place among those of the certificate. Models that would
-/// state the same stand once; those without equations, and those of columns of data, not at all.
+/// The statement about each model file, by its index in the certificate. Models with the same
+/// statement appear once; models without equations, and models of columns of data, are left out.
 pub(super) fn stated(report: &CertificateReport<'_>) -> Vec<(usize, Stated)> {
     let mut found: Vec<(usize, Stated)> = Vec::new();
     if !report.certificate.equations {
@@ -56,7 +57,7 @@ impl Stated {
         let symbols: Vec<[String; 3]> = quantities
             .map(|of| [plain(&of.name), meaning(&of.about), plain(of.unit.text())])
             .collect();
-        // where they are very many, those alone of which something is said
+        // if there are very many, only those with a description
         let many = symbols.len() > MOST_SYMBOLS;
         let told = |of: &[String; 3]| !of[1].is_empty();
         let symbols: Vec<[String; 3]> =
@@ -104,7 +105,7 @@ pub(super) fn sections(document: &mut Document, report: &CertificateReport<'_>) 
     }
 }
 
-/// The first sentence of what is said of a quantity.
+/// The first sentence of the description of a quantity.
 fn meaning(about: &str) -> String {
     let words: Vec<&str> = about.split_whitespace().collect();
     let whole = words.join(" ");
@@ -118,7 +119,7 @@ fn meaning(about: &str) -> String {
     plain(&before_files(whole[..end].trim_end_matches('.')))
 }
 
-/// The clauses of a sentence before the first that names a file.
+/// The clauses of a sentence before the first one that names a file.
 fn before_files(sentence: &str) -> String {
     let clauses = sentence.split_inclusive([',', ';', '(']);
     let kept: String = clauses.take_while(|clause| !name_file(clause)).collect();
@@ -127,7 +128,7 @@ fn before_files(sentence: &str) -> String {
     if whole { sentence.to_owned() } else { cut.to_owned() }
 }
 
-/// A formula without the names of files that stand in its quotes.
+/// A formula without the names of files in its quotes.
 fn without_files(formula: &str) -> String {
     let parts: Vec<&str> = formula.split('"').collect();
     let part = |(number, part): (usize, &&str)| {
@@ -137,13 +138,14 @@ fn without_files(formula: &str) -> String {
     parts.iter().enumerate().map(part).collect::<Vec<_>>().join("\"")
 }
 
-/// Whether one of the words is a file's.
+/// Whether one of the words is the name of a file.
 fn name_file(words: &str) -> bool {
     let apart = |of: char| of.is_whitespace() || "\"'`,;()[]<>".contains(of);
     words.split(apart).any(names_file)
 }
 
-/// Whether a word is the name or the path of a file: a folder, or an ending that is no number.
+/// Whether a word is the name or the path of a file: a folder, or an extension that is not a
+/// number.
 fn names_file(word: &str) -> bool {
     let word = word.trim_end_matches(['.', ':', '!', '?']);
     let folder = word.contains('\\')
@@ -154,7 +156,7 @@ fn names_file(word: &str) -> bool {
     folder || ending
 }
 
-/// Endings of the files that laboratories keep their data and papers in.
+/// Extensions of files with data and documents of laboratories.
 const ENDINGS: [&str; 17] = [
     "csv", "dat", "doc", "docx", "json", "md", "ods", "odt", "pdf", "tsv", "tex", "txt", "xls",
     "xlsm", "xlsx", "xml", "yaml",

@@ -1,4 +1,4 @@
-//! Calibration certificates, one file for each format; all of them state the same rounded figures.
+//! Calibration certificates, one file for each format; all of them state the same rounded results.
 
 mod administrative;
 mod conformity;
@@ -29,14 +29,14 @@ use gumption_analysis::certificate::Issued;
 use gumption_analysis::certificate::contents::Certificate;
 use gumption_engine::task::Warning;
 
-/// Everything that a certificate may show.
+/// The contents of a certificate.
 #[derive(Clone, Copy, Debug)]
 pub struct CertificateReport<'a> {
     /// What was asked for.
     pub certificate: &'a Certificate,
     /// The results.
     pub issued: &'a Issued,
-    /// The model files, in the order of the certificate's.
+    /// The model files, in the certificate's order.
     pub models: &'a [ModelSource<'a>],
     /// The text of the certificate file.
     pub text: &'a str,
@@ -49,13 +49,13 @@ pub struct CertificateReport<'a> {
 /// A model file of a certificate.
 #[derive(Clone, Debug)]
 pub struct ModelSource<'a> {
-    /// The name, as the certificate file has it.
+    /// The name in the certificate file.
     pub name: &'a str,
     /// Its text.
     pub text: &'a str,
     /// Its SHA-256, in hexadecimal.
     pub digest: String,
-    /// The content of the tables that it reads, by name.
+    /// The contents of the tables that it reads, by name.
     pub tables: &'a [(String, Vec<u8>)],
     /// SHA-256 of every one of them, by name.
     pub files: Vec<(String, String)>,
@@ -89,7 +89,7 @@ pub fn latex(report: &CertificateReport<'_>) -> String {
     look::latex(&document::of(report))
 }
 
-/// The certificate as one HTML file that needs nothing else.
+/// The certificate as one self-contained HTML file.
 pub fn html(report: &CertificateReport<'_>) -> String {
     look::html(&document::of(report))
 }

@@ -1,4 +1,4 @@
-//! Coverage regions of results that stand on the certificate (JCGM 102:2011, 6.5).
+//! Coverage regions of results on the certificate (JCGM 102:2011, 6.5).
 
 use super::CertificateReport;
 use super::stated::{self, Stated};
@@ -12,8 +12,8 @@ pub(super) struct Covered<'a> {
     pub(super) region: &'a RegionEvaluation,
 }
 
-/// The regions all of whose outputs are stated. Where a row was raised to the laboratory's capability
-/// none is: it would be narrower than what the laboratory may state.
+/// The regions whose outputs are all stated. If a row was raised to the laboratory's capability,
+/// there is none: it would be narrower than the laboratory may state.
 pub(super) fn covered<'a>(report: &CertificateReport<'a>) -> Vec<Covered<'a>> {
     let rows = stated::rows(report);
     let mut found: Vec<Covered<'a>> = Vec::new();
@@ -39,8 +39,8 @@ pub(super) fn covered<'a>(report: &CertificateReport<'a>) -> Vec<Covered<'a>> {
 }
 
 impl Covered<'_> {
-    /// The region that is stated: by the law of propagation unless the trials contradict it
-    /// (JCGM 102:2011, clause 8).
+    /// The stated region: by the law of propagation unless the trials contradict it (JCGM 102:2011,
+    /// clause 8).
     pub(super) fn joint(&self) -> Option<&JointRegion> {
         let trials = self.region.monte_carlo.as_ref().map(|found| &found.region);
         let refuted = self.region.validation.as_ref().is_some_and(|of| !of.gum_valid);

@@ -1,4 +1,4 @@
-//! The sentences that a certificate's uncertainties ask for.
+//! The sentences required for a certificate's uncertainties.
 
 use super::CertificateReport;
 use super::stated::{self, Stated};
@@ -16,14 +16,14 @@ pub(super) struct Said {
 }
 
 impl Said {
-    /// The languages of a page: all of its numbers have one decimal mark.
+    /// The languages of a page, whose numbers all have the same decimal mark.
     pub(super) fn on_page(report: &CertificateReport<'_>) -> Vec<Self> {
         let Certificate { languages, decimal_mark, .. } = report.certificate;
         languages.iter().map(|language| Self { language: *language, mark: *decimal_mark }).collect()
     }
 
-    /// A language by itself, with the decimal mark that is usual in it; unless the certificate has
-    /// another one than its first language, which was asked for then.
+    /// A language on its own, with its usual decimal mark, unless the certificate was explicitly
+    /// given another one than that of its first language.
     pub(super) fn by_itself(report: &CertificateReport<'_>, language: Language) -> Self {
         let Certificate { languages, decimal_mark, .. } = report.certificate;
         let usual = languages.first().is_none_or(|first| first.decimal_mark() == *decimal_mark);
@@ -43,9 +43,10 @@ impl Said {
 /// Where sentences stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Beside {
-    /// A table, which has the degrees of freedom.
+    /// A table, which contains the degrees of freedom.
     Table,
-    /// Numbers in D-SI, which have a coverage probability for every factor, and none.
+    /// Numbers in D-SI, which have a coverage probability for every factor, but no degrees of
+    /// freedom.
     Dsi,
 }
 
@@ -53,7 +54,7 @@ pub(super) enum Beside {
 pub(super) fn coverage(report: &CertificateReport<'_>, of: Said, beside: Beside) -> Vec<String> {
     let words = of.words();
     let rows = stated::rows(report);
-    // the numbers of the rows whose factor is agreed, and whose probability is stated all the same
+    // the numbers of the rows with an agreed factor whose probability is stated as well
     let agreed: Vec<usize> = match beside {
         Beside::Table => Vec::new(),
         Beside::Dsi => {
@@ -76,7 +77,8 @@ pub(super) fn coverage(report: &CertificateReport<'_>, of: Said, beside: Beside)
     for kind in kinds(&rows, &agreed) {
         say(&kind.sentence(of), &|row| kind.holds(row, &agreed));
     }
-    // an uncertainty that is the laboratory's capability was not evaluated so, nor confirmed
+    // an uncertainty equal to the laboratory's capability was neither evaluated nor confirmed in
+    // this way
     say(words.propagation, &|row| !row.statement.of_distribution && !raised(row));
     for (probability, factor, is_about_95) in raised_to(&rows) {
         let template = words.raised[usize::from(probability.is_none())];
@@ -116,8 +118,8 @@ pub(super) fn in_marks(mark: DecimalMark, numbers: &str) -> String {
     }
 }
 
-/// The coverage probabilities and factors of rows whose uncertainty is the laboratory's capability, and
-/// whether they are about those of capabilities.
+/// The coverage probabilities and factors of rows whose uncertainty is the laboratory's capability,
+/// and whether they refer to capabilities.
 fn raised_to(rows: &[Stated<'_>]) -> Vec<(Option<f64>, String, bool)> {
     let mut found = Vec::new();
     for row in rows.iter().filter(|row| row.is_raised()) {
@@ -151,9 +153,9 @@ struct Kind {
     probability: Option<f64>,
     /// Whether an interval is from figures without the noise of trials.
     without_trials: bool,
-    /// The factor, where the sentence names it.
+    /// The factor, if the sentence names it.
     factor: Option<String>,
-    /// Whether an agreed factor stands with its probability.
+    /// Whether an agreed factor is stated with its probability.
     agreed: bool,
 }
 
@@ -190,7 +192,7 @@ impl Kind {
 
 fn kinds(rows: &[Stated<'_>], agreed: &[usize]) -> Vec<Kind> {
     let mut kinds: Vec<Kind> = Vec::new();
-    // a capability is no multiple of an evaluated uncertainty
+    // a capability is not a multiple of an evaluated uncertainty
     let evaluated = rows.iter().filter(|row| !row.is_raised());
     for kind in evaluated.map(|row| Kind::of(row, agreed)) {
         if !kinds.contains(&kind) {
@@ -200,7 +202,7 @@ fn kinds(rows: &[Stated<'_>], agreed: &[usize]) -> Vec<Kind> {
     kinds
 }
 
-/// "approximately 95 %" for 0.9545, which accreditation practice prints so (EA-4/02, 5.1).
+/// "approximately 95 %" for 0.9545, as accreditation practice prints it (EA-4/02, 5.1).
 fn probability(of: Said, p: Option<f64>) -> String {
     match p {
         Some(0.9545) => of.words().approximately.replace("{p}", "95 %"),

@@ -11,7 +11,7 @@ use crate::sheet::{Figure, Sheet};
 use gumption_engine::model::Quantity;
 use gumption_engine::number::elementary::log10;
 
-/// Rows up to which a page shows the matrix of their correlation coefficients.
+/// Maximum number of rows for which a page shows the matrix of correlation coefficients.
 pub(super) const MOST_CORRELATED: usize = 12;
 
 /// Decimal place of correlation coefficients (JCGM 100, 7.2.6).
@@ -36,7 +36,7 @@ pub(super) fn results(report: &CertificateReport<'_>) -> Sheet {
         rows.iter().map(|row| plain(printed(&row.quantity.unit).text())),
     );
     sheet.figures("k", rows.iter().map(Stated::factor));
-    // degrees of freedom play a part only where k follows from them
+    // degrees of freedom matter only if k follows from them
     if rows.iter().any(|row| !row.dof().text.is_empty()) {
         sheet.figures("ν_eff", rows.iter().map(Stated::dof));
     }
@@ -56,11 +56,11 @@ pub(super) fn results(report: &CertificateReport<'_>) -> Sheet {
     sheet
 }
 
-/// Conditions up to which each has a column of its own.
+/// Maximum number of conditions with a column of their own.
 const MOST_COLUMNS: usize = 3;
 
-/// A column for each condition, empty where a row does not have it, and one for what is replaced; if
-/// there are many conditions, a column of all in words.
+/// A column for each condition, empty for rows without it, and one for replacements; for many
+/// conditions, one column with all in words.
 fn conditions(
     sheet: &mut Sheet,
     report: &CertificateReport<'_>,
@@ -109,8 +109,8 @@ fn conditions(
     }
 }
 
-/// The upper triangle of the correlation coefficients between the rows, with the standard uncertainties
-/// that they go with.
+/// The upper triangle of the correlation coefficients between the rows, with the standard
+/// uncertainties to which they belong.
 pub(super) fn correlations(report: &CertificateReport<'_>) -> Sheet {
     let matrix = &report.issued.correlations;
     let count = matrix.len();
@@ -134,7 +134,7 @@ pub(super) fn correlations(report: &CertificateReport<'_>) -> Sheet {
     sheet
 }
 
-/// A coefficient; what is nearly 1 keeps the digits in which it differs from it.
+/// A correlation coefficient; one close to 1 keeps the digits in which it differs from 1.
 fn coefficient(r: f64) -> Figure {
     let apart = 1.0 - r.abs();
     let place = if apart > 1e-9 && apart < 0.01 {

@@ -24,15 +24,15 @@ const SCATTER: f64 = 6.0;
 /// Significant digits of percentages; more would show binary rounding.
 const PERCENT_DIGITS: u32 = 12;
 
-/// Degrees of freedom that are printed as infinitely many.
+/// Larger degrees of freedom are printed as infinite.
 const MOST_DOF: f64 = 10_000.0;
 
-/// How units are written in words.
+/// The notation of units in words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum UnitsAre {
     /// As print has them.
     Printed,
-    /// As the model file has them.
+    /// As in the model file.
     OfFile,
 }
 
@@ -120,13 +120,13 @@ impl Stated<'_> {
         self.statement.rounded.map_or_else(|| Figure::of(0.0, "0".to_owned()), figure)
     }
 
-    /// What is decided about a tolerance, with the uncertainty that is stated (ISO/IEC 17025, 7.8.6).
+    /// The decision about a tolerance, with the stated uncertainty (ISO/IEC 17025, 7.8.6).
     pub(super) fn conformity(&self) -> Option<Conformity> {
         let output = self.asked.task.model.outputs.get(self.line.output)?;
         let output = &*output.at(self.conditions);
         if !self.is_raised() {
             let own = self.found.conformity.as_deref();
-            // the row may have another capability than the output
+            // the capability of the row may differ from that of the output
             return match own.filter(|own| own.stated_uncertainty.is_none()) {
                 Some(own) => Some(*own),
                 None => Conformity::evaluated(output, self.found, &self.asked.task.settings),
@@ -141,15 +141,15 @@ impl Stated<'_> {
         self.statement.limit.is_some_and(|limit| limit.raised)
     }
 
-    /// Whether rounding by the rule of the certificate would have brought U below the capability.
+    /// Whether rounding by the rule of the certificate would have reduced U below the capability.
     pub(super) fn is_kept(&self, report: &CertificateReport<'_>) -> bool {
         let Certificate { digits, rounding, .. } = *report.certificate;
         let by_rule = expanded(self.statement.expanded_uncertainty, digits, rounding);
         by_rule.map(Decimal::value) != self.statement.rounded.map(Decimal::value)
     }
 
-    /// The ends of the interval, where there is one that may be stated: not one that is narrower than
-    /// the laboratory's capability.
+    /// The endpoints of the interval, if it may be stated: it must not be narrower than the
+    /// laboratory's capability.
     pub(super) fn interval(&self, report: &CertificateReport<'_>) -> Option<[Figure; 2]> {
         let ends = self.statement.interval.filter(|_| !self.is_raised())?;
         let rounded = self.statement.rounded_interval(report.certificate.rounding);
@@ -165,24 +165,24 @@ impl Stated<'_> {
         Figure::of(to_position(factor, place), rounded(factor, place))
     }
 
-    /// The last digit of the coverage factor: with trials the one that another seed would not change,
-    /// or like rows would seem to differ.
+    /// The last digit of the coverage factor: with trials, a digit that another seed would not
+    /// change, so that similar rows do not seem to differ.
     fn factor_place(&self) -> i32 {
         let trials = self.found.monte_carlo.as_ref();
         let (Basis::Shortest, Some(trials)) = (self.statement.basis, trials) else { return FACTOR };
-        // figures without noise are those of every seed
+        // results without noise do not depend on the seed
         if self.statement.without_trials {
             return FACTOR;
         }
         let interval = trials.stated_interval();
         let farther = interval.errors.into_iter().fold(0.0, f64::max);
         let error = farther / self.statement.standard_uncertainty;
-        // an error that is not known leaves the digits as they are
+        // if the error is unknown, the digits are unchanged
         let unsettled = |place: &i32| SCATTER * error > Decimal::new(1, *place).value();
         (FACTOR..0).find(|place| !unsettled(place)).unwrap_or(0)
     }
 
-    /// Effective degrees of freedom, where k follows from them.
+    /// Effective degrees of freedom, if k follows from them.
     pub(super) fn dof(&self) -> Figure {
         if self.statement.basis != Basis::Student || self.is_raised() {
             return Figure { text: String::new(), value: None };
@@ -204,9 +204,9 @@ impl Stated<'_> {
         }
     }
 
-    /// The coverage probability that the interval has: the stated one, or that of an agreed factor by the t
-    /// distribution with the effective degrees of freedom. `None` where these are not defined, or trials
-    /// show another distribution.
+    /// The actual coverage probability of the interval: the stated one, or that of an agreed factor
+    /// by the t distribution with the effective degrees of freedom. `None` if these are not
+    /// defined, or if trials show another distribution.
     pub(super) fn reached(&self) -> Option<f64> {
         if self.statement.basis != Basis::Fixed {
             return self.statement.coverage_probability;
@@ -242,7 +242,7 @@ impl Stated<'_> {
         Figure::rounded(self.line.nominal, exact)
     }
 
-    /// The conditions that the table shows, with their values.
+    /// The conditions in the table, with their values.
     pub(super) fn shown(&self, report: &CertificateReport<'_>) -> Vec<(&Quantity, f64)> {
         let shown = &report.certificate.shown;
         let conditions = self.asked.task.model.conditions.iter().zip(self.conditions);
@@ -252,8 +252,8 @@ impl Stated<'_> {
             .collect()
     }
 
-    /// Replacements and shown conditions in words, on one line; a row with a label of its own says
-    /// nothing of replacements.
+    /// Replacements and shown conditions in words, on one line; a row with its own label does not
+    /// mention replacements.
     pub(super) fn circumstances(
         &self,
         report: &CertificateReport<'_>,
@@ -293,8 +293,8 @@ impl Stated<'_> {
     }
 }
 
-/// A coverage probability in percent, to three decimals or two digits of what is missing from 100: 99.73
-/// and 99.9937 of the factors 3 and 4.
+/// A coverage probability in percent, to three decimals or two digits of the difference from 100:
+/// 99.73 and 99.9937 for the factors 3 and 4.
 pub(super) fn percent_of_coverage(share: f64) -> f64 {
     let missing = position(100.0 - 100.0 * share, 2).unwrap_or(-3);
     to_position(100.0 * share, missing.min(-3))

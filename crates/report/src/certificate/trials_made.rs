@@ -1,9 +1,10 @@
-//! How many Monte Carlo trials the rows of a certificate rest on: a run goes on where clause 8 is
-//! undecided, so that it may be more than were asked for.
+//! The number of Monte Carlo trials behind the rows of a certificate: a run continues while clause
+//! 8 is undecided, so it may exceed the requested number.
 
 use super::CertificateReport;
 
-/// The fewest and the most trials of the rows of a model file, counted from 0; `None` without any.
+/// The smallest and the largest number of trials for the rows of a model file, counted from 0;
+/// `None` without trials.
 pub(super) fn of_file(report: &CertificateReport<'_>, file: usize) -> Option<[u64; 2]> {
     let asked = report.certificate.evaluations.iter().zip(&report.issued.evaluations);
     let rows = asked.filter(|(asked, _)| asked.file == file).flat_map(|(_, found)| &found.rows);

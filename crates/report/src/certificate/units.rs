@@ -1,13 +1,13 @@
-//! Units as print has them: `µL` for `uL`, `Ω` for `ohm`, `°C` for `degC`. JSON and CSV keep the text of
-//! the model file.
+//! Units in typographic notation: `µL` for `uL`, `Ω` for `ohm`, `°C` for `degC`. JSON and CSV keep
+//! the text of the model file.
 
 use gumption_units::{Factor, FactorBase, Unit};
 
-/// Symbols that files have in letters of any keyboard, and those of the SI brochure.
+/// Symbols in letters of any keyboard, as in files, and those of the SI brochure.
 const SYMBOLS: [(&str, &str); 4] =
     [("ohm", "Ω"), ("degC", "°C"), ("degF", "°F"), ("dBuV", "dB\u{b5}V")];
 
-/// A unit as print has it: the same unit, written as the file has it but for its symbols.
+/// A unit in typographic notation: the same unit, written as in the file apart from its symbols.
 pub(super) fn printed(unit: &Unit) -> Unit {
     let mut text = String::new();
     let mut rest = unit.text();
@@ -18,17 +18,17 @@ pub(super) fn printed(unit: &Unit) -> Unit {
         text += &factor_of(unit, run).map_or_else(|| run.to_owned(), symbol);
         rest = behind;
     }
-    // a unit that the file defines is known to it alone
+    // a unit that the file defines is known only to the file
     Unit::parse(&text).unwrap_or_else(|_| unit.clone())
 }
 
-/// The factor whose symbol some letters are.
+/// The factor with this symbol.
 fn factor_of<'u>(unit: &'u Unit, letters: &str) -> Option<&'u Factor> {
     let name = letters.replace(['\u{b5}', '\u{3bc}'], "u");
     unit.factors().iter().find(|factor| factor.base.to_string() == name)
 }
 
-/// The symbol of a factor behind its prefix.
+/// The symbol of a factor without its prefix.
 fn symbol(factor: &Factor) -> String {
     let FactorBase::Named { prefix, symbol } = factor.base else {
         return factor.base.to_string();
@@ -41,12 +41,12 @@ fn symbol(factor: &Factor) -> String {
     format!("{prefix}{}", known.map_or(symbol.name(), |(_, printed)| printed))
 }
 
-/// A unit's text as print has it; what is no unit stays.
+/// A unit's text in typographic notation; a text that is not a unit is unchanged.
 pub(super) fn printed_text(text: &str) -> String {
     Unit::parse(text).map_or_else(|_| text.to_owned(), |unit| printed(&unit).text().to_owned())
 }
 
-/// A value as files write it, `20 degC`, with its unit as print has it.
+/// A value as in files, `20 degC`, with its unit in typographic notation.
 pub(super) fn printed_value(value: &str) -> String {
     match value.trim().split_once(' ') {
         Some((number, unit)) if number.parse::<f64>().is_ok() => {
@@ -56,7 +56,7 @@ pub(super) fn printed_value(value: &str) -> String {
     }
 }
 
-/// A formula with the units of its literals, `20 [degC]`, as print has them.
+/// A formula with the units of its literals, `20 [degC]`, in typographic notation.
 pub(super) fn printed_formula(formula: &str) -> String {
     let mut parts = formula.split('[');
     let mut made = parts.next().unwrap_or_default().to_owned();
@@ -88,7 +88,7 @@ mod tests {
             ("kΩ", "kΩ"),
             ("nV/Hz^(1/2)", "nV/Hz^(1/2)"),
             ("umol mol^-1", "µmol mol^-1"),
-            // the unified atomic mass unit is no prefix
+            // the unified atomic mass unit is not a prefix
             ("u", "u"),
             ("deg", "deg"),
             ("1", "1"),

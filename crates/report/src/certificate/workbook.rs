@@ -10,11 +10,12 @@ use super::{
 use crate::fits;
 use crate::workbook::{Book, failed};
 
-/// The certificate as a workbook: a sheet with the certificate, whose cells hold the stated figures,
-/// one with the figures before rounding, and one with the correlation coefficients of the rows.
+/// The certificate as a workbook: a sheet with the certificate, whose cells hold the stated
+/// numbers, one with the numbers before rounding, and one with the correlation coefficients of the
+/// rows.
 ///
 /// # Errors
-/// Those of the format, such as too many rows.
+/// The format has limits, such as the number of rows.
 pub fn xlsx(report: &CertificateReport<'_>) -> io::Result<Vec<u8>> {
     let languages = &report.certificate.languages;
     let title = administrative::title(report);

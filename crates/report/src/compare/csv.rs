@@ -3,7 +3,7 @@
 use super::Compare;
 use crate::csv::{number, of_records, text};
 
-/// The rows as comma-separated values; of laboratories those of the degrees of equivalence.
+/// The rows as comma-separated values; for laboratories those of the degrees of equivalence.
 pub fn csv(compare: &Compare) -> String {
     let mut records: Vec<Vec<String>> = Vec::new();
     let header = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();

@@ -18,7 +18,7 @@ const ROW: f64 = 24.0;
 const LEFT: f64 = 170.0;
 const RIGHT: f64 = 24.0;
 
-/// A row of the figure: name, value, expanded uncertainty, and whether it stands out.
+/// A row of the figure: name, value, expanded uncertainty, and whether it is highlighted.
 type Bar = (String, f64, f64, bool);
 
 /// Values of laboratories with their U and the reference band, or differences with their U and
@@ -26,7 +26,7 @@ type Bar = (String, f64, f64, bool);
 pub(super) fn draw(compare: &Compare) -> Drawing {
     match compare {
         Compare::Pairs { compared, units, .. } => {
-            // differences in several units have no one axis
+            // differences in several units have no common axis
             let unit = units.first().filter(|first| units.iter().all(|unit| unit == *first));
             let bars = compared
                 .iter()

@@ -34,7 +34,7 @@ pub fn json(compare: &Compare, warnings: &[Warning]) -> String {
     }
 }
 
-/// A unit; null where none is known.
+/// A unit; null if it is unknown.
 fn known(unit: &str) -> Value {
     if unit.is_empty() { Value::Null } else { unit.into() }
 }

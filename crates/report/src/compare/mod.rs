@@ -22,16 +22,16 @@ pub enum Compare {
         pairs: Vec<ResultPair>,
         /// Their comparisons, in the same order.
         compared: Vec<ComparedPair>,
-        /// Their units, in the same order; an empty text where none is known.
+        /// Their units, in the same order; empty if unknown.
         units: Vec<String>,
-        /// Whether the range that printed digits allow is asked for.
+        /// Whether the range that printed digits allow is requested.
         rounding: bool,
     },
     /// The results of many laboratories.
     Laboratories {
         /// The comparison.
         comparison: Comparison,
-        /// The unit of all of them; an empty text where none is stated.
+        /// The unit of all of them; empty if none is stated.
         unit: String,
     },
 }

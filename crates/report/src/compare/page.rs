@@ -20,7 +20,7 @@ fn sheet(compare: &Compare) -> Sheet {
     }
 }
 
-/// What every estimator gives, of laboratories.
+/// The values of every estimator, for laboratories.
 fn estimators(compare: &Compare) -> Option<(Sheet, String)> {
     match compare {
         Compare::Pairs { .. } => None,
@@ -40,7 +40,7 @@ fn notes(compare: &Compare) -> Vec<Cow<'static, str>> {
     }
 }
 
-/// The comparison as a page of text.
+/// The comparison as a text page.
 pub fn table(compare: &Compare) -> String {
     let paragraphs = |of: &[&str]| of.iter().map(|text| wrapped(text)).collect::<String>();
     let verdict = words::verdict(compare);
@@ -54,7 +54,7 @@ pub fn table(compare: &Compare) -> String {
     parts.join("\n")
 }
 
-/// The comparison as one HTML file that needs nothing else.
+/// The comparison as one self-contained HTML file.
 pub fn html(compare: &Compare, warnings: &[Warning]) -> String {
     let title = words::title(compare);
     let drawing = figure::draw(compare);

@@ -16,12 +16,12 @@ const PROBABILITY: i32 = -3;
 /// Significant digits of expanded uncertainties.
 const DIGITS: u32 = 2;
 
-/// Whether there is anything to write behind a number.
+/// Whether there is a unit to write after a number.
 pub(super) fn has_name(unit: &str) -> bool {
     !matches!(unit.trim(), "" | "1")
 }
 
-/// A number with the unit behind it, if that has a name.
+/// A number followed by the unit, unless the unit is 1.
 pub(super) fn in_unit(number: &str, unit: &str) -> String {
     if has_name(unit) { format!("{number} {}", plain(unit)) } else { number.to_owned() }
 }

@@ -16,7 +16,7 @@ pub(super) const PAIRS: &str = "En is the modulus of the difference over its exp
 pub(super) const ROUNDING: &str = "En by the digits: what values and uncertainties that print alike \
     allow.";
 
-/// What the figures of laboratories are.
+/// A sentence about the results of laboratories.
 pub(super) fn laboratories(comparison: &Comparison) -> String {
     let made = match comparison.estimator {
         Estimator::WeightedMean => {
@@ -52,7 +52,7 @@ pub(super) fn recommended(comparison: &Comparison) -> String {
     sentence(consensus::recommended(&comparison.all).1)
 }
 
-/// What was done to the stated uncertainties.
+/// The increase of the stated uncertainties.
 fn added(comparison: &Comparison, unit: &str) -> Option<String> {
     let own = comparison.estimators.iter().find(|of| of.estimator == comparison.estimator)?;
     match own.estimator {
@@ -171,8 +171,8 @@ fn of_laboratories(comparison: &Comparison, unit: &str) -> Vec<String> {
     .collect()
 }
 
-/// That other subsets would do as well, and that the order of the rows has decided; empty where none
-/// would.
+/// A sentence that other subsets are equally good, and that the order of the rows decided; empty if
+/// there are none.
 fn ties(comparison: &Comparison) -> String {
     let ties = &comparison.ties;
     if ties.count == 0 {
@@ -208,8 +208,8 @@ fn ties(comparison: &Comparison) -> String {
     )
 }
 
-/// That another estimator is to be taken than the one that the figures are from, and how; empty where
-/// it is that one.
+/// A recommendation of another estimator, and the option for it; empty if the recommended one is
+/// used.
 fn advice(comparison: &Comparison) -> String {
     let (advised, _) = consensus::recommended(&comparison.all);
     if advised == comparison.estimator {

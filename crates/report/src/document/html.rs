@@ -5,7 +5,8 @@ use maud::{Markup, html};
 use super::{Block, Document};
 use crate::html::{FigureSize, bare_figure, figure, page_in, raised, table};
 
-/// Sections of a page with contents: fewer are seen at once, more are no help.
+/// Numbers of sections for which a page has a table of contents: fewer are visible at once, more do
+/// not help.
 const LISTED: std::ops::RangeInclusive<usize> = 8..=60;
 
 /// The whole page.
@@ -21,14 +22,14 @@ pub(crate) fn html(document: &Document) -> String {
     page_in(language, &document.title, &document.foot(), &body)
 }
 
-/// What has been numbered so far.
+/// Counters of figures and tables.
 #[derive(Clone, Copy, Debug, Default)]
 struct Counts {
     sections: usize,
     figures: usize,
 }
 
-/// The titles of the sections with links, where there are many.
+/// The titles of the sections with links, if there are many.
 fn contents(document: &Document) -> Markup {
     let titles = document.blocks.iter().filter_map(|block| match block {
         Block::Section(title) => Some(title),
@@ -39,7 +40,7 @@ fn contents(document: &Document) -> Markup {
         @if LISTED.contains(&titles.len()) {
             nav aria-label="Contents" {
                 @for (place, title) in titles.iter().enumerate() {
-                    // what a quantity is stands in its section
+                    // the section already names its quantity
                     @let name = title.split_once(": ").map_or(title.as_str(), |(name, _)| name);
                     a href={ "#section-" (place + 1) } { (raised(name)) } " "
                 }
@@ -48,7 +49,7 @@ fn contents(document: &Document) -> Markup {
     }
 }
 
-/// The blocks of a document alone, to stand in a page with the same style; figures are not numbered,
+/// The blocks of a document alone, for a page with the same style; figures are not numbered,
 /// because the page may have others.
 pub(crate) fn fragment(document: &Document, size: FigureSize) -> String {
     let part = |part: &Block| match part {
@@ -65,7 +66,7 @@ fn block(block: &Block, comma: bool, counts: &mut Counts) -> Markup {
             html! { h2 id={ "section-" (counts.sections) } { (raised(title)) } }
         }
         Block::Text(text) => html! { p { (raised(text)) } },
-        // a reader that speaks has to know (WCAG 2.1, 3.1.2)
+        // screen readers need the language (WCAG 2.1, 3.1.2)
         Block::InLanguage(language, part) => match part.as_ref() {
             Block::Text(text) => html! { p lang=(language) { (raised(text)) } },
             Block::List(items) => html! {

@@ -10,15 +10,16 @@ pub(crate) fn markdown(document: &Document) -> String {
     written(document, escaped)
 }
 
-/// The same for a document whose texts are this program's own and have code between backticks.
+/// The same for a document whose texts come from this program and have code between backticks.
 pub(crate) fn markdown_with_code(document: &Document) -> String {
     written(document, with_code)
 }
 
-/// Where somebody signs: escaped, as a line of underscores alone would be a rule across the page.
+/// A line for a signature: escaped, because a plain line of underscores would be a rule across the
+/// page.
 const RULE: &str = r"\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_";
 
-/// How texts are written so that they say what they are.
+/// A function that escapes markup in texts.
 type Escape = fn(&str) -> String;
 
 fn written(document: &Document, escape: Escape) -> String {
@@ -67,7 +68,7 @@ fn block(block: &Block, comma: bool, escape: Escape) -> String {
     }
 }
 
-/// A table whose source is aligned as well.
+/// A table whose source is aligned too.
 fn table(sheet: &Sheet, escape: Escape) -> String {
     let columns: Vec<Vec<String>> =
         sheet.columns.iter().map(|column| cells(column, escape)).collect();
@@ -86,7 +87,7 @@ fn table(sheet: &Sheet, escape: Escape) -> String {
     lines.join("\n")
 }
 
-/// The header and the cells of a column, all of one width.
+/// The header and the cells of a column, padded to one width.
 fn cells(column: &Column, escape: Escape) -> Vec<String> {
     let numeric = column.is_numeric();
     let body: Vec<String> = column.cells.iter().map(|cell| escape(cell)).collect();
@@ -99,15 +100,15 @@ fn cells(column: &Column, escape: Escape) -> Vec<String> {
         .collect()
 }
 
-/// A text as it is, between fences that are longer than any in it.
+/// A text unchanged, between fences that are longer than any in it.
 fn listing(about: &str, text: &str, escape: Escape) -> String {
     let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
     let fence = "`".repeat(longest.max(2) + 1);
     format!("{}\n\n{fence}\n{}\n{fence}", escape(about), text.trim_end())
 }
 
-/// A text of which no character means anything: on one line, what would be markup behind a
-/// backslash. An underscore within a word means nothing by itself.
+/// A text without markup: on one line, with a backslash before characters that would be markup. An
+/// underscore within a word is not markup.
 fn escaped(text: &str) -> String {
     let text = one_line(text);
     let mut out = String::with_capacity(text.len());
@@ -132,12 +133,12 @@ fn escaped(text: &str) -> String {
     out
 }
 
-/// A text with code between backticks, which stays as it is but for the bars that part cells.
+/// A text with code between backticks, which is unchanged except for the bars that separate cells.
 fn with_code(text: &str) -> String {
     let piece = |(place, piece): (usize, &str)| {
         if place % 2 == 0 { escaped(piece) } else { format!("`{}`", piece.replace('|', "\\|")) }
     };
-    // what stands around code is escaped piece by piece, so its blanks are kept here
+    // the text around code is escaped piece by piece, so its blanks are kept here
     let pieces = text.split('`').enumerate().map(|(place, text)| {
         let blank = |has: bool| if has && place % 2 == 0 { " " } else { "" };
         let inner = piece((place, text));

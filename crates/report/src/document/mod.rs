@@ -1,5 +1,5 @@
-//! A document without a look: what it says, in order. Markdown, LaTeX and HTML each draw the same
-//! one, so that a figure is rounded once and says the same everywhere.
+//! A document without a format: its content in order. Markdown, LaTeX and HTML each draw the same
+//! document, so that a number is rounded once and is the same everywhere.
 
 mod html;
 mod latex;
@@ -23,32 +23,32 @@ pub(crate) struct Document {
     pub(crate) title: String,
     /// Lines below the title.
     pub(crate) subtitle: Vec<String>,
-    /// The language of its texts, as ISO 639-1 has it; English if that is empty.
+    /// The language of its texts, as a code of ISO 639-1; empty means English.
     pub(crate) language: &'static str,
     /// Whether numbers in tables have a decimal comma; the cells of [`Sheet`]s have points.
     pub(crate) comma: bool,
-    /// What stands at the foot of each printed page; the title unless there is something else.
+    /// The footer of printed pages; by default the title.
     pub(crate) foot: Option<Foot>,
     /// What it says.
     pub(crate) blocks: Vec<Block>,
 }
 
-/// What stands at the foot of each printed page.
+/// The footer of printed pages.
 #[derive(Clone, Debug)]
 pub(crate) struct Foot {
     /// What the page belongs to.
     pub(crate) about: String,
-    /// Which page it is: `{page}`, `{pages}`.
+    /// The page number: `{page}`, `{pages}`.
     pub(crate) page: String,
 }
 
 impl Foot {
-    /// The foot of a document that is known by its title.
+    /// The footer of a document that is identified by its title.
     pub(crate) fn of_title(title: &str) -> Self {
         Self { about: title.to_owned(), page: "{page} / {pages}".to_owned() }
     }
 
-    /// The parts of the text that says which page it is.
+    /// The parts of the text with the page number.
     pub(crate) fn parts(&self) -> Vec<FootPart<'_>> {
         let mut parts = Vec::new();
         let mut rest = self.page.as_str();
@@ -82,23 +82,23 @@ pub(crate) enum Block {
     Section(String),
     /// A paragraph.
     Text(String),
-    /// Sentences that are set off, the first one stressed.
+    /// Highlighted sentences, the first one emphasized.
     Verdict(Vec<String>),
     /// A list of sentences.
     List(Vec<String>),
     /// A table.
     Table(Sheet),
-    /// A figure, which only pages of a browser show.
+    /// A figure, which only HTML pages show.
     Figure(Drawing),
-    /// A part in another language than the document's, with that as ISO 639-1 has it.
+    /// A part in another language than the document's, with its code of ISO 639-1.
     InLanguage(&'static str, Box<Block>),
-    /// Parts that a page of a browser shows when asked to, below their title.
+    /// Parts that an HTML page shows on request, below their title.
     Folded(String, Vec<Block>),
-    /// Places to be filled in by hand, each with what goes there.
+    /// Places to be filled in by hand, each with its label.
     Signature(Vec<String>),
-    /// The mark behind which nothing more belongs to the document.
+    /// The mark at the end of the document.
     End(String),
-    /// A text that stands as it is, with what it is.
+    /// A literal text, with its description.
     Listing {
         /// What it is.
         about: String,
@@ -108,7 +108,7 @@ pub(crate) enum Block {
 }
 
 impl Document {
-    /// What stands at the foot of each printed page.
+    /// The footer of printed pages.
     pub(crate) fn foot(&self) -> Foot {
         self.foot.clone().unwrap_or_else(|| Foot::of_title(&self.title))
     }
@@ -155,8 +155,8 @@ impl Document {
         self.blocks.extend(drawing.map(Block::Figure));
     }
 
-    /// The blocks as a form without figures writes them, without what is empty there: of a section with
-    /// nothing but figures nothing is left.
+    /// The blocks in a format without figures, without parts that are empty there: a section with
+    /// only figures disappears.
     fn written(&self, written: impl FnMut(&Block) -> String) -> Vec<String> {
         let all: Vec<String> = self.blocks.iter().map(written).collect();
         let all = self.blocks.iter().zip(all).filter(|(_, part)| !part.is_empty());
@@ -173,7 +173,7 @@ impl Document {
     }
 }
 
-/// A sentence with its capital and full stop. What begins with a name keeps it as it is.
+/// A sentence with its capital and full stop. A name at the beginning is unchanged.
 pub(crate) fn sentence(text: &str) -> String {
     let (word, _) = text.split_once([' ', ':']).unwrap_or((text, ""));
     let mut letters = text.chars();
@@ -185,7 +185,7 @@ pub(crate) fn sentence(text: &str) -> String {
     }
 }
 
-/// A number with a decimal comma in place of its point.
+/// A number with a decimal comma instead of its point.
 pub(crate) fn with_comma(text: &str) -> String {
     let letters: Vec<char> = text.chars().collect();
     let is_digit = |place: Option<usize>| {

@@ -1,4 +1,4 @@
-//! A document as a page of text for a terminal.
+//! A document as a text page for a terminal.
 
 use super::{Block, Document};
 use crate::sheet::{Kind, Sheet};
@@ -7,10 +7,10 @@ use crate::{Grid, plain, table::width, wrapped};
 /// Where somebody signs.
 const RULE: &str = "________________________________";
 
-/// Letters that a text keeps on a line, however narrow the page is.
+/// Minimum number of letters per line of a text, however narrow the page is.
 const LEAST_TEXT: usize = 10;
 
-/// The whole document, ending in a newline; what has no form in text is left out.
+/// The whole document, ending in a newline; blocks that text cannot show are left out.
 pub(crate) fn text(document: &Document) -> String {
     let mut parts = vec![heading(&document.title, '═')];
     parts.push(document.subtitle.iter().map(|line| wrapped(line)).collect());
@@ -19,7 +19,7 @@ pub(crate) fn text(document: &Document) -> String {
     parts.join("\n")
 }
 
-/// What stands below title and subtitle.
+/// The part below title and subtitle.
 pub(crate) fn below(document: &Document) -> String {
     document.written(|part| block(part, document.comma)).join("\n")
 }
@@ -56,7 +56,7 @@ fn block(block: &Block, comma: bool) -> String {
     }
 }
 
-/// A table whose texts wrap only where they are long.
+/// A table in which only long texts wrap.
 fn grid(sheet: &Sheet) -> Grid {
     let mut grid = Grid::default();
     for column in &sheet.columns {

@@ -1,4 +1,4 @@
-//! What stands at the foot of printed pages.
+//! The footer of printed pages.
 
 use crate::document::{Foot, FootPart};
 
@@ -14,7 +14,7 @@ pub(super) fn rule(foot: &Foot) -> String {
     format!("@page {{ @bottom-left {{ content: {about}; }} @bottom-right {{ content: {page}; }} }}")
 }
 
-/// A text as CSS writes it: whatever could end the text or the style sheet is given by its code.
+/// A text in CSS: characters that could end the text or the style sheet are written as codes.
 fn quoted(text: &str) -> String {
     let letters = text.chars().filter(|c| !c.is_control()).map(|c| match c {
         '"' | '\\' | '<' | '>' | '&' | '@' | '{' | '}' => format!("\\{:06x}", u32::from(c)),

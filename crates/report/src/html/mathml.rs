@@ -4,8 +4,8 @@ use crate::equation::{Equation, greek, parts_of_name, parts_of_number};
 use gumption_engine::model::formula::Layout;
 use maud::{Markup, html};
 
-/// A formula, or the right side of an equation with those of what it uses; as it was written where it
-/// is none.
+/// A formula, or the right side of an equation with those that it uses; unchanged if it is not a
+/// formula.
 pub(super) fn equation(text: &str) -> Markup {
     typeset(text).unwrap_or_else(|| html! { (text) })
 }
@@ -45,12 +45,12 @@ fn part(layout: &Layout) -> Markup {
                 }
             }
         }
-        // a part of a later version
+        // a variant added in a later version
         _ => html! {},
     }
 }
 
-/// A number, a power of ten as it is written by hand.
+/// A number, with a power of ten in mathematical notation.
 fn number(text: &str) -> Markup {
     match parts_of_number(text) {
         (digits, Some(power)) => html! {
@@ -60,7 +60,7 @@ fn number(text: &str) -> Markup {
     }
 }
 
-/// The name of a quantity: Greek letters as such, and what follows an underscore below the line.
+/// The name of a quantity: Greek letters as such, and the text after an underscore as a subscript.
 fn name(text: &str) -> Markup {
     let (base, below) = parts_of_name(text);
     if below.is_empty() {
@@ -70,7 +70,7 @@ fn name(text: &str) -> Markup {
     html! { msub { mi { (letter(base)) } mi { (below.join(",\u{2009}")) } } }
 }
 
-/// A Greek letter for its name; other names as they are.
+/// A Greek letter for its name; other names unchanged.
 fn letter(name: &str) -> String {
     greek(name).map_or_else(|| name.to_owned(), String::from)
 }
@@ -106,7 +106,7 @@ mod tests {
         );
     }
 
-    /// Words are no formula, and nothing of a text is markup.
+    /// Words are not a formula, and no text becomes markup.
     #[test]
     fn other_texts_stand_as_written() {
         assert_eq!(text("row x, column <b>y</b>"), "row x, column &lt;b&gt;y&lt;/b&gt;");

@@ -1,5 +1,4 @@
-//! Pages for a browser and for print: one file each, without scripts and without anything from
-//! elsewhere.
+//! Pages for a browser and for print: one file each, without scripts and without external content.
 
 mod foot;
 mod interactive;
@@ -14,18 +13,18 @@ pub(super) use table::table;
 use super::document::Foot;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-/// How pages look, in light and dark and on A4.
+/// The style of pages, in light and dark mode and on A4.
 const STYLE: &str = include_str!("style.css");
 
-/// Nothing but the page's own style is loaded or run, whatever names a user chose.
+/// Only the page's own style is loaded, whatever names a user chose.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
 
-/// A whole page in English, which its title names on every sheet of paper.
+/// A whole page in English, with its title on every printed sheet.
 pub(super) fn page(title: &str, body: &Markup) -> String {
     page_in("en", title, &Foot::of_title(title), body)
 }
 
-/// A whole page in a language, a code of ISO 639-1, with what stands at the foot of printed pages.
+/// A whole page in a language, a code of ISO 639-1, with a footer for printed pages.
 pub(super) fn page_in(language: &str, title: &str, foot: &Foot, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
@@ -43,10 +42,10 @@ pub(super) fn page_in(language: &str, title: &str, foot: &Foot, body: &Markup) -
     page.into_string() + "\n"
 }
 
-/// Widths of figures in pixels: on a page, and on a screen that is too narrow for the first.
+/// Widths of figures in pixels: for a page, and for a narrow screen.
 const WIDTHS: [(&str, f64); 2] = [("wide", 720.0), ("narrow", 360.0)];
 
-/// A figure with what is written below it, drawn once for each of [`WIDTHS`], with text of one size.
+/// A figure with its caption, drawn once for each of [`WIDTHS`], with text of one size.
 #[derive(Clone, Debug)]
 pub(super) struct Drawing {
     pictures: [String; 2],
@@ -54,7 +53,7 @@ pub(super) struct Drawing {
 }
 
 impl Drawing {
-    /// A figure that `draw` makes as an `svg` element of a width in pixels.
+    /// A figure for which `draw` returns an `svg` element with a width in pixels.
     pub(super) fn new(caption: String, draw: impl Fn(f64) -> String) -> Self {
         Self { pictures: WIDTHS.map(|(_, width)| draw(width)), caption }
     }
@@ -66,7 +65,8 @@ pub(super) fn figure(number: usize, drawing: &Drawing) -> Markup {
     html! {
         figure {
             @for ((class, _), picture) in WIDTHS.iter().zip(&drawing.pictures) {
-                // one picture with its caption, not a heap of tick labels that are read out one by one
+                // one picture with its caption, instead of many tick labels that are read out one
+                // by one
                 @let named = format!("<svg class=\"{class}\" role=\"img\" aria-labelledby=\"{id}\" ");
                 (PreEscaped(picture.replacen("<svg ", &named, 1)))
             }
@@ -78,14 +78,14 @@ pub(super) fn figure(number: usize, drawing: &Drawing) -> Markup {
 /// How much room figures have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FigureSize {
-    /// That of a page: drawn for it, and for a screen that is too narrow.
+    /// For a page: drawn for its width, and for a narrow screen.
     #[default]
     Page,
-    /// That of a column beside others: drawn for a narrow screen.
+    /// For a column beside others: drawn for a narrow screen.
     Narrow,
 }
 
-/// A figure without a number: the picture is named by its caption.
+/// A figure without a number: the caption names the picture.
 pub(super) fn bare_figure(drawing: &Drawing, size: FigureSize) -> Markup {
     let label = html! { (drawing.caption) }.into_string().replace('"', "&quot;");
     let pictures = WIDTHS.iter().zip(&drawing.pictures);
@@ -103,7 +103,7 @@ pub(super) fn bare_figure(drawing: &Drawing, size: FigureSize) -> Markup {
     }
 }
 
-/// The style sheet of pages, for a page that has parts of them ([`crate::page_parts`]).
+/// The style sheet of pages, for a page that contains parts of them ([`crate::page_parts`]).
 pub fn page_style() -> &'static str {
     STYLE
 }
@@ -132,7 +132,8 @@ mod tests {
         (a.max(b) + 0.05) / (a.min(b) + 0.05)
     }
 
-    /// WCAG 2.2: 1.4.3 asks 4.5 of text, 1.4.11 asks 3 of what is needed to read a figure.
+    /// WCAG 2.2: 1.4.3 requires 4.5 for text, 1.4.11 requires 3 for the essential parts of a
+    /// figure.
     #[test]
     fn text_and_lines_stand_out() {
         for scheme in [0, 1] {

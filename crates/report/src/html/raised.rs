@@ -1,9 +1,9 @@
-//! Texts as a page shows them.
+//! Texts with exponents and code.
 
 use maud::{Markup, html};
 
-/// A text in which whole exponents, as in `m/s^2`, are raised, and what stands between backticks is
-/// what a file says.
+/// A text in which whole exponents, as in `m/s^2`, are raised, and text between backticks is shown
+/// as code.
 pub(crate) fn raised(text: &str) -> Markup {
     let parts: Vec<&str> = text.split('`').collect();
     if parts.len().is_multiple_of(2) {

@@ -6,10 +6,10 @@ use super::{mathml, raised};
 use crate::number::align;
 use crate::sheet::{Column, Kind, Sheet};
 
-/// Rows up to which a table is kept on one printed page.
+/// Maximum number of rows of a table that is kept on one printed page.
 const UNBROKEN: usize = 12;
 
-/// A table; numbers are padded so that their decimal points stand under each other.
+/// A table; numbers are padded so that their decimal points are aligned.
 pub(crate) fn table(sheet: &Sheet) -> Markup {
     let class = |column: &Column| column.is_numeric().then_some("number");
     let columns: Vec<Vec<String>> = sheet
@@ -22,7 +22,7 @@ pub(crate) fn table(sheet: &Sheet) -> Markup {
     let is_total = |row: usize| sheet.footer && row + 1 == sheet.rows();
     let class_of_table = if sheet.rows() > UNBROKEN { "table long" } else { "table" };
     html! {
-        // a table that is wider than the screen is scrolled by keys as well
+        // a table wider than the screen can also be scrolled with keys
         div class=(class_of_table) tabindex="0" {
             table {
                 @if sheet.has_headers() {
@@ -63,7 +63,7 @@ pub(crate) fn table(sheet: &Sheet) -> Markup {
     }
 }
 
-/// Numbers padded with spaces of the width of a digit, and of a point where a number has none.
+/// Numbers padded with spaces of the width of a digit, and of a point for numbers without one.
 fn padded(cells: &[String]) -> Vec<String> {
     let has_points = cells.iter().any(|cell| cell.contains('.'));
     let pad = |cell: String| {

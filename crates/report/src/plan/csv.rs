@@ -3,8 +3,8 @@
 use super::PlanReport;
 use crate::csv::{number, of_records, text};
 
-/// The inputs as comma-separated values: what each is, what it alone would have to become, and what
-/// it becomes in the cheapest plan.
+/// The inputs as comma-separated values: the present uncertainty of each, the one required of it
+/// alone, and the one in the cheapest plan.
 pub fn csv(report: &PlanReport<'_>) -> String {
     let count = |value: Option<u64>| value.map(|value| value.to_string()).unwrap_or_default();
     of_records(|writer| {

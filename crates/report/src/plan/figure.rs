@@ -1,4 +1,4 @@
-//! What is wanted of the output against each input, and against time.
+//! Plots of the output's uncertainty against each input, and against time.
 
 use gumption_engine::number::{largest_first, smallest_first};
 use plotters::element::{Circle, PathElement};
@@ -13,21 +13,21 @@ use gumption_analysis::plan::{InputNeed, PlannedInterval};
 /// Height of a panel in pixels.
 const TALL: f64 = 190.0;
 
-/// The least width of two panels beside each other, in pixels.
+/// Minimum width of two panels side by side, in pixels.
 const BESIDE: f64 = 500.0;
 
-/// Panels, at most: of the inputs that matter most.
+/// Maximum number of panels: for the inputs that matter most.
 const MOST: usize = 12;
 
-/// A curve with what is marked on it.
+/// A curve with its marks.
 struct Curve<'a> {
     points: &'a [(f64, f64)],
     label: String,
-    /// What there is now, and where the target begins to hold.
+    /// The present value, and the one at which the target begins to hold.
     marks: [Option<f64>; 2],
 }
 
-/// A panel for each input; `None` where none can be planned.
+/// A panel for each input; `None` if none can be planned.
 pub(super) fn inputs(report: &PlanReport<'_>) -> Option<Drawing> {
     let plan = report.plan;
     let share = |need: &InputNeed| {
@@ -115,7 +115,7 @@ fn panel(report: &PlanReport<'_>, area: &Area<'_>, curve: &Curve<'_>) -> Drawn {
     Ok(())
 }
 
-/// The height of a curve at a place, between its points.
+/// The height of a curve at x, interpolated between its points.
 fn at(curve: &Curve<'_>, x: f64) -> Option<f64> {
     let after = curve.points.iter().position(|point| point.0 >= x)?;
     let (right, left) = (curve.points[after], curve.points[after.saturating_sub(1)]);

@@ -17,7 +17,7 @@ use gumption_analysis::plan::{Costs, Plan};
 use gumption_engine::model::Quantity;
 use gumption_engine::task::{Task, Warning};
 
-/// Everything that a report of a plan may show.
+/// The contents of a report of a plan.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanReport<'a> {
     /// What was planned.
@@ -26,7 +26,7 @@ pub struct PlanReport<'a> {
     pub plan: &'a Plan,
     /// What improvements cost.
     pub costs: &'a Costs,
-    /// The unit of the times of a drift, as it was typed.
+    /// The unit of the times of a drift, as typed.
     pub time_unit: &'a str,
     /// Notes.
     pub warnings: &'a [Warning],
@@ -51,7 +51,7 @@ impl<'a> PlanReport<'a> {
         self.task.variables.get(variable).map_or("", |variable| variable.unit.text())
     }
 
-    /// What is wanted: `U` or `u`.
+    /// The target quantity: `U` or `u`.
     fn kind(&self) -> &'static str {
         if self.plan.target.expanded { "U" } else { "u" }
     }

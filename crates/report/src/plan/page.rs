@@ -4,7 +4,7 @@ use super::{PlanReport, figure, sheets, words};
 use crate::document::{self, Block, Document};
 use crate::{Grid, plain, statement, table::width, wrapped};
 
-/// The plan as a page of text.
+/// The plan as a text page.
 pub fn table(report: &PlanReport<'_>) -> String {
     let plan = report.plan;
     let head = wrapped(&words::title(report)) + &wrapped(&words::target(report));
@@ -59,7 +59,7 @@ pub fn markdown(report: &PlanReport<'_>) -> String {
     document::markdown(&document(report))
 }
 
-/// The plan as one HTML file with figures that needs nothing else.
+/// The plan as one self-contained HTML file with figures.
 pub fn html(report: &PlanReport<'_>) -> String {
     document::html(&document(report))
 }

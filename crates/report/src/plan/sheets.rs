@@ -11,7 +11,7 @@ use gumption_engine::decimal::to_position;
 /// answer is a limit.
 pub(super) const DIGITS: u32 = 3;
 
-/// A limit from above, rounded down: what it is rounded to holds as well.
+/// An upper limit, rounded down: the rounded limit is safe.
 pub(super) fn at_most(value: f64) -> String {
     let position = crate::number::position(value, DIGITS);
     let Some(place) = position else { return to(value, position) };
@@ -21,7 +21,7 @@ pub(super) fn at_most(value: f64) -> String {
     to(below, Some(place))
 }
 
-/// What every input alone would have to become.
+/// The required uncertainty of every input alone.
 pub(super) fn inputs(report: &PlanReport<'_>) -> Sheet {
     let needs = &report.plan.inputs;
     let mut sheet = Sheet::default();
@@ -49,7 +49,7 @@ pub(super) fn inputs(report: &PlanReport<'_>) -> Sheet {
     sheet
 }
 
-/// A cost as it adds up: in whole units of the currency from 100 on.
+/// A cost that can be added up: in whole units of the currency from 100 on.
 fn cost(of: f64) -> String {
     match of.abs() {
         0.0 => "0".to_owned(),

@@ -34,7 +34,7 @@ fn name(report: &PlanReport<'_>) -> String {
     format!("{}({})", report.kind(), plain(output))
 }
 
-/// The most that the uncertainty of an output may be: `8 uV`, `0.5 % of the estimate + 2 uV`.
+/// The target for the uncertainty of an output: `8 uV`, `0.5 % of the estimate + 2 uV`.
 pub fn wanted(target: &PlanTarget, output: Option<&Quantity>) -> String {
     let mut terms = Vec::new();
     if target.share > 0.0 {
@@ -47,7 +47,7 @@ pub fn wanted(target: &PlanTarget, output: Option<&Quantity>) -> String {
     terms.join(" + ")
 }
 
-/// What is wanted, and what there is.
+/// The target, and the present value.
 pub(super) fn target(report: &PlanReport<'_>) -> String {
     let plan = report.plan;
     let wanted = if plan.target.share > 0.0 {
@@ -70,7 +70,7 @@ pub(super) fn target(report: &PlanReport<'_>) -> String {
     said
 }
 
-/// Offers that are no better than what there is, in any row: a sentence for each.
+/// A sentence for each offer that is no better than the present input in some row.
 pub fn worse_offers(task: &Task, costs: &Costs) -> Vec<String> {
     let Costs::Stated { improvements, .. } = costs else { return Vec::new() };
     let mut said = Vec::new();
@@ -102,11 +102,11 @@ pub fn worse_offers(task: &Task, costs: &Costs) -> Vec<String> {
     said
 }
 
-/// What is said below the tables.
+/// Notes below the tables.
 pub(super) fn notes(report: &PlanReport<'_>) -> Vec<String> {
     let plan = report.plan;
     let mut said = Vec::new();
-    // the limit is a share of the estimate alone
+    // the limit is only a fraction of the estimate
     if plan.target.share > 0.0
         && plan.target.most == 0.0
         && plan.figure * plan.target.share > plan.limit
@@ -146,14 +146,14 @@ pub(super) fn notes(report: &PlanReport<'_>) -> Vec<String> {
     said
 }
 
-/// How much wider what is drawn with these degrees of freedom is than a normal distribution: the ratio of
-/// standard deviations (JCGM 101, 6.4.9.4).
+/// How much wider the drawn distribution with these degrees of freedom is than a normal one: the
+/// ratio of standard deviations (JCGM 101, 6.4.9.4).
 fn widening(dof: f64) -> f64 {
     if dof > 2.0 { (dof / (dof - 2.0)).sqrt() } else { f64::INFINITY }
 }
 
-/// Which input makes the trials miss a target that the law of propagation meets, and what it would have
-/// to become.
+/// The input because of which the trials miss a target that the law of propagation meets, and its
+/// required uncertainty.
 pub fn excess_text(excess: &Excess, task: &Task, target: PlanTarget) -> String {
     let variable = task.variables.get(excess.variable);
     let name = plain(variable.map_or("", |variable| variable.name.as_str()));

@@ -1,4 +1,4 @@
-//! An axis: where values lie on it, and at which it is marked.
+//! An axis: the positions of values on it, and its tick marks.
 
 use crate::number::{exact, rounded};
 use gumption_engine::decimal::Decimal;
@@ -8,14 +8,14 @@ use gumption_engine::number::elementary::{ln, log10, pow};
 /// Positive values that span more than this factor may be spaced geometrically.
 const WIDE: f64 = 8.0;
 
-/// Ratios must vary by less than this share of how much differences do (squares of relative
-/// deviations).
+/// Values are geometric if their ratios vary by less than this fraction of the variation of their
+/// differences (squares of relative deviations).
 const CLEARLY: f64 = 0.5;
 
-/// Free space at each end, as a share of the axis.
+/// Free space at each end, as a fraction of the axis.
 const MARGIN: f64 = 0.04;
 
-/// The same where marks with bars stand on it.
+/// The same for an axis with marks and bars.
 const SPACE: f64 = 0.06;
 
 /// A linear or logarithmic axis.
@@ -28,7 +28,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// An axis over all values, logarithmic where the distinct ones are spaced geometrically.
+    /// An axis over all values; logarithmic if the distinct values are spaced geometrically.
     pub(crate) fn over(values: impl IntoIterator<Item = f64>) -> Self {
         let mut levels: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
         ascending(&mut levels);
@@ -51,8 +51,8 @@ impl Axis {
         Self { log: false, ends: [from, to] }
     }
 
-    /// A linear axis over the finite ones of values, with some space at the ends; `None` where there is
-    /// nothing between them.
+    /// A linear axis over the finite values, with some space at the ends; `None` if they have no
+    /// range.
     pub(crate) fn around(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         let finite = values.into_iter().filter(|value| value.is_finite());
         let [from, to] = finite
@@ -61,7 +61,7 @@ impl Axis {
         (margin.is_finite() && margin > 0.0).then(|| Self::linear(from - margin, to + margin))
     }
 
-    /// A linear axis as far below zero as above it.
+    /// A linear axis that is symmetric about zero.
     pub(crate) fn about_zero(values: impl IntoIterator<Item = f64>) -> Self {
         let farthest =
             values.into_iter().filter(|v| v.is_finite()).map(f64::abs).fold(0.0, f64::max);
@@ -84,7 +84,7 @@ impl Axis {
         self.ends
     }
 
-    /// Round values to mark, about so many at most: their positions and texts.
+    /// Round values for tick marks, approximately `most` at most: their positions and texts.
     pub(crate) fn marks(&self, most: usize) -> Vec<(f64, String)> {
         let most = most.max(2);
         if self.log {

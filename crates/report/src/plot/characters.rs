@@ -10,7 +10,7 @@ pub(crate) struct CharacterGrid {
 /// The eighths of a cell, from an empty one to a full one.
 const EIGHTHS: [char; 9] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
-/// Bars of one line of characters: heights as shares of the greatest.
+/// Bars on one line of characters: heights relative to the largest.
 pub(crate) fn bars(heights: &[f64]) -> String {
     let most = heights.iter().copied().fold(0.0, f64::max);
     let eighth = |height: &f64| (8.0 * height / most).round().clamp(0.0, 8.0) as usize;
@@ -18,32 +18,32 @@ pub(crate) fn bars(heights: &[f64]) -> String {
 }
 
 impl CharacterGrid {
-    /// A blank grid of so many columns and rows.
+    /// A blank grid with this number of columns and rows.
     pub(crate) fn new(width: usize, height: usize) -> Self {
         Self { width, cells: vec![' '; width * height] }
     }
 
-    /// The character in a column and a row, both counted from 0 at the top left; `None` outside.
+    /// The character in a column and a row, both from 0 at the top left; `None` outside.
     pub(crate) fn cell(&mut self, column: usize, row: usize) -> Option<&mut char> {
         let inside = column < self.width;
         self.cells.get_mut(row * self.width + column).filter(|_| inside)
     }
 
-    /// Puts a character into a cell; outside the grid nothing.
+    /// Puts a character into a cell; does nothing outside the grid.
     pub(crate) fn put(&mut self, column: usize, row: usize, character: char) {
         if let Some(cell) = self.cell(column, row) {
             *cell = character;
         }
     }
 
-    /// Writes a text from a column on; what is outside the grid is cut off.
+    /// Writes a text from a column on; it is cut at the edge of the grid.
     pub(crate) fn write(&mut self, column: usize, row: usize, text: &str) {
         for (column, character) in (column..).zip(text.chars()) {
             self.put(column, row, character);
         }
     }
 
-    /// A bar of some eighths of a cell that stands on a row and goes up.
+    /// An upright bar that begins on a row, with its height in eighths of a cell.
     pub(crate) fn bar(&mut self, column: usize, bottom: usize, eighths: usize) {
         let mut left = eighths;
         for row in (0..=bottom).rev() {
@@ -59,8 +59,8 @@ impl CharacterGrid {
     }
 }
 
-/// The cell of `count` in which a share of the way lies, from the first at 0 to the last at 1;
-/// `None` beyond them.
+/// The cell, out of `count`, for a fraction of the way: the first at 0, the last at 1; `None`
+/// outside.
 pub(crate) fn cell_at(share: f64, count: usize) -> Option<usize> {
     let last = count.saturating_sub(1) as f64;
     (0.0..=1.0).contains(&share).then(|| (share * last).round() as usize)

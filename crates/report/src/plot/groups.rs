@@ -1,24 +1,24 @@
-//! Points told apart by a second condition.
+//! Points that are distinguished by a second condition.
 
-/// Groups have marks of their own, of which there are so many.
+/// The number of different marks for groups.
 const MOST: usize = 5;
 
-/// What the marks look like, in words.
+/// The marks in words.
 const MARKS: [&str; MOST] = ["circle", "square", "triangle", "diamond", "cross"];
 
-/// The groups that figures over one condition tell apart by another one.
+/// The groups that plots over one condition distinguish by another one.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Groups {
-    /// What each group is, in words; none where there is nothing to tell apart.
+    /// The label of each group; empty if there is only one.
     labels: Vec<String>,
     condition: usize,
-    /// The greatest value of each group.
+    /// The largest value of each group.
     ends: Vec<f64>,
 }
 
 impl Groups {
-    /// Groups of neighbouring levels of a condition; `label` says what a group from one level to
-    /// another is. `levels` are in order and not empty.
+    /// Groups of neighbouring levels of a condition; `label` describes a group from one level to
+    /// another. `levels` are in order and not empty.
     pub(crate) fn of_levels(
         condition: usize,
         levels: &[f64],
@@ -38,8 +38,8 @@ impl Groups {
         self.ends.partition_point(|end| *end < value).min(last)
     }
 
-    /// What the marks over a condition mean, as a sentence of a caption; empty where there is nothing
-    /// to tell apart.
+    /// The meaning of the marks over a condition, as a sentence of a caption; empty if there is
+    /// only one group.
     pub(crate) fn caption(&self, over: &str) -> String {
         if self.labels.is_empty() {
             return String::new();

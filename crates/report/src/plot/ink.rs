@@ -1,14 +1,14 @@
-//! Colours that colour-blind readers tell apart (Okabe and Ito) and that differ in lightness, so
-//! that they do in black-and-white print.
+//! Colours that colour-blind readers can distinguish (Okabe and Ito) and that differ in lightness,
+//! also in black-and-white print.
 //!
-//! Each is used for one thing only: the style sheet of a page finds it by its value and replaces it
-//! where the page is dark.
+//! Each is used for one purpose only: the style sheet of a page finds it by its value and replaces
+//! it in dark mode.
 
 use plotters::style::RGBColor;
 
 /// Text, axes and lines.
 pub(crate) const INK: RGBColor = RGBColor(0x1a, 0x1a, 0x1a);
-/// Text and lines of less weight.
+/// Secondary text and lines.
 pub(crate) const WEAK: RGBColor = RGBColor(0x5c, 0x5c, 0x5c);
 /// Lines of a grid.
 pub(crate) const FAINT: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
@@ -16,10 +16,10 @@ pub(crate) const FAINT: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
 pub(crate) const BEFORE: RGBColor = RGBColor(0xd5, 0x5e, 0x00);
 /// After the correction: blue.
 pub(crate) const AFTER: RGBColor = RGBColor(0x00, 0x72, 0xb2);
-/// What stands behind the rest: sky blue.
+/// Background elements: sky blue.
 pub(crate) const EVEN: RGBColor = RGBColor(0x56, 0xb4, 0xe9);
 
-/// From nothing remarkable to very much: a fill and the text on it, in falling lightness.
+/// From inconspicuous to very strong: a fill and the colour of text on it, in decreasing lightness.
 pub(crate) const SHADES: [(RGBColor, RGBColor); 5] = [
     (RGBColor(0xf4, 0xf7, 0xfb), DARK),
     (RGBColor(0xc9, 0xdb, 0xee), DARK),
@@ -48,8 +48,8 @@ mod tests {
         }
     }
 
-    /// In black and white, lightness is all that is left: it falls from shade to shade, and the
-    /// colours of before, after and what is alike differ in it.
+    /// In black and white only lightness remains: it decreases from shade to shade, and the colours
+    /// for before, after and equal values differ in it.
     #[test]
     fn colours_differ_in_lightness() {
         let lightness = |RGBColor(r, g, b): RGBColor| {

@@ -1,4 +1,4 @@
-//! Marks of points that differ in shape, so that groups are told apart without colours.
+//! Marks of points that differ in shape, so that groups can be distinguished without colours.
 
 use plotters::element::{Circle, EmptyElement, PathElement, Polygon};
 use plotters::style::{Color, RGBColor};
@@ -12,7 +12,7 @@ pub(crate) enum Fill {
     Open,
 }
 
-/// Draws the mark of a group at a place; `size` is half of its width in pixels.
+/// Draws the mark of a group at a position; `size` is half of its width in pixels.
 pub(crate) fn mark(
     chart: &Chart<'_>,
     group: usize,

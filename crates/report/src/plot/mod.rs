@@ -1,4 +1,4 @@
-//! What figures need, whether they are drawn on paper or in a terminal.
+//! Parts of figures, for paper and for terminals.
 
 mod axis;
 mod characters;

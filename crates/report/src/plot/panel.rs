@@ -18,14 +18,15 @@ use super::svg::{Area, Drawn, FONT, px, text_style};
 const BELOW: f64 = 42.0;
 const LEFT: f64 = 60.0;
 
-/// Space on the right of the axis, at least.
+/// Minimum space on the right of the axis.
 const RIGHT: f64 = 12.0;
 
-/// The width of a digit, and what stands beside the marks: the label of the axis and its distance.
+/// The width of a digit, and the space beside the tick labels: the label of the axis and its
+/// distance.
 const DIGIT: f64 = 6.6;
 const BESIDE: f64 = 26.0;
 
-/// An axis as the plotting library wants it.
+/// An axis in the form of the plotting library.
 #[derive(Clone, Debug)]
 pub(crate) struct Marked {
     ends: [f64; 2],
@@ -37,7 +38,8 @@ impl Marked {
         Self { ends: axis.ends(), marks: axis.marks(most) }
     }
 
-    /// How far the last number reaches beyond the end of a horizontal axis of a length in pixels.
+    /// How far the last number extends beyond the end of a horizontal axis of this length, in
+    /// pixels.
     fn beyond(&self, length: f64) -> f64 {
         let [from, to] = self.ends;
         let Some((place, text)) = self.marks.last() else { return 0.0 };
@@ -75,7 +77,7 @@ impl ValueFormatter<f64> for Marked {
     }
 }
 
-/// A panel that was drawn; positions on it are those of the axes.
+/// A drawn panel; positions on it are values of the axes.
 pub(crate) type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<Marked, Marked>>;
 
 /// A panel to be drawn.
@@ -85,7 +87,7 @@ pub(crate) struct Panel<'a> {
     pub(crate) x: (&'a Axis, String),
     /// The vertical axis and its label.
     pub(crate) y: (&'a Axis, String),
-    /// How many marks the axes have at most.
+    /// The maximum number of tick marks of each axis.
     pub(crate) marks: [usize; 2],
     /// A line above it.
     pub(crate) title: String,
@@ -118,11 +120,11 @@ impl Panel<'_> {
     }
 }
 
-/// Writes a title over an area and gives back what is left below it. The plotting library's own
-/// measures the text, for which it needs a document where it runs in a browser.
+/// Writes a title over an area and returns the area below it. The plotting library's own function
+/// measures the text, for which it needs a document in a browser.
 fn titled<'a>(area: &Area<'a>, title: &str) -> Drawn<Area<'a>> {
     let style = text_style(FONT, INK, true);
-    // what the library takes an em to be
+    // the library's size of an em
     let em = style.font.get_size() / 1.24 / 1.24;
     let height = em.round() as i32 + (0.24 * em).round() as i32;
     let space = (height / 2).min(5);

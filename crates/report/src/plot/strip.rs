@@ -7,25 +7,25 @@ use super::axis::Axis;
 use super::ink::{FAINT, INK, WEAK};
 use super::svg::{Anchor, Area, Drawn, FONT, Write, length, px, shortened, write};
 
-/// Space that the axis with its marks and label takes, in pixels.
+/// Height of the axis with its marks and label, in pixels.
 pub(crate) const STRIP_AXIS: f64 = 40.0;
 
-/// Names and figures beside a strip take this share of a figure's width, at most.
+/// Maximum fraction of a figure's width for names and values beside a strip.
 pub(crate) const CHROME: f64 = 0.54;
 
-/// The least distance of two marks of an axis in pixels.
+/// Minimum distance between two tick marks, in pixels.
 const MARK_ROOM: f64 = 62.0;
 
-/// An arrow to what lies beyond an axis: its length, half of its head's height, and what parts it from
-/// its number and that from the line, in pixels.
+/// The arrow to a limit beyond the axis: its length, half the height of its head, and the gaps
+/// between it, its number and the line, in pixels.
 const SHAFT: f64 = 12.0;
 const HEAD: f64 = 4.0;
 const APART: f64 = 3.0;
 
-/// How much wider than the usual letter digits are.
+/// How much wider digits are than the usual letter.
 pub(crate) const WIDER: f64 = 1.15;
 
-/// A horizontal axis between two places, in pixels.
+/// A horizontal axis between two positions, in pixels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Strip<'a> {
     /// The axis.
@@ -36,14 +36,14 @@ pub(crate) struct Strip<'a> {
 }
 
 impl<'a> Strip<'a> {
-    /// A strip in a figure of a width, with space for names on the left and for figures on the right;
-    /// both give way where they would take more than a share of the width.
+    /// A strip in a figure with this width, with space for names on the left and for values on the
+    /// right; both shrink if they would take more than a fraction of the width.
     pub(crate) fn within(axis: &'a Axis, width: f64, [left, right]: [f64; 2]) -> Self {
         let give = (CHROME * width / (left + right)).min(1.0);
         Self { axis, from: give * left, to: width - give * right }
     }
 
-    /// Where a value stands, in pixels; values beyond an end stand on it.
+    /// The position of a value, in pixels; values beyond an end are at that end.
     pub(crate) fn x(&self, value: f64) -> f64 {
         let [first, last] = self.axis.ends();
         let share = (self.axis.position(value) - first) / (last - first);
@@ -87,8 +87,8 @@ impl<'a> Strip<'a> {
         (first..=last).contains(&self.axis.position(value))
     }
 
-    /// An interval: a cap at each end that lies on the axis, and for each finite one that lies beyond
-    /// it an arrow at the edge with its number.
+    /// An interval: a cap at each end on the axis, and for each finite end beyond it an arrow at
+    /// the edge with its number.
     pub(crate) fn interval(
         &self,
         area: &Area<'_>,
@@ -100,7 +100,7 @@ impl<'a> Strip<'a> {
         let [first, _] = self.axis.ends();
         let below = |end: f64| self.axis.position(end) < first;
         let beyond = |end: &f64| end.is_finite() && !self.holds(*end);
-        // both on one side: an arrow to both
+        // both beyond one side: an arrow to each
         let of_edge = |left: bool| {
             let there = ends.iter().filter(|end| beyond(end) && below(**end) == left);
             there.map(|end| number(*end)).collect::<Vec<_>>().join(" … ")
@@ -131,27 +131,27 @@ impl<'a> Strip<'a> {
     }
 }
 
-/// How many marks of an axis stand beside each other on a length in pixels.
+/// The number of tick marks that fit on a length in pixels.
 pub(crate) fn marks_within(length: f64) -> usize {
     ((length / MARK_ROOM) as usize).max(2)
 }
 
-/// Text centred about a place, in ink.
+/// Text centred at a position, in the text colour.
 pub(crate) fn centred(at: (f64, f64), size: f64) -> Write {
     Write { at, anchor: Anchor::Middle, size, colour: INK, bold: false }
 }
 
-/// A line of a colour and a width in pixels.
+/// A line with a colour and a width in pixels.
 pub(crate) fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
     colour.stroke_width(px(width).unsigned_abs())
 }
 
-/// A line of a faded colour and a width in pixels.
+/// A line with a faded colour and a width in pixels.
 pub(crate) fn faded(colour: RGBColor, share: f64, width: f64) -> ShapeStyle {
     colour.mix(share).stroke_width(px(width).unsigned_abs())
 }
 
-/// A line through places in pixels.
+/// A line through positions in pixels.
 pub(crate) fn line<const N: usize>(
     area: &Area<'_>,
     places: [(f64, f64); N],

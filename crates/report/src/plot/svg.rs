@@ -1,4 +1,4 @@
-//! Figures as SVG texts that stand in a page.
+//! Figures as SVG texts that are part of a page.
 
 use maud::{Markup, PreEscaped, html};
 use plotters::backend::SVGBackend;
@@ -10,19 +10,19 @@ use plotters::style::{Color, FontStyle, IntoFont, RGBColor, TextStyle};
 
 use super::Chart;
 
-/// Units of the drawing in a pixel of the page: positions are whole numbers of units.
+/// Drawing units per pixel of the page: positions are whole numbers of units.
 pub(crate) const SCALE: i32 = 4;
 
 /// Size of the text in pixels.
 pub(crate) const FONT: f64 = 12.0;
 
-/// How much smaller than asked for the backend writes.
+/// The backend writes text smaller than requested by this factor.
 const FONT_FACTOR: f64 = 1.24;
 
-/// How near a pointer must be to a place whose text it is shown, in pixels.
+/// Distance of the pointer from a position within which its text is shown, in pixels.
 const REACH: f64 = 7.0;
 
-/// Texts that a figure has at most.
+/// Maximum number of pointer texts in a figure.
 const MOST_TITLES: usize = 300;
 
 /// What is drawn on.
@@ -36,25 +36,25 @@ pub(crate) fn px(pixels: f64) -> i32 {
     (pixels * f64::from(SCALE)).round() as i32
 }
 
-/// What a pointer that rests on a place of a figure is shown, without a script.
+/// The texts that a page shows when the pointer rests on a position of a figure, without a script.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Titles {
     places: Vec<(i32, i32, String)>,
 }
 
 impl Titles {
-    /// The text at a place of a panel.
+    /// Adds the text for a position of a panel.
     pub(crate) fn at(&mut self, chart: &Chart<'_>, place: (f64, f64), text: &str) {
         let (x, y) = chart.plotting_area().map_coordinate(&place);
         self.places.push((x, y, text.to_owned()));
     }
 
-    /// The text at a place in pixels.
+    /// Adds the text for a position in pixels.
     pub(crate) fn at_pixels(&mut self, (x, y): (f64, f64), text: &str) {
         self.places.push((px(x), px(y), text.to_owned()));
     }
 
-    /// Circles that are not seen, each with its text; none where they would lie on each other.
+    /// Invisible circles, each with its text; empty if they would overlap.
     fn markup(&self) -> Markup {
         let shown = if self.places.len() > MOST_TITLES { &[] } else { self.places.as_slice() };
         html! {
@@ -65,12 +65,12 @@ impl Titles {
     }
 }
 
-/// A figure of a size in pixels, as the text of an `svg` element.
+/// A figure with a size in pixels, as the text of an `svg` element.
 pub(crate) fn svg(width: f64, height: f64, draw: impl FnOnce(&Area<'_>) -> Drawn) -> String {
     svg_with_titles(width, height, |area, _| draw(area))
 }
 
-/// The same with texts that a pointer is shown.
+/// The same with texts for the pointer.
 pub(crate) fn svg_with_titles(
     width: f64,
     height: f64,
@@ -93,10 +93,11 @@ pub(crate) fn svg_with_titles(
     text
 }
 
-/// A layer of a figure: the method that found what it shows, if it is one's, and what draws it.
+/// A layer of a figure: the method whose results it shows, if there is one, and the function that
+/// draws it.
 pub(crate) type Layer<'l> = (Option<&'static str>, &'l dyn Fn(&Area<'_>, &mut Titles) -> Drawn);
 
-/// A figure of layers, one over the other; what a method found is a group that is marked with its
+/// A figure of superimposed layers. The results of a method form a group that is marked with its
 /// name, so that it can be hidden.
 pub(crate) fn svg_in_layers(width: f64, height: f64, layers: &[Layer<'_>]) -> String {
     let mut whole = String::new();
@@ -120,7 +121,7 @@ pub(crate) fn svg_in_layers(width: f64, height: f64, layers: &[Layer<'_>]) -> St
     whole + "</svg>\n"
 }
 
-/// Which part of a text stands at its place.
+/// The part of a text that is at its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -128,12 +129,12 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// Where a text stands and how it looks.
+/// The position and style of a text.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Write {
     /// Where the anchor is, in pixels.
     pub(crate) at: (f64, f64),
-    /// Which part of the text stands there.
+    /// The part of the text at that position.
     pub(crate) anchor: Anchor,
     /// Size in pixels.
     pub(crate) size: f64,
@@ -143,7 +144,7 @@ pub(crate) struct Write {
     pub(crate) bold: bool,
 }
 
-/// Writes a text, centred vertically about its place.
+/// Writes a text, vertically centred at its position.
 pub(crate) fn write(area: &Area<'_>, text: &str, how: Write) -> Drawn {
     let anchor = match how.anchor {
         Anchor::Start => HPos::Left,
@@ -161,15 +162,15 @@ pub(crate) fn text_style(size: f64, colour: RGBColor, bold: bool) -> TextStyle<'
     TextStyle { color: colour.to_backend_color(), ..TextStyle::from(font) }
 }
 
-/// The usual width of a letter in sizes of its font.
+/// The usual width of a letter, relative to the size of its font.
 const LETTER: f64 = 0.58;
 
-/// The length of a text in pixels, by the usual width of letters.
+/// The length of a text in pixels, estimated from the usual width of letters.
 pub(crate) fn length(text: &str, size: f64) -> f64 {
     LETTER * size * text.chars().count() as f64
 }
 
-/// A text that has room in a width in pixels, by the usual width of letters.
+/// A text shortened to a width in pixels, estimated from the usual width of letters.
 pub(crate) fn shortened(text: &str, width: f64, size: f64) -> String {
     let most = (width / (LETTER * size)).floor().max(2.0) as usize;
     if text.chars().count() <= most {

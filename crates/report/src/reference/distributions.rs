@@ -13,8 +13,8 @@ use crate::document::Document;
 use crate::plot::bars;
 use crate::sheet::Sheet;
 
-/// The standard uncertainty of a distribution as a formula of its keys, and the divisor of its width
-/// where it has one.
+/// The standard uncertainty of a distribution as a formula of its keys, and the divisor of its
+/// width if there is one.
 pub(super) fn uncertainty(name: &str) -> Option<(&'static str, &'static str)> {
     Some(match name {
         "constant" => ("0", ""),
@@ -53,7 +53,7 @@ pub(super) fn uncertainty(name: &str) -> Option<(&'static str, &'static str)> {
     })
 }
 
-/// A distribution of each shape, to be drawn; `None` for shapes that have no form of their own.
+/// A distribution of each shape for the picture; `None` for shapes without a fixed form.
 fn drawn(name: &str) -> Option<Distribution> {
     let readings = vec![1.0, 2.0, 3.0, 4.0];
     let made: Result<Distribution, Invalid> = match name {
@@ -87,7 +87,7 @@ const WIDE: usize = 15;
 /// The density over the middle 99 % in characters, from the probabilities of equal cells.
 fn picture(of: &Distribution) -> String {
     let (low, high) = (of.quantile(0.005), of.quantile(0.995));
-    // shapes with limits are drawn to these, so that their ends are seen
+    // shapes with limits are drawn up to these, so that their ends are visible
     let (first, last) = (of.quantile(1e-9), of.quantile(1.0 - 1e-9));
     let is_cut = last - first < 1.3 * (high - low);
     let (low, high) = if is_cut { (first, last) } else { (low, high) };
@@ -135,7 +135,7 @@ pub(super) fn document() -> Document {
         })
     };
     let pictures = shapes.iter().map(|shape| match drawn(shape.name) {
-        // of code, so that the characters keep their places
+        // as code, so that the characters keep their positions
         Some(of) => format!("`{}`", picture(&of)),
         None => String::new(),
     });

@@ -5,7 +5,7 @@ use gumption_engine::model::formula;
 use crate::document::Document;
 use crate::sheet::Sheet;
 
-/// What a function gives, in a line.
+/// The description of a function, in a line.
 pub(super) fn about(name: &str) -> Option<&'static str> {
     Some(match name {
         "sin" | "cos" | "tan" => "of an angle, in radians or with its unit",
@@ -45,7 +45,7 @@ pub(super) fn about(name: &str) -> Option<&'static str> {
     })
 }
 
-/// Operators in the order in which they bind, the tightest first.
+/// Operators in the order of precedence, the highest first.
 const OPERATORS: [(&str, &str); 10] = [
     ("x^n", "power; from right to left, `2^3^2` is `2^(3^2)`"),
     ("-x", "negative; `-x^2` is `-(x^2)`"),

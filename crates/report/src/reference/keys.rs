@@ -1,7 +1,7 @@
-//! The keys of files, as the JSON Schema has them.
+//! The keys of files, from the JSON Schema.
 //!
-//! The schema is made of the tables that the readers read by; here its definitions are walked from
-//! the root of a kind of file, and each that has keys becomes a table.
+//! The schema is generated from the tables of the readers. This module walks its definitions from
+//! the root of a kind of file, and makes a table of each one with keys.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use serde_json::{Map, Value};
 use crate::document::{Block, Document};
 use crate::sheet::Sheet;
 
-/// Definitions that are told elsewhere: with the distributions, and once for all inputs.
+/// Definitions that are described elsewhere: with the distributions, and once for all inputs.
 const OF_SHAPES: [&str; 2] = ["input-", "component-"];
 
 /// The schema's definitions.
@@ -30,13 +30,13 @@ impl Definitions {
         self.0.get(name)
     }
 
-    /// What a place of a file is: its own description, or that of what it refers to.
+    /// The description of a node: its own, or that of the definition to which it refers.
     fn about<'a>(&'a self, node: &'a Value) -> &'a str {
         let own = text(node, "description");
         own.or_else(|| text(self.get(referred(node)?)?, "description")).unwrap_or_default()
     }
 
-    /// What may stand at a place, in a few words.
+    /// The permitted forms of a node, in a few words.
     fn form(&self, node: &Value) -> String {
         if let Some(name) = referred(node) {
             return match self.get(name) {
@@ -105,7 +105,7 @@ impl Definitions {
         common.map(|(key, node)| (key.clone(), node.clone())).collect()
     }
 
-    /// A section for a definition: what it is, its keys, and which of them exclude each other.
+    /// A section for a definition: its description, its keys, and which of them exclude each other.
     fn section(&self, document: &mut Document, name: &str, left_out: &[&str]) {
         let Some(node) = self.get(name) else { return };
         document.section(capital(&spaced(name)));
@@ -137,7 +137,7 @@ impl Definitions {
         }
     }
 
-    /// The keys of an object at a key, or of those of its list, that has no section of its own.
+    /// The keys of an object at a key, or of the objects in its list, without a section of its own.
     pub(super) fn inside(&self, document: &mut Document, key: &str, node: &Value) {
         let items = node.get("items").filter(|items| items.get("properties").is_some());
         let of = items.unwrap_or(node);
@@ -149,12 +149,12 @@ impl Definitions {
         }
     }
 
-    /// The object of a section of its own that a key refers to.
+    /// The object with its own section to which a key refers.
     pub(super) fn object_at(&self, node: &Value) -> Option<&Value> {
         self.get(referred(node)?).filter(|of| of.get("properties").is_some())
     }
 
-    /// Which keys stand for each other, and which need others.
+    /// Which keys are alternatives, and which need others.
     pub(super) fn rules(&self, node: &Value) -> Option<String> {
         let one =
             alternatives(node, "oneOf").map(|said| format!("exactly one of {said} is needed"));
@@ -175,13 +175,13 @@ impl Definitions {
     }
 }
 
-/// A document about a kind of file: its root, then every object that it refers to, then the forms of
-/// values. `left_out` are keys of the root that other topics have.
+/// A document about a kind of file: its root, then every object to which it refers, then the forms
+/// of values. `left_out` are keys of the root that other topics describe.
 pub(super) fn document(title: &str, root: &str, left_out: &[&str]) -> Document {
     of_roots(title, &[root], left_out)
 }
 
-/// What a case has beside the keys of a model file.
+/// The keys of a case besides those of a model file.
 pub(super) fn of_case() -> Document {
     let roots = ["observations", "effects", "catalogue", "prior"];
     let mut document = of_roots("Case of the gap diagnosis", &roots, &[]);
@@ -253,7 +253,7 @@ fn meaning(node: &Value) -> String {
     said.join(" ")
 }
 
-/// All definitions that a node refers to, but those under keys that are left out.
+/// All definitions to which a node refers, except those under keys that are left out.
 fn references(node: &Value, left_out: &[&str], found: &mut BTreeSet<String>) {
     match node {
         Value::Object(members) => {
@@ -266,7 +266,7 @@ fn references(node: &Value, left_out: &[&str], found: &mut BTreeSet<String>) {
     }
 }
 
-/// The sets of keys of which one is needed: `a`, or `b` with `c`.
+/// The sets of keys of which one is required: `a`, or `b` with `c`.
 fn alternatives(node: &Value, key: &str) -> Option<String> {
     let choices = node.get(key)?.as_array()?;
     let of = |choice: &Value| {

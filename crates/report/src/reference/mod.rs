@@ -1,5 +1,5 @@
-//! The reference of files and formulas: tables made of what the reader, the unit parser and the
-//! formula parser know, so that no word of them is of another version than the program.
+//! The reference of files and formulas: tables generated from the reader, the unit parser and the
+//! formula parser, so that they always match the version of the program.
 
 mod distributions;
 mod functions;
@@ -47,7 +47,7 @@ impl Topic {
         Self::SavedResult,
     ];
 
-    /// Its name on the command line, which is that of its page in the manual as well.
+    /// Its name on the command line and in the manual.
     pub fn name(self) -> &'static str {
         match self {
             Self::Model => "model",
@@ -62,7 +62,7 @@ impl Topic {
         }
     }
 
-    /// What it tells, in a line.
+    /// Its subject, in a line.
     pub fn about(self) -> &'static str {
         match self {
             Self::Model => "the keys of a model file",
@@ -96,10 +96,10 @@ impl Topic {
     }
 }
 
-/// The topic as a page of text for a terminal.
+/// The topic as a text page for a terminal.
 pub fn table(topic: Topic) -> String {
     let mut document = topic.document();
-    // code is known by its column
+    // code is recognized by its column
     for block in &mut document.blocks {
         if let Block::Table(sheet) = block {
             let cells = sheet.columns.iter_mut().flat_map(|column| &mut column.cells);

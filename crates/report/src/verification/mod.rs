@@ -59,7 +59,7 @@ fn lines(found: &[RecomputedExample]) -> impl Iterator<Item = Line<'_>> {
     found.iter().flat_map(|e| e.rows.iter().map(|row| Line::of(&e.name, row)))
 }
 
-/// How many values agree, and how many do not.
+/// The numbers of values that agree and that do not.
 fn counts(found: &[RecomputedExample]) -> (usize, usize) {
     let verdicts = || found.iter().flat_map(|e| &e.rows).map(|row| row.verdict);
     let pass = verdicts().filter(|v| *v == PublishedVerdict::Pass).count();
@@ -89,7 +89,7 @@ fn figures(row: &RecomputedValue) -> [String; 3] {
     [exact(published.value), significant(published.tolerance, TOLERANCE_DIGITS), got]
 }
 
-/// The page for a terminal: a block for each example, columns under each other throughout.
+/// The page for a terminal: a block for each example, with aligned columns.
 pub fn table(found: &[RecomputedExample]) -> String {
     let header = ["output", "quantity", "published", "tolerance", "recomputed", ""];
     let blocks: Vec<Vec<[String; 6]>> = found.iter().map(cells).collect();
@@ -102,7 +102,7 @@ pub fn table(found: &[RecomputedExample]) -> String {
     let line = |cells: [&str; 6]| {
         let mut line = String::from(" ");
         for (position, (cell, width)) in cells.iter().zip(widths).enumerate() {
-            // numbers stand at the right of their column
+            // numbers are right-aligned in their column
             let _ = match position {
                 2..=4 => write!(line, " {cell:>width$} "),
                 _ => write!(line, " {cell:width$} "),
@@ -131,7 +131,7 @@ pub fn table(found: &[RecomputedExample]) -> String {
     page
 }
 
-/// The page for a terminal that is too narrow for all columns: every example has a table of its own.
+/// The page for a terminal that is too narrow for all columns: every example has its own table.
 fn folded(
     found: &[RecomputedExample],
     (header, blocks): (&[&str; 6], &[Vec<[String; 6]>]),
@@ -159,10 +159,11 @@ fn folded(
     page + &wrapped(&summary(found), "")
 }
 
-/// A tolerance of more than this share of the published value is wide: one digit of it is not certain.
+/// A tolerance of more than this fraction of the published value is wide: not even one digit of it
+/// is certain.
 const WIDE: f64 = 0.05;
 
-/// Where wide tolerances come from, each reason once.
+/// The reasons for wide tolerances, each once.
 fn reasons(example: &RecomputedExample) -> String {
     let mut said: Vec<String> = Vec::new();
     let is_wide = |row: &&RecomputedValue| {
@@ -177,7 +178,7 @@ fn reasons(example: &RecomputedExample) -> String {
     said.iter().map(|reason| wrapped(&format!("tolerance from: {reason}"), "   ")).collect()
 }
 
-/// The lines of an example, decimal points under each other.
+/// The lines of an example, with aligned decimal points.
 fn cells(example: &RecomputedExample) -> Vec<[String; 6]> {
     let figures: Vec<[String; 3]> = example.rows.iter().map(figures).collect();
     let column =
@@ -222,12 +223,12 @@ fn summary(found: &[RecomputedExample]) -> String {
     format!("gumption {VERSION}: {values} published values of {examples} examples, {verdict}.")
 }
 
-/// A page to file, in Markdown.
+/// A page for the records, in Markdown.
 pub fn markdown(found: &[RecomputedExample]) -> String {
     document::markdown(&page(found))
 }
 
-/// The same page as one HTML file that needs nothing else.
+/// The same page as one self-contained HTML file.
 pub fn html(found: &[RecomputedExample]) -> String {
     document::html(&page(found))
 }

@@ -1,8 +1,9 @@
-//! Figures of the answer in words.
+//! Names of values in the answer.
 
 use serde_json::Value;
 
-/// What stands at a path of the answer: `gum.interval[0]` is the lower end of the GUM interval.
+/// The name of the value at a path of the answer: `gum.interval[0]` is the lower endpoint of the
+/// GUM interval.
 pub fn words(path: &str, answer: &Value) -> String {
     if let Some(pair) = correlated(path, answer) {
         return format!("correlation of {} and {}", pair[0], pair[1]);

@@ -1,9 +1,9 @@
 //! The certificate as a Digital Calibration Certificate (DCC) of the Physikalisch-Technische
 //! Bundesanstalt, version 3.2.1 or 3.1.2, with numbers and units in D-SI.
 //!
-//! Each output is one result with a list of quantities over its rows: conditions and nominal values,
-//! the measured values with their expanded uncertainties, and for rows whose distribution is not
-//! normal their coverage intervals. The files that the certificate was made of, and its JSON answer,
+//! Each output is one result with a list of quantities over its rows: conditions and nominal
+//! values, the measured values with their expanded uncertainties, and for rows whose distribution
+//! is not normal their coverage intervals. The source files of the certificate and its JSON answer
 //! are attached as bytes.
 
 mod people;
@@ -21,10 +21,10 @@ use people::contact;
 pub use view::dcc_stylesheet;
 use xml::Xml;
 
-/// Keys of the certificate file that a DCC cannot do without, and that are not there.
+/// Required keys of the certificate file that are missing for a DCC.
 pub type Needed = Vec<&'static str>;
 
-/// What a DCC needs beyond what the certificate file says; nothing if it is complete.
+/// The items that a DCC needs and the certificate file lacks; empty if it is complete.
 pub fn needed(certificate: &Certificate) -> Needed {
     let of = &certificate.administrative;
     let mut missing = Vec::new();
@@ -65,10 +65,10 @@ pub fn needed(certificate: &Certificate) -> Needed {
 /// A version of the digital certificate's schema.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DccVersion {
-    /// 3.2.1, which has the day of issue among the data of the certificate.
+    /// 3.2.1, with the date of issue among the data of the certificate.
     #[default]
     V3_2_1,
-    /// 3.1.2, for readers that do not know the newer ones.
+    /// 3.1.2, for software that cannot read newer versions.
     V3_1_2,
 }
 
@@ -106,9 +106,10 @@ pub fn dcc(report: &CertificateReport<'_>, version: DccVersion) -> String {
     xml.finish()
 }
 
-/// The certificate with the name of the file that has its stylesheet ([`dcc_stylesheet`]), beside it.
+/// The certificate with the name of the file next to it that contains its stylesheet
+/// ([`dcc_stylesheet`]).
 pub fn with_stylesheet(certificate: &str, file: &str) -> String {
-    // as an address, in which no name can end the attribute
+    // as a URL, in which no name can end the attribute
     let address: String = file
         .bytes()
         .map(|byte| match byte {
@@ -146,7 +147,7 @@ fn administrative(xml: &mut Xml, report: &CertificateReport<'_>, version: DccVer
             xml.leaf("dcc:endPerformanceDate", last);
         }
         xml.leaf("dcc:performanceLocation", of.place.name());
-        // the older schema has no place for it
+        // the older schema has no element for it
         if let (DccVersion::V3_2_1, Some(day)) = (version, &of.issued) {
             xml.leaf("dcc:issueDate", day);
         }

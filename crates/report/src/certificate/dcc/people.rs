@@ -1,4 +1,4 @@
-//! The device, and whom to ask.
+//! The device, and the contact persons.
 
 use super::xml::Xml;
 use crate::certificate::words::{self, Words, localized};

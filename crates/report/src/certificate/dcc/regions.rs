@@ -17,7 +17,7 @@ use gumption_units::Unit;
 /// Decimal place of coverage factors.
 const FACTOR: i32 = -3;
 
-/// An element with what it is called, and the coverage factor in it.
+/// An element with its designation, and the coverage factor in it.
 type Form = (&'static str, fn(&Words) -> &'static str, f64);
 
 /// A result for each region.
@@ -55,7 +55,7 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
     }
 }
 
-/// Which rows lie in the region together, and how large the smallest one is.
+/// The rows that the region covers, and its smallest size.
 fn about(report: &CertificateReport<'_>, of: &Covered<'_>, language: Language) -> String {
     let mut said: Vec<String> = of.rows.iter().map(|row| named(report, row, language)).collect();
     let found = of.region.monte_carlo.as_ref();
@@ -70,7 +70,7 @@ fn about(report: &CertificateReport<'_>, of: &Covered<'_>, language: Language) -
     said.join("; ")
 }
 
-/// The values: a complex number where the two outputs are the parts of one, else a list.
+/// The values: a complex number if the two outputs are the parts of one, else a list.
 fn quantity(
     xml: &mut Xml,
     rows: &[Stated<'_>],
@@ -109,7 +109,7 @@ fn quantity(
     });
 }
 
-/// What the two outputs of a complex quantity are.
+/// The meaning of the two outputs of a complex quantity.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Parts {
     Cartesian,
@@ -130,7 +130,7 @@ impl Parts {
     }
 }
 
-/// The covariance matrix, and what it is multiplied by.
+/// The covariance matrix, and its factor.
 fn region(
     xml: &mut Xml,
     element: &str,

@@ -1,4 +1,4 @@
-//! The results of a DCC: for each output lists over its rows, and the files behind them.
+//! The results of a DCC: for each output lists over its rows, and the source files.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -109,8 +109,8 @@ fn result(
     });
 }
 
-/// The rows of each list of a result. A list of D-SI has a number for every row, so that rows with a
-/// nominal value and rows without one are in two lists; that of the first row comes first.
+/// The rows of each list of a result. A list in D-SI has a number for every row, so rows with and
+/// without a nominal value are in two lists; the list of the first row comes first.
 fn lists<'a>(rows: &[Stated<'a>]) -> Vec<Vec<Stated<'a>>> {
     let first = rows.first().map(|row| row.line.nominal.is_some());
     let is_as_first = |row: &Stated<'_>| Some(row.line.nominal.is_some()) == first;
@@ -118,7 +118,7 @@ fn lists<'a>(rows: &[Stated<'a>]) -> Vec<Vec<Stated<'a>>> {
     [as_first, others].into_iter().filter(|rows| !rows.is_empty()).collect()
 }
 
-/// Which rows of the certificate these are.
+/// The numbers of these rows on the certificate.
 fn rows_of(rows: &[Stated<'_>], languages: &[Language]) -> Localized {
     let numbers: Vec<usize> = rows.iter().map(|row| row.number).collect();
     let said = |language: &Language| {
@@ -141,14 +141,15 @@ pub(super) fn named(
     format!("{} {}: {}", words::of(language).row, row.number, parts.join(", "))
 }
 
-/// Whether the expanded uncertainties of these rows can stand in a list: D-SI has no coverage factor
+/// Whether the expanded uncertainties of these rows can be in a list: D-SI has no coverage factor
 /// below 1, and none without a probability.
 fn are_in_lists(rows: &[Stated<'_>]) -> bool {
     let below = rows.iter().any(|row| row.statement.coverage_factor < 1.0);
     !below && stated::reach_something(rows)
 }
 
-/// What an agreed factor makes of a row without a coverage probability, for which D-SI has no place.
+/// The meaning of an agreed factor for a row without a coverage probability, for which D-SI has no
+/// element.
 fn without_probability(
     report: &CertificateReport<'_>,
     row: &Stated<'_>,
@@ -168,7 +169,7 @@ fn list(xml: &mut Xml, values: &[String], of: &Unit, inside: impl FnOnce(&mut Xm
     });
 }
 
-/// What a unit outside of the SI is, where the list has one.
+/// The definition of a unit outside the SI, if the list has one.
 fn explained(xml: &mut Xml, of: &Unit) {
     if is_of_the_si(of) {
         return;
@@ -243,7 +244,7 @@ fn measured(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
     });
 }
 
-/// The coverage probability, which D-SI asks for also where an agreed factor is all that is stated.
+/// The coverage probability, which D-SI requires even if only an agreed factor is stated.
 fn probability(row: &Stated<'_>) -> String {
     match (row.statement.coverage_probability, row.reached()) {
         (Some(stated), _) => exact(stated),
@@ -254,8 +255,8 @@ fn probability(row: &Stated<'_>) -> String {
     }
 }
 
-/// The law that the factor belongs to; `None` where the trials contradict it, though its interval has
-/// the same digits as theirs.
+/// The distribution to which the factor belongs; `None` if the trials contradict it, even if its
+/// interval has the same digits as theirs.
 fn distribution(row: &Stated<'_>) -> Option<&'static str> {
     let is_contradicted = row.found.validation.is_some_and(|v| v.gum_valid == Some(false));
     match row.statement.basis {
@@ -267,8 +268,8 @@ fn distribution(row: &Stated<'_>) -> Option<&'static str> {
     }
 }
 
-/// What a quantity of coverage intervals is called: the good practice of the DKD has no reference type
-/// of them, and with that of the measured values they would be further ones.
+/// The designation of coverage intervals: the good practice of the DKD has no reference type for
+/// them, and with that of the measured values they would count as further measured values.
 const INTERVAL: &str = "gumption_coverageInterval";
 
 /// The coverage intervals of the rows that have one.
@@ -372,7 +373,7 @@ fn function(
     });
 }
 
-/// The files that the certificate was made of, and its answer for programs.
+/// The source files of the certificate, and its answer for programs.
 fn attachments(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
     let name = localized(languages, |w| w.files);
     xml.text("dcc:name", &name, languages);
@@ -381,7 +382,7 @@ fn attachments(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Langu
         let mut add = |about: fn(&Words) -> &'static str, name: &str, kind: &str, bytes: &[u8]| {
             xml.element("dcc:byteData", |xml| {
                 xml.text("dcc:name", &localized(languages, about), languages);
-                // the name of the file alone: who saves it chooses the folder
+                // only the name of the file: the user chooses the folder
                 xml.leaf("dcc:fileName", file_name(name));
                 xml.leaf("dcc:mimeType", kind);
                 xml.leaf("dcc:dataBase64", &STANDARD.encode(bytes));

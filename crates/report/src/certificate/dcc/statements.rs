@@ -40,8 +40,8 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
     }
 }
 
-/// What a statement is for readers that know the names of the good practice, the norms that it goes
-/// by, and whether something conforms.
+/// The reference type of a statement in the good practice, the norms that it follows, and whether
+/// something conforms.
 type Kind<'a> = (Option<&'a str>, &'a [&'a str], Option<bool>);
 
 fn statement(

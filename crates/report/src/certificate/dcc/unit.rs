@@ -1,11 +1,11 @@
-//! Units as D-SI writes them: `\metre\second\tothe{-2}` for `m/s^2`.
+//! Units in D-SI: `\metre\second\tothe{-2}` for `m/s^2`.
 
 use gumption_units::{Factor, FactorBase, Unit, Zero};
 
 use crate::number::exact;
 
-/// A unit as D-SI writes it; one that D-SI does not have stands behind a bar, in a text that is the
-/// same for every spelling of the unit.
+/// A unit in D-SI; one that D-SI does not have follows a bar, in a text that is the same for every
+/// spelling of the unit.
 pub(crate) fn unit(unit: &Unit) -> String {
     of_the_si(unit).unwrap_or_else(|| format!("|{}", unit.normal_text()))
 }
@@ -22,12 +22,13 @@ fn of_the_si(unit: &Unit) -> Option<String> {
     }
 }
 
-/// A factor; `None` for what D-SI does not have: numbers, its own names of other units, roots.
+/// A factor; `None` for factors that D-SI does not have: numbers, its own names of other units,
+/// roots.
 fn factor(factor: &Factor) -> Option<String> {
     let FactorBase::Named { prefix, symbol } = factor.base else { return None };
     let name = match (prefix.map(|prefix| prefix.macro_name()), symbol.dsi_name()?) {
         (None, name) => format!("\\{name}"),
-        // the one unit that has a name with its prefix
+        // the one unit whose name includes its prefix
         (Some(Some("kilo")), "gram") => "\\kilogram".to_owned(),
         (Some(prefix), name) => format!("\\{}\\{name}", prefix?),
     };
@@ -38,10 +39,10 @@ fn factor(factor: &Factor) -> Option<String> {
     }
 }
 
-/// What a unit is that D-SI does not have: its size in the SI, or what a level is the logarithm of
-/// (IEC 60027-3).
+/// The definition of a unit that D-SI does not have: its size in the SI, or the ratio of which a
+/// level is the logarithm (IEC 60027-3).
 pub(super) fn definition(unit: &Unit) -> String {
-    // as it stands behind the bar
+    // as written after the bar
     let text = unit.normal_text();
     let power = |over: &str| format!("{text} is the level 10 lg({over}) of a power P");
     let voltage = |over: &str| format!("{text} is the level 20 lg({over}) of a voltage U");
@@ -60,12 +61,12 @@ pub(super) fn definition(unit: &Unit) -> String {
         Some(Zero::Isotropic) => {
             format!("{text} is the gain 10 lg(G) of an antenna above the isotropic one, G = 1")
         }
-        // a level difference: one number for powers and for the field quantities that they go with
+        // a level difference: one number for powers and for the corresponding field quantities
         _ if !unit.level_exponent().is_zero() && text == "dB" => {
             "dB is the level difference 10 lg(P1/P2) of powers, 20 lg(x1/x2) of field quantities"
                 .to_owned()
         }
-        // the one scale whose zero is no unit's of D-SI
+        // the one scale whose zero belongs to no unit of D-SI
         Some(Zero::Celsius) if unit.offset() != 0.0 => {
             format!("t in {text} is the temperature T with T/K = (t/{text} + 459.67)*5/9")
         }
@@ -109,14 +110,14 @@ mod tests {
         assert_eq!(said("ppm/K"), r"\ppm\kelvin\tothe{-1}");
         assert_eq!(said("1"), r"\one");
         assert_eq!(said(""), r"\one");
-        // the digit of a converter is no unit of the SI
+        // the digit of a converter is not an SI unit
         assert_eq!(said("D/(m/s^2)"), "|D·s^2/m");
         assert_eq!(said("nV/Hz^(1/2)"), "|nV/Hz^(1/2)");
         assert_eq!(said("W/(m^2 lbf)"), "|W/(m^2·lbf)");
         assert_eq!(said("10^-6/K"), "|10^-6/K");
         assert_eq!(said("Qm"), "|Qm");
     }
-    /// A level is a logarithm of a ratio, and no number of ones (IEC 60027-3).
+    /// A level is the logarithm of a ratio, not a number of ones (IEC 60027-3).
     #[test]
     fn definitions_of_levels_and_others() {
         let said = |text: &str| definition(&Unit::parse(text).unwrap());

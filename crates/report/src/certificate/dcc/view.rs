@@ -1,17 +1,17 @@
-//! A stylesheet (XSLT 1.0) that shows a digital certificate to people.
+//! A stylesheet (XSLT 1.0) that displays a digital certificate.
 
 use crate::certificate::units::printed_text;
 use crate::certificate::words::{self, Words};
 use gumption_analysis::certificate::contents::Language;
 use gumption_units::{Prefix, Symbol};
 
-/// The stylesheet, with places for words and for the style of pages.
+/// The stylesheet, with placeholders for words and for the style of pages.
 const TEMPLATE: &str = include_str!("view.xsl");
 
-/// A name in the template, and the word that stands for it.
+/// A placeholder in the template, and its word.
 type NamedWord = (&'static str, fn(&Words) -> &'static str);
 
-/// The words that it takes from those of a certificate.
+/// The words that it shares with certificates.
 const WORDS: [NamedWord; 24] = [
     ("title", |of| of.title),
     ("number", |of| of.number),
@@ -39,8 +39,8 @@ const WORDS: [NamedWord; 24] = [
     ("end", |of| of.end),
 ];
 
-/// A stylesheet that makes a page for people of any digital certificate of version 3, in each of the
-/// languages that certificates can be written in; its parameter `lang` is a code of ISO 639-1.
+/// A stylesheet that converts any digital certificate of version 3 into a readable page, in each of
+/// the languages of certificates; its parameter `lang` is a code of ISO 639-1.
 pub fn dcc_stylesheet() -> String {
     let style = escaped(crate::page_style());
     let made = TEMPLATE
@@ -76,7 +76,7 @@ fn prefixes() -> String {
     gumption_units::prefixes().filter_map(of).collect()
 }
 
-/// The units of D-SI with their symbols as print has them.
+/// The units of D-SI with their typographic symbols.
 fn symbols() -> String {
     let of = |symbol: &Symbol| {
         let name = symbol.dsi_name()?;
@@ -86,7 +86,7 @@ fn symbols() -> String {
     gumption_units::symbols().filter_map(of).collect::<String>() + &others
 }
 
-/// A text as it stands in XML.
+/// A text escaped for XML.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
@@ -95,7 +95,7 @@ fn escaped(text: &str) -> String {
 mod tests {
     use super::*;
 
-    /// It is well formed, every word is filled in, and it names nothing outside of itself.
+    /// It is well formed, every word is filled in, and it refers to nothing external.
     #[test]
     fn every_word_is_there() {
         let text = dcc_stylesheet();

@@ -1,4 +1,4 @@
-//! XML that is being written: elements, and texts in several languages.
+//! Writes XML: elements, and texts in several languages.
 
 use std::io;
 
@@ -31,7 +31,7 @@ impl Xml {
         }
     }
 
-    /// An element with attributes and what `inside` writes into it.
+    /// An element with attributes and the content that `inside` writes.
     pub(super) fn within(
         &mut self,
         name: &str,
@@ -44,7 +44,7 @@ impl Xml {
         self.put(Event::End(BytesEnd::new(name)));
     }
 
-    /// An element with what `inside` writes into it.
+    /// An element with the content that `inside` writes.
     pub(super) fn element(&mut self, name: &str, inside: impl FnOnce(&mut Self)) {
         self.within(name, &[], inside);
     }
@@ -56,7 +56,7 @@ impl Xml {
 
     /// An element with attributes and a text.
     pub(super) fn leaf_with(&mut self, name: &str, attributes: &[(&str, &str)], text: &str) {
-        // the schema refuses spaces at the ends of many texts
+        // the schema rejects spaces at the ends of many texts
         let text: String = text.trim().chars().filter(|c| is_allowed(*c)).collect();
         let start = BytesStart::new(name).with_attributes(attributes.iter().copied());
         self.put(Event::Start(start));
@@ -85,7 +85,7 @@ impl Xml {
     }
 }
 
-/// Whether XML 1.0 may have a character, and nobody obeys it.
+/// Whether XML 1.0 allows a character, and terminals do not interpret it.
 fn is_allowed(c: char) -> bool {
     matches!(c, '\t' | '\n') || !(is_obeyed(c) || matches!(c, '\u{fffe}' | '\u{ffff}'))
 }

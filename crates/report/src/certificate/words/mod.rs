@@ -1,6 +1,6 @@
-//! The words of a certificate, one file for each language. Sentences are the project's own; what they
-//! have to say is asked by EA-4/02 M:2022, clause 6, ILAC-P14:09/2020, clause 5, and
-//! ISO/IEC 17025:2017, 7.8.
+//! The words of a certificate, one file for each language. The sentences are the project's own;
+//! their content is required by EA-4/02 M:2022, clause 6, ILAC-P14:09/2020, clause 5, and ISO/IEC
+//! 17025:2017, 7.8.
 
 mod english;
 mod french;
@@ -9,7 +9,7 @@ mod italian;
 
 use gumption_analysis::certificate::contents::{Language, Localized};
 
-/// The words of a language. Names in braces are filled in.
+/// The words of a language. Names in braces are placeholders.
 #[derive(Debug)]
 pub(super) struct Words {
     pub(super) title: &'static str,
@@ -17,7 +17,7 @@ pub(super) struct Words {
     pub(super) device: &'static str,
     pub(super) manufacturer: &'static str,
     pub(super) model: &'static str,
-    /// In what condition the device came.
+    /// The condition of the device on receipt.
     pub(super) condition: &'static str,
     pub(super) serial_number: &'static str,
     pub(super) customer_number: &'static str,
@@ -28,7 +28,7 @@ pub(super) struct Words {
     pub(super) calibrated: &'static str,
     /// From one day to another: `{first}`, `{last}`.
     pub(super) period: &'static str,
-    /// Day on which the device came.
+    /// Date of receipt of the device.
     pub(super) received: &'static str,
     pub(super) issued: &'static str,
     pub(super) place: &'static str,
@@ -61,11 +61,11 @@ pub(super) struct Words {
     pub(super) student: &'static str,
     /// `{k}`
     pub(super) fixed: &'static str,
-    /// `{k}`; where the probability that belongs to the factor is stated.
+    /// `{k}`; if the corresponding probability is stated.
     pub(super) agreed: &'static str,
     /// `{p}`
     pub(super) shortest: &'static str,
-    /// `{p}`; the same from figures without the noise of trials
+    /// `{p}`; the same for results without the noise of trials
     pub(super) without_trials: &'static str,
     pub(super) propagation: &'static str,
     /// About all rows.
@@ -75,15 +75,15 @@ pub(super) struct Words {
     pub(super) rounding: &'static str,
     /// By rule, in the order of [`Rounding::ALL`](gumption_analysis::certificate::contents::Rounding::ALL).
     pub(super) rules: [&'static str; 3],
-    /// That rounding is against the rule where U would be below the capability.
+    /// That rounding violates the rule where U would be below the capability.
     pub(super) kept: &'static str,
     /// One digit, and `{digits}` digits.
     pub(super) digits: [&'static str; 2],
-    /// `{factor}`, and with the probability that is reached at least: `{p}`.
+    /// `{factor}`, and with the minimum actual probability: `{p}`.
     pub(super) raised: [&'static str; 2],
-    /// The factor of a capability as it is, and as it is brought from 2 to another: `{k}`.
+    /// The factor of a capability as stated, and after conversion from 2 to another: `{k}`.
     pub(super) of_capability: [&'static str; 2],
-    /// `{list}`; where no table has them.
+    /// `{list}`; if no table contains them.
     pub(super) dof_list: &'static str,
     /// `{p}`
     pub(super) approximately: &'static str,
@@ -92,7 +92,7 @@ pub(super) struct Words {
     pub(super) function: &'static str,
     /// `{equation}`, `{low}`, `{high}`
     pub(super) in_range: &'static str,
-    /// `{k}`, and how k is said: `{coverage}`
+    /// `{k}`, and the sentence about k: `{coverage}`
     pub(super) band: &'static str,
     pub(super) parameter: &'static str,
     pub(super) standard: &'static str,
@@ -113,8 +113,8 @@ pub(super) struct Words {
     pub(super) conformity: &'static str,
     /// That a value conforms to a tolerance, and that it does not: `{limits}`.
     pub(super) decisions: [&'static str; 2],
-    /// That a value within the tolerance is rejected: it lies outside the acceptance limits, or there
-    /// are none; `{limits}`.
+    /// That a value within the tolerance is rejected: it lies outside the acceptance limits, or
+    /// there are none; `{limits}`.
     pub(super) not_shown: [&'static str; 2],
     /// Limits with their unit: both, the lower one, the upper one; `{low}`, `{high}`, `{unit}`.
     pub(super) limits: [&'static str; 3],
@@ -122,9 +122,10 @@ pub(super) struct Words {
     pub(super) conforming: &'static str,
     /// The risk that a rejected value conforms: `{p}`, one of `percent`.
     pub(super) all_the_same: &'static str,
-    /// That it was decided with other digits than are stated: `{value}`.
+    /// That the decision used other digits than the stated ones: `{value}`.
     pub(super) unrounded: &'static str,
-    /// What the probability rests on beside the measurement, and what it is without: `{prior}`, `{p}`.
+    /// The prior knowledge behind the probability besides the measurement, and the probability
+    /// without it: `{prior}`, `{p}`.
     pub(super) with_prior: &'static str,
     /// `{shape}`, `{mean}`, `{std}`
     pub(super) prior: &'static str,
@@ -135,19 +136,20 @@ pub(super) struct Words {
     pub(super) simple: &'static str,
     /// A guard band in multiples of U: `{factor}`, `{clause}`, `{guard}`, `{limits}`
     pub(super) multiple: &'static str,
-    /// The same of a guard band that leaves nothing: `{factor}`, `{clause}`, `{guard}`
+    /// The same for a guard band that leaves no acceptance interval: `{factor}`, `{clause}`,
+    /// `{guard}`
     pub(super) too_wide: &'static str,
-    /// The clause of such a guard band, and how it is not that where U is not of approximately 95 %:
+    /// The clause for this guard band, and how it differs if U is not for approximately 95 %:
     /// `{k}`.
     pub(super) of_ilac_g8: [&'static str; 2],
     pub(super) rule_agreed: &'static str,
-    /// What the tolerance is that of: `{name}`
+    /// The specification to which the tolerance belongs: `{name}`
     pub(super) specification: &'static str,
     /// `{kind}`, `{risk}`, `{guard}`, `{limits}`
     pub(super) guarded: &'static str,
     /// A guarded rule by which no value is accepted: `{kind}`, `{risk}`.
     pub(super) never: &'static str,
-    /// Of one value, and of all that are decided upon.
+    /// For one value, and for all values under decision.
     pub(super) kinds: [&'static str; 2],
 
     /// `{page}`, `{pages}`
@@ -195,7 +197,7 @@ pub(super) fn beside(languages: &[Language], word: impl Fn(&Words) -> &'static s
     each(languages, word).join(" / ")
 }
 
-/// A word as a text of which every language has its own.
+/// A word as a text with a version for every language.
 pub(super) fn localized(
     languages: &[Language],
     word: impl Fn(&Words) -> &'static str,
@@ -219,7 +221,7 @@ fn each(languages: &[Language], word: impl Fn(&Words) -> &'static str) -> Vec<&'
 mod tests {
     use super::*;
 
-    /// A sentence of another language that leaves a figure out would state less in it.
+    /// A sentence that omits a value in one language would state less in it.
     #[test]
     fn every_language_fills_in_the_same() {
         fn marks(text: &str) -> Vec<&str> {

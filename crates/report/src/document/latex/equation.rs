@@ -4,8 +4,8 @@ use super::escaped;
 use crate::equation::{Equation, greek, parts_of_name, parts_of_number};
 use gumption_engine::model::formula::Layout;
 
-/// A formula, or the right side of an equation with that of what it uses; as it was written where it
-/// is none.
+/// A formula, or the right side of an equation with those that it uses; unchanged if it is not a
+/// formula.
 pub(super) fn equation(text: &str) -> String {
     let whole = match Equation::read(text) {
         Some(Equation { whole, uses: None }) => displayed(&part(&whole)),
@@ -15,7 +15,7 @@ pub(super) fn equation(text: &str) -> String {
         }
         None => return escaped(text),
     };
-    // fractions of neighbouring lines keep their distance
+    // fractions on neighbouring lines keep their distance
     match whole.contains("\\frac") {
         true => format!("\\rule[-2.6ex]{{0pt}}{{6.2ex}}{whole}"),
         false => whole,
@@ -39,7 +39,7 @@ fn part(layout: &Layout) -> String {
         },
         Layout::Name(text) => name(text),
         Layout::Sign(text) => sign(text),
-        // the narrow space before a unit is none inside of a box
+        // the narrow space before a unit has no effect inside a box
         Layout::Text(text) => match text.strip_prefix('\u{202f}') {
             Some(unit) => format!("\\,\\mbox{{{}}}", escaped(unit)),
             None => format!("\\mbox{{{}}}", escaped(text)),
@@ -56,7 +56,7 @@ fn part(layout: &Layout) -> String {
                  \\mbox{{otherwise}}\\end{{array}}\\right."
             )
         }
-        // a part of a later version
+        // a variant added in a later version
         _ => String::new(),
     }
 }
@@ -71,11 +71,11 @@ fn name(text: &str) -> String {
     format!("{base}_{{{}}}", below.join(",\\,"))
 }
 
-/// A Greek letter for its name; a word in a font.
+/// A Greek letter for its name; other words in a font.
 fn letter(name: &str, font: &str) -> String {
     let is_capital = name.starts_with(|c: char| c.is_ascii_uppercase());
     match greek(name) {
-        // those that look like Latin letters have no command
+        // letters that look like Latin ones have no command
         Some('\u{3bf}') => "o".to_owned(),
         Some(letter) if is_capital && !"ΓΔΘΛΞΠΣΥΦΨΩ".contains(letter) => {
             format!("\\mathrm{{{}}}", name.get(..1).unwrap_or_default())
@@ -116,7 +116,7 @@ mod tests {
             equation("sqrt(a_ref^2 + 1e-3)/theta"),
             "\\rule[-2.6ex]{0pt}{6.2ex}$\\displaystyle \\frac{\\sqrt{{a_{\\mathrm{ref}}}^{2} + 1 \\cdot 10^{-3}}}{\\theta}$"
         );
-        // names that begin or end with a line
+        // names that begin or end with an underscore
         assert_eq!(equation("_x_ + _"), "$\\mathit{\\_x\\_} + \\mathit{\\_}$");
         assert_eq!(equation("abs(a*sin(tilt))"), "$| a \\cdot \\mathrm{sin} ( \\mathit{tilt} ) |$");
         assert_eq!(equation("r*w with w = 2*pi"), "$r \\cdot w$, $w = 2 \\cdot \\pi$");

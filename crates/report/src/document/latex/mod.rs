@@ -9,24 +9,24 @@ use super::{Block, Document, FootPart};
 use crate::sheet::{Column, Kind, Sheet};
 use text::escaped;
 
-/// Rows up to which a table is kept on one page.
+/// Maximum number of rows of a table that is kept on one page.
 const LONG: usize = 12;
 
-/// Letters in a text column before it becomes a paragraph of this many, or of more where the line has
-/// room.
+/// Number of letters above which a text column becomes a paragraph with this width, or more if the
+/// line has room.
 const PARAGRAPH: usize = 30;
 
 /// Width of a letter at the usual size of tables, in millimetres.
 const LETTER: f64 = 1.65;
 
-/// Letters in a line at each size of a table, at most.
+/// Maximum number of letters in a line for each text size of a table.
 const SIZES: [(usize, &str); 3] = [(98, "\\small"), (116, "\\footnotesize"), (136, "\\scriptsize")];
 
 /// Numbers with a decimal comma.
 const COMMA: &str = ",output-decimal-marker={,}";
 
-/// A style of pages that says what they belong to and which of them each is. Packages for it are not
-/// in every TeX Live.
+/// A page style that names the document and the page number. Packages for this are not in every TeX
+/// Live.
 fn foot(document: &Document) -> String {
     let foot = document.foot();
     let page = foot.parts().into_iter().map(|part| match part {
@@ -165,7 +165,7 @@ fn table(sheet: &Sheet, units: &mut unit::Declared) -> String {
     }
 }
 
-/// Letters of each column: what they need, and for paragraphs what the others leave.
+/// Width of each column in letters: as needed, and for paragraphs the remaining width.
 fn widths(sheet: &Sheet) -> Vec<usize> {
     let mut widths: Vec<usize> = sheet.columns.iter().map(width).collect();
     let longest = |column: &Column| column.cells.iter().map(|cell| cell.chars().count()).max();
@@ -192,7 +192,7 @@ fn width(column: &Column) -> usize {
     if !column.wraps() {
         return longest;
     }
-    // a word that is longer cannot be broken
+    // a longer word cannot be broken
     let words = column.cells.iter().flat_map(|cell| cell.split_whitespace());
     let word = words.map(|word| word.chars().count()).max().unwrap_or(0);
     longest.min(PARAGRAPH.max(word))
@@ -213,7 +213,7 @@ fn form(column: &Column, width: usize) -> String {
     }
 }
 
-/// How many digits a column of numbers reserves.
+/// The number of digits that a column of numbers reserves.
 fn number_format(column: &Column) -> String {
     let (mut whole, mut decimals, mut power) = (1, 0, None::<usize>);
     let (mut signed, mut power_signed) = (false, false);

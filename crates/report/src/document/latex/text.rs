@@ -1,7 +1,7 @@
-//! Running text in LaTeX: every character stands for itself and compiles, whatever a user wrote.
+//! Running text in LaTeX: every character is literal and compiles, whatever a user wrote.
 
-/// A text on one line. Exponents as in `m/s^2` are raised; a character that the usual fonts do not
-/// have is given by its code.
+/// A text on one line. Exponents as in `m/s^2` are raised; characters that the usual fonts do not
+/// have are written as codes.
 pub(super) fn escaped(text: &str) -> String {
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     if words == "-" {
@@ -13,7 +13,7 @@ pub(super) fn escaped(text: &str) -> String {
     let mut unbroken = 0;
     while let Some(&letter) = letters.get(place) {
         place += 1;
-        // a line may end within what is as long as a digest
+        // a line may break within a text as long as a digest
         unbroken = if letter.is_ascii_alphanumeric() { unbroken + 1 } else { 0 };
         if unbroken > UNBROKEN && unbroken % 8 == 1 {
             out += "\\allowbreak{}";
@@ -33,7 +33,7 @@ pub(super) fn escaped(text: &str) -> String {
     out
 }
 
-/// So many letters and digits stand on one line.
+/// Number of letters and digits that stay on one line.
 const UNBROKEN: usize = 24;
 
 /// The whole number that an exponent begins with.
@@ -193,7 +193,7 @@ mod tests {
         let digest = "0123456789abcdef".repeat(4);
         let broken = escaped(&digest);
         assert_eq!(broken.replace("\\allowbreak{}", ""), digest);
-        // pieces of eight behind the first 24
+        // pieces of eight after the first 24
         assert_eq!(broken.matches("\\allowbreak{}").count(), 5);
         assert_eq!(escaped("electroencephalographical"), "electroencephalographica\\allowbreak{}l");
         assert_eq!(escaped("a calibration certificate"), "a calibration certificate");

@@ -1,4 +1,4 @@
-//! Units as `siunitx` wants them: `\metre\per\second\squared` for `m/s^2`.
+//! Units in the syntax of `siunitx`: `\metre\per\second\squared` for `m/s^2`.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ impl Declared {
         units.map(|(name, text)| format!("\\DeclareSIUnit{{\\{name}}}{{{text}}}")).collect()
     }
 
-    /// A unit; the number 1 stands as it is. What is not a unit is printed as it is written.
+    /// A unit; the number 1 is printed as it is, and so is a text that is not a unit.
     pub(crate) fn unit(&mut self, text: &str) -> String {
         let macros = match Unit::parse(text) {
             Ok(unit) if unit.factors().is_empty() => return "1".to_owned(),
@@ -64,10 +64,10 @@ impl Declared {
         }
     }
 
-    /// The macro of a text that the package does not know: of its letters, or counted.
+    /// The macro for a text that the package does not know: made of its letters, or numbered.
     fn declared(&mut self, text: &str) -> String {
         let (name, printed) = if text.chars().all(|c| c.is_ascii_alphabetic()) {
-            // the one that the package has no sign for
+            // the one for which the package has no symbol
             let printed = if text == "degF" { "\\textdegree F" } else { text };
             (format!("gumption{text}"), printed.to_owned())
         } else {

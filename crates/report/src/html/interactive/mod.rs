@@ -1,6 +1,6 @@
-//! Pages with a script, where they are asked for: the values of points, sorted tables, enlarged
-//! figures, and what one method found hidden. The page itself is the same to the byte, but for its
-//! policy, which names the script by its digest and lets nothing else run.
+//! Pages with a script, on request: values of points, sorted tables, enlarged figures, and hidden
+//! results of a method. The page itself is the same to the byte, except for its policy, which names
+//! the script by its digest and allows no other.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -10,8 +10,8 @@ use super::POLICY;
 /// What runs.
 const SCRIPT: &str = include_str!("script.js");
 
-/// Its digest as a Content-Security-Policy names it: `script-src 'sha256-...'`. Who serves pages under
-/// a policy of his own puts it there.
+/// Its digest in the form of a Content-Security-Policy: `script-src 'sha256-...'`. A server with
+/// its own policy adds it there.
 pub fn interactive_script_digest() -> String {
     let hex = gumption_analysis::integrity::sha256(SCRIPT.as_bytes());
     let bytes: Vec<u8> = (0..hex.len() / 2)
@@ -20,7 +20,7 @@ pub fn interactive_script_digest() -> String {
     format!("sha256-{}", STANDARD.encode(bytes))
 }
 
-/// A page of this crate with the script; any other text as it is.
+/// A page of this crate with the script; any other text is unchanged.
 pub fn interactive(page: &str) -> String {
     let policy = format!("content=\"{POLICY}\"");
     let allowed = format!("content=\"{POLICY}; script-src '{}'\"", interactive_script_digest());
@@ -50,8 +50,8 @@ mod tests {
         assert_eq!(interactive("no page"), "no page");
     }
 
-    /// The digest is that of the bytes between the tags, so neither may be told from them; and nothing
-    /// in the script loads or sends.
+    /// The digest covers the bytes between the tags, so the script must not contain either tag; and
+    /// nothing in it loads or sends data.
     #[test]
     fn the_script_stands_alone() {
         assert!(!SCRIPT.contains("</") && !SCRIPT.contains("<!--"));
@@ -60,7 +60,7 @@ mod tests {
         {
             assert!(!SCRIPT.contains(word), "{word}");
         }
-        // of the empty text, from FIPS 180-4's published example of no bytes
+        // digest of the empty text, from FIPS 180-4's published example without bytes
         let empty = gumption_analysis::integrity::sha256(b"");
         assert!(empty.starts_with("e3b0c44298fc1c14"));
         assert_eq!(interactive_script_digest().len(), "sha256-".len() + 44);
